@@ -1,0 +1,43 @@
+// Unit quaternions as rotations. Public arrays hold (w, x, y, z), scalar first; Eigen's own storage order stays inside.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <random>
+
+#include "octafield/arrays.hpp"
+
+namespace octafield::frames {
+
+using Quaternion = Eigen::Quaterniond;
+using Vector3 = Eigen::Vector3d;
+using Vector4 = Eigen::Vector4d;  // (w, x, y, z)
+using Matrix3 = Eigen::Matrix3d;
+
+inline Vector4 to_wxyz(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+template <class Derived>
+Quaternion from_wxyz(const Eigen::MatrixBase<Derived>& wxyz) {
+    return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]};
+}
+
+// Rotation by |w| radians about w / |w|; accurate for every w, the zero vector included.
+Quaternion exp(const Vector3& rotation_vector);
+
+// The rotation vector of q with angle in [0, pi]: exp(log(q)) is q or -q. Any rotation by pi returns one of its two vectors.
+Vector3 log(const Quaternion& q);
+
+// Rotation that takes `from` to `to` (unit vectors) by the shortest arc; opposite vectors turn about some perpendicular axis.
+Quaternion rotation_between(const Vector3& from, const Vector3& to);
+
+// Right-handed frame whose third axis is `normal` and whose first axis is the part of `direction` orthogonal to it.
+// `direction` may be any vector, a nearly parallel one included: then the first axis is arbitrary but deterministic.
+Quaternion frame_from_axes(const Vector3& direction, const Vector3& normal);
+
+// (n, 4) rotations distributed uniformly over SO(3) (Shoemake 1992); the same numbers on every platform for one seed.
+Quaternions random_rotations(std::int64_t n, std::uint64_t seed);
+
+// A double in [0, 1) with 53 random bits: unlike std::uniform_real_distribution the same on every platform.
+inline double uniform01(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
+
+}  // namespace octafield::frames

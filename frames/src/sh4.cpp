@@ -1,0 +1,83 @@
+#include "octafield/frames/sh4.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "frame_ascent.hpp"
+#include "quartic.hpp"
+
+namespace octafield::frames {
+namespace {
+
+using Basis = Eigen::Matrix<double, 9, 15>;
+
+// Rows: c Y_4m as homogeneous quartics in the monomial order of quartic.hpp, c = sqrt(16 pi / 189).
+Basis make_basis() {
+    enum { x4, x3y, x3z, x2y2, x2yz, x2z2, xy3, xy2z, xyz2, xz3, y4, y3z, y2z2, yz3, z4 };
+    const double c = std::sqrt(16 * std::numbers::pi / 189);
+    const double pi = std::numbers::pi;
+    Basis b = Basis::Zero();
+    // m = -4: 3/4 sqrt(35/pi) xy (x2 - y2)
+    const double n4 = c * 0.75 * std::sqrt(35 / pi);
+    b(0, x3y) = n4, b(0, xy3) = -n4;
+    // m = -3: 3/4 sqrt(35/(2 pi)) yz (3 x2 - y2)
+    const double n3 = c * 0.75 * std::sqrt(35 / (2 * pi));
+    b(1, x2yz) = 3 * n3, b(1, y3z) = -n3;
+    // m = -2: 3/4 sqrt(5/pi) xy (7 z2 - r2)
+    const double n2 = c * 0.75 * std::sqrt(5 / pi);
+    b(2, xyz2) = 6 * n2, b(2, x3y) = -n2, b(2, xy3) = -n2;
+    // m = -1: 3/4 sqrt(5/(2 pi)) yz (7 z2 - 3 r2)
+    const double n1 = c * 0.75 * std::sqrt(5 / (2 * pi));
+    b(3, yz3) = 4 * n1, b(3, x2yz) = -3 * n1, b(3, y3z) = -3 * n1;
+    // m = 0: 3/16 sqrt(1/pi) (35 z4 - 30 z2 r2 + 3 r4)
+    const double n0 = c * 3.0 / 16 * std::sqrt(1 / pi);
+    b(4, z4) = 8 * n0, b(4, x2z2) = -24 * n0, b(4, y2z2) = -24 * n0;
+    b(4, x4) = 3 * n0, b(4, y4) = 3 * n0, b(4, x2y2) = 6 * n0;
+    // m = 1: xz (7 z2 - 3 r2)
+    b(5, xz3) = 4 * n1, b(5, x3z) = -3 * n1, b(5, xy2z) = -3 * n1;
+    // m = 2: 3/8 sqrt(5/pi) (x2 - y2)(7 z2 - r2)
+    b(6, x2z2) = 3 * n2, b(6, x4) = -n2 / 2, b(6, y2z2) = -3 * n2, b(6, y4) = n2 / 2;
+    // m = 3: xz (x2 - 3 y2)
+    b(7, x3z) = n3, b(7, xy2z) = -3 * n3;
+    // m = 4: 3/16 sqrt(35/pi) (x4 - 6 x2 y2 + y4)
+    b(8, x4) = n4 / 4, b(8, x2y2) = -6 * n4 / 4, b(8, y4) = n4 / 4;
+    return b;
+}
+
+const Basis& basis() {
+    static const Basis b = make_basis();
+    return b;
+}
+
+}  // namespace
+
+Sh4::Vector Sh4::axis(const Vector3& direction) { return basis() * quartic_monomials(direction); }
+
+Sh4::Vector Sh4::embed(const Quaternion& q) {
+    const Matrix3 axes = q.toRotationMatrix();
+    Vector15 sum = quartic_monomials(axes.col(0));
+    for (int k = 1; k < 3; ++k) sum += quartic_monomials(axes.col(k));
+    return basis() * sum;
+}
+
+Sh4::Differential Sh4::differential(const Quaternion& q) {
+    const Matrix3 axes = q.toRotationMatrix();
+    Eigen::Matrix<double, 15, 3> sum = Eigen::Matrix<double, 15, 3>::Zero();
+    for (int k = 0; k < 3; ++k) {
+        // Under exp(t w) the axis r moves by w x r, so column w of the derivative is grad . (w x r) = (r x grad) . w.
+        const Eigen::Matrix<double, 15, 3> gradients = quartic_monomial_gradients(axes.col(k));
+        for (int row = 0; row < 15; ++row) sum.row(row) += axes.col(k).cross(gradients.row(row).transpose()).transpose();
+    }
+    return basis() * sum;
+}
+
+Projection Sh4::project(const Vector& v, const Quaternion* guess) {
+    const double size = v.stableNorm();
+    if (!(size > 0)) return {Quaternion::Identity(), 1.0};
+    const Quartic objective(basis().transpose() * (v / size));
+    const Quaternion best = maximise_over_frames(objective, guess);
+    return {best, (v - embed(best)).norm()};
+}
+
+}  // namespace octafield::frames

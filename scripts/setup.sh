@@ -1,0 +1,53 @@
+# Sourced by the other scripts. From a bare Debian 12 (bash and apt) to octafield built and installed in .venv; quick when nothing is missing.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+BUILD_DIR=build/release
+
+say() { printf '\n== %s\n' "$*" >&2; }
+
+install_system_packages() {
+    local wanted missing=() package
+    wanted=$(sed 's/#.*//' scripts/packages.txt)
+    for package in $wanted; do
+        dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' || missing+=("$package")
+    done
+    [ ${#missing[@]} -eq 0 ] && return
+    say "installing ${#missing[@]} Debian packages"
+    local as_root=()
+    if [ "$(id -u)" -ne 0 ]; then
+        command -v sudo >/dev/null || { echo "missing Debian packages; run as root: apt-get install ${missing[*]}" >&2; exit 1; }
+        as_root=(sudo)
+    fi
+    "${as_root[@]}" apt-get update -q >&2
+    DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -q -y --no-install-recommends "${missing[@]}" >&2
+}
+
+# Pinned Python requirements, installed again only when a requirements file has changed.
+make_venv() {
+    [ -x .venv/bin/python ] || { say "creating .venv"; python3 -m venv .venv; }
+    local file stamp
+    for file in "$@"; do
+        stamp=.venv/.$(basename "$file")
+        cmp -s "$file" "$stamp" && continue
+        say "installing $file"
+        .venv/bin/python -m pip install -q --disable-pip-version-check -r "$file" >&2
+        cp "$file" "$stamp"
+    done
+}
+
+# One build tree serves the Python package and the C++ tests, so that nothing is compiled twice.
+install_octafield() {
+    local stamp=.venv/.octafield
+    if [ -e "$stamp" ] && [ -e "$BUILD_DIR/CMakeCache.txt" ] &&
+        [ -z "$(find core frames surface volume bindings cmake CMakeLists.txt pyproject.toml -newer "$stamp" -print -quit)" ]; then
+        return
+    fi
+    say "building octafield"
+    touch "$stamp.new"
+    .venv/bin/python -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -Cbuild-dir="$BUILD_DIR" . >&2
+    mv "$stamp.new" "$stamp"
+}
+
+install_system_packages
+make_venv requirements.txt
