@@ -1,0 +1,283 @@
+"""The command line: octafield compare, field, surface-field, info."""
+
+import math
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import console, tables
+from .cli_options import (
+    EdgeLength,
+    FeatureAngle,
+    Features,
+    InputFile,
+    InputFiles,
+    Json,
+    Output,
+    Quiet,
+    Remesh,
+    Repair,
+    Seed,
+    Threads,
+    Verbose,
+    choices,
+)
+from .console import log
+from .errors import InvalidInput
+from .options import BOUNDARIES, METHODS, REPRESENTATIONS, SOLVERS, FieldOptions, MeshOptions, SurfaceFieldOptions
+from .supervise import run_supervised
+
+app = typer.Typer(
+    name="octafield",
+    add_completion=False,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    help="Frame fields in volumes and on surfaces. Exit code: 0 done, 2 bad input or usage, 130 interrupted, 1 defect.",
+)
+
+_FIELD, _SURFACE = FieldOptions(), SurfaceFieldOptions()
+
+
+_ANGLE = round(math.degrees(_FIELD.feature_angle), 6)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        from .phases import octafield_version
+
+        typer.echo(f"octafield {octafield_version()}")
+        raise typer.Exit()
+
+
+@app.callback()
+def _options_of_all(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    pass
+
+
+def _carry_out(work: Callable[[], None], quiet: bool, verbose: bool) -> None:
+    """Runs a command; an error becomes one line on stderr and an exit code."""
+    console.set_verbosity(quiet, verbose)
+    try:
+        work()
+    except typer.Exit:
+        raise
+    except (Exception, KeyboardInterrupt) as error:
+        raise typer.Exit(console.error_code(error)) from None
+
+
+def _mesh_options(features: str, feature_angle: float, edge_length: float, remesh: bool, repair: bool) -> dict:
+    return {
+        "features": features,
+        "feature_angle": math.radians(feature_angle),
+        "edge_length": edge_length,
+        "remesh": remesh,
+        "repair": repair,
+    }
+
+
+def _report_notes(record: dict) -> None:
+    for note in record["notes"]:
+        log.info("%s: %s", record["input"], note)
+
+
+@app.command()
+def field(
+    input: InputFile,
+    output: Output,
+    representation: Annotated[str, typer.Option(metavar=choices(REPRESENTATIONS))] = _FIELD.representation,
+    solver: Annotated[str, typer.Option(metavar="|".join(SOLVERS))] = _FIELD.solver,
+    boundary: Annotated[
+        str, typer.Option(metavar=choices(BOUNDARIES), help="aligned: twist free; fixed: whole frame held.")
+    ] = _FIELD.boundary,
+    features: Features = _FIELD.features,
+    feature_angle: FeatureAngle = _ANGLE,
+    edge_length: EdgeLength = _FIELD.edge_length,
+    remesh: Remesh = _FIELD.remesh,
+    repair: Repair = _FIELD.repair,
+    seed: Seed = _FIELD.seed,
+    threads: Threads = _FIELD.threads,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Frame field inside a closed surface or on a tet mesh. DIR gets field.vtu, singular.vtp, result.json."""
+
+    def work() -> None:
+        from .output import staged_folder
+        from .pipeline import compute_field
+        from .results import RECORD_FILE, write_field_result
+
+        options = FieldOptions(
+            representation=representation,
+            solver=solver,
+            boundary=boundary,
+            seed=seed,
+            threads=threads,
+            **_mesh_options(features, feature_angle, edge_length, remesh, repair),
+        )
+        with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
+            result = compute_field(input, options, progress)
+            write_field_result(result, folder, progress)
+        _finish(result.record, json, quiet, output)
+
+    _carry_out(work, quiet, verbose)
+
+
+@app.command("surface-field")
+def surface_field(
+    input: InputFile,
+    output: Output,
+    symmetry: Annotated[
+        int, typer.Option(metavar="N", help="N of the N-direction field; 4: crosses.")
+    ] = _SURFACE.symmetry,
+    method: Annotated[
+        str, typer.Option(metavar=choices(METHODS), help="gl: Ginzburg-Landau; eigen: smoothest eigenvector.")
+    ] = _SURFACE.method,
+    epsilon: Annotated[
+        float, typer.Option(metavar="E", help="Coherence length, input unit; 0: from the edge length.")
+    ] = _SURFACE.epsilon,
+    features: Features = _SURFACE.features,
+    feature_angle: FeatureAngle = _ANGLE,
+    edge_length: EdgeLength = _SURFACE.edge_length,
+    remesh: Remesh = _SURFACE.remesh,
+    repair: Repair = _SURFACE.repair,
+    seed: Seed = _SURFACE.seed,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """N-direction field on a surface or a tet mesh's boundary. DIR gets surface.vtp, singular points, result.json."""
+
+    def work() -> None:
+        from .output import staged_folder
+        from .pipeline import compute_surface_field
+        from .results import RECORD_FILE, write_surface_result
+
+        options = SurfaceFieldOptions(
+            symmetry=symmetry,
+            method=method,
+            epsilon=epsilon,
+            seed=seed,
+            **_mesh_options(features, feature_angle, edge_length, remesh, repair),
+        )
+        with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
+            result = compute_surface_field(input, options, progress)
+            write_surface_result(result, folder, progress)
+        _finish(result.record, json, quiet, output)
+
+    _carry_out(work, quiet, verbose)
+
+
+@app.command()
+def compare(
+    inputs: InputFiles = None,
+    output: Output = ...,
+    representations: Annotated[str, typer.Option(metavar="all|A,B", help=f"Of: {choices(REPRESENTATIONS)}.")] = "all",
+    boundaries: Annotated[str, typer.Option(metavar="A,B", help=f"Of: {choices(BOUNDARIES)}.")] = "fixed,aligned",
+    seeds: Annotated[int, typer.Option(metavar="K", help="Seeds per run: --seed and the K - 1 numbers after it.")] = 1,
+    features: Features = _FIELD.features,
+    feature_angle: FeatureAngle = _ANGLE,
+    edge_length: EdgeLength = _FIELD.edge_length,
+    remesh: Remesh = _FIELD.remesh,
+    repair: Repair = _FIELD.repair,
+    seed: Seed = _FIELD.seed,
+    threads: Threads = _FIELD.threads,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Representations and boundary treatments side by side. DIR gets report.html, results.json, a folder per run."""
+
+    def work() -> None:
+        from .compare import compare as run_comparison
+        from .compare import default_input
+
+        options = FieldOptions(
+            seed=seed, threads=threads, **_mesh_options(features, feature_angle, edge_length, remesh, repair)
+        )
+        chosen = REPRESENTATIONS if representations == "all" else _listed(representations)
+        with console.progress_bar(quiet) as progress:
+            comparison = run_comparison(
+                inputs or [default_input()],
+                output,
+                representations=chosen,
+                boundaries=_listed(boundaries),
+                seeds=seeds,
+                options=options,
+                progress=progress,
+            )
+        for record in {row["input"]: row for row in comparison.rows}.values():
+            _report_notes(record)
+        if json:
+            console.put_json(json, comparison.rows)
+        if json != "-" and not quiet:
+            tables.show_comparison(comparison.rows)
+        log.info("wrote %s", output / "report.html")
+
+    _carry_out(work, quiet, verbose)
+
+
+@app.command()
+def info(
+    input: InputFile,
+    feature_angle: FeatureAngle = _ANGLE,
+    repair: Repair = False,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """What was read, and pass or fail of each requirement; exit code 2 when one fails."""
+
+    def work() -> None:
+        from .info import examine, first_failure
+
+        record = examine(input, MeshOptions(feature_angle=math.radians(feature_angle), repair=repair))
+        if json:
+            console.put_json(json, record)
+        if json != "-" and not quiet:
+            tables.show_info(record)
+        _report_notes(record)
+        failure = first_failure(record)
+        if failure:
+            raise InvalidInput(
+                f"{input}: {failure}", next(r["kind"] for r in record["requirements"] if r["message"] == failure)
+            )
+
+    _carry_out(work, quiet, verbose)
+
+
+def _listed(text: str) -> list[str]:
+    return [word.strip() for word in text.split(",") if word.strip()]
+
+
+def _finish(record: dict, json: str | None, quiet: bool, output: Path) -> None:
+    _report_notes(record)
+    if json:
+        console.put_json(json, record)
+    if json != "-" and not quiet:
+        tables.show_record(record)
+    log.info("wrote %s", output)
+
+
+def main() -> None:
+    """Entry point of the command `octafield`."""
+    sys.exit(run_supervised(_run_app))
+
+
+def _run_app() -> int:
+    try:
+        app(prog_name="octafield")
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else 0 if stop.code is None else 1
+    return 0
+
+
+if __name__ == "__main__":
+    main()

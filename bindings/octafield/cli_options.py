@@ -1,0 +1,41 @@
+"""The options that several commands share: name, placeholder and help."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from .options import FEATURES
+
+
+def choices(values) -> str:
+    return "|".join(value for value in values if value != "default")
+
+
+InputFile = Annotated[
+    str,
+    typer.Argument(metavar="INPUT", help="Surface (.stl .obj .off .ply) or tet mesh (.vtk .vtu .msh .mesh), also .gz."),
+]
+InputFiles = Annotated[
+    list[str] | None, typer.Argument(metavar="[INPUT]...", help="Surfaces or tet meshes; none: the nut of pyvista.")
+]
+Output = Annotated[
+    Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for the results; complete or absent.")
+]
+Json = Annotated[str | None, typer.Option("--json", metavar="FILE", help="Write the figures as JSON; - is stdout.")]
+Features = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(FEATURES), help="Source of feature edges; default: file when it marks some, else angle."
+    ),
+]
+FeatureAngle = Annotated[float, typer.Option(metavar="DEG", help="Angle between normals at a feature edge, degrees.")]
+EdgeLength = Annotated[
+    float, typer.Option(metavar="LENGTH", help="Target edge length of remeshing, input unit; 0: from the size.")
+]
+Remesh = Annotated[bool, typer.Option("--remesh/--no-remesh", help="Remesh a surface, or keep its triangles.")]
+Repair = Annotated[bool, typer.Option("--repair", help="Repair a surface first; every action is reported.")]
+Seed = Annotated[int, typer.Option(metavar="N", help="Seed of every random start.")]
+Threads = Annotated[int, typer.Option(metavar="N", help="Threads; 0: all. Results do not depend on it.")]
+Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Nothing but errors.")]
+Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="More log lines; traceback for defects.")]

@@ -1,0 +1,179 @@
+"""Representations and boundary treatments side by side, on one mesh per input.
+
+comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, one folder per run
+comparison.rows[0]["energy"]
+"""
+
+import csv
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from .errors import InvalidInput
+from .meshing import MeshedInput, Source, prepare_mesh
+from .options import BOUNDARIES, REPRESENTATIONS, FieldOptions, require_one_of
+from .output import staged_folder, write_json
+from .phases import Progress
+from .pipeline import FieldResult, Problem, prepare, run
+from .report import InputSection, Picture, render_report
+from .results import write_field_result
+
+ROWS_FILE = "results.json"
+TABLE_FILE = "results.csv"
+REPORT_FILE = "report.html"
+
+
+@dataclass
+class Comparison:
+    """rows: one record per run, in the order of the report. folder: where everything was written."""
+
+    rows: list[dict]
+    folder: Path
+
+    def to_html(self) -> str:
+        """The report, a self-contained page."""
+        return (self.folder / REPORT_FILE).read_text()
+
+
+def default_input() -> str:
+    """The nut inside the pyvista package: closed, genus 1."""
+    from pyvista import examples
+
+    return str(examples.nutfile)
+
+
+def compare(
+    inputs: Sequence[Source] | Source,
+    output: str | Path,
+    *,
+    representations: Sequence[str] = REPRESENTATIONS,
+    boundaries: Sequence[str] = ("fixed", "aligned"),
+    seeds: int = 1,
+    options: FieldOptions = FieldOptions(),
+    progress: Progress | None = None,
+) -> Comparison:
+    """Every representation with every boundary treatment and `seeds` seeds (options.seed and following) on each input.
+
+    Each input is read and meshed once. `options` gives everything else. The output folder is complete or absent; an
+    earlier comparison in it is replaced, a folder with anything else is refused (InvalidInput).
+    """
+    inputs = [inputs] if isinstance(inputs, Source) else list(inputs)
+    _check(inputs, representations, boundaries, seeds)
+    with staged_folder(output, ROWS_FILE) as folder:
+        rows: list[dict] = []
+        sections: list[InputSection] = []
+        for source in inputs:
+            meshed = prepare_mesh(source, options, progress=_labelled(progress, _short_name(source)))
+            section = InputSection(_short_name(source), _unique([s.slug for s in sections], _slug(source)))
+            _run_all(meshed, section, folder, representations, boundaries, seeds, options, progress)
+            sections.append(section)
+            rows += section.rows
+        if progress:
+            progress("report", -1.0, float("nan"))
+        (folder / REPORT_FILE).write_text(render_report(sections), encoding="utf-8")
+        _write_csv(folder / TABLE_FILE, rows)
+        rows[0]["files"] += [REPORT_FILE, TABLE_FILE]
+        write_json(folder / ROWS_FILE, rows)
+    return Comparison(rows, Path(output).resolve())
+
+
+def _run_all(
+    meshed: MeshedInput,
+    section: InputSection,
+    folder: Path,
+    representations: Sequence[str],
+    boundaries: Sequence[str],
+    seeds: int,
+    options: FieldOptions,
+    progress: Progress | None,
+) -> None:
+    for seed in range(options.seed, options.seed + seeds):
+        problem = prepare(meshed, seed, _labelled(progress, section.name))
+        first = seed == options.seed
+        if first:
+            section.pictures += _surface_pictures(problem)
+        for representation in representations:
+            for boundary in boundaries:
+                chosen = replace(options, representation=representation, boundary=boundary, seed=seed)
+                label = f"{representation}, {boundary}" + (f", seed {seed}" if seeds > 1 else "")
+                report = _labelled(progress, f"{section.name}, {label}")
+                result = run(problem, chosen, report)
+                name = f"{section.slug}-{representation}-{boundary}" + (f"-seed{seed}" if seeds > 1 else "")
+                (folder / name).mkdir()
+                result.record["label"] = label
+                write_field_result(result, folder / name, report)
+                section.rows.append(
+                    {**result.record, "folder": name, "files": [f"{name}/{file}" for file in result.record["files"]]}
+                )
+                if first:
+                    section.pictures += _volume_pictures(result, label)
+
+
+def _surface_pictures(problem: Problem) -> list[Picture]:
+    from . import pictures  # brings VTK, which nothing else in the package needs when it is imported
+
+    return [pictures.surface_cross_field(problem)]
+
+
+def _volume_pictures(result: FieldResult, label: str) -> list[Picture]:
+    from . import pictures
+
+    drawn = [pictures.singular_curves(result), pictures.frames_on_cut(result)]
+    return [replace(picture, title=f"{picture.title} ({label})") for picture in drawn]
+
+
+def _check(inputs: Sequence, representations: Sequence[str], boundaries: Sequence[str], seeds: int) -> None:
+    if not inputs or not representations or not boundaries:
+        raise InvalidInput(
+            "a comparison needs at least one input, representation and boundary treatment", "nothing_to_compare"
+        )
+    for representation in representations:
+        require_one_of("representation", representation, REPRESENTATIONS)
+    for boundary in boundaries:
+        require_one_of("boundary", boundary, BOUNDARIES)
+    for what, values in (("representations", representations), ("boundaries", boundaries)):
+        if len(set(values)) < len(values):
+            raise InvalidInput(f"{what}: each may be named once only", "repeated_value")
+    if seeds < 1:
+        raise InvalidInput("the number of seeds must be at least 1", "option_out_of_range")
+
+
+def _labelled(progress: Progress | None, label: str) -> Progress | None:
+    return progress and (lambda phase, fraction, merit: progress(f"{label}: {phase}", fraction, merit))
+
+
+def _short_name(source: Source) -> str:
+    return Path(source).name if isinstance(source, (str, Path)) else "mesh in memory"
+
+
+def _slug(source: Source) -> str:
+    """A folder name from an input's: the stem, letters that need no quoting."""
+    stem = _short_name(source).removesuffix(".gz").rsplit(".", 1)[0]
+    return "".join(c if c.isalnum() or c in "-_." else "_" for c in stem).lstrip(".") or "input"
+
+
+def _unique(taken: list[str], slug: str) -> str:
+    number, candidate = 2, slug
+    while candidate in taken:
+        number, candidate = number + 1, f"{slug}-{number}"
+    return candidate
+
+
+def _write_csv(path: Path, rows: list[dict]) -> None:
+    """One line per run: every number and word of the record, nested ones as group_name."""
+    flat = [_flatten(row) for row in rows]
+    columns = list(dict.fromkeys(name for row in flat for name in row))
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, columns, restval="")
+        writer.writeheader()
+        writer.writerows(flat)
+
+
+def _flatten(row: dict) -> dict:
+    flat = {}
+    for name, value in row.items():
+        if name in ("alignment_deg", "wall_seconds", "cpu_seconds"):
+            flat |= {f"{name}_{key}": inner for key, inner in value.items()}
+        elif not isinstance(value, (dict, list)):
+            flat[name] = value
+    return flat

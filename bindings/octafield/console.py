@@ -1,0 +1,106 @@
+"""What the command line says: log lines, progress and errors on stderr, JSON."""
+
+import contextlib
+import json
+import logging
+import math
+import sys
+import traceback
+from collections.abc import Iterator
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError
+from .output import write_json
+
+OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+_REPAIRABLE = (
+    "degenerate_triangle",
+    "soup",
+    "duplicate_vertex",
+    "non_manifold_edge",
+    "inconsistent_orientation",
+    "not_closed",
+    "inside_out",
+)
+
+log = logging.getLogger("octafield")
+
+
+def set_verbosity(quiet: bool, verbose: bool) -> None:
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(logging.Formatter("octafield: %(message)s"))
+    log.handlers[:] = [handler]
+    log.propagate = False
+    log.setLevel(logging.ERROR if quiet else logging.DEBUG if verbose else logging.INFO)
+
+
+def error_code(error: BaseException) -> int:
+    """Reports an error in one line on stderr (with a traceback under -v where it is ours) and returns the exit code."""
+    if isinstance(error, (KeyboardInterrupt, Cancelled)):
+        _say("interrupted")
+        return INTERRUPTED
+    if isinstance(error, (InvalidInput, GeometryError, IoError)):
+        hint = " (option --repair does this)" if error.kind in _REPAIRABLE and "repair the mesh" in str(error) else ""
+        _say(f"error: {error}{hint}")
+        return BAD_INPUT
+    if isinstance(error, OSError):
+        _say(f"error: {error.filename or 'file'}: {error.strerror or error}")
+        return BAD_INPUT
+    if log.isEnabledFor(logging.DEBUG):
+        traceback.print_exception(error)
+    what = str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}"
+    _say(f"defect: {what}; please report this (run again with -v for details)")
+    return DEFECT
+
+
+def _say(message: str) -> None:
+    print("octafield: " + " ".join(message.split()), file=sys.stderr, flush=True)
+
+
+@contextlib.contextmanager
+def progress_bar(quiet: bool) -> Iterator:
+    """Yields a progress callback; draws on stderr when that is a terminal."""
+    if quiet or not sys.stderr.isatty():
+        yield None
+        return
+    columns = (
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.fields[merit]}"),
+        TimeElapsedColumn(),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=None, merit="")
+        shown = ""
+
+        def report(phase: str, fraction: float, merit: float) -> bool:
+            nonlocal shown
+            if phase != shown:
+                bar.reset(task, description=phase, merit="")
+                shown = phase
+            bar.update(
+                task,
+                total=1.0 if fraction >= 0 else None,
+                completed=max(fraction, 0.0),
+                merit="" if math.isnan(merit) else f"{merit:.6g}",
+            )
+            return True
+
+        yield report
+
+
+def put_json(target: str, value) -> None:
+    """Writes the JSON of a command to a file, or to stdout for "-"."""
+    if target == "-":
+        sys.stdout.write(json.dumps(value, indent=1, allow_nan=False) + "\n")
+        return
+    path = Path(target)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_json(path, value)
+    except OSError as error:
+        raise IoError(f"{target}: cannot write there ({error.strerror})") from error

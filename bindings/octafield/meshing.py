@@ -1,0 +1,168 @@
+"""From an input to the surface, its features and the tets inside: the part that all runs of a comparison share."""
+
+import contextlib
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from . import _core
+from ._core import BoundarySurface, FeatureGraph, TetMesh, TriangleMesh
+from .errors import GeometryError, InvalidInput
+from .inputs import Input, from_mesh, read_input
+from .options import MeshOptions
+from .phases import PeakMemory, PhaseClock, Progress, announce, forward
+
+Source = str | Path | TriangleMesh | TetMesh
+
+
+@dataclass
+class MeshedInput:
+    """A sound input, ready for fields: `surface` is the boundary of `tets` (None where only a surface was wanted)."""
+
+    name: str
+    kind: str  # "surface" or "tets": what the input was
+    surface: TriangleMesh
+    features: FeatureGraph
+    feature_source: str  # "file", "angle" or "none"
+    tets: TetMesh | None = None
+    boundary: BoundarySurface | None = None
+    notes: list[str] = field(default_factory=list)
+    clock: PhaseClock = field(default_factory=PhaseClock)
+    peak_mb: float = 0.0
+
+    def digest(self) -> str:
+        """SHA-256 of the mesh arrays, first 16 hexadecimal digits: equal for equal meshes."""
+        mesh = self.surface if self.tets is None else self.tets
+        cells = mesh.triangles if self.tets is None else mesh.tets
+        sha = hashlib.sha256(np.ascontiguousarray(mesh.vertices).tobytes())
+        sha.update(np.ascontiguousarray(cells).tobytes())
+        return sha.hexdigest()[:16]
+
+
+def load_surface(path: str | Path, *, repair: bool = False) -> TriangleMesh:
+    """Reads a closed surface and raises GeometryError, InvalidInput or IoError naming the defect unless it is sound."""
+    return _sound(read_input(path), MeshOptions(repair=repair), closed=True).surface
+
+
+def prepare_mesh(
+    source: Source, options: MeshOptions = MeshOptions(), *, volume: bool = True, progress: Progress | None = None
+) -> MeshedInput:
+    """Reads, validates, finds features, remeshes and (volume) fills with tets.
+
+    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for.
+    """
+    memory = PeakMemory()
+    clock = PhaseClock()
+    with clock.phase("read"):
+        announce(progress, "read")
+        found = from_mesh(source) if isinstance(source, (TriangleMesh, TetMesh)) else read_input(source)
+        with _naming(found.name):
+            found = _sound(found, options, closed=volume)
+    with _naming(found.name), clock.phase("mesh"):
+        announce(progress, "mesh")
+        features, feature_source = _features(found, options)
+        meshed = MeshedInput(
+            found.name,
+            found.kind,
+            found.surface,
+            features,
+            feature_source,
+            found.tets,
+            found.boundary,
+            found.notes,
+            clock,
+        )
+        if found.tets is not None:
+            _note_unused(meshed, options)
+        else:
+            if options.remesh:
+                _remesh(meshed, options, progress, volume)
+            if volume:
+                _fill(meshed, progress)
+    meshed.peak_mb = memory.megabytes()
+    return meshed
+
+
+@contextlib.contextmanager
+def _naming(name: str) -> Iterator[None]:
+    """Puts the input's name before the message of an error about its geometry."""
+    try:
+        yield
+    except GeometryError as error:
+        raise GeometryError(f"{name}: {error}", error.kind, error.elements) from error
+
+
+def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
+    """Repairs on request, then raises unless the surface is sound; drops unused vertices after that."""
+    if options.repair and found.tets is None:
+        repaired = _core.repair(found.surface)
+        if found.lines is not None and repaired.actions:
+            raise InvalidInput(
+                f"{found.name}: needs repair, which would lose the feature lines of the file; repair the mesh first"
+            )
+        found.surface = repaired.mesh
+        found.notes += [f"repair: {action}" for action in repaired.actions]
+    if found.tets is not None:
+        _core.require_valid(
+            found.surface, self_intersection=False
+        )  # tets of positive volume rarely cross; the test is slow
+        return found
+    _core.require_valid(found.surface, closed=closed)
+    used = np.zeros(len(found.surface.vertices), bool)
+    used[np.asarray(found.surface.triangles)] = True
+    if not used.all():
+        new_id = np.cumsum(used) - 1
+        triangles = new_id[np.asarray(found.surface.triangles)].astype(np.int32)
+        found.surface = TriangleMesh(np.asarray(found.surface.vertices)[used], triangles)
+        found.notes.append(f"{int((~used).sum())} vertices that no triangle uses were left out")
+        if found.lines is not None:
+            found.lines = new_id[found.lines].astype(np.int32)
+    return found
+
+
+def _features(found: Input, options: MeshOptions) -> tuple[FeatureGraph, str]:
+    source = options.features
+    if source == "default":
+        source = "file" if found.lines_are_features() else "angle"
+        if found.lines is not None and source == "angle":
+            found.notes.append("the file's lines list mesh edges in general; features were found by angle instead")
+    if source == "file" and found.lines is None:
+        raise InvalidInput(
+            f"{found.name}: features were asked from the file, but it holds no line cells; "
+            "use --features angle or none",
+            "no_feature_lines",
+        )
+    if source == "angle":
+        return _core.detect_features(found.surface, angle=options.feature_angle), source
+    edges = found.lines if source == "file" else np.empty((0, 2), np.int32)
+    return _core.feature_graph(found.surface, edges), source
+
+
+def _remesh(meshed: MeshedInput, options: MeshOptions, progress: Progress | None, volume: bool) -> None:
+    result = _core.remesh(
+        meshed.surface,
+        meshed.features,
+        edge_length=options.edge_length,
+        progress=forward(progress, "mesh", 0, 0.7 if volume else 1),
+    )
+    meshed.surface, meshed.features = result.mesh, result.features
+
+
+def _fill(meshed: MeshedInput, progress: Progress | None) -> None:
+    announce(progress, "mesh", 0.7)
+    count = len(meshed.surface.vertices)
+    meshed.tets = _core.tetrahedralize(meshed.surface)
+    meshed.boundary = _core.boundary_surface(meshed.tets)
+    if not np.array_equal(np.asarray(meshed.boundary.vertex_map), np.arange(count)):
+        raise GeometryError("the tet mesh does not keep the vertices of the surface; please report this input")
+    meshed.surface = meshed.boundary.mesh  # the same vertices; triangles in the order of the tets
+
+
+def _note_unused(meshed: MeshedInput, options: MeshOptions) -> None:
+    if options.edge_length > 0:
+        meshed.notes.append("the edge length was ignored: tet meshes are kept as they are")
+    if options.repair:
+        meshed.notes.append("repair was ignored: it works on surfaces only")

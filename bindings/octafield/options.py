@@ -1,0 +1,95 @@
+"""Options of the pipeline. Defaults of numerical options are those of the C++ structs."""
+
+import math
+from dataclasses import dataclass
+
+from .defaults import default_of
+from .errors import InvalidInput
+
+REPRESENTATIONS = ("sh4",)
+SOLVERS = ("default",)
+BOUNDARIES = ("aligned", "fixed", "none")
+FEATURES = ("default", "file", "angle", "none")
+METHODS = {"gl": "ginzburg_landau", "eigen": "eigenvector"}
+
+
+def require_one_of(name: str, value: str, allowed) -> None:
+    if value not in allowed:
+        raise InvalidInput(f"{name} {value!r} is not one of: {', '.join(allowed)}", "unknown_option_value")
+
+
+def _require(condition: bool, message: str) -> None:
+    if not condition:
+        raise InvalidInput(message, "option_out_of_range")
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshOptions:
+    """From a file to the mesh the field is computed on.
+
+    features: "file" (line cells of the file), "angle" (dihedral angle), "none",
+        "default": file when it marks some, else angle.
+    feature_angle: radians in (0, pi), between the normals of two triangles at a feature edge.
+    edge_length: target of surface remeshing, input unit; 0: a fixed fraction of the bounding-box diagonal (see remesh).
+    remesh: False keeps the triangles of a surface. Tet meshes are always kept as they are.
+    repair: repairs a surface before it is tested (octafield.repair); each action is recorded.
+    """
+
+    features: str = "default"
+    feature_angle: float = default_of("detect_features", "angle")
+    edge_length: float = 0.0
+    remesh: bool = True
+    repair: bool = False
+
+    def __post_init__(self) -> None:
+        require_one_of("features", self.features, FEATURES)
+        _require(0 < self.feature_angle < math.pi, "the feature angle must lie between 0 and 180 degrees")
+        _require(
+            math.isfinite(self.edge_length) and self.edge_length >= 0, "the edge length must be positive (0: default)"
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurfaceFieldOptions(MeshOptions):
+    """Of an N-direction field on a surface: symmetry is N, method "gl" or "eigen",
+    epsilon the coherence length (0: default)."""
+
+    symmetry: int = default_of("direction_field", "symmetry")
+    method: str = "gl"
+    epsilon: float = default_of("direction_field", "epsilon")
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_one_of("method", self.method, METHODS)
+        _require(self.symmetry >= 1, "the symmetry must be at least 1")
+        _require(math.isfinite(self.epsilon) and self.epsilon >= 0, "epsilon must be positive (0: default)")
+        _require(0 <= self.seed < 2**64, "the seed must lie in 0 .. 2^64 - 1")
+
+
+@dataclass(frozen=True, kw_only=True)
+class FieldOptions(MeshOptions):
+    """Of a frame field in a volume.
+
+    boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none".
+    seed: of every random start. threads: 0 means all; results do not depend on it.
+    max_iterations, tolerance: of smoothing, see octafield.smooth.
+    """
+
+    representation: str = "sh4"
+    solver: str = "default"
+    boundary: str = "aligned"
+    seed: int = 0
+    threads: int = 0
+    max_iterations: int = default_of("smooth", "max_iterations")
+    tolerance: float = default_of("smooth", "tolerance")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_one_of("representation", self.representation, REPRESENTATIONS)
+        require_one_of("solver", self.solver, SOLVERS)
+        require_one_of("boundary", self.boundary, BOUNDARIES)
+        _require(0 <= self.seed < 2**64, "the seed must lie in 0 .. 2^64 - 1")
+        _require(self.threads >= 0, "the number of threads must not be negative (0: all)")
+        _require(self.max_iterations >= 0, "the number of iterations must not be negative")
+        _require(self.tolerance >= 0, "the tolerance must not be negative")

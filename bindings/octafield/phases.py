@@ -1,0 +1,94 @@
+"""Seconds per phase, peak memory and versions: the figures every record carries."""
+
+import contextlib
+import importlib.metadata
+import platform
+import resource
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from . import _core
+from .errors import Cancelled
+
+PHASES = ("read", "mesh", "surface", "smooth", "analyse", "write")
+
+# Called with the phase (one of PHASES, a label before it in comparisons), the fraction done (negative: unknown) and a
+# figure of merit (NaN: none). Returning False cancels.
+Progress = Callable[[str, float, float], bool | None]
+
+
+class PhaseClock:
+    """Wall and processor seconds per phase. Processor time counts all threads of the process."""
+
+    def __init__(self, earlier: "PhaseClock | None" = None):
+        self.wall = dict(earlier.wall) if earlier else dict.fromkeys(PHASES, 0.0)
+        self.cpu = dict(earlier.cpu) if earlier else dict.fromkeys(PHASES, 0.0)
+
+    @contextlib.contextmanager
+    def phase(self, name: str) -> Iterator[None]:
+        wall, cpu = time.perf_counter(), time.process_time()
+        try:
+            yield
+        finally:
+            self.wall[name] += time.perf_counter() - wall
+            self.cpu[name] += time.process_time() - cpu
+
+
+class PeakMemory:
+    """Peak resident memory since it was made, in megabytes (1e6 bytes), Python and its libraries included.
+
+    Linux lets a process reset its own high-water mark; where that fails the figure is the process's peak so far. The
+    mesher runs in a process of its own: the larger of the two counts.
+    """
+
+    def __init__(self) -> None:
+        self._children = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+        with contextlib.suppress(OSError):
+            Path("/proc/self/clear_refs").write_text("5")
+
+    def megabytes(self) -> float:
+        children = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+        started_here = children if children > self._children else 0
+        return max(self._own_kilobytes(), started_here) * 1024 / 1e6
+
+    @staticmethod
+    def _own_kilobytes() -> int:
+        with contextlib.suppress(OSError):
+            for line in Path("/proc/self/status").read_text().splitlines():
+                if line.startswith("VmHWM:"):
+                    return int(line.split()[1])
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+
+def versions() -> dict[str, str]:
+    """Versions of octafield and of what its results depend on."""
+    found = {"octafield": octafield_version(), "python": platform.python_version()}
+    for package in ("numpy", "vtk", "pyvista", "meshio"):
+        try:
+            found[package] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            found[package] = "not installed"
+    found["platform"] = platform.platform()
+    return found
+
+
+def octafield_version() -> str:
+    return _core.__version__
+
+
+def forward(progress: Progress | None, phase: str, low: float = 0.0, high: float = 1.0) -> Progress | None:
+    """A callback for the core that passes its reports on under our phase's name, the fraction scaled to [low, high]."""
+    if progress is None:
+        return None
+
+    def report(_core_phase: str, fraction: float, merit: float) -> bool | None:
+        return progress(phase, fraction if fraction < 0 else low + (high - low) * fraction, merit)
+
+    return report
+
+
+def announce(progress: Progress | None, phase: str, fraction: float = -1.0) -> None:
+    """Reports that a phase of unknown length begins; raises Cancelled when the callback says stop."""
+    if progress is not None and progress(phase, fraction, float("nan")) is False:
+        raise Cancelled(f"cancelled during {phase}")

@@ -1,0 +1,195 @@
+"""Pictures of a report: cross field on the surface, singular curves in the volume, frames on a cut."""
+
+from fractions import Fraction
+
+import numpy as np
+import pyvista
+
+from . import _core, scene
+from .pipeline import FieldResult, Problem
+from .report import Picture
+
+MOST_CROSSES = 4000
+MOST_CUBES = 1500
+CUT = "#f6ecd6"
+TURNS = {
+    1: (scene.VERMILLION, "valence 3 (index +1/4)"),
+    -1: (scene.BLUE, "valence 5 (index \N{MINUS SIGN}1/4)"),
+    2: (scene.GREEN, "other rotations about an axis of the frame"),
+    0: (scene.PURPLE, "complex: no hex mesh has it"),
+}
+
+
+def surface_cross_field(problem: Problem) -> Picture:
+    """Crosses in evenly spread triangles, feature curves, and spheres at the singular points."""
+    mesh, features = problem.meshed.surface, problem.meshed.features
+    points = np.asarray(mesh.vertices)
+    shape = scene.plotter()
+    scene.add_body(shape, scene.surface_mesh(mesh))
+    shape.add_mesh(_crosses(mesh, problem.direction_field), color=scene.CROSS, line_width=4, lighting=False)
+    scene.add_features(shape, mesh, features, 7)
+    radius = 0.011 * scene.diagonal(points)
+    legend = [(scene.CROSS, "cross")] + [(scene.CURVE, "feature curve")] * (len(features.edges) > 0)
+    for sign, colour, word in ((1, scene.VERMILLION, "positive"), (-1, scene.BLUE, "negative")):
+        centres = np.array([s.position for s in problem.singularities if s.index * sign > 0])
+        if len(centres):
+            shape.add_mesh(_spheres(centres, radius), color=colour, smooth_shading=True, ambient=0.3)
+            legend.append((colour, f"singular point, {word} index"))
+    _three_quarter_view(shape, points)
+    return Picture("Cross field on the surface", _surface_caption(problem), scene.render(shape), legend)
+
+
+def singular_curves(result: FieldResult) -> Picture:
+    """Tubes along the singular curves, by type, inside the translucent surface."""
+    graph, points = result.singular_graph, np.asarray(result.surface.vertices)
+    radius = 0.0045 * scene.diagonal(points)
+    shape = scene.plotter()
+    shape.enable_depth_peeling(8)
+    shape.add_mesh(scene.surface_mesh(result.surface), color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
+    scene.add_features(shape, result.surface, result.features, 3)
+    for turns, (colour, _) in TURNS.items():
+        lines = _polylines(graph, turns)
+        if lines is not None:
+            shape.add_mesh(lines.tube(radius=radius, n_sides=12), color=colour, smooth_shading=True, ambient=0.3)
+    nodes = np.asarray(graph.points)[np.asarray(graph.nodes, dtype=int)]
+    if len(nodes):
+        shape.add_mesh(_spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
+    _three_quarter_view(shape, points)
+    kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
+    legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")]
+    if len(nodes):
+        legend.append((scene.INK, "node: three or four curves meet"))
+    return Picture("Singular curves", _curves_caption(result), scene.render(shape), legend)
+
+
+def frames_on_cut(result: FieldResult) -> Picture:
+    """The shape cut through its middle, with a small cube for the frame of every vertex near the cut."""
+    points, surface = np.asarray(result.tets.vertices), scene.surface_mesh(result.surface)
+    grid = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: np.asarray(result.tets.tets)}, points)
+    axes = scene.principal_axes(np.asarray(result.surface.vertices))
+    middle = (points.min(0) + points.max(0)) / 2
+    cuts = [grid.slice(normal=axis, origin=middle) for axis in axes]
+    best = int(np.argmax([cut.area if cut.n_cells else 0 for cut in cuts]))
+    normal, cut = axes[best], cuts[best]
+    spacing = float(_core.mean_edge_length(result.surface))
+    near = np.flatnonzero(np.abs((points - middle) @ normal) < 0.5 * spacing)
+    centres = points[near] - np.outer((points[near] - middle) @ normal, normal)
+    if len(near):
+        apart = _spread(centres, max(0.8 * spacing, np.sqrt(cut.area / MOST_CUBES)))
+        near, centres = near[apart], centres[apart]
+    shape = scene.plotter()
+    behind = surface.clip(normal=normal, origin=middle, invert=True)
+    if behind.n_cells:
+        scene.add_body(shape, behind)
+    shape.add_mesh(cut, color=CUT, lighting=False)
+    outline = surface.slice(normal=normal, origin=middle)
+    scene.add_features(shape, result.surface, result.features, 2.5, behind=(normal, middle))
+    shape.add_mesh(outline, color=scene.INK, line_width=4, lighting=False)
+    if len(near):
+        cubes = _cubes(centres, np.asarray(result.frames)[near], 0.6 * spacing)
+        shape.add_mesh(
+            cubes, color=scene.SKY, show_edges=True, edge_color=scene.INK, line_width=2, ambient=0.35, specular=0
+        )
+    visible = np.concatenate([np.asarray(behind.points), centres]) if behind.n_cells else points
+    other = [axes[k] for k in range(3) if k != best]
+    scene.look(shape, visible, normal + 0.28 * other[0] + 0.42 * other[1], other[1])
+    words = "frames of vertices within half an edge length of the cut, moved onto it, one where several would overlap"
+    caption = f"Cut through the centre of the bounding box; {scene.counted(len(near), 'cube')}: {words}."
+    return Picture("Frames on a cut", caption, scene.render(shape), [(scene.SKY, "frame"), (CUT, "cut")])
+
+
+def _three_quarter_view(shape: pyvista.Plotter, points: np.ndarray) -> None:
+    along, across, up = scene.principal_axes(points)
+    scene.look(shape, points, -0.45 * along - 0.75 * across + 0.62 * up, up)
+
+
+def _crosses(mesh, field) -> pyvista.PolyData:
+    corners = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
+    normals = np.asarray(_core.triangle_normals(mesh))
+    directions = np.asarray(_core.triangle_directions(mesh, field))
+    total = float(np.asarray(_core.triangle_areas(mesh)).sum())
+    spacing = max(np.sqrt(total / MOST_CROSSES), 0.75 * float(_core.mean_edge_length(mesh)))
+    chosen = _spread(corners.mean(axis=1), spacing)
+    centres = corners[chosen].mean(axis=1) + 0.06 * spacing * normals[chosen]
+    first, second = directions[chosen], np.cross(normals[chosen], directions[chosen])
+    arms = 0.46 * spacing * np.concatenate([first, second])
+    both = np.concatenate([centres, centres])
+    return scene.segments(both - arms, both + arms)
+
+
+def _spread(points: np.ndarray, spacing: float) -> np.ndarray:
+    """Ids of points of which no two are closer than `spacing`, greedily in the order given."""
+    cells = np.floor((points - points.min(0)) / spacing).astype(int)
+    taken: dict[tuple[int, ...], list[int]] = {}
+    offsets = [(i, j, k) for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1)]
+    chosen = []
+    for number, (point, (x, y, z)) in enumerate(zip(points, cells.tolist())):
+        near = [other for i, j, k in offsets for other in taken.get((x + i, y + j, z + k), ())]
+        if not near or ((points[near] - point) ** 2).sum(axis=1).min() >= spacing**2:
+            chosen.append(number)
+            taken.setdefault((x, y, z), []).append(number)
+    return np.array(chosen, dtype=int)
+
+
+def _spheres(centres: np.ndarray, radius: float) -> pyvista.PolyData:
+    ball = pyvista.Sphere(radius=radius, theta_resolution=24, phi_resolution=24)
+    return pyvista.PolyData(centres).glyph(geom=ball, scale=False, orient=False)
+
+
+def _kind(turns: int) -> int:
+    return turns if turns in (1, -1, 0) else 2
+
+
+def _polylines(graph, kind: int) -> pyvista.PolyData | None:
+    cells = [
+        entry
+        for curve, turns in zip(graph.curves, graph.curve_quarter_turns)
+        if _kind(int(turns)) == kind
+        for entry in (len(curve), *map(int, curve))
+    ]
+    return pyvista.PolyData(np.asarray(graph.points), lines=np.array(cells)) if cells else None
+
+
+def _cubes(centres: np.ndarray, quaternions: np.ndarray, size: float) -> pyvista.PolyData:
+    """One cube per frame, its edges along the columns of R(quaternion w x y z)."""
+    w, x, y, z = quaternions.T
+    rotations = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    ).transpose(2, 0, 1)
+    corners = np.array([[i, j, k] for k in (-1, 1) for j in (-1, 1) for i in (-1, 1)]) * (size / 2)
+    faces = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+    points = centres[:, None, :] + np.einsum("nij,cj->nci", rotations, corners)
+    cells = faces[None] + 8 * np.arange(len(centres))[:, None, None]
+    return pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), cells.reshape(-1, 4))
+
+
+def _surface_caption(problem: Problem) -> str:
+    indices = [Fraction(float(s.index)).limit_denominator(1000) for s in problem.singularities]
+    total = sum(indices, Fraction(0))
+    chi = int(_core.euler_characteristic(problem.meshed.surface))
+    counts = ", ".join(f"{indices.count(i)} of index {_signed(i)}" for i in sorted(set(indices), reverse=True))
+    points = f"{scene.counted(len(indices), 'singular point')}: {counts}" if indices else "No singular points"
+    relation = "=" if total == chi else "\N{NOT EQUAL TO}"
+    sums = f"sum of indices {_signed(total)} {relation} Euler characteristic {_signed(Fraction(chi))}"
+    return f"{points}; {sums}." + (" Points on the far side are hidden." if indices else "")
+
+
+def _curves_caption(result: FieldResult) -> str:
+    record = result.record
+    kinds = record["singular_edges_by_turns"]
+    names = {"+1": "valence 3", "-1": "valence 5", "complex": "complex"}
+    parts = ", ".join(f"{count} {names.get(kind, f'{kind} quarter turns')}" for kind, count in kinds.items())
+    if not parts:
+        return "No singular edges."
+    what = f"{scene.counted(record['singular_edges'], 'singular edge')} ({parts})"
+    curves = f"{scene.counted(record['singular_curves'], 'curve')} of total length {record['singular_length']:.4g}"
+    return f"{what}; {curves}; {scene.counted(record['singular_nodes'], 'node')}."
+
+
+def _signed(value: Fraction) -> str:
+    text = str(abs(value))
+    return f"\N{MINUS SIGN}{text}" if value < 0 else f"+{text}" if value.denominator > 1 else text

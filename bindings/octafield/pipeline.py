@@ -1,0 +1,268 @@
+"""The whole way from a file to a frame field: read, mesh, cross field, constraints, smoothing, analysis.
+
+    result = compute_field("part.stl", FieldOptions(boundary="fixed"))
+    result.frames            # (n, 4) unit quaternions w x y z
+    result.record["energy"]  # the figures that every table shows
+
+A comparison prepares a Problem once and runs it with several options:
+
+    problem = prepare(prepare_mesh("part.stl"), seed=0)
+    results = [run(problem, FieldOptions(boundary=boundary)) for boundary in ("fixed", "aligned")]
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+
+from . import _core
+from ._core import BoundaryConstraints, DirectionField, FeatureGraph, SingularGraph, TetMesh, TriangleMesh
+from .meshing import MeshedInput, Source, load_surface, prepare_mesh
+from .options import METHODS, FieldOptions, MeshOptions, SurfaceFieldOptions
+from .phases import PeakMemory, PhaseClock, Progress, announce, forward, octafield_version, versions
+
+__all__ = [
+    "FieldOptions",
+    "FieldResult",
+    "MeshOptions",
+    "MeshedInput",
+    "Problem",
+    "SurfaceFieldOptions",
+    "SurfaceFieldResult",
+    "compute_field",
+    "compute_surface_field",
+    "load_surface",
+    "prepare",
+    "prepare_mesh",
+    "run",
+]
+
+
+@dataclass
+class SurfaceFieldResult:
+    """An N-direction field on a surface. directions: (V, 3), one representative per vertex. record: the JSON object."""
+
+    surface: TriangleMesh
+    features: FeatureGraph
+    direction_field: DirectionField
+    directions: np.ndarray
+    singularities: Sequence
+    record: dict
+
+
+@dataclass
+class Problem:
+    """What all runs on one input and seed share: the mesh and the surface cross field."""
+
+    meshed: MeshedInput
+    seed: int
+    direction_field: DirectionField
+    directions: np.ndarray  # (B, 3) per surface vertex
+    singularities: Sequence
+    clock: PhaseClock
+    peak_mb: float
+
+
+@dataclass
+class FieldResult:
+    """A frame field and what led to it. frames: (n, 4) unit quaternions w x y z, per tet vertex. alignment: radians,
+    per boundary vertex and smooth sector. record: the JSON object of the command line."""
+
+    surface: TriangleMesh
+    features: FeatureGraph
+    direction_field: DirectionField
+    directions: np.ndarray
+    singularities: Sequence
+    tets: TetMesh
+    constraints: BoundaryConstraints
+    frames: np.ndarray
+    singular_graph: SingularGraph
+    alignment: np.ndarray
+    record: dict
+
+
+def compute_surface_field(
+    source: Source, options: SurfaceFieldOptions = SurfaceFieldOptions(), progress: Progress | None = None
+) -> SurfaceFieldResult:
+    """N-direction field on a surface (path or TriangleMesh) or on the boundary of a tet mesh."""
+    memory = PeakMemory()
+    meshed = prepare_mesh(source, options, volume=False, progress=progress)
+    clock = meshed.clock
+    with clock.phase("surface"):
+        field = _core.direction_field(
+            meshed.surface,
+            meshed.features,
+            symmetry=options.symmetry,
+            method=METHODS[options.method],
+            epsilon=options.epsilon,
+            seed=options.seed,
+            progress=forward(progress, "surface"),
+        )
+        singularities = _core.surface_singularities(meshed.surface, field)
+        directions = np.asarray(_core.vertex_directions(meshed.surface, meshed.features, field))
+    points = [
+        {"position": [float(x) for x in s.position], "index": float(s.index), "boundary": bool(s.boundary)}
+        for s in singularities
+    ]
+    record = {
+        **_common_record(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
+        "vertices": len(meshed.surface.vertices),
+        "triangles": len(meshed.surface.triangles),
+        "symmetry": options.symmetry,
+        "method": options.method,
+        "seed": options.seed,
+        **_index_summary(meshed.surface, singularities),
+        "singularities": points,
+        "energy": field.energy,
+        "dirichlet_energy": field.dirichlet_energy,
+        "energy_history": [float(e) for e in field.energy_history],
+        "epsilon": field.epsilon,
+        "iterations": field.iterations,
+        "converged": bool(field.converged),
+        "residual": field.residual,
+        "options": asdict(options),
+    }
+    return SurfaceFieldResult(meshed.surface, meshed.features, field, directions, singularities, record)
+
+
+def compute_field(
+    source: Source, options: FieldOptions = FieldOptions(), progress: Progress | None = None
+) -> FieldResult:
+    """Frame field inside a closed surface or on a tet mesh (paths or meshes in memory)."""
+    meshed = prepare_mesh(source, options, progress=progress)
+    return run(prepare(meshed, options.seed, progress), options, progress)
+
+
+def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None) -> Problem:
+    """Computes the cross field on the surface, the start of every boundary frame."""
+    memory = PeakMemory()
+    clock = PhaseClock(meshed.clock)
+    with clock.phase("surface"):
+        announce(progress, "surface")
+        field = _core.direction_field(meshed.surface, meshed.features, seed=seed, progress=forward(progress, "surface"))
+        singularities = _core.surface_singularities(meshed.surface, field)
+        directions = np.asarray(_core.vertex_directions(meshed.surface, meshed.features, field))
+    peak = max(meshed.peak_mb, memory.megabytes())
+    return Problem(meshed, seed, field, directions, singularities, clock, peak)
+
+
+def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Progress | None = None) -> FieldResult:
+    """One frame field on a prepared problem. The record's phase times include those of the shared preparation."""
+    memory = PeakMemory()
+    meshed, clock = problem.meshed, PhaseClock(problem.clock)
+    tets, threads = meshed.tets, options.threads
+    with clock.phase("smooth"):
+        announce(progress, "smooth")
+        constraints = _core.boundary_constraints(
+            len(tets.vertices), meshed.boundary, meshed.features, problem.directions, mode=options.boundary
+        )
+        start = _core.initial_frames(tets, constraints, threads=threads)
+        smoothed = _core.smooth(
+            tets,
+            constraints,
+            start,
+            max_iterations=options.max_iterations,
+            tolerance=options.tolerance,
+            threads=threads,
+            progress=forward(progress, "smooth"),
+        )
+    with clock.phase("analyse"):
+        announce(progress, "analyse")
+        frames = np.asarray(smoothed.frames)
+        graph = _core.singular_graph(tets, frames, threads=threads)
+        alignment = np.asarray(_core.alignment_angles(meshed.boundary, meshed.features, frames))
+        energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
+    record = {
+        **_common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
+        "vertices": len(tets.vertices),
+        "tets": len(tets.tets),
+        "boundary_triangles": len(meshed.surface.triangles),
+        "representation": options.representation,
+        "solver": options.solver,
+        "boundary": options.boundary,
+        "seed": problem.seed,
+        "threads": threads,
+        "energy": energy,
+        "energy_unit_speed": _core.unit_speed_factor * energy,
+        **_singular_record(graph),
+        "alignment_deg": _degrees(alignment),
+        "iterations": smoothed.iterations,
+        "converged": bool(smoothed.converged),
+        "stop_reason": smoothed.message,
+        "energy_history": [float(e) for e in smoothed.energy_history],
+        "surface_field": {
+            "singular_points": _counts_by_index(problem.singularities),
+            "epsilon": problem.direction_field.epsilon,
+            "iterations": problem.direction_field.iterations,
+            "converged": bool(problem.direction_field.converged),
+            **_index_summary(meshed.surface, problem.singularities),
+        },
+        "released_corners": len(constraints.released_corners),
+        "options": asdict(replace(options, seed=problem.seed)),
+    }
+    return FieldResult(
+        meshed.surface,
+        meshed.features,
+        problem.direction_field,
+        problem.directions,
+        problem.singularities,
+        tets,
+        constraints,
+        frames,
+        graph,
+        alignment,
+        record,
+    )
+
+
+def _common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dict:
+    return {
+        "input": meshed.name,
+        "version": octafield_version(),
+        "input_kind": meshed.kind,
+        "mesh_sha256": meshed.digest(),
+        "edge_length": float(_core.mean_edge_length(meshed.surface)),
+        "feature_source": meshed.feature_source,
+        "feature_edges": len(meshed.features.edges),
+        "feature_corners": len(meshed.features.corners),
+        "notes": list(meshed.notes),
+        "wall_seconds": clock.wall,
+        "cpu_seconds": clock.cpu,
+        "peak_mb": round(peak_mb, 1),
+        "versions": versions(),
+    }
+
+
+def _index_summary(surface: TriangleMesh, singularities: Sequence) -> dict:
+    return {
+        "euler_characteristic": int(_core.euler_characteristic(surface)),
+        "index_sum": float(sum(s.index for s in singularities)),
+    }
+
+
+def _counts_by_index(singularities: Sequence) -> dict[str, int]:
+    """{"1/4": 8}: how many singular points of each index, positive ones first."""
+    indices = sorted((Fraction(float(s.index)).limit_denominator(1000) for s in singularities), reverse=True)
+    return {("+" if index > 0 else "") + str(index): indices.count(index) for index in dict.fromkeys(indices)}
+
+
+def _singular_record(graph: SingularGraph) -> dict:
+    turns = [int(t.quarter_turns) for t in graph.triangles]
+    return {
+        "singular_edges": len(turns),
+        "singular_length": float(graph.length),
+        "singular_curves": len(graph.curves),
+        "singular_nodes": len(graph.nodes),
+        "complex_edges": int(graph.complex_triangles),
+        "singular_edges_by_turns": {
+            f"{t:+d}" if t else "complex": turns.count(t) for t in sorted(set(turns), reverse=True)
+        },
+    }
+
+
+def _degrees(angles: np.ndarray) -> dict[str, float]:
+    if len(angles) == 0:
+        return {"median": 0.0, "max": 0.0}
+    return {"median": math.degrees(float(np.median(angles))), "max": math.degrees(float(angles.max()))}

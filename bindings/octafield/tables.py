@@ -1,0 +1,79 @@
+"""Tables on stdout for people."""
+
+import sys
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from .summary import COLUMNS
+
+
+def show_record(record: dict) -> None:
+    facts = []
+    for name, value in record.items():
+        if name in ("alignment_deg", "wall_seconds"):
+            facts.append((name, "  ".join(f"{key} {number:.3g}" for key, number in value.items())))
+        elif isinstance(value, (str, int, float)) and name != "input":
+            facts.append((name, f"{value:.8g}" if isinstance(value, float) else str(value)))
+    _facts(record["input"], facts)
+
+
+def show_comparison(rows: list[dict]) -> None:
+    heads = [
+        f"{column.group} {column.head}".strip()
+        for column in COLUMNS
+        if column.group != "seconds" or column.head == "total"
+    ]
+    cells = [
+        [
+            column.show(column.value(Path(row["input"]).name, row))
+            for column in COLUMNS
+            if column.group != "seconds" or column.head == "total"
+        ]
+        for row in rows
+    ]
+    _table(heads, cells, left=3)
+
+
+def show_info(record: dict) -> None:
+    facts = [
+        (name, f"{value:.8g}" if isinstance(value, float) else str(value))
+        for name, value in record.items()
+        if isinstance(value, (str, int, float)) and name not in ("input", "ok")
+    ]
+    facts += [
+        (f"{name} {key}", f"{value:.6g}" if isinstance(value, float) else str(value))
+        for name in ("bounding_box", "features", "feature_lines")
+        for key, value in record.get(name, {}).items()
+    ]
+    _facts(record["input"], facts)
+    _table(
+        ["", "requirement", "remedy"],
+        [[r["state"], r["requirement"], r["message"]] for r in record["requirements"]],
+        left=3,
+    )
+
+
+def _facts(title: str, facts: list[tuple[str, str]]) -> None:
+    table = Table(title=title, title_justify="left", title_style="bold", show_header=False, box=None, pad_edge=False)
+    table.add_column(style="dim")
+    table.add_column(justify="right")
+    for name, value in facts:
+        table.add_row(name, value)
+    _stdout().print(table)
+
+
+def _table(heads: list[str], rows: list[list[str]], left: int = 1) -> None:
+    """A table whose first `left` columns are text and the others numbers."""
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for number, head in enumerate(heads):
+        table.add_column(head, justify="left" if number < left else "right", no_wrap=number >= left)
+    for row in rows:
+        table.add_row(*row)
+    _stdout().print(table)
+
+
+def _stdout() -> Console:
+    """Wide where nobody reads on a terminal, so that pipes get whole lines."""
+    return Console(width=None if sys.stdout.isatty() else 240, highlight=False)

@@ -1,0 +1,14 @@
+// One function per part of the module; each adds its names to `module`.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace octafield::bindings {
+
+void bind_frames(pybind11::module_& module);
+void bind_surface_types(pybind11::module_& module);
+void bind_surface(pybind11::module_& module);
+void bind_volume_types(pybind11::module_& module);
+void bind_volume(pybind11::module_& module);
+
+}  // namespace octafield::bindings

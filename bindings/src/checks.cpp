@@ -1,0 +1,184 @@
+#include "checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace octafield::bindings {
+
+namespace {
+
+using Text = std::string;
+
+// Throws when `bad(i)` holds for some i in [0, n), with all such ids.
+template <class Bad>
+void require_none(std::int64_t n, const Bad& bad, std::string_view name, std::string_view what, const char* kind) {
+    std::vector<Index> ids;
+    for (std::int64_t i = 0; i < n; ++i)
+        if (bad(i)) ids.push_back(static_cast<Index>(i));
+    if (!ids.empty()) throw InvalidInput(Text(name) + ": " + Text(what) + " in row " + first_few(ids), kind, ids);
+}
+
+template <class Matrix>
+void require_finite(const Matrix& matrix, std::string_view name) {
+    require_none(
+        matrix.rows(), [&](auto i) { return !matrix.row(i).allFinite(); }, name, "a value is not finite", "non_finite");
+}
+
+template <class Matrix>
+void require_ids(const Matrix& ids, std::int64_t count, std::string_view name, Index least = 0) {
+    require_none(
+        ids.rows(), [&](auto i) { return (ids.row(i).array() < least).any() || (ids.row(i).array() >= count).any(); },
+        name, "an id outside [" + std::to_string(least) + ", " + std::to_string(count) + ")", "index_out_of_range");
+}
+
+void require_ids(const std::vector<Index>& ids, std::int64_t count, std::string_view name) {
+    require_ids(
+        Eigen::Map<const Eigen::Matrix<Index, Eigen::Dynamic, 1>>(ids.data(), static_cast<Eigen::Index>(ids.size())),
+        count, name);
+}
+
+void require_rows(std::int64_t rows, std::int64_t expected, std::string_view name, std::string_view per) {
+    if (rows == expected) return;
+    throw InvalidInput(Text(name) + ": " + std::to_string(rows) + " rows, expected " + std::to_string(expected) +
+                           ", one per " + Text(per),
+                       "wrong_shape");
+}
+
+std::pair<Index, Index> ordered(Index a, Index b) { return std::minmax(a, b); }
+
+std::vector<std::pair<Index, Index>> sorted_edges(const surface::TriangleMesh& mesh) {
+    std::vector<std::pair<Index, Index>> edges;
+    edges.reserve(3 * mesh.triangles.rows());
+    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k) edges.push_back(ordered(mesh.triangles(t, k), mesh.triangles(t, (k + 1) % 3)));
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+}  // namespace
+
+double finite(double value, std::string_view name) {
+    if (!std::isfinite(value)) throw InvalidInput(Text(name) + ": not a finite number", "non_finite");
+    return value;
+}
+
+int threads_option(int threads) {
+    if (threads < 0)
+        throw InvalidInput("threads: " + std::to_string(threads) + "; use 0 for all, or a positive number",
+                           "option_out_of_range");
+    return threads;
+}
+
+void check(const surface::TriangleMesh& mesh, bool require_elements) {
+    require_finite(mesh.vertices, "vertices");
+    require_ids(mesh.triangles, mesh.vertices.rows(), "triangles");
+    if (require_elements && mesh.triangles.rows() == 0) throw InvalidInput("triangles: the mesh has none", "empty");
+}
+
+void check(const volume::TetMesh& mesh, bool require_elements) {
+    require_finite(mesh.vertices, "vertices");
+    require_ids(mesh.tets, mesh.vertices.rows(), "tets");
+    if (require_elements && mesh.tets.rows() == 0) throw InvalidInput("tets: the mesh has none", "empty");
+}
+
+void check_edges(const Edges& edges, const surface::TriangleMesh& mesh, std::string_view name) {
+    require_ids(edges, mesh.vertices.rows(), name);
+    if (edges.rows() == 0) return;
+    const auto known = sorted_edges(mesh);
+    const auto missing = [&](auto i) {
+        return !std::binary_search(known.begin(), known.end(), ordered(edges(i, 0), edges(i, 1)));
+    };
+    require_none(edges.rows(), missing, name, "not an edge of the mesh", "not_an_edge");
+}
+
+void check(surface::FeatureGraph& features, const surface::TriangleMesh& mesh) {
+    check_edges(features.edges, mesh, "features.edges");
+    require_ids(features.corners, mesh.vertices.rows(), "features.corners");
+
+    std::vector<std::pair<Index, Index>> edges;
+    for (Eigen::Index i = 0; i < features.edges.rows(); ++i)
+        edges.push_back(ordered(features.edges(i, 0), features.edges(i, 1)));
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    features.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        features.edges.row(static_cast<Eigen::Index>(i)) << edges[i].first, edges[i].second;
+
+    std::sort(features.corners.begin(), features.corners.end());
+    features.corners.erase(std::unique(features.corners.begin(), features.corners.end()), features.corners.end());
+}
+
+void check(const surface::DirectionField& field, const surface::TriangleMesh& mesh) {
+    if (field.symmetry < 1)
+        throw InvalidInput("field.symmetry: " + std::to_string(field.symmetry) + " is below 1", "option_out_of_range");
+    const auto topology = surface::edge_topology(mesh);
+    const auto same = [](const auto& a, const auto& b) {
+        return a.rows() == b.rows() && (a.array() == b.array()).all();
+    };
+    if (!same(topology.edges, field.topology.edges) || !same(topology.triangle_edges, field.topology.triangle_edges) ||
+        !same(topology.edge_triangles, field.topology.edge_triangles))
+        throw InvalidInput("field: computed on another mesh (its edges are not those of this mesh)", "wrong_mesh");
+    require_rows(field.values.rows(), topology.edges.rows(), "field.values", "edge");
+    require_none(
+        field.values.rows(), [&](auto i) { return !std::isfinite(std::abs(field.values[i])); }, "field.values",
+        "a value is not finite", "non_finite");
+}
+
+void check(const volume::BoundarySurface& boundary, Index vertex_count) {
+    check(boundary.mesh, false);
+    const auto& map = boundary.vertex_map;
+    require_rows(static_cast<std::int64_t>(map.size()), boundary.mesh.vertices.rows(), "boundary.vertex_map",
+                 "boundary vertex");
+    require_ids(map, vertex_count, "boundary.vertex_map");
+    const auto disordered = [&](auto i) { return i > 0 && map[i] <= map[i - 1]; };
+    require_none(boundary.mesh.vertices.rows(), disordered, "boundary.vertex_map", "ids do not ascend",
+                 "not_ascending");
+}
+
+void check(volume::BoundaryConstraints& constraints, Index vertex_count) {
+    const auto& kind = constraints.kind;
+    require_rows(static_cast<std::int64_t>(kind.size()), vertex_count, "constraints.kind", "vertex");
+    require_rows(static_cast<std::int64_t>(constraints.on_boundary.size()), vertex_count, "constraints.on_boundary",
+                 "vertex");
+    require_none(
+        vertex_count, [&](auto i) { return kind[i] > volume::VertexConstraint::fixed; }, "constraints.kind",
+        "a value above 2 (0 free, 1 axis, 2 fixed)", "unknown_word");
+    check_vectors(constraints.axis, vertex_count, "constraints.axis");
+    const auto no_axis = [&](auto i) {
+        return kind[i] == volume::VertexConstraint::axis && std::abs(constraints.axis.row(i).norm() - 1) > 1e-6;
+    };
+    require_none(vertex_count, no_axis, "constraints.axis", "not of unit length where kind is 1", "not_unit");
+    check_unit(constraints.frames, vertex_count, "constraints.frames");
+    require_ids(constraints.released_corners, vertex_count, "constraints.released_corners");
+}
+
+void check(const volume::SingularGraph& graph) {
+    require_finite(graph.points, "graph.points");
+    for (const auto& curve : graph.curves) require_ids(curve, graph.points.rows(), "graph.curves");
+    require_ids(graph.nodes, graph.points.rows(), "graph.nodes");
+    require_rows(static_cast<std::int64_t>(graph.curve_quarter_turns.size()),
+                 static_cast<std::int64_t>(graph.curves.size()), "graph.curve_quarter_turns", "curve");
+    if (graph.points.rows() < static_cast<std::int64_t>(graph.triangles.size()))
+        throw InvalidInput("graph.points: fewer rows than singular triangles", "wrong_shape");
+}
+
+void check_vectors(const Points& vectors, std::int64_t rows, std::string_view name) {
+    require_rows(vectors.rows(), rows, name, "vertex");
+    require_finite(vectors, name);
+}
+
+void check_unit(Quaternions& quaternions, std::int64_t rows, std::string_view name) {
+    if (rows >= 0) require_rows(quaternions.rows(), rows, name, "vertex");
+    for (Eigen::Index i = 0; i < quaternions.rows(); ++i) {
+        const double length = quaternions.row(i).norm();
+        if (!(std::abs(length - 1) <= 1e-6))
+            throw InvalidInput(Text(name) + ": row " + std::to_string(i) + " has length " + std::to_string(length) +
+                                   "; quaternions (w, x, y, z) must be unit within 1e-6: divide each row by its length",
+                               "not_unit", {static_cast<Index>(i)});
+        quaternions.row(i) /= length;
+    }
+}
+
+}  // namespace octafield::bindings

@@ -1,0 +1,46 @@
+// Checks at the border: what comes from Python is sound enough that no C++ function can run out of an array.
+// Every failure is InvalidInput and names the argument and its elements.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "arrays.hpp"
+#include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/features.hpp"
+#include "octafield/surface/triangle_mesh.hpp"
+#include "octafield/volume/boundary.hpp"
+#include "octafield/volume/singularities.hpp"
+#include "octafield/volume/tet_mesh.hpp"
+
+namespace octafield::bindings {
+
+double finite(double value, std::string_view name);
+int threads_option(int threads);
+
+// Coordinates finite, vertex ids in range. `require_elements`: at least one triangle or tet.
+void check(const surface::TriangleMesh& mesh, bool require_elements = true);
+void check(const volume::TetMesh& mesh, bool require_elements = true);
+
+// Edges are edges of the mesh and corners its vertices; both are put into the order that FeatureGraph promises.
+void check(surface::FeatureGraph& features, const surface::TriangleMesh& mesh);
+void check_edges(const Edges& edges, const surface::TriangleMesh& mesh, std::string_view name);
+
+// The field's edges are those of the mesh.
+void check(const surface::DirectionField& field, const surface::TriangleMesh& mesh);
+
+// vertex_map: one ascending tet-mesh id in [0, vertex_count) per boundary vertex.
+void check(const volume::BoundarySurface& boundary, Index vertex_count);
+
+// Every array has one row per vertex; frames are normalised.
+void check(volume::BoundaryConstraints& constraints, Index vertex_count);
+
+void check(const volume::SingularGraph& graph);
+
+// (n, 3) finite rows.
+void check_vectors(const Points& vectors, std::int64_t rows, std::string_view name);
+
+// Rows of unit length within 1e-6, which are then normalised. rows < 0: any number.
+void check_unit(Quaternions& quaternions, std::int64_t rows, std::string_view name);
+
+}  // namespace octafield::bindings

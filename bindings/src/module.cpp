@@ -1,0 +1,55 @@
+// octafield._core: entry point and exceptions.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "bind.hpp"
+#include "octafield/error.hpp"
+#include "octafield/volume/operators.hpp"
+
+namespace py = pybind11;
+
+namespace octafield::bindings {
+
+namespace {
+
+// Sets the Python error of class `name` of octafield.errors, with the same message, kind and elements.
+void set_error(const char* name, const Error& error) {
+    const py::object type = py::module_::import("octafield.errors").attr(name);
+    const py::object exception = type(error.what(), error.kind(), error.elements());
+    PyErr_SetObject(type.ptr(), exception.ptr());
+}
+
+void translate(std::exception_ptr pointer) {
+    try {
+        if (pointer) std::rethrow_exception(pointer);
+    } catch (const InvalidInput& error) {
+        set_error("InvalidInput", error);
+    } catch (const GeometryError& error) {
+        set_error("GeometryError", error);
+    } catch (const SolverError& error) {
+        set_error("SolverError", error);
+    } catch (const IoError& error) {
+        set_error("IoError", error);
+    } catch (const Cancelled& error) {
+        set_error("Cancelled", error);
+    } catch (const Error& error) {
+        set_error("Error", error);
+    }
+}
+
+}  // namespace
+
+}  // namespace octafield::bindings
+
+PYBIND11_MODULE(_core, module) {
+    using namespace octafield::bindings;
+    module.doc() = "Hexahedral frame fields: the compiled part of octafield. Use it through the package octafield.";
+    module.attr("__version__") = OCTAFIELD_VERSION;
+    module.attr("unit_speed_factor") = octafield::volume::unit_speed_factor;
+    py::register_local_exception_translator(translate);
+    bind_frames(module);
+    bind_surface_types(module);
+    bind_surface(module);
+    bind_volume_types(module);
+    bind_volume(module);
+}

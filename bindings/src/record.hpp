@@ -1,0 +1,128 @@
+// Binding of plain structs: constructor from fields by position or name, properties, repr, pickling.
+#pragma once
+
+#include <pybind11/stl.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "views.hpp"
+
+namespace octafield::bindings {
+
+// Array fields are numpy views and can be set. Numbers and strings can be set. Nested structs and lists of things are
+// given to the constructor and read afterwards.
+template <class T>
+class Record {
+public:
+    Record(py::module_& module, const char* name, const char* doc) : name_(name), class_(module, name, doc) {}
+
+    template <class Member>
+    Record& field(const char* name, Member T::*member, const char* doc) {
+        py::cpp_function get = getter(member);
+        if constexpr (ArrayType<Member> || std::is_arithmetic_v<Member> || std::is_same_v<Member, std::string>) {
+            const auto set = [name, member](T& self, const py::object& value) { assign(self, name, member, value); };
+            class_.def_property(name, get, py::cpp_function(set, py::is_method(class_)), doc);
+        } else {
+            class_.def_property_readonly(name, get, doc);
+        }
+        fields_->push_back(
+            {name, [name, member](T& self, const py::handle& value) { assign(self, name, member, value); }});
+        return *this;
+    }
+
+    // `repr` gives what stands between the parentheses.
+    void finish(std::function<std::string(const T&)> repr) {
+        const auto fields = fields_;
+        const auto name = name_;
+        std::string doc = name + "(";
+        for (const Field& field : *fields) doc += (&field == fields->data() ? "" : ", ") + field.name + "=...";
+        doc += "): fields by position or by name; those left out keep their defaults.";
+        {
+            py::options options;
+            options.disable_function_signatures();
+            class_.def(py::init([fields, name](const py::args& args, const py::kwargs& kwargs) {
+                           auto self = std::make_unique<T>();
+                           construct(*self, *fields, name, args, kwargs);
+                           return self;
+                       }),
+                       doc.c_str());
+        }
+        class_.def("__repr__", [repr, name](const T& self) { return name + "(" + repr(self) + ")"; });
+        class_.def("__reduce__", [fields](const py::object& self) {
+            py::tuple values(fields->size());
+            for (std::size_t k = 0; k < fields->size(); ++k) values[k] = self.attr((*fields)[k].name.c_str());
+            return py::make_tuple(py::type::of(self), values);
+        });
+    }
+
+private:
+    struct Field {
+        std::string name;
+        std::function<void(T&, const py::handle&)> set;
+    };
+
+    template <class Member>
+    py::cpp_function getter(Member T::*member) {
+        const py::is_method method(class_);
+        if constexpr (ArrayType<Member>)
+            return {[member](const py::object& self) { return view(self.template cast<T&>().*member, self); }, method};
+        else if constexpr (std::is_same_v<Member, std::vector<std::vector<Index>>>)
+            return {[member](const T& self) {
+                        std::vector<py::array_t<Index>> arrays;
+                        for (const auto& ids : self.*member) arrays.push_back(own(std::vector<Index>(ids)));
+                        return arrays;
+                    },
+                    method};
+        else if constexpr (std::is_class_v<Member> && !std::is_same_v<Member, std::string>)
+            return {[member](T& self) -> Member& { return self.*member; }, method,
+                    py::return_value_policy::reference_internal};
+        else
+            return {[member](const T& self) { return self.*member; }, method};
+    }
+
+    template <class Member>
+    static void assign(T& self, const char* name, Member T::*member, const py::handle& value) {
+        if constexpr (ArrayType<Member>) {
+            replace(self.*member, from_python<Member>(value, name));
+        } else if constexpr (std::is_same_v<Member, std::vector<std::vector<Index>>>) {
+            for (const auto& ids : py::reinterpret_borrow<py::iterable>(value))
+                (self.*member).push_back(from_python<std::vector<Index>>(ids, name));
+        } else {
+            try {
+                self.*member = value.template cast<Member>();
+            } catch (const py::cast_error&) {
+                throw py::type_error(std::string(name) + ": a value of type " + Py_TYPE(value.ptr())->tp_name +
+                                     " does not fit");
+            }
+        }
+    }
+
+    static void construct(T& self, const std::vector<Field>& fields, const std::string& name, const py::args& args,
+                          const py::kwargs& kwargs) {
+        if (args.size() > fields.size())
+            throw py::type_error(name + ": takes at most " + std::to_string(fields.size()) + " arguments");
+        for (std::size_t k = 0; k < args.size(); ++k) fields[k].set(self, args[k]);
+        for (const auto& [key, value] : kwargs) {
+            const auto word = key.template cast<std::string>();
+            std::size_t k = 0;
+            while (k < fields.size() && fields[k].name != word) ++k;
+            if (k == fields.size()) throw py::type_error(name + ": has no field '" + word + "'");
+            if (k < args.size()) throw py::type_error(name + ": got two values for '" + word + "'");
+            fields[k].set(self, value);
+        }
+    }
+
+    std::string name_;
+    py::class_<T> class_;
+    std::shared_ptr<std::vector<Field>> fields_ = std::make_shared<std::vector<Field>>();
+};
+
+inline std::string count(std::ptrdiff_t n, const std::string& one, const std::string& many) {
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+inline std::string count(std::ptrdiff_t n, const std::string& one) { return count(n, one, one + "s"); }
+
+}  // namespace octafield::bindings

@@ -1,0 +1,122 @@
+// Row-wise functions over arrays of frames or vectors: read, broadcast, map in parallel, give back in the input's
+// shape.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "checks.hpp"
+#include "interruptible.hpp"
+#include "octafield/parallel.hpp"
+
+namespace octafield::bindings {
+
+// Rows of an argument; `single` when it came without the leading dimension.
+template <class Matrix>
+struct RowInput {
+    Matrix rows;
+    bool single;
+};
+
+// (n, columns) or (columns,), finite.
+template <class Matrix>
+RowInput<Matrix> read_rows(const ArrayLike& value, std::string_view name) {
+    constexpr int columns = Matrix::ColsAtCompileTime;
+    const auto array = numbers<double>(value, name);
+    const bool single = array.ndim() == 1 && array.size() == columns;
+    if (!single && array.ndim() != 2 && array.size() > 0)
+        throw_shape(name, "(n, " + std::to_string(columns) + ") or (" + std::to_string(columns) + ",)", array);
+    RowInput<Matrix> input{
+        single ? Matrix(Eigen::Map<const Matrix>(array.data(), 1, columns)) : from_python<Matrix>(array, name), single};
+    for (Eigen::Index i = 0; i < input.rows.rows(); ++i)
+        if (!input.rows.row(i).allFinite())
+            throw InvalidInput(std::string(name) + ": row " + std::to_string(i) + " is not finite", "non_finite",
+                               {static_cast<Index>(i)});
+    return input;
+}
+
+// Unit quaternions w x y z, normalised.
+inline RowInput<Quaternions> read_quaternions(const ArrayLike& value, std::string_view name) {
+    auto input = read_rows<Quaternions>(value, name);
+    check_unit(input.rows, -1, name);
+    return input;
+}
+
+inline void require_directions(const Points& vectors, std::string_view name) {
+    for (Eigen::Index i = 0; i < vectors.rows(); ++i)
+        if (!(vectors.row(i).stableNorm() > 0))
+            throw InvalidInput(std::string(name) + ": row " + std::to_string(i) + " is zero", "zero_vector",
+                               {static_cast<Index>(i)});
+}
+
+// Two arguments row by row; one row goes with every row of the other.
+template <class A, class B>
+std::pair<RowInput<A>, RowInput<B>> broadcast(RowInput<A> a, RowInput<B> b, const std::string& name_a,
+                                              const std::string& name_b) {
+    const auto n = a.rows.rows(), m = b.rows.rows();
+    if (n != m && n != 1 && m != 1)
+        throw InvalidInput(name_a + " has " + std::to_string(n) + " rows, " + name_b + " " + std::to_string(m),
+                           "wrong_shape");
+    const bool single = a.single && b.single;
+    if (n == 1 && m != 1) a.rows = A(a.rows.replicate(m, 1));
+    if (m == 1 && n != 1) b.rows = B(b.rows.replicate(n, 1));
+    return {{std::move(a.rows), single}, {std::move(b.rows), single}};
+}
+
+// body(output, i) for every row i, without the GIL and, where it may take long, interruptible.
+template <class Output, class Body>
+Output for_rows(std::int64_t n, int threads, Output output, Body body) {
+    threads_option(threads);
+    auto work = [n, threads, output = std::move(output), body = std::move(body)](Job& job) mutable {
+        parallel_for(n, threads, [&](std::int64_t i) {
+            if (!job.cancelled()) body(output, i);
+        });
+        return std::move(output);
+    };
+    if (n > 1000) return run_interruptible(std::move(work));
+    const py::gil_scoped_release release;
+    Job job;
+    return work(job);
+}
+
+// numpy array of shape (n, shape...), or (shape...) for a single input; a number where nothing of the shape is left.
+template <class Matrix>
+py::object give_back(Matrix&& rows, std::vector<py::ssize_t> shape, bool single) {
+    if (!single) shape.insert(shape.begin(), rows.rows());
+    const bool number = shape.empty();
+    const py::object array = own(std::move(rows), number ? std::vector<py::ssize_t>{1} : std::move(shape));
+    return number ? array.attr("item")() : array;
+}
+
+// f(row, output row) for every row; output rows have the shape Shape.
+template <int... Shape, class Matrix, class Function>
+py::object map_rows(RowInput<Matrix> input, int threads, Function function) {
+    using Output = Rows<double, (1 * ... * Shape)>;
+    const auto n = input.rows.rows();
+    auto output = for_rows(
+        n, threads, Output(n, Output::ColsAtCompileTime),
+        [rows = std::move(input.rows), function](Output& out, std::int64_t i) { function(rows.row(i), out.row(i)); });
+    return give_back(std::move(output), {Shape...}, input.single);
+}
+
+// f(row of a, row of b, output row) for every row; output rows have the shape Shape.
+template <class Scalar, int... Shape, class A, class B, class Function>
+py::object map_pairs_to(RowInput<A> a, RowInput<B> b, int threads, Function function) {
+    using Output = Eigen::Matrix<Scalar, Eigen::Dynamic, (1 * ... * Shape),
+                                 (1 * ... * Shape) == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+    const auto n = a.rows.rows();
+    auto output = for_rows(n, threads, Output(n, Output::ColsAtCompileTime),
+                           [a = std::move(a.rows), b = std::move(b.rows), function](Output& out, std::int64_t i) {
+                               function(a.row(i), b.row(i), out.row(i));
+                           });
+    return give_back(std::move(output), {Shape...}, a.single);
+}
+
+template <int... Shape, class A, class B, class Function>
+py::object map_pairs(RowInput<A> a, RowInput<B> b, int threads, Function function) {
+    return map_pairs_to<double, Shape...>(std::move(a), std::move(b), threads, std::move(function));
+}
+
+}  // namespace octafield::bindings

@@ -1,0 +1,288 @@
+// Functions of surface/.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "checks.hpp"
+#include "interruptible.hpp"
+#include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/read_write.hpp"
+#include "octafield/surface/remesh.hpp"
+#include "octafield/surface/repair.hpp"
+#include "octafield/surface/validate.hpp"
+#include "words.hpp"
+
+namespace octafield::bindings {
+
+using namespace surface;
+using py::literals::operator""_a;
+
+namespace {
+
+// Binds f(mesh) -> value or array after the border checks.
+template <class Function>
+void def_of_mesh(py::module_& m, const char* name, Function function, const char* doc, bool require_elements = false) {
+    const auto call = [function, require_elements](const TriangleMesh& mesh) {
+        return run_interruptible([mesh = mesh, function, require_elements](Job&) {
+            check(mesh, require_elements);
+            return function(mesh);
+        });
+    };
+    if constexpr (ArrayType<std::invoke_result_t<Function, const TriangleMesh&>>)
+        m.def(
+            name, [call](const TriangleMesh& mesh) { return own(call(mesh)); }, "mesh"_a, doc);
+    else
+        m.def(name, call, "mesh"_a, doc);
+}
+
+void bind_elementary(py::module_& m) {
+    def_of_mesh(m, "edge_topology", edge_topology,
+                "The edges of a mesh and their triangles, as an EdgeTopology. Raises GeometryError (kind "
+                "\"non_manifold_edge\" or "
+                "\"inconsistent_orientation\") where three triangles share an edge, or two run it alike.");
+    def_of_mesh(m, "signed_volume", signed_volume,
+                "Enclosed volume of a closed mesh, cubed input unit; negative when the triangles point inward.");
+    def_of_mesh(m, "triangle_areas", triangle_areas, "(F,) areas of the triangles, squared input unit.");
+    def_of_mesh(m, "triangle_normals", triangle_normals, "(F, 3) unit normals, zero where the area is zero.");
+    def_of_mesh(m, "vertex_normals", vertex_normals,
+                "(V, 3) unit vertex normals, weighted by the areas of the incident triangles.");
+    def_of_mesh(m, "mean_edge_length", mean_edge_length,
+                "Mean length of the edges, input unit. Needs at least one triangle.", true);
+    def_of_mesh(m, "euler_characteristic", euler_characteristic,
+                "V - E + F over the vertices in use. Raises GeometryError where edge_topology does.");
+    m.def(
+        "bounding_box_diagonal",
+        [](const ArrayLike& points) {
+            auto rows = from_python<Points>(points, "points");
+            if (rows.rows() == 0) throw InvalidInput("points: no rows", "empty");
+            return run_interruptible([rows = std::move(rows)](Job&) {
+                check_vectors(rows, rows.rows(), "points");
+                return bounding_box_diagonal(rows);
+            });
+        },
+        "points"_a, "Length of the bounding box's diagonal of (n, 3) points, n at least 1.");
+}
+
+void bind_files(py::module_& m) {
+    m.def(
+        "read_surface",
+        [](const std::filesystem::path& path) {
+            return run_interruptible([path](Job&) { return read_surface(path); });
+        },
+        "path"_a,
+        "Read a triangle mesh: STL (ASCII, binary), OBJ, OFF or PLY, each also gzipped, by extension. Equal points are "
+        "merged in STL only, "
+        "polygons are fan-triangulated, nothing is repaired. Raises IoError naming the file and, where known, the line "
+        "or byte.");
+    m.def(
+        "write_surface",
+        [](const TriangleMesh& mesh, const std::filesystem::path& path) {
+            run_interruptible([mesh = mesh, path](Job&) {
+                check(mesh, false);
+                write_surface(mesh, path);
+                return true;
+            });
+        },
+        "mesh"_a, "path"_a,
+        "Write a triangle mesh by extension: .stl (binary), .obj, .off, .ply. The file appears only when complete. "
+        "Raises IoError.");
+}
+
+void bind_validation(py::module_& m) {
+    const ValidateOptions validate;
+    m.def(
+        "find_defects",
+        [](const TriangleMesh& mesh, bool closed, bool self_intersection) {
+            return run_interruptible(
+                [=](Job&) { return find_defects(mesh, {.closed = closed, .self_intersection = self_intersection}); });
+        },
+        "mesh"_a, py::kw_only(), "closed"_a = validate.closed, "self_intersection"_a = validate.self_intersection,
+        "All defects of a mesh as a list of Defect, an empty list when it is the sound boundary of a volume. Kinds, in "
+        "the order of the tests: empty, "
+        "index_out_of_range, non_finite_vertex, degenerate_triangle, soup, duplicate_vertex, non_manifold_edge, "
+        "inconsistent_orientation, not_closed, non_manifold_vertex, inside_out, self_intersection. closed: require no "
+        "boundary "
+        "edges; self_intersection: the slowest test.");
+    m.def(
+        "require_valid",
+        [](const TriangleMesh& mesh, bool closed, bool self_intersection) {
+            run_interruptible([=](Job&) {
+                require_valid(mesh, {.closed = closed, .self_intersection = self_intersection});
+                return true;
+            });
+        },
+        "mesh"_a, py::kw_only(), "closed"_a = validate.closed, "self_intersection"_a = validate.self_intersection,
+        "Raise GeometryError with the first defect's kind, elements and message when a mesh has one. Triangle meshes: "
+        "see find_defects for kinds "
+        "and options. Tet meshes: kinds empty, index_out_of_range, non_finite_vertex, inverted_tet.");
+
+    const RepairOptions defaults;
+    m.def(
+        "repair",
+        [](const TriangleMesh& mesh, bool merge_vertices, bool remove_degenerate, bool remove_fins, bool orient,
+           bool fill_holes, int max_hole_edges) {
+            const RepairOptions options{.merge_vertices = merge_vertices,
+                                        .remove_degenerate = remove_degenerate,
+                                        .remove_fins = remove_fins,
+                                        .orient = orient,
+                                        .fill_holes = fill_holes,
+                                        .max_hole_edges = max_hole_edges};
+            return run_interruptible([=](Job&) {
+                check(mesh, false);
+                return surface::repair(mesh, options);
+            });
+        },
+        "mesh"_a, py::kw_only(), "merge_vertices"_a = defaults.merge_vertices,
+        "remove_degenerate"_a = defaults.remove_degenerate, "remove_fins"_a = defaults.remove_fins,
+        "orient"_a = defaults.orient, "fill_holes"_a = defaults.fill_holes,
+        "max_hole_edges"_a = defaults.max_hole_edges,
+        "Safe repairs, each one reported, as a RepairResult; no vertex moves. merge_vertices: bit-equal points become "
+        "one; "
+        "remove_degenerate: triangles of zero area and repeated ones; remove_fins: single triangles hanging on a "
+        "non-manifold edge; orient: consistently, outward; fill_holes: of at most "
+        "max_hole_edges edges. Self-intersections are left for find_defects to name.");
+}
+
+void bind_features(py::module_& m) {
+    const FeatureOptions defaults;
+    m.def(
+        "detect_features",
+        [](const TriangleMesh& mesh, double angle, double corner_angle) {
+            const FeatureOptions options{.angle = finite(angle, "angle"),
+                                         .corner_angle = finite(corner_angle, "corner_angle")};
+            return run_interruptible([=](Job&) {
+                check(mesh);
+                return detect_features(mesh, options);
+            });
+        },
+        "mesh"_a, py::kw_only(), "angle"_a = defaults.angle, "corner_angle"_a = defaults.corner_angle,
+        "Feature edges and corners as a FeatureGraph. angle (radians, in (0, pi)): an edge is a feature when the "
+        "normals of its triangles differ "
+        "by more; corner_angle (radians): a vertex with two feature edges is a corner when the curve turns by more. "
+        "Boundary edges are "
+        "always features.");
+    m.def(
+        "feature_graph",
+        [](const TriangleMesh& mesh, const ArrayLike& edges, double corner_angle) {
+            finite(corner_angle, "corner_angle");
+            return run_interruptible([mesh = mesh, corner_angle, edges = from_python<Edges>(edges, "edges")](Job&) {
+                check(mesh, false);
+                check_edges(edges, mesh, "edges");
+                return feature_graph(mesh, edges, corner_angle);
+            });
+        },
+        "mesh"_a, "edges"_a, py::kw_only(), "corner_angle"_a = defaults.corner_angle,
+        "FeatureGraph of given feature edges, (n, 2) vertex ids of edges of the mesh: corners are where other than two "
+        "of them meet, or where two "
+        "turn by more than corner_angle (radians). Raises InvalidInput naming the rows that are no edges.");
+}
+
+void bind_remesh(py::module_& m) {
+    const RemeshOptions defaults;
+    m.def(
+        "remesh",
+        [](const TriangleMesh& mesh, const FeatureGraph& features, double edge_length, int iterations,
+           const std::optional<ProgressCallable>& progress) {
+            const RemeshOptions options{.edge_length = finite(edge_length, "edge_length"), .iterations = iterations};
+            return run_interruptible(
+                [mesh = mesh, features = features, options](Job& job) mutable {
+                    check(mesh);
+                    check(features, mesh);
+                    return remesh(mesh, features = features, options, job.progress());
+                },
+                progress);
+        },
+        "mesh"_a, "features"_a, py::kw_only(), "edge_length"_a = defaults.edge_length,
+        "iterations"_a = defaults.iterations, "progress"_a = py::none(),
+        "Isotropic remeshing to a target edge length, features kept (Botsch, Kobbelt 2004), as a RemeshResult. The "
+        "input must be valid. "
+        "edge_length: input unit, 0 means 1/25 of the bounding box's diagonal; iterations: rounds, at least 1. Raises "
+        "GeometryError when the "
+        "target is too coarse for the shape.");
+}
+
+void bind_fields(py::module_& m) {
+    const DirectionFieldOptions defaults;
+    m.def(
+        "direction_field",
+        [](const TriangleMesh& mesh, const FeatureGraph& features, int symmetry, const std::string& method,
+           double epsilon, int max_iterations, double tolerance, std::uint64_t seed,
+           const std::optional<ProgressCallable>& progress) {
+            DirectionFieldOptions options;
+            options.symmetry = symmetry;
+            options.method = from_word<DirectionFieldMethod>(method, "method");
+            options.epsilon = finite(epsilon, "epsilon");
+            options.max_iterations = max_iterations;
+            options.tolerance = finite(tolerance, "tolerance");
+            options.seed = seed;
+            return run_interruptible(
+                [mesh = mesh, features = features, options](Job& job) mutable {
+                    check(mesh);
+                    check(features, mesh);
+                    return direction_field(mesh, features = features, options, job.progress());
+                },
+                progress);
+        },
+        "mesh"_a, "features"_a, py::kw_only(), "symmetry"_a = defaults.symmetry, "method"_a = to_word(defaults.method),
+        "epsilon"_a = defaults.epsilon, "max_iterations"_a = defaults.max_iterations,
+        "tolerance"_a = defaults.tolerance, "seed"_a = defaults.seed, "progress"_a = py::none(),
+        "N-direction field by Ginzburg-Landau on Crouzeix-Raviart elements (Beaufort et al. 2017), aligned to the "
+        "feature edges, as a "
+        "DirectionField. symmetry: N, 4 for crosses; method: \"ginzburg_landau\" or \"eigenvector\" (the start itself, "
+        "Knoeppel et al. 2013); "
+        "epsilon: coherence length, input unit, 0 means 2 mean edge lengths; seed: of the random start, matters "
+        "without features only. "
+        "Cancelled by progress, the best state is returned with converged False. Raises InvalidInput, GeometryError, "
+        "SolverError.");
+    m.def(
+        "vertex_directions",
+        [](const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field) {
+            return own(run_interruptible([mesh = mesh, features = features, field](Job&) mutable {
+                check(mesh);
+                check(features, mesh);
+                check(field, mesh);
+                return vertex_directions(mesh, features = features, field);
+            }));
+        },
+        "mesh"_a, "features"_a, "field"_a,
+        "(V, 3) unit rows: one representative direction per vertex, orthogonal to vertex_normals(mesh), following "
+        "feature curves.");
+    m.def(
+        "triangle_directions",
+        [](const TriangleMesh& mesh, const DirectionField& field) {
+            return own(run_interruptible([mesh = mesh, field](Job&) {
+                check(mesh);
+                check(field, mesh);
+                return triangle_directions(mesh, field);
+            }));
+        },
+        "mesh"_a, "field"_a,
+        "(F, 3) unit rows: one representative direction per triangle, in its plane, at the centroid.");
+    m.def(
+        "surface_singularities",
+        [](const TriangleMesh& mesh, const DirectionField& field) {
+            return run_interruptible([mesh = mesh, field](Job&) {
+                check(mesh);
+                check(field, mesh);
+                return surface_singularities(mesh, field);
+            });
+        },
+        "mesh"_a, "field"_a,
+        "All triangles and vertices where the field has an index other than 0, as a list of SurfaceSingularity. The "
+        "indices add up to the "
+        "Euler characteristic.");
+}
+
+}  // namespace
+
+void bind_surface(py::module_& m) {
+    bind_elementary(m);
+    bind_files(m);
+    bind_validation(m);
+    bind_features(m);
+    bind_remesh(m);
+    bind_fields(m);
+}
+
+}  // namespace octafield::bindings

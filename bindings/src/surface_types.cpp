@@ -1,0 +1,117 @@
+// Structs of surface/ as Python classes.
+#include "bind.hpp"
+#include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/remesh.hpp"
+#include "octafield/surface/repair.hpp"
+#include "octafield/surface/validate.hpp"
+#include "record.hpp"
+
+namespace octafield::bindings {
+
+using namespace surface;
+
+namespace {
+
+std::string repr_mesh(const TriangleMesh& mesh) {
+    return count(mesh.vertices.rows(), "vertex", "vertices") + ", " + count(mesh.triangles.rows(), "triangle");
+}
+
+std::string repr_features(const FeatureGraph& features) {
+    return count(features.edges.rows(), "edge") + ", " +
+           count(static_cast<std::ptrdiff_t>(features.corners.size()), "corner");
+}
+
+void bind_meshes(py::module_& m) {
+    Record<TriangleMesh>(m, "TriangleMesh",
+                         "A triangle mesh: arrays of positions and of vertex ids. Nothing is checked until it is used.")
+        .field("vertices", &TriangleMesh::vertices, "(V, 3) float64 positions, the input's length unit.")
+        .field("triangles", &TriangleMesh::triangles,
+               "(F, 3) int32 vertex ids, 0-based, counter-clockwise seen from outside.")
+        .finish(repr_mesh);
+
+    Record<EdgeTopology>(m, "EdgeTopology", "The edges of an edge-manifold, consistently oriented triangle mesh.")
+        .field("edges", &EdgeTopology::edges, "(E, 2) int32 vertex ids, lower first, in lexicographic order.")
+        .field("triangle_edges", &EdgeTopology::triangle_edges,
+               "(F, 3) int32 edge ids; column k is the edge from corner k to corner k+1 (mod 3).")
+        .field("edge_triangles", &EdgeTopology::edge_triangles,
+               "(E, 2) int32: the triangle that runs the edge low to high, then the other; -1: none.")
+        .finish([](const EdgeTopology& t) {
+            return count(t.edges.rows(), "edge") + ", " + count(t.triangle_edges.rows(), "triangle");
+        });
+
+    Record<FeatureGraph>(m, "FeatureGraph", "Feature curves and corners of a triangle mesh.")
+        .field("edges", &FeatureGraph::edges, "(n, 2) int32 vertex ids, lower first, in lexicographic order.")
+        .field("corners", &FeatureGraph::corners,
+               "(c,) int32 ascending ids of vertices where feature curves meet, end or turn sharply.")
+        .finish(repr_features);
+}
+
+void bind_results(py::module_& m) {
+    Record<Defect>(m, "Defect", "One thing wrong with a triangle mesh.")
+        .field("kind", &Defect::kind, "Stable word, for example \"not_closed\"; find_defects lists them.")
+        .field("element", &Defect::element, "What the ids number: \"triangle\", \"vertex\" or \"edge\".")
+        .field("elements", &Defect::elements,
+               "int32 ids of all elements concerned; for edges the two vertex ids of each, flattened.")
+        .field("message", &Defect::message, "One sentence: what, where (the first few), and the remedy.")
+        .finish([](const Defect& d) { return d.kind + ": " + d.message; });
+
+    Record<RepairResult>(m, "RepairResult", "A repaired mesh and what was done to it.")
+        .field("mesh", &RepairResult::mesh, "The repaired TriangleMesh.")
+        .field("actions", &RepairResult::actions, "One sentence per action; an empty list: nothing was needed.")
+        .finish([](const RepairResult& r) {
+            return repr_mesh(r.mesh) + ", " + count(static_cast<std::ptrdiff_t>(r.actions.size()), "action");
+        });
+
+    Record<RemeshResult>(m, "RemeshResult", "A remeshed surface and its features.")
+        .field("mesh", &RemeshResult::mesh, "The new TriangleMesh.")
+        .field("features", &RemeshResult::features,
+               "FeatureGraph of the new mesh: pieces of the old curves, corners at the old places.")
+        .finish([](const RemeshResult& r) { return repr_mesh(r.mesh) + ", " + repr_features(r.features); });
+}
+
+void bind_fields(py::module_& m) {
+    Record<DirectionField>(
+        m, "DirectionField",
+        "An N-direction field with one complex value exp(i N theta) per edge, theta the angle of the direction "
+        "from the edge (lower to higher vertex id).")
+        .field("symmetry", &DirectionField::symmetry, "N: 4 for a cross field.")
+        .field("topology", &DirectionField::topology, "EdgeTopology of the mesh the field lives on.")
+        .field("values", &DirectionField::values, "(E,) complex128, one value per edge in the edge's own frame.")
+        .field("epsilon", &DirectionField::epsilon, "Coherence length used, input unit.")
+        .field("energy", &DirectionField::energy, "Ginzburg-Landau energy, dimensionless.")
+        .field("dirichlet_energy", &DirectionField::dirichlet_energy, "Its Dirichlet part, 1/2 int |grad f|^2.")
+        .field("iterations", &DirectionField::iterations, "Newton iterations done.")
+        .field("converged", &DirectionField::converged, "Whether the residual went below the tolerance.")
+        .field("residual", &DirectionField::residual, "Relative residual at the end.")
+        .field("energy_history", &DirectionField::energy_history,
+               "float64 energies at the start and after each iteration.")
+        .finish([](const DirectionField& f) {
+            return "symmetry " + std::to_string(f.symmetry) + ", " + count(f.values.rows(), "edge") + ", energy " +
+                   py::str(py::float_(f.energy)).cast<std::string>() + ", " +
+                   (f.converged ? "converged" : "not converged");
+        });
+
+    Record<SurfaceSingularity>(m, "SurfaceSingularity", "A singular point of a direction field.")
+        .field("position", &SurfaceSingularity::position,
+               "(3,) float64: the zero of the interpolant in a triangle, or the vertex.")
+        .field("index_times_symmetry", &SurfaceSingularity::index_times_symmetry, "N times the index, an integer.")
+        .field("index", &SurfaceSingularity::index,
+               "Turns of the direction round the point: +1/4 is valence 3 when N = 4.")
+        .field("triangle", &SurfaceSingularity::triangle, "Triangle id; -1 when at a vertex.")
+        .field("vertex", &SurfaceSingularity::vertex, "Vertex id; -1 when inside a triangle.")
+        .field("boundary", &SurfaceSingularity::boundary, "Whether it is a vertex of the mesh's boundary.")
+        .finish([](const SurfaceSingularity& s) {
+            return "index " + py::str(py::float_(s.index)).cast<std::string>() + ", " +
+                   (s.vertex >= 0 ? "vertex " + std::to_string(s.vertex) : "triangle " + std::to_string(s.triangle));
+        });
+}
+
+}  // namespace
+
+void bind_surface_types(py::module_& m) {
+    bind_meshes(m);
+    bind_results(m);
+    bind_fields(m);
+}
+
+}  // namespace octafield::bindings

@@ -1,0 +1,281 @@
+// Functions of volume/.
+#include "octafield/volume/operators.hpp"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "checks.hpp"
+#include "interruptible.hpp"
+#include "octafield/volume/boundary.hpp"
+#include "octafield/volume/singularities.hpp"
+#include "octafield/volume/smooth.hpp"
+#include "octafield/volume/tetrahedralize.hpp"
+#include "octafield/volume/write_vtk.hpp"
+#include "words.hpp"
+
+namespace octafield::bindings {
+
+using namespace volume;
+using py::literals::operator""_a;
+using surface::FeatureGraph;
+using surface::TriangleMesh;
+
+namespace {
+
+// Binds f(mesh) -> array or matrix after the border checks.
+template <class Function>
+void def_of_mesh(py::module_& m, const char* name, Function function, const char* doc) {
+    const auto call = [function](const TetMesh& mesh) {
+        return run_interruptible([mesh = mesh, function](Job&) {
+            check(mesh, false);
+            return function(mesh);
+        });
+    };
+    if constexpr (std::is_same_v<std::invoke_result_t<Function, const TetMesh&>, Eigen::VectorXd>)
+        m.def(
+            name, [call](const TetMesh& mesh) { return own(call(mesh)); }, "mesh"_a, doc);
+    else
+        m.def(name, call, "mesh"_a, doc);
+}
+
+void bind_meshes(py::module_& m) {
+    const TetrahedralizeOptions defaults;
+    m.def(
+        "tetrahedralize",
+        [](const TriangleMesh& mesh, double radius_edge_ratio, double min_dihedral, double edge_length,
+           const std::optional<ProgressCallable>& progress) {
+            const TetrahedralizeOptions options{.radius_edge_ratio = finite(radius_edge_ratio, "radius_edge_ratio"),
+                                                .min_dihedral = finite(min_dihedral, "min_dihedral"),
+                                                .edge_length = finite(edge_length, "edge_length")};
+            return run_interruptible(
+                [mesh = mesh, options](Job& job) {
+                    check(mesh);
+                    return tetrahedralize(mesh, options, job.progress());
+                },
+                progress);
+        },
+        "mesh"_a, py::kw_only(), "radius_edge_ratio"_a = defaults.radius_edge_ratio,
+        "min_dihedral"_a = defaults.min_dihedral, "edge_length"_a = defaults.edge_length, "progress"_a = py::none(),
+        "Tetrahedra inside a valid closed surface by TetGen (Si 2015), as a TetMesh whose first vertices are the "
+        "surface's and whose boundary "
+        "is exactly its triangles. radius_edge_ratio: bound on circumradius over shortest edge, at least 1; "
+        "min_dihedral: radians, 0 "
+        "means TetGen's default; edge_length: interior target, input unit, 0 means the surface's mean. Raises "
+        "GeometryError with TetGen's reason.");
+    m.def(
+        "require_valid",
+        [](const TetMesh& mesh) {
+            run_interruptible([mesh = mesh](Job&) {
+                require_valid(mesh);
+                return true;
+            });
+        },
+        "mesh"_a);
+    def_of_mesh(m, "tet_volumes", tet_volumes, "(m,) signed volumes of the tets, cubed input unit.");
+    def_of_mesh(m, "boundary_surface", boundary_surface,
+                "The triangles that belong to one tet only, as a BoundarySurface. Raises GeometryError (kind "
+                "\"non_manifold_face\") where "
+                "three tets share a triangle.");
+}
+
+void bind_operators(py::module_& m) {
+    def_of_mesh(
+        m, "stiffness", stiffness,
+        "(n, n) scipy.sparse matrix of int grad phi_i . grad phi_j over P1 elements; symmetric, rows sum to 0.");
+    def_of_mesh(m, "mass", mass, "(n, n) scipy.sparse matrix of int phi_i phi_j over P1 elements.");
+    def_of_mesh(m, "lumped_mass", lumped_mass, "(n,): a quarter of the volume of the tets at each vertex.");
+    m.def(
+        "dirichlet_energy",
+        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+            threads_option(threads);
+            return run_interruptible(
+                [mesh = mesh, threads, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+                    check(mesh, false);
+                    check_unit(rows, mesh.vertices.rows(), "frames");
+                    return dirichlet_energy(mesh, rows, threads);
+                });
+        },
+        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "E = 1/2 sum_c a_c^T L a_c of (n, 4) frames, a their sh4 vectors and L the stiffness matrix, in the input's "
+        "length unit; times "
+        "unit_speed_factor for frames moving at unit speed. The same bits at any thread count.");
+}
+
+void bind_boundary(py::module_& m) {
+    m.def(
+        "sector_normals",
+        [](const TriangleMesh& boundary, const FeatureGraph& features) {
+            return run_interruptible([boundary = boundary, features = features](Job&) mutable {
+                check(boundary, false);
+                check(features, boundary);
+                return sector_normals(boundary, features);
+            });
+        },
+        "boundary"_a, "features"_a,
+        "One unit normal per vertex of a boundary mesh and smooth sector, the triangles round it between feature "
+        "edges, weighted by area, as "
+        "SectorNormals.");
+
+    const BoundaryOptions defaults;
+    m.def(
+        "boundary_constraints",
+        [](Index vertex_count, const BoundarySurface& boundary, const FeatureGraph& features,
+           const ArrayLike& directions, const std::string& mode, double feature_tolerance) {
+            if (vertex_count < 0)
+                throw InvalidInput("vertex_count: " + std::to_string(vertex_count) + " is negative",
+                                   "option_out_of_range");
+            const BoundaryOptions options{.mode = from_word<BoundaryMode>(mode, "mode"),
+                                          .feature_tolerance = finite(feature_tolerance, "feature_tolerance")};
+            return run_interruptible(
+                [=, features = features, rows = from_python<Points>(directions, "directions")](Job&) mutable {
+                    check(boundary, vertex_count);
+                    check(features, boundary.mesh);
+                    check_vectors(rows, boundary.mesh.vertices.rows(), "directions");
+                    return boundary_constraints(vertex_count, boundary, features = features, rows, options);
+                });
+        },
+        "vertex_count"_a, "boundary"_a, "features"_a, "directions"_a, py::kw_only(), "mode"_a = to_word(defaults.mode),
+        "feature_tolerance"_a = defaults.feature_tolerance,
+        "Frames and constraints on the boundary of a tet mesh of vertex_count vertices, as BoundaryConstraints. "
+        "features: of boundary.mesh; directions: "
+        "(B, 3) unit tangents at its vertices (vertex_directions). mode: \"aligned\" (one axis on the normal, twist "
+        "free), \"fixed\" "
+        "(whole frame) or \"none\"; feature_tolerance (radians): how well one frame must fit a feature vertex to be "
+        "kept whole.");
+    m.def(
+        "alignment_angles",
+        [](const BoundarySurface& boundary, const FeatureGraph& features, const ArrayLike& frames) {
+            return own(run_interruptible([boundary = boundary, features = features,
+                                          rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+                check_unit(rows, -1, "frames");
+                check(boundary, static_cast<Index>(rows.rows()));
+                check(features, boundary.mesh);
+                return alignment_angles(boundary, features = features, rows);
+            }));
+        },
+        "boundary"_a, "features"_a, "frames"_a,
+        "(k,) angles (radians) between each sector normal and the nearest axis of its vertex's frame, in the order of "
+        "sector_normals. frames: "
+        "(n, 4), one per tet-mesh vertex.");
+}
+
+void bind_smoothing(py::module_& m) {
+    m.def(
+        "initial_frames",
+        [](const TetMesh& mesh, const BoundaryConstraints& constraints, int threads) {
+            threads_option(threads);
+            return own(run_interruptible([mesh = mesh, constraints = constraints, threads](Job&) mutable {
+                check(mesh);
+                check(constraints, static_cast<Index>(mesh.vertices.rows()));
+                return initial_frames(mesh, constraints, threads);
+            }));
+        },
+        "mesh"_a, "constraints"_a, py::kw_only(), "threads"_a = 0,
+        "(n, 4) start frames: componentwise harmonic sh4 vectors with every boundary frame held (Ray et al. 2016), "
+        "projected.");
+
+    const SmoothOptions defaults;
+    m.def(
+        "smooth",
+        [](const TetMesh& mesh, const BoundaryConstraints& constraints, const ArrayLike& start, int max_iterations,
+           double tolerance, const std::string& linear_solver, int threads,
+           const std::optional<ProgressCallable>& progress) {
+            const SmoothOptions options{.max_iterations = max_iterations,
+                                        .tolerance = finite(tolerance, "tolerance"),
+                                        .linear_solver = from_word<LinearSolver>(linear_solver, "linear_solver"),
+                                        .threads = threads_option(threads)};
+            return run_interruptible(
+                [mesh = mesh, constraints = constraints, options,
+                 rows = from_python<Quaternions>(start, "start")](Job& job) mutable {
+                    check(mesh);
+                    check(constraints, static_cast<Index>(mesh.vertices.rows()));
+                    check_unit(rows, mesh.vertices.rows(), "start");
+                    return smooth(mesh, constraints, rows, options, job.progress());
+                },
+                progress);
+        },
+        "mesh"_a, "constraints"_a, "start"_a, py::kw_only(), "max_iterations"_a = defaults.max_iterations,
+        "tolerance"_a = defaults.tolerance, "linear_solver"_a = to_word(defaults.linear_solver),
+        "threads"_a = defaults.threads, "progress"_a = py::none(),
+        "Minimise dirichlet_energy from (n, 4) start frames by Levenberg-Marquardt over one quaternion per vertex, "
+        "constraints held exactly, as a "
+        "SmoothResult. tolerance: relative energy decrease at which to stop; linear_solver: \"automatic\", "
+        "\"cholesky\" or "
+        "\"conjugate_gradients\"; the result does not depend on threads. Cancelled by progress, the best state is "
+        "returned with converged "
+        "False. Raises InvalidInput, SolverError.");
+    m.def(
+        "singular_graph",
+        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+            threads_option(threads);
+            return run_interruptible(
+                [mesh = mesh, threads, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+                    check(mesh, false);
+                    check_unit(rows, mesh.vertices.rows(), "frames");
+                    return singular_graph(mesh, rows, threads);
+                });
+        },
+        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "Singular curves of (n, 4) frames at the vertices, from the holonomy round every triangle, as a SingularGraph. "
+        "The same result at any "
+        "thread count.");
+}
+
+void bind_files(py::module_& m) {
+    m.def(
+        "write_field",
+        [](const std::filesystem::path& path, const TetMesh& mesh, const ArrayLike& frames, const Metadata& metadata) {
+            run_interruptible(
+                [path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+                    check(mesh, false);
+                    check_unit(rows, mesh.vertices.rows(), "frames");
+                    write_field(path, mesh, rows, metadata);
+                    return true;
+                });
+        },
+        "path"_a, "mesh"_a, "frames"_a, "metadata"_a = Metadata{},
+        "Write a .vtu file with point data frame_u, frame_v, frame_w (unit axes), quaternion (w x y z), sh4 (9) and "
+        "boundary (0/1). frames: (n, 4); "
+        "metadata: words written as field data. Raises IoError.");
+    m.def(
+        "write_singular_graph",
+        [](const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata) {
+            run_interruptible([=](Job&) {
+                check(graph);
+                write_singular_graph(path, graph, metadata);
+                return true;
+            });
+        },
+        "path"_a, "graph"_a, "metadata"_a = Metadata{},
+        "Write a .vtp file of the singular curves with cell data quarter_turns, index and curve, and point data node. "
+        "Raises IoError.");
+    m.def(
+        "write_surface_field",
+        [](const std::filesystem::path& path, const TriangleMesh& mesh, const ArrayLike& directions,
+           const Metadata& metadata) {
+            run_interruptible(
+                [path, mesh = mesh, metadata, rows = from_python<Points>(directions, "directions")](Job&) {
+                    check(mesh, false);
+                    check_vectors(rows, mesh.vertices.rows(), "directions");
+                    write_surface_field(path, mesh, rows, metadata);
+                    return true;
+                });
+        },
+        "path"_a, "mesh"_a, "directions"_a, "metadata"_a = Metadata{},
+        "Write a .vtp file of the triangles with (V, 3) directions as point data direction. Raises IoError.");
+}
+
+}  // namespace
+
+void bind_volume(py::module_& m) {
+    bind_meshes(m);
+    bind_operators(m);
+    bind_boundary(m);
+    bind_smoothing(m);
+    bind_files(m);
+}
+
+}  // namespace octafield::bindings

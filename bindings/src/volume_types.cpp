@@ -1,0 +1,121 @@
+// Structs of volume/ as Python classes.
+#include "bind.hpp"
+#include "octafield/volume/boundary.hpp"
+#include "octafield/volume/singularities.hpp"
+#include "octafield/volume/smooth.hpp"
+#include "record.hpp"
+
+namespace octafield::bindings {
+
+using namespace volume;
+
+namespace {
+
+void bind_meshes(py::module_& m) {
+    Record<TetMesh>(m, "TetMesh",
+                    "A tetrahedral mesh: arrays of positions and of vertex ids. Nothing is checked until it is used.")
+        .field("vertices", &TetMesh::vertices, "(n, 3) float64 positions, the input's length unit.")
+        .field("tets", &TetMesh::tets, "(m, 4) int32 vertex ids, 0-based, det(p1-p0, p2-p0, p3-p0) > 0.")
+        .finish([](const TetMesh& mesh) {
+            return count(mesh.vertices.rows(), "vertex", "vertices") + ", " + count(mesh.tets.rows(), "tet");
+        });
+
+    Record<BoundarySurface>(m, "BoundarySurface",
+                            "The boundary of a tet mesh as a triangle mesh with its own vertex numbers.")
+        .field("mesh", &BoundarySurface::mesh, "TriangleMesh in compact numbering, triangles outward.")
+        .field("vertex_map", &BoundarySurface::vertex_map,
+               "(B,) int32: tet-mesh vertex of each boundary vertex, ascending.")
+        .finish([](const BoundarySurface& b) {
+            return count(b.mesh.vertices.rows(), "vertex", "vertices") + ", " +
+                   count(b.mesh.triangles.rows(), "triangle");
+        });
+}
+
+void bind_boundary(py::module_& m) {
+    Record<BoundaryConstraints>(m, "BoundaryConstraints", "What holds the frame at each vertex of a tet mesh.")
+        .field("kind", &BoundaryConstraints::kind,
+               "(n,) uint8: 0 free, 1 one axis fixed (the twist is free), 2 frame fixed.")
+        .field("axis", &BoundaryConstraints::axis, "(n, 3) float64 unit axis where kind is 1, else 0.")
+        .field("frames", &BoundaryConstraints::frames,
+               "(n, 4) float64 quaternions w x y z: the start on boundary vertices, the value where fixed, identity "
+               "inside.")
+        .field("on_boundary", &BoundaryConstraints::on_boundary, "(n,) uint8, 1 on the boundary.")
+        .field("released_corners", &BoundaryConstraints::released_corners,
+               "int32 tet-mesh ids of corners whose directions fit no frame.")
+        .finish([](const BoundaryConstraints& c) {
+            const auto total = [&](VertexConstraint kind) {
+                return std::to_string(std::count(c.kind.begin(), c.kind.end(), kind));
+            };
+            return total(VertexConstraint::free) + " free, " + total(VertexConstraint::axis) + " axis, " +
+                   total(VertexConstraint::fixed) + " fixed";
+        });
+
+    Record<SectorNormals>(
+        m, "SectorNormals",
+        "One normal per boundary vertex and smooth sector (triangles round the vertex between feature edges).")
+        .field("vertex", &SectorNormals::vertex, "(k,) int32 boundary-mesh vertex ids, ascending.")
+        .field("normal", &SectorNormals::normal, "(k, 3) float64 unit normals.")
+        .finish([](const SectorNormals& s) { return count(s.normal.rows(), "sector"); });
+}
+
+void bind_results(py::module_& m) {
+    Record<SmoothResult>(m, "SmoothResult", "A smoothed frame field and how it was reached.")
+        .field("frames", &SmoothResult::frames, "(n, 4) float64 unit quaternions w x y z.")
+        .field("energy", &SmoothResult::energy, "dirichlet_energy of the frames, input length unit.")
+        .field("iterations", &SmoothResult::iterations, "Iterations done.")
+        .field("converged", &SmoothResult::converged,
+               "Whether the last step lowered the energy by less than the tolerance.")
+        .field("message", &SmoothResult::message, "Why the solver stopped.")
+        .field("energy_history", &SmoothResult::energy_history,
+               "float64 energies at the start and after each accepted or rejected step.")
+        .finish([](const SmoothResult& r) {
+            return count(r.frames.rows(), "frame") + ", energy " + py::str(py::float_(r.energy)).cast<std::string>() +
+                   ", " + count(r.iterations, "iteration") + ", " + (r.converged ? "converged" : "not converged");
+        });
+
+    Record<SingularTriangle>(m, "SingularTriangle",
+                             "A triangle of the tet mesh round which the matchings do not multiply to the identity.")
+        .field("a", &SingularTriangle::a, "Tet-mesh vertex id, a < b < c.")
+        .field("b", &SingularTriangle::b, "Tet-mesh vertex id.")
+        .field("c", &SingularTriangle::c, "Tet-mesh vertex id.")
+        .field("holonomy", &SingularTriangle::holonomy,
+               "Element number of the octahedral group, in the frame of vertex a.")
+        .field("quarter_turns", &SingularTriangle::quarter_turns,
+               "Quarter turns about the curve: +1 valence 3, -1 valence 5, 2 a half turn, 0 complex (in no hex mesh).")
+        .field("boundary", &SingularTriangle::boundary, "Whether it lies on the boundary of the mesh.")
+        .field("point", &SingularTriangle::point, "(3,) float64: where the linear sh4 interpolant is shortest.")
+        .finish([](const SingularTriangle& t) {
+            return std::to_string(t.a) + ", " + std::to_string(t.b) + ", " + std::to_string(t.c) + ", " +
+                   count(t.quarter_turns, "quarter turn");
+        });
+
+    Record<SingularGraph>(m, "SingularGraph",
+                          "Singular curves of a frame field: the dual graph of its singular triangles.")
+        .field("triangles", &SingularGraph::triangles, "List of SingularTriangle.")
+        .field("points", &SingularGraph::points,
+               "(p, 3) float64: first one per singular triangle, then the nodes inside tets.")
+        .field("curves", &SingularGraph::curves,
+               "List of int32 arrays (copies): polylines as point ids; closed ones repeat the first id.")
+        .field("curve_quarter_turns", &SingularGraph::curve_quarter_turns,
+               "int32 quarter turns, one per curve; 0 complex.")
+        .field("nodes", &SingularGraph::nodes, "int32 point ids inside tets where three or four segments meet.")
+        .field("length", &SingularGraph::length, "Total length of the curves, input unit.")
+        .field("complex_triangles", &SingularGraph::complex_triangles,
+               "Number of triangles with a complex singularity.")
+        .finish([](const SingularGraph& g) {
+            return count(static_cast<std::ptrdiff_t>(g.triangles.size()), "triangle") + ", " +
+                   count(static_cast<std::ptrdiff_t>(g.curves.size()), "curve") + ", " +
+                   count(static_cast<std::ptrdiff_t>(g.nodes.size()), "node") + ", " +
+                   std::to_string(g.complex_triangles) + " complex";
+        });
+}
+
+}  // namespace
+
+void bind_volume_types(py::module_& m) {
+    bind_meshes(m);
+    bind_boundary(m);
+    bind_results(m);
+}
+
+}  // namespace octafield::bindings

@@ -1,0 +1,59 @@
+// Enumerations as words: options take and default to the C++ enumerator's name.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "octafield/error.hpp"
+#include "octafield/surface/direction_field.hpp"
+#include "octafield/volume/boundary.hpp"
+#include "octafield/volume/smooth.hpp"
+
+namespace octafield::bindings {
+
+template <class Enum>
+struct Words;
+
+template <>
+struct Words<surface::DirectionFieldMethod> {
+    using E = surface::DirectionFieldMethod;
+    static constexpr std::array<std::pair<const char*, E>, 2> list{
+        {{"ginzburg_landau", E::ginzburg_landau}, {"eigenvector", E::eigenvector}}};
+};
+
+template <>
+struct Words<volume::BoundaryMode> {
+    using E = volume::BoundaryMode;
+    static constexpr std::array<std::pair<const char*, E>, 3> list{
+        {{"aligned", E::aligned}, {"fixed", E::fixed}, {"none", E::none}}};
+};
+
+template <>
+struct Words<volume::LinearSolver> {
+    using E = volume::LinearSolver;
+    static constexpr std::array<std::pair<const char*, E>, 3> list{
+        {{"automatic", E::automatic}, {"cholesky", E::cholesky}, {"conjugate_gradients", E::conjugate_gradients}}};
+};
+
+template <class Enum>
+std::string to_word(Enum value) {
+    for (const auto& [word, meaning] : Words<Enum>::list)
+        if (meaning == value) return word;
+    return {};
+}
+
+template <class Enum>
+Enum from_word(std::string_view word, std::string_view name) {
+    std::string allowed;
+    for (const auto& [known, meaning] : Words<Enum>::list) {
+        if (word == known) return meaning;
+        allowed += (allowed.empty() ? "" : ", ") + std::string(known);
+    }
+    throw InvalidInput(std::string(name) + ": unknown word '" + std::string(word) + "'; use one of " + allowed,
+                       "unknown_word");
+}
+
+}  // namespace octafield::bindings

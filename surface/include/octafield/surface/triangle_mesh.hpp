@@ -1,0 +1,34 @@
+// Triangle meshes: arrays, edge topology and elementary geometry. Everything else in surface/ builds on this header.
+#pragma once
+
+#include <vector>
+
+#include "octafield/arrays.hpp"
+
+namespace octafield::surface {
+
+struct TriangleMesh {
+    Points vertices;      // (V, 3), the input's length unit
+    Triangles triangles;  // (F, 3), 0-based, counter-clockwise seen from outside
+};
+
+// The edges of an edge-manifold, consistently oriented mesh.
+struct EdgeTopology {
+    Edges edges;               // (E, 2), lower vertex id first, in lexicographic order
+    Triangles triangle_edges;  // (F, 3), column k: the edge from corner k to corner k+1 (mod 3)
+    Edges edge_triangles;      // (E, 2), column 0: the triangle that runs the edge low to high, column 1: the other; -1: none
+};
+
+// Throws GeometryError (kind "non_manifold_edge" or "inconsistent_orientation") where three triangles share an edge, or two run it alike.
+EdgeTopology edge_topology(const TriangleMesh& mesh);
+
+double bounding_box_diagonal(const Points& points);
+double signed_volume(const TriangleMesh& mesh);
+Eigen::VectorXd triangle_areas(const TriangleMesh& mesh);   // (F)
+Points triangle_normals(const TriangleMesh& mesh);          // (F, 3), unit; zero where the area is zero
+Points vertex_normals(const TriangleMesh& mesh);            // (V, 3), unit, weighted by incident triangle area
+double mean_edge_length(const TriangleMesh& mesh);
+// V - E + F over the vertices in use. Requires what edge_topology requires.
+int euler_characteristic(const TriangleMesh& mesh);
+
+}  // namespace octafield::surface

@@ -1,0 +1,52 @@
+#include "ginzburg_landau.hpp"
+
+#include <cmath>
+
+namespace octafield::surface::detail {
+
+GinzburgLandau::GinzburgLandau(const std::vector<CornerLink>& links, const Eigen::VectorXd& masses,
+                               const FreeSystem& system, double epsilon)
+    : links_(links), system_(system), weights_(masses / epsilon / epsilon) {}
+
+GinzburgLandau::Slope GinzburgLandau::slope(const Eigen::VectorXcd& values) const {
+    Eigen::VectorXcd gradient = apply_stiffness(links_, values);
+    double energy = values.dot(gradient).real() / 2;
+    double scale = 0;
+    for (Eigen::Index e = 0; e < values.size(); ++e) {
+        const double square = std::norm(values[e]), excess = square - 1;
+        energy += weights_[e] / 4 * excess * excess;
+        scale += weights_[e] * weights_[e] * square;
+        gradient[e] += weights_[e] * excess * values[e];
+    }
+    Slope slope = {energy, system_.gather(gradient), 0};
+    slope.residual = scale > 0 ? slope.gradient.norm() / std::sqrt(scale) : 0;
+    return slope;
+}
+
+void GinzburgLandau::hessian(const Eigen::VectorXcd& values, double shift, FreeSystem::Matrix& matrix) const {
+    matrix = system_.stiffness();
+    for (Index i = 0; i < system_.size(); ++i) {
+        const Index e = system_.edges()[i];
+        const double x = values[e].real(), y = values[e].imag(), rest = shift - 1;
+        FreeSystem::add_to_diagonal(matrix, i, weights_[e] * (3 * x * x + y * y + rest), weights_[e] * 2 * x * y,
+                                    weights_[e] * (x * x + 3 * y * y + rest));
+    }
+}
+
+std::array<double, 4> GinzburgLandau::along(const Eigen::VectorXcd& values, const Eigen::VectorXcd& direction) const {
+    const auto inner = [](const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) { return a.dot(b).real(); };
+    const Eigen::VectorXcd stiff = apply_stiffness(links_, direction);
+    std::array<double, 4> c = {inner(values, stiff), inner(direction, stiff) / 2, 0, 0};
+    // |f + t d|^2 - 1 = s + 2 p t + q t^2
+    for (Eigen::Index e = 0; e < values.size(); ++e) {
+        const double s = std::norm(values[e]) - 1, q = std::norm(direction[e]);
+        const double p = (std::conj(values[e]) * direction[e]).real();
+        c[0] += weights_[e] * s * p;
+        c[1] += weights_[e] * (p * p + s * q / 2);
+        c[2] += weights_[e] * p * q;
+        c[3] += weights_[e] * q * q / 4;
+    }
+    return c;
+}
+
+}  // namespace octafield::surface::detail

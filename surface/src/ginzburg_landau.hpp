@@ -1,0 +1,59 @@
+// The Ginzburg-Landau functional of a direction field (thesis of Beaufort, 3.15) and its minimisation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "crouzeix_raviart.hpp"
+#include "free_system.hpp"
+#include "octafield/progress.hpp"
+
+namespace octafield::surface::detail {
+
+// E(f) = 1/2 int |grad f|^2 + sum_e m_e / (4 eps^2) (|f_e|^2 - 1)^2.
+class GinzburgLandau {
+public:
+    // Keeps references to links and system.
+    GinzburgLandau(const std::vector<CornerLink>& links, const Eigen::VectorXd& masses, const FreeSystem& system,
+                   double epsilon);
+
+    struct Slope {
+        double energy;
+        Eigen::VectorXd gradient;  // of the free unknowns, (2 n)
+        double residual;           // norm of the gradient, relative to that of the weights times the values
+    };
+    Slope slope(const Eigen::VectorXcd& values) const;
+    // Second derivative plus `shift` times weights on the diagonal; lower triangle, the pattern of the stiffness.
+    void hessian(const Eigen::VectorXcd& values, double shift, FreeSystem::Matrix& matrix) const;
+    // c with E(values + t direction) - E(values) = c[0] t + c[1] t^2 + c[2] t^3 + c[3] t^4.
+    std::array<double, 4> along(const Eigen::VectorXcd& values, const Eigen::VectorXcd& direction) const;
+
+    const Eigen::VectorXd& weights() const { return weights_; }  // (E), m_e / eps^2, dimensionless
+    const FreeSystem& system() const { return system_; }
+
+private:
+    const std::vector<CornerLink>& links_;
+    const FreeSystem& system_;
+    Eigen::VectorXd weights_;
+};
+
+struct DescentOptions {
+    int max_iterations = 1000;
+    double tolerance = 1e-10;        // of the residual
+    double energy_tolerance = 1e-6;  // of a round's gain, relative to the energy
+    std::uint64_t seed = 0;          // of the directions tried to leave a saddle point
+};
+
+struct DescentResult {
+    int iterations = 0;
+    bool converged = false;
+    double residual = 0;
+    std::vector<double> energy_history;
+};
+
+// Descends from `values` to a local minimum, in place; held edges keep their values. The system must not be empty.
+DescentResult minimise(const GinzburgLandau& functional, Eigen::VectorXcd& values, const DescentOptions& options,
+                       const Progress& progress);
+
+}  // namespace octafield::surface::detail

@@ -1,0 +1,111 @@
+// Supernodal sparse Cholesky factorization (CHOLMOD): one analysis of the pattern, many factorizations of its values.
+#pragma once
+
+#include <cholmod.h>
+
+#include <Eigen/SparseCore>
+
+#include "octafield/error.hpp"
+
+namespace octafield::surface::detail {
+
+class SparseCholesky {
+public:
+    using Matrix = Eigen::SparseMatrix<double>;  // lower triangle, compressed
+
+    // `order`: elimination order (which row comes first, second, ...); a permutation of the rows.
+    SparseCholesky(const Matrix& pattern, const Eigen::VectorXi& order) {
+        cholmod_start(&common_);
+        common_.supernodal = CHOLMOD_SUPERNODAL;
+        common_.quick_return_if_not_posdef = 1;
+        common_.print = 0;
+        common_.nmethods = 1;
+        common_.method[0].ordering = CHOLMOD_GIVEN;
+        cholmod_sparse view = view_of(pattern);
+        factor_ = cholmod_analyze_p(&view, const_cast<int*>(order.data()), nullptr, 0, &common_);
+        if (factor_ != nullptr) return;
+        const int status = common_.status;
+        cholmod_finish(&common_);
+        fail(status);
+    }
+    ~SparseCholesky() {
+        cholmod_free_dense(&solution_, &common_);
+        cholmod_free_dense(&work_, &common_);
+        cholmod_free_dense(&more_work_, &common_);
+        cholmod_free_factor(&factor_, &common_);
+        cholmod_finish(&common_);
+    }
+    SparseCholesky(const SparseCholesky&) = delete;
+    SparseCholesky& operator=(const SparseCholesky&) = delete;
+
+    // False when the matrix is not positive definite. The pattern must be the one analysed.
+    bool factorize(const Matrix& matrix) {
+        cholmod_sparse view = view_of(matrix);
+        cholmod_factorize(&view, factor_, &common_);
+        if (common_.status == CHOLMOD_NOT_POSDEF) return false;
+        require(common_.status >= CHOLMOD_OK);
+        return factor_->minor == factor_->n;
+    }
+
+    Eigen::VectorXd solve(const Eigen::VectorXd& right) {
+        cholmod_dense view = {};
+        view.nrow = view.nzmax = view.d = right.size();
+        view.ncol = 1;
+        view.x = const_cast<double*>(right.data());
+        view.xtype = CHOLMOD_REAL;
+        view.dtype = CHOLMOD_DOUBLE;
+        require(cholmod_solve2(CHOLMOD_A, factor_, &view, nullptr, &solution_, nullptr, &work_, &more_work_, &common_));
+        return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(solution_->x), right.size());
+    }
+
+private:
+    friend Eigen::VectorXi amd_order(const Matrix& pattern);
+
+    static cholmod_sparse view_of(const Matrix& matrix) {
+        cholmod_sparse view = {};
+        view.nrow = matrix.rows();
+        view.ncol = matrix.cols();
+        view.nzmax = matrix.nonZeros();
+        view.p = const_cast<int*>(matrix.outerIndexPtr());
+        view.i = const_cast<int*>(matrix.innerIndexPtr());
+        view.x = const_cast<double*>(matrix.valuePtr());
+        view.stype = -1;
+        view.itype = CHOLMOD_INT;
+        view.xtype = CHOLMOD_REAL;
+        view.dtype = CHOLMOD_DOUBLE;
+        view.sorted = 1;
+        view.packed = 1;
+        return view;
+    }
+
+    void require(bool success) const {
+        if (!success) fail(common_.status);
+    }
+
+    [[noreturn]] static void fail(int status) {
+        if (status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE)
+            throw SolverError("not enough memory to factorize the direction field's matrix; use a coarser surface");
+        throw SolverError("the factorization of the direction field's matrix failed (CHOLMOD status " +
+                          std::to_string(status) + ")");
+    }
+
+    cholmod_common common_ = {};
+    cholmod_factor* factor_ = nullptr;
+    cholmod_dense *solution_ = nullptr, *work_ = nullptr, *more_work_ = nullptr;
+};
+
+// Approximate minimum degree order of a symmetric matrix given by its lower triangle.
+inline Eigen::VectorXi amd_order(const SparseCholesky::Matrix& pattern) {
+    cholmod_common common;
+    cholmod_start(&common);
+    common.print = 0;
+    cholmod_sparse view = SparseCholesky::view_of(pattern);
+    Eigen::VectorXi order(pattern.rows());
+    const bool success = cholmod_amd(&view, nullptr, 0, order.data(), &common);
+    const int status = common.status;
+    cholmod_finish(&common);
+    if (!success) SparseCholesky::fail(status);
+    return order;
+}
+
+}  // namespace octafield::surface::detail

@@ -1,0 +1,115 @@
+"""The stub says what the module holds, and every name explains itself."""
+
+import ast
+import importlib.util
+import inspect
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import octafield
+from octafield import _core
+
+STUB = ast.parse(Path(octafield.__file__).with_name("_core.pyi").read_text())
+ALIASES = {"Float64s", "Int32s", "UInt8s", "Path", "Progress"}
+
+
+def stub_names(body):
+    names = set()
+    for node in body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            names.add(node.name)
+        elif isinstance(node, ast.AnnAssign):
+            names.add(node.target.id)
+    return names
+
+
+def public(namespace):
+    return {name for name in namespace if not name.startswith("_")}
+
+
+FUNCTIONS = sorted(name for name in public(vars(_core)) if callable(getattr(_core, name)) and not inspect.isclass(getattr(_core, name)))
+CLASSES = sorted(name for name in public(vars(_core)) if inspect.isclass(getattr(_core, name)))
+
+
+def test_stub_and_module_hold_the_same_names():
+    assert stub_names(STUB.body) - ALIASES - {"__version__"} == public(vars(_core))
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_stub_and_class_hold_the_same_fields(name):
+    stub = next(node for node in STUB.body if isinstance(node, ast.ClassDef) and node.name == name)
+    assert public(stub_names(stub.body)) == public(vars(getattr(_core, name)))
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_stub_and_function_take_the_same_arguments(name):
+    """Names, order and which are keyword-only, compared with the signatures in the docstring."""
+
+    def arguments(node):
+        return [a.arg for a in node.args.args], [a.arg for a in node.args.kwonlyargs]
+
+    stub = [arguments(node) for node in STUB.body if isinstance(node, ast.FunctionDef) and node.name == name]
+    lines = [line for line in getattr(_core, name).__doc__.splitlines() if f"{name}(" in line and " -> " in line]
+    bound = []
+    for line in lines:
+        line = line[line.index(f"{name}(") :]
+        bound.append(arguments(ast.parse(f"def {line}: ...").body[0]))
+    assert bound and bound == stub
+
+
+@pytest.mark.parametrize("name", FUNCTIONS + CLASSES)
+def test_every_public_name_has_a_docstring_and_is_exported(name):
+    text = getattr(_core, name).__doc__.split(" -> ", 1)[-1]
+    assert len(text.split()) > 4
+    assert name in octafield.__all__ and getattr(octafield, name) is getattr(_core, name)
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_every_field_has_a_docstring(name):
+    fields = [field for field in public(vars(getattr(_core, name)))]
+    assert fields and all(inspect.getdoc(getattr(getattr(_core, name), field)) for field in fields)
+
+
+def test_all_names_exist_and_the_version_is_the_packages():
+    from importlib.metadata import version
+
+    assert all(hasattr(octafield, name) for name in octafield.__all__)
+    assert octafield.__version__ == version("octafield")
+
+
+EXAMPLE = """
+import numpy as np
+from numpy.typing import NDArray
+import octafield
+
+mesh: octafield.TriangleMesh = octafield.TriangleMesh([[0.0, 0, 0]], np.zeros((0, 3), dtype=np.int32))
+mesh.vertices = [[1, 2, 3]]
+points: NDArray[np.float64] = mesh.vertices
+def report(phase: str, fraction: float, merit: float) -> bool | None:
+    return fraction < 1
+features = octafield.detect_features(mesh, angle=0.5)
+field: octafield.DirectionField = octafield.direction_field(mesh, features, method="eigenvector", progress=report)
+tets = octafield.tetrahedralize(mesh)
+octafield.require_valid(tets)
+octafield.require_valid(mesh, closed=False)
+frames, distances = octafield.sh4_project(octafield.sh4_embed(octafield.random_rotations(3)))
+try:
+    octafield.read_surface("part.stl")
+except octafield.IoError as error:
+    ids: list[int] = error.elements
+"""
+
+
+def test_a_typed_program_passes_mypy_strict(tmp_path):
+    if importlib.util.find_spec("mypy") is None:
+        pytest.skip("mypy is not installed")
+    (tmp_path / "example.py").write_text(EXAMPLE)
+    command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", "example.py"]
+    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert run.returncode == 0, run.stdout
+    wrong = EXAMPLE + '\noctafield.direction_field(mesh, features, epsilon="wide")\n'
+    (tmp_path / "example.py").write_text(wrong)
+    assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 1

@@ -1,0 +1,152 @@
+"""The command line: JSON, exit codes, one message per failure, nothing left behind."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from pipeline_fixtures import SHARED_SURFACES, octafield, shared, write_cube, write_sphere
+
+FAST = ("--edge-length", "0.4")
+
+BAD_SURFACES = {
+    "bad_hole_s17": "not closed",
+    "bad_flipped_s01": "orientation",
+    "bad_selfcross_s15": "cross",
+    "bad_soup_s04": "soup",
+    "bad_insideout_s16": "wrong way",
+    "bad_fin_s01": "share",
+    "bad_degenerate_s17": "no area",
+}
+
+
+def leftovers(folder):
+    return sorted(path.name for path in folder.iterdir() if "partial" in path.name)
+
+
+def test_field_writes_its_files_and_the_same_record_to_json(tmp_path):
+    out, figures = tmp_path / "out", tmp_path / "figures.json"
+    octafield("field", write_cube(tmp_path), "-o", out, *FAST, "--json", figures, check=0)
+    names = {"field.vtu", "singular.vtp", "surface.vtp", "surface_singularities.vtp", "result.json"}
+    assert {path.name for path in out.iterdir()} == names
+    record = json.loads(figures.read_text())
+    assert record == json.loads((out / "result.json").read_text())
+    assert record["input"] == str(tmp_path / "cube.obj")
+    assert record["wall_seconds"]["write"] > 0
+
+
+def test_json_to_stdout_is_all_that_stdout_gets(tmp_path):
+    done = octafield("field", write_cube(tmp_path), "-o", tmp_path / "out", *FAST, "--json", "-", check=0)
+    assert json.loads(done.stdout)["boundary"] == "aligned"
+
+
+def test_without_json_a_table_goes_to_stdout_and_nothing_with_quiet(tmp_path):
+    cube = write_cube(tmp_path)
+    shown = octafield("field", cube, "-o", tmp_path / "a", *FAST, check=0)
+    assert "energy" in shown.stdout and "\x1b" not in shown.stdout
+    silent = octafield("field", cube, "-o", tmp_path / "b", *FAST, "-q", check=0)
+    assert silent.stdout == "" and silent.stderr == ""
+
+
+def test_surface_field_reports_indices(tmp_path):
+    arguments = ("--symmetry", 6, "--no-remesh", "--json", "-")
+    done = octafield("surface-field", write_sphere(tmp_path), "-o", tmp_path / "out", *arguments, check=0)
+    record = json.loads(done.stdout)
+    assert record["index_sum"] == pytest.approx(2) and record["euler_characteristic"] == 2
+    assert {"triangles", "singularities", "energy", "epsilon", "iterations", "wall_seconds", "cpu_seconds"} <= set(
+        record
+    )
+
+
+def test_info_passes_a_sound_surface_and_names_the_failure_of_a_bad_one(tmp_path):
+    done = octafield("info", write_cube(tmp_path), "--json", "-", check=0)
+    record = json.loads(done.stdout)
+    assert record["ok"] and record["euler_characteristic"] == 2 and record["volume"] == pytest.approx(1)
+    assert record["features"]["edges"] == 12 and record["features"]["corners"] == 8
+    open_cube = tmp_path / "open.obj"
+    open_cube.write_text("\n".join((tmp_path / "cube.obj").read_text().splitlines()[:-1]))
+    failed = octafield("info", open_cube, check=2)
+    assert "not closed" in failed.stderr and "fail" in failed.stdout
+
+
+@pytest.mark.parametrize("name, words", BAD_SURFACES.items())
+@pytest.mark.parametrize("command", ["field", "compare"])
+def test_a_broken_surface_gives_one_line_naming_its_defect_and_no_folder(tmp_path, name, words, command):
+    out = tmp_path / "deep" / "out"
+    done = octafield(command, shared(SHARED_SURFACES / f"{name}.obj"), "-o", out, check=2)
+    assert words in done.stderr and name in done.stderr
+    assert len(done.stderr.splitlines()) == 1 and "Traceback" not in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name, words", BAD_SURFACES.items())
+def test_info_names_the_defect_of_a_broken_surface_and_shows_the_rest(name, words):
+    done = octafield("info", shared(SHARED_SURFACES / f"{name}.obj"), "--json", "-", check=2)
+    record = json.loads(done.stdout)
+    assert not record["ok"]
+    assert any(r["state"] == "fail" and words in r["message"] for r in record["requirements"])
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_bad_usage_is_exit_code_two(tmp_path):
+    cube = write_cube(tmp_path)
+    assert octafield("field", cube).returncode == 2
+    assert octafield("field", tmp_path / "absent.stl", "-o", tmp_path / "out").returncode == 2
+    assert octafield("field", cube, "-o", tmp_path / "out", "--boundary", "loose").returncode == 2
+    assert octafield("compare", cube, "-o", tmp_path / "out", "--representations", "sh5").returncode == 2
+    assert octafield("surface-field", cube, "-o", tmp_path / "out", "--symmetry", "0").returncode == 2
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_earlier_result_is_replaced_and_a_foreign_folder_refused(tmp_path):
+    cube, out = write_cube(tmp_path), tmp_path / "out"
+    octafield("field", cube, "-o", out, *FAST, check=0)
+    (out / "mine.txt").write_text("stays")
+    octafield("field", cube, "-o", out, "--edge-length", "0.5", check=0)
+    assert (out / "mine.txt").read_text() == "stays"
+    assert json.loads((out / "result.json").read_text())["options"]["edge_length"] == 0.5
+    foreign = tmp_path / "foreign"
+    foreign.mkdir()
+    (foreign / "thesis.tex").write_text("precious")
+    done = octafield("field", cube, "-o", foreign, check=2)
+    assert "not an earlier result" in done.stderr
+    assert [path.name for path in foreign.iterdir()] == ["thesis.tex"]
+
+
+def test_a_failed_run_keeps_the_earlier_result(tmp_path):
+    cube, out = write_cube(tmp_path), tmp_path / "out"
+    octafield("field", cube, "-o", out, *FAST, check=0)
+    before = (out / "result.json").read_bytes()
+    octafield("field", cube, "-o", out, "--features", "file", check=2)
+    assert (out / "result.json").read_bytes() == before and leftovers(out) == []
+
+
+def test_version_and_help(tmp_path):
+    assert octafield("--version", check=0).stdout.startswith("octafield ")
+    shown = octafield("--help", check=0).stdout
+    assert all(command in shown for command in ("compare", "field", "surface-field", "info"))
+
+
+@pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_an_interrupt_ends_a_comparison_within_a_second_and_leaves_nothing(tmp_path, stop):
+    work = tmp_path / "work"
+    work.mkdir()
+    sphere, out = write_sphere(tmp_path), work / "out"
+    command = [sys.executable, "-m", "octafield.cli", "compare", str(sphere), "-o", str(out), "--edge-length", "0.06"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60
+    while not leftovers(work) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert leftovers(work), "the comparison did not begin"
+    time.sleep(1.0)
+    assert process.poll() is None, "the comparison ended before the interrupt: give it more to do"
+    os.kill(process.pid, stop)
+    begin = time.monotonic()
+    _, messages = process.communicate(timeout=30)
+    assert time.monotonic() - begin < 1.0
+    assert process.returncode == 130
+    assert messages.splitlines() == ["octafield: interrupted"]
+    assert list(work.iterdir()) == []

@@ -1,0 +1,150 @@
+"""The comparison: its files, and a report that needs nothing but itself."""
+
+import base64
+import csv
+import json
+import re
+from html.parser import HTMLParser
+
+import pytest
+import pyvista
+from pipeline_fixtures import write_cube, write_sphere
+
+import octafield
+from octafield.compare import compare
+from octafield.options import FieldOptions
+
+COARSE = FieldOptions(edge_length=0.4)
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+@pytest.fixture(scope="module")
+def comparison(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("compare")
+    return compare([write_sphere(folder), write_cube(folder)], folder / "out", options=COARSE)
+
+
+@pytest.fixture(scope="module")
+def page(comparison):
+    return comparison.to_html()
+
+
+class Balanced(HTMLParser):
+    """Collects elements; fails on a closing tag that does not match the open one."""
+
+    VOID = {"meta", "img", "br", "link", "path", "use", "rect"}
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.seen = [], []
+
+    def handle_starttag(self, tag, attributes):
+        self.seen.append((tag, dict(attributes)))
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.seen.append((tag, dict(attributes)))
+
+    def handle_endtag(self, tag):
+        if tag not in self.VOID:
+            assert self.open.pop() == tag
+
+
+def elements(page):
+    parser = Balanced()
+    parser.feed(page)
+    parser.close()
+    assert parser.open == []
+    return parser.seen
+
+
+def test_two_rows_per_input_fixed_and_aligned(comparison):
+    assert [row["boundary"] for row in comparison.rows] == ["fixed", "aligned"] * 2
+    assert json.loads((comparison.folder / "results.json").read_text()) == comparison.rows
+
+
+def test_every_file_named_in_the_rows_exists_and_no_other(comparison):
+    named = {file for row in comparison.rows for file in row["files"]} | {"results.json"}
+    found = {str(path.relative_to(comparison.folder)) for path in comparison.folder.rglob("*") if path.is_file()}
+    assert found == named
+
+
+def test_the_table_has_one_line_per_run_with_its_numbers(comparison):
+    with open(comparison.folder / "results.csv", newline="") as file:
+        lines = list(csv.DictReader(file))
+    assert [float(line["energy"]) for line in lines] == [row["energy"] for row in comparison.rows]
+    assert [float(line["alignment_deg_max"]) for line in lines] == [r["alignment_deg"]["max"] for r in comparison.rows]
+    assert "wall_seconds_smooth" in lines[0]
+
+
+def test_field_files_hold_the_mesh_the_frames_and_the_options(comparison):
+    row = comparison.rows[0]
+    grid = pyvista.read(comparison.folder / row["folder"] / "field.vtu")
+    assert grid.n_points == row["vertices"] and grid.n_cells == row["tets"]
+    assert {"frame_u", "frame_v", "frame_w", "quaternion", "sh4"} <= set(grid.point_data)
+    points = pyvista.read(comparison.folder / row["folder"] / "surface_singularities.vtp")
+    assert points.point_data["index"].sum() == pytest.approx(row["surface_field"]["index_sum"])
+    assert json.loads(str(points.field_data["options"][0])) == row["options"]
+
+
+def test_the_page_is_well_formed_and_asks_nothing_of_the_network(page):
+    seen = elements(page)
+    assert not re.findall(r"https?://|//[a-z]+\.", page)
+    for tag, attributes in seen:
+        assert tag not in ("link", "iframe", "object")
+        if tag == "script":
+            assert "src" not in attributes
+
+
+def test_links_lead_to_files_beside_the_page(comparison, page):
+    links = [a["href"] for tag, a in elements(page) if tag == "a"]
+    assert links and all((comparison.folder / link).is_file() for link in links)
+
+
+def test_pictures_are_png_below_the_bound(page):
+    pictures = [a["src"] for tag, a in elements(page) if tag == "img"]
+    assert len(pictures) == 2 * (1 + 2 * 2)  # per input: the surface, then curves and cut per run
+    for source in pictures:
+        data = base64.b64decode(source.removeprefix("data:image/png;base64,"), validate=True)
+        assert data.startswith(PNG) and len(data) < 400_000
+
+
+def test_captions_state_the_index_sum_and_the_table_the_energy(comparison, page):
+    assert "Euler characteristic 2" in page
+    for row in comparison.rows:
+        assert f"{row['energy']:.6g}" in page
+
+
+def test_a_new_comparison_replaces_the_old_one_only(comparison, tmp_path):
+    out, cube = tmp_path / "out", write_cube(tmp_path)
+    compare(cube, out, options=COARSE)
+    (out / "notes.txt").write_text("mine")
+    compare(cube, out, boundaries=("none",), options=COARSE)
+    assert {p.name for p in out.iterdir()} == {
+        "report.html",
+        "results.json",
+        "results.csv",
+        "notes.txt",
+        "cube-sh4-none",
+    }
+
+
+def test_a_folder_of_something_else_is_refused_and_untouched(tmp_path):
+    (tmp_path / "results.json").write_text('{"not": "ours"}')
+    with pytest.raises(octafield.InvalidInput, match="not an earlier result"):
+        compare(write_cube(tmp_path), tmp_path)
+    assert json.loads((tmp_path / "results.json").read_text()) == {"not": "ours"}
+
+
+def test_seeds_make_rows_of_their_own(tmp_path):
+    rows = compare(write_sphere(tmp_path), tmp_path / "out", boundaries=("aligned",), seeds=2, options=COARSE).rows
+    assert [row["seed"] for row in rows] == [0, 1]
+    assert rows[0]["mesh_sha256"] == rows[1]["mesh_sha256"]
+
+
+@pytest.mark.parametrize("bad", [{"representations": ()}, {"boundaries": ("fixed", "fixed")}, {"seeds": 0}])
+def test_comparisons_of_nothing_or_twice_the_same_are_refused(tmp_path, bad):
+    with pytest.raises(octafield.InvalidInput):
+        compare(write_cube(tmp_path), tmp_path / "out", **bad)
+    assert not (tmp_path / "out").exists()

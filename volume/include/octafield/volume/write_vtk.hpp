@@ -1,0 +1,42 @@
+// VTK XML output for ParaView, pyvista, meshio. Files are written to a temporary name beside the target, then renamed.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/triangle_mesh.hpp"
+#include "octafield/volume/singularities.hpp"
+#include "octafield/volume/tet_mesh.hpp"
+
+namespace octafield::volume {
+
+// Written as FieldData, one array per entry: strings in .vtp, their bytes (UInt8) in .vtu, because meshio refuses a
+// .vtu with strings (empty entries are left out there). In Python:
+// bytes(pyvista.read("field.vtu").field_data["version"]).decode().
+using Metadata = std::map<std::string, std::string>;
+
+// All throw IoError, naming the file and the reason, and InvalidInput where array sizes do not match. Binary,
+// compressed.
+
+// .vtu with point data: frame_u, frame_v, frame_w (unit axes), quaternion (w x y z, named components), sh4 (9, named
+// -4..4), boundary (0/1). frames: (n, 4) unit quaternions w x y z.
+void write_field(const std::filesystem::path& path, const TetMesh& mesh, const Quaternions& frames,
+                 const Metadata& metadata = {});
+
+// .vtp polylines with cell data quarter_turns, index (quarter_turns / 4), curve (0-based); nodes as vertex cells with
+// point data node (0/1), their cell data 0, 0, -1. Vertex cells come first.
+void write_singular_graph(const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata = {});
+
+// .vtp triangles with point data direction (3).
+void write_surface_field(const std::filesystem::path& path, const surface::TriangleMesh& mesh, const Points& directions,
+                         const Metadata& metadata = {});
+
+// .vtp vertices at the singular points of a surface field, with point data index.
+void write_surface_singularities(const std::filesystem::path& path,
+                                 const std::vector<surface::SurfaceSingularity>& singularities,
+                                 const Metadata& metadata = {});
+
+}  // namespace octafield::volume

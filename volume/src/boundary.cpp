@@ -1,0 +1,186 @@
+#include "octafield/volume/boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+
+#include "boundary_star.hpp"
+#include "octafield/error.hpp"
+#include "octafield/frames/sh4.hpp"
+#include "require_frames.hpp"
+
+namespace octafield::volume {
+namespace {
+
+using frames::Quaternion;
+using frames::Vector3;
+using Directions = std::vector<Vector3>;
+
+// Angle between d and the nearest of the frame's six axis directions; by atan2, which is accurate at small angles.
+double angle_to_nearest_axis(const Quaternion& frame, const Vector3& d) {
+    const frames::Matrix3 axes = frame.toRotationMatrix();
+    int nearest = 0;
+    (axes.transpose() * d).cwiseAbs().maxCoeff(&nearest);
+    return std::atan2(axes.col(nearest).cross(d).norm(), std::abs(axes.col(nearest).dot(d)));
+}
+
+bool fits(const Quaternion& frame, const Directions& directions, double tolerance) {
+    return std::all_of(directions.begin(), directions.end(),
+                       [&](const Vector3& d) { return angle_to_nearest_axis(frame, d) <= tolerance; });
+}
+
+// The frame whose axes best follow all the directions: it maximises the sum over them of the frame's quartic.
+Quaternion best_frame(const Directions& directions) {
+    frames::Sh4::Vector sum = frames::Sh4::Vector::Zero();
+    for (const Vector3& d : directions) sum += frames::Sh4::axis(d);
+    return frames::Sh4::project(sum).frame;
+}
+
+// The same among the frames with an axis on `tangent`. A direction d then counts with |d'|^4 cos 4(angle of d' -
+// twist), d' its part orthogonal to the tangent, so the best twist is a quarter of the argument of the sum of (d')^4.
+Quaternion best_frame_about(const Vector3& tangent, const Directions& directions) {
+    const Quaternion reference =
+        frames::frame_from_axes(directions.empty() ? Vector3::Zero() : directions.front(), tangent);
+    const frames::Matrix3 axes = reference.toRotationMatrix();
+    std::complex<double> sum = 0;
+    double size = 0;
+    for (const Vector3& d : directions) {
+        const std::complex<double> part(d.dot(axes.col(0)), d.dot(axes.col(1)));
+        sum += part * part * part * part;
+        size += std::norm(part) * std::norm(part);
+    }
+    if (std::abs(sum) < 1e-9 * size) return reference;  // all twists are equal, as for normals 45 degrees apart
+    return (frames::exp(std::arg(sum) / 4 * tangent) * reference).normalized();
+}
+
+// Tangent of a curve from the directions of its two edges at the vertex.
+Vector3 curve_tangent(const Directions& edges) {
+    const Vector3 tangent = edges[0] - edges[1];
+    return tangent.norm() > 1e-9 ? Vector3(tangent.normalized()) : edges[0];
+}
+
+struct VertexRule {
+    VertexConstraint kind = VertexConstraint::free;
+    Vector3 axis = Vector3::Zero();
+    Quaternion frame = Quaternion::Identity();
+    bool released = false;
+};
+
+VertexRule smooth_rule(const Vector3& normal, const Vector3& direction, BoundaryMode mode) {
+    const Quaternion frame = frames::frame_from_axes(direction, normal);
+    if (mode == BoundaryMode::fixed) return {VertexConstraint::fixed, Vector3::Zero(), frame, false};
+    return {VertexConstraint::axis, normal, frame, false};
+}
+
+VertexRule curve_rule(const Vector3& tangent, const Directions& normals, const BoundaryOptions& options) {
+    const Quaternion frame = best_frame_about(tangent, normals);
+    if (options.mode == BoundaryMode::fixed || fits(frame, normals, options.feature_tolerance))
+        return {VertexConstraint::fixed, Vector3::Zero(), frame, false};
+    return {VertexConstraint::axis, tangent, frame, false};
+}
+
+VertexRule corner_rule(const Directions& edges, const Directions& normals, double tolerance) {
+    Directions all = edges;
+    all.insert(all.end(), normals.begin(), normals.end());
+    const Quaternion frame = best_frame(all);
+    if (fits(frame, all, tolerance)) return {VertexConstraint::fixed, Vector3::Zero(), frame, false};
+    return {VertexConstraint::free, Vector3::Zero(), frame, true};
+}
+
+// A feature curve that ends inside a smooth patch only gives its end vertex a direction. Several sectors without
+// features are a vertex where the boundary touches itself: like a corner.
+VertexRule vertex_rule(const Directions& edges, const Directions& normals, bool listed_corner, const Vector3& direction,
+                       const BoundaryOptions& options) {
+    if (edges.size() <= 1 && normals.size() == 1)
+        return smooth_rule(normals[0], edges.empty() ? direction : edges[0], options.mode);
+    if (edges.size() == 2 && !listed_corner) return curve_rule(curve_tangent(edges), normals, options);
+    return corner_rule(edges, normals, options.feature_tolerance);
+}
+
+void require_boundary_inputs(Index vertex_count, const BoundarySurface& boundary, const surface::FeatureGraph& features,
+                             const Points& directions, const BoundaryOptions& options) {
+    const Eigen::Index count = boundary.mesh.vertices.rows();
+    if (directions.rows() != count)
+        throw InvalidInput("directions has " + std::to_string(directions.rows()) +
+                               " rows; give one per boundary vertex, " + std::to_string(count),
+                           "wrong_size");
+    if (!directions.allFinite()) throw InvalidInput("directions must be finite numbers", "not_finite");
+    if (static_cast<Eigen::Index>(boundary.vertex_map.size()) != count)
+        throw InvalidInput("vertex_map must have one entry per boundary vertex", "wrong_size");
+    for (const Index v : boundary.vertex_map)
+        if (v < 0 || v >= vertex_count)
+            throw InvalidInput("vertex_map refers to vertex " + std::to_string(v) + " of a tet mesh with " +
+                                   std::to_string(vertex_count),
+                               "index_out_of_range", {v});
+    for (const Index v : features.corners)
+        if (v < 0 || v >= count)
+            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the boundary mesh",
+                               "index_out_of_range", {v});
+    if (!(options.feature_tolerance >= 0 && options.feature_tolerance <= std::numbers::pi / 2))
+        throw InvalidInput("feature_tolerance is in radians, from 0 to pi/2", "feature_tolerance");
+}
+
+}  // namespace
+
+SectorNormals sector_normals(const surface::TriangleMesh& boundary, const surface::FeatureGraph& features) {
+    const BoundaryStars stars(boundary, features);
+    SectorNormals result;
+    std::vector<Vector3> normals;
+    for (Index v = 0; v < stars.vertex_count(); ++v)
+        for (const Vector3& normal : stars.sector_normals(v)) {
+            result.vertex.push_back(v);
+            normals.push_back(normal);
+        }
+    result.normal.resize(normals.size(), 3);
+    for (std::size_t i = 0; i < normals.size(); ++i) result.normal.row(i) = normals[i].transpose();
+    return result;
+}
+
+BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurface& boundary,
+                                         const surface::FeatureGraph& features, const Points& directions,
+                                         const BoundaryOptions& options) {
+    require_boundary_inputs(vertex_count, boundary, features, directions, options);
+    BoundaryConstraints result;
+    result.kind.assign(vertex_count, VertexConstraint::free);
+    result.axis = Points::Zero(vertex_count, 3);
+    result.frames = Quaternions::Zero(vertex_count, 4);
+    result.frames.col(0).setOnes();
+    result.on_boundary.assign(vertex_count, 0);
+
+    const BoundaryStars stars(boundary.mesh, features);
+    std::vector<std::uint8_t> listed(stars.vertex_count(), 0);
+    for (const Index v : features.corners) listed[v] = 1;
+    for (Index b = 0; b < stars.vertex_count(); ++b) {
+        const Directions normals = stars.sector_normals(b);
+        if (normals.empty()) continue;  // in no triangle
+        const VertexRule rule =
+            vertex_rule(stars.feature_directions(b), normals, listed[b], directions.row(b).transpose(), options);
+        const Index v = boundary.vertex_map[b];
+        result.on_boundary[v] = 1;
+        result.frames.row(v) = frames::to_wxyz(rule.frame).transpose();
+        if (options.mode == BoundaryMode::none) continue;
+        result.kind[v] = rule.kind;
+        result.axis.row(v) = rule.axis.transpose();
+        if (rule.released) result.released_corners.push_back(v);
+    }
+    return result;
+}
+
+Eigen::VectorXd alignment_angles(const BoundarySurface& boundary, const surface::FeatureGraph& features,
+                                 const Quaternions& frames) {
+    for (const Index v : boundary.vertex_map)
+        if (v < 0 || v >= frames.rows())
+            throw InvalidInput("frames has " + std::to_string(frames.rows()) + " rows, but the boundary uses vertex " +
+                                   std::to_string(v),
+                               "wrong_size", {v});
+    require_frames(frames, frames.rows());
+    const SectorNormals normals = sector_normals(boundary.mesh, features);
+    Eigen::VectorXd angles(normals.vertex.size());
+    for (Eigen::Index i = 0; i < angles.size(); ++i)
+        angles[i] = angle_to_nearest_axis(frames::from_wxyz(frames.row(boundary.vertex_map[normals.vertex[i]])),
+                                          normals.normal.row(i).transpose());
+    return angles;
+}
+
+}  // namespace octafield::volume

@@ -1,0 +1,55 @@
+// The field as the solver sees it: one quaternion per vertex and, computed once per evaluation, its embedding and differential.
+#pragma once
+
+#include <ceres/evaluation_callback.h>
+
+#include <vector>
+
+#include "octafield/frames/representation.hpp"
+#include "octafield/parallel.hpp"
+
+namespace octafield::volume {
+
+template <frames::Representation R>
+class EmbeddedField final : public ceres::EvaluationCallback {
+public:
+    using Vector = typename R::Vector;
+    // d embed / d (w, x, y, z): the differential under world rotations times the left inverse of the manifolds' PlusJacobian, so
+    // that the product Ceres forms is the differential again.
+    using Jacobian = Eigen::Matrix<double, R::dimension, 4, Eigen::RowMajor>;
+
+    EmbeddedField(Quaternions quaternions, int threads)
+        : threads_(threads), quaternions_(std::move(quaternions)), values_(quaternions_.rows()), jacobians_(quaternions_.rows()) {}
+
+    double* parameters(Index vertex) { return quaternions_.row(vertex).data(); }
+    const Quaternions& quaternions() const { return quaternions_; }
+    const Vector& value(Index vertex) const { return values_[vertex]; }
+    const Jacobian& jacobian(Index vertex) const { return jacobians_[vertex]; }
+
+    void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override {
+        if (new_evaluation_point) jacobians_current_ = false;
+        const bool jacobians = evaluate_jacobians && !jacobians_current_;
+        if (!new_evaluation_point && !jacobians) return;
+        parallel_for(quaternions_.rows(), threads_, [&](std::int64_t v) {
+            const Eigen::Vector4d x = quaternions_.row(v);
+            const frames::Quaternion q = frames::from_wxyz(x);
+            if (new_evaluation_point) values_[v] = R::embed(q);
+            if (!jacobians) return;
+            Eigen::Matrix<double, 3, 4> left_inverse;  // 4 (d exp(w) q / dw)^T, see frame_manifolds.cpp
+            left_inverse << -x[1], x[0], -x[3], x[2],
+                            -x[2], x[3], x[0], -x[1],
+                            -x[3], -x[2], x[1], x[0];
+            jacobians_[v] = R::differential(q) * (2 * left_inverse);
+        });
+        if (jacobians) jacobians_current_ = true;
+    }
+
+private:
+    int threads_;
+    bool jacobians_current_ = false;
+    Quaternions quaternions_;
+    std::vector<Vector> values_;
+    std::vector<Jacobian> jacobians_;
+};
+
+}  // namespace octafield::volume

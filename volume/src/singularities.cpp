@@ -1,0 +1,204 @@
+#include "octafield/volume/singularities.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "octafield/frames/octahedral_group.hpp"
+#include "octafield/frames/sh4.hpp"
+#include "octafield/parallel.hpp"
+#include "require_frames.hpp"
+#include "singular_curves.hpp"
+#include "triangle_table.hpp"
+
+namespace octafield::volume {
+namespace {
+
+using frames::OctahedralClass;
+using frames::Quaternion;
+using frames::Sh4;
+
+// The turn of a frame carried continuously round a -> b -> c -> a, in a's own axes: the frame q_a comes back as q_a h.
+// With m_uv the matching (q_u m_uv near q_v), q_a goes on as q_b m_ab^-1, then q_c m_bc^-1 m_ab^-1, so h = (m_ab m_bc
+// m_ca)^-1. Every edge is matched from its lower to its higher vertex: triangles that share it then agree, also in a
+// tie, and the holonomies of a tet's four faces multiply to the identity, so no tet has exactly one singular face.
+int holonomy(const Quaternion& a, const Quaternion& b, const Quaternion& c) {
+    const int round_trip =
+        frames::octahedral_product(frames::octahedral_product(frames::matching(a, b), frames::matching(b, c)),
+                                   frames::octahedral_inverse(frames::matching(a, c)));
+    return frames::octahedral_inverse(round_trip);
+}
+
+// Quarter turns about a curve that crosses the triangle towards `along`: positive when the frame turns about that
+// direction, the way the loop goes round it. The curve's direction is steadier than the triangle's normal, which a
+// zigzag of triangles tosses about.
+int quarter_turns(int element, const Quaternion& a, const Eigen::Vector3d& along) {
+    switch (frames::octahedral_class(element)) {
+        case OctahedralClass::half_turn:
+            return 2;
+        case OctahedralClass::quarter_turn:
+            return along.dot(a * frames::octahedral_group()[element].vec()) < 0 ? -1 : 1;
+        default:
+            return 0;
+    }
+}
+
+// Point of the closed segment [p, q] nearest the origin, as a parameter.
+double nearest_on_segment(const Sh4::Vector& p, const Sh4::Vector& q) {
+    const Sh4::Vector d = q - p;
+    const double length = d.squaredNorm();
+    return length > 0 ? std::clamp(-p.dot(d) / length, 0.0, 1.0) : 0.5;
+}
+
+// Barycentric coordinates of the point where the linear interpolant of three vectors is shortest in the closed
+// triangle.
+Eigen::Vector3d shortest_interpolant(const std::array<Sh4::Vector, 3>& a) {
+    const Sh4::Vector u = a[1] - a[0], v = a[2] - a[0];
+    const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), determinant = uu * vv - uv * uv;
+    if (determinant > 1e-14 * uu * vv) {
+        const double s = (uv * a[0].dot(v) - vv * a[0].dot(u)) / determinant;
+        const double t = (uv * a[0].dot(u) - uu * a[0].dot(v)) / determinant;
+        if (s >= 0 && t >= 0 && s + t <= 1) return {1 - s - t, s, t};
+    }
+    Eigen::Vector3d best;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        const int next = (k + 1) % 3;
+        const double s = nearest_on_segment(a[k], a[next]);
+        const double norm = ((1 - s) * a[k] + s * a[next]).squaredNorm();
+        if (norm < shortest) {
+            shortest = norm;
+            best = (1 - s) * Eigen::Vector3d::Unit(k) + s * Eigen::Vector3d::Unit(next);
+        }
+    }
+    return best;
+}
+
+// All but the quarter turns, which need the curve.
+SingularTriangle describe(const TetMesh& mesh, const Quaternions& frames, const TriangleTable& table, Index t,
+                          int element) {
+    std::array<Eigen::Vector3d, 3> p;
+    std::array<Sh4::Vector, 3> a;
+    for (int k = 0; k < 3; ++k) {
+        p[k] = mesh.vertices.row(table.triangles(t, k)).transpose();
+        a[k] = Sh4::embed(frames::from_wxyz(frames.row(table.triangles(t, k))));
+    }
+    SingularTriangle s;
+    s.a = table.triangles(t, 0), s.b = table.triangles(t, 1), s.c = table.triangles(t, 2);
+    s.holonomy = element;
+    s.quarter_turns = 0;
+    s.boundary = table.sides(t, 1) < 0;
+    const Eigen::Vector3d weights = shortest_interpolant(a);
+    s.point = weights[0] * p[0] + weights[1] * p[1] + weights[2] * p[2];
+    return s;
+}
+
+// Whether the tet lies on the positive side of the triangle opposite its corner k: there its own outward order is the
+// reverse.
+bool on_positive_side(const TetMesh& mesh, Eigen::Index tet, int k) {
+    const auto id = [&](int i) { return mesh.tets(tet, tet_face[k][i]); };
+    return ((id(0) > id(1)) + (id(1) > id(2)) + (id(0) > id(2))) % 2 == 1;
+}
+
+// A singular face of a tet and the point its curve goes on to inside the tet.
+struct Branch {
+    Index singular, point;
+    bool positive;  // the tet is on the positive side
+};
+
+struct DualGraph {
+    std::vector<Branch> branches;              // in the order of the tets
+    std::vector<std::array<Index, 2>> joints;  // the segments: two point ids, lower first
+};
+
+// Joins the singular triangles of every tet, by a segment or through a node, which is appended to `points` and
+// graph.nodes.
+DualGraph join_in_tets(const TetMesh& mesh, const TriangleTable& table, const std::vector<Index>& singular_number,
+                       SingularGraph& graph, std::vector<Eigen::Vector3d>& points) {
+    DualGraph dual;
+    for (Eigen::Index tet = 0; tet < table.tet_triangles.rows(); ++tet) {
+        std::vector<Branch> faces;
+        for (int k = 0; k < 4; ++k)
+            if (const Index s = singular_number[table.tet_triangles(tet, k)]; s >= 0)
+                faces.push_back({s, -1, on_positive_side(mesh, tet, k)});
+        if (faces.empty()) continue;
+        if (faces.size() == 2) {
+            faces[0].point = faces[1].singular;
+            faces[1].point = faces[0].singular;
+            dual.joints.push_back(
+                {std::min(faces[0].singular, faces[1].singular), std::max(faces[0].singular, faces[1].singular)});
+        } else {
+            const Index node = static_cast<Index>(points.size());
+            Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+            for (Branch& face : faces) {
+                face.point = node;
+                mean += points[face.singular] / static_cast<double>(faces.size());
+                dual.joints.push_back({face.singular, node});
+            }
+            graph.nodes.push_back(node);
+            points.push_back(mean);
+        }
+        dual.branches.insert(dual.branches.end(), faces.begin(), faces.end());
+    }
+    return dual;
+}
+
+void set_quarter_turns(const Quaternions& frames, const DualGraph& dual, const std::vector<Eigen::Vector3d>& points,
+                       SingularGraph& graph) {
+    // From the point before the triangle to the point after it, along its positive normal.
+    std::vector<Eigen::Vector3d> along(graph.triangles.size(), Eigen::Vector3d::Zero());
+    for (const Branch& b : dual.branches)
+        along[b.singular] += (b.positive ? 1 : -1) * (points[b.point] - points[b.singular]);
+    for (std::size_t i = 0; i < along.size(); ++i) {
+        SingularTriangle& s = graph.triangles[i];
+        s.quarter_turns = quarter_turns(s.holonomy, frames::from_wxyz(frames.row(s.a)), along[i]);
+        graph.complex_triangles += s.quarter_turns == 0;
+    }
+}
+
+// A segment between triangles of different types goes to the complex one, else to the one that comes first.
+std::vector<Segment> typed_segments(const DualGraph& dual, const SingularGraph& graph) {
+    std::vector<Segment> segments;
+    for (const auto& [first, second] : dual.joints) {
+        const bool node = second >= static_cast<Index>(graph.triangles.size());
+        const bool complex_second = !node && graph.triangles[second].quarter_turns == 0;
+        segments.push_back({{first, second}, complex_second ? 0 : graph.triangles[first].quarter_turns});
+    }
+    return segments;
+}
+
+}  // namespace
+
+SingularGraph singular_graph(const TetMesh& mesh, const Quaternions& frames, int threads) {
+    require_valid(mesh);
+    require_frames(frames, mesh.vertices.rows());
+    const TriangleTable table = triangle_table(mesh, threads);
+    const Eigen::Index count = table.triangles.rows();
+    std::vector<std::uint8_t> holonomies(count);
+    parallel_for(count, threads, [&](std::int64_t t) {
+        const auto q = [&](int k) -> Quaternion { return frames::from_wxyz(frames.row(table.triangles(t, k))); };
+        holonomies[t] = static_cast<std::uint8_t>(holonomy(q(0), q(1), q(2)));
+    });
+
+    SingularGraph graph;
+    std::vector<Index> singular_number(count, -1);
+    std::vector<Eigen::Vector3d> points;
+    for (Eigen::Index t = 0; t < count; ++t) {
+        if (holonomies[t] == 0) continue;
+        singular_number[t] = static_cast<Index>(graph.triangles.size());
+        graph.triangles.push_back(describe(mesh, frames, table, static_cast<Index>(t), holonomies[t]));
+        points.push_back(graph.triangles.back().point);
+    }
+    const DualGraph dual = join_in_tets(mesh, table, singular_number, graph, points);
+    set_quarter_turns(frames, dual, points, graph);
+    const std::vector<Segment> segments = typed_segments(dual, graph);
+    CurveSet set = chain_segments(segments, static_cast<Index>(points.size()));
+    graph.curves = std::move(set.curves);
+    graph.curve_quarter_turns = std::move(set.types);
+    for (const Segment& s : segments) graph.length += (points[s.ends[1]] - points[s.ends[0]]).norm();
+    graph.points.resize(points.size(), 3);
+    for (std::size_t i = 0; i < points.size(); ++i) graph.points.row(i) = points[i].transpose();
+    return graph;
+}
+
+}  // namespace octafield::volume

@@ -1,0 +1,102 @@
+#include "tetgen_run.hpp"
+
+#define TETLIBRARY
+#include <tetgen.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "isolated_process.hpp"
+
+namespace octafield::volume {
+namespace {
+
+// Filled with arrays from new[]: tetgenio's destructor deletes them.
+void fill_input(tetgenio& in, const surface::TriangleMesh& mesh, const std::vector<Eigen::Vector3d>& holes) {
+    in.firstnumber = 0;
+    in.numberofpoints = static_cast<int>(mesh.vertices.rows());
+    in.pointlist = new double[mesh.vertices.size()];
+    std::copy_n(mesh.vertices.data(), mesh.vertices.size(), in.pointlist);
+    in.numberoffacets = static_cast<int>(mesh.triangles.rows());
+    in.facetlist = new tetgenio::facet[in.numberoffacets];
+    for (int f = 0; f < in.numberoffacets; ++f) {
+        tetgenio::facet& facet = in.facetlist[f];
+        tetgenio::init(&facet);
+        facet.numberofpolygons = 1;
+        facet.polygonlist = new tetgenio::polygon[1];
+        facet.polygonlist[0].numberofvertices = 3;
+        facet.polygonlist[0].vertexlist = new int[3];
+        for (int k = 0; k < 3; ++k) facet.polygonlist[0].vertexlist[k] = mesh.triangles(f, k);
+    }
+    if (holes.empty()) return;
+    in.numberofholes = static_cast<int>(holes.size());
+    in.holelist = new double[3 * holes.size()];
+    for (std::size_t h = 0; h < holes.size(); ++h) std::copy_n(holes[h].data(), 3, in.holelist + 3 * h);
+}
+
+tetgenbehavior switches(const TetgenParameters& parameters) {
+    tetgenbehavior b;
+    char text[] = "pYMBFzQ";
+    b.parse_commandline(text);
+    if (!parameters.refine) return b;
+    b.quality = 1;
+    b.minratio = parameters.radius_edge_ratio;
+    if (parameters.min_dihedral > 0) b.mindihedral = parameters.min_dihedral;
+    b.fixedvolume = 1;
+    b.maxvolume = parameters.max_volume;
+    return b;
+}
+
+struct Header {
+    std::int64_t points, tets;
+};
+
+void emit_mesh(const tetgenio& out, const Emit& emit) {
+    const Header header{out.numberofpoints, out.numberoftetrahedra};
+    emit(&header, sizeof header);
+    emit(out.pointlist, sizeof(double) * 3 * header.points);
+    emit(out.tetrahedronlist, sizeof(int) * 4 * header.tets);
+}
+
+TetMesh read_mesh(const std::vector<std::byte>& bytes) {
+    Header header{0, 0};
+    std::memcpy(&header, bytes.data(), sizeof header);
+    TetMesh mesh{Points(header.points, 3), Tets(header.tets, 4)};
+    const std::byte* next = bytes.data() + sizeof header;
+    std::copy_n(next, sizeof(double) * mesh.vertices.size(), reinterpret_cast<std::byte*>(mesh.vertices.data()));
+    next += sizeof(double) * mesh.vertices.size();
+    std::copy_n(next, sizeof(Index) * mesh.tets.size(), reinterpret_cast<std::byte*>(mesh.tets.data()));
+    return mesh;
+}
+
+// The last lines TetGen printed, on one line.
+std::string last_words(std::string printed) {
+    constexpr std::size_t most = 200;
+    std::replace(printed.begin(), printed.end(), '\n', ' ');
+    while (!printed.empty() && printed.back() == ' ') printed.pop_back();
+    return printed.size() > most ? "..." + printed.substr(printed.size() - most) : printed;
+}
+
+}  // namespace
+
+TetgenOutcome run_tetgen(const surface::TriangleMesh& mesh, const TetgenParameters& parameters,
+                         const Progress& progress) {
+    IsolatedOutcome run = run_isolated(
+        [&](const Emit& emit) {
+            tetgenio in, out;
+            fill_input(in, mesh, parameters.holes);
+            tetgenbehavior b = switches(parameters);
+            ::tetrahedralize(&b, &in, &out);
+            emit_mesh(out, emit);
+        },
+        "tetrahedralize", progress);
+    TetgenOutcome outcome;
+    outcome.finished = run.finished;
+    if (run.finished)
+        outcome.mesh = read_mesh(run.result);
+    else
+        outcome.printed = last_words(std::move(run.printed));
+    return outcome;
+}
+
+}  // namespace octafield::volume

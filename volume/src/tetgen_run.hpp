@@ -1,0 +1,32 @@
+// One run of TetGen on a closed surface. The only place that knows TetGen's data structures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "octafield/progress.hpp"
+#include "octafield/surface/triangle_mesh.hpp"
+#include "octafield/volume/tet_mesh.hpp"
+
+namespace octafield::volume {
+
+struct TetgenParameters {
+    bool refine = true;                  // false: only fill the surface, no bounds on shape or size
+    double radius_edge_ratio = 0;        // -q
+    double min_dihedral = 0;             // -q, degrees; 0: TetGen's default
+    double max_volume = 0;               // -a
+    std::vector<Eigen::Vector3d> holes;  // one point in each cavity
+};
+
+struct TetgenOutcome {
+    bool finished = false;
+    TetMesh mesh;         // when finished: the surface's vertices first; tets in either orientation
+    std::string printed;  // TetGen's last words otherwise
+};
+
+// TetGen 1.5 of Debian frees its memory twice when it reports an error, and it asserts on its own faults: either ends
+// the process. So it runs in a copy of the process. Surface triangles are kept (-Y). Throws Cancelled, SolverError.
+TetgenOutcome run_tetgen(const surface::TriangleMesh& mesh, const TetgenParameters& parameters,
+                         const Progress& progress);
+
+}  // namespace octafield::volume

@@ -1,0 +1,248 @@
+#include "octafield/volume/write_vtk.hpp"
+
+#include <unistd.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "octafield/frames/sh4.hpp"
+#include "require_frames.hpp"
+
+namespace octafield::volume {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A new file beside the target, removed unless it has been moved onto it.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const fs::path& target) : target_(target), path_(target) {
+        static std::atomic<unsigned> counter{0};
+        path_ += ".part" + std::to_string(getpid()) + "-" + std::to_string(counter++);
+        errno = 0;
+        if (!std::ofstream(path_)) fail(errno ? std::strerror(errno) : "the file could not be opened");
+    }
+    ~TemporaryFile() {
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    const fs::path& path() const { return path_; }
+    void move_to_target() {
+        std::error_code error;
+        fs::rename(path_, target_, error);
+        if (error) fail(error.message());
+    }
+    [[noreturn]] void fail(const std::string& reason) const {
+        throw IoError("cannot write " + target_.string() + ": " + reason +
+                          "; check that its directory exists, is writable and has space",
+                      "write_failed");
+    }
+
+private:
+    fs::path target_, path_;
+};
+
+template <class Writer, class DataSet>
+void write(const fs::path& target, DataSet* data) {
+    TemporaryFile file(target);
+    vtkNew<vtkCallbackCommand> silent;  // observed errors are not printed; the error code tells what happened
+    silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+    vtkNew<Writer> writer;
+    writer->AddObserver(vtkCommand::ErrorEvent, silent);
+    writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silent);
+    writer->SetFileName(file.path().c_str());
+    writer->SetInputData(data);
+    writer->SetDataModeToAppended();
+    writer->SetCompressorTypeToZLib();
+    if (writer->Write() != 1 || writer->GetErrorCode() != vtkErrorCode::NoError)
+        file.fail(writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError ? "the disk is full" : "writing failed");
+    file.move_to_target();
+}
+
+// As bytes: meshio refuses strings.
+void add_metadata(vtkUnstructuredGrid* data, const Metadata& metadata) {
+    for (const auto& [name, text] : metadata) {
+        if (text.empty()) continue;  // nor does meshio read an empty array
+        vtkNew<vtkUnsignedCharArray> array;
+        array->SetName(name.c_str());
+        array->SetNumberOfTuples(static_cast<vtkIdType>(text.size()));
+        std::copy(text.begin(), text.end(), array->GetPointer(0));
+        data->GetFieldData()->AddArray(array);
+    }
+}
+
+void add_metadata(vtkPolyData* data, const Metadata& metadata) {
+    for (const auto& [name, text] : metadata) {
+        vtkNew<vtkStringArray> array;
+        array->SetName(name.c_str());
+        array->InsertNextValue(text);
+        data->GetFieldData()->AddArray(array);
+    }
+}
+
+vtkNew<vtkPoints> to_points(const Points& rows) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->SetNumberOfPoints(rows.rows());
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) points->SetPoint(i, rows(i, 0), rows(i, 1), rows(i, 2));
+    return points;
+}
+
+// Adds an array of `count` tuples, tuple i = value(i), any indexable row of the given number of components.
+template <class Array, class Value>
+vtkNew<Array> add_array(vtkFieldData* to, const char* name, int components, Eigen::Index count, const Value& value) {
+    vtkNew<Array> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const auto tuple = value(i);
+        for (int c = 0; c < components; ++c)
+            array->SetTypedComponent(i, c, static_cast<typename Array::ValueType>(tuple[c]));
+    }
+    to->AddArray(array);
+    return array;
+}
+
+template <class T>
+std::array<T, 1> one(T value) {
+    return {value};
+}
+
+void add_frames(vtkPointData* data, const Quaternions& rows) {
+    using frames::Sh4;
+    const auto q = [&](Eigen::Index i) -> frames::Quaternion { return frames::from_wxyz(rows.row(i)); };
+    constexpr const char* axes[3] = {"frame_u", "frame_v", "frame_w"};
+    for (int k = 0; k < 3; ++k)
+        add_array<vtkDoubleArray>(data, axes[k], 3, rows.rows(),
+                                  [&](Eigen::Index i) -> Eigen::Vector3d { return q(i).toRotationMatrix().col(k); });
+    const auto quaternion = add_array<vtkDoubleArray>(
+        data, "quaternion", 4, rows.rows(), [&](Eigen::Index i) -> frames::Vector4 { return rows.row(i).transpose(); });
+    constexpr const char* wxyz[4] = {"w", "x", "y", "z"};
+    for (int c = 0; c < 4; ++c) quaternion->SetComponentName(c, wxyz[c]);
+    const auto sh4 = add_array<vtkDoubleArray>(data, "sh4", Sh4::dimension, rows.rows(),
+                                               [&](Eigen::Index i) { return Sh4::embed(q(i)); });
+    for (int m = -4; m <= 4; ++m) sh4->SetComponentName(m + 4, std::to_string(m).c_str());
+}
+
+template <class Table>
+vtkNew<vtkCellArray> to_cells(const Table& table) {
+    vtkNew<vtkCellArray> cells;
+    cells->AllocateExact(table.rows(), table.size());
+    for (Eigen::Index i = 0; i < table.rows(); ++i) {
+        cells->InsertNextCell(static_cast<int>(table.cols()));
+        for (Eigen::Index k = 0; k < table.cols(); ++k) cells->InsertCellPoint(table(i, k));
+    }
+    return cells;
+}
+
+vtkNew<vtkCellArray> vertex_cells(const std::vector<Index>& points) {
+    return to_cells(Eigen::Map<const Eigen::Matrix<Index, Eigen::Dynamic, 1>>(
+        points.data(), static_cast<Eigen::Index>(points.size())));
+}
+
+}  // namespace
+
+void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& frames, const Metadata& metadata) {
+    const BoundarySurface boundary = boundary_surface(mesh);
+    require_frames(frames, mesh.vertices.rows());
+    std::vector<std::uint8_t> on_boundary(mesh.vertices.rows(), 0);
+    for (const Index v : boundary.vertex_map) on_boundary[v] = 1;
+
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(to_points(mesh.vertices));
+    grid->SetCells(VTK_TETRA, to_cells(mesh.tets));
+    add_frames(grid->GetPointData(), frames);
+    add_array<vtkUnsignedCharArray>(grid->GetPointData(), "boundary", 1, mesh.vertices.rows(),
+                                    [&](Eigen::Index i) { return one(on_boundary[i]); });
+    add_metadata(grid, metadata);
+    write<vtkXMLUnstructuredGridWriter>(path, grid.Get());
+}
+
+void write_singular_graph(const fs::path& path, const SingularGraph& graph, const Metadata& metadata) {
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(to_points(graph.points));
+    data->SetVerts(vertex_cells(graph.nodes));
+    vtkNew<vtkCellArray> lines;
+    for (const auto& curve : graph.curves) {
+        lines->InsertNextCell(static_cast<int>(curve.size()));
+        for (const Index p : curve) lines->InsertCellPoint(p);
+    }
+    data->SetLines(lines);
+
+    const Eigen::Index nodes = static_cast<Eigen::Index>(graph.nodes.size());
+    const Eigen::Index cells = nodes + static_cast<Eigen::Index>(graph.curves.size());
+    const auto turns = [&](Eigen::Index i) { return i < nodes ? 0 : graph.curve_quarter_turns[i - nodes]; };
+    add_array<vtkIntArray>(data->GetCellData(), "quarter_turns", 1, cells,
+                           [&](Eigen::Index i) { return one(turns(i)); });
+    add_array<vtkDoubleArray>(data->GetCellData(), "index", 1, cells,
+                              [&](Eigen::Index i) { return one(turns(i) / 4.0); });
+    add_array<vtkIntArray>(data->GetCellData(), "curve", 1, cells,
+                           [&](Eigen::Index i) { return one(i < nodes ? -1 : i - nodes); });
+    std::vector<std::uint8_t> is_node(graph.points.rows(), 0);
+    for (const Index p : graph.nodes) is_node[p] = 1;
+    add_array<vtkUnsignedCharArray>(data->GetPointData(), "node", 1, graph.points.rows(),
+                                    [&](Eigen::Index i) { return one(is_node[i]); });
+    add_metadata(data, metadata);
+    write<vtkXMLPolyDataWriter>(path, data.Get());
+}
+
+void write_surface_field(const fs::path& path, const surface::TriangleMesh& mesh, const Points& directions,
+                         const Metadata& metadata) {
+    if (directions.rows() != mesh.vertices.rows())
+        throw InvalidInput("directions has " + std::to_string(directions.rows()) + " rows; give one per vertex, " +
+                               std::to_string(mesh.vertices.rows()),
+                           "wrong_size");
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(to_points(mesh.vertices));
+    data->SetPolys(to_cells(mesh.triangles));
+    add_array<vtkDoubleArray>(data->GetPointData(), "direction", 3, directions.rows(),
+                              [&](Eigen::Index i) -> Eigen::Vector3d { return directions.row(i).transpose(); });
+    add_metadata(data, metadata);
+    write<vtkXMLPolyDataWriter>(path, data.Get());
+}
+
+void write_surface_singularities(const fs::path& path, const std::vector<surface::SurfaceSingularity>& singularities,
+                                 const Metadata& metadata) {
+    const Eigen::Index count = static_cast<Eigen::Index>(singularities.size());
+    Points points(count, 3);
+    std::vector<Index> ids(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        points.row(i) = singularities[i].position.transpose();
+        ids[i] = static_cast<Index>(i);
+    }
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(to_points(points));
+    data->SetVerts(vertex_cells(ids));
+    add_array<vtkDoubleArray>(data->GetPointData(), "index", 1, count,
+                              [&](Eigen::Index i) { return one(singularities[i].index); });
+    add_metadata(data, metadata);
+    write<vtkXMLPolyDataWriter>(path, data.Get());
+}
+
+}  // namespace octafield::volume
