@@ -98,7 +98,7 @@ def _naming(name: str) -> Iterator[None]:
 def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
     """Repairs on request, then raises unless the surface is sound; drops unused vertices after that."""
     if options.repair and found.tets is None:
-        repaired = _core.repair(found.surface)
+        repaired = _core.repair(found.surface, fill_holes=closed)  # the rim of an open surface is no hole
         if found.lines is not None and repaired.actions:
             raise InvalidInput(
                 f"{found.name}: needs repair, which would lose the feature lines of the file; repair the mesh first"

@@ -31,8 +31,8 @@ Expansion expand(const Quartic& p, const Matrix3& axes) {
         const Matrix3 x = cross_matrix(r);
         e.value += value;
         e.gradient += 4 * r.cross(half_gradient);
-        e.hessian += 12 * x.transpose() * m * x +
-                     2 * (half_gradient * r.transpose() + r * half_gradient.transpose()) - 4 * value * Matrix3::Identity();
+        e.hessian += 12 * x.transpose() * m * x + 2 * (half_gradient * r.transpose() + r * half_gradient.transpose()) -
+                     4 * value * Matrix3::Identity();
     }
     return e;
 }

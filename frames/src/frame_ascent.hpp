@@ -6,8 +6,8 @@
 
 namespace octafield::frames {
 
-// Newton ascent with the absolute Hessian from eight seeds (the identity and the 45-degree turns about x, y, z, the three face
-// diagonals and (1,1,1)), the best of all; `guess`, when given, is one more seed. Returns a unit quaternion.
+// Newton ascent with the absolute Hessian from eight seeds (the identity and the 45-degree turns about x, y, z, the
+// three face diagonals and (1,1,1)), the best of all; `guess`, when given, is one more seed. Returns a unit quaternion.
 Quaternion maximise_over_frames(const Quartic& p, const Quaternion* guess);
 
 }  // namespace octafield::frames

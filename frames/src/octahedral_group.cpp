@@ -13,6 +13,7 @@ constexpr double half = 0.5;
 constexpr double root = std::numbers::sqrt2 / 2;
 
 Group make_group() {
+    // clang-format off
     return {Quaternion{1, 0, 0, 0},
             {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1},                                           // half turns
             {root, root, 0, 0}, {root, -root, 0, 0}, {root, 0, root, 0}, {root, 0, -root, 0},   // quarter turns
@@ -22,6 +23,7 @@ Group make_group() {
             {half, half, half, half}, {half, half, half, -half}, {half, half, -half, half},     // third turns
             {half, half, -half, -half}, {half, -half, half, half}, {half, -half, half, -half},
             {half, -half, -half, half}, {half, -half, -half, -half}};
+    // clang-format on
 }
 
 // Number of the element whose quaternion is q or -q up to rounding; in general the one closest to q.
@@ -43,7 +45,8 @@ const Table& product_table() {
     static const Table table = [] {
         Table t{};
         for (int a = 0; a < octahedral_order; ++a)
-            for (int b = 0; b < octahedral_order; ++b) t[a][b] = closest_element(octahedral_group()[a] * octahedral_group()[b]);
+            for (int b = 0; b < octahedral_order; ++b)
+                t[a][b] = closest_element(octahedral_group()[a] * octahedral_group()[b]);
         return t;
     }();
     return table;

@@ -47,7 +47,8 @@ Vector15 quartic_monomials(const Eigen::Vector3d& x) {
     const double xx = x[0] * x[0], yy = x[1] * x[1], zz = x[2] * x[2];
     const double xy = x[0] * x[1], xz = x[0] * x[2], yz = x[1] * x[2];
     Vector15 m;
-    m << xx * xx, xx * xy, xx * xz, xx * yy, xx * yz, xx * zz, xy * yy, xy * yz, xy * zz, xz * zz, yy * yy, yy * yz, yy * zz, yz * zz, zz * zz;
+    m << xx * xx, xx * xy, xx * xz, xx * yy, xx * yz, xx * zz, xy * yy, xy * yz, xy * zz, xz * zz, yy * yy, yy * yz,
+        yy * zz, yz * zz, zz * zz;
     return m;
 }
 
@@ -61,8 +62,10 @@ Eigen::Matrix<double, 15, 3> quartic_monomial_gradients(const Eigen::Vector3d& x
             double value = 1;
             for (int other = 0; other < 3; ++other) {
                 const int e = quartic_exponents[r][other];
-                if (other != axis) value *= power[e][other];
-                else value *= e == 0 ? 0 : e * power[e - 1][other];
+                if (other != axis)
+                    value *= power[e][other];
+                else
+                    value *= e == 0 ? 0 : e * power[e - 1][other];
             }
             gradients(r, axis) = value;
         }

@@ -25,7 +25,8 @@ public:
     Eigen::Matrix3d contract(const Eigen::Vector3d& x) const;
 
 private:
-    Eigen::Matrix<double, 6, 6> pairs_;  // rows: entries (xx, yy, zz, yz, zx, xy) of M; columns: monomials of x in the same order
+    Eigen::Matrix<double, 6, 6>
+        pairs_;  // rows: entries (xx, yy, zz, yz, zx, xy) of M; columns: monomials of x in the same order
 };
 
 }  // namespace octafield::frames

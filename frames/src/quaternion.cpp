@@ -21,9 +21,7 @@ Vector3 log(const Quaternion& q) {
     return sign * scale * q.vec();
 }
 
-Quaternion rotation_between(const Vector3& from, const Vector3& to) {
-    return Quaternion::FromTwoVectors(from, to);
-}
+Quaternion rotation_between(const Vector3& from, const Vector3& to) { return Quaternion::FromTwoVectors(from, to); }
 
 Quaternion frame_from_axes(const Vector3& direction, const Vector3& normal) {
     const Vector3 z = normal.normalized();

@@ -67,7 +67,8 @@ Sh4::Differential Sh4::differential(const Quaternion& q) {
     for (int k = 0; k < 3; ++k) {
         // Under exp(t w) the axis r moves by w x r, so column w of the derivative is grad . (w x r) = (r x grad) . w.
         const Eigen::Matrix<double, 15, 3> gradients = quartic_monomial_gradients(axes.col(k));
-        for (int row = 0; row < 15; ++row) sum.row(row) += axes.col(k).cross(gradients.row(row).transpose()).transpose();
+        for (int row = 0; row < 15; ++row)
+            sum.row(row) += axes.col(k).cross(gradients.row(row).transpose()).transpose();
     }
     return basis() * sum;
 }

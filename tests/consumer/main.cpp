@@ -4,8 +4,8 @@
 #include "octafield/frames/sh4.hpp"
 #include "octafield/surface/direction_field.hpp"
 #include "octafield/surface/validate.hpp"
-#include "octafield/volume/smooth.hpp"
 #include "octafield/volume/operators.hpp"
+#include "octafield/volume/smooth.hpp"
 #include "octafield/volume/tetrahedralize.hpp"
 
 int main() {
@@ -23,8 +23,10 @@ int main() {
     const auto mesh = octafield::volume::tetrahedralize(surface, options);
     const auto boundary = octafield::volume::boundary_surface(mesh);
     const auto directions = octafield::surface::vertex_directions(surface, features, field);
-    const auto constraints = octafield::volume::boundary_constraints(static_cast<octafield::Index>(mesh.vertices.rows()), boundary, features, directions);
-    const auto result = octafield::volume::smooth(mesh, constraints, octafield::volume::initial_frames(mesh, constraints));
+    const auto constraints = octafield::volume::boundary_constraints(
+        static_cast<octafield::Index>(mesh.vertices.rows()), boundary, features, directions);
+    const auto result =
+        octafield::volume::smooth(mesh, constraints, octafield::volume::initial_frames(mesh, constraints));
     std::printf("%ld tets, energy %g\n", static_cast<long>(mesh.tets.rows()), result.energy);
     return result.frames.rows() == mesh.vertices.rows() && result.energy >= 0 ? 0 : 1;
 }

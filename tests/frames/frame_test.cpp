@@ -29,7 +29,8 @@ TEST(Quaternion, LogOfExpIsTheVectorDownToTinyAngles) {
 
 TEST(Quaternion, ExpMatchesEigensAngleAxis) {
     const Vector3 w(0.4, -0.9, 1.3);
-    EXPECT_LT((exp(w).toRotationMatrix() - Eigen::AngleAxisd(w.norm(), w.normalized()).toRotationMatrix()).norm(), 1e-14);
+    EXPECT_LT((exp(w).toRotationMatrix() - Eigen::AngleAxisd(w.norm(), w.normalized()).toRotationMatrix()).norm(),
+              1e-14);
 }
 
 TEST(Quaternion, FrameFromAxesHasTheNormalAsThirdAxisForAnyDirection) {
@@ -71,7 +72,8 @@ TEST(OctahedralGroup, ProductTableAndInversesAgreeWithMatrices) {
 }
 
 TEST(OctahedralGroup, ElementsStandInTheDocumentedOrder) {
-    const Vector3 diagonals[8] = {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}, {-1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {-1, -1, -1}};
+    const Vector3 diagonals[8] = {{1, 1, 1},  {1, 1, -1},  {1, -1, 1},  {1, -1, -1},
+                                  {-1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {-1, -1, -1}};
     const Vector3 edges[6] = {{1, 1, 0}, {0, 1, 1}, {1, 0, 1}, {-1, 1, 0}, {0, -1, 1}, {1, 0, -1}};
     for (int a = 0; a < octahedral_order; ++a) {
         Vector3 axis = Vector3::Zero();
@@ -80,7 +82,9 @@ TEST(OctahedralGroup, ElementsStandInTheDocumentedOrder) {
         if (a >= 4 && a < 10) axis = (a % 2 ? -1 : 1) * Vector3::Unit((a - 4) / 2), angle = 90;
         if (a >= 10 && a < 16) axis = edges[a - 10].normalized(), angle = 180;
         if (a >= 16) axis = diagonals[a - 16].normalized(), angle = 120;
-        EXPECT_LT((octahedral_group()[a].toRotationMatrix() - exp(angle * degree * axis).toRotationMatrix()).norm(), 1e-14) << a;
+        EXPECT_LT((octahedral_group()[a].toRotationMatrix() - exp(angle * degree * axis).toRotationMatrix()).norm(),
+                  1e-14)
+            << a;
         const double turn = 2 * std::acos(std::min(1.0, octahedral_group()[a].w())) / degree;
         EXPECT_NEAR(turn, angle, 1e-5);
     }
@@ -122,7 +126,8 @@ TEST(Distance, OfRandomPairsFollowsTheMackenzieDistribution) {
 TEST(Distance, IsAMetricOnFramesAndExactForSmallAngles) {
     const Quaternions samples = random_rotations(300, 25);
     for (Eigen::Index i = 0; i + 2 < samples.rows(); ++i) {
-        const Quaternion p = row_quaternion(samples, i), q = row_quaternion(samples, i + 1), r = row_quaternion(samples, i + 2);
+        const Quaternion p = row_quaternion(samples, i), q = row_quaternion(samples, i + 1),
+                         r = row_quaternion(samples, i + 2);
         EXPECT_NEAR(distance(p, q), distance(q, p), 1e-14);
         EXPECT_LE(distance(p, r), distance(p, q) + distance(q, r) + 1e-14);
         EXPECT_NEAR(distance(r * p, r * q), distance(p, q), 1e-13);

@@ -1,5 +1,5 @@
-// The laws every representation obeys (frames/representation.hpp), as one typed suite. A new representation joins by one line:
-// INSTANTIATE_TYPED_TEST_SUITE_P(Name, RepresentationLaws, Type).
+// The laws every representation obeys (frames/representation.hpp), as one typed suite. A new representation joins by
+// one line: INSTANTIATE_TYPED_TEST_SUITE_P(Name, RepresentationLaws, Type).
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,9 @@
 
 namespace octafield::frames {
 
-inline Quaternion row_quaternion(const Quaternions& rows, Eigen::Index i) { return from_wxyz(Vector4(rows.row(i).transpose())); }
+inline Quaternion row_quaternion(const Quaternions& rows, Eigen::Index i) {
+    return from_wxyz(Vector4(rows.row(i).transpose()));
+}
 
 // Standard normal number from the platform-independent uniform one (Box and Muller 1958).
 inline double normal01(std::mt19937_64& generator) {
@@ -49,7 +51,8 @@ TYPED_TEST_P(RepresentationLaws, DifferentialIsTheDerivativeUnderRotationFromThe
         const auto differential = TypeParam::differential(q);
         for (int k = 0; k < 3; ++k) {
             const Vector3 w = h * Vector3::Unit(k);
-            const typename TypeParam::Vector numeric = (TypeParam::embed(exp(w) * q) - TypeParam::embed(exp(-w) * q)) / (2 * h);
+            const typename TypeParam::Vector numeric =
+                (TypeParam::embed(exp(w) * q) - TypeParam::embed(exp(-w) * q)) / (2 * h);
             EXPECT_LT((differential.col(k) - numeric).norm(), 1e-8);
         }
     }

@@ -21,7 +21,8 @@ TEST(Sh4, IdentityFrameHasTheTextbookCoefficients) {
 
 TEST(Sh4, EmbeddedFramesAreUnitVectors) {
     const Quaternions samples = random_rotations(200, 11);
-    for (Eigen::Index i = 0; i < samples.rows(); ++i) EXPECT_NEAR(Sh4::embed(row_quaternion(samples, i)).norm(), 1, 1e-14);
+    for (Eigen::Index i = 0; i < samples.rows(); ++i)
+        EXPECT_NEAR(Sh4::embed(row_quaternion(samples, i)).norm(), 1, 1e-14);
 }
 
 // Huang et al. 2011: a turn by t about z mixes orders m and -m by the angle m t.
@@ -92,7 +93,8 @@ TEST(Sh4, AxisComponentsAreOrthogonalHarmonics) {
     Eigen::Matrix<double, 9, 9> gram = Eigen::Matrix<double, 9, 9>::Zero();
     // Product rule exact for degree 8: 16 equispaced azimuths, 5-point Gauss-Legendre in z.
     const double nodes[5] = {-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831, 0.9061798459386640};
-    const double weights[5] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
+    const double weights[5] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
+                               0.2369268850561891};
     for (int iz = 0; iz < 5; ++iz)
         for (int ip = 0; ip < 16; ++ip) {
             const double z = nodes[iz], s = std::sqrt(1 - z * z), phi = 2 * pi * ip / 16;
@@ -111,7 +113,8 @@ TEST(Sh4, ProjectionIgnoresTheInputsScale) {
     EXPECT_NEAR(Sh4::project(Sh4::Vector::Zero()).distance, 1, 1e-15);
 }
 
-// ALGORITHMS.md, measured independently: eight seeds have no wrong basin in 10,000 random inputs. Reference here: 40 random starts.
+// ALGORITHMS.md, measured independently: eight seeds have no wrong basin in 10,000 random inputs. Reference here: 40
+// random starts.
 TEST(Sh4, EightSeedsMissNoBasin) {
     std::mt19937_64 generator(18);
     const Quaternions starts = random_rotations(40, 19);

@@ -259,6 +259,15 @@ TEST(Repair, FillsHolesUpToTheGivenSizeOnly) {
     EXPECT_EQ(left.actions, Kinds{});
 }
 
+TEST(Repair, LeavesWhatIsNoHole) {
+    const TriangleMesh triangle = make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+    EXPECT_EQ(repair(triangle).actions, Kinds{});
+    const TriangleMesh bow =
+        make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
+    EXPECT_EQ(repair(bow).actions, Kinds{});
+    EXPECT_EQ(repair(as_soup(icosphere(1)), {.merge_vertices = false}).actions, Kinds{});
+}
+
 TEST(Repair, EachStepIsOptional) {
     const RepairOptions nothing{.merge_vertices = false,
                                 .remove_degenerate = false,

@@ -43,7 +43,9 @@ BoundaryConstraints constraints_on(const TetMesh& mesh, VertexConstraint kind, c
         c.kind[v] = kind;
         c.on_boundary[v] = 1;
         c.frames.row(v) = frames.row(v);
-        if (kind == VertexConstraint::axis) c.axis.row(v) = (frames::from_wxyz(frames::Vector4(frames.row(v).transpose())) * Vector3::UnitZ()).transpose();
+        if (kind == VertexConstraint::axis)
+            c.axis.row(v) =
+                (frames::from_wxyz(frames::Vector4(frames.row(v).transpose())) * Vector3::UnitZ()).transpose();
     }
     return c;
 }
@@ -58,7 +60,8 @@ Quaternions smooth_field(const TetMesh& mesh) {
 double largest_distance(const Quaternions& a, const Quaternions& b) {
     double largest = 0;
     for (Eigen::Index v = 0; v < a.rows(); ++v)
-        largest = std::max(largest, frames::distance(frames::from_wxyz(frames::Vector4(a.row(v).transpose())), frames::from_wxyz(frames::Vector4(b.row(v).transpose()))));
+        largest = std::max(largest, frames::distance(frames::from_wxyz(frames::Vector4(a.row(v).transpose())),
+                                                     frames::from_wxyz(frames::Vector4(b.row(v).transpose()))));
     return largest;
 }
 
@@ -83,7 +86,8 @@ TEST(TwistManifold, ObeysCeresManifoldInvariantsAndKeepsTheAxis) {
         const Quaternion frame = frames::from_wxyz(frames::Vector4(x));
         const Vector3 axis = frame * Vector3::UnitY();
         const TwistManifold manifold(axis);
-        const Eigen::VectorXd delta = Eigen::VectorXd::Constant(1, 0.7), y = frames::to_wxyz(frames::exp(0.4 * axis) * frame);
+        const Eigen::VectorXd delta = Eigen::VectorXd::Constant(1, 0.7),
+                              y = frames::to_wxyz(frames::exp(0.4 * axis) * frame);
         EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-8);
         Eigen::Vector4d moved;
         manifold.Plus(x.data(), delta.data(), moved.data());
@@ -99,7 +103,8 @@ TEST(DirichletBlocks, SumOfSquaresIsTheStiffnessFormOnObtuseMeshesToo) {
         const SparseMatrix stiff = stiffness(mesh);
         EXPECT_EQ(blocks.tets.empty(), amount == 0);
         for (int trial = 0; trial < 5; ++trial) {
-            const Eigen::VectorXd a = Eigen::VectorXd::NullaryExpr(mesh.vertices.rows(), [&](Eigen::Index v) { return std::sin(3.0 * v + trial); });
+            const Eigen::VectorXd a = Eigen::VectorXd::NullaryExpr(
+                mesh.vertices.rows(), [&](Eigen::Index v) { return std::sin(3.0 * v + trial); });
             double sum = 0;
             for (const auto& edge : blocks.edges) {
                 EXPECT_GT(edge.weight, 0);
@@ -119,7 +124,8 @@ TEST(InitialFrames, ExtendAConstantBoundaryByTheConstant) {
     const TetMesh mesh = jittered_cube(5, 0.2, 4);
     const Quaternion q = frames::exp({0.3, 0.9, -0.4});
     const Quaternions constant = testing::sample(mesh, [&](const Vector3&) { return q; });
-    EXPECT_LT(largest_distance(initial_frames(mesh, constraints_on(mesh, VertexConstraint::fixed, constant)), constant), 1e-7);
+    EXPECT_LT(largest_distance(initial_frames(mesh, constraints_on(mesh, VertexConstraint::fixed, constant)), constant),
+              1e-7);
 }
 
 TEST(Smooth, ReachesZeroEnergyWhereAConstantFieldFits) {
@@ -144,7 +150,8 @@ TEST(Smooth, NeverRaisesTheEnergyAndReportsTheOneOfTheTables) {
     const Quaternions start = frames::random_rotations(mesh.vertices.rows(), 8);
     const SmoothResult result = smooth(mesh, constraints, start);
     ASSERT_EQ(result.energy_history.size(), static_cast<std::size_t>(result.iterations) + 1);
-    for (std::size_t i = 1; i < result.energy_history.size(); ++i) EXPECT_LE(result.energy_history[i], result.energy_history[i - 1] * (1 + 1e-12));
+    for (std::size_t i = 1; i < result.energy_history.size(); ++i)
+        EXPECT_LE(result.energy_history[i], result.energy_history[i - 1] * (1 + 1e-12));
     EXPECT_NEAR(result.energy_history.back(), result.energy, 1e-9 * result.energy);
     EXPECT_NEAR(result.energy, dirichlet_energy(mesh, result.frames), 1e-12 * result.energy);
 }
@@ -158,8 +165,11 @@ TEST(Smooth, IsStationary) {
         Quaternions moved = result.frames;
         for (Eigen::Index v = 0; v < moved.rows(); ++v) {
             if (constraints.kind[v] == VertexConstraint::fixed) continue;
-            const Vector3 w = 1e-3 * Vector3(frames::uniform01(generator) - 0.5, frames::uniform01(generator) - 0.5, frames::uniform01(generator) - 0.5);
-            moved.row(v) = frames::to_wxyz(frames::exp(w) * frames::from_wxyz(frames::Vector4(moved.row(v).transpose()))).transpose();
+            const Vector3 w = 1e-3 * Vector3(frames::uniform01(generator) - 0.5, frames::uniform01(generator) - 0.5,
+                                             frames::uniform01(generator) - 0.5);
+            moved.row(v) =
+                frames::to_wxyz(frames::exp(w) * frames::from_wxyz(frames::Vector4(moved.row(v).transpose())))
+                    .transpose();
         }
         EXPECT_GT(dirichlet_energy(mesh, moved), result.energy);
     }
@@ -179,7 +189,8 @@ TEST(Smooth, HoldsItsConstraintsExactly) {
                 EXPECT_LT(frames::distance(q, frames::from_wxyz(frames::Vector4(field.row(v).transpose()))), 1e-14);
             }
             if (constraints.kind[v] == VertexConstraint::axis) {
-                EXPECT_NEAR((q.conjugate() * Vector3(constraints.axis.row(v).transpose())).cwiseAbs().maxCoeff(), 1, 1e-13);
+                EXPECT_NEAR((q.conjugate() * Vector3(constraints.axis.row(v).transpose())).cwiseAbs().maxCoeff(), 1,
+                            1e-13);
             }
         }
     }
@@ -188,7 +199,8 @@ TEST(Smooth, HoldsItsConstraintsExactly) {
 TEST(Smooth, FreeTwistLowersTheEnergyFurtherThanTheFixedFrame) {
     const TetMesh mesh = jittered_cube(4, 0.2, 13);
     const Quaternions field = smooth_field(mesh);
-    const BoundaryConstraints fixed = constraints_on(mesh, VertexConstraint::fixed, field), aligned = constraints_on(mesh, VertexConstraint::axis, field);
+    const BoundaryConstraints fixed = constraints_on(mesh, VertexConstraint::fixed, field),
+                              aligned = constraints_on(mesh, VertexConstraint::axis, field);
     const Quaternions start = initial_frames(mesh, fixed);
     EXPECT_LT(smooth(mesh, aligned, start).energy, smooth(mesh, fixed, start).energy);
 }
@@ -239,7 +251,8 @@ TEST(Smooth, CancellingKeepsTheBestState) {
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));
     const Quaternions start = frames::random_rotations(mesh.vertices.rows(), 18);
     int calls = 0;
-    const SmoothResult result = smooth(mesh, constraints, start, {}, [&](std::string_view, double, double) { return ++calls < 3; });
+    const SmoothResult result =
+        smooth(mesh, constraints, start, {}, [&](std::string_view, double, double) { return ++calls < 3; });
     EXPECT_EQ(calls, 3);
     EXPECT_EQ(result.message, "cancelled");
     EXPECT_FALSE(result.converged);

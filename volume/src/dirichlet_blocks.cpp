@@ -38,7 +38,8 @@ std::vector<TetEdge> sorted_tet_edges(const TetMesh& mesh) {
             const auto [i, j] = std::minmax(mesh.tets(t, corner_pairs[pair][0]), mesh.tets(t, corner_pairs[pair][1]));
             list.push_back({i, j, t, pair});
         }
-    std::sort(list.begin(), list.end(), [](const TetEdge& a, const TetEdge& b) { return std::tie(a.i, a.j, a.tet) < std::tie(b.i, b.j, b.tet); });
+    std::sort(list.begin(), list.end(),
+              [](const TetEdge& a, const TetEdge& b) { return std::tie(a.i, a.j, a.tet) < std::tie(b.i, b.j, b.tet); });
     return list;
 }
 
@@ -68,8 +69,9 @@ DirichletBlocks dirichlet_blocks(const TetMesh& mesh) {
     for (Index t = 0; t < tet_count; ++t)
         for (int pair = 0; pair < 6; ++pair) total[edge_of(t, pair)] += weights(t, pair);
 
-    // Keep whole the most obtuse tets round each negative edge until what is left is not negative. Keeping a tet whole takes its
-    // positive weights from its other edges, which may turn negative in turn: every tet is kept at most once, so this ends.
+    // Keep whole the most obtuse tets round each negative edge until what is left is not negative. Keeping a tet whole
+    // takes its positive weights from its other edges, which may turn negative in turn: every tet is kept at most once,
+    // so this ends.
     std::vector<char> whole(tet_count, 0);
     std::vector<Index> pending(edge_count);
     std::iota(pending.rbegin(), pending.rend(), 0);
@@ -81,7 +83,8 @@ DirichletBlocks dirichlet_blocks(const TetMesh& mesh) {
             double least = 0;
             for (std::size_t k = first[edge]; k < first[edge + 1]; ++k) {
                 const TetEdge& te = tet_edges[k];
-                if (!whole[te.tet] && weights(te.tet, te.pair) < least) least = weights(te.tet, te.pair), worst = te.tet;
+                if (!whole[te.tet] && weights(te.tet, te.pair) < least)
+                    least = weights(te.tet, te.pair), worst = te.tet;
             }
             if (worst < 0) {
                 total[edge] = 0;  // only rounding is left
@@ -104,7 +107,8 @@ DirichletBlocks dirichlet_blocks(const TetMesh& mesh) {
         if (weight > 0) blocks.edges.push_back({te.i, te.j, weight});
     }
     for (Index t = 0; t < tet_count; ++t)
-        if (whole[t]) blocks.tets.push_back({{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, gradients[t]});
+        if (whole[t])
+            blocks.tets.push_back({{mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3)}, gradients[t]});
     return blocks;
 }
 

@@ -8,7 +8,8 @@
 
 namespace octafield::volume {
 
-// sum_k coefficients_k a_k over the vertices of one block, for one row of coefficients. Residuals: R::dimension per row.
+// sum_k coefficients_k a_k over the vertices of one block, for one row of coefficients. Residuals: R::dimension per
+// row.
 template <frames::Representation R>
 class LinearCombinationCost final : public ceres::CostFunction {
 public:

@@ -1,4 +1,5 @@
-// The field as the solver sees it: one quaternion per vertex and, computed once per evaluation, its embedding and differential.
+// The field as the solver sees it: one quaternion per vertex and, computed once per evaluation, its embedding and
+// differential.
 #pragma once
 
 #include <ceres/evaluation_callback.h>
@@ -14,12 +15,15 @@ template <frames::Representation R>
 class EmbeddedField final : public ceres::EvaluationCallback {
 public:
     using Vector = typename R::Vector;
-    // d embed / d (w, x, y, z): the differential under world rotations times the left inverse of the manifolds' PlusJacobian, so
-    // that the product Ceres forms is the differential again.
+    // d embed / d (w, x, y, z): the differential under world rotations times the left inverse of the manifolds'
+    // PlusJacobian, so that the product Ceres forms is the differential again.
     using Jacobian = Eigen::Matrix<double, R::dimension, 4, Eigen::RowMajor>;
 
     EmbeddedField(Quaternions quaternions, int threads)
-        : threads_(threads), quaternions_(std::move(quaternions)), values_(quaternions_.rows()), jacobians_(quaternions_.rows()) {}
+        : threads_(threads),
+          quaternions_(std::move(quaternions)),
+          values_(quaternions_.rows()),
+          jacobians_(quaternions_.rows()) {}
 
     double* parameters(Index vertex) { return quaternions_.row(vertex).data(); }
     const Quaternions& quaternions() const { return quaternions_; }
@@ -36,9 +40,11 @@ public:
             if (new_evaluation_point) values_[v] = R::embed(q);
             if (!jacobians) return;
             Eigen::Matrix<double, 3, 4> left_inverse;  // 4 (d exp(w) q / dw)^T, see frame_manifolds.cpp
+            // clang-format off
             left_inverse << -x[1], x[0], -x[3], x[2],
                             -x[2], x[3], x[0], -x[1],
                             -x[3], -x[2], x[1], x[0];
+            // clang-format on
             jacobians_[v] = R::differential(q) * (2 * left_inverse);
         });
         if (jacobians) jacobians_current_ = true;

@@ -17,10 +17,12 @@ void store(const Quaternion& q, double* x) {
 // d exp(w) q / dw at w = 0: columns 1/2 (0, e_k) q. They are orthogonal with norm 1/2.
 Jacobian left_jacobian(const double* x) {
     Jacobian j;
+    // clang-format off
     j << -x[1], -x[2], -x[3],
           x[0],  x[3], -x[2],
          -x[3],  x[0],  x[1],
           x[2], -x[1],  x[0];
+    // clang-format on
     return 0.5 * j;
 }
 

@@ -14,9 +14,10 @@ public:
     int AmbientSize() const override { return 4; }
     int TangentSize() const override { return 3; }
     bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
-    bool PlusJacobian(const double* x, double* jacobian) const override;   // (4, 3) row-major
+    bool PlusJacobian(const double* x, double* jacobian) const override;  // (4, 3) row-major
     bool Minus(const double* y, const double* x, double* y_minus_x) const override;
-    bool MinusJacobian(const double* x, double* jacobian) const override;  // (3, 4) row-major, left inverse of PlusJacobian
+    bool MinusJacobian(const double* x,
+                       double* jacobian) const override;  // (3, 4) row-major, left inverse of PlusJacobian
 };
 
 // q [+] t = exp(t axis) q: keeps whatever of q is aligned with `axis` (unit, world) aligned. Tangent size 1.
@@ -26,9 +27,9 @@ public:
     int AmbientSize() const override { return 4; }
     int TangentSize() const override { return 1; }
     bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
-    bool PlusJacobian(const double* x, double* jacobian) const override;   // (4, 1)
+    bool PlusJacobian(const double* x, double* jacobian) const override;             // (4, 1)
     bool Minus(const double* y, const double* x, double* y_minus_x) const override;  // component along the axis
-    bool MinusJacobian(const double* x, double* jacobian) const override;  // (1, 4)
+    bool MinusJacobian(const double* x, double* jacobian) const override;            // (1, 4)
 
 private:
     frames::Vector3 axis_;

@@ -36,8 +36,10 @@ void harmonic_extension(const SparseMatrix& laplacian, const std::vector<char>& 
         for (SparseMatrix::InnerIterator it(laplacian, column); it; ++it) {
             const Index row = unknown_of[it.row()];
             if (row < 0) continue;
-            if (held[column]) right.row(row) -= it.value() * field.row(column);
-            else entries.emplace_back(row, unknown_of[column], it.value());
+            if (held[column])
+                right.row(row) -= it.value() * field.row(column);
+            else
+                entries.emplace_back(row, unknown_of[column], it.value());
         }
     SparseMatrix system(unknowns, unknowns);
     system.setFromTriplets(entries.begin(), entries.end());
@@ -45,7 +47,10 @@ void harmonic_extension(const SparseMatrix& laplacian, const std::vector<char>& 
     solver.setTolerance(1e-10);
     solver.compute(system);
     if (solver.info() != Eigen::Success)
-        throw SolverError("the incomplete Cholesky factorization of the stiffness matrix failed; look for degenerate tets (octafield info)", "factorization");
+        throw SolverError(
+            "the incomplete Cholesky factorization of the stiffness matrix failed; look for degenerate tets (octafield "
+            "info)",
+            "factorization");
     const Eigen::MatrixXd solution = solver.solve(right);
     for (Index v = 0; v < n; ++v)
         if (!held[v]) field.row(v) = solution.row(unknown_of[v]);
@@ -58,7 +63,8 @@ Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& const
     const std::vector<char> held = held_vertices(constraints);
     Field field = Field::Zero(n, Sh4::dimension);
     for (Index v = 0; v < n; ++v)
-        if (held[v]) field.row(v) = Sh4::embed(frames::from_wxyz(Vector4(constraints.frames.row(v).transpose()))).transpose();
+        if (held[v])
+            field.row(v) = Sh4::embed(frames::from_wxyz(Vector4(constraints.frames.row(v).transpose()))).transpose();
     harmonic_extension(stiffness(mesh), held, field);
 
     Quaternions result = constraints.frames;

@@ -23,13 +23,17 @@ using frames::Quaternion;
 using frames::Vector3;
 using frames::Vector4;
 
-constexpr Index cholesky_limit = 30000;  // vertices; beyond, the fill of a 3D factorization costs more than inexact steps
+constexpr Index cholesky_limit =
+    30000;  // vertices; beyond, the fill of a 3D factorization costs more than inexact steps
 
-void check_input(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start, const SmoothOptions& options) {
+void check_input(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+                 const SmoothOptions& options) {
     const std::size_t n = mesh.vertices.rows();
-    if (constraints.kind.size() != n || constraints.axis.rows() != Eigen::Index(n) || constraints.frames.rows() != Eigen::Index(n))
-        throw InvalidInput("the constraints have " + std::to_string(constraints.kind.size()) + " entries for " + std::to_string(n) +
-                               " vertices; build them with boundary_constraints for this mesh", "size_mismatch");
+    if (constraints.kind.size() != n || constraints.axis.rows() != Eigen::Index(n) ||
+        constraints.frames.rows() != Eigen::Index(n))
+        throw InvalidInput("the constraints have " + std::to_string(constraints.kind.size()) + " entries for " +
+                               std::to_string(n) + " vertices; build them with boundary_constraints for this mesh",
+                           "size_mismatch");
     require_frames(start, mesh.vertices.rows());
     if (options.max_iterations < 0) throw InvalidInput("max_iterations is negative; give 0 or more", "bad_option");
     if (!(options.tolerance >= 0)) throw InvalidInput("tolerance must not be negative", "bad_option");
@@ -40,7 +44,8 @@ Quaternion aligned_to(const Quaternion& q, const Vector3& axis) {
     const Vector3 local = q.conjugate() * axis;
     int nearest = 0;
     local.cwiseAbs().maxCoeff(&nearest);
-    const Vector3 from = q * Vector3(local[nearest] < 0 ? Vector3(-Vector3::Unit(nearest)) : Vector3(Vector3::Unit(nearest)));
+    const Vector3 from =
+        q * Vector3(local[nearest] < 0 ? Vector3(-Vector3::Unit(nearest)) : Vector3(Vector3::Unit(nearest)));
     return (frames::rotation_between(from, axis) * q).normalized();
 }
 
@@ -49,7 +54,9 @@ Quaternions constrained_start(const BoundaryConstraints& constraints, const Quat
     for (std::size_t v = 0; v < constraints.kind.size(); ++v) {
         if (constraints.kind[v] == VertexConstraint::fixed) result.row(v) = constraints.frames.row(v).normalized();
         if (constraints.kind[v] == VertexConstraint::axis)
-            result.row(v) = frames::to_wxyz(aligned_to(frames::from_wxyz(Vector4(result.row(v).transpose())), constraints.axis.row(v).transpose())).transpose();
+            result.row(v) = frames::to_wxyz(aligned_to(frames::from_wxyz(Vector4(result.row(v).transpose())),
+                                                       constraints.axis.row(v).transpose()))
+                                .transpose();
     }
     return result;
 }
@@ -84,12 +91,15 @@ void add_costs(ceres::Problem& problem, EmbeddedField<R>& field, const Dirichlet
         const double w = std::sqrt(edge.weight * scale);
         typename Cost::Coefficients coefficients(1, 2);
         coefficients << w, -w;
-        problem.AddResidualBlock(new Cost(field, {edge.i, edge.j}, coefficients), nullptr, field.parameters(edge.i), field.parameters(edge.j));
+        problem.AddResidualBlock(new Cost(field, {edge.i, edge.j}, coefficients), nullptr, field.parameters(edge.i),
+                                 field.parameters(edge.j));
     }
     for (const auto& tet : blocks.tets) {
         std::vector<double*> parameters;
         for (const Index v : tet.vertices) parameters.push_back(field.parameters(v));
-        problem.AddResidualBlock(new Cost(field, {tet.vertices.begin(), tet.vertices.end()}, std::sqrt(scale) * tet.gradient), nullptr, parameters);
+        problem.AddResidualBlock(
+            new Cost(field, {tet.vertices.begin(), tet.vertices.end()}, std::sqrt(scale) * tet.gradient), nullptr,
+            parameters);
     }
 }
 
@@ -100,7 +110,8 @@ struct Manifolds {
 };
 
 template <frames::Representation R>
-void set_manifolds(ceres::Problem& problem, EmbeddedField<R>& field, const BoundaryConstraints& constraints, Manifolds& manifolds) {
+void set_manifolds(ceres::Problem& problem, EmbeddedField<R>& field, const BoundaryConstraints& constraints,
+                   Manifolds& manifolds) {
     for (std::size_t v = 0; v < constraints.kind.size(); ++v) {
         double* parameters = field.parameters(static_cast<Index>(v));
         if (!problem.HasParameterBlock(parameters)) continue;
@@ -109,7 +120,8 @@ void set_manifolds(ceres::Problem& problem, EmbeddedField<R>& field, const Bound
                 problem.SetParameterBlockConstant(parameters);
                 break;
             case VertexConstraint::axis:
-                manifolds.twists.push_back(std::make_unique<TwistManifold>(Vector3(constraints.axis.row(v).transpose())));
+                manifolds.twists.push_back(
+                    std::make_unique<TwistManifold>(Vector3(constraints.axis.row(v).transpose())));
                 problem.SetManifold(parameters, manifolds.twists.back().get());
                 break;
             case VertexConstraint::free:
@@ -125,7 +137,8 @@ ceres::Solver::Options solver_options(const SmoothOptions& options, Index vertex
     o.function_tolerance = options.tolerance;
     o.gradient_tolerance = 1e-14;  // of the problem scaled to unit size: reached only by fields of zero energy
     o.parameter_tolerance = 1e-14;
-    // Ceres sums costs per thread, so more than one would change the last bits; embeddings are computed in parallel instead.
+    // Ceres sums costs per thread, so more than one would change the last bits; embeddings are computed in parallel
+    // instead.
     o.num_threads = 1;
     o.logging_type = ceres::SILENT;
     const bool cholesky = options.linear_solver == LinearSolver::cholesky ||
@@ -137,8 +150,8 @@ ceres::Solver::Options solver_options(const SmoothOptions& options, Index vertex
 
 }  // namespace
 
-SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start, const SmoothOptions& options,
-                    const Progress& progress) {
+SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+                    const SmoothOptions& options, const Progress& progress) {
     check_input(mesh, constraints, start, options);
     calm_library_threads();
     FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres would log is in the exception
@@ -163,7 +176,9 @@ SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints,
     ceres::Solver::Summary summary;
     ceres::Solve(o, &problem, &summary);
     if (summary.termination_type == ceres::FAILURE)
-        throw SolverError("smoothing failed: " + summary.message + "; look for degenerate tets (octafield info), or try linear_solver=conjugate_gradients", "smoothing");
+        throw SolverError("smoothing failed: " + summary.message +
+                              "; look for degenerate tets (octafield info), or try linear_solver=conjugate_gradients",
+                          "smoothing");
 
     result.frames = field.quaternions();
     result.energy = dirichlet_energy(mesh, result.frames, options.threads);

@@ -24,10 +24,12 @@ Quaternion from_wxyz(const Eigen::MatrixBase<Derived>& wxyz) {
 // Rotation by |w| radians about w / |w|; accurate for every w, the zero vector included.
 Quaternion exp(const Vector3& rotation_vector);
 
-// The rotation vector of q with angle in [0, pi]: exp(log(q)) is q or -q. Any rotation by pi returns one of its two vectors.
+// The rotation vector of q with angle in [0, pi]: exp(log(q)) is q or -q. Any rotation by pi returns one of its two
+// vectors.
 Vector3 log(const Quaternion& q);
 
-// Rotation that takes `from` to `to` (unit vectors) by the shortest arc; opposite vectors turn about some perpendicular axis.
+// Rotation that takes `from` to `to` (unit vectors) by the shortest arc; opposite vectors turn about some perpendicular
+// axis.
 Quaternion rotation_between(const Vector3& from, const Vector3& to);
 
 // Right-handed frame whose third axis is `normal` and whose first axis is the part of `direction` orthogonal to it.

@@ -1,5 +1,5 @@
-// What every embedding of frames into R^d offers. A representation is a struct of static functions; solvers are templates
-// over it, and run-time names are resolved once, at the border (bindings, command line).
+// What every embedding of frames into R^d offers. A representation is a struct of static functions; solvers are
+// templates over it, and run-time names are resolved once, at the border (bindings, command line).
 #pragma once
 
 #include <concepts>

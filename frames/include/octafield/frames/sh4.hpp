@@ -1,7 +1,7 @@
 // sh4: frames as degree-4 spherical harmonics (Huang et al. 2011; Ray, Sokolov, Levy 2016).
 //
-// A frame with axes r_1, r_2, r_3 is the vector a with a_m = c (Y_4m(r_1) + Y_4m(r_2) + Y_4m(r_3)), Y_4m the orthonormal
-// real spherical harmonics, order m = -4..4, c = sqrt(16 pi / 189) so that |a| = 1. The identity frame has
+// A frame with axes r_1, r_2, r_3 is the vector a with a_m = c (Y_4m(r_1) + Y_4m(r_2) + Y_4m(r_3)), Y_4m the
+// orthonormal real spherical harmonics, order m = -4..4, c = sqrt(16 pi / 189) so that |a| = 1. The identity frame has
 // sqrt(7/12) at m = 0 and sqrt(5/12) at m = 4. A rotation by t radians about any axis moves a at speed sqrt(20/3).
 #pragma once
 
@@ -18,16 +18,19 @@ struct Sh4 {
     using Vector = Eigen::Matrix<double, dimension, 1>;
     using Differential = Eigen::Matrix<double, dimension, 3>;
 
-    // c Y_4m(direction) for a unit direction, of norm sqrt(4/21): embed(q) is the sum of axis() over the three axes of q.
+    // c Y_4m(direction) for a unit direction, of norm sqrt(4/21): embed(q) is the sum of axis() over the three axes of
+    // q.
     static Vector axis(const Vector3& direction);
 
     static Vector embed(const Quaternion& q);
 
-    // Column k: d/dt embed(exp(t e_k) q) at t = 0, e_k the k-th WORLD axis. Columns are orthogonal with norm sqrt(20/3).
+    // Column k: d/dt embed(exp(t e_k) q) at t = 0, e_k the k-th WORLD axis. Columns are orthogonal with norm
+    // sqrt(20/3).
     static Differential differential(const Quaternion& q);
 
-    // The frame nearest to v in R^9: the global maximiser of v . embed(q), by Newton ascent with the absolute Hessian from eight
-    // seeds (and `guess`, when given). v = 0 gives the identity. Wrong basins: none in 10,000 random inputs (tests).
+    // The frame nearest to v in R^9: the global maximiser of v . embed(q), by Newton ascent with the absolute Hessian
+    // from eight seeds (and `guess`, when given). v = 0 gives the identity. Wrong basins: none in 10,000 random inputs
+    // (tests).
     static Projection project(const Vector& v, const Quaternion* guess = nullptr);
 };
 

@@ -24,6 +24,7 @@ struct FeatureOptions {
 FeatureGraph detect_features(const TriangleMesh& mesh, const FeatureOptions& options = {});
 
 // Corners of given feature edges (from a file, say): number of incident feature edges other than 2, or a turn.
-FeatureGraph feature_graph(const TriangleMesh& mesh, const Edges& edges, double corner_angle = FeatureOptions{}.corner_angle);
+FeatureGraph feature_graph(const TriangleMesh& mesh, const Edges& edges,
+                           double corner_angle = FeatureOptions{}.corner_angle);
 
 }  // namespace octafield::surface

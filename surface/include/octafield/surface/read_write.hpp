@@ -13,8 +13,8 @@ namespace octafield::surface {
 // coordinate that is not finite), naming the file and, where known, the line or byte.
 TriangleMesh read_surface(const std::filesystem::path& path);
 
-// Writes by extension (.stl binary, .obj, .off, .ply; 17 significant digits where the format is text) to a temporary file
-// beside the target, then renames. Throws IoError.
+// Writes by extension (.stl binary, .obj, .off, .ply; 17 significant digits where the format is text) to a temporary
+// file beside the target, then renames. Throws IoError.
 void write_surface(const TriangleMesh& mesh, const std::filesystem::path& path);
 
 }  // namespace octafield::surface

@@ -17,8 +17,9 @@ struct RemeshResult {
     FeatureGraph features;  // of the new mesh: pieces of the old curves, corners at the old corners' positions
 };
 
-// The input must be valid (validate.hpp). Corners stay where they are; feature edges are split and merged along their curves only.
-// Throws GeometryError if the result is not valid (the target is too coarse for the shape; the message says so), InvalidInput.
+// The input must be valid (validate.hpp). Corners stay where they are; feature edges are split and merged along their
+// curves only. Throws GeometryError if the result is not valid (the target is too coarse for the shape; the message
+// says so), InvalidInput.
 RemeshResult remesh(const TriangleMesh& mesh, const FeatureGraph& features, const RemeshOptions& options = {},
                     const Progress& progress = {});
 

@@ -16,17 +16,18 @@ struct TriangleMesh {
 struct EdgeTopology {
     Edges edges;               // (E, 2), lower vertex id first, in lexicographic order
     Triangles triangle_edges;  // (F, 3), column k: the edge from corner k to corner k+1 (mod 3)
-    Edges edge_triangles;      // (E, 2), column 0: the triangle that runs the edge low to high, column 1: the other; -1: none
+    Edges edge_triangles;      // (E, 2): the triangle that runs the edge low to high, then the other; -1: none
 };
 
-// Throws GeometryError (kind "non_manifold_edge" or "inconsistent_orientation") where three triangles share an edge, or two run it alike.
+// Throws GeometryError (kind "non_manifold_edge", "inconsistent_orientation" or "degenerate_triangle") where three
+// triangles share an edge, two run it alike, or a triangle uses a vertex twice.
 EdgeTopology edge_topology(const TriangleMesh& mesh);
 
 double bounding_box_diagonal(const Points& points);
 double signed_volume(const TriangleMesh& mesh);
-Eigen::VectorXd triangle_areas(const TriangleMesh& mesh);   // (F)
-Points triangle_normals(const TriangleMesh& mesh);          // (F, 3), unit; zero where the area is zero
-Points vertex_normals(const TriangleMesh& mesh);            // (V, 3), unit, weighted by incident triangle area
+Eigen::VectorXd triangle_areas(const TriangleMesh& mesh);  // (F)
+Points triangle_normals(const TriangleMesh& mesh);         // (F, 3), unit; zero where the area is zero
+Points vertex_normals(const TriangleMesh& mesh);           // (V, 3), unit, weighted by incident triangle area
 double mean_edge_length(const TriangleMesh& mesh);
 // V - E + F over the vertices in use. Requires what edge_topology requires.
 int euler_characteristic(const TriangleMesh& mesh);

@@ -9,9 +9,9 @@
 namespace octafield::surface {
 
 // One thing wrong with a mesh. Kinds, in the order in which they are tested and reported:
-//   "empty", "index_out_of_range", "non_finite_vertex", "degenerate_triangle", "soup" (triangles share no vertices although
-//   points coincide), "duplicate_vertex", "non_manifold_edge", "inconsistent_orientation", "not_closed", "non_manifold_vertex",
-//   "inside_out", "self_intersection". Unused vertices are no defect.
+//   "empty", "index_out_of_range", "non_finite_vertex", "degenerate_triangle", "soup" (triangles share no vertices
+//   although points coincide), "duplicate_vertex", "non_manifold_edge", "inconsistent_orientation", "not_closed",
+//   "non_manifold_vertex", "inside_out", "self_intersection". Unused vertices are no defect.
 struct Defect {
     std::string kind;
     std::string element;          // what the ids number: "triangle", "vertex" or "edge"

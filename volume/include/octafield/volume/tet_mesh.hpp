@@ -14,16 +14,18 @@ struct TetMesh {
 };
 
 struct BoundarySurface {
-    surface::TriangleMesh mesh;      // compact numbering, triangles outward
+    surface::TriangleMesh mesh;     // compact numbering, triangles outward
     std::vector<Index> vertex_map;  // boundary vertex -> tet-mesh vertex, ascending
 };
 
 Eigen::VectorXd tet_volumes(const TetMesh& mesh);  // (m), signed
 
-// Triangles that belong to one tet only. Throws GeometryError (kind "non_manifold_face") where three tets share a triangle.
+// Triangles that belong to one tet only. Throws GeometryError (kind "non_manifold_face") where three tets share a
+// triangle.
 BoundarySurface boundary_surface(const TetMesh& mesh);
 
-// Throws GeometryError naming tets: kinds "empty", "index_out_of_range", "non_finite_vertex", "inverted_tet" (volume not above 0).
+// Throws GeometryError naming tets: kinds "empty", "index_out_of_range", "non_finite_vertex", "inverted_tet" (volume
+// not above 0).
 void require_valid(const TetMesh& mesh);
 
 }  // namespace octafield::volume
