@@ -45,7 +45,7 @@ install_octafield() {
     fi
     say "building octafield"
     touch "$stamp.new"
-    .venv/bin/python -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps -Cbuild-dir="$BUILD_DIR" . >&2
+    .venv/bin/python -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps --config-settings=build-dir="$BUILD_DIR" . >&2
     mv "$stamp.new" "$stamp"
 }
 
