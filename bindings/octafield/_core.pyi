@@ -210,6 +210,7 @@ def direction_field(
     epsilon: float = ...,
     max_iterations: int = ...,
     tolerance: float = ...,
+    energy_tolerance: float = ...,
     seed: int = ...,
     progress: Progress | None = None,
 ) -> DirectionField: ...
@@ -381,6 +382,17 @@ def boundary_constraints(
 ) -> BoundaryConstraints: ...
 def alignment_angles(boundary: BoundarySurface, features: FeatureGraph, frames: ArrayLike) -> Float64s: ...
 def initial_frames(mesh: TetMesh, constraints: BoundaryConstraints, *, threads: int = 0) -> Float64s: ...
+def diffuse(
+    mesh: TetMesh,
+    constraints: BoundaryConstraints,
+    start: ArrayLike,
+    *,
+    first_time: float = ...,
+    time_exponent: float = ...,
+    max_steps: int = ...,
+    threads: int = ...,
+    progress: Progress | None = None,
+) -> SmoothResult: ...
 def smooth(
     mesh: TetMesh,
     constraints: BoundaryConstraints,

@@ -19,6 +19,7 @@ import numpy as np
 
 from . import _core
 from ._core import BoundaryConstraints, DirectionField, FeatureGraph, SingularGraph, TetMesh, TriangleMesh
+from .inputs import naming
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import METHODS, FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward, octafield_version, versions
@@ -90,7 +91,7 @@ def compute_surface_field(
     memory = PeakMemory()
     meshed = prepare_mesh(source, options, volume=False, progress=progress)
     clock = meshed.clock
-    with clock.phase("surface"):
+    with naming(meshed.name), clock.phase("surface"):
         field = _core.direction_field(
             meshed.surface,
             meshed.features,
@@ -159,14 +160,17 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
             len(tets.vertices), meshed.boundary, meshed.features, problem.directions, mode=options.boundary
         )
         start = _core.initial_frames(tets, constraints, threads=threads)
+        diffused = _core.diffuse(
+            tets, constraints, start, threads=threads, progress=forward(progress, "smooth", 0.0, 0.4)
+        )
         smoothed = _core.smooth(
             tets,
             constraints,
-            start,
+            diffused.frames,
             max_iterations=options.max_iterations,
             tolerance=options.tolerance,
             threads=threads,
-            progress=forward(progress, "smooth"),
+            progress=forward(progress, "smooth", 0.4, 1.0),
         )
     with clock.phase("analyse"):
         announce(progress, "analyse")
@@ -188,10 +192,11 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         "energy_unit_speed": _core.unit_speed_factor * energy,
         **_singular_record(graph),
         "alignment_deg": _degrees(alignment),
-        "iterations": smoothed.iterations,
+        "iterations": diffused.iterations + smoothed.iterations,
+        "diffusion_steps": diffused.iterations,
         "converged": bool(smoothed.converged),
         "stop_reason": smoothed.message,
-        "energy_history": [float(e) for e in smoothed.energy_history],
+        "energy_history": [float(e) for e in (*diffused.energy_history, *smoothed.energy_history[1:])],
         "surface_field": {
             "singular_points": _counts_by_index(problem.singularities),
             "epsilon": problem.direction_field.epsilon,

@@ -11,7 +11,10 @@ from .phases import PHASES
 from .plots import convergence_plot, seconds_plot
 from .summary import COLUMNS, Column, total_seconds
 
-CONVERGENCE = "Dirichlet energy of the frames at the start (iteration 0) and after each step of smoothing."
+CONVERGENCE = (
+    "Dirichlet energy of the frames at the start (iteration 0) and after each step: diffusion first, "
+    "then Levenberg-Marquardt."
+)
 TIME = "Reading, meshing and the surface field are done once and shared; their times are shown in every run."
 
 

@@ -94,6 +94,14 @@ py::array_t<Scalar, py::array::c_style | py::array::forcecast> numbers(const py:
     const py::array array = as_array(value, name);
     if constexpr (std::is_integral_v<Scalar>) {
         require_kind(array, "iub", "integers", name);
+        if (array.dtype().kind() == 'u' && array.itemsize() == 8) {  // beyond the range of the comparison below
+            const auto natural = converted<std::uint64_t>(array);
+            for (py::ssize_t i = 0; i < natural.size(); ++i)
+                if (natural.data()[i] > static_cast<std::uint64_t>(std::numeric_limits<Scalar>::max()))
+                    throw InvalidInput(std::string(name) + ": entry " + std::to_string(i) + " is " +
+                                           std::to_string(natural.data()[i]) + ", which is too large",
+                                       "index_out_of_range", {static_cast<Index>(i)});
+        }
         const auto wide = converted<std::int64_t>(array);
         for (py::ssize_t i = 0; i < wide.size(); ++i)
             if (wide.data()[i] < std::numeric_limits<Scalar>::min() ||

@@ -189,7 +189,7 @@ void bind_remesh(py::module_& m) {
                 [mesh = mesh, features = features, options](Job& job) mutable {
                     check(mesh);
                     check(features, mesh);
-                    return remesh(mesh, features = features, options, job.progress());
+                    return remesh(mesh, features, options, job.progress());
                 },
                 progress);
         },
@@ -207,7 +207,7 @@ void bind_fields(py::module_& m) {
     m.def(
         "direction_field",
         [](const TriangleMesh& mesh, const FeatureGraph& features, int symmetry, const std::string& method,
-           double epsilon, int max_iterations, double tolerance, std::uint64_t seed,
+           double epsilon, int max_iterations, double tolerance, double energy_tolerance, std::uint64_t seed,
            const std::optional<ProgressCallable>& progress) {
             DirectionFieldOptions options;
             options.symmetry = symmetry;
@@ -215,23 +215,28 @@ void bind_fields(py::module_& m) {
             options.epsilon = finite(epsilon, "epsilon");
             options.max_iterations = max_iterations;
             options.tolerance = finite(tolerance, "tolerance");
+            options.energy_tolerance = finite(energy_tolerance, "energy_tolerance");
             options.seed = seed;
             return run_interruptible(
                 [mesh = mesh, features = features, options](Job& job) mutable {
                     check(mesh);
                     check(features, mesh);
-                    return direction_field(mesh, features = features, options, job.progress());
+                    return direction_field(mesh, features, options, job.progress());
                 },
                 progress);
         },
         "mesh"_a, "features"_a, py::kw_only(), "symmetry"_a = defaults.symmetry, "method"_a = to_word(defaults.method),
         "epsilon"_a = defaults.epsilon, "max_iterations"_a = defaults.max_iterations,
-        "tolerance"_a = defaults.tolerance, "seed"_a = defaults.seed, "progress"_a = py::none(),
+        "tolerance"_a = defaults.tolerance, "energy_tolerance"_a = defaults.energy_tolerance, "seed"_a = defaults.seed,
+        "progress"_a = py::none(),
         "N-direction field by Ginzburg-Landau on Crouzeix-Raviart elements (Beaufort et al. 2017), aligned to the "
         "feature edges, as a "
         "DirectionField. symmetry: N, 4 for crosses; method: \"ginzburg_landau\" or \"eigenvector\" (the start itself, "
         "Knoeppel et al. 2013); "
-        "epsilon: coherence length, input unit, 0 means 2 mean edge lengths; seed: of the random start, matters "
+        "epsilon: coherence length, input unit, 0 means 2 mean edge lengths, at most a tenth of the bounding box's "
+        "diagonal; "
+        "tolerance: on the residual; energy_tolerance: relative decrease of a round at which to stop; seed: of the "
+        "random start, matters "
         "without features only. "
         "Cancelled by progress, the best state is returned with converged False. Raises InvalidInput, GeometryError, "
         "SolverError.");
@@ -242,7 +247,7 @@ void bind_fields(py::module_& m) {
                 check(mesh);
                 check(features, mesh);
                 check(field, mesh);
-                return vertex_directions(mesh, features = features, field);
+                return vertex_directions(mesh, features, field);
             }));
         },
         "mesh"_a, "features"_a, "field"_a,

@@ -80,8 +80,9 @@ void bind_fields(py::module_& m) {
         .field("epsilon", &DirectionField::epsilon, "Coherence length used, input unit.")
         .field("energy", &DirectionField::energy, "Ginzburg-Landau energy, dimensionless.")
         .field("dirichlet_energy", &DirectionField::dirichlet_energy, "Its Dirichlet part, 1/2 int |grad f|^2.")
-        .field("iterations", &DirectionField::iterations, "Newton iterations done.")
-        .field("converged", &DirectionField::converged, "Whether the residual went below the tolerance.")
+        .field("iterations", &DirectionField::iterations, "Descent steps done.")
+        .field("converged", &DirectionField::converged,
+               "Whether the residual or the decrease of the energy went below its tolerance.")
         .field("residual", &DirectionField::residual, "Relative residual at the end.")
         .field("energy_history", &DirectionField::energy_history,
                "float64 energies at the start and after each iteration.")

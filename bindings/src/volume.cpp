@@ -10,6 +10,7 @@
 #include "checks.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/boundary.hpp"
+#include "octafield/volume/diffuse.hpp"
 #include "octafield/volume/singularities.hpp"
 #include "octafield/volume/smooth.hpp"
 #include "octafield/volume/tetrahedralize.hpp"
@@ -134,7 +135,7 @@ void bind_boundary(py::module_& m) {
                     check(boundary, vertex_count);
                     check(features, boundary.mesh);
                     check_vectors(rows, boundary.mesh.vertices.rows(), "directions");
-                    return boundary_constraints(vertex_count, boundary, features = features, rows, options);
+                    return boundary_constraints(vertex_count, boundary, features, rows, options);
                 });
         },
         "vertex_count"_a, "boundary"_a, "features"_a, "directions"_a, py::kw_only(), "mode"_a = to_word(defaults.mode),
@@ -153,7 +154,7 @@ void bind_boundary(py::module_& m) {
                 check_unit(rows, -1, "frames");
                 check(boundary, static_cast<Index>(rows.rows()));
                 check(features, boundary.mesh);
-                return alignment_angles(boundary, features = features, rows);
+                return alignment_angles(boundary, features, rows);
             }));
         },
         "boundary"_a, "features"_a, "frames"_a,
@@ -176,6 +177,34 @@ void bind_smoothing(py::module_& m) {
         "mesh"_a, "constraints"_a, py::kw_only(), "threads"_a = 0,
         "(n, 4) start frames: componentwise harmonic sh4 vectors with every boundary frame held (Ray et al. 2016), "
         "projected.");
+
+    const DiffuseOptions diffusion;
+    m.def(
+        "diffuse",
+        [](const TetMesh& mesh, const BoundaryConstraints& constraints, const ArrayLike& start, double first_time,
+           double time_exponent, int max_steps, int threads, const std::optional<ProgressCallable>& progress) {
+            const DiffuseOptions options{.first_time = finite(first_time, "first_time"),
+                                         .time_exponent = finite(time_exponent, "time_exponent"),
+                                         .max_steps = max_steps,
+                                         .threads = threads_option(threads)};
+            return run_interruptible(
+                [mesh = mesh, constraints = constraints, options,
+                 rows = from_python<Quaternions>(start, "start")](Job& job) mutable {
+                    check(mesh);
+                    check(constraints, static_cast<Index>(mesh.vertices.rows()));
+                    check_unit(rows, mesh.vertices.rows(), "start");
+                    return diffuse(mesh, constraints, rows, options, job.progress());
+                },
+                progress);
+        },
+        "mesh"_a, "constraints"_a, "start"_a, py::kw_only(), "first_time"_a = diffusion.first_time,
+        "time_exponent"_a = diffusion.time_exponent, "max_steps"_a = diffusion.max_steps,
+        "threads"_a = diffusion.threads, "progress"_a = py::none(),
+        "Implicit heat flow of the sh4 vectors alternating with projection onto frames (modified MBO, Palmer et al. "
+        "2020), from (n, 4) start frames, as a SmoothResult of the lowest energy met: the start for smooth. "
+        "first_time: of the first step over the squared size of the body, step k lasts 1/k^time_exponent of it. "
+        "Cancelled by "
+        "progress, the best state is returned with converged False. Raises InvalidInput, SolverError.");
 
     const SmoothOptions defaults;
     m.def(

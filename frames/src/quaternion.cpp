@@ -24,14 +24,14 @@ Vector3 log(const Quaternion& q) {
 Quaternion rotation_between(const Vector3& from, const Vector3& to) { return Quaternion::FromTwoVectors(from, to); }
 
 Quaternion frame_from_axes(const Vector3& direction, const Vector3& normal) {
-    const Vector3 z = normal.normalized();
+    const Vector3 z = normal.stableNormalized();
     Vector3 x = direction - direction.dot(z) * z;
-    if (!(x.norm() > 1e-8 * direction.norm())) {
+    if (!(x.stableNorm() > 1e-8 * direction.stableNorm())) {
         int smallest = 0;
         z.cwiseAbs().minCoeff(&smallest);
         x = Vector3::Unit(smallest) - z[smallest] * z;
     }
-    x.normalize();
+    x.stableNormalize();
     Matrix3 axes;
     axes << x, z.cross(x), z;
     return Quaternion(axes).normalized();

@@ -1,17 +1,23 @@
 #include "octafield/surface/direction_field.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "crouzeix_raviart.hpp"
 #include "free_system.hpp"
 #include "ginzburg_landau.hpp"
 #include "octafield/library_threads.hpp"
+#include "short_number.hpp"
 #include "start_field.hpp"
 
 namespace octafield::surface {
 namespace {
+
+// A component whose |f| is below this everywhere has collapsed: minimisers that have not come near 1 somewhere.
+constexpr double least_length = 0.1;
 
 void require_usable(const TriangleMesh& mesh, const DirectionFieldOptions& options) {
     if (options.symmetry < 1) throw InvalidInput("the symmetry of a direction field must be at least 1");
@@ -74,11 +80,57 @@ Held held_edges(const EdgeTopology& topology, const FeatureGraph& features, int 
     return held;
 }
 
-double default_epsilon(const TriangleMesh& mesh, const EdgeTopology& topology) {
+// Of the components without held edges, the only ones that a large epsilon makes vanish; infinity if there are none.
+double smallest_free_diagonal(const TriangleMesh& mesh, const EdgeTopology& topology,
+                              const std::vector<Index>& component, const std::vector<bool>& is_held) {
+    std::vector<Eigen::AlignedBox3d> boxes(component.size());
+    std::vector<bool> anchored(component.size(), false);
+    for (std::size_t e = 0; e < component.size(); ++e) {
+        anchored[component[e]] = anchored[component[e]] || is_held[e];
+        for (int k = 0; k < 2; ++k) boxes[component[e]].extend(mesh.vertices.row(topology.edges(e, k)).transpose());
+    }
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < boxes.size(); ++c)
+        if (!boxes[c].isEmpty() && !anchored[c]) smallest = std::min(smallest, boxes[c].diagonal().norm());
+    return smallest;
+}
+
+double chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<Index>& component,
+                      const std::vector<bool>& is_held, const DirectionFieldOptions& options) {
     double sum = 0;
     for (Index e = 0; e < topology.edges.rows(); ++e)
         sum += (mesh.vertices.row(topology.edges(e, 0)) - mesh.vertices.row(topology.edges(e, 1))).norm();
-    return std::min(2 * sum / topology.edges.rows(), bounding_box_diagonal(mesh.vertices) / 10);
+    const double mean = sum / topology.edges.rows();
+    if (options.epsilon == 0) {
+        const double smallest = smallest_free_diagonal(mesh, topology, component, is_held);
+        return std::min({2 * mean, bounding_box_diagonal(mesh.vertices) / 10, std::max(smallest / 10, mean / 4)});
+    }
+    if (options.method == DirectionFieldMethod::ginzburg_landau && options.epsilon < mean / 100)
+        throw InvalidInput(
+            "an epsilon of " + short_number(options.epsilon) + " is below 1/100 of the mean edge length, " +
+                short_number(mean) +
+                ": singular points would stay where they start; choose 1/100 or more, 2 mean edge lengths are usual, "
+                "or the eigenvector method, which needs no epsilon",
+            "epsilon_too_small");
+    return options.epsilon;
+}
+
+// Where epsilon is large against a component, f = 0 minimises E, and the directions are rounding noise.
+void require_not_collapsed(const DirectionField& field, const std::vector<Index>& component,
+                           const std::vector<bool>& is_held) {
+    std::vector<double> longest(component.size(), -1);  // by component, of its free edges
+    for (std::size_t e = 0; e < component.size(); ++e)
+        if (!is_held[e]) longest[component[e]] = std::max(longest[component[e]], std::abs(field.values[e]));
+    const auto collapsed = [&](Index c) { return longest[c] >= 0 && longest[c] < least_length; };
+    std::vector<Index> triangles;
+    for (Index t = 0; t < field.topology.triangle_edges.rows(); ++t)
+        if (collapsed(component[field.topology.triangle_edges(t, 0)])) triangles.push_back(t);
+    if (triangles.empty()) return;
+    throw SolverError("the direction field vanishes on " + std::to_string(triangles.size()) + " triangles (" +
+                          first_few(triangles) + "): epsilon, " + short_number(field.epsilon) +
+                          ", is too large against the connected part of the surface they form; choose a smaller "
+                          "epsilon, 1/10 of that part's bounding-box diagonal or less",
+                      "epsilon_too_large", triangles);
 }
 
 }  // namespace
@@ -90,19 +142,20 @@ DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& fea
     DirectionField field;
     field.symmetry = options.symmetry;
     field.topology = edge_topology(mesh);
-    field.epsilon = options.epsilon > 0 ? options.epsilon : default_epsilon(mesh, field.topology);
 
     const std::vector<detail::CornerLink> links = detail::corner_links(mesh, field.topology, options.symmetry);
     const Held held = held_edges(field.topology, features, options.symmetry);
+    const std::vector<Index> component = detail::edge_components(links, field.topology.edges.rows());
+    field.epsilon = chosen_epsilon(mesh, field.topology, component, held.is_held, options);
     const detail::FreeSystem system(links, held.is_held);
-    const detail::GinzburgLandau functional(links, detail::edge_masses(mesh, field.topology), system, field.epsilon);
+    const Eigen::VectorXd masses = detail::edge_masses(mesh, field.topology);
+    const detail::GinzburgLandau functional(links, masses, system, field.epsilon);
     bool cancelled = false;
     const Progress latched = [&](std::string_view phase, double fraction, double merit) {
         cancelled = cancelled || !report(progress, phase, fraction, merit);
         return !cancelled;
     };
-    field.values =
-        detail::start_field(links, system, functional.weights(), held.is_held, held.values, options.seed, latched);
+    field.values = detail::start_field(links, system, masses, held.is_held, held.values, options.seed, latched);
 
     if (options.method == DirectionFieldMethod::ginzburg_landau && system.size() > 0) {
         const detail::DescentOptions descent{options.max_iterations, options.tolerance, options.energy_tolerance,
@@ -111,6 +164,7 @@ DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& fea
         field.iterations = result.iterations;
         field.converged = result.converged;
         field.energy_history = result.energy_history;
+        if (!cancelled) require_not_collapsed(field, component, held.is_held);
     }
     const detail::GinzburgLandau::Slope slope = functional.slope(field.values);
     field.energy = slope.energy;

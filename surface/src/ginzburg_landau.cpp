@@ -3,22 +3,36 @@
 #include <cmath>
 
 namespace octafield::surface::detail {
+namespace {
+
+Eigen::VectorXd stiffness_diagonal(const std::vector<CornerLink>& links, Eigen::Index edges) {
+    Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(edges);
+    for (const CornerLink& link : links) {
+        diagonal[link.first] += link.weight;
+        diagonal[link.second] += link.weight;
+    }
+    return diagonal;
+}
+
+}  // namespace
 
 GinzburgLandau::GinzburgLandau(const std::vector<CornerLink>& links, const Eigen::VectorXd& masses,
                                const FreeSystem& system, double epsilon)
-    : links_(links), system_(system), weights_(masses / epsilon / epsilon) {}
+    : links_(links),
+      system_(system),
+      weights_(masses / epsilon / epsilon),
+      residual_weights_(weights_.cwiseMin(stiffness_diagonal(links, masses.size())).cwiseAbs2()) {}
 
 GinzburgLandau::Slope GinzburgLandau::slope(const Eigen::VectorXcd& values) const {
     Eigen::VectorXcd gradient = apply_stiffness(links_, values);
     double energy = values.dot(gradient).real() / 2;
-    double scale = 0;
     for (Eigen::Index e = 0; e < values.size(); ++e) {
         const double square = std::norm(values[e]), excess = square - 1;
         energy += weights_[e] / 4 * excess * excess;
-        scale += weights_[e] * weights_[e] * square;
         gradient[e] += weights_[e] * excess * values[e];
     }
     Slope slope = {energy, system_.gather(gradient), 0};
+    const double scale = residual_weights_.dot(values.cwiseAbs2());
     slope.residual = scale > 0 ? slope.gradient.norm() / std::sqrt(scale) : 0;
     return slope;
 }

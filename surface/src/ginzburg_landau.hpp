@@ -21,7 +21,9 @@ public:
     struct Slope {
         double energy;
         Eigen::VectorXd gradient;  // of the free unknowns, (2 n)
-        double residual;           // norm of the gradient, relative to that of the weights times the values
+        // Norm of the gradient, relative to that of the values times the weights or, where that is less, times the
+        // stiffness's diagonal: with epsilon far below the edge length the weights say nothing about the directions.
+        double residual;
     };
     Slope slope(const Eigen::VectorXcd& values) const;
     // Second derivative plus `shift` times weights on the diagonal; lower triangle, the pattern of the stiffness.
@@ -35,7 +37,7 @@ public:
 private:
     const std::vector<CornerLink>& links_;
     const FreeSystem& system_;
-    Eigen::VectorXd weights_;
+    Eigen::VectorXd weights_, residual_weights_;
 };
 
 struct DescentOptions {

@@ -9,6 +9,7 @@
 
 #include "ginzburg_landau.hpp"
 #include "limited_memory.hpp"
+#include "line_search.hpp"
 #include "random_field.hpp"
 #include "sparse_cholesky.hpp"
 
@@ -23,21 +24,6 @@ constexpr int steps_per_round = 15;
 constexpr int remembered_steps = 10;
 // Curvature below -this, in units of 1 / eps^2, marks a saddle point.
 constexpr double saddle_shift = 1e-6;
-
-// First local minimum at t > 0 of c0 t + ... + c3 t^4, which falls at 0.
-double lowest_along(const std::array<double, 4>& c) {
-    const auto slope = [&](double t) { return c[0] + t * (2 * c[1] + t * (3 * c[2] + t * 4 * c[3])); };
-    double low = 0, high = 1;
-    while (slope(high) < 0 && high < 1e6) {
-        low = high;
-        high *= 2;
-    }
-    for (int i = 0; i < 60; ++i) {
-        const double middle = (low + high) / 2;
-        (slope(middle) < 0 ? low : high) = middle;
-    }
-    return (low + high) / 2;
-}
 
 class Descent {
 public:

@@ -24,7 +24,7 @@ std::int64_t obj_vertex_id(const MeshBuilder& builder, std::string_view word, st
     if (!id || *id == 0)
         builder.fail("a face needs vertex numbers; they begin at 1 (or, counted back from the last, at -1)", line);
     if (*id > 0) return *id - 1;
-    if (-*id > builder.vertex_count()) builder.fail("a face counts back to before the first vertex", line);
+    if (*id < -builder.vertex_count()) builder.fail("a face counts back to before the first vertex", line);
     return builder.vertex_count() + *id;
 }
 

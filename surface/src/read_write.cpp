@@ -7,11 +7,11 @@
 #include <cctype>
 #include <fstream>
 #include <memory>
-#include <random>
 
 #include "merge_points.hpp"
 #include "mesh_builder.hpp"
 #include "octafield/error.hpp"
+#include "octafield/temporary_file.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -85,18 +85,11 @@ bool store_gzip(const std::string& bytes, const fs::path& path) {
     return (gzclose(file) == Z_OK) && good;
 }
 
-// Nobody sees a half-written file under the final name.
 void store(const std::string& bytes, const fs::path& path) {
-    fs::path temporary = path;
-    temporary += ".part" + std::to_string(std::random_device{}());
-    std::error_code error;
-    const bool good = is_gzip_name(path) ? store_gzip(bytes, temporary) : store_plain(bytes, temporary);
-    if (good) fs::rename(temporary, path, error);
-    if (good && !error) return;
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw IoError("cannot write " + path.string() + "; does its folder exist, is it writable, and is there space?",
-                  "unwritable");
+    TemporaryFile file(path);
+    if (!(is_gzip_name(path) ? store_gzip(bytes, file.path()) : store_plain(bytes, file.path())))
+        file.fail("writing stopped");
+    file.move_to_target();
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "octafield/error.hpp"
 #include "octafield/surface/validate.hpp"
 #include "shells.hpp"
+#include "short_number.hpp"
 #include "surface_mesh.hpp"
 
 namespace octafield::surface {
@@ -162,8 +163,8 @@ double checked_edge_length(const TriangleMesh& mesh, const RemeshOptions& option
     const double length = options.edge_length > 0 ? options.edge_length : bounding_box_diagonal(mesh.vertices) / 25;
     const double expected = triangle_areas(mesh).sum() / (std::numbers::sqrt3 / 4 * length * length), most = 5e7;
     if (expected > most)
-        throw InvalidInput("a target edge length of " + std::to_string(length) + " would give about " +
-                               std::to_string(expected) + " triangles; choose a larger one",
+        throw InvalidInput("a target edge length of " + short_number(length) + " would give about " +
+                               short_number(expected) + " triangles; choose a larger one",
                            "invalid_option");
     return length;
 }
@@ -195,7 +196,7 @@ RemeshResult remesh(const TriangleMesh& mesh, const FeatureGraph& features, cons
             if (why.empty()) why = failure.what();
         }
     }
-    throw GeometryError("remeshing to edge length " + std::to_string(length) + " spoils the surface: " + why +
+    throw GeometryError("remeshing to edge length " + short_number(length) + " spoils the surface: " + why +
                             ". The target is too coarse for the shape; choose a smaller edge length",
                         "too_coarse");
 }

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include "fill_holes.hpp"
+#include "flat_triangles.hpp"
 #include "half_edges.hpp"
 #include "merge_points.hpp"
 #include "shells.hpp"
-#include "triangle_tests.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -101,65 +100,6 @@ std::size_t orient_alike(Triangles& triangles) {
     return reversed;
 }
 
-using SidesOfEdge = std::map<std::pair<Index, Index>, std::vector<HalfEdge>>;
-
-bool coincide(const TriangleMesh& mesh, Index a, Index b) { return mesh.vertices.row(a) == mesh.vertices.row(b); }
-
-// The corner of a triangle without area (of three distinct points) that lies between the two others.
-int middle_corner(const TriangleMesh& mesh, Index t) {
-    int longest = 0;
-    double most = -1;
-    for (int k = 0; k < 3; ++k) {
-        const double length =
-            (mesh.vertices.row(mesh.triangles(t, k)) - mesh.vertices.row(mesh.triangles(t, (k + 1) % 3))).norm();
-        if (length > most) most = length, longest = k;
-    }
-    return (longest + 2) % 3;
-}
-
-// A triangle of three points on a line is taken away by flipping its longest side into the neighbour beyond, which
-// keeps the surface the same set of points; at a free side it is dropped. One round; returns the number of triangles
-// treated.
-std::size_t flip_flat_triangles(TriangleMesh& mesh) {
-    std::vector<Index> flat;
-    for (Index t = 0; t < mesh.triangles.rows(); ++t)
-        if (is_degenerate(mesh, t)) flat.push_back(t);
-    if (flat.empty()) return 0;
-    SidesOfEdge edges;
-    for_each_edge(sorted_half_edges(mesh.triangles), [&](auto first, auto last) {
-        edges[{first->low, first->high}].assign(first, last);
-    });
-    std::vector<bool> marked(mesh.triangles.rows(), false), touched(mesh.triangles.rows(), false);
-    std::size_t treated = 0;
-    for (const Index t : flat) {
-        const int k = middle_corner(mesh, t);
-        const Index b = mesh.triangles(t, k), c = mesh.triangles(t, (k + 1) % 3), a = mesh.triangles(t, (k + 2) % 3);
-        const auto& sides = edges.at(std::minmax(a, c));
-        if (touched[t] || sides.size() > 2 || coincide(mesh, a, b) || coincide(mesh, b, c)) continue;
-        touched[t] = true;
-        if (sides.size() == 1) {
-            marked[t] = true;
-            ++treated;
-            continue;
-        }
-        const HalfEdge& beyond = sides[0].triangle == t ? sides[1] : sides[0];
-        const Index d = mesh.triangles(beyond.triangle, (beyond.corner + 2) % 3);
-        // Of two flat triangles on one line the one with the longest side of all goes first; so each flip shortens an
-        // edge.
-        if (is_degenerate(mesh, beyond.triangle) && middle_corner(mesh, beyond.triangle) != (beyond.corner + 2) % 3)
-            continue;
-        if (touched[beyond.triangle] || sides[0].forward == sides[1].forward || edges.contains(std::minmax(b, d)))
-            continue;
-        touched[beyond.triangle] = true;
-        edges[std::minmax(b, d)];  // so that no second flip makes the same edge
-        mesh.triangles.row(t) << a, b, d;
-        mesh.triangles.row(beyond.triangle) << b, c, d;
-        ++treated;
-    }
-    drop(mesh.triangles, marked);
-    return treated;
-}
-
 class Repair {
 public:
     Repair(const TriangleMesh& mesh, const RepairOptions& options) : options_(options) { result_.mesh = mesh; }
@@ -205,11 +145,7 @@ private:
         note(drop_repeated(mesh_.triangles), "removed ", "triangle", " on the same three vertices as another");
     }
 
-    void flatten() {
-        std::size_t count = 0;
-        for (std::size_t treated = 1; treated > 0;) count += treated = flip_flat_triangles(mesh_);
-        note(count, "flipped away ", "triangle", " without area");
-    }
+    void flatten() { note(flip_flat_triangles(mesh_), "flipped away ", "triangle", " without area"); }
 
     void fill() {
         const HoleFilling filling = fill_holes(mesh_, options_.max_hole_edges);

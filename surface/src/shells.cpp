@@ -1,6 +1,8 @@
 #include "shells.hpp"
 
+#include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/box_intersection_d.h>
 
 #include <Eigen/Geometry>
 #include <memory>
@@ -13,6 +15,7 @@ namespace octafield::surface {
 namespace {
 
 using SideOf = CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel>;
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
 
 struct Piece {
     TriangleMesh mesh;
@@ -67,6 +70,27 @@ std::vector<Piece> split_into_pieces(const TriangleMesh& mesh, const std::vector
     return pieces;
 }
 
+// By piece, the number of closed pieces round it; only closed pieces are looked at.
+std::vector<int> depths(std::vector<Piece>& pieces) {
+    std::vector<Box> boxes;
+    for (Index p = 0; p < static_cast<Index>(pieces.size()); ++p) {
+        const auto &low = pieces[p].box.min(), &high = pieces[p].box.max();
+        if (pieces[p].closed) boxes.emplace_back(CGAL::Bbox_3(low[0], low[1], low[2], high[0], high[1], high[2]), p);
+    }
+    std::vector<int> depth(pieces.size(), 0);
+    const auto count = [&](Index outer, Index inner) {
+        const TriangleMesh& mesh = pieces[inner].mesh;
+        if (pieces[outer].box.contains(pieces[inner].box) &&
+            pieces[outer].contains(mesh.vertices.row(mesh.triangles(0, 0))))
+            ++depth[inner];
+    };
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+        count(a.info(), b.info());
+        count(b.info(), a.info());
+    });
+    return depth;
+}
+
 }  // namespace
 
 std::vector<Index> connected_pieces(const TriangleMesh& mesh, const std::vector<HalfEdge>& sides) {
@@ -89,16 +113,13 @@ std::vector<Index> connected_pieces(const TriangleMesh& mesh, const std::vector<
 
 std::vector<Index> wrong_way_triangles(const TriangleMesh& mesh, const std::vector<HalfEdge>& sides) {
     std::vector<Piece> pieces = split_into_pieces(mesh, sides);
+    const std::vector<int> depth = depths(pieces);
     std::vector<Index> wrong;
-    for (Piece& piece : pieces) {
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+        const Piece& piece = pieces[p];
         if (!piece.closed) continue;
-        int depth = 0;  // number of closed pieces round this one
-        for (Piece& other : pieces)
-            if (&other != &piece && other.closed && other.box.contains(piece.box) &&
-                other.contains(piece.mesh.vertices.row(piece.mesh.triangles(0, 0))))
-                ++depth;
         const double volume = signed_volume(piece.mesh);
-        if (depth % 2 == 0 ? volume <= 0 : volume >= 0)
+        if (depth[p] % 2 == 0 ? volume <= 0 : volume >= 0)
             wrong.insert(wrong.end(), piece.triangles.begin(), piece.triangles.end());
     }
     std::ranges::sort(wrong);

@@ -10,8 +10,9 @@
 namespace octafield::surface::detail {
 namespace {
 
-// Makes K definite where a parallel field exists (flat torus), far below any other eigenvalue.
-constexpr double eigen_shift = 1e-9;
+// Makes K definite where a parallel field exists (flat torus), far below any other eigenvalue; in units of 1 over the
+// area of the component.
+constexpr double eigen_shift = 1e-6;
 constexpr int most_iterations = 100;
 // Relative fall of the eigenvalue estimate per iteration at which the eigenvector is good enough.
 constexpr double eigen_tolerance = 1e-4;
@@ -57,6 +58,16 @@ private:
     mutable SparseCholesky cholesky_;
 };
 
+// The masses of components that are not anchored, each with sum 1; zero on the others.
+Eigen::VectorXd floating_weights(const Eigen::VectorXd& masses, const std::vector<Index>& component,
+                                 const std::vector<bool>& anchored) {
+    Eigen::VectorXd area = Eigen::VectorXd::Zero(masses.size()), weights = area;
+    for (Eigen::Index e = 0; e < masses.size(); ++e) area[component[e]] += masses[e];
+    for (Eigen::Index e = 0; e < masses.size(); ++e)
+        if (!anchored[component[e]]) weights[e] = masses[e] / area[component[e]];
+    return weights;
+}
+
 // Inverse iteration, on all components with weights at once.
 Eigen::VectorXcd smoothest_eigenvector(const LinearSolver& solver, const FreeSystem& system,
                                        const Eigen::VectorXd& weights, const std::vector<Index>& component,
@@ -91,9 +102,9 @@ std::vector<Index> edge_components(const std::vector<CornerLink>& links, Eigen::
 }
 
 Eigen::VectorXcd start_field(const std::vector<CornerLink>& links, const FreeSystem& system,
-                             const Eigen::VectorXd& weights, const std::vector<bool>& is_held,
+                             const Eigen::VectorXd& masses, const std::vector<bool>& is_held,
                              const Eigen::VectorXcd& held, std::uint64_t seed, const Progress& progress) {
-    const Eigen::Index edges = weights.size();
+    const Eigen::Index edges = masses.size();
     const std::vector<Index> component = edge_components(links, edges);
     std::vector<bool> anchored(edges, false);  // by component
     Eigen::VectorXcd values = Eigen::VectorXcd::Zero(edges);
@@ -103,9 +114,7 @@ Eigen::VectorXcd start_field(const std::vector<CornerLink>& links, const FreeSys
         values[e] = held[e];
     }
     if (system.size() > 0) {
-        Eigen::VectorXd floating = weights;  // zero on anchored components
-        for (Eigen::Index e = 0; e < edges; ++e)
-            if (anchored[component[e]]) floating[e] = 0;
+        const Eigen::VectorXd floating = floating_weights(masses, component, anchored);
         const LinearSolver solver(system, floating);
         values -= solver.solve(apply_stiffness(links, values));
         if (floating.maxCoeff() > 0)

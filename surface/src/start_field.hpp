@@ -15,10 +15,10 @@ std::vector<Index> edge_components(const std::vector<CornerLink>& links, Eigen::
 
 // Values with |f| = 1. `held` (E) holds the values of the held edges and anything elsewhere. Components with held edges
 // get the harmonic extension (K f = 0); the others the eigenvector of K f = lambda M f with the smallest lambda
-// (Knoeppel et al. 2013), by inverse iteration from a random field. `weights` (E): the diagonal of M in any scale in
-// which 1 is much above lambda. False from progress stops the iteration.
+// (Knoeppel et al. 2013), by inverse iteration from a random field. `masses` (E): the diagonal of M; their unit does
+// not matter. False from progress stops the iteration.
 Eigen::VectorXcd start_field(const std::vector<CornerLink>& links, const FreeSystem& system,
-                             const Eigen::VectorXd& weights, const std::vector<bool>& is_held,
+                             const Eigen::VectorXd& masses, const std::vector<bool>& is_held,
                              const Eigen::VectorXcd& held, std::uint64_t seed, const Progress& progress);
 
 }  // namespace octafield::surface::detail

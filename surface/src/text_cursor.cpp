@@ -1,7 +1,10 @@
 #include "text_cursor.hpp"
 
+#include <locale.h>
+#include <stdlib.h>
+
 #include <charconv>
-#include <cstdlib>
+#include <new>
 #include <string>
 
 namespace octafield::surface {
@@ -12,6 +15,14 @@ constexpr std::string_view kBlanksAndNewline = " \t\r\v\f\n";
 
 std::string_view without_plus(std::string_view word) {
     return word.size() > 1 && word[0] == '+' && word[1] != '-' ? word.substr(1) : word;
+}
+
+// from_chars leaves the value alone when it is too small or too large; strtod rounds to 0 or infinity. In the user's
+// locale it might stop at the decimal point.
+double rounded_to_range(std::string_view word) {
+    static const locale_t plain = newlocale(LC_ALL_MASK, "C", locale_t{});
+    if (plain == locale_t{}) throw std::bad_alloc();
+    return strtod_l(std::string(word).c_str(), nullptr, plain);
 }
 
 }  // namespace
@@ -59,8 +70,7 @@ std::optional<double> to_double(std::string_view word) {
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size() || word.empty()) return std::nullopt;
-    // from_chars leaves the value alone when it is too small or too large; strtod rounds to 0 or infinity.
-    if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
+    if (error == std::errc::result_out_of_range) return rounded_to_range(word);
     return error == std::errc() ? std::optional(value) : std::nullopt;
 }
 

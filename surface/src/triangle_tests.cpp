@@ -63,16 +63,19 @@ std::vector<Index> intersecting_triangles(const TriangleMesh& mesh) {
     std::vector<const Box*> pointers;  // the algorithm sorts these instead of the boxes
     pointers.reserve(boxes.size());
     for (const Box& box : boxes) pointers.push_back(&box);
-    std::vector<Index> found;
+    // A byte per triangle, as there may be far more pairs than triangles.
+    std::vector<char> marked(mesh.triangles.rows(), 0);
     const std::ptrdiff_t cutoff = 2000;  // as CGAL's self_intersections: plain scans below this many boxes
     CGAL::box_self_intersection_d(
         pointers.begin(), pointers.end(),
         [&](const Box* a, const Box* b) {
-            if (intersect(mesh, a->info(), b->info())) found.insert(found.end(), {a->info(), b->info()});
+            char &at_a = marked[a->info()], &at_b = marked[b->info()];
+            if (!(at_a && at_b) && intersect(mesh, a->info(), b->info())) at_a = at_b = 1;
         },
         cutoff);
-    std::ranges::sort(found);
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    std::vector<Index> found;
+    for (Index t = 0; t < mesh.triangles.rows(); ++t)
+        if (marked[t]) found.push_back(t);
     return found;
 }
 

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "crouzeix_raviart.hpp"
+#include "octafield/error.hpp"
 #include "octafield/surface/direction_field.hpp"
 #include "vertex_fans.hpp"
 
@@ -108,7 +110,13 @@ Points vertex_directions(const TriangleMesh& mesh, const FeatureGraph& features,
     const std::vector<bool> is_feature = feature_edges(features, topology);
     const Points normals = vertex_normals(mesh);
     std::vector<bool> is_corner(mesh.vertices.rows(), false);
-    for (const Index v : features.corners) is_corner.at(v) = true;
+    for (const Index v : features.corners) {
+        if (v < 0 || v >= mesh.vertices.rows())
+            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the mesh; there are " +
+                                   std::to_string(mesh.vertices.rows()) + ", numbered from 0",
+                               "index_out_of_range", {v});
+        is_corner[v] = true;
+    }
 
     Points directions = Points::Zero(mesh.vertices.rows(), 3);
     std::vector<Spoke> spokes;

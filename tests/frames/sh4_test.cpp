@@ -113,20 +113,25 @@ TEST(Sh4, ProjectionIgnoresTheInputsScale) {
     EXPECT_NEAR(Sh4::project(Sh4::Vector::Zero()).distance, 1, 1e-15);
 }
 
-// ALGORITHMS.md, measured independently: eight seeds have no wrong basin in 10,000 random inputs. Reference here: 40
-// random starts.
-TEST(Sh4, EightSeedsMissNoBasin) {
+// The claim of the header. Reference: eight more starts, random ones.
+TEST(Sh4, EightSeedsMissTheGlobalBasinRarelyAndNarrowly) {
     std::mt19937_64 generator(18);
-    const Quaternions starts = random_rotations(40, 19);
-    for (int trial = 0; trial < 400; ++trial) {
+    const Quaternions starts = random_rotations(512, 19);
+    int misses = 0;
+    for (int trial = 0; trial < 5000; ++trial) {
         Sh4::Vector v;
         for (int c = 0; c < 9; ++c) v[c] = normal01(generator);
+        v.normalize();
         const double found = Sh4::project(v).distance;
-        for (Eigen::Index i = 0; i < starts.rows(); i += 10) {
-            const Quaternion start = row_quaternion(starts, (i + trial) % starts.rows());
-            EXPECT_GE(Sh4::project(v, &start).distance, found - 1e-9);
+        double best = found;
+        for (int k = 0; k < 8; ++k) {
+            const Quaternion start = row_quaternion(starts, (8 * trial + k) % starts.rows());
+            best = std::min(best, Sh4::project(v, &start).distance);
         }
+        misses += best < found - 1e-9;
+        EXPECT_LT(found - best, 0.02);
     }
+    EXPECT_LE(misses, 1);
 }
 
 }  // namespace

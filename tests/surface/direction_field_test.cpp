@@ -13,7 +13,9 @@
 #include "../../surface/src/crouzeix_raviart.hpp"
 #include "../../surface/src/free_system.hpp"
 #include "../../surface/src/ginzburg_landau.hpp"
+#include "../../surface/src/line_search.hpp"
 #include "mesh_fixtures.hpp"
+#include "octafield/error.hpp"
 #include "octafield/surface/read_write.hpp"
 
 namespace octafield::surface {
@@ -148,6 +150,25 @@ TEST(DirectionField, GradientAndHessianAgreeWithFiniteDifferences) {
         EXPECT_NEAR(c[0] + c[1] + c[2] + c[3], functional.slope(values + step).energy - functional.slope(values).energy,
                     1e-9);
     }
+}
+
+TEST(LineSearch, FindsTheFirstMinimumOfAQuartic) {
+    // Slope s (t - a) (t - b) (t - c): minima at a and c.
+    const auto quartic = [](double s, double a, double b, double c) {
+        return std::array{-s * a * b * c, s * (a * b + b * c + c * a) / 2, -s * (a + b + c) / 3, s / 4};
+    };
+    for (const double s : {1e-9, 1.0, 1e9})
+        for (const double size : {1e-6, 0.01, 1.0, 300.0}) {
+            EXPECT_NEAR(detail::lowest_along(quartic(s, 0.3 * size, 0.4 * size, 0.9 * size)), 0.3 * size, 1e-9 * size);
+            EXPECT_NEAR(detail::lowest_along(quartic(s, 0.01 * size, 0.02 * size, 5 * size)), 0.01 * size, 1e-9 * size);
+            EXPECT_NEAR(detail::lowest_along(quartic(s, -2 * size, -size, 0.7 * size)), 0.7 * size, 1e-9 * size);
+            EXPECT_NEAR(detail::lowest_along(quartic(s, -2 * size, 0, 0.7 * size)), 0.7 * size, 1e-9 * size);
+            // Slope s (t - a) (t^2 + a^2): one minimum.
+            EXPECT_NEAR(detail::lowest_along({-s * size * size * size, s * size * size / 2, -s * size / 3, s / 4}),
+                        size, 1e-9 * size);
+        }
+    EXPECT_NEAR(detail::lowest_along({-1, 0, 0, 0.25}), 1, 1e-12);
+    EXPECT_NEAR(detail::lowest_along({-2, 1, 0, 1e-300}), 1, 1e-12);  // as good as quadratic
 }
 
 TEST(DirectionField, DescentLeavesASaddlePoint) {
@@ -393,6 +414,42 @@ TEST(DirectionField, EnergyDoesNotDependOnTheLengthUnit) {
     }
 }
 
+TEST(DirectionField, FarFromTheOriginTheFieldIsTheSame) {
+    for (const double sizes_away : {1e3, 1e5}) {
+        TriangleMesh sphere = icosphere(2), round = disk(8);
+        const double there = direction_field(round, {}).energy;
+        sphere.vertices.rowwise() += Eigen::RowVector3d(2, -1, 0.5) * sizes_away;
+        round.vertices.rowwise() += Eigen::RowVector3d(2, -1, 0.5) * sizes_away;
+        const DirectionField field = direction_field(sphere, {});
+        EXPECT_TRUE(field.converged);
+        EXPECT_NEAR(field.energy, direction_field(icosphere(2), {}).energy, 1e-3 * field.energy);
+        EXPECT_EQ(surface_singularities(sphere, field).size(), 8u);
+        EXPECT_NEAR(direction_field(round, {}).energy, there, 1e-5 * there);
+    }
+}
+
+TEST(DirectionField, TheEigenvectorDoesNotDependOnEpsilon) {
+    // A small component beside a large one: each has its own eigenvector.
+    TriangleMesh small = icosphere(2);
+    small.vertices *= 1e-5;
+    const TriangleMesh mesh = joined({torus(20, 12, 1, 0.4), small});
+    const auto at = [&](double epsilon) {
+        return direction_field(mesh, {}, {.method = DirectionFieldMethod::eigenvector, .epsilon = epsilon});
+    };
+    const DirectionField usual = at(0);
+    for (const double epsilon : {1e-12, 1e-6, 1e6}) EXPECT_TRUE(at(epsilon).values == usual.values);
+    // 8 singular points each turn by 1/4 on the sphere; a random field has hundreds.
+    EXPECT_LE(surface_singularities(mesh, usual).size(), 24u);
+}
+
+TEST(DirectionField, SmallEpsilonKeepsTheSmoothestFieldsPoints) {
+    const TriangleMesh mesh = icosphere(3);
+    const DirectionField smoothest = direction_field(mesh, {}, {.method = DirectionFieldMethod::eigenvector});
+    const DirectionField field = direction_field(mesh, {}, {.epsilon = mean_edge_length(mesh) / 50});
+    EXPECT_LE(surface_singularities(mesh, field).size(), 10u);
+    EXPECT_LE(field.dirichlet_energy, smoothest.dirichlet_energy);
+}
+
 TEST(DirectionField, OrderOfTrianglesDoesNotMatter) {
     TriangleMesh mesh = disk(8);
     const DirectionField field = direction_field(mesh, {}, {.energy_tolerance = 0});
@@ -460,6 +517,50 @@ TEST(DirectionField, RejectsUnusableOptions) {
     EXPECT_THROW(direction_field(mesh, {}, {.epsilon = std::nan("")}), InvalidInput);
     EXPECT_THROW(direction_field(mesh, {}, {.max_iterations = -1}), InvalidInput);
     EXPECT_THROW(direction_field(mesh, {}, {.tolerance = -1}), InvalidInput);
+}
+
+TEST(DirectionField, RefusesAnEpsilonAtWhichTheFieldVanishes) {
+    // On the unit sphere f = 0 is the minimum from epsilon 1/2 on: the lowest eigenvalue is 4 for 4-fold fields.
+    const TriangleMesh sphere = icosphere(3);
+    for (const double epsilon : {0.52, 1.0, 100.0}) {
+        try {
+            direction_field(sphere, {}, {.epsilon = epsilon});
+            FAIL() << "a field without directions was returned, epsilon " << epsilon;
+        } catch (const SolverError& error) {
+            EXPECT_EQ(error.kind(), "epsilon_too_large");
+            EXPECT_EQ(static_cast<Index>(error.elements().size()), sphere.triangles.rows());
+            EXPECT_NE(std::string(error.what()).find("smaller epsilon"), std::string::npos);
+        }
+    }
+    EXPECT_TRUE(direction_field(sphere, {}, {.epsilon = 0.4}).converged);
+    EXPECT_TRUE(direction_field(disk(8), {}, {.epsilon = 100}).converged);  // its boundary keeps it from vanishing
+    TriangleMesh small = icosphere(2);
+    small.vertices /= 1000;
+    const TriangleMesh both = joined({small, icosphere(3)});
+    try {
+        direction_field(both, {});
+        FAIL() << "the small sphere has no directions at this epsilon";
+    } catch (const SolverError& error) {
+        EXPECT_EQ(static_cast<Index>(error.elements().size()), small.triangles.rows());
+    }
+}
+
+TEST(DirectionField, RefusesAnEpsilonFarBelowTheEdgeLength) {
+    const TriangleMesh mesh = icosphere(2);
+    try {
+        direction_field(mesh, {}, {.epsilon = mean_edge_length(mesh) / 101});
+        FAIL() << "the field would stay as it starts";
+    } catch (const InvalidInput& error) {
+        EXPECT_EQ(error.kind(), "epsilon_too_small");
+    }
+    EXPECT_NO_THROW(direction_field(mesh, {}, {.epsilon = mean_edge_length(mesh) / 99}));
+}
+
+TEST(DirectionField, RejectsCornersThatAreNoVertices) {
+    const TriangleMesh mesh = disk(3);
+    const DirectionField field = direction_field(mesh, {});
+    for (const Index corner : {-1, 9999})
+        EXPECT_THROW(vertex_directions(mesh, {Edges(0, 2), {corner}}, field), InvalidInput);
 }
 
 TEST(DirectionField, RejectsFeaturesItCannotFollow) {

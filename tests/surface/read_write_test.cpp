@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <clocale>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -232,12 +233,25 @@ TEST_F(ReadWrite, RefusesCoordinatesThatAreNotFinite) {
     EXPECT_EQ(read("tiny.obj", "v 0 0 1e-999\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").vertices(0, 2), 0);
 }
 
+TEST_F(ReadWrite, NumbersOutOfRangeDoNotFollowTheLocale) {
+    // Locales with a decimal comma, where there are any: the last one installed, else "C".
+    for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"}) std::setlocale(LC_ALL, name);
+    const double value = read("tiny.obj", "v 0 0 1.5e-999\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").vertices(0, 2);
+    const double least = read("least.obj", "v 0 0 5.5e-324\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").vertices(0, 2);
+    const std::string huge = refusal("huge.obj", "v 0 0 1.5e999\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    std::setlocale(LC_ALL, "C");
+    EXPECT_EQ(value, 0);
+    EXPECT_EQ(least, std::numeric_limits<double>::denorm_min());
+    EXPECT_NE(huge.find("not finite"), std::string::npos);
+}
+
 TEST_F(ReadWrite, RefusesIndicesOutOfRangeAndNamesTheLine) {
     const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     EXPECT_NE(refusal("a.obj", points + "f 1 2 3\nf 1 2 4\n").find("line 5"), std::string::npos);
     refusal("b.obj", points + "f 0 1 2\n");
     refusal("c.obj", points + "f -4 1 2\n");
     refusal("d.obj", points + "f 1 2 99999999999999999999\n");
+    EXPECT_NE(refusal("least.obj", points + "f 1 2 -9223372036854775808\n").find("counts back"), std::string::npos);
     refusal("e.obj", points + "f 1 2\n");
     refusal("f.obj", points + "f a b c\n");
     refusal("g.obj", points);

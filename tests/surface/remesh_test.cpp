@@ -203,6 +203,15 @@ TEST(Remesh, WrongArgumentsAreRefused) {
     EXPECT_THROW(remesh(flipped, {Edges(0, 2), {}}), GeometryError);
 }
 
+TEST(Remesh, MessagesShowSmallLengths) {
+    try {
+        remesh(cube_surface(2), {Edges(0, 2), {}}, {.edge_length = 1.25e-7});
+        FAIL() << "more triangles than memory";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("1.25e-07"), std::string::npos) << error.what();
+    }
+}
+
 TEST(Remesh, TooCoarseATargetEitherStaysSoundOrSaysSo) {
     for (const double target : {0.5, 1.0, 3.0, 100.0}) {
         for (const TriangleMesh& mesh : {torus(40, 20, 1, 0.2), cube_surface(4), icosphere(3)}) {

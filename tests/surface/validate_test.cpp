@@ -177,6 +177,53 @@ TEST(Validate, TouchingAndFoldedSurfacesAreSelfIntersections) {
     EXPECT_EQ(kinds(folded, {.closed = false, .self_intersection = false}), Kinds{});
 }
 
+TEST(Validate, EveryTriangleOfManyCrossingPairsIsNamed) {
+    // A fan of 60 triangles, each through the middle of all others: 1770 pairs; and a sound cube, not named.
+    TriangleMesh fan;
+    fan.vertices.resize(180, 3);
+    fan.triangles.resize(60, 3);
+    for (Index t = 0; t < 60; ++t) {
+        const double angle = std::numbers::pi * t / 60, c = std::cos(angle), s = std::sin(angle);
+        fan.vertices.middleRows(3 * t, 3) << -c, -s, -1, c, s, -1, 0, 0, 1 + 0.01 * t;
+        fan.triangles.row(t) << 3 * t, 3 * t + 1, 3 * t + 2;
+    }
+    for (const Defect& defect : find_defects(joined(moved(cube_surface(2), 5), fan), {.closed = false})) {
+        if (defect.kind != "self_intersection") continue;
+        ASSERT_EQ(defect.elements.size(), 60u);
+        EXPECT_EQ(defect.elements.front(), 48);
+        EXPECT_EQ(defect.elements.back(), 48 + 59);
+        return;
+    }
+    FAIL() << "no self-intersection found";
+}
+
+TEST(Validate, FarFromTheOriginSoundMeshesStaySound) {
+    for (const double sizes_away : {1e3, 1e5})
+        for (TriangleMesh mesh : {icosphere(3), cube_surface(4), torus(20, 10, 1, 0.4),
+                                  joined(reversed(cube_surface(1)), moved(icosphere(2, 3), 0.25))}) {
+            mesh.vertices.rowwise() += Eigen::RowVector3d(2, -1, 0.5) * sizes_away;
+            EXPECT_EQ(kinds(mesh), Kinds{});
+        }
+}
+
+TEST(Validate, ManyCavitiesAreToldFromManyIslands) {
+    // 1728 small cubes side by side: inside a large one they must face inward, without it outward.
+    const TriangleMesh one = cube_surface(1);
+    TriangleMesh many;
+    many.vertices.resize(8 * 1728, 3);
+    many.triangles.resize(12 * 1728, 3);
+    for (Index i = 0; i < 1728; ++i) {
+        many.vertices.middleRows(8 * i, 8) =
+            one.vertices.rowwise() + 2 * Eigen::RowVector3d(i % 12, i / 12 % 12, i / 144);
+        many.triangles.middleRows(12 * i, 12) = (one.triangles.array() + 8 * i).matrix();
+    }
+    TriangleMesh box = one;
+    box.vertices = (30 * one.vertices).array() - 1;
+    EXPECT_EQ(kinds(many), Kinds{});
+    EXPECT_EQ(kinds(joined(box, reversed(many))), Kinds{});
+    EXPECT_EQ(repair(joined(box, many)).mesh.triangles, joined(box, reversed(many)).triangles);
+}
+
 TEST(Validate, UnusedVerticesAreNoDefect) {
     TriangleMesh mesh = icosphere(1);
     mesh.vertices.conservativeResize(mesh.vertices.rows() + 2, 3);
@@ -242,6 +289,24 @@ TEST(Repair, FlipsAwayTrianglesWithoutArea) {
     EXPECT_EQ(result.mesh.triangles.rows(), 14);
     EXPECT_NEAR(signed_volume(result.mesh), 1, 1e-14);
     expect_same_vertices_kept(mesh, result.mesh);
+}
+
+TEST(Repair, FlipsAwayALongChainOfTrianglesWithoutArea) {
+    // Points along a line from a corner, joined to it by flat triangles: only the last can be flipped at first.
+    const Index n = 3000;
+    TriangleMesh mesh;
+    mesh.vertices.resize(n + 3, 3);
+    for (Index i = 0; i <= n; ++i) mesh.vertices.row(i) << i, 0, 0;
+    mesh.vertices.row(n + 1) << 0, -5, 0;
+    mesh.vertices.row(n + 2) << n, 5, 0;
+    mesh.triangles.resize(2 * n, 3);
+    for (Index i = 0; i < n; ++i) mesh.triangles.row(i) << i + 1, i, n + 1;
+    for (Index i = 1; i < n; ++i) mesh.triangles.row(n + i - 1) << 0, i, i + 1;
+    mesh.triangles.row(2 * n - 1) << 0, n, n + 2;
+    const RepairResult result = repair(mesh, {.fill_holes = false});
+    EXPECT_EQ(kinds(result.mesh, {.closed = false, .self_intersection = false}), Kinds{});
+    EXPECT_EQ(result.mesh.triangles.rows(), 2 * n);
+    EXPECT_NEAR(triangle_areas(result.mesh).sum(), triangle_areas(mesh).sum(), 1e-9 * n);
 }
 
 TEST(Repair, FillsHolesUpToTheGivenSizeOnly) {

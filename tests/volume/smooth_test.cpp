@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "dirichlet_blocks.hpp"
+#include "field_fixtures.hpp"
 #include "frame_manifolds.hpp"
 #include "octafield/frames/octahedral_group.hpp"
+#include "octafield/volume/diffuse.hpp"
 #include "octafield/volume/operators.hpp"
 #include "tet_fixtures.hpp"
 
@@ -16,54 +18,11 @@ namespace {
 
 using frames::Quaternion;
 using frames::Vector3;
+using testing::constraints_on;
+using testing::jittered_cube;
 using testing::kuhn_cube;
-
-// Interior vertices displaced by up to `amount` grid steps: obtuse tets, negative cotangents.
-TetMesh jittered_cube(int n, double amount, std::uint64_t seed) {
-    TetMesh mesh = kuhn_cube(n);
-    std::mt19937_64 generator(seed);
-    for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
-        for (int c = 0; c < 3; ++c) {
-            const double shift = amount / n * (2 * frames::uniform01(generator) - 1);
-            const auto x = mesh.vertices.row(v);
-            if (x.minCoeff() > 1e-9 && x.maxCoeff() < 1 - 1e-9) mesh.vertices(v, c) += shift;
-        }
-    return mesh;
-}
-
-BoundaryConstraints constraints_on(const TetMesh& mesh, VertexConstraint kind, const Quaternions& frames) {
-    BoundaryConstraints c;
-    const std::size_t n = mesh.vertices.rows();
-    c.kind.assign(n, VertexConstraint::free);
-    c.on_boundary.assign(n, 0);
-    c.axis = Points::Zero(n, 3);
-    c.frames = Quaternions::Zero(n, 4);
-    c.frames.col(0).setOnes();
-    for (const Index v : boundary_surface(mesh).vertex_map) {
-        c.kind[v] = kind;
-        c.on_boundary[v] = 1;
-        c.frames.row(v) = frames.row(v);
-        if (kind == VertexConstraint::axis)
-            c.axis.row(v) =
-                (frames::from_wxyz(frames::Vector4(frames.row(v).transpose())) * Vector3::UnitZ()).transpose();
-    }
-    return c;
-}
-
-// A smooth field without singularities, far from constant.
-Quaternions smooth_field(const TetMesh& mesh) {
-    return testing::sample(mesh, [](const Vector3& x) {
-        return frames::exp({0.4 * std::sin(2 * x.y()), 0.5 * x.x() * x.z(), 0.6 * x.x() - 0.3 * x.z()});
-    });
-}
-
-double largest_distance(const Quaternions& a, const Quaternions& b) {
-    double largest = 0;
-    for (Eigen::Index v = 0; v < a.rows(); ++v)
-        largest = std::max(largest, frames::distance(frames::from_wxyz(frames::Vector4(a.row(v).transpose())),
-                                                     frames::from_wxyz(frames::Vector4(b.row(v).transpose()))));
-    return largest;
-}
+using testing::largest_distance;
+using testing::smooth_field;
 
 TEST(FrameManifold, ObeysCeresManifoldInvariants) {
     using namespace ceres;  // the macro names its helpers unqualified
@@ -258,6 +217,32 @@ TEST(Smooth, CancellingKeepsTheBestState) {
     EXPECT_FALSE(result.converged);
     EXPECT_NEAR(result.energy, result.energy_history.back(), 1e-9 * result.energy);
     EXPECT_LT(result.energy, result.energy_history.front());
+}
+
+// Vertices of no tet have neither neighbours nor mass; they keep their start.
+TEST(Smooth, LeavesVerticesOfNoTetAlone) {
+    TetMesh mesh = jittered_cube(3, 0.2, 19);
+    const Eigen::Index used = mesh.vertices.rows();
+    mesh.vertices.conservativeResize(used + 20, 3);
+    mesh.vertices.bottomRows(20).setConstant(0.5);
+    const Quaternions start = frames::random_rotations(mesh.vertices.rows(), 20);
+    for (const VertexConstraint kind : {VertexConstraint::fixed, VertexConstraint::axis}) {
+        const BoundaryConstraints constraints = constraints_on(mesh, kind, smooth_field(mesh));
+        EXPECT_TRUE(initial_frames(mesh, constraints).allFinite());
+        EXPECT_TRUE(diffuse(mesh, constraints, start).frames.allFinite());
+        const SmoothResult result = smooth(mesh, constraints, start);
+        EXPECT_LT(largest_distance(result.frames.bottomRows(20), start.bottomRows(20)), 1e-7);
+    }
+}
+
+TEST(Smooth, NamesTheUnsoundTetBeforeWorking) {
+    TetMesh mesh = kuhn_cube(2);
+    const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));
+    const Quaternions start = smooth_field(mesh);
+    std::swap(mesh.tets(5, 0), mesh.tets(5, 1));
+    EXPECT_THROW(smooth(mesh, constraints, start), GeometryError);
+    EXPECT_THROW(diffuse(mesh, constraints, start), GeometryError);
+    EXPECT_THROW(initial_frames(mesh, constraints), GeometryError);
 }
 
 TEST(Smooth, RefusesArraysThatDoNotFitTheMesh) {

@@ -188,5 +188,31 @@ TEST_F(WriteVtk, AFullDiskIsAnIoError) {
     EXPECT_FALSE(fs::exists(folder / "full.vtp"));
 }
 
+TEST(WriteSingularGraph, FollowsSymbolicLinksAndRefusesWhatIsNoFile) {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("octafield_links" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder / "taken.vtp");
+    std::filesystem::create_symlink(folder / "target.vtp", folder / "link.vtp");
+    SingularGraph graph;
+    graph.points = Points::Zero(0, 3);
+    EXPECT_THROW(write_singular_graph(folder / "taken.vtp", graph), IoError);
+    write_singular_graph(folder / "link.vtp", graph);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.vtp"));
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder / "target.vtp"));
+    std::filesystem::remove_all(folder);
+}
+
+TEST(WriteSingularGraph, RefusesAGraphThatDoesNotHangTogether) {
+    const std::filesystem::path path = std::filesystem::temp_directory_path() / "octafield_bad_graph.vtp";
+    SingularGraph graph;
+    graph.points = Points::Zero(2, 3);
+    graph.curves = {{0, 1}};
+    EXPECT_THROW(write_singular_graph(path, graph), InvalidInput);  // no type for the curve
+    graph.curve_quarter_turns = {1};
+    graph.nodes = {2};
+    EXPECT_THROW(write_singular_graph(path, graph), InvalidInput);  // no such point
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 }  // namespace
 }  // namespace octafield::volume

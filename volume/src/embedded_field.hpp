@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "frame_manifolds.hpp"
 #include "octafield/frames/representation.hpp"
 #include "octafield/parallel.hpp"
 
@@ -39,13 +40,9 @@ public:
             const frames::Quaternion q = frames::from_wxyz(x);
             if (new_evaluation_point) values_[v] = R::embed(q);
             if (!jacobians) return;
-            Eigen::Matrix<double, 3, 4> left_inverse;  // 4 (d exp(w) q / dw)^T, see frame_manifolds.cpp
-            // clang-format off
-            left_inverse << -x[1], x[0], -x[3], x[2],
-                            -x[2], x[3], x[0], -x[1],
-                            -x[3], -x[2], x[1], x[0];
-            // clang-format on
-            jacobians_[v] = R::differential(q) * (2 * left_inverse);
+            Eigen::Matrix<double, 3, 4, Eigen::RowMajor> left_inverse;
+            FrameManifold().MinusJacobian(x.data(), left_inverse.data());
+            jacobians_[v] = R::differential(q) * left_inverse;
         });
         if (jacobians) jacobians_current_ = true;
     }

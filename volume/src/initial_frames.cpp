@@ -1,5 +1,6 @@
 #include <Eigen/IterativeLinearSolvers>
 
+#include "constraints.hpp"
 #include "octafield/frames/sh4.hpp"
 #include "octafield/parallel.hpp"
 #include "octafield/volume/operators.hpp"
@@ -59,13 +60,17 @@ void harmonic_extension(const SparseMatrix& laplacian, const std::vector<char>& 
 }  // namespace
 
 Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints, int threads) {
+    require_fitting(mesh, constraints);
     const Index n = static_cast<Index>(mesh.vertices.rows());
-    const std::vector<char> held = held_vertices(constraints);
+    const SparseMatrix laplacian = stiffness(mesh);
+    std::vector<char> held = held_vertices(constraints);
+    for (Index v = 0; v < n; ++v)
+        if (laplacian.outerIndexPtr()[v] == laplacian.outerIndexPtr()[v + 1]) held[v] = 1;  // in no tet: no equation
     Field field = Field::Zero(n, Sh4::dimension);
     for (Index v = 0; v < n; ++v)
         if (held[v])
             field.row(v) = Sh4::embed(frames::from_wxyz(Vector4(constraints.frames.row(v).transpose()))).transpose();
-    harmonic_extension(stiffness(mesh), held, field);
+    harmonic_extension(laplacian, held, field);
 
     Quaternions result = constraints.frames;
     parallel_for(n, threads, [&](std::int64_t v) {

@@ -64,7 +64,7 @@ bool write_all(int descriptor, const void* bytes, std::size_t count) {
 
 // The parent's signal handlers (Python's, a sanitizer's) must not run in the child, a crash must leave no core file,
 // and the parent's death must end the child. What stdio still buffers belongs to the parent.
-void become_isolated(int printed) {
+void become_isolated(pid_t parent, int printed) {
     for (const int signal_number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL})
         signal(signal_number, SIG_DFL);
     sigset_t none;
@@ -73,6 +73,7 @@ void become_isolated(int printed) {
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);  // it died before the line above
     __fpurge(stdout);
     __fpurge(stderr);
     dup2(printed, STDOUT_FILENO);
@@ -82,8 +83,8 @@ void become_isolated(int printed) {
 
 constexpr int done_code = 0, failed_code = 1;
 
-[[noreturn]] void run_child(const std::function<void(const Emit&)>& work, int result, int printed) {
-    become_isolated(printed);
+[[noreturn]] void run_child(pid_t parent, const std::function<void(const Emit&)>& work, int result, int printed) {
+    become_isolated(parent, printed);
     bool complete = true;
     try {
         work([&](const void* bytes, std::size_t count) { complete = complete && write_all(result, bytes, count); });
@@ -124,10 +125,15 @@ int wait_for(pid_t child, const std::string& phase, const Progress& progress) {
 IsolatedOutcome run_isolated(const std::function<void(const Emit&)>& work, const std::string& phase,
                              const Progress& progress) {
     const MemoryFile result("octafield-result"), printed("octafield-printed");
-    const pid_t child = fork();
+    // No handler of the parent's may run in the child before become_isolated has put the defaults back.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const pid_t parent = getpid(), child = fork();
+    if (child != 0) pthread_sigmask(SIG_SETMASK, &before, nullptr);
     if (child < 0)
         throw SolverError("no process could be started for the mesher: " + std::string(std::strerror(errno)));
-    if (child == 0) run_child(work, result.descriptor(), printed.descriptor());
+    if (child == 0) run_child(parent, work, result.descriptor(), printed.descriptor());
     const int status = wait_for(child, phase, progress);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) throw Cancelled("cancelled during " + phase);
     IsolatedOutcome outcome;

@@ -9,12 +9,12 @@
 #include <limits>
 #include <memory>
 
+#include "constraints.hpp"
 #include "dirichlet_costs.hpp"
 #include "frame_manifolds.hpp"
 #include "octafield/frames/sh4.hpp"
 #include "octafield/library_threads.hpp"
 #include "octafield/volume/operators.hpp"
-#include "require_frames.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -23,43 +23,8 @@ using frames::Quaternion;
 using frames::Vector3;
 using frames::Vector4;
 
-constexpr Index cholesky_limit =
-    30000;  // vertices; beyond, the fill of a 3D factorization costs more than inexact steps
-
-void check_input(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
-                 const SmoothOptions& options) {
-    const std::size_t n = mesh.vertices.rows();
-    if (constraints.kind.size() != n || constraints.axis.rows() != Eigen::Index(n) ||
-        constraints.frames.rows() != Eigen::Index(n))
-        throw InvalidInput("the constraints have " + std::to_string(constraints.kind.size()) + " entries for " +
-                               std::to_string(n) + " vertices; build them with boundary_constraints for this mesh",
-                           "size_mismatch");
-    require_frames(start, mesh.vertices.rows());
-    if (options.max_iterations < 0) throw InvalidInput("max_iterations is negative; give 0 or more", "bad_option");
-    if (!(options.tolerance >= 0)) throw InvalidInput("tolerance must not be negative", "bad_option");
-}
-
-// The frame turned by the least rotation that puts its nearest axis on `axis`.
-Quaternion aligned_to(const Quaternion& q, const Vector3& axis) {
-    const Vector3 local = q.conjugate() * axis;
-    int nearest = 0;
-    local.cwiseAbs().maxCoeff(&nearest);
-    const Vector3 from =
-        q * Vector3(local[nearest] < 0 ? Vector3(-Vector3::Unit(nearest)) : Vector3(Vector3::Unit(nearest)));
-    return (frames::rotation_between(from, axis) * q).normalized();
-}
-
-Quaternions constrained_start(const BoundaryConstraints& constraints, const Quaternions& start) {
-    Quaternions result = start.rowwise().normalized();
-    for (std::size_t v = 0; v < constraints.kind.size(); ++v) {
-        if (constraints.kind[v] == VertexConstraint::fixed) result.row(v) = constraints.frames.row(v).normalized();
-        if (constraints.kind[v] == VertexConstraint::axis)
-            result.row(v) = frames::to_wxyz(aligned_to(frames::from_wxyz(Vector4(result.row(v).transpose())),
-                                                       constraints.axis.row(v).transpose()))
-                                .transpose();
-    }
-    return result;
-}
+// Vertices; beyond, the fill of a 3D factorization costs more than inexact steps.
+constexpr Index cholesky_limit = 10000;
 
 // Passes energies on, keeps the history, and stops the solver when the caller wishes.
 class Reporter final : public ceres::IterationCallback {
@@ -152,7 +117,9 @@ ceres::Solver::Options solver_options(const SmoothOptions& options, Index vertex
 
 SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
                     const SmoothOptions& options, const Progress& progress) {
-    check_input(mesh, constraints, start, options);
+    require_fitting(mesh, constraints, start);
+    if (options.max_iterations < 0) throw InvalidInput("max_iterations is negative; give 0 or more", "bad_option");
+    if (!(options.tolerance >= 0)) throw InvalidInput("tolerance must not be negative", "bad_option");
     calm_library_threads();
     FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres would log is in the exception
 

@@ -1,6 +1,5 @@
 #include "octafield/volume/write_vtk.hpp"
 
-#include <unistd.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -21,51 +20,15 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <system_error>
 
 #include "octafield/frames/sh4.hpp"
+#include "octafield/temporary_file.hpp"
 #include "require_frames.hpp"
 
 namespace octafield::volume {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A new file beside the target, removed unless it has been moved onto it.
-class TemporaryFile {
-public:
-    explicit TemporaryFile(const fs::path& target) : target_(target), path_(target) {
-        static std::atomic<unsigned> counter{0};
-        path_ += ".part" + std::to_string(getpid()) + "-" + std::to_string(counter++);
-        errno = 0;
-        if (!std::ofstream(path_)) fail(errno ? std::strerror(errno) : "the file could not be opened");
-    }
-    ~TemporaryFile() {
-        std::error_code ignored;
-        fs::remove(path_, ignored);
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-    const fs::path& path() const { return path_; }
-    void move_to_target() {
-        std::error_code error;
-        fs::rename(path_, target_, error);
-        if (error) fail(error.message());
-    }
-    [[noreturn]] void fail(const std::string& reason) const {
-        throw IoError("cannot write " + target_.string() + ": " + reason +
-                          "; check that its directory exists, is writable and has space",
-                      "write_failed");
-    }
-
-private:
-    fs::path target_, path_;
-};
 
 template <class Writer, class DataSet>
 void write(const fs::path& target, DataSet* data) {
@@ -166,6 +129,21 @@ vtkNew<vtkCellArray> vertex_cells(const std::vector<Index>& points) {
         points.data(), static_cast<Eigen::Index>(points.size())));
 }
 
+void require_graph(const SingularGraph& graph) {
+    if (graph.curve_quarter_turns.size() != graph.curves.size())
+        throw InvalidInput("curve_quarter_turns has " + std::to_string(graph.curve_quarter_turns.size()) +
+                               " entries for " + std::to_string(graph.curves.size()) + " curves; give one per curve",
+                           "wrong_size");
+    const auto require_point = [&](Index p) {
+        if (p < 0 || p >= graph.points.rows())
+            throw InvalidInput(
+                "the singular graph uses point " + std::to_string(p) + " of " + std::to_string(graph.points.rows()),
+                "index_out_of_range", {p});
+    };
+    for (const auto& curve : graph.curves) std::for_each(curve.begin(), curve.end(), require_point);
+    std::for_each(graph.nodes.begin(), graph.nodes.end(), require_point);
+}
+
 }  // namespace
 
 void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& frames, const Metadata& metadata) {
@@ -185,6 +163,7 @@ void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& f
 }
 
 void write_singular_graph(const fs::path& path, const SingularGraph& graph, const Metadata& metadata) {
+    require_graph(graph);
     vtkNew<vtkPolyData> data;
     data->SetPoints(to_points(graph.points));
     data->SetVerts(vertex_cells(graph.nodes));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -26,6 +27,7 @@ void parallel_for(std::int64_t n, int threads, const Body& body) {
     }
     std::vector<std::exception_ptr> errors(count);
     std::vector<std::thread> workers;
+    workers.reserve(count);
     const auto run = [&](std::int64_t worker) {
         try {
             for (std::int64_t i = n * worker / count; i < n * (worker + 1) / count; ++i) body(i);
@@ -33,8 +35,14 @@ void parallel_for(std::int64_t n, int threads, const Body& body) {
             errors[worker] = std::current_exception();
         }
     };
-    for (std::int64_t worker = 1; worker < count; ++worker) workers.emplace_back(run, worker);
+    std::int64_t started = 1;
+    try {
+        for (; started < count; ++started) workers.emplace_back(run, started);
+    } catch (const std::system_error&) {
+        // No more threads to be had: the calling thread does the rest, with the same result.
+    }
     run(0);
+    for (std::int64_t worker = started; worker < count; ++worker) run(worker);
     for (auto& worker : workers) worker.join();
     for (const auto& error : errors)
         if (error) std::rethrow_exception(error);

@@ -23,7 +23,8 @@ int octahedral_inverse(int a);
 OctahedralClass octahedral_class(int a);
 
 // Number of the element o that brings q1 * o closest to q2: the matching from frame q1 to frame q2.
-// matching(q2, q1) is the inverse of matching(q1, q2). Of equally close elements the lowest number, up to rounding.
+// matching(q2, q1) is the inverse of matching(q1, q2), except in ties. Of equally close elements the lowest number, up
+// to rounding.
 int matching(const Quaternion& q1, const Quaternion& q2);
 
 // Geodesic distance of two frames in radians: the angle of the smallest rotation taking one onto the other, in

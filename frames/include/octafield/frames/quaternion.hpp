@@ -36,7 +36,8 @@ Quaternion rotation_between(const Vector3& from, const Vector3& to);
 // `direction` may be any vector, a nearly parallel one included: then the first axis is arbitrary but deterministic.
 Quaternion frame_from_axes(const Vector3& direction, const Vector3& normal);
 
-// (n, 4) rotations distributed uniformly over SO(3) (Shoemake 1992); the same numbers on every platform for one seed.
+// (n, 4) rotations distributed uniformly over SO(3) (Shoemake 1992); one seed gives the same generator stream on every
+// platform.
 Quaternions random_rotations(std::int64_t n, std::uint64_t seed);
 
 // A double in [0, 1) with 53 random bits: unlike std::uniform_real_distribution the same on every platform.

@@ -32,13 +32,16 @@ enum class DirectionFieldMethod {
 struct DirectionFieldOptions {
     int symmetry = 4;  // N >= 1
     DirectionFieldMethod method = DirectionFieldMethod::ginzburg_landau;
-    // Coherence length, input unit; 0: 2 mean edge lengths, at most 1/10 of the bounding-box diagonal.
+    // Coherence length, input unit; 0: 2 mean edge lengths, at most 1/10 of the bounding-box diagonal, also of each
+    // connected part without features as long as that is at least 1/4 of the mean edge length. Below 1/100 of
+    // the mean edge length it is refused: the singular points would stay where they start. Where it is large against a
+    // connected part of the surface, f = 0 is the minimum there. The eigenvector method does not depend on it.
     double epsilon = 0;
     int max_iterations = 1000;
-    // Stop when the residual falls to `tolerance`: the norm of E's gradient over that of the mass-weighted f / eps^2;
-    // or when a round of 15 steps lowers E by less than `energy_tolerance` of itself at a point that is no saddle. The
-    // second is what ends the descent where the singular points move freely (a sphere turned in itself); 0 leaves it
-    // out.
+    // Stop when the residual falls to `tolerance`: the norm of E's gradient over that of the mass-weighted f / eps^2
+    // (for an edge whose stiffness is less, of the stiffness times f); or when a round of 15 steps lowers E by less
+    // than `energy_tolerance` of itself at a point that is no saddle. The second is what ends the descent where the
+    // singular points move freely (a sphere turned in itself); 0 leaves it out.
     double tolerance = 1e-10;
     double energy_tolerance = 1e-6;
     std::uint64_t seed = 0;  // of the eigenvector's random start; only matters without features
@@ -60,8 +63,9 @@ struct DirectionField {
 // Edges of `features` and of the mesh boundary hold f = 1: one direction along the edge. With odd N the direction
 // follows the boundary, surface on its left, and features inside the surface are refused: they have no sense to run in.
 // Requires an edge-manifold, consistently oriented mesh without degenerate triangles, closed or not, any number of
-// components. Cancelling through progress keeps the best state (converged = false). Throws InvalidInput, GeometryError,
-// SolverError.
+// components. Cancelling through progress keeps the best state (converged = false). Throws InvalidInput, GeometryError;
+// SolverError when the descent ends with |f| < 0.1 on all free edges of a component (kind "epsilon_too_large", elements
+// its triangles): such a field has no directions.
 DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& features,
                                const DirectionFieldOptions& options = {}, const Progress& progress = {});
 

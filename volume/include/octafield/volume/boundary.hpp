@@ -13,7 +13,8 @@ namespace octafield::volume {
 
 enum class BoundaryMode {
     aligned,  // one axis on the normal, twist free, starting from the cross field; frames on features fixed
-    fixed,    // whole frame fixed from the surface cross field
+    fixed,    // whole frame fixed: the cross field's on smooth parts, the best fit on feature curves; corners no frame
+              // fits stay free
     none,     // nothing constrained; the cross field is still the start
 };
 

@@ -1,0 +1,69 @@
+#include "constraints.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "octafield/frames/quaternion.hpp"
+#include "require_frames.hpp"
+
+namespace octafield::volume {
+namespace {
+
+using frames::Quaternion;
+using frames::Vector3;
+using frames::Vector4;
+
+// The frame turned by the least rotation that puts its nearest axis on `axis`.
+Quaternion aligned_to(const Quaternion& q, const Vector3& axis) {
+    const Vector3 local = q.conjugate() * axis;
+    int nearest = 0;
+    local.cwiseAbs().maxCoeff(&nearest);
+    const Vector3 from =
+        q * Vector3(local[nearest] < 0 ? Vector3(-Vector3::Unit(nearest)) : Vector3(Vector3::Unit(nearest)));
+    return (frames::rotation_between(from, axis) * q).normalized();
+}
+
+}  // namespace
+
+void require_fitting(const TetMesh& mesh, const BoundaryConstraints& constraints) {
+    require_valid(mesh);
+    const std::size_t n = mesh.vertices.rows();
+    const auto rows = [](const auto& array) { return static_cast<std::size_t>(array.rows()); };
+    for (const std::size_t size :
+         {constraints.kind.size(), constraints.on_boundary.size(), rows(constraints.axis), rows(constraints.frames)})
+        if (size != n)
+            throw InvalidInput("the constraints have " + std::to_string(size) + " entries for " + std::to_string(n) +
+                                   " vertices; build them with boundary_constraints for this mesh",
+                               "wrong_size");
+    for (const Index v : constraints.released_corners)
+        if (v < 0 || static_cast<std::size_t>(v) >= n)
+            throw InvalidInput("released corner " + std::to_string(v) + " is no vertex of the mesh",
+                               "index_out_of_range", {v});
+    require_frames(constraints.frames, mesh.vertices.rows());
+    std::vector<Index> bad;
+    for (std::size_t v = 0; v < n; ++v)
+        if (constraints.kind[v] == VertexConstraint::axis && !(std::abs(constraints.axis.row(v).norm() - 1) < 1e-6))
+            bad.push_back(static_cast<Index>(v));
+    if (!bad.empty())
+        throw InvalidInput("the fixed axes at vertices " + first_few(bad) + " are not unit vectors", "not_unit", bad);
+}
+
+void require_fitting(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start) {
+    require_fitting(mesh, constraints);
+    require_frames(start, mesh.vertices.rows());
+}
+
+Quaternions constrained_start(const BoundaryConstraints& constraints, const Quaternions& start) {
+    Quaternions result = start.rowwise().normalized();
+    for (std::size_t v = 0; v < constraints.kind.size(); ++v) {
+        if (constraints.kind[v] == VertexConstraint::fixed) result.row(v) = constraints.frames.row(v).normalized();
+        if (constraints.kind[v] == VertexConstraint::axis)
+            result.row(v) = frames::to_wxyz(aligned_to(frames::from_wxyz(Vector4(result.row(v).transpose())),
+                                                       constraints.axis.row(v).transpose()))
+                                .transpose();
+    }
+    return result;
+}
+
+}  // namespace octafield::volume
