@@ -21,7 +21,8 @@ class TemporaryFile {
 public:
     explicit TemporaryFile(const std::filesystem::path& target) : target_(target) {
         std::error_code error;
-        if (std::filesystem::is_symlink(target, error)) target_ = std::filesystem::weakly_canonical(target, error);
+        for (int links = 0; links < 40 && std::filesystem::is_symlink(target_, error); ++links)  // 40: a loop of links
+            target_ = target_.parent_path() / std::filesystem::read_symlink(target_, error);
         if (std::filesystem::exists(target_, error) && !std::filesystem::is_regular_file(target_, error))
             fail("it exists and is no regular file");
         static std::atomic<unsigned> counter{0};
