@@ -61,10 +61,11 @@ def _options_of_all(
     pass
 
 
-def _carry_out(work: Callable[[], None], quiet: bool, verbose: bool) -> None:
+def _carry_out(work: Callable[[], None], quiet: bool, verbose: bool, json: str | None) -> None:
     """Runs a command; an error becomes one line on stderr and an exit code."""
     console.set_verbosity(quiet, verbose)
     try:
+        console.check_json_target(json)
         work()
     except typer.Exit:
         raise
@@ -127,7 +128,7 @@ def field(
             write_field_result(result, folder, progress)
         _finish(result.record, json, quiet, output)
 
-    _carry_out(work, quiet, verbose)
+    _carry_out(work, quiet, verbose, json)
 
 
 @app.command("surface-field")
@@ -172,7 +173,7 @@ def surface_field(
             write_surface_result(result, folder, progress)
         _finish(result.record, json, quiet, output)
 
-    _carry_out(work, quiet, verbose)
+    _carry_out(work, quiet, verbose, json)
 
 
 @app.command()
@@ -221,7 +222,7 @@ def compare(
             tables.show_comparison(comparison.rows)
         log.info("wrote %s", output / "report.html")
 
-    _carry_out(work, quiet, verbose)
+    _carry_out(work, quiet, verbose, json)
 
 
 @app.command()
@@ -250,7 +251,7 @@ def info(
                 f"{input}: {failure}", next(r["kind"] for r in record["requirements"] if r["message"] == failure)
             )
 
-    _carry_out(work, quiet, verbose)
+    _carry_out(work, quiet, verbose, json)
 
 
 def _listed(text: str) -> list[str]:

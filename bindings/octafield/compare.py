@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from .errors import InvalidInput
-from .meshing import MeshedInput, Source, prepare_mesh
-from .options import BOUNDARIES, REPRESENTATIONS, FieldOptions, require_one_of
+from .meshing import MeshedInput, Source, prepare_mesh, read_sound
+from .options import BOUNDARIES, LARGEST_SEED, REPRESENTATIONS, FieldOptions, integer_in, require_one_of
 from .output import staged_folder, write_json
 from .phases import Progress
 from .pipeline import FieldResult, Problem, prepare, run
@@ -58,12 +58,16 @@ def compare(
     earlier comparison in it is replaced, a folder with anything else is refused (InvalidInput).
     """
     inputs = [inputs] if isinstance(inputs, Source) else list(inputs)
-    _check(inputs, representations, boundaries, seeds)
+    _check(inputs, representations, boundaries)
+    seeds = integer_in("seeds", seeds, 1, LARGEST_SEED - options.seed + 1)
     with staged_folder(output, ROWS_FILE) as folder:
         rows: list[dict] = []
         sections: list[InputSection] = []
-        for source in inputs:
-            meshed = prepare_mesh(source, options, progress=_labelled(progress, _short_name(source)))
+        # All are read before the first run: an unfit one should not cost the time of those before it.
+        reports = [_labelled(progress, _short_name(source)) for source in inputs]
+        sound = [read_sound(source, options, progress=report) for source, report in zip(inputs, reports, strict=True)]
+        for number, source in enumerate(inputs):
+            meshed = prepare_mesh(sound[number], options, progress=reports[number])
             section = InputSection(_short_name(source), _unique([s.slug for s in sections], _slug(source)))
             _run_all(meshed, section, folder, representations, boundaries, seeds, options, progress)
             sections.append(section)
@@ -122,7 +126,7 @@ def _volume_pictures(result: FieldResult, label: str) -> list[Picture]:
     return [replace(picture, title=f"{picture.title} ({label})") for picture in drawn]
 
 
-def _check(inputs: Sequence, representations: Sequence[str], boundaries: Sequence[str], seeds: int) -> None:
+def _check(inputs: Sequence, representations: Sequence[str], boundaries: Sequence[str]) -> None:
     if not inputs or not representations or not boundaries:
         raise InvalidInput(
             "a comparison needs at least one input, representation and boundary treatment", "nothing_to_compare"
@@ -134,8 +138,6 @@ def _check(inputs: Sequence, representations: Sequence[str], boundaries: Sequenc
     for what, values in (("representations", representations), ("boundaries", boundaries)):
         if len(set(values)) < len(values):
             raise InvalidInput(f"{what}: each may be named once only", "repeated_value")
-    if seeds < 1:
-        raise InvalidInput("the number of seeds must be at least 1", "option_out_of_range")
 
 
 def _labelled(progress: Progress | None, label: str) -> Progress | None:

@@ -4,6 +4,7 @@ import contextlib
 import json
 import logging
 import math
+import os
 import sys
 import traceback
 from collections.abc import Iterator
@@ -12,7 +13,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError
+from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from .output import write_json
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -25,6 +26,8 @@ _REPAIRABLE = (
     "not_closed",
     "inside_out",
 )
+
+_OPTION_AT_FAULT = ("epsilon_too_large",)  # kinds of SolverError that another option value avoids
 
 log = logging.getLogger("octafield")
 
@@ -45,6 +48,9 @@ def error_code(error: BaseException) -> int:
     if isinstance(error, (InvalidInput, GeometryError, IoError)):
         hint = " (option --repair does this)" if error.kind in _REPAIRABLE and "repair the mesh" in str(error) else ""
         _say(f"error: {error}{hint}")
+        return BAD_INPUT
+    if isinstance(error, SolverError) and error.kind in _OPTION_AT_FAULT:
+        _say(f"error: {error}")
         return BAD_INPUT
     if isinstance(error, OSError):
         _say(f"error: {error.filename or 'file'}: {error.strerror or error}")
@@ -68,7 +74,7 @@ def progress_bar(quiet: bool) -> Iterator:
         return
     columns = (
         SpinnerColumn(),
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         TextColumn("{task.fields[merit]}"),
         TimeElapsedColumn(),
@@ -91,6 +97,22 @@ def progress_bar(quiet: bool) -> Iterator:
             return True
 
         yield report
+
+
+def check_json_target(target: str | None) -> None:
+    """Raises IoError where put_json could not write, so that this is known before the work."""
+    if target is None or target == "-":
+        return
+    path = Path(target)
+    if path.is_dir():
+        raise IoError(f"{target}: cannot write there (is a folder)")
+    existing = path.absolute() if path.exists() else path.absolute().parent
+    while not existing.exists():
+        existing = existing.parent
+    if not path.exists() and not existing.is_dir():
+        raise IoError(f"{target}: cannot write there ({existing} is not a folder)")
+    if not os.access(existing, os.W_OK):
+        raise IoError(f"{target}: cannot write there (no permission)")
 
 
 def put_json(target: str, value) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _core
 from .inputs import Input, read_input
+from .meshing import possible_remedy
 from .options import MeshOptions
 from .phases import octafield_version
 
@@ -57,7 +58,7 @@ def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict:
         repaired = _core.repair(found.surface)
         found.surface = repaired.mesh
         found.notes += [f"repair: {action}" for action in repaired.actions]
-    requirements = _requirements(found)
+    requirements = _requirements(found, options)
     record = {
         "input": found.name,
         "version": octafield_version(),
@@ -79,7 +80,7 @@ def first_failure(record: dict) -> str | None:
     return next((r["message"] for r in record["requirements"] if r["state"] == FAIL), None)
 
 
-def _requirements(found: Input) -> list[dict]:
+def _requirements(found: Input, options: MeshOptions) -> list[dict]:
     # Tets of positive volume rarely make a crossing boundary, and the pipeline does not ask for this test there.
     test_crossings = found.tets is None
     defects = {d.kind: d for d in _core.find_defects(found.surface, self_intersection=test_crossings)}
@@ -94,7 +95,7 @@ def _requirements(found: Input) -> list[dict]:
                 "requirement": requirement.text,
                 "state": state,
                 "kind": broken[0].kind if broken else "",
-                "message": broken[0].message if broken else "",
+                "message": possible_remedy(broken[0].message, found, options) if broken else "",
                 "elements": [int(i) for d in broken for i in d.elements],
             }
         )

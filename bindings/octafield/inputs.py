@@ -1,9 +1,10 @@
 """Reading what octafield works on: closed surfaces and tetrahedral meshes, gzipped or not."""
 
+import contextlib
 import gzip
 import shutil
-import tempfile
 import zlib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,10 +12,14 @@ import numpy as np
 
 from . import _core
 from ._core import BoundarySurface, TetMesh, TriangleMesh
-from .errors import InvalidInput, IoError
+from .errors import GeometryError, InvalidInput, IoError, SolverError
+from .output import require_utf8, scratch_folder
 
 SURFACE_SUFFIXES = (".stl", ".obj", ".off", ".ply")
 GRID_SUFFIXES = (".vtk", ".vtu", ".msh", ".mesh")
+_SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
+_VOLUMES = ("tetra", "hexahedron", "wedge", "pyramid", "penta", "voxel", "polyhedron")  # meshio's names begin so
+_LOWER = ("vertex", "line", "triangle")
 
 
 @dataclass
@@ -48,6 +53,25 @@ def read_input(path: str | Path) -> Input:
     """Reads a surface (STL, OBJ, OFF, PLY) or a tet mesh (.vtk, .vtu, .msh, .mesh; triangles alone are a surface),
     each also as .gz. Raises IoError naming the file, InvalidInput where it holds neither tets nor triangles."""
     path = Path(path)
+    require_utf8(path)
+    if path.is_dir():
+        raise IoError(f"{path}: is a folder; give a file")
+    with naming(str(path)):
+        return _read(path)
+
+
+@contextlib.contextmanager
+def naming(name: str) -> Iterator[None]:
+    """Puts the input's name before the message of an error about it that does not have it yet."""
+    try:
+        yield
+    except (GeometryError, InvalidInput, SolverError) as error:
+        if name in str(error):
+            raise
+        raise type(error)(f"{name}: {error}", error.kind, error.elements) from error
+
+
+def _read(path: Path) -> Input:
     suffix = _suffix(path)
     if suffix in SURFACE_SUFFIXES:
         return Input(str(path), _core.read_surface(path))
@@ -57,12 +81,30 @@ def read_input(path: str | Path) -> Input:
             f"{path}: unknown kind of file; known are surfaces ({surfaces}) and tet meshes ({tets}), also .gz"
         )
     points, cells, faces = _read_grid(path, suffix)
+    _refuse({kind: len(c) for kind, c in cells.items() if kind.startswith(_VOLUMES) and kind != "tetra"})
+    others = {kind: len(c) for kind, c in cells.items() if kind != "tetra" and kind not in _LOWER}
     if "tetra" in cells:
-        return _tet_input(str(path), points, cells, faces)
+        found = _tet_input(str(path), points, cells, faces)
+        found.notes += [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
+        return found
+    _refuse({kind: count for kind, count in others.items() if not kind.startswith(("line", "VTK_LAGRANGE_CURVE"))})
     if "triangle" in cells:
-        return _surface_input(str(path), points, cells, faces)
-    found = ", ".join(sorted(cells)) or "none"
-    raise InvalidInput(f"{path}: holds neither tetrahedra nor triangles (cell types: {found}); linear ones are needed")
+        found = _surface_input(str(path), points, cells, faces)
+        found.notes += [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
+        return found
+    kinds = ", ".join(sorted(cells)) or "none"
+    raise InvalidInput(f"{path}: holds neither tetrahedra nor triangles (cell types: {kinds}); linear ones are needed")
+
+
+def _refuse(counts: dict[str, int]) -> None:
+    """Leaving cells out would leave a hole in the domain."""
+    if counts:
+        listed = ", ".join(f"{count} of type {kind}" for kind, count in counts.items())
+        raise InvalidInput(
+            f"holds cells that are not used: {listed}; linear tetrahedra, or triangles and quads of a surface, "
+            "are needed: convert the mesh",
+            "unsupported_cells",
+        )
 
 
 def from_mesh(mesh: TriangleMesh | TetMesh) -> Input:
@@ -90,40 +132,60 @@ def _read_grid(path: Path, suffix: str) -> tuple[np.ndarray, dict[str, np.ndarra
     if not path.is_file():
         raise IoError(f"{path}: no such file")
     try:
-        with tempfile.TemporaryDirectory(prefix="octafield-") as folder:
-            plain = path
-            if path.name.lower().endswith(".gz"):
-                plain = Path(folder) / f"input{suffix}"
+        if path.name.lower().endswith(".gz"):
+            with scratch_folder() as folder:
+                plain = folder / f"input{suffix}"
                 with gzip.open(path, "rb") as packed, open(plain, "wb") as unpacked:
                     shutil.copyfileobj(packed, unpacked)
-            grid = reader.read(str(plain))
+                grid = reader.read(str(plain))
+        else:
+            grid = reader.read(str(path))
     except (gzip.BadGzipFile, EOFError, zlib.error) as error:
         raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
     except (Exception, SystemExit) as error:  # meshio raises whatever its parsers run into
         reason = " ".join(str(error).split()) or type(error).__name__
         raise IoError(f"{path}: cannot be read as {suffix} ({reason})") from error
-    cells: dict[str, list[np.ndarray]] = {}
-    for block in grid.cells:
-        cells.setdefault(block.type, []).append(np.asarray(block.data))
     points = np.zeros((len(grid.points), 3))
     points[:, : grid.points.shape[1]] = grid.points
-    connectivity = {
-        kind: np.concatenate(blocks).astype(np.int64) for kind, blocks in cells.items() if any(map(len, blocks))
-    }
-    return points, connectivity, _faces(grid)
+    blocks = [(block.type, np.asarray(block.data)) for block in grid.cells]
+    ids = _face_ids(grid)
+    if not any(kind == "tetra" and len(data) for kind, data in blocks):
+        blocks, ids = _split_sides(blocks, ids)
+    faces = [i for (kind, _), i in zip(blocks, ids, strict=True) if kind == "triangle"] if ids is not None else []
+    return points, _joined(blocks), np.concatenate(faces) if faces else None
 
 
-def _faces(grid) -> np.ndarray | None:
-    """CAD face per triangle: cell data CellEntityIds (HexMe) or gmsh:geometrical."""
+def _face_ids(grid) -> list[np.ndarray] | None:
+    """CAD face (or other entity) of each cell per block: cell data CellEntityIds (HexMe) or gmsh:geometrical.
+
+    -1: unknown, as tag 0 says in gmsh files without geometry.
+    """
     for name in ("CellEntityIds", "gmsh:geometrical"):
         if name in grid.cell_data:
-            ids = [
-                np.ravel(values)
-                for block, values in zip(grid.cells, grid.cell_data[name], strict=True)
-                if block.type == "triangle"
-            ]
-            return np.concatenate(ids) if ids else None
+            return [np.where(np.ravel(values) > 0, np.ravel(values), -1) for values in grid.cell_data[name]]
     return None
+
+
+def _split_sides(blocks: list[tuple[str, np.ndarray]], ids: list[np.ndarray] | None) -> tuple[list, list | None]:
+    """Quads as two triangles each, with the face of the quad."""
+    split, split_ids = [], []
+    for number, (kind, data) in enumerate(blocks):
+        if kind == "polygon" and data.ndim == 2:
+            kind = {3: "triangle", 4: "quad"}.get(data.shape[1], kind)
+        corners = _SIDES.get(kind)
+        split.append(("triangle", data[:, corners].reshape(-1, 3)) if corners else (kind, data))
+        if ids is not None:
+            split_ids.append(np.repeat(ids[number], len(corners)) if corners else ids[number])
+    return split, split_ids if ids is not None else None
+
+
+def _joined(blocks: list[tuple[str, np.ndarray]]) -> dict[str, np.ndarray]:
+    """Connectivity per cell type. Blocks of one type differ in width for polygons only, which are merely counted."""
+    cells: dict[str, list[np.ndarray]] = {}
+    for kind, data in blocks:
+        if len(data):
+            cells.setdefault(kind, []).append(data if kind in (*_LOWER, "tetra") else np.empty((len(data), 0)))
+    return {kind: np.concatenate(found).astype(np.int64) for kind, found in cells.items()}
 
 
 def _compact(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -179,11 +241,11 @@ def _take_lines(found: Input, to_surface: np.ndarray, cells: dict[str, np.ndarra
     lines = np.unique(lines[lines[:, 0] >= 0], axis=0)
     count = len(found.surface.vertices)
     triangles = np.asarray(found.surface.triangles).astype(np.int64)
-    keys, first, second = _edges_with_faces(triangles, _face_of(triangles, to_surface, cells, faces), count)
+    keys, first, second, sides = _edges_with_faces(triangles, _face_of(triangles, to_surface, cells, faces), count)
     place = np.searchsorted(keys, lines[:, 0] * count + lines[:, 1])
     place[place == len(keys)] = 0
     exists = keys[place] == lines[:, 0] * count + lines[:, 1]
-    seam = exists & (first[place] == second[place]) & (first[place] >= 0)
+    seam = exists & (first[place] == second[place]) & (first[place] > 0) & (sides[place] > 1)
     if seam.any():
         found.notes.append(f"{int(seam.sum())} seam edges, with one CAD face on both sides, are not taken as features")
     found.lines = lines[exists & ~seam].astype(np.int32)
@@ -191,7 +253,7 @@ def _take_lines(found: Input, to_surface: np.ndarray, cells: dict[str, np.ndarra
 
 
 def _face_of(triangles: np.ndarray, to_surface: np.ndarray, cells: dict, faces: np.ndarray | None) -> np.ndarray:
-    """CAD face of each surface triangle, from triangle cells with the same vertices; -1 where the file does not tell."""
+    """CAD face of each surface triangle: that of the triangle cell with the same vertices, -1 where there is none."""
     result = np.full(len(triangles), -1)
     if faces is None or "triangle" not in cells:
         return result
@@ -203,11 +265,12 @@ def _face_of(triangles: np.ndarray, to_surface: np.ndarray, cells: dict, faces: 
 
 
 def _edges_with_faces(triangles: np.ndarray, face: np.ndarray, count: int) -> tuple[np.ndarray, ...]:
-    """Keys low * count + high of all edges, ascending, with the lowest and highest face id beside each."""
+    """Keys low * count + high of all edges, ascending, with the lowest and highest face id beside each and the number
+    of triangles there."""
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     keys, inverse = np.unique(sides[:, 0] * count + sides[:, 1], return_inverse=True)
     beside = np.tile(face, 3)
     low, high = np.full(len(keys), np.iinfo(np.int64).max), np.full(len(keys), -1)
     np.minimum.at(low, inverse.ravel(), beside)
     np.maximum.at(high, inverse.ravel(), beside)
-    return keys, low, high
+    return keys, low, high, np.bincount(inverse.ravel())

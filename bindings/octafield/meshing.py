@@ -1,8 +1,7 @@
 """From an input to the surface, its features and the tets inside: the part that all runs of a comparison share."""
 
-import contextlib
 import hashlib
-from collections.abc import Iterator
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,7 +10,7 @@ import numpy as np
 from . import _core
 from ._core import BoundarySurface, FeatureGraph, TetMesh, TriangleMesh
 from .errors import GeometryError, InvalidInput
-from .inputs import Input, from_mesh, read_input
+from .inputs import Input, from_mesh, naming, read_input
 from .options import MeshOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
 
@@ -44,32 +43,60 @@ class MeshedInput:
 
 def load_surface(path: str | Path, *, repair: bool = False) -> TriangleMesh:
     """Reads a closed surface and raises GeometryError, InvalidInput or IoError naming the defect unless it is sound."""
-    return _sound(read_input(path), MeshOptions(repair=repair), closed=True).surface
+    with naming(str(path)):
+        return _sound(read_input(path), MeshOptions(repair=repair), closed=True).surface
 
 
-def prepare_mesh(
+@dataclass
+class SoundInput:
+    """An input that was read and found fit, with its features, before any meshing."""
+
+    found: Input
+    features: FeatureGraph
+    feature_source: str
+    clock: PhaseClock
+    peak_mb: float
+
+
+def read_sound(
     source: Source, options: MeshOptions = MeshOptions(), *, volume: bool = True, progress: Progress | None = None
-) -> MeshedInput:
-    """Reads, validates, finds features, remeshes and (volume) fills with tets.
-
-    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for.
-    """
+) -> SoundInput:
+    """Reads, validates and finds features: everything that can show an input unfit in short time."""
     memory = PeakMemory()
     clock = PhaseClock()
     with clock.phase("read"):
         announce(progress, "read")
         found = from_mesh(source) if isinstance(source, (TriangleMesh, TetMesh)) else read_input(source)
-        with _naming(found.name):
+        with naming(found.name):
             found = _sound(found, options, closed=volume)
-    with _naming(found.name), clock.phase("mesh"):
-        announce(progress, "mesh")
+    with naming(found.name), clock.phase("mesh"):
         features, feature_source = _features(found, options)
+    return SoundInput(found, features, feature_source, clock, memory.megabytes())
+
+
+def prepare_mesh(
+    source: Source | SoundInput,
+    options: MeshOptions = MeshOptions(),
+    *,
+    volume: bool = True,
+    progress: Progress | None = None,
+) -> MeshedInput:
+    """Reads, validates, finds features, remeshes and (volume) fills with tets.
+
+    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for.
+    """
+    if not isinstance(source, SoundInput):
+        source = read_sound(source, options, volume=volume, progress=progress)
+    memory = PeakMemory()
+    found, clock = source.found, source.clock
+    with naming(found.name), clock.phase("mesh"):
+        announce(progress, "mesh")
         meshed = MeshedInput(
             found.name,
             found.kind,
             found.surface,
-            features,
-            feature_source,
+            source.features,
+            source.feature_source,
             found.tets,
             found.boundary,
             found.notes,
@@ -82,17 +109,8 @@ def prepare_mesh(
                 _remesh(meshed, options, progress, volume)
             if volume:
                 _fill(meshed, progress)
-    meshed.peak_mb = memory.megabytes()
+    meshed.peak_mb = max(source.peak_mb, memory.megabytes())
     return meshed
-
-
-@contextlib.contextmanager
-def _naming(name: str) -> Iterator[None]:
-    """Puts the input's name before the message of an error about its geometry."""
-    try:
-        yield
-    except GeometryError as error:
-        raise GeometryError(f"{name}: {error}", error.kind, error.elements) from error
 
 
 def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
@@ -106,11 +124,10 @@ def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
         found.surface = repaired.mesh
         found.notes += [f"repair: {action}" for action in repaired.actions]
     if found.tets is not None:
-        _core.require_valid(
-            found.surface, self_intersection=False
-        )  # tets of positive volume rarely cross; the test is slow
+        # Tets of positive volume rarely cross, and the test is slow.
+        _require_valid(found, options, self_intersection=False)
         return found
-    _core.require_valid(found.surface, closed=closed)
+    _require_valid(found, options, closed=closed)
     used = np.zeros(len(found.surface.vertices), bool)
     used[np.asarray(found.surface.triangles)] = True
     if not used.all():
@@ -121,6 +138,25 @@ def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
         if found.lines is not None:
             found.lines = new_id[found.lines].astype(np.int32)
     return found
+
+
+def _require_valid(found: Input, options: MeshOptions, **tests: bool) -> None:
+    try:
+        _core.require_valid(found.surface, **tests)
+    except GeometryError as error:
+        raise GeometryError(possible_remedy(str(error), found, options), error.kind, error.elements) from error
+
+
+def possible_remedy(message: str, found: Input, options: MeshOptions) -> str:
+    """The message of a defect without the advice to repair where that was done already, or is not for tets."""
+    if found.tets is None and not options.repair:
+        return message
+    fact = re.sub(r"; (repair the mesh|remove the extra triangles).*", "", message, flags=re.DOTALL)
+    if fact == message:
+        return message
+    mesh = "the surface" if found.tets is None else "the tet mesh"
+    done = "repair could not remove this; " if found.tets is None else ""
+    return f"{fact}; {done}correct {mesh} where it was made"
 
 
 def _features(found: Input, options: MeshOptions) -> tuple[FeatureGraph, str]:

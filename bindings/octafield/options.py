@@ -1,6 +1,7 @@
 """Options of the pipeline. Defaults of numerical options are those of the C++ structs."""
 
 import math
+import numbers
 from dataclasses import dataclass
 
 from .defaults import default_of
@@ -10,6 +11,7 @@ REPRESENTATIONS = ("sh4",)
 SOLVERS = ("default",)
 BOUNDARIES = ("aligned", "fixed", "none")
 FEATURES = ("default", "file", "angle", "none")
+LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
 METHODS = {"gl": "ginzburg_landau", "eigen": "eigenvector"}
 
 
@@ -21,6 +23,17 @@ def require_one_of(name: str, value: str, allowed) -> None:
 def _require(condition: bool, message: str) -> None:
     if not condition:
         raise InvalidInput(message, "option_out_of_range")
+
+
+def _make_integer(options, name: str, low: int, high: int, note: str = "") -> None:
+    """Requires an integer in low .. high and keeps it as an int: numpy's integers are no JSON."""
+    object.__setattr__(options, name, integer_in(name.replace("_", " "), getattr(options, name), low, high, note))
+
+
+def integer_in(name: str, value, low: int, high: int, note: str = "") -> int:
+    valid = isinstance(value, numbers.Integral) and low <= value <= high
+    _require(valid, f"{name} must be an integer in {low} .. {high}{note}, not {value!r}")
+    return int(value)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,9 +75,9 @@ class SurfaceFieldOptions(MeshOptions):
     def __post_init__(self) -> None:
         super().__post_init__()
         require_one_of("method", self.method, METHODS)
-        _require(self.symmetry >= 1, "the symmetry must be at least 1")
+        _make_integer(self, "symmetry", 1, LARGEST_INT)
         _require(math.isfinite(self.epsilon) and self.epsilon >= 0, "epsilon must be positive (0: default)")
-        _require(0 <= self.seed < 2**64, "the seed must lie in 0 .. 2^64 - 1")
+        _make_integer(self, "seed", 0, LARGEST_SEED)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +102,7 @@ class FieldOptions(MeshOptions):
         require_one_of("representation", self.representation, REPRESENTATIONS)
         require_one_of("solver", self.solver, SOLVERS)
         require_one_of("boundary", self.boundary, BOUNDARIES)
-        _require(0 <= self.seed < 2**64, "the seed must lie in 0 .. 2^64 - 1")
-        _require(self.threads >= 0, "the number of threads must not be negative (0: all)")
-        _require(self.max_iterations >= 0, "the number of iterations must not be negative")
-        _require(self.tolerance >= 0, "the tolerance must not be negative")
+        _make_integer(self, "seed", 0, LARGEST_SEED)
+        _make_integer(self, "threads", 0, LARGEST_INT, " (0: all)")
+        _make_integer(self, "max_iterations", 0, LARGEST_INT)
+        _require(math.isfinite(self.tolerance) and self.tolerance >= 0, "the tolerance must not be negative")

@@ -28,6 +28,7 @@ def staged_folder(target: str | Path, marker: str) -> Iterator[Path]:
 
     marker: name of the JSON file that identifies a result of ours (a record or list of records with key "files").
     """
+    require_utf8(target)
     target = Path(target).resolve()
     earlier = earlier_files(target, marker)
     parent = target
@@ -38,13 +39,34 @@ def staged_folder(target: str | Path, marker: str) -> Iterator[Path]:
         staging.chmod(0o755)
     except OSError as error:
         raise IoError(f"{target}: cannot write there ({error.strerror})") from error
-    _tell(staging, True)
-    try:
+    with _announced(staging):
         yield staging
         _commit(staging, target, earlier)
+
+
+@contextlib.contextmanager
+def scratch_folder() -> Iterator[Path]:
+    """A folder for intermediate files, gone after the block and after an interrupt."""
+    with _announced(Path(tempfile.mkdtemp(prefix="octafield-"))) as folder:
+        yield folder
+
+
+@contextlib.contextmanager
+def _announced(folder: Path) -> Iterator[Path]:
+    try:
+        _tell(folder, True)
+        yield folder
     finally:
-        shutil.rmtree(staging, ignore_errors=True)
-        _tell(staging, False)
+        shutil.rmtree(folder, ignore_errors=True)
+        _tell(folder, False)
+
+
+def require_utf8(path: str | Path) -> None:
+    """Names go into JSON and VTK files, which hold UTF-8 only."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError as error:
+        raise InvalidInput(f"{str(path)!r}: the name is not UTF-8; rename it", "name_not_utf8") from error
 
 
 def earlier_files(target: Path, marker: str) -> list[Path]:

@@ -52,17 +52,29 @@ def write_singular_points(path: Path, singularities, metadata: dict[str, str]) -
     poly.point_data["vertex"] = np.array([s.vertex for s in singularities], np.int32)
     poly.point_data["boundary"] = np.array([s.boundary for s in singularities], np.uint8)
     for name, text in metadata.items():
-        poly.add_field_data([text], name)
+        poly.GetFieldData().AddArray(_text_array(name, text))
     poly.save(path)
 
 
+def _text_array(name: str, text: str):
+    """UTF-8, as in the other files; pyvista's own field data holds ASCII only."""
+    from vtkmodules.vtkCommonCore import vtkStringArray
+
+    array = vtkStringArray()
+    array.SetName(name)
+    array.InsertNextValue(text)
+    return array
+
+
 def _metadata(record: dict) -> dict[str, str]:
-    """What makes a file understandable by itself; no times, so that equal runs write equal files."""
+    """What makes a file understandable by itself; no times, so that equal runs write equal files, and no
+    thread count, on which results do not depend."""
+    options = {name: value for name, value in record["options"].items() if name != "threads"}
     return {
         "program": f"octafield {record['version']}",
         "input": record["input"],
         "mesh_sha256": record["mesh_sha256"],
-        "options": json.dumps(record["options"]),
+        "options": json.dumps(options),
         "energy": repr(record["energy"]),
         "convention": "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4",
     }

@@ -66,7 +66,7 @@ def _be_the_child(work: Callable[[], int], reading: int, writing: int) -> None:
         signal.signal(number, signal.SIG_DFL)
     _die_with_parent()
     os.close(reading)
-    on_staging(lambda path, alive: os.write(writing, f"{'+' if alive else '-'}{path}\0".encode()))
+    on_staging(lambda path, alive: os.write(writing, os.fsencode(f"{'+' if alive else '-'}{path}\0")))
     code = DEFECT
     try:
         code = work()
@@ -97,6 +97,6 @@ def _remove_staging(reading: int) -> None:
     """The child is gone: every folder it announced with + and did not take back with - is left over."""
     os.set_blocking(reading, False)  # a mesher the child had started may hold the other end a moment longer
     with os.fdopen(reading, "rb") as pipe:
-        announced = (pipe.read() or b"").decode().split("\0")[:-1]
+        announced = os.fsdecode(pipe.read() or b"").split("\0")[:-1]
     for path in {entry[1:] for entry in announced if entry[0] == "+"} - {e[1:] for e in announced if e[0] == "-"}:
         shutil.rmtree(Path(path), ignore_errors=True)

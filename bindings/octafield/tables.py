@@ -5,6 +5,7 @@ from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from .summary import COLUMNS
 
@@ -56,11 +57,12 @@ def show_info(record: dict) -> None:
 
 
 def _facts(title: str, facts: list[tuple[str, str]]) -> None:
-    table = Table(title=title, title_justify="left", title_style="bold", show_header=False, box=None, pad_edge=False)
+    _stdout().print(Text(title, style="bold"), soft_wrap=True)
+    table = Table(show_header=False, box=None, pad_edge=False)
     table.add_column(style="dim")
     table.add_column(justify="right")
     for name, value in facts:
-        table.add_row(name, value)
+        table.add_row(name, Text(value))
     _stdout().print(table)
 
 
@@ -70,7 +72,7 @@ def _table(heads: list[str], rows: list[list[str]], left: int = 1) -> None:
     for number, head in enumerate(heads):
         table.add_column(head, justify="left" if number < left else "right", no_wrap=number >= left)
     for row in rows:
-        table.add_row(*row)
+        table.add_row(*map(Text, row))  # Text: brackets in file names are no markup
     _stdout().print(table)
 
 

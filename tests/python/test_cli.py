@@ -1,5 +1,6 @@
 """The command line: JSON, exit codes, one message per failure, nothing left behind."""
 
+import gzip
 import json
 import os
 import signal
@@ -7,8 +8,14 @@ import subprocess
 import sys
 import time
 
+import meshio
+import numpy as np
 import pytest
+import pyvista
 from pipeline_fixtures import SHARED_SURFACES, octafield, shared, write_cube, write_sphere
+
+from octafield.console import error_code
+from octafield.errors import SolverError
 
 FAST = ("--edge-length", "0.4")
 
@@ -150,3 +157,91 @@ def test_an_interrupt_ends_a_comparison_within_a_second_and_leaves_nothing(tmp_p
     assert process.returncode == 130
     assert messages.splitlines() == ["octafield: interrupted"]
     assert list(work.iterdir()) == []
+
+
+def test_file_names_beyond_ascii_are_kept_in_every_file(tmp_path):
+    path = write_cube(tmp_path).rename(tmp_path / "Würfel 立方.obj")
+    octafield("field", path, "-o", tmp_path / "räumlich", *FAST, check=0)
+    volume = pyvista.read(tmp_path / "räumlich" / "field.vtu").GetFieldData().GetAbstractArray("input")
+    assert bytes(np.asarray(volume)).rstrip(b"\0").decode() == str(path)
+    for name in ("singular.vtp", "surface.vtp", "surface_singularities.vtp"):
+        words = pyvista.read(tmp_path / "räumlich" / name).GetFieldData().GetAbstractArray("input")
+        assert words.GetValue(0) == str(path), name
+
+
+def test_a_file_name_that_is_not_utf8_is_refused_before_the_work(tmp_path):
+    work = tmp_path / "work"
+    work.mkdir()
+    name = os.fsencode(tmp_path) + b"/bad\xff.obj"
+    os.rename(write_cube(tmp_path), name)
+    done = octafield("field", os.fsdecode(name), "-o", work / "out", check=2)
+    assert "not UTF-8" in done.stderr and list(work.iterdir()) == []
+    done = octafield("field", write_cube(tmp_path), "-o", os.fsdecode(os.fsencode(work) + b"/bad\xff"), check=2)
+    assert "not UTF-8" in done.stderr and list(work.iterdir()) == []
+
+
+def test_brackets_in_file_names_are_no_markup(tmp_path):
+    path = write_cube(tmp_path).rename(tmp_path / "[bold]x[red].obj")
+    assert path.name in octafield("info", path, check=0).stdout
+    assert path.name in octafield("compare", path, "-o", tmp_path / "out", "--edge-length", "0.5", check=0).stdout
+
+
+def test_a_json_target_that_cannot_be_written_is_refused_before_the_work(tmp_path):
+    cube = write_cube(tmp_path)
+    for target in (tmp_path, cube / "figures.json"):
+        done = octafield("field", cube, "-o", tmp_path / "out", "--json", target, check=2)
+        assert "cannot write there" in done.stderr and not (tmp_path / "out").exists()
+
+
+def test_integers_beyond_those_of_the_core_are_usage_errors(tmp_path):
+    cube, out = write_cube(tmp_path), tmp_path / "out"
+    octafield("field", cube, "-o", out, "--threads", 2**31, check=2)
+    octafield("surface-field", cube, "-o", out, "--symmetry", 2**31, check=2)
+    octafield("compare", cube, "-o", out, "--seed", 2**64 - 1, "--seeds", 2, check=2)
+    assert not out.exists()
+
+
+def test_a_solver_error_is_bad_input_where_an_option_caused_it_and_a_defect_elsewhere(capsys):
+    assert error_code(SolverError("the field vanishes; choose a smaller epsilon", "epsilon_too_large")) == 2
+    assert capsys.readouterr().err == "octafield: error: the field vanishes; choose a smaller epsilon\n"
+    assert error_code(SolverError("a diffusion step failed", "diffusion")) == 1
+    assert "defect" in capsys.readouterr().err
+
+
+def test_a_folder_as_input_is_called_a_folder(tmp_path):
+    folder = tmp_path / "mesh.vtk"
+    folder.mkdir()
+    assert "is a folder" in octafield("info", folder, check=2).stderr
+
+
+def test_repair_is_advised_only_where_it_may_help(tmp_path):
+    open_cube = write_cube(tmp_path)
+    open_cube.write_text("\n".join(open_cube.read_text().splitlines()[:-1]))
+    assert "--repair" in octafield("info", open_cube, check=2).stderr
+    tets = tmp_path / "touching.vtu"  # two tets with one edge in common
+    points = [[0, 0, 0], [0, 0, 1], [1, 0, 0], [1, 1, 0], [-1, 0, 0], [-1, -1, 0]]
+    meshio.Mesh(np.array(points, float), [("tetra", np.array([[0, 1, 2, 3], [0, 1, 4, 5]]))]).write(tets)
+    for command in (("info", tets), ("field", tets, "-o", tmp_path / "out")):
+        message = octafield(*command, check=2).stderr
+        assert f"{tets}: more than 2" in message and message.endswith("; correct the tet mesh where it was made\n")
+    fin = tmp_path / "fin.obj"  # three fans on one edge: no single dangling triangle to remove
+    fin.write_text("\n".join(f"v {x} {y} {z}" for x, y, z in points) + "\nf 1 2 3\nf 1 2 4\nf 1 2 5\n")
+    assert "--repair" not in octafield("info", fin, "--repair", check=2).stderr
+
+
+def test_unpacked_input_goes_after_an_interrupt(tmp_path):
+    scratch = tmp_path / "scratch"
+    scratch.mkdir()
+    packed = tmp_path / "slow.vtk.gz"
+    with gzip.open(packed, "wb", compresslevel=1) as file:
+        for _ in range(400):
+            file.write(b"0 " * 1_000_000)
+    command = [sys.executable, "-m", "octafield.cli", "info", str(packed)]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env={**os.environ, "TMPDIR": str(scratch)})
+    deadline = time.monotonic() + 30
+    while not list(scratch.iterdir()) and time.monotonic() < deadline and process.poll() is None:
+        time.sleep(0.005)
+    assert list(scratch.iterdir()), "the input was not unpacked"
+    os.kill(process.pid, signal.SIGINT)
+    process.communicate(timeout=30)
+    assert process.returncode == 130 and list(scratch.iterdir()) == []

@@ -15,6 +15,7 @@ from octafield.meshing import prepare_mesh
 from octafield.options import FieldOptions, SurfaceFieldOptions
 from octafield.phases import PHASES
 from octafield.pipeline import compute_field, compute_surface_field, load_surface, prepare, run
+from octafield.results import FIELD_FILES, write_field_result
 
 COARSE = FieldOptions(edge_length=0.25)
 
@@ -208,3 +209,54 @@ def test_seams_of_a_closed_cad_face_are_no_features():
     assert meshed.feature_source == "file"
     assert len(meshed.features.edges) == 0
     assert any("seam" in note for note in meshed.notes)
+
+
+def test_volume_cells_other_than_tets_are_refused_by_type_and_count(tmp_path, cube):
+    points = np.asarray(cube.tets.vertices)
+    for kind, width in (("hexahedron", 8), ("pyramid", 5), ("wedge", 6), ("tetra10", 10)):
+        path = tmp_path / f"{kind}.vtu"
+        others = (kind, np.arange(2 * width).reshape(2, width))
+        meshio.Mesh(points, [("tetra", np.asarray(cube.tets.tets)), others]).write(path)
+        with pytest.raises(octafield.InvalidInput, match=f"{kind}.vtu: .*2 of type {kind}"):
+            read_input(path)
+
+
+def test_quads_of_a_surface_become_two_triangles_each(tmp_path):
+    corners = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+    quads = np.array([(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2)])
+    triangles = np.array([(1, 3, 7), (1, 7, 5)])
+    path = tmp_path / "mixed.vtk"
+    meshio.Mesh(corners, [("quad", quads), ("triangle", triangles)]).write(path)
+    surface = load_surface(path)
+    assert len(surface.triangles) == 12
+    assert octafield.signed_volume(surface) == pytest.approx(1)
+
+
+@pytest.mark.parametrize("face, kept", [(0, True), (-1, True), (7, False)])
+def test_lines_within_one_cad_face_are_seams_only_where_the_face_is_known(tmp_path, cube, face, kept):
+    triangles, lines = np.asarray(cube.surface.triangles), np.asarray(cube.features.edges)
+    ids = [np.full(len(triangles), face), np.ones(len(lines), int)]
+    path = tmp_path / "faces.vtu"
+    cells = [("triangle", triangles), ("line", lines)]
+    meshio.Mesh(np.asarray(cube.surface.vertices), cells, cell_data={"CellEntityIds": ids}).write(path)
+    assert len(read_input(path).lines) == (len(lines) if kept else 0)
+
+
+def test_written_files_do_not_depend_on_the_thread_count(tmp_path, sphere_problem):
+    for threads in (1, 2):
+        (tmp_path / str(threads)).mkdir()
+        result = run(sphere_problem, replace(COARSE, threads=threads))
+        write_field_result(result, tmp_path / str(threads))
+        assert result.record["options"]["threads"] == threads
+    for name in FIELD_FILES:
+        assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "2" / name).read_bytes()
+
+
+def test_integers_of_numpy_are_taken_and_fractions_refused():
+    options = FieldOptions(seed=np.int64(3), threads=np.int32(1))
+    assert type(options.seed) is int and type(options.threads) is int
+    for bad in ({"threads": 2**31}, {"seed": 2**64}, {"seed": 1.0}, {"max_iterations": 2.5}, {"threads": "2"}):
+        with pytest.raises(octafield.InvalidInput, match="integer"):
+            FieldOptions(**bad)
+    with pytest.raises(octafield.InvalidInput, match="symmetry"):
+        SurfaceFieldOptions(symmetry=2**31)
