@@ -22,4 +22,4 @@ cmake --build "$BUILD_DIR"
 say "C++ tests"
 ctest --test-dir "$BUILD_DIR" --output-on-failure -j "$jobs"
 say "Python tests"
-.venv/bin/python -m pytest -q tests/python
+.venv/bin/python -m pytest -q

@@ -254,6 +254,29 @@ def info(
     _carry_out(work, quiet, verbose, json)
 
 
+@app.command()
+def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """Representations of a frame and metrics on frames, by the names that options and functions take."""
+
+    def work() -> None:
+        from . import metrics
+        from . import representations as known
+
+        record = {
+            "representations": [
+                {"name": r.name, "dimension": r.dimension, "speed": r.speed, "rotates_linearly": r.rotate is not None}
+                for r in known.values()
+            ],
+            "metrics": [{"name": m.name, "speed": m.speed, "description": m.description} for m in metrics.values()],
+        }
+        if json:
+            console.put_json(json, record)
+        if json != "-" and not quiet:
+            tables.show_registry(record)
+
+    _carry_out(work, quiet, verbose, json)
+
+
 def _listed(text: str) -> list[str]:
     return [word.strip() for word in text.split(",") if word.strip()]
 

@@ -56,6 +56,13 @@ def show_info(record: dict) -> None:
     )
 
 
+def show_registry(record: dict) -> None:
+    speed = lambda entry: "varies" if entry["speed"] is None else f"{entry['speed']:.6g}"
+    rows = [[r["name"], "yes" if r["rotates_linearly"] else "no", str(r["dimension"]), speed(r)] for r in record["representations"]]
+    _table(["representation", "rotates linearly", "numbers", "per radian"], rows, left=2)
+    _table(["metric", "measures", "per radian"], [[m["name"], m["description"], speed(m)] for m in record["metrics"]], left=2)
+
+
 def _facts(title: str, facts: list[tuple[str, str]]) -> None:
     _stdout().print(Text(title, style="bold"), soft_wrap=True)
     table = Table(show_header=False, box=None, pad_edge=False)

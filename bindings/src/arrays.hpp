@@ -4,6 +4,7 @@
 #include <pybind11/complex.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>  // in every source alike, or signatures differ
 
 #include <Eigen/Core>
 #include <complex>

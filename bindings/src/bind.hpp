@@ -6,6 +6,11 @@
 namespace octafield::bindings {
 
 void bind_frames(pybind11::module_& module);
+void bind_harmonics(pybind11::module_& module);
+void bind_representations(pybind11::module_& module);
+void bind_tensors(pybind11::module_& module);
+void bind_su2(pybind11::module_& module);
+void bind_metrics(pybind11::module_& module);
 void bind_surface_types(pybind11::module_& module);
 void bind_surface(pybind11::module_& module);
 void bind_volume_types(pybind11::module_& module);

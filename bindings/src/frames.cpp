@@ -1,13 +1,15 @@
 // Functions of frames/ on arrays: one row per frame, rows in parallel.
 
+#include <optional>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "checks.hpp"
 #include "interruptible.hpp"
+#include "octafield/frames/geodesic.hpp"
 #include "octafield/frames/octahedral_group.hpp"
 #include "octafield/frames/quaternion.hpp"
 #include "octafield/parallel.hpp"
-#include "representations.hpp"
 #include "rows.hpp"
 
 namespace octafield::bindings {
@@ -41,8 +43,7 @@ void bind_quaternions(py::module_& m) {
         "rotation_matrices",
         [](const ArrayLike& q, int threads) {
             const auto to_matrix = [](const auto& row, auto out) {
-                Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(out.data()) =
-                    from_wxyz(row).toRotationMatrix();
+                as_matrix<double, 3, 3>(out) = from_wxyz(row).toRotationMatrix();
             };
             return map_rows<3, 3>(read_quaternions(q, "q"), threads, to_matrix);
         },
@@ -143,13 +144,98 @@ void bind_frame_pairs(py::module_& m) {
         "product is positive.");
 }
 
+// (n, m, 4) or (m, 4) frames; no weights, (m,) or (n, m).
+py::tuple frame_means(const ArrayLike& frames, const std::optional<ArrayLike>& weights, int threads) {
+    const auto array = numbers<double>(frames, "frames");
+    const bool single = array.ndim() == 2;
+    if (array.ndim() < 2 || array.ndim() > 3 || array.shape(array.ndim() - 1) != 4)
+        throw_shape("frames", "(m, 4) or (n, m, 4)", array);
+    const py::ssize_t n = single ? 1 : array.shape(0), m = array.shape(array.ndim() - 2);
+    Quaternions rows = Eigen::Map<const Quaternions>(array.data(), n * m, 4);
+    check_unit(rows, -1, "frames");
+
+    Eigen::VectorXd all_weights;
+    if (weights) {
+        const auto w = numbers<double>(*weights, "weights");
+        const bool one_per_frame = w.ndim() == 2 && w.shape(0) == n && w.shape(1) == m;
+        if (!one_per_frame && !(w.ndim() == 1 && w.size() == m)) throw_shape("weights", "(m,) or (n, m)", w);
+        all_weights = Eigen::Map<const Eigen::VectorXd>(w.data(), w.size());
+    }
+    const auto means =
+        for_rows(n, threads, Rows<double, 6>(n, 6), [rows, m, all_weights](Rows<double, 6>& out, std::int64_t i) {
+            const bool own_row = all_weights.size() > m;
+            const FrameMean mean =
+                frame_mean(rows.middleRows(i * m, m), own_row ? all_weights.segment(i * m, m).eval() : all_weights);
+            out.row(i) << to_wxyz(mean.frame).transpose(), mean.variance, mean.converged;
+        });
+    return py::make_tuple(give_back(Quaternions(means.leftCols<4>()), {4}, single),
+                          give_back(Eigen::VectorXd(means.col(4)), {}, single),
+                          give_back(Eigen::VectorXd(means.col(5)), {}, single).attr("__ne__")(0));
+}
+
+void bind_geodesics(py::module_& m) {
+    m.def(
+        "frame_exp",
+        [](const ArrayLike& q, const ArrayLike& w, int threads) {
+            const auto [a, b] = broadcast(read_quaternions(q, "q"), read_rows<Points>(w, "w"), "q", "w");
+            return map_pairs<4>(a, b, threads, [](const auto& x, const auto& y, auto out) {
+                out = to_wxyz(frame_exp(from_wxyz(x), y.transpose())).transpose();
+            });
+        },
+        "q"_a, "w"_a, py::kw_only(), "threads"_a = 0,
+        "(n, 4) frames exp(w) q: frame q turned by the (n, 3) rotation vector w, world axes, radians.");
+    m.def(
+        "frame_log",
+        [](const ArrayLike& q1, const ArrayLike& q2, int threads) {
+            const auto [a, b] = broadcast(read_quaternions(q1, "q1"), read_quaternions(q2, "q2"), "q1", "q2");
+            return map_pairs<3>(a, b, threads, [](const auto& x, const auto& y, auto out) {
+                out = frame_log(from_wxyz(x), from_wxyz(y)).transpose();
+            });
+        },
+        "q1"_a, "q2"_a, py::kw_only(), "threads"_a = 0,
+        "(n, 3) smallest rotation vectors from frames q1 to frames q2, world axes, radians: frame_exp(q1, w) is the "
+        "frame q2 and |w| is distance(q1, q2).");
+    m.def(
+        "slerp",
+        [](const ArrayLike& q1, const ArrayLike& q2, const ArrayLike& t, int threads) {
+            const auto [a, b] = broadcast(read_quaternions(q1, "q1"), read_quaternions(q2, "q2"), "q1", "q2");
+            const auto n = a.rows.rows();
+            const auto fractions = numbers<double>(t, "t");
+            if (fractions.size() != 1 && fractions.size() != n)
+                throw InvalidInput("t has " + std::to_string(fractions.size()) + " entries for " + std::to_string(n) +
+                                       " pairs of frames",
+                                   "wrong_shape");
+            Rows<double, 5> ends(n, 5);
+            ends.leftCols<4>() = b.rows;
+            for (Eigen::Index i = 0; i < n; ++i)
+                ends(i, 4) = finite(fractions.data()[fractions.size() == 1 ? 0 : i], "t");
+            return map_pairs<4>(a, RowInput<Rows<double, 5>>{ends, b.single}, threads,
+                                [](const auto& x, const auto& y, auto out) {
+                                    out = to_wxyz(slerp(from_wxyz(x), from_wxyz(y), y[4])).transpose();
+                                });
+        },
+        "q1"_a, "q2"_a, "t"_a, py::kw_only(), "threads"_a = 0,
+        "(n, 4) frames at the fraction t, a number or (n,), of the shortest paths from frames q1 (t = 0) to frames q2 "
+        "(t = 1).");
+    m.def("frame_mean", frame_means, "frames"_a, "weights"_a = py::none(), py::kw_only(), "threads"_a = 0,
+          "Karcher means of (n, m, 4) frames (or (m, 4) for one mean): the frames that minimise the weighted squared "
+          "geodesic distance. weights: (m,) or (n, m), not negative. Returns (n, 4) frames, (n,) variances (weighted "
+          "mean "
+          "squared distance, radians squared) and (n,) whether the iteration converged.");
+}
+
 }  // namespace
 
 void bind_frames(py::module_& m) {
     bind_quaternions(m);
     bind_group(m);
     bind_frame_pairs(m);
+    bind_geodesics(m);
+    bind_harmonics(m);
     bind_representations(m);
+    bind_tensors(m);
+    bind_su2(m);
+    bind_metrics(m);
 }
 
 }  // namespace octafield::bindings

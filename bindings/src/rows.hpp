@@ -20,11 +20,21 @@ struct RowInput {
     bool single;
 };
 
+// Row-major; a single column, which Eigen forbids to be so, is a vector.
+template <class Scalar, int Columns>
+using RowsOf = Eigen::Matrix<Scalar, Eigen::Dynamic, Columns, Columns == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+
+// The row-major matrix of a fixed size that an output row holds.
+template <class Scalar, int R, int C, class Row>
+auto as_matrix(Row&& row) {
+    return Eigen::Map<Eigen::Matrix<Scalar, R, C, Eigen::RowMajor>>(row.data());
+}
+
 // (n, columns) or (columns,), finite.
 template <class Matrix>
 RowInput<Matrix> read_rows(const ArrayLike& value, std::string_view name) {
     constexpr int columns = Matrix::ColsAtCompileTime;
-    const auto array = numbers<double>(value, name);
+    const auto array = numbers<typename Matrix::Scalar>(value, name);
     const bool single = array.ndim() == 1 && array.size() == columns;
     if (!single && array.ndim() != 2 && array.size() > 0)
         throw_shape(name, "(n, " + std::to_string(columns) + ") or (" + std::to_string(columns) + ",)", array);
@@ -65,17 +75,19 @@ std::pair<RowInput<A>, RowInput<B>> broadcast(RowInput<A> a, RowInput<B> b, cons
     return {{std::move(a.rows), single}, {std::move(b.rows), single}};
 }
 
-// body(output, i) for every row i, without the GIL and, where it may take long, interruptible.
+// body(output, i) for every row i, without the GIL and, where it may take long, interruptible. A thread gets at least
+// rows_per_thread rows.
 template <class Output, class Body>
-Output for_rows(std::int64_t n, int threads, Output output, Body body) {
+Output for_rows(std::int64_t n, int threads, Output output, Body body, std::int64_t rows_per_thread = 256) {
     threads_option(threads);
-    auto work = [n, threads, output = std::move(output), body = std::move(body)](Job& job) mutable {
-        parallel_for(n, threads, [&](std::int64_t i) {
+    auto work = [n, threads, rows_per_thread, output = std::move(output), body = std::move(body)](Job& job) mutable {
+        const auto row = [&](std::int64_t i) {
             if (!job.cancelled()) body(output, i);
-        });
+        };
+        parallel_for(n, threads, row, rows_per_thread);
         return std::move(output);
     };
-    if (n > 1000) return run_interruptible(std::move(work));
+    if (n > 4 * rows_per_thread) return run_interruptible(std::move(work));
     const py::gil_scoped_release release;
     Job job;
     return work(job);
@@ -91,9 +103,9 @@ py::object give_back(Matrix&& rows, std::vector<py::ssize_t> shape, bool single)
 }
 
 // f(row, output row) for every row; output rows have the shape Shape.
-template <int... Shape, class Matrix, class Function>
-py::object map_rows(RowInput<Matrix> input, int threads, Function function) {
-    using Output = Rows<double, (1 * ... * Shape)>;
+template <class Scalar, int... Shape, class Matrix, class Function>
+py::object map_rows_to(RowInput<Matrix> input, int threads, Function function) {
+    using Output = RowsOf<Scalar, (1 * ... * Shape)>;
     const auto n = input.rows.rows();
     auto output = for_rows(
         n, threads, Output(n, Output::ColsAtCompileTime),
@@ -101,11 +113,15 @@ py::object map_rows(RowInput<Matrix> input, int threads, Function function) {
     return give_back(std::move(output), {Shape...}, input.single);
 }
 
+template <int... Shape, class Matrix, class Function>
+py::object map_rows(RowInput<Matrix> input, int threads, Function function) {
+    return map_rows_to<double, Shape...>(std::move(input), threads, std::move(function));
+}
+
 // f(row of a, row of b, output row) for every row; output rows have the shape Shape.
 template <class Scalar, int... Shape, class A, class B, class Function>
 py::object map_pairs_to(RowInput<A> a, RowInput<B> b, int threads, Function function) {
-    using Output = Eigen::Matrix<Scalar, Eigen::Dynamic, (1 * ... * Shape),
-                                 (1 * ... * Shape) == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+    using Output = RowsOf<Scalar, (1 * ... * Shape)>;
     const auto n = a.rows.rows();
     auto output = for_rows(n, threads, Output(n, Output::ColsAtCompileTime),
                            [a = std::move(a.rows), b = std::move(b.rows), function](Output& out, std::int64_t i) {

@@ -1,5 +1,4 @@
 // Functions of surface/.
-#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"

@@ -2,7 +2,6 @@
 #include "octafield/volume/operators.hpp"
 
 #include <pybind11/eigen.h>
-#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"

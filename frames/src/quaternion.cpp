@@ -2,8 +2,15 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+
+#include "octafield/error.hpp"
 
 namespace octafield::frames {
+
+void throw_not_unit(const Quaternion& q) {
+    throw InvalidInput("not a unit quaternion: norm " + std::to_string(q.norm()) + "; normalise it first", "not_unit");
+}
 
 Quaternion exp(const Vector3& rotation_vector) {
     const double angle = rotation_vector.norm();

@@ -1,18 +1,19 @@
 #include "octafield/frames/sh4.hpp"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
-#include "frame_ascent.hpp"
+#include "nearest_frame.hpp"
+#include "octafield/frames/harmonics.hpp"
+#include "octafield/frames/sh4_projection.hpp"
 #include "quartic.hpp"
+#include "sh4_basis.hpp"
 
 namespace octafield::frames {
 namespace {
 
 using Basis = Eigen::Matrix<double, 9, 15>;
 
-// Rows: c Y_4m as homogeneous quartics in the monomial order of quartic.hpp, c = sqrt(16 pi / 189).
 Basis make_basis() {
     enum { x4, x3y, x3z, x2y2, x2yz, x2z2, xy3, xy2z, xyz2, xz3, y4, y3z, y2z2, yz3, z4 };
     const double c = std::sqrt(16 * std::numbers::pi / 189);
@@ -45,23 +46,25 @@ Basis make_basis() {
     return b;
 }
 
-const Basis& basis() {
+}  // namespace
+
+const Basis& axis_basis() {
     static const Basis b = make_basis();
     return b;
 }
 
-}  // namespace
-
-Sh4::Vector Sh4::axis(const Vector3& direction) { return basis() * quartic_monomials(direction); }
+Sh4::Vector Sh4::axis(const Vector3& direction) { return axis_basis() * quartic_monomials(direction); }
 
 Sh4::Vector Sh4::embed(const Quaternion& q) {
+    require_unit(q);
     const Matrix3 axes = q.toRotationMatrix();
     Vector15 sum = quartic_monomials(axes.col(0));
     for (int k = 1; k < 3; ++k) sum += quartic_monomials(axes.col(k));
-    return basis() * sum;
+    return axis_basis() * sum;
 }
 
 Sh4::Differential Sh4::differential(const Quaternion& q) {
+    require_unit(q);
     const Matrix3 axes = q.toRotationMatrix();
     Eigen::Matrix<double, 15, 3> sum = Eigen::Matrix<double, 15, 3>::Zero();
     for (int k = 0; k < 3; ++k) {
@@ -70,15 +73,36 @@ Sh4::Differential Sh4::differential(const Quaternion& q) {
         for (int row = 0; row < 15; ++row)
             sum.row(row) += axes.col(k).cross(gradients.row(row).transpose()).transpose();
     }
-    return basis() * sum;
+    return axis_basis() * sum;
 }
 
+// With p = v . axis(x), M = p contracted twice with the axis r and X = [r]_x: under exp(w) the axis moves by
+// w x r + 1/2 w x (w x r), so p(r) gains the second-order part 1/2 w.(12 X^T M X + 2 (Mr r^T + r Mr^T) - 4 r.Mr I) w.
+Matrix3 Sh4::hessian(const Quaternion& q, const Vector& v) {
+    require_unit(q);
+    const Quartic p(axis_basis().transpose() * v);
+    const Matrix3 axes = q.toRotationMatrix();
+    Matrix3 hessian = Matrix3::Zero();
+    for (int k = 0; k < 3; ++k) {
+        const Vector3 r = axes.col(k);
+        const Matrix3 m = p.contract(r);
+        const Vector3 mr = m * r;
+        Matrix3 x;
+        x << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+        hessian += 12 * x.transpose() * m * x + 2 * (mr * r.transpose() + r * mr.transpose()) -
+                   4 * r.dot(mr) * Matrix3::Identity();
+    }
+    return hessian;
+}
+
+Sh4::Vector Sh4::rotate(const Quaternion& g, const Vector& v) { return Harmonics<4>::rotate(g, v); }
+
 Projection Sh4::project(const Vector& v, const Quaternion* guess) {
-    const double size = v.stableNorm();
-    if (!(size > 0)) return {Quaternion::Identity(), 1.0};
-    const Quartic objective(basis().transpose() * (v / size));
-    const Quaternion best = maximise_over_frames(objective, guess);
-    return {best, (v - embed(best)).norm()};
+    Vector4 frame, start;
+    if (guess) start = to_wxyz(*guess);
+    double distance;
+    project_sh4(v.data(), guess ? start.data() : nullptr, 1, frame.data(), &distance);
+    return {from_wxyz(frame), distance};
 }
 
 }  // namespace octafield::frames

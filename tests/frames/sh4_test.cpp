@@ -113,25 +113,30 @@ TEST(Sh4, ProjectionIgnoresTheInputsScale) {
     EXPECT_NEAR(Sh4::project(Sh4::Vector::Zero()).distance, 1, 1e-15);
 }
 
-// The claim of the header. Reference: eight more starts, random ones.
-TEST(Sh4, EightSeedsMissTheGlobalBasinRarelyAndNarrowly) {
-    std::mt19937_64 generator(18);
-    const Quaternions starts = random_rotations(512, 19);
-    int misses = 0;
-    for (int trial = 0; trial < 5000; ++trial) {
-        Sh4::Vector v;
-        for (int c = 0; c < 9; ++c) v[c] = normal01(generator);
-        v.normalize();
-        const double found = Sh4::project(v).distance;
-        double best = found;
-        for (int k = 0; k < 8; ++k) {
-            const Quaternion start = row_quaternion(starts, (8 * trial + k) % starts.rows());
-            best = std::min(best, Sh4::project(v, &start).distance);
+TEST(Sh4, HessianIsTheSecondDerivativeUnderRotationFromTheLeft) {
+    const Quaternions samples = random_rotations(50, 18);
+    std::mt19937_64 generator(19);
+    for (Eigen::Index i = 0; i < samples.rows(); ++i) {
+        const Quaternion q = row_quaternion(samples, i);
+        const Sh4::Vector v = random_vector<Sh4>(generator);
+        const Matrix3 hessian = Sh4::hessian(q, v);
+        EXPECT_NEAR(hessian.trace(), -20 * v.dot(Sh4::embed(q)), 1e-12);  // the Laplacian on degree 4: -4 (4 + 1)
+        for (int k = 0; k < 9; ++k) {
+            const Vector3 w = Vector3(k % 3 - 1, k / 3 - 1, 1).normalized();
+            const double h = 1e-3;
+            const auto f = [&](double t) { return v.dot(Sh4::embed(exp(t * w) * q)); };
+            const double numeric = (16 * (f(h) + f(-h)) - (f(2 * h) + f(-2 * h)) - 30 * f(0)) / (12 * h * h);
+            EXPECT_NEAR(w.dot(hessian * w), numeric, 1e-7 * v.norm());
         }
-        misses += best < found - 1e-9;
-        EXPECT_LT(found - best, 0.02);
     }
-    EXPECT_LE(misses, 1);
+}
+
+TEST(Sh4, RejectsQuaternionsThatAreNotUnit) {
+    const Quaternion q(1, 1, 0, 0);
+    const Sh4::Vector v = Sh4::Vector::Ones();
+    EXPECT_THROW(Sh4::embed(q), InvalidInput);
+    EXPECT_THROW(Sh4::differential(q), InvalidInput);
+    EXPECT_THROW(Sh4::hessian(q, v), InvalidInput);
 }
 
 }  // namespace

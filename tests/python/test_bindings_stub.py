@@ -12,7 +12,7 @@ import octafield
 from octafield import _core
 
 STUB = ast.parse(Path(octafield.__file__).with_name("_core.pyi").read_text())
-ALIASES = {"Float64s", "Int32s", "UInt8s", "Path", "Progress"}
+ALIASES = {"Complex128s", "Float64s", "Int32s", "UInt8s", "Path", "Progress"}
 
 
 def stub_names(body):

@@ -131,6 +131,14 @@ def test_a_failed_run_keeps_the_earlier_result(tmp_path):
     assert (out / "result.json").read_bytes() == before and leftovers(out) == []
 
 
+def test_representations_lists_the_registry():
+    record = json.loads(octafield("representations", "--json", "-", check=0).stdout)
+    assert [r["name"] for r in record["representations"]] == ["sh4", "tensor4", "su2", "odeco", "sh469"]
+    assert [r["dimension"] for r in record["representations"]] == [9, 15, 6, 15, 41]
+    shown = octafield("representations", check=0).stdout
+    assert all(entry["name"] in shown for group in record.values() for entry in group)
+
+
 def test_version_and_help(tmp_path):
     assert octafield("--version", check=0).stdout.startswith("octafield ")
     shown = octafield("--help", check=0).stdout

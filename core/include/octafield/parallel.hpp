@@ -18,9 +18,11 @@ inline int thread_count(int requested) {
 
 // Runs body(i) for i in [0, n), each i exactly once, in contiguous blocks, one per thread. The body may write only to
 // element i of its outputs; then the result has the same bits at any thread count. The first exception is rethrown.
+// A thread is started for at least `grain` elements.
 template <class Body>
-void parallel_for(std::int64_t n, int threads, const Body& body) {
-    const std::int64_t count = std::clamp<std::int64_t>(std::min<std::int64_t>(thread_count(threads), n / 256), 1, 256);
+void parallel_for(std::int64_t n, int threads, const Body& body, std::int64_t grain = 256) {
+    const std::int64_t count =
+        std::clamp<std::int64_t>(std::min<std::int64_t>(thread_count(threads), n / grain), 1, 256);
     if (count == 1) {
         for (std::int64_t i = 0; i < n; ++i) body(i);
         return;

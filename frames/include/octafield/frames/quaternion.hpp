@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -16,9 +17,16 @@ using Matrix3 = Eigen::Matrix3d;
 
 inline Vector4 to_wxyz(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
+[[noreturn]] void throw_not_unit(const Quaternion& q);
+
 template <class Derived>
 Quaternion from_wxyz(const Eigen::MatrixBase<Derived>& wxyz) {
     return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]};
+}
+
+// Throws InvalidInput unless |q| = 1 to 1e-6 (NaN and infinities included).
+inline void require_unit(const Quaternion& q) {
+    if (!(std::abs(q.squaredNorm() - 1) < 2e-6)) throw_not_unit(q);
 }
 
 // Rotation by |w| radians about w / |w|; accurate for every w, the zero vector included.

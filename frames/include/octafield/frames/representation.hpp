@@ -1,7 +1,8 @@
 // What every embedding of frames into R^d offers. A representation is a struct of static functions; solvers are
-// templates over it, and run-time names are resolved once, at the border (bindings, command line).
+// templates over it, and run-time names are resolved once, at the border (registry.hpp).
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <string_view>
 
@@ -14,16 +15,36 @@ struct Projection {
     double distance;   // Euclidean distance from the input to its embedding
 };
 
-// Laws (tests/frames/representation_laws.hpp): embed(q o) = embed(q) for the 48 o of the binary octahedral group;
-// differential is the derivative under rotation from the left; project(embed(q)) is the frame q.
+// Weights of the degrees 4, 6 and 9 in the band law below.
+using BandWeights = std::array<double, 3>;
+
+// Laws (tests/frames/representation_laws.hpp):
+// - embed(q o) = embed(q) for the 48 o of the binary octahedral group;
+// - differential(q): column k is d/dt embed(exp(t e_k) q) at t = 0, e_k the k-th WORLD axis;
+// - hessian(q, v): the 3x3 Hessian of v . embed(exp(w) q) by w at w = 0;
+// - project(v, guess): the frame whose embedding is nearest to v; `guess` is one more start. project(embed(q)) is q.
+//   The zero vector gives a frame like any other input; NaN or infinity throws InvalidInput;
+// - band law: any O-invariant map of degree at most 9 in the harmonics is built from the unit invariants a_4, a_6, a_9
+//   of O (harmonics.hpp), so the average of |embed(g p) - embed(g q)|^2 over all rotations g is
+//   sum_l band_weights_l |a_l(p) - a_l(q)|^2.
 template <class R>
 concept Representation = requires(const Quaternion& q, const typename R::Vector& v) {
     { R::name } -> std::convertible_to<std::string_view>;
     { R::dimension } -> std::convertible_to<int>;
+    { R::band_weights } -> std::convertible_to<BandWeights>;
     { R::embed(q) } -> std::same_as<typename R::Vector>;
     { R::differential(q) } -> std::same_as<typename R::Differential>;
+    { R::hessian(q, v) } -> std::same_as<Matrix3>;
     { R::project(v) } -> std::same_as<Projection>;
     { R::project(v, &q) } -> std::same_as<Projection>;
+};
+
+// A representation on which rotations from the left act linearly: embed(g q) = rotate(g, embed(q)). Its differential is
+// then isotropic: a rotation of t radians about any axis moves every frame by speed t to first order (Schur).
+template <class R>
+concept Equivariant = Representation<R> && requires(const Quaternion& g, const typename R::Vector& v) {
+    { R::rotate(g, v) } -> std::same_as<typename R::Vector>;
+    { R::speed } -> std::convertible_to<double>;
 };
 
 }  // namespace octafield::frames
