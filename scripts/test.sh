@@ -16,8 +16,8 @@ fi
 
 make_venv requirements-test.txt
 install_octafield
-say "building the C++ tests"
-cmake -S . -B "$BUILD_DIR" -DOCTAFIELD_TESTS=ON >/dev/null
+say "building the C++ tests and benchmarks"
+cmake -S . -B "$BUILD_DIR" -DOCTAFIELD_TESTS=ON -DOCTAFIELD_BENCHMARKS=ON >/dev/null
 cmake --build "$BUILD_DIR"
 say "C++ tests"
 ctest --test-dir "$BUILD_DIR" --output-on-failure -j "$jobs"
