@@ -14,12 +14,14 @@ namespace octafield::frames::sh4 {
 // vanishing trace gives: yyzz xyzz xxzz.
 constexpr int form_size = 12;
 constexpr int neighbours_each = 9;  // in the cover, at most
-constexpr int chunk = 32;            // inputs searched together; a multiple of every lane count
+constexpr int chunk = 32;           // inputs searched together; a multiple of every lane count
 
 // Federer 1959, "Curvature measures", theorem 4.8: points nearer to a set than its reach have one nearest point in it,
 // and p is that point if v - p is normal to the set at p. All of t v, t > 0, have the same nearest frames; with the
 // best t the test reads F(q) >= sqrt(1 - reach^2) |v| at a critical point q of F. The embedded frames have reach
-// sqrt(5/12), the radius of the circles that turns about an axis of the frame describe.
+// sqrt(5/12), the radius of the circles that turns about an axis of the frame describe: so it is not more. That it is
+// not less is an inequality between polynomials of a rotation matrix, checked numerically (sh4_projection_test.cpp),
+// not derived.
 constexpr double reach_squared = 5.0 / 12;
 constexpr double sure_value = 0.76376261582597345;  // sqrt(7/12), rounded up
 

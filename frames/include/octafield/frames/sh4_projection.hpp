@@ -13,8 +13,8 @@ namespace octafield::frames {
 // quaternions wxyz; distances (n). A row's result does not depend on the other rows, and has the same bits as
 // Sh4::project, in any order, split into any blocks, by any of sh4_instruction_sets(). One thread.
 //
-// The frame is a local maximum of F(q) = v . embed(q), to rounding. Where F(q) >= sqrt(7/12) |v| it is proven to be the
-// global one (Federer's reach, frames/src/sh4_kernel.hpp): then one ascent from the guess, or from the best of a cover
+// The frame is a local maximum of F(q) = v . embed(q), to rounding. Where F(q) >= sqrt(7/12) |v| it is the global
+// one (Federer's reach, frames/src/sh4_kernel.hpp): then one ascent from the guess, or from the best of a cover
 // of SO(3)/O, is all the work. Other inputs take ascents from every local maximum on the cover, then to both sides of
 // every soft maximum reached; that this finds the global maximum is measured, not proven (project_sh4_certified proves
 // it input by input). Of equally near frames, the guess's or else the first found in the cover's fixed order is kept.
