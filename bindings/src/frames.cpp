@@ -61,11 +61,10 @@ void bind_quaternions(py::module_& m) {
     m.def(
         "frame_from_axes",
         [](const ArrayLike& directions, const ArrayLike& normals, int threads) {
-            auto [d, n] = broadcast(read_rows<Points>(directions, "directions"), read_rows<Points>(normals, "normals"),
+            auto [d, n] = broadcast(read_rows<Points>(directions, "directions"), read_directions(normals, "normals"),
                                     "directions", "normals");
-            require_directions(n.rows, "normals");
             return map_pairs<4>(d, n, threads, [](const auto& direction, const auto& normal, auto out) {
-                out = to_wxyz(frame_from_axes(direction.transpose(), normal.transpose().normalized())).transpose();
+                out = to_wxyz(frame_from_axes(direction.transpose(), normal.transpose())).transpose();
             });
         },
         "directions"_a, "normals"_a, py::kw_only(), "threads"_a = 0,
@@ -198,30 +197,29 @@ void bind_geodesics(py::module_& m) {
     m.def(
         "slerp",
         [](const ArrayLike& q1, const ArrayLike& q2, const ArrayLike& t, int threads) {
+            using Ends = Rows<double, 8>;
             const auto [a, b] = broadcast(read_quaternions(q1, "q1"), read_quaternions(q2, "q2"), "q1", "q2");
-            const auto n = a.rows.rows();
-            const auto fractions = numbers<double>(t, "t");
-            if (fractions.size() != 1 && fractions.size() != n)
-                throw InvalidInput("t has " + std::to_string(fractions.size()) + " entries for " + std::to_string(n) +
-                                       " pairs of frames",
-                                   "wrong_shape");
-            Rows<double, 5> ends(n, 5);
-            ends.leftCols<4>() = b.rows;
-            for (Eigen::Index i = 0; i < n; ++i)
-                ends(i, 4) = finite(fractions.data()[fractions.size() == 1 ? 0 : i], "t");
-            return map_pairs<4>(a, RowInput<Rows<double, 5>>{ends, b.single}, threads,
-                                [](const auto& x, const auto& y, auto out) {
-                                    out = to_wxyz(slerp(from_wxyz(x), from_wxyz(y), y[4])).transpose();
-                                });
+            Ends ends(a.rows.rows(), 8);
+            ends << a.rows, b.rows;
+            const auto [pairs, fractions] =
+                broadcast(RowInput<Ends>{std::move(ends), a.single}, read_numbers(t, "t"), "q1", "t");
+            return map_pairs<4>(pairs, fractions, threads, [](const auto& x, const auto& y, auto out) {
+                const Quaternion from(x[0], x[1], x[2], x[3]), to(x[4], x[5], x[6], x[7]);
+                out = to_wxyz(slerp(from, to, y[0])).transpose();
+            });
         },
         "q1"_a, "q2"_a, "t"_a, py::kw_only(), "threads"_a = 0,
-        "(n, 4) frames at the fraction t, a number or (n,), of the shortest paths from frames q1 (t = 0) to frames q2 "
-        "(t = 1).");
-    m.def("frame_mean", frame_means, "frames"_a, "weights"_a = py::none(), py::kw_only(), "threads"_a = 0,
-          "Karcher means of (n, m, 4) frames (or (m, 4) for one mean): the frames that minimise the weighted squared "
-          "geodesic distance. weights: (m,) or (n, m), not negative. Returns (n, 4) frames, (n,) variances (weighted "
-          "mean "
-          "squared distance, radians squared) and (n,) whether the iteration converged.");
+        "(n, 4) frames at the fractions t, a number or (n,), of the shortest paths from the (n, 4) frames q1 (t = 0) "
+        "to the "
+        "frames q2 (t = 1); a single frame or number goes with every row.");
+    m.def(
+        "frame_mean", frame_means, "frames"_a, "weights"_a = py::none(), py::kw_only(), "threads"_a = 0,
+        "Karcher means of (n, m, 4) frames, or (m, 4) for one mean: the frames of least weighted mean squared geodesic "
+        "distance. weights: (m,) for all means, or (n, m); not negative, not all zero. Returns (n, 4) frames, (n,) "
+        "variances "
+        "(that mean, radians squared) and (n,) whether the iteration converged; for one mean a (4,) frame and two "
+        "scalars. Certainly the minimum where all frames lie within about 20 degrees of one another, else the best of "
+        "several descents.");
 }
 
 }  // namespace

@@ -35,11 +35,10 @@ void bind_harmonics(py::module_& m) {
     m.def(
         "harmonics_evaluate",
         [](int degree, const ArrayLike& directions, int threads) {
-            const auto input = read_rows<Points>(directions, "directions");
-            require_directions(input.rows, "directions");
+            const auto input = read_directions(directions, "directions");
             return with_degree(degree, [&]<int l>() {
                 return map_rows<2 * l + 1>(input, threads, [](const auto& row, auto out) {
-                    out = Harmonics<l>::evaluate(row.transpose().normalized()).transpose();
+                    out = Harmonics<l>::evaluate(row.transpose()).transpose();
                 });
             });
         },

@@ -61,17 +61,6 @@ py::object rotate(const ArrayLike& g, const ArrayLike& v, int threads) {
     });
 }
 
-// One frame per row, or none.
-Quaternions read_guesses(const std::optional<ArrayLike>& guess, std::int64_t n) {
-    if (!guess) return Quaternions(0, 4);
-    auto guesses = read_quaternions(*guess, "guess");
-    if (guesses.rows.rows() == 1 && n != 1) return guesses.rows.replicate(n, 1);
-    if (guesses.rows.rows() != n)
-        throw InvalidInput("guess has " + std::to_string(guesses.rows.rows()) + " rows, v " + std::to_string(n),
-                           "wrong_shape");
-    return std::move(guesses.rows);
-}
-
 // project(row, guess or nullptr) for every row.
 template <int Dimension, class Project>
 py::tuple project_rows(const ArrayLike& v, const std::optional<ArrayLike>& guess, int threads, Project project) {
@@ -101,7 +90,7 @@ py::tuple project_sh4_rows(const ArrayLike& v, const std::optional<ArrayLike>& g
         for_rows((n + block - 1) / block, threads, Output{Quaternions(n, 4), Eigen::VectorXd(n)},
                  [rows = std::move(input.rows), guesses = read_guesses(guess, n), n](Output& out, std::int64_t b) {
                      const std::int64_t first = b * block, count = std::min(block, n - first);
-                     project_sh4(rows.data() + 9 * first, guesses.rows() ? guesses.data() + 4 * first : nullptr, count,
+                     sh4_project(rows.data() + 9 * first, guesses.rows() ? guesses.data() + 4 * first : nullptr, count,
                                  out.frames.data() + 4 * first, out.distances.data() + first);
                  },
                  1);
@@ -174,7 +163,8 @@ void bind_weighted_sh469(py::module_& m) {
                                 });
         },
         "q"_a, "weights"_a, py::kw_only(), "threads"_a = 0,
-        "The same with (3,) weights of degrees 4, 6 and 9, not negative; the default makes squared distances the left "
+        "The same, (n, 41), with (3,) weights of degrees 4, 6 and 9, not negative; the default makes squared distances "
+        "the left "
         "average of those of su2.");
     m.def(
         "sh469_differential",
@@ -184,7 +174,8 @@ void bind_weighted_sh469(py::module_& m) {
                                        as_matrix<double, 41, 3>(out) = Sh469::differential(from_wxyz(row), w);
                                    });
         },
-        "q"_a, "weights"_a, py::kw_only(), "threads"_a = 0, "The same with (3,) weights of degrees 4, 6 and 9.");
+        "q"_a, "weights"_a, py::kw_only(), "threads"_a = 0,
+        "The same, (n, 41, 3), with (3,) weights of degrees 4, 6 and 9.");
     m.def(
         "sh469_project",
         [](const ArrayLike& v, const std::optional<ArrayLike>& guess, const ArrayLike& weights, int threads) {
@@ -193,8 +184,18 @@ void bind_weighted_sh469(py::module_& m) {
                                         return Sh469::project(row, start, w);
                                     });
         },
-        "v"_a, "guess"_a, "weights"_a, py::kw_only(), "threads"_a = 0,
-        "The same with (3,) weights of degrees 4, 6 and 9.");
+        "v"_a, "guess"_a = py::none(), py::kw_only(), "weights"_a, "threads"_a = 0,
+        "The same, (n, 4) frames and (n,) distances, with (3,) weights of degrees 4, 6 and 9.");
+    m.def(
+        "sh469_hessian",
+        [](const ArrayLike& q, const ArrayLike& v, const ArrayLike& weights, int threads) {
+            const auto [a, b] = broadcast(read_quaternions(q, "q"), read_rows<Rows<double, 41>>(v, "v"), "q", "v");
+            return map_pairs<3, 3>(a, b, threads, [w = band_weights(weights)](const auto& x, const auto& y, auto out) {
+                as_matrix<double, 3, 3>(out) = Sh469::hessian(from_wxyz(x), y.transpose(), w);
+            });
+        },
+        "q"_a, "v"_a, "weights"_a, py::kw_only(), "threads"_a = 0,
+        "The same, (n, 3, 3), with (3,) weights of degrees 4, 6 and 9.");
 }
 
 py::object convert(const ArrayLike& v, const std::string& from, const std::string& to, int threads) {
@@ -246,9 +247,10 @@ void bind_representations(py::module_& m) {
             const auto result = for_rows(
                 n, threads, Rows<double, 6>(n, 6),
                 [rows = std::move(input.rows), gap_tolerance](Rows<double, 6>& out, std::int64_t i) {
-                    const CertifiedProjection c = project_sh4_certified(rows.row(i).transpose(), gap_tolerance);
+                    const CertifiedProjection c = sh4_project_certified(rows.row(i).transpose(), gap_tolerance);
                     out.row(i) << to_wxyz(c.projection.frame).transpose(), c.projection.distance, c.gap;
-                });
+                },
+                1);
             return py::make_tuple(give_back(Quaternions(result.leftCols<4>()), {4}, input.single),
                                   give_back(Eigen::VectorXd(result.col(4)), {}, input.single),
                                   give_back(Eigen::VectorXd(result.col(5)), {}, input.single));
@@ -256,7 +258,9 @@ void bind_representations(py::module_& m) {
         "v"_a, "gap_tolerance"_a = 1e-9, py::kw_only(), "threads"_a = 0,
         "sh4_project with a proof, by branch and bound: (n, 4) frames, (n,) distances and (n,) proven bounds on how "
         "much "
-        "any other frame could raise v . sh4_embed(q), relative to |v|.");
+        "any other frame could raise v . sh4_embed(q), relative to |v|. gap_tolerance: at least 1e-13; a gap above it "
+        "means "
+        "that the search gave up after 2,000,000 boxes.");
 }
 
 }  // namespace octafield::bindings

@@ -2,6 +2,7 @@
 // shape.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,14 @@ auto as_matrix(Row&& row) {
     return Eigen::Map<Eigen::Matrix<Scalar, R, C, Eigen::RowMajor>>(row.data());
 }
 
+template <class Matrix>
+void require_finite_rows(const Matrix& rows, std::string_view name) {
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+        if (!rows.row(i).allFinite())
+            throw InvalidInput(std::string(name) + ": row " + std::to_string(i) + " is not finite", "non_finite",
+                               {static_cast<Index>(i)});
+}
+
 // (n, columns) or (columns,), finite.
 template <class Matrix>
 RowInput<Matrix> read_rows(const ArrayLike& value, std::string_view name) {
@@ -40,10 +49,7 @@ RowInput<Matrix> read_rows(const ArrayLike& value, std::string_view name) {
         throw_shape(name, "(n, " + std::to_string(columns) + ") or (" + std::to_string(columns) + ",)", array);
     RowInput<Matrix> input{
         single ? Matrix(Eigen::Map<const Matrix>(array.data(), 1, columns)) : from_python<Matrix>(array, name), single};
-    for (Eigen::Index i = 0; i < input.rows.rows(); ++i)
-        if (!input.rows.row(i).allFinite())
-            throw InvalidInput(std::string(name) + ": row " + std::to_string(i) + " is not finite", "non_finite",
-                               {static_cast<Index>(i)});
+    require_finite_rows(input.rows, name);
     return input;
 }
 
@@ -54,11 +60,39 @@ inline RowInput<Quaternions> read_quaternions(const ArrayLike& value, std::strin
     return input;
 }
 
-inline void require_directions(const Points& vectors, std::string_view name) {
-    for (Eigen::Index i = 0; i < vectors.rows(); ++i)
-        if (!(vectors.row(i).stableNorm() > 0))
+// One frame for each of n rows, or none. A single one goes with every row.
+inline Quaternions read_guesses(const std::optional<ArrayLike>& guess, std::int64_t n) {
+    if (!guess) return Quaternions(0, 4);
+    auto guesses = read_quaternions(*guess, "guess");
+    if (guesses.rows.rows() == 1 && n != 1) return guesses.rows.replicate(n, 1);
+    if (guesses.rows.rows() != n)
+        throw InvalidInput("guess has " + std::to_string(guesses.rows.rows()) + " rows, v " + std::to_string(n) +
+                               "; give one frame per row, or one for all",
+                           "wrong_shape");
+    return std::move(guesses.rows);
+}
+
+// (n, 3) or (3,) vectors of any length but zero, made unit.
+inline RowInput<Points> read_directions(const ArrayLike& value, std::string_view name) {
+    auto input = read_rows<Points>(value, name);
+    for (Eigen::Index i = 0; i < input.rows.rows(); ++i) {
+        const double largest = input.rows.row(i).cwiseAbs().maxCoeff();
+        if (!(largest > 0))
             throw InvalidInput(std::string(name) + ": row " + std::to_string(i) + " is zero", "zero_vector",
                                {static_cast<Index>(i)});
+        input.rows.row(i) /= largest;  // its square neither overflows nor vanishes
+        input.rows.row(i).normalize();
+    }
+    return input;
+}
+
+// (n,) numbers, (n, 1) too, or a single one.
+inline RowInput<Eigen::VectorXd> read_numbers(const ArrayLike& value, const char* name) {
+    const auto array = numbers<double>(value, name);
+    if (array.ndim() > 1 && array.size() != array.shape(0)) throw_shape(name, "(n,) or a number", array);
+    RowInput<Eigen::VectorXd> input{Eigen::Map<const Eigen::VectorXd>(array.data(), array.size()), array.ndim() == 0};
+    require_finite_rows(input.rows, name);
+    return input;
 }
 
 // Two arguments row by row; one row goes with every row of the other.
@@ -67,7 +101,8 @@ std::pair<RowInput<A>, RowInput<B>> broadcast(RowInput<A> a, RowInput<B> b, cons
                                               const std::string& name_b) {
     const auto n = a.rows.rows(), m = b.rows.rows();
     if (n != m && n != 1 && m != 1)
-        throw InvalidInput(name_a + " has " + std::to_string(n) + " rows, " + name_b + " " + std::to_string(m),
+        throw InvalidInput(name_a + " has " + std::to_string(n) + " rows, " + name_b + " " + std::to_string(m) +
+                               "; give as many of both, or one of either",
                            "wrong_shape");
     const bool single = a.single && b.single;
     if (n == 1 && m != 1) a.rows = A(a.rows.replicate(m, 1));
@@ -82,7 +117,14 @@ Output for_rows(std::int64_t n, int threads, Output output, Body body, std::int6
     threads_option(threads);
     auto work = [n, threads, rows_per_thread, output = std::move(output), body = std::move(body)](Job& job) mutable {
         const auto row = [&](std::int64_t i) {
-            if (!job.cancelled()) body(output, i);
+            if (job.cancelled()) return;
+            try {
+                body(output, i);
+            } catch (const InvalidInput& error) {
+                if (n == 1) throw;
+                throw InvalidInput("row " + std::to_string(i) + ": " + error.what(), error.kind(),
+                                   {static_cast<Index>(i)});
+            }
         };
         parallel_for(n, threads, row, rows_per_thread);
         return std::move(output);

@@ -18,22 +18,6 @@ using Points3c = Rows<Complex, 3>;
 
 RowInput<Points3c> read_points(const ArrayLike& h, const char* name) { return read_rows<Points3c>(h, name); }
 
-RowInput<Points> read_normals(const ArrayLike& n) {
-    auto input = read_rows<Points>(n, "n");
-    require_directions(input.rows, "n");
-    input.rows.rowwise().normalize();
-    return input;
-}
-
-// Single numbers go with every row.
-RowInput<Eigen::VectorXd> read_numbers(const ArrayLike& value, const char* name) {
-    const auto array = numbers<double>(value, name);
-    if (array.ndim() > 1) throw_shape(name, "(n,) or a number", array);
-    RowInput<Eigen::VectorXd> input{Eigen::Map<const Eigen::VectorXd>(array.data(), array.size()), array.ndim() == 0};
-    for (const double x : input.rows) finite(x, name);
-    return input;
-}
-
 void bind_points(py::module_& m) {
     m.def(
         "su2_complex",
@@ -107,7 +91,7 @@ void bind_axis(py::module_& m) {
     m.def(
         "su2_axis_turn",
         [](const ArrayLike& n, const ArrayLike& t, int threads) {
-            const auto [a, b] = broadcast(read_normals(n), read_numbers(t, "t"), "n", "t");
+            const auto [a, b] = broadcast(read_directions(n, "n"), read_numbers(t, "t"), "n", "t");
             return map_pairs_to<Complex, 3>(a, b, threads, [](const auto& x, const auto& y, auto out) {
                 out = Su2Axis(x.transpose()).turn(y[0]).transpose();
             });
@@ -119,7 +103,7 @@ void bind_axis(py::module_& m) {
     m.def(
         "su2_axis_ellipse",
         [](const ArrayLike& n, int threads) {
-            return map_rows_to<Complex, 5>(read_normals(n), threads, [](const auto& row, auto out) {
+            return map_rows_to<Complex, 5>(read_directions(n, "n"), threads, [](const auto& row, auto out) {
                 const Su2Axis::Ellipse e = Su2Axis(row.transpose()).ellipse();
                 out << e.center0, e.center1, e.plus, e.minus, e.ratio;
             });
@@ -130,7 +114,7 @@ void bind_axis(py::module_& m) {
     m.def(
         "su2_axis_linear_residual",
         [](const ArrayLike& n, const ArrayLike& h, int threads) {
-            const auto [a, b] = broadcast(read_normals(n), read_points(h, "h"), "n", "h");
+            const auto [a, b] = broadcast(read_directions(n, "n"), read_points(h, "h"), "n", "h");
             return map_pairs_to<Complex>(a, b, threads, [](const auto& x, const auto& y, auto out) {
                 out[0] = Su2Axis(x.transpose()).linear_residual(y.transpose());
             });
@@ -142,7 +126,7 @@ void bind_axis(py::module_& m) {
     m.def(
         "su2_axis_residual",
         [](const ArrayLike& n, const ArrayLike& h, int threads) {
-            const auto [a, b] = broadcast(read_normals(n), read_points(h, "h"), "n", "h");
+            const auto [a, b] = broadcast(read_directions(n, "n"), read_points(h, "h"), "n", "h");
             return map_pairs_to<Complex, 2>(a, b, threads, [](const auto& x, const auto& y, auto out) {
                 const auto r = Su2Axis(x.transpose()).residual(y.transpose());
                 out << r[0], r[1];

@@ -25,7 +25,7 @@ RowInput<Rows<double, 81>> read_full(const ArrayLike& a) {
     if (!right) throw_shape("a", "(n, 3, 3, 3, 3) or (3, 3, 3, 3)", array);
     const py::ssize_t n = single ? 1 : array.shape(0);
     Rows<double, 81> rows = Eigen::Map<const Rows<double, 81>>(array.data(), n, 81);
-    if (!rows.allFinite()) throw InvalidInput("a: not all entries are finite", "non_finite");
+    require_finite_rows(rows, "a");
     return {std::move(rows), single};
 }
 
@@ -36,7 +36,7 @@ RowInput<Rows<double, 36>> read_mandel(const ArrayLike& p) {
     if ((!single && array.ndim() != 3) || array.shape(array.ndim() - 1) != 6 || array.shape(array.ndim() - 2) != 6)
         throw_shape("p", "(n, 6, 6) or (6, 6)", array);
     Rows<double, 36> rows = Eigen::Map<const Rows<double, 36>>(array.data(), single ? 1 : array.shape(0), 36);
-    if (!rows.allFinite()) throw InvalidInput("p: not all entries are finite", "non_finite");
+    require_finite_rows(rows, "p");
     return {std::move(rows), single};
 }
 
@@ -185,7 +185,7 @@ void bind_odeco(py::module_& m) {
                 out = Odeco::embed(from_wxyz(x), Vector3(y.transpose())).transpose();
             });
         },
-        "q"_a, "lengths"_a, py::kw_only(), "threads"_a = 0, "The same with (n, 3) axis lengths.");
+        "q"_a, "lengths"_a, py::kw_only(), "threads"_a = 0, "The same, (n, 15), with (n, 3) axis lengths.");
     m.def(
         "odeco_differential",
         [](const ArrayLike& q, const ArrayLike& lengths, int threads) {
@@ -202,10 +202,7 @@ void bind_odeco(py::module_& m) {
         [](const ArrayLike& v, const std::optional<ArrayLike>& guess, int threads) {
             auto input = read_rows<Vectors15>(v, "v");
             const auto n = input.rows.rows();
-            auto guesses = guess ? read_quaternions(*guess, "guess").rows : Quaternions(0, 4);
-            if (guess && guesses.rows() != n)
-                throw InvalidInput("guess has " + std::to_string(guesses.rows()) + " rows, v " + std::to_string(n),
-                                   "wrong_shape");
+            auto guesses = read_guesses(guess, n);
             const auto result = for_rows(
                 n, threads, Rows<double, 8>(n, 8),
                 [rows = std::move(input.rows), guesses = std::move(guesses)](Rows<double, 8>& out, std::int64_t i) {
@@ -230,7 +227,9 @@ void bind_odeco(py::module_& m) {
             return odeco_frames(result, a.single);
         },
         "v"_a, "start"_a, py::kw_only(), "threads"_a = 0,
-        "Like odeco_nearest, by one ascent from the (n, 4) frames `start`: the local optimum next to them.");
+        "Like odeco_nearest, (n, 4) frames, (n, 3) lengths and (n,) distances, by one ascent from the (n, 4) frames "
+        "`start`: the "
+        "local optimum next to them.");
     m.def(
         "odeco_extract",
         [](const ArrayLike& v, int threads) {

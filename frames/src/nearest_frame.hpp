@@ -35,39 +35,49 @@ struct NearestFrameProblem {
         return (0.5 * e.squaredNorm() - v.dot(e)) / scale;
     }
 
-    Quaternion descend(Quaternion q, const Vector& v, double scale) const {
+    struct Point {
+        Quaternion q;
+        Vector e;
+        double value, slope;  // slope: norm of the gradient
+        Vector3 gradient;
+    };
+
+    Point at(const Quaternion& q, const Vector& v, double scale) const {
+        Point p{q, embed(q), 0, 0, {}};
+        p.value = value(p.e, v, scale);
+        p.gradient = differential(q).transpose() * ((p.e - v) / scale);
+        p.slope = p.gradient.norm();
+        return p;
+    }
+
+    Point descend(const Quaternion& start, const Vector& v, double scale) const {
         constexpr int max_steps = 50;
         constexpr double max_angle = 0.15;  // the finest basins (su2) are about 20 degrees wide
+        constexpr double polish = 1e-4;     // Newton gains about the square of this: too little to see in the values
         Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
-        Vector e = embed(q);
-        double current = value(e, v, scale);
+        Point here = at(start, v, scale);
         for (int step = 0; step < max_steps; ++step) {
-            const auto j = differential(q);
-            const Vector residual = (e - v) / scale;
-            const Vector3 gradient = j.transpose() * residual;
-            const Matrix3 curvature_matrix = j.transpose() * j / scale + hessian(q, residual);
+            const auto j = differential(here.q);
+            const Matrix3 curvature_matrix = j.transpose() * j / scale + hessian(here.q, (here.e - v) / scale);
             eigen.compute(curvature_matrix);
             const Vector3 curvature = eigen.eigenvalues().cwiseAbs();
             const double floor = 1e-6 * curvature.maxCoeff() + 1e-300;
-            const Vector3 along = eigen.eigenvectors().transpose() * gradient;
+            const Vector3 along = eigen.eigenvectors().transpose() * here.gradient;
             Vector3 move = -(eigen.eigenvectors() * along.cwiseQuotient(curvature.cwiseMax(floor)));
             const double angle = move.norm();
-            if (angle < 1e-14) break;
+            if (angle < 1e-15) break;
             if (angle > max_angle) move *= max_angle / angle;
-            bool lowered = false;
-            for (double length = 1; length > 1e-4 && !lowered; length /= 2) {
-                const Quaternion next = (exp(length * move) * q).normalized();
-                const Vector next_e = embed(next);
-                const double next_value = value(next_e, v, scale);
-                // Newton's last steps gain less than rounding: taken while they are shorter than that can judge.
-                if (next_value <= current || (angle < 1e-6 && next_value <= current + 1e-15)) {
-                    lowered = true;
-                    q = next, e = next_e, current = std::min(current, next_value);
-                }
+            const bool close = angle < polish && eigen.eigenvalues()[0] > 0;
+            bool better = false;
+            for (double length = 1; length > 1e-4 && !better; length /= 2) {
+                const Point next = at((exp(length * move) * here.q).normalized(), v, scale);
+                better = close ? next.slope < here.slope : next.value <= here.value;
+                if (better) here = next;
+                if (close) break;
             }
-            if (!lowered || angle < 1e-9) break;
+            if (!better) break;
         }
-        return q;
+        return here;
     }
 
     // The best frames of the cover that are apart from one another.
@@ -101,16 +111,16 @@ struct NearestFrameProblem {
         std::vector<Quaternion> begin = starts(scaled, scale);
         begin.insert(begin.begin(), hints.begin(), hints.end());
         if (guess) begin.insert(begin.begin(), guess->normalized());
-        Quaternion best = begin.front();
-        double best_value = 0;
-        for (std::size_t i = 0; i < begin.size(); ++i) {
-            const Quaternion q = descend(begin[i], v, scale);
-            const Vector e = embed(q);
-            const double reached = 0.5 * e.squaredNorm() / scale - scaled.dot(e);
-            // The margin keeps the first of equally good basins, so that rounding does not choose.
-            if (i == 0 || reached < best_value - 1e-12 * std::abs(best_value)) best = q, best_value = reached;
+        Point best = descend(begin.front(), v, scale);
+        for (std::size_t i = 1; i < begin.size(); ++i) {
+            const Point other = descend(begin[i], v, scale);
+            // The margin keeps the first of equally good basins, so that rounding does not choose; in the same basin
+            // the better converged.
+            const double margin = 1e-12 * std::abs(best.value), gain = best.value - other.value;
+            const bool same = std::abs(gain) <= margin && other.slope < best.slope && distance(other.q, best.q) < 1e-3;
+            if (gain > margin || same) best = other;
         }
-        return {best, (v - embed(best)).stableNorm()};
+        return {best.q, (v - best.e).stableNorm()};
     }
 };
 

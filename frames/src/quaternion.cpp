@@ -7,17 +7,39 @@
 #include "octafield/error.hpp"
 
 namespace octafield::frames {
+namespace {
+
+void require_direction(const Vector3& v) {
+    if (!v.allFinite() || v.isZero(0))
+        throw InvalidInput("a vector that is zero or not finite has no direction", "not_unit_vector");
+}
+
+// A unit vector perpendicular to the unit vector z.
+Vector3 perpendicular(const Vector3& z) {
+    int smallest = 0;
+    z.cwiseAbs().minCoeff(&smallest);
+    return (Vector3::Unit(smallest) - z[smallest] * z).normalized();
+}
+
+}  // namespace
 
 void throw_not_unit(const Quaternion& q) {
     throw InvalidInput("not a unit quaternion: norm " + std::to_string(q.norm()) + "; normalise it first", "not_unit");
 }
 
 Quaternion exp(const Vector3& rotation_vector) {
-    const double angle = rotation_vector.norm();
-    // sin(angle / 2) / angle, by its series where the quotient loses digits.
-    const double scale = angle > 1e-4 ? std::sin(angle / 2) / angle : 0.5 - angle * angle / 48;
-    const Vector3 v = scale * rotation_vector;
-    return {std::cos(angle / 2), v.x(), v.y(), v.z()};
+    const Vector3 half = rotation_vector / 2;
+    double angle = half.norm();
+    Vector3 v;
+    if (angle < 5e-5) {
+        v = (1 - angle * angle / 6) * half;  // the series of sin(angle) / angle: the quotient loses digits
+    } else if (angle < 1e150) {
+        v = std::sin(angle) / angle * half;
+    } else {
+        angle = half.stableNorm();
+        v = std::sin(angle) * (half / angle);
+    }
+    return {std::cos(angle), v.x(), v.y(), v.z()};
 }
 
 Vector3 log(const Quaternion& q) {
@@ -28,15 +50,28 @@ Vector3 log(const Quaternion& q) {
     return sign * scale * q.vec();
 }
 
-Quaternion rotation_between(const Vector3& from, const Vector3& to) { return Quaternion::FromTwoVectors(from, to); }
+// (|a + b|, |a - b| axis) / 2: of the sum and the difference of unit vectors the shorter one is free of rounding, and
+// its cross product with a, which is that of b up to sign, has all digits too.
+Quaternion rotation_between(const Vector3& from, const Vector3& to) {
+    constexpr double indistinct = 4e-16;
+    require_direction(from), require_direction(to);
+    const Vector3 a = from.stableNormalized(), b = to.stableNormalized(), sum = a + b, difference = b - a;
+    const bool acute = difference.squaredNorm() < sum.squaredNorm();
+    Vector3 axis = a.cross(acute ? difference : sum);
+    if (axis.norm() < indistinct) {
+        if (acute) return Quaternion::Identity();
+        axis = perpendicular(a);
+        return {0, axis.x(), axis.y(), axis.z()};
+    }
+    axis *= difference.norm() / axis.norm();
+    return Quaternion(sum.norm(), axis.x(), axis.y(), axis.z()).normalized();
+}
 
 Quaternion frame_from_axes(const Vector3& direction, const Vector3& normal) {
     const Vector3 z = normal.stableNormalized();
     Vector3 x = direction - direction.dot(z) * z;
     if (!(x.stableNorm() > 1e-8 * direction.stableNorm())) {
-        int smallest = 0;
-        z.cwiseAbs().minCoeff(&smallest);
-        x = Vector3::Unit(smallest) - z[smallest] * z;
+        x = perpendicular(z);
     }
     x.stableNormalize();
     Matrix3 axes;

@@ -101,7 +101,7 @@ Projection Sh4::project(const Vector& v, const Quaternion* guess) {
     Vector4 frame, start;
     if (guess) start = to_wxyz(*guess);
     double distance;
-    project_sh4(v.data(), guess ? start.data() : nullptr, 1, frame.data(), &distance);
+    sh4_project(v.data(), guess ? start.data() : nullptr, 1, frame.data(), &distance);
     return {from_wxyz(frame), distance};
 }
 

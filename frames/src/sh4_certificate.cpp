@@ -132,7 +132,7 @@ void Search::bound_level() {
     kernel_.expand(form_, q_.data(), n, stride, values_.data());
     boxes_ += n;
     const std::int64_t highest = std::max_element(values_.begin(), values_.begin() + n) - values_.begin();
-    // The frame of project_sh4 is not the best, and this box shows it.
+    // The frame of sh4_project is not the best, and this box shows it.
     if (n > 0 && values_[highest] > best_value_ + sh4::rounding) climb_from(level_[highest].centre);
     open_.clear();
     for (std::int64_t i = 0; i < n; ++i) {
@@ -194,7 +194,7 @@ bool Search::run(std::int64_t most_boxes) {
 
 }  // namespace
 
-CertifiedProjection project_sh4_certified(const Sh4::Vector& v, double gap_tolerance, std::int64_t most_boxes) {
+CertifiedProjection sh4_project_certified(const Sh4::Vector& v, double gap_tolerance, std::int64_t most_boxes) {
     if (!(gap_tolerance > 0 && gap_tolerance < 1))
         throw InvalidInput("gap_tolerance is " + std::to_string(gap_tolerance) + "; it must lie between 0 and 1",
                            "bad_tolerance");

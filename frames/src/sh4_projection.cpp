@@ -41,11 +41,11 @@ void project_with(const sh4::Kernel& kernel, const double* v, const double* gues
 
 }  // namespace
 
-void project_sh4(const double* v, const double* guess, std::int64_t n, double* frames, double* distances) {
+void sh4_project(const double* v, const double* guess, std::int64_t n, double* frames, double* distances) {
     project_with(sh4::kernels().front(), v, guess, n, frames, distances);
 }
 
-void project_sh4(const double* v, const double* guess, std::int64_t n, double* frames, double* distances,
+void sh4_project(const double* v, const double* guess, std::int64_t n, double* frames, double* distances,
                  std::string_view instruction_set) {
     for (const sh4::Kernel& kernel : sh4::kernels())
         if (kernel.name == instruction_set) return project_with(kernel, v, guess, n, frames, distances);

@@ -208,6 +208,14 @@ inline void finish(Work& work, double* frames, double* distances) {
     }
 }
 
+// Of any length: brought to where squares neither overflow nor underflow.
+inline void add_guess(Starts& starts, int i, const double* q) {
+    double largest = 0;
+    for (int c = 0; c < 4; ++c) largest = __builtin_fabs(q[c]) > largest ? __builtin_fabs(q[c]) : largest;
+    const double divisor = largest > 1e-10 && largest < 1e10 ? 1 : largest;
+    starts.add(i, q[0] / divisor, q[1] / divisor, q[2] / divisor, q[3] / divisor);
+}
+
 void project(const Tables& tables, const double* v, const double* guess, int n, double* frames, double* distances) {
     Work work;
     work.n = n;
@@ -217,7 +225,7 @@ void project(const Tables& tables, const double* v, const double* guess, int n, 
         work.value[i] = work.size[i] > 0 ? -2 : 1;
         for (int c = 0; c < 4; ++c) work.q[c][i] = c == 0;
         const double* const q = guess ? guess + 4 * i : nullptr;
-        if (q && work.size[i] > 0) more.add(i, q[0], q[1], q[2], q[3]);
+        if (q && work.size[i] > 0) add_guess(more, i, q);
     }
     if (more.count > 0) run(more, work);
     int open[chunk + lanes], count = 0;

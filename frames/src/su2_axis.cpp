@@ -1,5 +1,5 @@
 #include <cmath>
-#include <string>
+#include <cstdio>
 
 #include "octafield/error.hpp"
 #include "octafield/frames/su2.hpp"
@@ -10,12 +10,18 @@ namespace {
 Complex fourth_power(const Complex& z) { return z * z * z * z; }
 Complex eighth_power(const Complex& z) { return fourth_power(z * z); }
 
+void require_unit_axis(const Vector3& n) {
+    const double norm = n.stableNorm();
+    if (std::abs(norm - 1) < 1e-6) return;
+    char text[96];
+    std::snprintf(text, sizeof text, "the axis is not a unit vector: norm %.6g; normalise it first", norm);
+    throw InvalidInput(text, "not_unit_vector");
+}
+
 }  // namespace
 
 Su2Axis::Su2Axis(const Vector3& n) {
-    if (!(std::abs(n.norm() - 1) < 1e-6))
-        throw InvalidInput("the axis is not a unit vector: norm " + std::to_string(n.norm()) + "; normalise it first",
-                           "not_unit_vector");
+    require_unit_axis(n);
     const Vector3 unit = n.normalized();
     a_ = {-unit.z() / 2, unit.y() / 2};
     const double across = std::abs(a_);  // |u| |v|

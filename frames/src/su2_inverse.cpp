@@ -81,7 +81,18 @@ Complex2 polished(Complex2 uv, const Complex3& h) {
     return uv;
 }
 
+void require_tolerance(double tolerance) {
+    if (tolerance > 0 && std::isfinite(tolerance)) return;
+    throw InvalidInput("tolerance: " + std::to_string(tolerance) + " is not a positive finite number", "bad_option");
+}
+
 [[noreturn]] void throw_off_surface(const Complex3& h, double misfit, double tolerance) {
+    if (!std::isfinite(misfit))
+        throw InvalidInput(
+            "(h0, h1, h2) is not on the model surface h2^2 = h1 (h0^3 - 108 h1^2): beside h2 its h0 and h1 vanish, "
+            "which "
+            "no quaternion has; project it first (scaling a quaternion by s scales h0, h1, h2 by s^8, s^12, s^18)",
+            "off_surface");
     char text[320];
     std::snprintf(
         text, sizeof text,
@@ -93,6 +104,7 @@ Complex2 polished(Complex2 uv, const Complex3& h) {
 
 Quaternion inverse_one(const Complex3& h, double tolerance) {
     require_finite(h, "the point (h0, h1, h2)");
+    require_tolerance(tolerance);
     const double size = size_of(h);
     if (!(size > 0)) throw InvalidInput("(h0, h1, h2) = 0 is no frame: no quaternion has these invariants", "zero");
     const Complex3 k = scaled(h, size);

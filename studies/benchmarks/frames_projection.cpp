@@ -1,4 +1,4 @@
-// Nearest sh4 frames per second on one core: project_sh4, project_sh4_certified, and a straightforward version.
+// Nearest sh4 frames per second on one core: sh4_project, sh4_project_certified, and a straightforward version.
 //
 //     cmake -B build -DOCTAFIELD_BENCHMARKS=ON && ninja -C build benchmark_frames_projection
 //     build/studies/benchmarks/benchmark_frames_projection
@@ -167,7 +167,7 @@ void fast(benchmark::State& state, const Inputs& (*inputs)(), bool guess, std::s
     const Inputs& in = inputs();
     std::vector<double> frames(4 * count), distances(count);
     for (auto _ : state) {
-        project_sh4(in.v.data(), guess ? in.guess.data() : nullptr, count, frames.data(), distances.data(), set);
+        sh4_project(in.v.data(), guess ? in.guess.data() : nullptr, count, frames.data(), distances.data(), set);
         benchmark::DoNotOptimize(distances.data());
     }
     state.SetItemsProcessed(state.iterations() * count);
@@ -184,7 +184,7 @@ void one_at_a_time(benchmark::State& state, const Inputs& (*inputs)(), Projectio
 }
 
 Projection single(const Sh4::Vector& v) { return Sh4::project(v); }
-Projection certified(const Sh4::Vector& v) { return project_sh4_certified(v).projection; }
+Projection certified(const Sh4::Vector& v) { return sh4_project_certified(v).projection; }
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -196,7 +196,7 @@ void ratio(benchmark::State& state, const Inputs& (*inputs)()) {
     for (auto _ : state) {
         const double start = cpu_seconds();
         for (int times = 0; times < 20; ++times)
-            project_sh4(in.v.data(), nullptr, part, frames.data(), distances.data());
+            sh4_project(in.v.data(), nullptr, part, frames.data(), distances.data());
         const double middle = cpu_seconds();
         for (int i = 0; i < part; ++i)
             benchmark::DoNotOptimize(straightforward(Eigen::Map<const Sh4::Vector>(&in.v[9 * i])));

@@ -33,6 +33,42 @@ TEST(Quaternion, ExpMatchesEigensAngleAxis) {
               1e-14);
 }
 
+TEST(Quaternion, ExpOfAHugeVectorIsAUnitQuaternionAboutIt) {
+    const Vector3 axis = Vector3(1, -2, 0.5).normalized();
+    for (const double angle : {1e16, 1e100, 1e153, 1e154, 1e155, 1e200, 1e300, 1.5e308}) {
+        const Quaternion q = exp(angle * axis);
+        EXPECT_NEAR(q.norm(), 1, 1e-15) << angle;
+        EXPECT_LT(q.vec().cross(axis).norm(), 1e-15) << angle;
+    }
+    EXPECT_NEAR(exp(Vector3::Constant(std::numeric_limits<double>::max())).norm(), 1, 1e-15);
+}
+
+TEST(Quaternion, RotationBetweenIsExactAtEveryAngleUpToOppositeVectors) {
+    const Quaternions samples = random_rotations(300, 41);
+    std::vector<double> angles = {0.3, pi / 2, 2, 3};
+    for (int k = 1; k <= 16; ++k) angles.push_back(std::pow(10.0, -k));
+    for (const double angle : angles)
+        for (Eigen::Index i = 0; i < samples.rows(); ++i) {
+            const Matrix3 axes = row_quaternion(samples, i).toRotationMatrix();
+            const Vector3 from = axes.col(0).normalized(), side = axes.col(1);
+            const Vector3 near = (std::cos(angle) * from + std::sin(angle) * side).normalized();
+            for (const Vector3& to : {near, Vector3(-near)}) {
+                const Quaternion q = rotation_between(from, to);
+                EXPECT_NEAR(q.norm(), 1, 1e-15) << angle;
+                EXPECT_LT((q * from - to).norm(), 2e-15) << angle;
+                const double expected = std::cos(to == near ? angle / 2 : (pi - angle) / 2);
+                EXPECT_NEAR(q.w(), expected, 5e-16) << angle << ": the shortest arc";
+                EXPECT_LT(std::abs(q.vec().dot(from)), 5e-16) << angle;
+            }
+        }
+    const Vector3 v = Vector3(3, -1, 2).normalized();
+    EXPECT_EQ(rotation_between(v, v).w(), 1);
+    EXPECT_LT((rotation_between(v, -v) * v + v).norm(), 1e-15);
+    EXPECT_LT((rotation_between(1e-300 * v, 1e300 * Vector3::UnitX()) * v - Vector3::UnitX()).norm(), 1e-15);
+    EXPECT_THROW(rotation_between(v, Vector3::Zero()), InvalidInput);
+    EXPECT_THROW(rotation_between(Vector3(std::nan(""), 0, 0), v), InvalidInput);
+}
+
 TEST(Quaternion, FrameFromAxesHasTheNormalAsThirdAxisForAnyDirection) {
     const Vector3 normal = Vector3(1, 2, -0.5).normalized();
     for (const Vector3& direction : {Vector3(0.2, 0.1, 5), normal, Vector3(-3 * normal), Vector3(0, 0, 0)}) {

@@ -111,6 +111,75 @@ TEST(Mean, OfFramesAllOverTheGroupIsAtLeastAsGoodAsEveryFrameOfTheList) {
     }
 }
 
+double variance_at(const Quaternions& frames, const Quaternion& centre) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < frames.rows(); ++i) sum += std::pow(distance(centre, row_quaternion(frames, i)), 2);
+    return sum / static_cast<double>(frames.rows());
+}
+
+// The smallest variance that plain descents, by the public logarithm, reach from the starts.
+double best_descent(const Quaternions& frames, const Quaternions& starts) {
+    double best = std::numeric_limits<double>::infinity();
+    for (Eigen::Index s = 0; s < starts.rows(); ++s) {
+        Quaternion centre = row_quaternion(starts, s);
+        for (int step = 0; step < 12; ++step) {
+            Vector3 sum = Vector3::Zero();
+            for (Eigen::Index i = 0; i < frames.rows(); ++i) sum += frame_log(centre, row_quaternion(frames, i));
+            centre = frame_exp(centre, sum / static_cast<double>(frames.rows()));
+        }
+        best = std::min(best, variance_at(frames, centre));
+    }
+    return best;
+}
+
+TEST(Mean, OfSpreadOutFramesIsNotBeatenByDescentsFromElsewhere) {
+    const Quaternions starts = random_rotations(100, 81);
+    for (std::uint64_t seed = 100; seed < 160; ++seed) {
+        const Quaternions frames = random_rotations(6, seed);
+        const FrameMean m = frame_mean(frames);
+        EXPECT_TRUE(m.converged);
+        EXPECT_NEAR(m.variance, variance_at(frames, m.frame), 1e-14);
+        EXPECT_LE(m.variance, best_descent(frames, starts) * (1 + 1e-9)) << seed;
+    }
+}
+
+TEST(Mean, OfManyFramesIsFoundInAFewPasses) {
+    const Quaternions near = cloud(Quaternion::Identity(), 0.35, 200000, 61), all = random_rotations(20000, 62);
+    const FrameMean m = frame_mean(near);
+    EXPECT_TRUE(m.converged);
+    EXPECT_LE(m.iterations, 12);
+    EXPECT_LT(m.frame.angularDistance(closest_representative(Quaternion::Identity(), m.frame)), 0.01);
+    EXPECT_LE(frame_mean(all).variance, variance_at(all, Quaternion::Identity()));
+    EXPECT_LE(frame_mean(all).iterations, 50);
+}
+
+TEST(Mean, FramesOfNoWeightDoNotMatter) {
+    Quaternions frames = random_rotations(2000, 63);
+    frames.topRows(40) = cloud(Quaternion::Identity(), 0.3, 40, 64);
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(frames.rows());
+    weights.head(40).setOnes();
+    EXPECT_LT(distance(frame_mean(frames, weights).frame, frame_mean(frames.topRows(40)).frame), 1e-12);
+}
+
+// A few heavy frames among many light ones: the sample that is scanned goes by weight.
+TEST(Mean, OfManyFramesIsThatOfTheHeavyOnes) {
+    Quaternions frames = random_rotations(2000, 65);
+    Eigen::VectorXd weights = Eigen::VectorXd::Constant(frames.rows(), 1e-12);
+    for (const int i : {3, 700, 701, 1200, 1650, 1999}) weights[i] = 1;
+    Quaternions heavy(6, 4);
+    heavy << frames.row(3), frames.row(700), frames.row(701), frames.row(1200), frames.row(1650), frames.row(1999);
+    EXPECT_NEAR(frame_mean(frames, weights).variance, frame_mean(heavy).variance, 1e-6);
+}
+
+TEST(Slerp, ExtrapolatesAnyFiniteDistanceToAUnitQuaternion) {
+    const Quaternion p = exp({0.3, 0.1, 0}), q = exp({0, 0.4, 0.2});
+    for (const double t : {1e20, 1e155, 1e300}) {
+        EXPECT_NEAR(slerp(p, q, t).norm(), 1, 1e-15);
+        EXPECT_NEAR(frame_exp(p, Vector3(t, -t, t)).norm(), 1, 1e-15);
+    }
+    EXPECT_THROW(slerp(p, q, std::numeric_limits<double>::infinity()), InvalidInput);
+}
+
 TEST(Mean, RefusesWhatHasNone) {
     EXPECT_THROW(frame_mean(Quaternions(0, 4)), InvalidInput);
     const Quaternions two = random_rotations(2, 1);

@@ -13,12 +13,12 @@ void expect_all_global(const Vectors& inputs) {
     int uncertified = 0, improved = 0;
     double largest_gap = 0;
     for (const Sh4::Vector& v : inputs) {
-        const CertifiedProjection p = project_sh4_certified(v);
+        const CertifiedProjection p = sh4_project_certified(v);
         uncertified += !p.certified, improved += p.improved;
         largest_gap = std::max(largest_gap, p.gap);
     }
     EXPECT_EQ(uncertified, 0);
-    EXPECT_EQ(improved, 0) << "project_sh4 missed the global maximum";
+    EXPECT_EQ(improved, 0) << "sh4_project missed the global maximum";
     EXPECT_LE(largest_gap, 1e-9);
 }
 
@@ -106,14 +106,14 @@ TEST(Sh4Certificate, EndsOnCurvesOfMaximisersAndOnExactTies) {
     std::mt19937_64 generator(36);
     for (int family = 0; family < equidistant_families; ++family)
         for (int i = 0; i < 3; ++i) {
-            const CertifiedProjection p = project_sh4_certified(equidistant_sum(family, generator));
+            const CertifiedProjection p = sh4_project_certified(equidistant_sum(family, generator));
             EXPECT_TRUE(p.certified) << family;
             EXPECT_LE(p.gap, 1e-9);
             EXPECT_FALSE(p.improved);
         }
-    EXPECT_TRUE(project_sh4_certified(Sh4::axis({0.6, 0, 0.8})).certified);
-    EXPECT_TRUE(project_sh4_certified(-Sh4::axis({0.6, 0, 0.8})).certified);
-    const CertifiedProjection zero = project_sh4_certified(Sh4::Vector::Zero());
+    EXPECT_TRUE(sh4_project_certified(Sh4::axis({0.6, 0, 0.8})).certified);
+    EXPECT_TRUE(sh4_project_certified(-Sh4::axis({0.6, 0, 0.8})).certified);
+    const CertifiedProjection zero = sh4_project_certified(Sh4::Vector::Zero());
     EXPECT_TRUE(zero.certified);
     EXPECT_EQ(zero.gap, 0);
 }
@@ -122,14 +122,14 @@ TEST(Sh4Certificate, EndsOnCurvesOfMaximisersAndOnExactTies) {
 TEST(Sh4Certificate, SaysSoWhenTheBoxesDoNotSuffice) {
     const Sh4::Vector v = Sh4::axis({0.6, 0, 0.8}).normalized();
     for (const std::int64_t boxes : {0, 600, 5000}) {
-        const CertifiedProjection p = project_sh4_certified(v, 1e-9, boxes);
+        const CertifiedProjection p = sh4_project_certified(v, 1e-9, boxes);
         EXPECT_FALSE(p.certified);
         EXPECT_GT(p.gap, 1e-9);
         EXPECT_LE(p.boxes, boxes);
     }
-    EXPECT_THROW(project_sh4_certified(v, 0), InvalidInput);
-    EXPECT_THROW(project_sh4_certified(v, std::nan("")), InvalidInput);
-    EXPECT_THROW(project_sh4_certified(std::nan("") * v), InvalidInput);
+    EXPECT_THROW(sh4_project_certified(v, 0), InvalidInput);
+    EXPECT_THROW(sh4_project_certified(v, std::nan("")), InvalidInput);
+    EXPECT_THROW(sh4_project_certified(std::nan("") * v), InvalidInput);
 }
 
 }  // namespace

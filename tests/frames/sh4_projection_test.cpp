@@ -17,9 +17,9 @@ struct Batch {
         const auto n = static_cast<std::int64_t>(v.size());
         const double* g = guess ? guess->front().data() : nullptr;
         if (set.empty())
-            project_sh4(v.front().data(), g, n, frames.data(), distances.data());
+            sh4_project(v.front().data(), g, n, frames.data(), distances.data());
         else
-            project_sh4(v.front().data(), g, n, frames.data(), distances.data(), set);
+            sh4_project(v.front().data(), g, n, frames.data(), distances.data(), set);
     }
     Quaternion frame(std::size_t i) const {
         return {frames[4 * i], frames[4 * i + 1], frames[4 * i + 2], frames[4 * i + 3]};
@@ -154,7 +154,7 @@ TEST(Sh4Projection, TheEarlyExitIsTakenOnlyAtGlobalMaxima) {
         n -= kept * (kept.transpose() * n);
         const double f = sh4::sure_value + 1e-9 + 0.1 * uniform01(generator) * (i % 2);
         const Sh4::Vector v = f * a + std::sqrt(1 - f * f) * n.normalized();
-        const CertifiedProjection certified = project_sh4_certified(v);
+        const CertifiedProjection certified = sh4_project_certified(v);
         EXPECT_TRUE(certified.certified);
         EXPECT_NEAR(value(v, certified.projection.frame), f, 1e-9);
         const Quaternion guess = (q * exp({0.02, -0.01, 0.03})).normalized();
@@ -205,6 +205,24 @@ TEST(Sh4Projection, TiesAreSettledByAFixedOrder) {
             Sh4::Vector other = v * (1 + 0.3 * k);
             for (int c = 0; c < 9; ++c) other[c] *= 1 + 2e-16 * (uniform01(generator) - 0.5);
             EXPECT_LT(distance(Sh4::project(other).frame, q), 1e-6);
+        }
+    }
+}
+
+TEST(Sh4Projection, TheGuessMayHaveAnyLengthButZero) {
+    const Quaternions guesses = random_rotations(50, 44);
+    std::mt19937_64 generator(45);
+    for (Eigen::Index i = 0; i < guesses.rows(); ++i) {
+        const auto v = random_vector<Sh4>(generator);
+        const Vector4 guess = guesses.row(i).transpose();
+        Vector4 expected, frame;
+        double expected_distance, distance_to;
+        sh4_project(v.data(), guess.data(), 1, expected.data(), &expected_distance);
+        for (const double size : {1e-307, 1e-200, 1e-30, 0.1, 3.0, 1e155, 1e307}) {
+            const Vector4 sized = size * guess;
+            sh4_project(v.data(), sized.data(), 1, frame.data(), &distance_to);
+            EXPECT_LT(std::min((frame - expected).norm(), (frame + expected).norm()), 1e-9) << size;
+            EXPECT_NEAR(distance_to, expected_distance, 1e-12) << size;
         }
     }
 }

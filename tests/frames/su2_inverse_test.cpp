@@ -151,6 +151,30 @@ TEST(Su2Inverse, PointsOffTheSurfaceAreRefusedWithTheResidual) {
     EXPECT_LT(distance(Su2::inverse_frame(Complex3(1e300, 1e300, 1e300)), Quaternion::Identity()), 1e-14);
 }
 
+TEST(Su2Inverse, ToleranceMustBePositiveAndFinite) {
+    const Complex3 h = point(exp({0.3, -1.1, 0.7}));
+    for (const double bad : {std::nan(""), 0.0, -1e-6, std::numeric_limits<double>::infinity()}) try {
+            Su2::inverse_frame(h, bad);
+            ADD_FAILURE() << "accepted " << bad;
+        } catch (const InvalidInput& error) {
+            EXPECT_EQ(error.kind(), "bad_option");
+            EXPECT_NE(std::string(error.what()).find("tolerance"), std::string::npos);
+        }
+}
+
+// All three scaled alike, which is not how invariants scale.
+TEST(Su2Inverse, PointsScaledFarDownAreRefusedWithoutANaN) {
+    const Complex3 h = point(exp({0.3, -1.1, 0.7}));
+    for (int k = 1; k <= 307; ++k) try {
+            Su2::inverse(std::pow(10.0, -k) * h);
+            ADD_FAILURE() << "accepted at 1e-" << k;
+        } catch (const InvalidInput& error) {
+            EXPECT_EQ(error.kind(), "off_surface");
+            EXPECT_EQ(std::string(error.what()).find("nan"), std::string::npos) << error.what();
+            EXPECT_EQ(std::string(error.what()).find("inf"), std::string::npos) << error.what();
+        }
+}
+
 TEST(Su2Inverse, ZeroNaNAndInfinityAreTypedErrors) {
     EXPECT_THROW(Su2::inverse(Complex3(0, 0, 0)), InvalidInput);
     EXPECT_EQ(Su2::squared_norm(Complex3(0, 0, 0)), 0);

@@ -189,6 +189,17 @@ TEST(Su2Axis, AxisMustBeAUnitVector) {
     EXPECT_THROW(Su2Axis(Vector3(0, 0, 0)), InvalidInput);
     EXPECT_THROW(Su2Axis(Vector3(1, 1, 0)), InvalidInput);
     EXPECT_THROW(Su2Axis(Vector3(std::nan(""), 0, 0)), InvalidInput);
+    for (const double size : {1e-300, 1e-200, 1e200, 1e300}) {
+        try {
+            const Su2Axis axis(size * Vector3(1, 1, 0));
+            ADD_FAILURE() << "accepted " << size;
+        } catch (const InvalidInput& error) {
+            EXPECT_EQ(error.kind(), "not_unit_vector");
+            EXPECT_LT(std::string(error.what()).size(), 100u);
+            EXPECT_EQ(std::string(error.what()).find("inf"), std::string::npos) << error.what();
+            EXPECT_EQ(std::string(error.what()).find("norm 0;"), std::string::npos) << error.what();
+        }
+    }
 }
 
 }  // namespace

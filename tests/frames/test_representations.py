@@ -171,6 +171,11 @@ def test_extreme_ratio_of_the_chordal_to_the_geodesic_distance():
     assert exact - 0.01 < ratio.max() / ratio.min() < exact + 1e-9
 
 
+def test_projection_of_an_embedding_is_the_frame_to_rounding(q):
+    for r in of.representations.values():
+        assert of.distance(r.project(r.embed(q))[0], q).max() < 1e-12, r.name
+
+
 def test_frame_mean_takes_many_lists_at_once(q):
     lists = of.frame_exp(np.repeat(q[:20], 6, axis=0), 0.2 * np.random.default_rng(3).normal(size=(120, 3))).reshape(20, 6, 4)
     frames, variances, converged = of.frame_mean(lists)
@@ -189,6 +194,36 @@ def test_slerp_takes_one_fraction_or_one_per_row(q):
     t = np.linspace(0, 1, 10)
     np.testing.assert_allclose(of.distance(p, of.slerp(p, r, t)), t * of.distance(p, r), atol=1e-12)
     np.testing.assert_allclose(of.slerp(p, r, 0.25)[4], of.slerp(p[4], r[4], 0.25), atol=0)
+
+
+def test_directions_of_any_length_will_do():
+    for size in (1e-300, 1e-200, 1e155, 1e300):
+        np.testing.assert_allclose(of.harmonics_evaluate(4, np.multiply([1, 2, 3], size)), of.harmonics_evaluate(4, [1, 2, 3]), rtol=1e-12)
+        np.testing.assert_allclose(of.su2_axis_turn([size, size, 0], 0.3), of.su2_axis_turn([1, 1, 0], 0.3), atol=1e-12)
+        axes = of.rotation_matrices(of.frame_from_axes([0, 0, 1], [size, -size, 0]))
+        np.testing.assert_allclose(axes[:, 2], np.array([1, -1, 0]) / 2**0.5, atol=1e-15)
+
+
+def test_the_row_at_fault_is_named(q):
+    h = of.su2_complex(of.su2_embed(q[:10]))
+    h[7] += 0.3
+    tensors = of.tensor4_embed(q[:10])
+    tensors[4] = 0
+    full = of.tensor4_full(of.tensor4_embed(q[:10]))
+    full[2, 0, 0, 0, 0] = np.nan
+    for call, row in [(lambda: of.su2_inverse(h), 7), (lambda: of.su2_distance(h, h[0]), 7), (lambda: of.tensor4_recover(tensors), 4),
+                      (lambda: of.tensor4_residual(full), 2), (lambda: of.slerp(q[:3], q[3:6], [0, np.nan, 1]), 1)]:
+        with pytest.raises(of.InvalidInput, match=f"row {row}") as caught:
+            call()
+        assert caught.value.elements == [row]
+
+
+def test_one_guess_or_fraction_goes_with_every_row(q):
+    v = of.odeco_embed(q[:3], [1, 0.7, 0.4])
+    assert of.odeco_nearest(v, q[0])[0].shape == (3, 4)
+    assert of.sh4_project(of.sh4_embed(q[:3]), q[0])[0].shape == (3, 4)
+    assert of.slerp(q[0], q[1], np.linspace(0, 1, 5)).shape == (5, 4)
+    assert of.sh469_project(of.sh469_embed(q[:3], [1, 1, 1]), weights=[1, 1, 1])[1].max() < 1e-7
 
 
 @pytest.mark.parametrize("call", [

@@ -1,12 +1,17 @@
 """Meshes every test file shares: made here, by formulas whose answers are known."""
 
 import itertools
+import signal
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import octafield
+
+# Started in the background (nohup, &) Ctrl-C is ignored, and so it is in every child; a handler here gives children the default.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 SHARED_DATA = Path(__file__).parents[3] / "shared" / "data"
 

@@ -83,12 +83,11 @@ def test_other_threads_run_during_a_call():
         while not stop.wait(0.001):
             counts.append(1)
 
-    frames = of.random_rotations(100000, 1)
-    vectors = of.sh4_embed(frames)
+    vectors = of.su2_embed(of.random_rotations(5000, 1))
     ticker = threading.Thread(target=tick)
     ticker.start()
     before = len(counts)
-    of.sh4_project(vectors)
+    of.su2_project(vectors)
     during = len(counts) - before
     stop.set()
     ticker.join()

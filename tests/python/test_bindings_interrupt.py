@@ -33,7 +33,7 @@ free = of.BoundaryConstraints([0] * n, np.zeros((n, 3)), frames, [0] * n, [])
 # Each takes far more than a second when left alone: projection sees the flag, smoothing its progress callback, TetGen runs in a
 # process of its own, generation of random numbers sees nothing at all, so that its worker is abandoned.
 CASES = {
-    "flag": ("vectors = np.random.default_rng(1).normal(size=(3_000_000, 9))", "of.sh4_project(vectors)"),
+    "flag": ("vectors = np.random.default_rng(1).normal(size=(300_000, 6))", "of.su2_project(vectors)"),
     "progress": (RANDOM_BOX, "of.smooth(box, free, frames, tolerance=0, max_iterations=100000)"),
     "python_progress": (RANDOM_BOX, "of.smooth(box, free, frames, tolerance=0, max_iterations=100000, progress=lambda *_: True)"),
     "other_process": ("from conftest import icosphere\nball = icosphere(3)", "of.tetrahedralize(ball, edge_length=0.015)"),

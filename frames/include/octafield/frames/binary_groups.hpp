@@ -1,5 +1,5 @@
 // Finite groups of unit quaternions and their invariant forms (Klein 1884; Du Val 1964, sections 20 and 39; Beaufort,
-// thesis, chapter 4).
+// thesis, UCLouvain 2019, chapter 4).
 //
 // A quaternion is the pair u = q0 + i q1, v = q2 + i q3, that is q = u + v j. Multiplication on the RIGHT by a + b j
 // maps (u, v) linearly to (u a - v conj(b), u b + v conj(a)). Each group has three homogeneous polynomials f0, f1, f2

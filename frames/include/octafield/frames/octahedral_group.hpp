@@ -28,7 +28,7 @@ OctahedralClass octahedral_class(int a);
 int matching(const Quaternion& q1, const Quaternion& q2);
 
 // Geodesic distance of two frames in radians: the angle of the smallest rotation taking one onto the other, in
-// [0, 1.0961] (62.7994 degrees).
+// [0, 1.0961] (62.7994 degrees: Mackenzie 1958; Handscomb 1958).
 double distance(const Quaternion& q1, const Quaternion& q2);
 
 // q * o for the o that brings it closest to `reference`, with the sign that makes the quaternions' dot product

@@ -29,15 +29,16 @@ inline void require_unit(const Quaternion& q) {
     if (!(std::abs(q.squaredNorm() - 1) < 2e-6)) throw_not_unit(q);
 }
 
-// Rotation by |w| radians about w / |w|; accurate for every w, the zero vector included.
+// Rotation by |w| radians about w / |w|; accurate for every w, the zero vector included. A unit quaternion for
+// every finite w, although beyond 1e16 radians the angle itself is below rounding.
 Quaternion exp(const Vector3& rotation_vector);
 
 // The rotation vector of q with angle in [0, pi]: exp(log(q)) is q or -q. Any rotation by pi returns one of its two
 // vectors.
 Vector3 log(const Quaternion& q);
 
-// Rotation that takes `from` to `to` (unit vectors) by the shortest arc; opposite vectors turn about some perpendicular
-// axis.
+// Rotation that takes `from` to `to` (of any length) by the shortest arc, to rounding at every angle; opposite vectors
+// turn by pi about some perpendicular axis. Throws InvalidInput if one is zero or not finite.
 Quaternion rotation_between(const Vector3& from, const Vector3& to);
 
 // Right-handed frame whose third axis is `normal` and whose first axis is the part of `direction` orthogonal to it.

@@ -24,9 +24,10 @@ using BandWeights = std::array<double, 3>;
 // - hessian(q, v): the 3x3 Hessian of v . embed(exp(w) q) by w at w = 0;
 // - project(v, guess): the frame whose embedding is nearest to v; `guess` is one more start. project(embed(q)) is q.
 //   The zero vector gives a frame like any other input; NaN or infinity throws InvalidInput;
-// - band law: any O-invariant map of degree at most 9 in the harmonics is built from the unit invariants a_4, a_6, a_9
-//   of O (harmonics.hpp), so the average of |embed(g p) - embed(g q)|^2 over all rotations g is
-//   sum_l band_weights_l |a_l(p) - a_l(q)|^2.
+// - band law: these maps are built from harmonics of degrees 0, 4, 6 and 9, each of which has one unit invariant a_l of
+// O
+//   (harmonics.hpp; a_0 is constant). So the average of |embed(g p) - embed(g q)|^2 over all rotations g is
+//   sum_l band_weights_l |a_l(p) - a_l(q)|^2. Degree 8 has an invariant too, which none of them uses.
 template <class R>
 concept Representation = requires(const Quaternion& q, const typename R::Vector& v) {
     { R::name } -> std::convertible_to<std::string_view>;

@@ -1,9 +1,10 @@
 // sh469: the completion of the su2 invariants under rotation from the left.
 //
-// h0, h1, h2 (su2.hpp) are matrix entries of the irreducible representations of degrees 4, 6 and 9. Left rotations
-// generate from them the vectors a_4, a_6, a_9: the unit O-invariant harmonics of these degrees turned by the frame
-// (harmonics.hpp). The embedding is (sqrt(w_4) a_4, sqrt(w_6) a_6, sqrt(w_9) a_9), 9 + 13 + 19 = 41 numbers. With the
-// default weights its squared distance is the average over all world rotations g of |h(g p) - h(g q)|^2.
+// h0, h1, h2 (su2.hpp; Beaufort, thesis, UCLouvain 2019, chapter 4) are matrix entries of the irreducible
+// representations of degrees 4, 6 and 9 (Wigner 1931). Left rotations generate from them the vectors a_4, a_6, a_9: the
+// unit O-invariant harmonics of these degrees turned by the frame (harmonics.hpp). The embedding is (sqrt(w_4) a_4,
+// sqrt(w_6) a_6, sqrt(w_9) a_9), 9 + 13 + 19 = 41 numbers; this completion is the project's own. With the default
+// weights its squared distance is the average over all world rotations g of |h(g p) - h(g q)|^2.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
-// su2: frames as points (h0, h1, h2) of the model surface of the binary octahedral group (Beaufort, thesis, chapter 4;
-// Du Val 1964).
+// su2: frames as points (h0, h1, h2) of the model surface of the binary octahedral group (Beaufort, thesis, UCLouvain
+// 2019, chapter 4; Du Val 1964).
 //
 // With u = q0 + i q1, v = q2 + i q3 (in the place of the thesis's (4.25), which is invariant on the wrong side):
 //   h0 = u^8 + 14 u^4 v^4 + v^8,  h1 = (u v (u^4 - v^4))^2,
@@ -62,6 +62,7 @@ struct Su2 {
     // steps in (u, v). The error is a few units of rounding everywhere, at u v = 0, h1 = 0, h2 = 0 as elsewhere.
     // h must lie on the model surface: after scaling to norm 1, within `tolerance` of invariants of some (u, v), which
     // are returned; else InvalidInput with the distance and the residual. Zero has no inverse (InvalidInput).
+    // The tolerance must be positive and finite, else InvalidInput.
     static std::array<Quaternion, 48> inverse(const Complex3& h, double tolerance = 1e-6);
     // The first of them, normalised: the frame.
     static Quaternion inverse_frame(const Complex3& h, double tolerance = 1e-6);

@@ -1,4 +1,5 @@
-// Metrics on frames through their su2 invariants: what the thesis tried (section 4.4.3), and what is consistent.
+// Metrics on frames through their su2 invariants: what Beaufort (thesis, UCLouvain 2019, section 4.4.3) tried, and
+// what is consistent.
 //
 // Angles are in radians of rotation of the frame, twice the length on the unit 3-sphere of quaternions.
 #pragma once
