@@ -1,31 +1,39 @@
 #include "octafield/surface/direction_field.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "crouzeix_raviart.hpp"
-#include "free_system.hpp"
+#include "alignment.hpp"
 #include "ginzburg_landau.hpp"
+#include "mbo.hpp"
 #include "octafield/library_threads.hpp"
+#include "orientation.hpp"
 #include "short_number.hpp"
-#include "start_field.hpp"
 
 namespace octafield::surface {
 namespace {
+
+using namespace detail;
 
 // A component whose |f| is below this everywhere has collapsed: minimisers that have not come near 1 somewhere.
 constexpr double least_length = 0.1;
 
 void require_usable(const TriangleMesh& mesh, const DirectionFieldOptions& options) {
+    const auto is_length = [](double length) { return length >= 0 && std::isfinite(length); };
     if (options.symmetry < 1) throw InvalidInput("the symmetry of a direction field must be at least 1");
-    if (!(options.epsilon >= 0) || !std::isfinite(options.epsilon))
-        throw InvalidInput("epsilon must be a length, or 0 for the default");
+    if (!is_length(options.epsilon)) throw InvalidInput("epsilon must be a length, or 0 for the default");
+    if (!is_length(options.first_epsilon)) throw InvalidInput("first_epsilon must be a length, or 0 for none");
+    if (!is_length(options.alignment_length))
+        throw InvalidInput("alignment_length must be a length, or 0 for the default");
     if (options.max_iterations < 0) throw InvalidInput("max_iterations must not be negative");
     if (!(options.tolerance >= 0) || !(options.energy_tolerance >= 0))
         throw InvalidInput("tolerances must not be negative");
+    if (!(options.least_feature_angle >= 0))
+        throw InvalidInput("least_feature_angle must be an angle in radians, 0 or more");
+    if (!(options.corner_tolerance >= 0 && options.corner_tolerance <= 1))
+        throw InvalidInput("corner_tolerance must lie between 0 and 1");
     if (mesh.triangles.rows() == 0) throw GeometryError("the surface has no triangles", "empty");
     if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertices.rows())
         throw GeometryError("a triangle names a vertex that does not exist; there are " +
@@ -33,104 +41,205 @@ void require_usable(const TriangleMesh& mesh, const DirectionFieldOptions& optio
                             "index_out_of_range");
 }
 
-Index find_edge(const EdgeTopology& topology, Index low, Index high) {
-    Index first = 0, last = static_cast<Index>(topology.edges.rows());
-    while (first < last) {
-        const Index middle = first + (last - first) / 2;
-        const bool below = std::pair(topology.edges(middle, 0), topology.edges(middle, 1)) < std::pair(low, high);
-        (below ? first : last) = below ? middle + 1 : middle;
+EdgeTopology oriented_topology(const TriangleMesh& mesh) {
+    try {
+        return edge_topology(mesh);
+    } catch (const GeometryError& error) {
+        if (error.kind() != "inconsistent_orientation") throw;
+        const std::vector<Index> twisted = unorientable_triangles(mesh);
+        if (twisted.empty()) throw;
+        throw GeometryError("the surface has one side only, like a Moebius strip: no orientation of its " +
+                                std::to_string(twisted.size()) + " connected triangles (" + first_few(twisted) +
+                                ") is consistent; cut it open, or take the boundary of the solid",
+                            "not_orientable", twisted);
     }
-    const bool found =
-        first < topology.edges.rows() && topology.edges(first, 0) == low && topology.edges(first, 1) == high;
-    return found ? first : -1;
 }
 
-struct Held {
-    std::vector<bool> is_held;  // (E)
-    Eigen::VectorXcd values;    // (E), 1 unless N is odd
-};
-
-// Feature and boundary edges. With odd N an edge's two senses differ: the boundary is run with the surface on its left.
-Held held_edges(const EdgeTopology& topology, const FeatureGraph& features, int symmetry) {
-    Held held{std::vector<bool>(topology.edges.rows(), false), Eigen::VectorXcd::Ones(topology.edges.rows())};
-    for (Index e = 0; e < topology.edges.rows(); ++e) {
-        if (topology.edge_triangles.row(e).minCoeff() >= 0) continue;
-        held.is_held[e] = true;
-        if (symmetry % 2 == 1 && topology.edge_triangles(e, 0) < 0) held.values[e] = -1;
-    }
-    std::vector<Index> unknown;
-    for (Index i = 0; i < features.edges.rows(); ++i) {
-        const auto [low, high] = std::minmax(features.edges(i, 0), features.edges(i, 1));
-        const Index e = find_edge(topology, low, high);
-        if (e < 0) {
-            unknown.insert(unknown.end(), {low, high});
-        } else if (!held.is_held[e]) {
-            if (symmetry % 2 == 1)
-                throw InvalidInput(
-                    "edge " + std::to_string(low) + "-" + std::to_string(high) +
-                        " is a feature inside the surface: it has no sense to run in, so the symmetry must be even",
-                    "odd_symmetry", {low, high});
-            held.is_held[e] = true;
-        }
-    }
-    if (!unknown.empty())
-        throw InvalidInput(std::to_string(unknown.size() / 2) + " feature edges are no edges of the mesh (vertices " +
-                               first_few(unknown) + ")",
-                           "unknown_edge", unknown);
-    return held;
-}
-
-// Of the components without held edges, the only ones that a large epsilon makes vanish; infinity if there are none.
-double smallest_free_diagonal(const TriangleMesh& mesh, const EdgeTopology& topology,
-                              const std::vector<Index>& component, const std::vector<bool>& is_held) {
-    std::vector<Eigen::AlignedBox3d> boxes(component.size());
-    std::vector<bool> anchored(component.size(), false);
-    for (std::size_t e = 0; e < component.size(); ++e) {
-        anchored[component[e]] = anchored[component[e]] || is_held[e];
-        for (int k = 0; k < 2; ++k) boxes[component[e]].extend(mesh.vertices.row(topology.edges(e, k)).transpose());
-    }
+// Of the components that nothing aligns, the only ones that a large epsilon makes vanish; infinity if there are none.
+double smallest_free_diagonal(const Components& components) {
     double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < boxes.size(); ++c)
-        if (!boxes[c].isEmpty() && !anchored[c]) smallest = std::min(smallest, boxes[c].diagonal().norm());
+    for (std::size_t c = 0; c < components.size(); ++c)
+        if (!components.anchored[c]) smallest = std::min(smallest, components.diagonals[c]);
     return smallest;
 }
 
-double chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<Index>& component,
-                      const std::vector<bool>& is_held, const DirectionFieldOptions& options) {
+void require_not_below_edges(const DirectionFieldOptions& options, double epsilon, double mean) {
+    if (options.method != DirectionFieldMethod::ginzburg_landau || epsilon >= mean / 100) return;
+    throw InvalidInput(
+        "an epsilon of " + short_number(epsilon) + " is below 1/100 of the mean edge length, " + short_number(mean) +
+            ": singular points would stay where they start; choose 1/100 or more, 2 mean edge lengths are usual, "
+            "or the methods mbo and eigenvector, which need no epsilon",
+        "epsilon_too_small");
+}
+
+// (E)
+Eigen::VectorXd chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& topology, const Components& components,
+                               const DirectionFieldOptions& options) {
+    const Eigen::Index edges = topology.edges.rows();
     double sum = 0;
-    for (Index e = 0; e < topology.edges.rows(); ++e)
+    for (Index e = 0; e < edges; ++e)
         sum += (mesh.vertices.row(topology.edges(e, 0)) - mesh.vertices.row(topology.edges(e, 1))).norm();
-    const double mean = sum / topology.edges.rows();
-    if (options.epsilon == 0) {
-        const double smallest = smallest_free_diagonal(mesh, topology, component, is_held);
-        return std::min({2 * mean, bounding_box_diagonal(mesh.vertices) / 10, std::max(smallest / 10, mean / 4)});
+    const double mean = sum / edges;
+    if (options.edge_epsilon.size() != 0) {
+        const Eigen::VectorXd& given = options.edge_epsilon;
+        if (given.size() != edges || !given.allFinite() || !(given.minCoeff() > 0))
+            throw InvalidInput("edge_epsilon must hold one length above 0 per edge, " + std::to_string(edges) +
+                                   "; it has " + std::to_string(given.size()) + " entries",
+                               "wrong_size");
+        require_not_below_edges(options, given.minCoeff(), mean);
+        return given;
     }
-    if (options.method == DirectionFieldMethod::ginzburg_landau && options.epsilon < mean / 100)
-        throw InvalidInput(
-            "an epsilon of " + short_number(options.epsilon) + " is below 1/100 of the mean edge length, " +
-                short_number(mean) +
-                ": singular points would stay where they start; choose 1/100 or more, 2 mean edge lengths are usual, "
-                "or the eigenvector method, which needs no epsilon",
-            "epsilon_too_small");
-    return options.epsilon;
+    double epsilon = options.epsilon;
+    if (epsilon == 0)
+        epsilon = std::min({2 * mean, bounding_box_diagonal(mesh.vertices) / 10,
+                            std::max(smallest_free_diagonal(components) / 10, mean / 4)});
+    else
+        require_not_below_edges(options, epsilon, mean);
+    return Eigen::VectorXd::Constant(edges, epsilon);
 }
 
 // Where epsilon is large against a component, f = 0 minimises E, and the directions are rounding noise.
-void require_not_collapsed(const DirectionField& field, const std::vector<Index>& component,
+void require_not_collapsed(const DirectionField& field, const Components& components,
                            const std::vector<bool>& is_held) {
-    std::vector<double> longest(component.size(), -1);  // by component, of its free edges
-    for (std::size_t e = 0; e < component.size(); ++e)
-        if (!is_held[e]) longest[component[e]] = std::max(longest[component[e]], std::abs(field.values[e]));
+    std::vector<double> longest(components.size(), -1);  // by component, of its free edges
+    for (std::size_t e = 0; e < is_held.size(); ++e) {
+        double& most = longest[components.of_edge[e]];
+        if (!is_held[e]) most = std::max(most, std::abs(field.values[e]));
+    }
     const auto collapsed = [&](Index c) { return longest[c] >= 0 && longest[c] < least_length; };
     std::vector<Index> triangles;
     for (Index t = 0; t < field.topology.triangle_edges.rows(); ++t)
-        if (collapsed(component[field.topology.triangle_edges(t, 0)])) triangles.push_back(t);
+        if (collapsed(components.of_edge[field.topology.triangle_edges(t, 0)])) triangles.push_back(t);
     if (triangles.empty()) return;
     throw SolverError("the direction field vanishes on " + std::to_string(triangles.size()) + " triangles (" +
                           first_few(triangles) + "): epsilon, " + short_number(field.epsilon) +
                           ", is too large against the connected part of the surface they form; choose a smaller "
                           "epsilon, 1/10 of that part's bounding-box diagonal or less",
                       "epsilon_too_large", triangles);
+}
+
+constexpr double continuation_ratio = 4;
+constexpr double stage_tolerance = 1e-3;  // of residual and energy, before the last stage
+
+// Coherence lengths, one (E) array after the other, the last as given.
+std::vector<Eigen::VectorXd> continuation(const Eigen::VectorXd& epsilon, double first, const Components& components) {
+    const double widest = *std::max_element(components.diagonals.begin(), components.diagonals.end()) / 10;
+    if (first == 0 || first > widest) first = widest;
+    std::vector<Eigen::VectorXd> stages;
+    for (double least = first; least > epsilon.minCoeff(); least /= continuation_ratio) {
+        stages.push_back(epsilon);
+        for (Eigen::Index e = 0; e < epsilon.size(); ++e)
+            stages.back()[e] = std::max(epsilon[e], std::min(least, components.diagonals[components.of_edge[e]] / 10));
+    }
+    stages.push_back(epsilon);
+    return stages;
+}
+
+// Narrows the cores of singular points to a smaller epsilon: their profile is about |f| = s / sqrt(s^2 + c) with s the
+// distance in epsilons and some constant c, so s times q makes it q |f| / sqrt(1 + (q^2 - 1) |f|^2).
+void narrow_cores(Eigen::VectorXcd& values, const std::vector<bool>& is_held, const Eigen::VectorXd& from,
+                  const Eigen::VectorXd& to) {
+    for (Eigen::Index e = 0; e < values.size(); ++e) {
+        const double q = from[e] / to[e], square = std::min(1.0, std::norm(values[e]));
+        if (!is_held[e]) values[e] *= q / std::sqrt(1 + (q * q - 1) * square);
+    }
+}
+
+// Everything a field is computed from, and the computation of its values.
+class Solver {
+public:
+    Solver(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionFieldOptions& options,
+           DirectionField& field, const Progress& progress)
+        : options_(options),
+          field_(field),
+          progress_([this, &progress](std::string_view phase, double fraction, double merit) {
+              cancelled_ = cancelled_ || !report(progress, phase, fraction, merit);
+              return !cancelled_;
+          }),
+          silent_([this](std::string_view phase, double, double) {
+              return progress_(phase, 0, std::numeric_limits<double>::quiet_NaN());
+          }),
+          links_(corner_links(mesh, field.topology, options.symmetry)),
+          masses_(edge_masses(mesh, field.topology)),
+          components_(components(mesh, field.topology, links_, masses_)),
+          aligned_(aligned_edges(mesh, field.topology, links_, features, options)),
+          system_(links_, aligned_.is_held) {
+        const auto anchor = [&](Index e) { components_.anchored[components_.of_edge[e]] = true; };
+        for (Index e = 0; e < masses_.size(); ++e)
+            if (aligned_.is_held[e] || aligned_.pull.weights[e] > 0) anchor(e);
+        for (const WeakEdge& weak : aligned_.weak) anchor(weak.edge);
+        epsilon_ = chosen_epsilon(mesh, field.topology, components_, options);
+        add_weak_edges(aligned_, options.alignment_length, epsilon_);
+        field.epsilon = epsilon_.minCoeff();
+    }
+
+    void run();
+
+private:
+    void start();
+    void descend();
+
+    const DirectionFieldOptions& options_;
+    DirectionField& field_;
+    const Progress progress_;  // remembers a cancellation
+    const Progress silent_;    // the same without energies, which are not those of the final epsilon
+    std::vector<CornerLink> links_;
+    Eigen::VectorXd masses_;
+    Components components_;
+    AlignedEdges aligned_;
+    FreeSystem system_;
+    Eigen::VectorXd epsilon_;
+    Eigen::VectorXi order_;
+    bool cancelled_ = false;
+};
+
+void Solver::run() {
+    field_.values = aligned_.held;
+    field_.converged = true;
+    if (system_.size() > 0) {
+        start();
+        if (options_.method == DirectionFieldMethod::ginzburg_landau) descend();
+    }
+    const GinzburgLandau functional(links_, masses_, system_, aligned_.pull, epsilon_);
+    const GinzburgLandau::Slope slope = functional.slope(field_.values);
+    field_.energy = slope.energy;
+    field_.residual = slope.residual;
+    field_.dirichlet_energy = dirichlet_energy(links_, field_.values);
+    if (field_.energy_history.empty()) field_.energy_history = {field_.energy};
+}
+
+// The methods of length 1, whose factorization is gone before that of the descent needs the memory.
+void Solver::start() {
+    const Problem problem{links_, system_, masses_, components_, aligned_.held, aligned_.pull};
+    DiffusionSolver diffusion(system_);
+    order_ = diffusion.order();
+    field_.values = start_field(problem, diffusion, options_.seed, progress_);
+    if (options_.method == DirectionFieldMethod::mbo && !cancelled_) {
+        DiffusionResult result =
+            diffuse_and_project(problem, diffusion, field_.values, options_.max_iterations, options_.seed, progress_);
+        field_.iterations = result.iterations;
+        field_.converged = result.converged;
+        field_.energy_history = std::move(result.energy_history);
+    }
+    field_.converged = field_.converged && !cancelled_;
+}
+
+void Solver::descend() {
+    const std::vector<Eigen::VectorXd> stages = continuation(epsilon_, options_.first_epsilon, components_);
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        const bool last = i + 1 == stages.size();
+        if (i > 0) narrow_cores(field_.values, aligned_.is_held, stages[i - 1], stages[i]);
+        const GinzburgLandau functional(links_, masses_, system_, aligned_.pull, stages[i]);
+        const DescentOptions descent{options_.max_iterations, last ? options_.tolerance : stage_tolerance,
+                                     last ? options_.energy_tolerance : stage_tolerance, options_.seed};
+        const Progress& told = last ? progress_ : silent_;
+        DescentResult result = minimise(functional, order_, field_.values, descent, told);
+        field_.iterations = result.iterations;
+        field_.converged = last && result.converged;
+        field_.energy_history = std::move(result.energy_history);
+        if (cancelled_) return;
+    }
+    require_not_collapsed(field_, components_, aligned_.is_held);
 }
 
 }  // namespace
@@ -141,39 +250,8 @@ DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& fea
     calm_library_threads();
     DirectionField field;
     field.symmetry = options.symmetry;
-    field.topology = edge_topology(mesh);
-
-    const std::vector<detail::CornerLink> links = detail::corner_links(mesh, field.topology, options.symmetry);
-    const Held held = held_edges(field.topology, features, options.symmetry);
-    const std::vector<Index> component = detail::edge_components(links, field.topology.edges.rows());
-    field.epsilon = chosen_epsilon(mesh, field.topology, component, held.is_held, options);
-    const detail::FreeSystem system(links, held.is_held);
-    const Eigen::VectorXd masses = detail::edge_masses(mesh, field.topology);
-    const detail::GinzburgLandau functional(links, masses, system, field.epsilon);
-    bool cancelled = false;
-    const Progress latched = [&](std::string_view phase, double fraction, double merit) {
-        cancelled = cancelled || !report(progress, phase, fraction, merit);
-        return !cancelled;
-    };
-    field.values = detail::start_field(links, system, masses, held.is_held, held.values, options.seed, latched);
-
-    if (options.method == DirectionFieldMethod::ginzburg_landau && system.size() > 0) {
-        const detail::DescentOptions descent{options.max_iterations, options.tolerance, options.energy_tolerance,
-                                             options.seed};
-        const detail::DescentResult result = detail::minimise(functional, field.values, descent, latched);
-        field.iterations = result.iterations;
-        field.converged = result.converged;
-        field.energy_history = result.energy_history;
-        if (!cancelled) require_not_collapsed(field, component, held.is_held);
-    }
-    const detail::GinzburgLandau::Slope slope = functional.slope(field.values);
-    field.energy = slope.energy;
-    field.residual = slope.residual;
-    field.dirichlet_energy = detail::dirichlet_energy(links, field.values);
-    if (field.energy_history.empty()) {
-        field.converged = !cancelled;
-        field.energy_history = {field.energy};
-    }
+    field.topology = oriented_topology(mesh);
+    Solver(mesh, features, options, field, progress).run();
     return field;
 }
 

@@ -8,36 +8,39 @@
 #include "crouzeix_raviart.hpp"
 #include "free_system.hpp"
 #include "octafield/progress.hpp"
+#include "pull.hpp"
 
 namespace octafield::surface::detail {
 
-// E(f) = 1/2 int |grad f|^2 + sum_e m_e / (4 eps^2) (|f_e|^2 - 1)^2.
+// E(f) = 1/2 int |grad f|^2 + sum_e m_e / (4 eps_e^2) (|f_e|^2 - 1)^2 + pull.
 class GinzburgLandau {
 public:
-    // Keeps references to links and system.
+    // Keeps references to links, system and pull. `epsilon` (E).
     GinzburgLandau(const std::vector<CornerLink>& links, const Eigen::VectorXd& masses, const FreeSystem& system,
-                   double epsilon);
+                   const Pull& pull, const Eigen::VectorXd& epsilon);
 
     struct Slope {
         double energy;
-        Eigen::VectorXd gradient;  // of the free unknowns, (2 n)
+        Eigen::VectorXd gradient;  // of the free unknowns in real form, (2 n)
         // Norm of the gradient, relative to that of the values times the weights or, where that is less, times the
         // stiffness's diagonal: with epsilon far below the edge length the weights say nothing about the directions.
         double residual;
     };
     Slope slope(const Eigen::VectorXcd& values) const;
-    // Second derivative plus `shift` times weights on the diagonal; lower triangle, the pattern of the stiffness.
-    void hessian(const Eigen::VectorXcd& values, double shift, FreeSystem::Matrix& matrix) const;
+    // Second derivative plus `shift` times weights on the diagonal. `matrix` must be the system's real stiffness but
+    // for its diagonal blocks, which are all that is written.
+    void hessian(const Eigen::VectorXcd& values, double shift, FreeSystem::RealMatrix& matrix) const;
     // c with E(values + t direction) - E(values) = c[0] t + c[1] t^2 + c[2] t^3 + c[3] t^4.
     std::array<double, 4> along(const Eigen::VectorXcd& values, const Eigen::VectorXcd& direction) const;
 
-    const Eigen::VectorXd& weights() const { return weights_; }  // (E), m_e / eps^2, dimensionless
+    const Eigen::VectorXd& weights() const { return weights_; }  // (E), m_e / eps_e^2, dimensionless
     const FreeSystem& system() const { return system_; }
 
 private:
     const std::vector<CornerLink>& links_;
     const FreeSystem& system_;
-    Eigen::VectorXd weights_, residual_weights_;
+    const Pull& pull_;
+    Eigen::VectorXd weights_, residual_weights_, stiffness_;
 };
 
 struct DescentOptions {
@@ -54,8 +57,9 @@ struct DescentResult {
     std::vector<double> energy_history;
 };
 
-// Descends from `values` to a local minimum, in place; held edges keep their values. The system must not be empty.
-DescentResult minimise(const GinzburgLandau& functional, Eigen::VectorXcd& values, const DescentOptions& options,
-                       const Progress& progress);
+// Descends from `values` to a local minimum, in place; held edges keep their values. The system must not be empty;
+// `order` is its elimination order.
+DescentResult minimise(const GinzburgLandau& functional, const Eigen::VectorXi& order, Eigen::VectorXcd& values,
+                       const DescentOptions& options, const Progress& progress);
 
 }  // namespace octafield::surface::detail

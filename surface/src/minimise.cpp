@@ -16,25 +16,26 @@
 namespace octafield::surface::detail {
 namespace {
 
-// Keeps the factorization away from the null vector of a component without held edges: the common rotation of all its
-// directions.
+// Turning all directions of a component that nothing aligns by one angle does not change E: i f is a null vector of H
+// at a critical point, the gradient is orthogonal to it everywhere. This keeps the factorization away from it, and the
+// step keeps out of it.
 constexpr double smallest_shift = 1e-8;
 constexpr double largest_shift = 1.5;
-constexpr int steps_per_round = 15;
+constexpr int steps_per_round = 8;
 constexpr int remembered_steps = 10;
 // Curvature below -this, in units of 1 / eps^2, marks a saddle point.
 constexpr double saddle_shift = 1e-6;
 
 class Descent {
 public:
-    Descent(const GinzburgLandau& functional, Eigen::VectorXcd& values, const DescentOptions& options,
-            const Progress& progress)
+    Descent(const GinzburgLandau& functional, const Eigen::VectorXi& order, Eigen::VectorXcd& values,
+            const DescentOptions& options, const Progress& progress)
         : functional_(functional),
           values_(values),
           options_(options),
           progress_(progress),
-          matrix_(functional.system().stiffness()),
-          cholesky_(matrix_, functional.system().elimination_order()) {}
+          matrix_(functional.system().real_stiffness()),
+          cholesky_(matrix_, FreeSystem::real_order(order)) {}
 
     DescentResult run();
 
@@ -50,8 +51,8 @@ private:
     Eigen::VectorXcd& values_;
     const DescentOptions& options_;
     const Progress& progress_;
-    FreeSystem::Matrix matrix_;
-    SparseCholesky cholesky_;
+    FreeSystem::RealMatrix matrix_;
+    SparseCholesky<double> cholesky_;
     GinzburgLandau::Slope slope_;
     double shift_ = 0.25;
     bool raised_ = false;   // the last factorization needed a higher shift than tried first
@@ -86,7 +87,7 @@ void Descent::factorize() {
 double Descent::step(LimitedMemory& memory) {
     const auto solve = [&](const Eigen::VectorXd& right) { return cholesky_.solve(right); };
     const Eigen::VectorXd direction = -memory.apply(slope_.gradient, solve);
-    const Eigen::VectorXcd field = functional_.system().scatter(direction, values_.size());
+    const Eigen::VectorXcd field = functional_.system().scatter(as_complex(direction), values_.size());
     const std::array<double, 4> energy = functional_.along(values_, field);
     if (!(energy[0] < 0)) return 0;
     const double length = lowest_along(energy);
@@ -117,10 +118,11 @@ bool Descent::leave_saddle() {
     if (!raised_) return false;
     const FreeSystem& system = functional_.system();
     const auto& weights = functional_.weights();
-    Eigen::VectorXcd field = system.scatter(random_vector(2 * system.size(), options_.seed), values_.size());
+    Eigen::VectorXcd field =
+        system.scatter(as_complex(random_vector(2 * system.size(), options_.seed)), values_.size());
     for (int i = 0; i < 10; ++i) {
-        const Eigen::VectorXcd weighted = weights.array() * field.array();
-        field = system.scatter(cholesky_.solve(system.gather(weighted)), values_.size());
+        const Eigen::VectorXcd weighted = system.gather(Eigen::VectorXcd(weights.cast<Complex>().cwiseProduct(field)));
+        field = system.scatter(as_complex(cholesky_.solve(as_real(weighted))), values_.size());
         field /= field.cwiseAbs().maxCoeff();
     }
     std::array<double, 4> energy = functional_.along(values_, field);
@@ -154,9 +156,9 @@ DescentResult Descent::run() {
 
 }  // namespace
 
-DescentResult minimise(const GinzburgLandau& functional, Eigen::VectorXcd& values, const DescentOptions& options,
-                       const Progress& progress) {
-    return Descent(functional, values, options, progress).run();
+DescentResult minimise(const GinzburgLandau& functional, const Eigen::VectorXi& order, Eigen::VectorXcd& values,
+                       const DescentOptions& options, const Progress& progress) {
+    return Descent(functional, order, values, options, progress).run();
 }
 
 }  // namespace octafield::surface::detail

@@ -1,17 +1,26 @@
-// Supernodal sparse Cholesky factorization (CHOLMOD): one analysis of the pattern, many factorizations of its values.
+// Supernodal sparse Cholesky factorization (CHOLMOD), real or complex Hermitian: one analysis of the pattern, many
+// factorizations of its values.
 #pragma once
 
 #include <cholmod.h>
 
 #include <Eigen/SparseCore>
+#include <complex>
+#include <string>
+#include <type_traits>
 
 #include "octafield/error.hpp"
 
 namespace octafield::surface::detail {
 
+template <class Scalar>
 class SparseCholesky {
+    static_assert(std::is_same_v<Scalar, double> || std::is_same_v<Scalar, std::complex<double>>);
+    static constexpr int xtype = std::is_same_v<Scalar, double> ? CHOLMOD_REAL : CHOLMOD_COMPLEX;
+
 public:
-    using Matrix = Eigen::SparseMatrix<double>;  // lower triangle, compressed
+    using Matrix = Eigen::SparseMatrix<Scalar>;  // lower triangle, compressed
+    using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
     // `order`: elimination order (which row comes first, second, ...); a permutation of the rows.
     SparseCholesky(const Matrix& pattern, const Eigen::VectorXi& order) {
@@ -47,20 +56,32 @@ public:
         return factor_->minor == factor_->n;
     }
 
-    Eigen::VectorXd solve(const Eigen::VectorXd& right) {
+    Vector solve(const Eigen::Ref<const Vector>& right) {
         cholmod_dense view = {};
         view.nrow = view.nzmax = view.d = right.size();
         view.ncol = 1;
-        view.x = const_cast<double*>(right.data());
-        view.xtype = CHOLMOD_REAL;
+        view.x = const_cast<Scalar*>(right.data());
+        view.xtype = xtype;
         view.dtype = CHOLMOD_DOUBLE;
         require(cholmod_solve2(CHOLMOD_A, factor_, &view, nullptr, &solution_, nullptr, &work_, &more_work_, &common_));
-        return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(solution_->x), right.size());
+        return Eigen::Map<const Vector>(static_cast<const Scalar*>(solution_->x), right.size());
+    }
+
+    // Approximate minimum degree order of the pattern.
+    static Eigen::VectorXi amd_order(const Matrix& pattern) {
+        cholmod_common common;
+        cholmod_start(&common);
+        common.print = 0;
+        cholmod_sparse view = view_of(pattern);
+        Eigen::VectorXi order(pattern.rows());
+        const bool success = cholmod_amd(&view, nullptr, 0, order.data(), &common);
+        const int status = common.status;
+        cholmod_finish(&common);
+        if (!success) fail(status);
+        return order;
     }
 
 private:
-    friend Eigen::VectorXi amd_order(const Matrix& pattern);
-
     static cholmod_sparse view_of(const Matrix& matrix) {
         cholmod_sparse view = {};
         view.nrow = matrix.rows();
@@ -68,10 +89,10 @@ private:
         view.nzmax = matrix.nonZeros();
         view.p = const_cast<int*>(matrix.outerIndexPtr());
         view.i = const_cast<int*>(matrix.innerIndexPtr());
-        view.x = const_cast<double*>(matrix.valuePtr());
+        view.x = const_cast<Scalar*>(matrix.valuePtr());
         view.stype = -1;
         view.itype = CHOLMOD_INT;
-        view.xtype = CHOLMOD_REAL;
+        view.xtype = xtype;
         view.dtype = CHOLMOD_DOUBLE;
         view.sorted = 1;
         view.packed = 1;
@@ -93,19 +114,5 @@ private:
     cholmod_factor* factor_ = nullptr;
     cholmod_dense *solution_ = nullptr, *work_ = nullptr, *more_work_ = nullptr;
 };
-
-// Approximate minimum degree order of a symmetric matrix given by its lower triangle.
-inline Eigen::VectorXi amd_order(const SparseCholesky::Matrix& pattern) {
-    cholmod_common common;
-    cholmod_start(&common);
-    common.print = 0;
-    cholmod_sparse view = SparseCholesky::view_of(pattern);
-    Eigen::VectorXi order(pattern.rows());
-    const bool success = cholmod_amd(&view, nullptr, 0, order.data(), &common);
-    const int status = common.status;
-    cholmod_finish(&common);
-    if (!success) SparseCholesky::fail(status);
-    return order;
-}
 
 }  // namespace octafield::surface::detail

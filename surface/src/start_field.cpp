@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "random_field.hpp"
-#include "sparse_cholesky.hpp"
 
 namespace octafield::surface::detail {
 namespace {
@@ -17,68 +15,38 @@ constexpr int most_iterations = 100;
 // Relative fall of the eigenvalue estimate per iteration at which the eigenvector is good enough.
 constexpr double eigen_tolerance = 1e-4;
 
-Index root_of(std::vector<Index>& parent, Index e) {
-    while (parent[e] != e) e = parent[e] = parent[parent[e]];
-    return e;
-}
-
 // Scales each component's values to unit W-norm; returns the norms before.
-Eigen::VectorXd normalise(Eigen::VectorXcd& values, const Eigen::VectorXd& weights,
-                          const std::vector<Index>& component) {
-    Eigen::VectorXd norms = Eigen::VectorXd::Zero(1 + *std::max_element(component.begin(), component.end()));
-    for (Eigen::Index e = 0; e < values.size(); ++e) norms[component[e]] += weights[e] * std::norm(values[e]);
-    norms = norms.cwiseSqrt();
+Eigen::ArrayXd scale_components(Eigen::VectorXcd& values, const Eigen::VectorXd& weights,
+                                const Components& components) {
+    Eigen::ArrayXd norms = Eigen::ArrayXd::Zero(components.size());
+    for (Eigen::Index e = 0; e < values.size(); ++e) norms[components.of_edge[e]] += weights[e] * std::norm(values[e]);
+    norms = norms.sqrt();
     for (Eigen::Index e = 0; e < values.size(); ++e)
-        if (norms[component[e]] > 0) values[e] /= norms[component[e]];
+        if (norms[components.of_edge[e]] > 0) values[e] /= norms[components.of_edge[e]];
     return norms;
 }
 
-// (K + eigen_shift W)^-1 on the free unknowns.
-class LinearSolver {
-public:
-    LinearSolver(const FreeSystem& system, const Eigen::VectorXd& weights)
-        : system_(system), edges_(weights.size()), cholesky_(system.stiffness(), system.elimination_order()) {
-        FreeSystem::Matrix matrix = system.stiffness();
-        for (Index i = 0; i < system.size(); ++i) {
-            const double shift = eigen_shift * weights[system.edges()[i]];
-            FreeSystem::add_to_diagonal(matrix, i, shift, 0, shift);
-        }
-        if (!cholesky_.factorize(matrix))
-            throw SolverError(
-                "the smoothness matrix of the direction field is not positive definite to rounding; "
-                "remesh the surface, its triangles are too thin");
-    }
-    Eigen::VectorXcd solve(const Eigen::VectorXcd& right) const {
-        return system_.scatter(cholesky_.solve(system_.gather(right)), edges_);
-    }
-
-private:
-    const FreeSystem& system_;
-    Eigen::Index edges_;
-    mutable SparseCholesky cholesky_;
-};
-
 // The masses of components that are not anchored, each with sum 1; zero on the others.
-Eigen::VectorXd floating_weights(const Eigen::VectorXd& masses, const std::vector<Index>& component,
-                                 const std::vector<bool>& anchored) {
-    Eigen::VectorXd area = Eigen::VectorXd::Zero(masses.size()), weights = area;
-    for (Eigen::Index e = 0; e < masses.size(); ++e) area[component[e]] += masses[e];
+Eigen::VectorXd floating_weights(const Eigen::VectorXd& masses, const Components& components) {
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(masses.size());
     for (Eigen::Index e = 0; e < masses.size(); ++e)
-        if (!anchored[component[e]]) weights[e] = masses[e] / area[component[e]];
+        if (!components.anchored[components.of_edge[e]])
+            weights[e] = masses[e] / components.areas[components.of_edge[e]];
     return weights;
 }
 
 // Inverse iteration, on all components with weights at once.
-Eigen::VectorXcd smoothest_eigenvector(const LinearSolver& solver, const FreeSystem& system,
-                                       const Eigen::VectorXd& weights, const std::vector<Index>& component,
-                                       std::uint64_t seed, const Progress& progress) {
-    Eigen::VectorXcd values = system.scatter(random_vector(2 * system.size(), seed), weights.size());
-    Eigen::ArrayXd growth = normalise(values, weights, component);
+Eigen::VectorXcd smoothest_eigenvector(DiffusionSolver& solver, const FreeSystem& system,
+                                       const Eigen::VectorXd& weights, const Components& components, std::uint64_t seed,
+                                       const Progress& progress) {
+    Eigen::VectorXcd values = system.scatter(as_complex(random_vector(2 * system.size(), seed)), weights.size());
+    Eigen::ArrayXd growth = scale_components(values, weights, components);
     for (int i = 0; i < most_iterations; ++i) {
         if (!report(progress, "cross field", 0, std::numeric_limits<double>::quiet_NaN())) break;
-        values = solver.solve(weights.asDiagonal() * values);
+        const Eigen::VectorXcd weighted = weights.cast<Complex>().cwiseProduct(values);
+        values = system.scatter(solver.solve(system.gather(weighted)), weights.size());
         const Eigen::ArrayXd before = growth;
-        growth = normalise(values, weights, component);
+        growth = scale_components(values, weights, components);
         if (i > 0 && ((growth - before).abs() <= eigen_tolerance * growth).all()) break;
     }
     for (Eigen::Index e = 0; e < values.size(); ++e)
@@ -88,42 +56,25 @@ Eigen::VectorXcd smoothest_eigenvector(const LinearSolver& solver, const FreeSys
 
 }  // namespace
 
-std::vector<Index> edge_components(const std::vector<CornerLink>& links, Eigen::Index edges) {
-    std::vector<Index> parent(edges);
-    std::iota(parent.begin(), parent.end(), 0);
-    for (const CornerLink& link : links) {
-        const Index a = root_of(parent, link.first), b = root_of(parent, link.second);
-        parent[std::max(a, b)] = std::min(a, b);
+void normalise(Eigen::VectorXcd& values, const Eigen::VectorXcd& instead) {
+    for (Eigen::Index e = 0; e < values.size(); ++e) {
+        const double length = std::abs(values[e]);
+        values[e] = length > 0 ? values[e] / length : instead[e];
     }
-    std::vector<Index> component(edges);
-    Index count = 0;
-    for (Index e = 0; e < edges; ++e) component[e] = parent[e] == e ? count++ : component[root_of(parent, e)];
-    return component;
 }
 
-Eigen::VectorXcd start_field(const std::vector<CornerLink>& links, const FreeSystem& system,
-                             const Eigen::VectorXd& masses, const std::vector<bool>& is_held,
-                             const Eigen::VectorXcd& held, std::uint64_t seed, const Progress& progress) {
-    const Eigen::Index edges = masses.size();
-    const std::vector<Index> component = edge_components(links, edges);
-    std::vector<bool> anchored(edges, false);  // by component
-    Eigen::VectorXcd values = Eigen::VectorXcd::Zero(edges);
-    for (Eigen::Index e = 0; e < edges; ++e) {
-        if (!is_held[e]) continue;
-        anchored[component[e]] = true;
-        values[e] = held[e];
-    }
-    if (system.size() > 0) {
-        const Eigen::VectorXd floating = floating_weights(masses, component, anchored);
-        const LinearSolver solver(system, floating);
-        values -= solver.solve(apply_stiffness(links, values));
-        if (floating.maxCoeff() > 0)
-            values += smoothest_eigenvector(solver, system, floating, component, seed, progress);
-    }
-    for (Eigen::Index e = 0; e < edges; ++e) {
-        const double length = std::abs(values[e]);
-        values[e] = length > 0 ? values[e] / length : Complex(1);
-    }
+Eigen::VectorXcd start_field(const Problem& problem, DiffusionSolver& solver, std::uint64_t seed,
+                             const Progress& progress) {
+    const FreeSystem& system = problem.system;
+    const Eigen::Index edges = problem.masses.size();
+    const Eigen::VectorXd floating = floating_weights(problem.masses, problem.components);
+    const Eigen::VectorXd shifts = eigen_shift * floating + problem.pull.weights;
+    solver.factorize(system.gather(shifts));
+    const Eigen::VectorXcd right = problem.pull.targets - apply_stiffness(problem.links, problem.held);
+    Eigen::VectorXcd values = problem.held + system.scatter(solver.solve(system.gather(right)), edges);
+    if (floating.maxCoeff() > 0)
+        values += smoothest_eigenvector(solver, system, floating, problem.components, seed, progress);
+    normalise(values, Eigen::VectorXcd::Ones(edges));
     return values;
 }
 

@@ -3,17 +3,21 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "boundary_indices.hpp"
 #include "crouzeix_raviart.hpp"
-#include "octafield/surface/direction_field.hpp"
+#include "octafield/error.hpp"
+#include "octafield/surface/surface_singularities.hpp"
 #include "vertex_fans.hpp"
 
 namespace octafield::surface {
 namespace {
 
-// The integer that `turns` is but for rounding; at the boundary only where the field is aligned with it.
-int whole(double turns, [[maybe_unused]] bool interior) {
+constexpr double pi = std::numbers::pi;
+
+// The integer that `turns` is but for rounding.
+int whole(double turns) {
     const double nearest = std::round(turns);
-    assert(!interior || std::abs(turns - nearest) < 1e-6);
+    assert(std::abs(turns - nearest) < 1e-6);
     return static_cast<int>(nearest);
 }
 
@@ -56,36 +60,89 @@ void cancel_pairs(const TriangleMesh& mesh, std::vector<SurfaceSingularity>& fou
     std::erase_if(found, [](const SurfaceSingularity& singularity) { return singularity.index_times_symmetry == 0; });
 }
 
-}  // namespace
+void require_fit(const TriangleMesh& mesh, const DirectionField& field) {
+    if (field.values.size() != field.topology.edges.rows() ||
+        field.topology.triangle_edges.rows() != mesh.triangles.rows())
+        throw InvalidInput("the direction field belongs to another mesh: compute it on this one", "wrong_mesh");
+    std::vector<Index> bad;
+    for (Index e = 0; e < field.values.size(); ++e)
+        if (!std::isfinite(field.values[e].real()) || !std::isfinite(field.values[e].imag())) bad.push_back(e);
+    if (!bad.empty())
+        throw InvalidInput(
+            "the direction field is not finite at " + std::to_string(bad.size()) + " edges (" + first_few(bad) + ")",
+            "not_finite", bad);
+}
+
+// Unit values; where f = 0, exactly as in the middle of a symmetric mesh, any direction does.
+Eigen::VectorXcd unit_values(const Eigen::VectorXcd& values) {
+    Eigen::VectorXcd result(values.size());
+    for (Index e = 0; e < values.size(); ++e) {
+        const double length = std::abs(values[e]);
+        result[e] = length > 0 ? detail::Complex(values[e].real() / length, values[e].imag() / length) : 1;
+    }
+    return result;
+}
+
+// (E), 0 at edges inside.
+Eigen::VectorXd boundary_deviations(const DirectionField& field, const Eigen::VectorXcd& values) {
+    Eigen::VectorXd deviations = Eigen::VectorXd::Zero(values.size());
+    for (Index e = 0; e < values.size(); ++e)
+        if (field.topology.edge_triangles.row(e).minCoeff() < 0)
+            deviations[e] = detail::boundary_deviation(field.topology, field.symmetry, e, values[e]);
+    return deviations;
+}
 
 // N times the index of a vertex: the turns of the N-fold angle against the planes of the triangles round it, plus N
 // times its angle defect in turns (from a straight line at the boundary). Each corner's turn enters its triangle's sum
 // with the opposite sign, so the total is N times the sum of the angle defects: N times the Euler characteristic
-// (Gauss-Bonnet).
-std::vector<SurfaceSingularity> surface_singularities(const TriangleMesh& mesh, const DirectionField& field) {
-    constexpr double pi = std::numbers::pi;
-    const std::vector<detail::CornerLink> links = detail::corner_links(mesh, field.topology, field.symmetry);
-    std::vector<double> turns(links.size());
-    for (std::size_t c = 0; c < links.size(); ++c) turns[c] = detail::turn(links[c], field.values);
+// (Gauss-Bonnet). On the boundary the deviations from it before and behind the vertex make the sum whole; those of one
+// boundary curve add up to nothing.
+int vertex_index(int symmetry, const std::vector<detail::CornerLink>& links, const std::vector<double>& turns,
+                 const Eigen::VectorXd& deviations, const detail::VertexFans& fans,
+                 const detail::VertexFans::Fan& fan) {
+    double sum = symmetry * (fan.closed ? 2 * pi : pi);
+    for (Index i = fan.first; i < fan.last; ++i)
+        sum += turns[fans.corners[i]] - symmetry * links[fans.corners[i]].angle;
+    if (!fan.closed)
+        sum += deviations[links[fans.corners[fan.first]].first] - deviations[links[fans.corners[fan.last - 1]].second];
+    return whole(sum / (2 * pi));
+}
 
-    std::vector<SurfaceSingularity> found;
+}  // namespace
+
+SurfaceSingularities surface_singularities(const TriangleMesh& mesh, const DirectionField& field) {
+    require_fit(mesh, field);
+    const std::vector<detail::CornerLink> links = detail::corner_links(mesh, field.topology, field.symmetry);
+    const Eigen::VectorXcd values = unit_values(field.values);
+    const Eigen::VectorXd deviations = boundary_deviations(field, values);
+    std::vector<double> turns(links.size());
+    for (std::size_t c = 0; c < links.size(); ++c) turns[c] = detail::turn(links[c], values);
+
+    SurfaceSingularities found;
+    const auto add = [&](const Eigen::Vector3d& position, int index, Index triangle, Index vertex, bool boundary) {
+        const double turned = static_cast<double>(index) / field.symmetry;
+        if (index != 0) found.points.push_back({position, index, turned, triangle, vertex, boundary});
+    };
     for (Index t = 0; t < mesh.triangles.rows(); ++t) {
-        const int index = whole(-(turns[3 * t] + turns[3 * t + 1] + turns[3 * t + 2]) / (2 * pi), true);
-        if (index == 0) continue;
-        const Eigen::Vector3d position = zero_position(mesh, t, detail::local_values(links, field.values, t));
-        found.push_back({position, index, static_cast<double>(index) / field.symmetry, t, -1, false});
+        const int index = whole(-(turns[3 * t] + turns[3 * t + 1] + turns[3 * t + 2]) / (2 * pi));
+        if (index != 0) add(zero_position(mesh, t, detail::local_values(links, field.values, t)), index, t, -1, false);
     }
     const detail::VertexFans fans = detail::vertex_fans(mesh, field.topology);
-    for (const auto& fan : fans.fans) {
-        double sum = field.symmetry * (fan.closed ? 2 * pi : pi);
-        for (Index i = fan.first; i < fan.last; ++i)
-            sum += turns[fans.corners[i]] - field.symmetry * links[fans.corners[i]].angle;
-        const int index = whole(sum / (2 * pi), fan.closed);
-        if (index == 0) continue;
-        found.push_back({mesh.vertices.row(fan.vertex), index, static_cast<double>(index) / field.symmetry, -1,
-                         fan.vertex, !fan.closed});
-    }
-    cancel_pairs(mesh, found);
+    std::vector<int> indices;
+    for (const auto& fan : fans.fans)
+        indices.push_back(vertex_index(field.symmetry, links, turns, deviations, fans, fan));
+    detail::cancel_boundary_pairs(links, fans, deviations, indices);
+    for (std::size_t f = 0; f < fans.fans.size(); ++f)
+        add(mesh.vertices.row(fans.fans[f].vertex), indices[f], -1, fans.fans[f].vertex, !fans.fans[f].closed);
+    cancel_pairs(mesh, found.points);
+
+    int sum = 0;
+    for (const SurfaceSingularity& point : found.points) sum += point.index_times_symmetry;
+    found.index_sum = static_cast<double>(sum) / field.symmetry;
+    found.euler_characteristic =
+        static_cast<int>(static_cast<Index>(fans.fans.size()) - field.values.size() + mesh.triangles.rows());
+    found.agree = sum == field.symmetry * found.euler_characteristic;
+    found.boundary_deviation = deviations.size() > 0 ? deviations.cwiseAbs().maxCoeff() / field.symmetry : 0;
     return found;
 }
 

@@ -5,8 +5,9 @@
 #include <string>
 
 #include "crouzeix_raviart.hpp"
+#include "feature_flags.hpp"
 #include "octafield/error.hpp"
-#include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/directions.hpp"
 #include "vertex_fans.hpp"
 
 namespace octafield::surface {
@@ -88,26 +89,13 @@ double direction_angle(const std::vector<Spoke>& spokes, int symmetry, bool corn
     return nearest_of(mean.angle, lowest->tangent_angle, symmetry);
 }
 
-std::vector<bool> feature_edges(const FeatureGraph& features, const EdgeTopology& topology) {
-    std::vector<std::pair<Index, Index>> listed(features.edges.rows());
-    for (std::size_t i = 0; i < listed.size(); ++i)
-        listed[i] = std::minmax({features.edges(i, 0), features.edges(i, 1)});
-    std::sort(listed.begin(), listed.end());
-    std::vector<bool> is_feature(topology.edges.rows());
-    for (Index e = 0; e < topology.edges.rows(); ++e)
-        is_feature[e] =
-            topology.edge_triangles.row(e).minCoeff() < 0 ||
-            std::binary_search(listed.begin(), listed.end(), std::pair(topology.edges(e, 0), topology.edges(e, 1)));
-    return is_feature;
-}
-
 }  // namespace
 
 Points vertex_directions(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field) {
     const auto& topology = field.topology;
     const std::vector<detail::CornerLink> links = detail::corner_links(mesh, topology, field.symmetry);
     const detail::VertexFans fans = detail::vertex_fans(mesh, topology);
-    const std::vector<bool> is_feature = feature_edges(features, topology);
+    const std::vector<bool> is_feature = detail::feature_flags(features, topology);
     const Points normals = vertex_normals(mesh);
     std::vector<bool> is_corner(mesh.vertices.rows(), false);
     for (const Index v : features.corners) {

@@ -3,6 +3,7 @@
 
 #include "octafield/frames/sh4.hpp"
 #include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/directions.hpp"
 #include "octafield/surface/validate.hpp"
 #include "octafield/volume/operators.hpp"
 #include "octafield/volume/smooth.hpp"

@@ -16,8 +16,9 @@
 #include "../../surface/src/line_search.hpp"
 #include "mesh_fixtures.hpp"
 #include "octafield/error.hpp"
-#include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/directions.hpp"
 #include "octafield/surface/read_write.hpp"
+#include "octafield/surface/surface_singularities.hpp"
 
 namespace octafield::surface {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/surface_singularities.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
 #include "octafield/volume/singularities.hpp"
 #include "octafield/volume/tet_mesh.hpp"

@@ -1,0 +1,14 @@
+// Whether the triangles of a surface can be turned so that neighbours agree.
+#pragma once
+
+#include <vector>
+
+#include "octafield/surface/triangle_mesh.hpp"
+
+namespace octafield::surface::detail {
+
+// Triangles of the components that cannot be oriented (a Moebius strip), ascending; empty where turning some triangles
+// over is enough. Edges of more than two triangles do not connect.
+std::vector<Index> unorientable_triangles(const TriangleMesh& mesh);
+
+}  // namespace octafield::surface::detail

@@ -1,0 +1,86 @@
+#include "streamline_tools.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "octafield/error.hpp"
+
+namespace octafield::surface::detail {
+namespace {
+
+void check(const TriangleMesh& mesh, const DirectionField& field, const SurfaceSingularities& singularities,
+           const StreamlineOptions& options) {
+    if (field.values.size() != field.topology.edges.rows() ||
+        field.topology.triangle_edges.rows() != mesh.triangles.rows())
+        throw InvalidInput("the direction field belongs to another mesh: compute it on this one", "wrong_mesh");
+    if (!field.values.allFinite()) throw InvalidInput("the direction field is not finite", "not_finite");
+    for (const SurfaceSingularity& point : singularities.points)
+        if (point.triangle >= mesh.triangles.rows() || point.vertex >= mesh.vertices.rows() ||
+            (point.triangle < 0 && point.vertex < 0))
+            throw InvalidInput("a singular point lies in triangle " + std::to_string(point.triangle) + ", vertex " +
+                                   std::to_string(point.vertex) + ", which the mesh does not have",
+                               "wrong_mesh");
+    for (const double length : {options.max_length, options.singular_radius})
+        if (!(length >= 0) || !std::isfinite(length))
+            throw InvalidInput("max_length and singular_radius must be lengths, or 0 for the default");
+}
+
+std::vector<CornerLink> checked_links(const TriangleMesh& mesh, const DirectionField& field,
+                                      const SurfaceSingularities& singularities, const StreamlineOptions& options) {
+    check(mesh, field, singularities, options);
+    return corner_links(mesh, field.topology, field.symmetry);
+}
+
+DirectionField half_turned(const DirectionField& field) {
+    DirectionField result;
+    result.symmetry = field.symmetry;
+    result.topology = field.topology;
+    result.values = -field.values;
+    return result;
+}
+
+}  // namespace
+
+Streamline joined(const FieldTracer::Curve& back, const FieldTracer::Curve& ahead) {
+    Streamline line;
+    const std::size_t skipped = back.points.empty() ? 0 : back.points.size() - 1;  // the seed is in both
+    line.points.resize(static_cast<Eigen::Index>(skipped + ahead.points.size()), 3);
+    for (std::size_t i = 0; i < skipped; ++i) line.points.row(i) = back.points[skipped - i];
+    for (std::size_t i = 0; i < ahead.points.size(); ++i) line.points.row(skipped + i) = ahead.points[i];
+    line.triangles.assign(back.triangles.rbegin(), back.triangles.rend());
+    line.triangles.insert(line.triangles.end(), ahead.triangles.begin(), ahead.triangles.end());
+    line.length = back.length + ahead.length;
+    line.last_end = ahead.end;
+    line.last_singularity = ahead.singularity;
+    if (!back.points.empty()) {
+        line.first_end = back.end;
+        line.first_singularity = back.singularity;
+    }
+    return line;
+}
+
+TwoWayTracer::TwoWayTracer(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field,
+                           const SurfaceSingularities& singularities, const StreamlineOptions& options)
+    : both_ways_(options.both_ways),
+      field_(mesh, field, checked_links(mesh, field, singularities, options)),
+      forward_(field_, features, singularities, options) {
+    if (!both_ways_ || field.symmetry % 2 == 0) return;
+    opposite_values_ = half_turned(field);
+    opposite_field_.emplace(mesh, *opposite_values_, corner_links(mesh, field.topology, field.symmetry));
+    backward_.emplace(*opposite_field_, features, singularities, options);
+}
+
+Streamline TwoWayTracer::trace(const Place& place, const FieldTracer::Admit& ahead,
+                               const FieldTracer::Admit& back) const {
+    const FieldTracer::Curve curve = forward_.trace(place, -1, ahead);
+    if (curve.end == StreamlineEnd::closed) {
+        Streamline line = joined({}, curve);
+        line.first_end = StreamlineEnd::closed;
+        return line;
+    }
+    if (!both_ways_) return joined({}, curve);
+    const FieldTracer& tracer = backward_ ? *backward_ : forward_;
+    return joined(tracer.trace({place.triangle, place.at, -place.heading}, -1, back), curve);
+}
+
+}  // namespace octafield::surface::detail

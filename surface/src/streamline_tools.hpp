@@ -1,0 +1,34 @@
+// What the ways to seed streamlines have in common: checks, and tracing both ways from a place.
+#pragma once
+
+#include <optional>
+
+#include "field_tracer.hpp"
+
+namespace octafield::surface::detail {
+
+// One polyline of two curves from the same place, `back` against the direction.
+Streamline joined(const FieldTracer::Curve& back, const FieldTracer::Curve& ahead);
+
+class TwoWayTracer {
+public:
+    // Throws InvalidInput where field or singular points do not fit the mesh, and for options that are no lengths.
+    TwoWayTracer(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field,
+                 const SurfaceSingularities& singularities, const StreamlineOptions& options);
+
+    const ChartedField& field() const { return field_; }
+    const FieldTracer& forward() const { return forward_; }
+    Streamline trace(const Place& place, const FieldTracer::Admit& ahead = {},
+                     const FieldTracer::Admit& back = {}) const;
+
+private:
+    bool both_ways_;
+    ChartedField field_;
+    FieldTracer forward_;
+    // With odd N the opposite of a direction is none of the N: the field turned by half a turn.
+    std::optional<DirectionField> opposite_values_;
+    std::optional<ChartedField> opposite_field_;
+    std::optional<FieldTracer> backward_;
+};
+
+}  // namespace octafield::surface::detail

@@ -1,0 +1,26 @@
+// The triangles round a point, unfolded into one plane.
+#pragma once
+
+#include <vector>
+
+#include "field_tracer.hpp"
+
+namespace octafield::surface::detail {
+
+struct PatchValue {
+    Complex at;     // edge midpoint, in the chart of the triangle in the middle
+    Complex f;      // the field's unit value there, in the same chart
+    double weight;  // a third of the triangle's area
+};
+
+// At edge midpoints between the two radii round `centre`, which lies in triangle t. Features and the boundary are not
+// crossed. Midpoints appear once for each of their triangles. If there are none, those of triangle t.
+std::vector<PatchValue> values_round(const ChartedField& field, const FieldTracer& tracer, Index t, Complex centre,
+                                     double inner, double outer);
+
+// From `place` straight ahead for `length`, less where a feature or the boundary is in the way. Moves the place, and
+// adds the end of each segment and its triangle.
+void walk_straight(const ChartedField& field, const FieldTracer& tracer, double length, Place& place,
+                   std::vector<Eigen::Vector3d>& points, std::vector<Index>& triangles);
+
+}  // namespace octafield::surface::detail
