@@ -75,7 +75,7 @@ def main() -> None:
     for fraction in map(float, arguments.edge_lengths.split(",")):
         problem = prepare(prepare_mesh(surface, octafield.MeshOptions(edge_length=fraction * diagonal)))
         print(f"edge length {fraction} of the diagonal, {len(problem.meshed.tets.vertices)} vertices, "
-              f"{len(problem.singularities)} surface singular points")
+              f"{len(problem.singularities.points)} surface singular points")
         for boundary in ("fixed", "aligned"):
             result = run(problem, octafield.FieldOptions(boundary=boundary))
             record, graph = result.record, result.singular_graph

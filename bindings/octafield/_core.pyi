@@ -17,6 +17,7 @@ Progress: TypeAlias = Callable[[str, float, float], bool | None]
 
 __version__: str
 unit_speed_factor: float
+core_energy: float
 
 # ---- frames
 
@@ -221,6 +222,53 @@ class RemeshResult:
     @property
     def features(self) -> FeatureGraph: ...
 
+class DirectionConstraints:
+    def __init__(
+        self,
+        edges: ArrayLike = ...,
+        edge_directions: ArrayLike = ...,
+        edge_weights: ArrayLike = ...,
+        vertices: ArrayLike = ...,
+        vertex_directions: ArrayLike = ...,
+        vertex_weights: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def edges(self) -> Int32s: ...
+    @edges.setter
+    def edges(self, value: ArrayLike) -> None: ...
+    @property
+    def edge_directions(self) -> Float64s: ...
+    @edge_directions.setter
+    def edge_directions(self, value: ArrayLike) -> None: ...
+    @property
+    def edge_weights(self) -> Float64s: ...
+    @edge_weights.setter
+    def edge_weights(self, value: ArrayLike) -> None: ...
+    @property
+    def vertices(self) -> Int32s: ...
+    @vertices.setter
+    def vertices(self, value: ArrayLike) -> None: ...
+    @property
+    def vertex_directions(self) -> Float64s: ...
+    @vertex_directions.setter
+    def vertex_directions(self, value: ArrayLike) -> None: ...
+    @property
+    def vertex_weights(self) -> Float64s: ...
+    @vertex_weights.setter
+    def vertex_weights(self, value: ArrayLike) -> None: ...
+
+class DirectionGuide:
+    length: float
+    def __init__(self, directions: ArrayLike = ..., weights: ArrayLike = ..., length: float = ...) -> None: ...
+    @property
+    def directions(self) -> Float64s: ...
+    @directions.setter
+    def directions(self, value: ArrayLike) -> None: ...
+    @property
+    def weights(self) -> Float64s: ...
+    @weights.setter
+    def weights(self, value: ArrayLike) -> None: ...
+
 class DirectionField:
     symmetry: int
     epsilon: float
@@ -253,6 +301,21 @@ class DirectionField:
     @energy_history.setter
     def energy_history(self, value: ArrayLike) -> None: ...
 
+class PrincipalDirections:
+    def __init__(self, directions: ArrayLike = ..., curvatures: ArrayLike = ..., anisotropy: ArrayLike = ...) -> None: ...
+    @property
+    def directions(self) -> Float64s: ...
+    @directions.setter
+    def directions(self, value: ArrayLike) -> None: ...
+    @property
+    def curvatures(self) -> Float64s: ...
+    @curvatures.setter
+    def curvatures(self, value: ArrayLike) -> None: ...
+    @property
+    def anisotropy(self) -> Float64s: ...
+    @anisotropy.setter
+    def anisotropy(self, value: ArrayLike) -> None: ...
+
 class SurfaceSingularity:
     index_times_symmetry: int
     index: float
@@ -272,6 +335,47 @@ class SurfaceSingularity:
     def position(self) -> Float64s: ...
     @position.setter
     def position(self, value: ArrayLike) -> None: ...
+
+class SurfaceSingularities:
+    index_sum: float
+    euler_characteristic: int
+    agree: bool
+    boundary_deviation: float
+    def __init__(
+        self,
+        points: Sequence[SurfaceSingularity] = ...,
+        index_sum: float = ...,
+        euler_characteristic: int = ...,
+        agree: bool = ...,
+        boundary_deviation: float = ...,
+    ) -> None: ...
+    @property
+    def points(self) -> list[SurfaceSingularity]: ...
+
+class Streamline:
+    length: float
+    first_end: str
+    last_end: str
+    first_singularity: int
+    last_singularity: int
+    def __init__(
+        self,
+        points: ArrayLike = ...,
+        triangles: ArrayLike = ...,
+        length: float = ...,
+        first_end: str = ...,
+        last_end: str = ...,
+        first_singularity: int = ...,
+        last_singularity: int = ...,
+    ) -> None: ...
+    @property
+    def points(self) -> Float64s: ...
+    @points.setter
+    def points(self, value: ArrayLike) -> None: ...
+    @property
+    def triangles(self) -> Int32s: ...
+    @triangles.setter
+    def triangles(self, value: ArrayLike) -> None: ...
 
 def edge_topology(mesh: TriangleMesh) -> EdgeTopology: ...
 def bounding_box_diagonal(points: ArrayLike) -> float: ...
@@ -315,15 +419,71 @@ def direction_field(
     symmetry: int = ...,
     method: str = ...,
     epsilon: float = ...,
+    edge_epsilon: ArrayLike | None = None,
+    first_epsilon: float = ...,
     max_iterations: int = ...,
     tolerance: float = ...,
     energy_tolerance: float = ...,
     seed: int = ...,
+    boundary: str = ...,
+    feature_alignment: str = ...,
+    alignment_length: float = ...,
+    least_feature_angle: float = ...,
+    corner_tolerance: float = ...,
+    constraints: DirectionConstraints | None = None,
+    guide: DirectionGuide | None = None,
     progress: Progress | None = None,
 ) -> DirectionField: ...
 def vertex_directions(mesh: TriangleMesh, features: FeatureGraph, field: DirectionField) -> Float64s: ...
 def triangle_directions(mesh: TriangleMesh, field: DirectionField) -> Float64s: ...
-def surface_singularities(mesh: TriangleMesh, field: DirectionField) -> list[SurfaceSingularity]: ...
+def surface_singularities(mesh: TriangleMesh, field: DirectionField) -> SurfaceSingularities: ...
+def principal_directions(mesh: TriangleMesh, features: FeatureGraph | None = None) -> PrincipalDirections: ...
+def streamlines(
+    mesh: TriangleMesh,
+    features: FeatureGraph,
+    field: DirectionField,
+    singularities: SurfaceSingularities,
+    triangles: ArrayLike,
+    directions: ArrayLike,
+    weights: ArrayLike | None = None,
+    *,
+    max_length: float = ...,
+    both_ways: bool = ...,
+    stop_at_features: bool = ...,
+    singular_radius: float = ...,
+) -> list[Streamline]: ...
+def separatrices(
+    mesh: TriangleMesh,
+    features: FeatureGraph,
+    field: DirectionField,
+    singularities: SurfaceSingularities,
+    *,
+    max_length: float = ...,
+    stop_at_features: bool = ...,
+    singular_radius: float = ...,
+    progress: Progress | None = None,
+) -> list[Streamline]: ...
+def even_streamlines(
+    mesh: TriangleMesh,
+    features: FeatureGraph,
+    field: DirectionField,
+    singularities: SurfaceSingularities,
+    *,
+    spacing: float = ...,
+    stop_ratio: float = ...,
+    min_length: float = ...,
+    max_length: float = ...,
+    both_ways: bool = ...,
+    stop_at_features: bool = ...,
+    singular_radius: float = ...,
+    progress: Progress | None = None,
+) -> list[Streamline]: ...
+def disk_renormalised_energy(points: ArrayLike) -> float: ...
+def disk_polygon_energy(d: int, r: float) -> float: ...
+def disk_polygon_radius(d: int) -> float: ...
+def logarithmic_energy(points: ArrayLike) -> float: ...
+def sphere_renormalised_energy(points: ArrayLike) -> float: ...
+def asymptotic_energy(points: int, renormalised_energy: float, epsilon: float) -> float: ...
 
 # ---- volume
 

@@ -27,7 +27,16 @@ from .cli_options import (
 )
 from .console import log
 from .errors import InvalidInput
-from .options import BOUNDARIES, METHODS, REPRESENTATIONS, SOLVERS, FieldOptions, MeshOptions, SurfaceFieldOptions
+from .options import (
+    ALIGNMENTS,
+    BOUNDARIES,
+    METHODS,
+    REPRESENTATIONS,
+    SOLVERS,
+    FieldOptions,
+    MeshOptions,
+    SurfaceFieldOptions,
+)
 from .supervise import run_supervised
 
 app = typer.Typer(
@@ -139,11 +148,18 @@ def surface_field(
         int, typer.Option(metavar="N", help="N of the N-direction field; 4: crosses.")
     ] = _SURFACE.symmetry,
     method: Annotated[
-        str, typer.Option(metavar=choices(METHODS), help="gl: Ginzburg-Landau; eigen: smoothest eigenvector.")
+        str,
+        typer.Option(
+            metavar=choices(METHODS), help="gl: Ginzburg-Landau; mbo: diffusion, faster; eigen: smoothest eigenvector."
+        ),
     ] = _SURFACE.method,
     epsilon: Annotated[
         float, typer.Option(metavar="E", help="Coherence length, input unit; 0: from the edge length.")
     ] = _SURFACE.epsilon,
+    boundary: Annotated[
+        str,
+        typer.Option(metavar=choices(ALIGNMENTS), help="How the field follows the rim of an open surface."),
+    ] = _SURFACE.boundary,
     features: Features = _SURFACE.features,
     feature_angle: FeatureAngle = _ANGLE,
     edge_length: EdgeLength = _SURFACE.edge_length,
@@ -154,7 +170,8 @@ def surface_field(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """N-direction field on a surface or a tet mesh's boundary. DIR gets surface.vtp, singular points, result.json."""
+    """N-direction field on a surface or a tet mesh's boundary. DIR gets surface.vtp, singular points,
+    separatrices, result.json."""
 
     def work() -> None:
         from .output import staged_folder
@@ -165,6 +182,7 @@ def surface_field(
             symmetry=symmetry,
             method=method,
             epsilon=epsilon,
+            boundary=boundary,
             seed=seed,
             **_mesh_options(features, feature_angle, edge_length, remesh, repair),
         )

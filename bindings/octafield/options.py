@@ -12,7 +12,8 @@ SOLVERS = ("default",)
 BOUNDARIES = ("aligned", "fixed", "none")
 FEATURES = ("default", "file", "angle", "none")
 LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
-METHODS = {"gl": "ginzburg_landau", "eigen": "eigenvector"}
+METHODS = {"gl": "ginzburg_landau", "mbo": "mbo", "eigen": "eigenvector"}
+ALIGNMENTS = ("strong", "weak", "none")
 
 
 def require_one_of(name: str, value: str, allowed) -> None:
@@ -64,17 +65,22 @@ class MeshOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceFieldOptions(MeshOptions):
-    """Of an N-direction field on a surface: symmetry is N, method "gl" or "eigen",
-    epsilon the coherence length (0: default)."""
+    """Of an N-direction field on a surface: symmetry is N, method "gl", "mbo" or "eigen",
+    epsilon the coherence length (0: default).
+
+    boundary: how the field follows the rim of an open surface, "strong", "weak" (singular points may sit there), "none".
+    """
 
     symmetry: int = default_of("direction_field", "symmetry")
     method: str = "gl"
     epsilon: float = default_of("direction_field", "epsilon")
+    boundary: str = default_of("direction_field", "boundary")
     seed: int = 0
 
     def __post_init__(self) -> None:
         super().__post_init__()
         require_one_of("method", self.method, METHODS)
+        require_one_of("boundary", self.boundary, ALIGNMENTS)
         _make_integer(self, "symmetry", 1, LARGEST_INT)
         _require(math.isfinite(self.epsilon) and self.epsilon >= 0, "epsilon must be positive (0: default)")
         _make_integer(self, "seed", 0, LARGEST_SEED)

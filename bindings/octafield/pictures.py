@@ -8,6 +8,7 @@ import pyvista
 from . import _core, scene
 from .pipeline import FieldResult, Problem
 from .report import Picture
+from .results import polylines
 
 MOST_CROSSES = 4000
 MOST_CUBES = 1500
@@ -21,7 +22,7 @@ TURNS = {
 
 
 def surface_cross_field(problem: Problem) -> Picture:
-    """Crosses in evenly spread triangles, feature curves, and spheres at the singular points."""
+    """Crosses in evenly spread triangles, feature curves, separatrices, and spheres at the singular points."""
     mesh, features = problem.meshed.surface, problem.meshed.features
     points = np.asarray(mesh.vertices)
     shape = scene.plotter()
@@ -30,8 +31,13 @@ def surface_cross_field(problem: Problem) -> Picture:
     scene.add_features(shape, mesh, features, 7)
     radius = 0.011 * scene.diagonal(points)
     legend = [(scene.CROSS, "cross")] + [(scene.CURVE, "feature curve")] * (len(features.edges) > 0)
+    beginnings = [_beginning(line.points, scene.diagonal(points)) for line in problem.separatrices]
+    curves = polylines([line for line in beginnings if len(line) > 1])
+    if curves.n_cells:
+        shape.add_mesh(curves.tube(radius=0.16 * radius, n_sides=8), color=scene.GREEN, lighting=False)
+        legend.append((scene.GREEN, "separatrix, for one bounding-box diagonal at most"))
     for sign, colour, word in ((1, scene.VERMILLION, "positive"), (-1, scene.BLUE, "negative")):
-        centres = np.array([s.position for s in problem.singularities if s.index * sign > 0])
+        centres = np.array([s.position for s in problem.singularities.points if s.index * sign > 0])
         if len(centres):
             shape.add_mesh(_spheres(centres, radius), color=colour, smooth_shading=True, ambient=0.3)
             legend.append((colour, f"singular point, {word} index"))
@@ -136,6 +142,12 @@ def _spheres(centres: np.ndarray, radius: float) -> pyvista.PolyData:
     return pyvista.PolyData(centres).glyph(geom=ball, scale=False, orient=False)
 
 
+def _beginning(points: np.ndarray, length: float) -> np.ndarray:
+    """The points of a polyline until it is longer than `length`."""
+    run = np.linalg.norm(np.diff(points, axis=0), axis=1).cumsum()
+    return points[: 2 + int(np.searchsorted(run, length))]
+
+
 def _kind(turns: int) -> int:
     return turns if turns in (1, -1, 0) else 2
 
@@ -168,9 +180,9 @@ def _cubes(centres: np.ndarray, quaternions: np.ndarray, size: float) -> pyvista
 
 
 def _surface_caption(problem: Problem) -> str:
-    indices = [Fraction(float(s.index)).limit_denominator(1000) for s in problem.singularities]
-    total = sum(indices, Fraction(0))
-    chi = int(_core.euler_characteristic(problem.meshed.surface))
+    found = problem.singularities
+    indices = [Fraction(float(s.index)).limit_denominator(1000) for s in found.points]
+    total, chi = sum(indices, Fraction(0)), found.euler_characteristic
     counts = ", ".join(f"{indices.count(i)} of index {_signed(i)}" for i in sorted(set(indices), reverse=True))
     points = f"{scene.counted(len(indices), 'singular point')}: {counts}" if indices else "No singular points"
     relation = "=" if total == chi else "\N{NOT EQUAL TO}"

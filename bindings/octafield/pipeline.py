@@ -18,7 +18,16 @@ from fractions import Fraction
 import numpy as np
 
 from . import _core
-from ._core import BoundaryConstraints, DirectionField, FeatureGraph, SingularGraph, TetMesh, TriangleMesh
+from ._core import (
+    BoundaryConstraints,
+    DirectionField,
+    FeatureGraph,
+    SingularGraph,
+    Streamline,
+    SurfaceSingularities,
+    TetMesh,
+    TriangleMesh,
+)
 from .inputs import naming
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import METHODS, FieldOptions, MeshOptions, SurfaceFieldOptions
@@ -49,7 +58,8 @@ class SurfaceFieldResult:
     features: FeatureGraph
     direction_field: DirectionField
     directions: np.ndarray
-    singularities: Sequence
+    singularities: SurfaceSingularities
+    separatrices: Sequence[Streamline]
     record: dict
 
 
@@ -61,7 +71,8 @@ class Problem:
     seed: int
     direction_field: DirectionField
     directions: np.ndarray  # (B, 3) per surface vertex
-    singularities: Sequence
+    singularities: SurfaceSingularities
+    separatrices: Sequence[Streamline]
     clock: PhaseClock
     peak_mb: float
 
@@ -75,7 +86,8 @@ class FieldResult:
     features: FeatureGraph
     direction_field: DirectionField
     directions: np.ndarray
-    singularities: Sequence
+    singularities: SurfaceSingularities
+    separatrices: Sequence[Streamline]
     tets: TetMesh
     constraints: BoundaryConstraints
     frames: np.ndarray
@@ -98,14 +110,14 @@ def compute_surface_field(
             symmetry=options.symmetry,
             method=METHODS[options.method],
             epsilon=options.epsilon,
+            boundary=options.boundary,
             seed=options.seed,
-            progress=forward(progress, "surface"),
+            progress=forward(progress, "surface", 0.0, 0.9),
         )
-        singularities = _core.surface_singularities(meshed.surface, field)
-        directions = np.asarray(_core.vertex_directions(meshed.surface, meshed.features, field))
+        directions, singularities, separatrices = _structure(meshed, field, progress)
     points = [
         {"position": [float(x) for x in s.position], "index": float(s.index), "boundary": bool(s.boundary)}
-        for s in singularities
+        for s in singularities.points
     ]
     record = {
         **_common_record(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
@@ -114,7 +126,7 @@ def compute_surface_field(
         "symmetry": options.symmetry,
         "method": options.method,
         "seed": options.seed,
-        **_index_summary(meshed.surface, singularities),
+        **_index_summary(singularities),
         "singularities": points,
         "energy": field.energy,
         "dirichlet_energy": field.dirichlet_energy,
@@ -125,7 +137,7 @@ def compute_surface_field(
         "residual": field.residual,
         "options": asdict(options),
     }
-    return SurfaceFieldResult(meshed.surface, meshed.features, field, directions, singularities, record)
+    return SurfaceFieldResult(meshed.surface, meshed.features, field, directions, singularities, separatrices, record)
 
 
 def compute_field(
@@ -142,11 +154,25 @@ def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None
     clock = PhaseClock(meshed.clock)
     with clock.phase("surface"):
         announce(progress, "surface")
-        field = _core.direction_field(meshed.surface, meshed.features, seed=seed, progress=forward(progress, "surface"))
-        singularities = _core.surface_singularities(meshed.surface, field)
-        directions = np.asarray(_core.vertex_directions(meshed.surface, meshed.features, field))
+        field = _core.direction_field(
+            meshed.surface, meshed.features, seed=seed, progress=forward(progress, "surface", 0.0, 0.9)
+        )
+        directions, singularities, separatrices = _structure(meshed, field, progress)
     peak = max(meshed.peak_mb, memory.megabytes())
-    return Problem(meshed, seed, field, directions, singularities, clock, peak)
+    return Problem(meshed, seed, field, directions, singularities, separatrices, clock, peak)
+
+
+def _structure(
+    meshed: MeshedInput, field: DirectionField, progress: Progress | None
+) -> tuple[np.ndarray, SurfaceSingularities, list[Streamline]]:
+    """Directions at the vertices, singular points and separatrices of a surface field."""
+    surface, features = meshed.surface, meshed.features
+    directions = np.asarray(_core.vertex_directions(surface, features, field))
+    singularities = _core.surface_singularities(surface, field)
+    separatrices = _core.separatrices(
+        surface, features, field, singularities, progress=forward(progress, "surface", 0.9, 1.0)
+    )
+    return directions, singularities, separatrices
 
 
 def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Progress | None = None) -> FieldResult:
@@ -202,7 +228,7 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
             "epsilon": problem.direction_field.epsilon,
             "iterations": problem.direction_field.iterations,
             "converged": bool(problem.direction_field.converged),
-            **_index_summary(meshed.surface, problem.singularities),
+            **_index_summary(problem.singularities),
         },
         "released_corners": len(constraints.released_corners),
         "options": asdict(replace(options, seed=problem.seed)),
@@ -213,6 +239,7 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         problem.direction_field,
         problem.directions,
         problem.singularities,
+        problem.separatrices,
         tets,
         constraints,
         frames,
@@ -240,16 +267,16 @@ def _common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> di
     }
 
 
-def _index_summary(surface: TriangleMesh, singularities: Sequence) -> dict:
+def _index_summary(singularities: SurfaceSingularities) -> dict:
     return {
-        "euler_characteristic": int(_core.euler_characteristic(surface)),
-        "index_sum": float(sum(s.index for s in singularities)),
+        "euler_characteristic": singularities.euler_characteristic,
+        "index_sum": singularities.index_sum,
     }
 
 
-def _counts_by_index(singularities: Sequence) -> dict[str, int]:
+def _counts_by_index(singularities: SurfaceSingularities) -> dict[str, int]:
     """{"1/4": 8}: how many singular points of each index, positive ones first."""
-    indices = sorted((Fraction(float(s.index)).limit_denominator(1000) for s in singularities), reverse=True)
+    indices = sorted((Fraction(float(s.index)).limit_denominator(1000) for s in singularities.points), reverse=True)
     return {("+" if index > 0 else "") + str(index): indices.count(index) for index in dict.fromkeys(indices)}
 
 

@@ -1,17 +1,19 @@
-"""The files of one run: field, singular curves, surface field, singular points, record."""
+"""The files of one run: field, singular curves, surface field, its singular points and separatrices, record."""
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from . import _core
+from ._core import Streamline
 from .output import write_json
 from .phases import PhaseClock, Progress, announce
 from .pipeline import FieldResult, SurfaceFieldResult
 
-FIELD_FILES = ("field.vtu", "singular.vtp", "surface.vtp", "surface_singularities.vtp")
-SURFACE_FILES = ("surface.vtp", "surface_singularities.vtp")
+SURFACE_FILES = ("surface.vtp", "surface_singularities.vtp", "surface_separatrices.vtp")
+FIELD_FILES = ("field.vtu", "singular.vtp", *SURFACE_FILES)
 RECORD_FILE = "result.json"
 
 
@@ -23,8 +25,7 @@ def write_field_result(result: FieldResult, folder: Path, progress: Progress | N
     with clock.phase("write"):
         _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata)
         _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata)
-        _core.write_surface_field(folder / "surface.vtp", result.surface, result.directions, metadata)
-        write_singular_points(folder / "surface_singularities.vtp", result.singularities, metadata)
+        _write_surface_files(result, folder, metadata)
     result.record["files"] = [*FIELD_FILES, RECORD_FILE]
     write_json(folder / RECORD_FILE, result.record)
 
@@ -33,10 +34,16 @@ def write_surface_result(result: SurfaceFieldResult, folder: Path, progress: Pro
     announce(progress, "write")
     metadata = _metadata(result.record)
     with _clock(result.record).phase("write"):
-        _core.write_surface_field(folder / "surface.vtp", result.surface, result.directions, metadata)
-        write_singular_points(folder / "surface_singularities.vtp", result.singularities, metadata)
+        _write_surface_files(result, folder, metadata)
     result.record["files"] = [*SURFACE_FILES, RECORD_FILE]
     write_json(folder / RECORD_FILE, result.record)
+
+
+def _write_surface_files(result: FieldResult | SurfaceFieldResult, folder: Path, metadata: dict[str, str]) -> None:
+    surface, points, curves = (folder / name for name in SURFACE_FILES)
+    _core.write_surface_field(surface, result.surface, result.directions, metadata)
+    write_singular_points(points, result.singularities.points, metadata)
+    write_streamlines(curves, result.separatrices, metadata)
 
 
 def write_singular_points(path: Path, singularities, metadata: dict[str, str]) -> None:
@@ -51,18 +58,47 @@ def write_singular_points(path: Path, singularities, metadata: dict[str, str]) -
     poly.point_data["triangle"] = np.array([s.triangle for s in singularities], np.int32)
     poly.point_data["vertex"] = np.array([s.vertex for s in singularities], np.int32)
     poly.point_data["boundary"] = np.array([s.boundary for s in singularities], np.uint8)
+    _save(poly, path, metadata)
+
+
+def write_streamlines(path: Path, lines: Sequence[Streamline], metadata: dict[str, str]) -> None:
+    """.vtp polylines with cell data length, first_end and last_end (words, see octafield.Streamline),
+    first_singularity and last_singularity (places in the file of singular points, -1: none)."""
+    poly = polylines([line.points for line in lines])
+    poly.cell_data["length"] = np.array([line.length for line in lines], float)
+    for name in ("first_singularity", "last_singularity"):
+        poly.cell_data[name] = np.array([getattr(line, name) for line in lines], np.int32)
+    for name in ("first_end", "last_end"):
+        poly.GetCellData().AddArray(_text_array(name, [getattr(line, name) for line in lines]))
+    _save(poly, path, metadata)
+
+
+def polylines(lines: Sequence[np.ndarray]):
+    """Polylines, (n, 3) points each, as the cells of a pyvista.PolyData, in their order."""
+    import pyvista
+
+    if not lines:
+        return pyvista.PolyData()
+    counts = [len(line) for line in lines]
+    starts = np.cumsum([0, *counts[:-1]])
+    cells = [np.r_[count, np.arange(start, start + count)] for start, count in zip(starts, counts, strict=True)]
+    return pyvista.PolyData(np.concatenate(lines), lines=np.concatenate(cells))
+
+
+def _save(poly, path: Path, metadata: dict[str, str]) -> None:
     for name, text in metadata.items():
-        poly.GetFieldData().AddArray(_text_array(name, text))
+        poly.GetFieldData().AddArray(_text_array(name, [text]))
     poly.save(path)
 
 
-def _text_array(name: str, text: str):
+def _text_array(name: str, texts: Sequence[str]):
     """UTF-8, as in the other files; pyvista's own field data holds ASCII only."""
     from vtkmodules.vtkCommonCore import vtkStringArray
 
     array = vtkStringArray()
     array.SetName(name)
-    array.InsertNextValue(text)
+    for text in texts:
+        array.InsertNextValue(text)
     return array
 
 

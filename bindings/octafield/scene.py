@@ -134,7 +134,15 @@ def render(scene: pyvista.Plotter) -> bytes:
         )
     for colours in (0, 256, 64):
         data = io.BytesIO()
-        (image.quantize(colours) if colours else image).save(data, "PNG", optimize=True)
+        (_fewer_colours(image, colours) if colours else image).save(data, "PNG", optimize=True)
         if data.tell() <= MOST_BYTES:
             break
     return data.getvalue()
+
+
+def _fewer_colours(image, colours: int):
+    """`colours` that fit the picture best, found on every ninth pixel: the time is mostly theirs."""
+    from PIL import Image
+
+    sample = image.resize((-(-image.width // 3), -(-image.height // 3)), Image.Resampling.NEAREST)
+    return image.quantize(palette=sample.quantize(colours, kmeans=1), dither=Image.Dither.NONE)

@@ -31,7 +31,7 @@ def _phase(phase: str, meaning: str) -> Column:
 _PHASE_MEANINGS = {
     "read": "reading and testing the input (shared by the runs on it)",
     "mesh": "features, remeshing, tetrahedra (shared)",
-    "surface": "cross field on the surface (shared by the runs with one seed)",
+    "surface": "cross field on the surface, its singular points and separatrices (shared by the runs with one seed)",
     "smooth": "boundary constraints, start and smoothing",
     "analyse": "singular curves, alignment, energy",
     "write": "the files of the run",

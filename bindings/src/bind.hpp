@@ -13,6 +13,10 @@ void bind_su2(pybind11::module_& module);
 void bind_metrics(pybind11::module_& module);
 void bind_surface_types(pybind11::module_& module);
 void bind_surface(pybind11::module_& module);
+void bind_direction_field_types(pybind11::module_& module);
+void bind_direction_fields(pybind11::module_& module);
+void bind_streamlines(pybind11::module_& module);
+void bind_renormalised_energy(pybind11::module_& module);
 void bind_volume_types(pybind11::module_& module);
 void bind_volume(pybind11::module_& module);
 

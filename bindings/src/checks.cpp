@@ -126,6 +126,47 @@ void check(const surface::DirectionField& field, const surface::TriangleMesh& me
         "a value is not finite", "non_finite");
 }
 
+void check(const surface::DirectionConstraints& constraints, const surface::TriangleMesh& mesh) {
+    const auto weights = [](const Eigen::VectorXd& given, std::int64_t rows, std::string_view name,
+                            std::string_view per) {
+        if (given.size() > 0) require_rows(given.size(), rows, name, per);
+        require_none(
+            given.size(), [&](auto i) { return !(given[i] > 0); }, name, "a weight that is not above 0",
+            "option_out_of_range");
+    };
+    const auto edges = constraints.edges.rows();
+    const auto vertices = static_cast<std::int64_t>(constraints.vertices.size());
+    check_edges(constraints.edges, mesh, "constraints.edges");
+    require_ids(constraints.vertices, mesh.vertices.rows(), "constraints.vertices");
+    check_vectors(constraints.edge_directions, edges, "constraints.edge_directions", "edge");
+    check_vectors(constraints.vertex_directions, vertices, "constraints.vertex_directions", "vertex");
+    weights(constraints.edge_weights, edges, "constraints.edge_weights", "edge");
+    weights(constraints.vertex_weights, vertices, "constraints.vertex_weights", "vertex");
+}
+
+void check(const surface::DirectionGuide& guide, const surface::TriangleMesh& mesh) {
+    finite(guide.length, "guide.length");
+    if (guide.directions.rows() == 0 && guide.weights.size() == 0) return;
+    check_vectors(guide.directions, mesh.triangles.rows(), "guide.directions", "triangle");
+    if (guide.weights.size() == 0) return;
+    require_rows(guide.weights.size(), mesh.triangles.rows(), "guide.weights", "triangle");
+    require_finite(guide.weights, "guide.weights");
+}
+
+void check(const surface::SurfaceSingularities& singularities, const surface::TriangleMesh& mesh) {
+    // Inside a triangle a linear interpolant turns once at most; some room for points that stand for several.
+    constexpr int most_turns = 1000;
+    const auto lost = [&](auto i) {
+        const auto& p = singularities.points[i];
+        const bool at_vertex = p.vertex >= 0 && p.vertex < mesh.vertices.rows();
+        const bool in_triangle = p.vertex == -1 && p.triangle >= 0 && p.triangle < mesh.triangles.rows() &&
+                                 p.index_times_symmetry >= -most_turns && p.index_times_symmetry <= most_turns;
+        return !p.position.allFinite() || !(at_vertex || in_triangle);
+    };
+    require_none(static_cast<std::int64_t>(singularities.points.size()), lost, "singularities.points",
+                 "a point that is not on the mesh", "wrong_mesh");
+}
+
 void check(const volume::BoundarySurface& boundary, Index vertex_count) {
     check(boundary.mesh, false);
     const auto& map = boundary.vertex_map;
@@ -164,8 +205,8 @@ void check(const volume::SingularGraph& graph) {
         throw InvalidInput("graph.points: fewer rows than singular triangles", "wrong_shape");
 }
 
-void check_vectors(const Points& vectors, std::int64_t rows, std::string_view name) {
-    require_rows(vectors.rows(), rows, name, "vertex");
+void check_vectors(const Points& vectors, std::int64_t rows, std::string_view name, std::string_view per) {
+    require_rows(vectors.rows(), rows, name, per);
     require_finite(vectors, name);
 }
 

@@ -8,6 +8,7 @@
 #include "arrays.hpp"
 #include "octafield/surface/direction_field.hpp"
 #include "octafield/surface/features.hpp"
+#include "octafield/surface/surface_singularities.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/singularities.hpp"
@@ -29,6 +30,15 @@ void check_edges(const Edges& edges, const surface::TriangleMesh& mesh, std::str
 // The field's edges are those of the mesh.
 void check(const surface::DirectionField& field, const surface::TriangleMesh& mesh);
 
+// Edges are edges of the mesh, vertices its vertices; one finite direction each. The solver tests the rest.
+void check(const surface::DirectionConstraints& constraints, const surface::TriangleMesh& mesh);
+
+// Nothing, or one finite direction per triangle, and one weight or none.
+void check(const surface::DirectionGuide& guide, const surface::TriangleMesh& mesh);
+
+// Every point is finite and in a triangle or at a vertex of the mesh, with an index that a field can have there.
+void check(const surface::SurfaceSingularities& singularities, const surface::TriangleMesh& mesh);
+
 // vertex_map: one ascending tet-mesh id in [0, vertex_count) per boundary vertex.
 void check(const volume::BoundarySurface& boundary, Index vertex_count);
 
@@ -37,8 +47,8 @@ void check(volume::BoundaryConstraints& constraints, Index vertex_count);
 
 void check(const volume::SingularGraph& graph);
 
-// (n, 3) finite rows.
-void check_vectors(const Points& vectors, std::int64_t rows, std::string_view name);
+// (n, 3) finite rows, one per `per`.
+void check_vectors(const Points& vectors, std::int64_t rows, std::string_view name, std::string_view per = "vertex");
 
 // Rows of unit length within 1e-6, which are then normalised. rows < 0: any number.
 void check_unit(Quaternions& quaternions, std::int64_t rows, std::string_view name);

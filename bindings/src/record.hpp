@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "views.hpp"
+#include "words.hpp"
 
 namespace octafield::bindings {
 
-// Array fields are numpy views and can be set. Numbers and strings can be set. Nested structs and lists of things are
-// given to the constructor and read afterwards.
+// Array fields are numpy views and can be set. Numbers, strings and enumerations (as words) can be set. Nested structs
+// and lists of things are given to the constructor and read afterwards.
 template <class T>
 class Record {
 public:
@@ -22,7 +23,8 @@ public:
     template <class Member>
     Record& field(const char* name, Member T::*member, const char* doc) {
         py::cpp_function get = getter(member);
-        if constexpr (ArrayType<Member> || std::is_arithmetic_v<Member> || std::is_same_v<Member, std::string>) {
+        if constexpr (ArrayType<Member> || std::is_arithmetic_v<Member> || std::is_enum_v<Member> ||
+                      std::is_same_v<Member, std::string>) {
             const auto set = [name, member](T& self, const py::object& value) { assign(self, name, member, value); };
             class_.def_property(name, get, py::cpp_function(set, py::is_method(class_)), doc);
         } else {
@@ -76,6 +78,8 @@ private:
                         return arrays;
                     },
                     method};
+        else if constexpr (std::is_enum_v<Member>)
+            return {[member](const T& self) { return to_word(self.*member); }, method};
         else if constexpr (std::is_class_v<Member> && !std::is_same_v<Member, std::string>)
             return {[member](T& self) -> Member& { return self.*member; }, method,
                     py::return_value_policy::reference_internal};
@@ -92,7 +96,10 @@ private:
                 (self.*member).push_back(from_python<std::vector<Index>>(ids, name));
         } else {
             try {
-                self.*member = value.template cast<Member>();
+                if constexpr (std::is_enum_v<Member>)
+                    self.*member = from_word<Member>(value.template cast<std::string>(), name);
+                else
+                    self.*member = value.template cast<Member>();
             } catch (const py::cast_error&) {
                 throw py::type_error(std::string(name) + ": a value of type " + Py_TYPE(value.ptr())->tp_name +
                                      " does not fit");

@@ -1,16 +1,14 @@
-// Functions of surface/.
+// Functions of surface/ on meshes; those on direction fields are in direction_fields.cpp and streamlines.cpp.
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "checks.hpp"
 #include "interruptible.hpp"
-#include "octafield/surface/direction_field.hpp"
 #include "octafield/surface/read_write.hpp"
 #include "octafield/surface/remesh.hpp"
 #include "octafield/surface/repair.hpp"
 #include "octafield/surface/validate.hpp"
-#include "words.hpp"
 
 namespace octafield::bindings {
 
@@ -201,83 +199,6 @@ void bind_remesh(py::module_& m) {
         "target is too coarse for the shape.");
 }
 
-void bind_fields(py::module_& m) {
-    const DirectionFieldOptions defaults;
-    m.def(
-        "direction_field",
-        [](const TriangleMesh& mesh, const FeatureGraph& features, int symmetry, const std::string& method,
-           double epsilon, int max_iterations, double tolerance, double energy_tolerance, std::uint64_t seed,
-           const std::optional<ProgressCallable>& progress) {
-            DirectionFieldOptions options;
-            options.symmetry = symmetry;
-            options.method = from_word<DirectionFieldMethod>(method, "method");
-            options.epsilon = finite(epsilon, "epsilon");
-            options.max_iterations = max_iterations;
-            options.tolerance = finite(tolerance, "tolerance");
-            options.energy_tolerance = finite(energy_tolerance, "energy_tolerance");
-            options.seed = seed;
-            return run_interruptible(
-                [mesh = mesh, features = features, options](Job& job) mutable {
-                    check(mesh);
-                    check(features, mesh);
-                    return direction_field(mesh, features, options, job.progress());
-                },
-                progress);
-        },
-        "mesh"_a, "features"_a, py::kw_only(), "symmetry"_a = defaults.symmetry, "method"_a = to_word(defaults.method),
-        "epsilon"_a = defaults.epsilon, "max_iterations"_a = defaults.max_iterations,
-        "tolerance"_a = defaults.tolerance, "energy_tolerance"_a = defaults.energy_tolerance, "seed"_a = defaults.seed,
-        "progress"_a = py::none(),
-        "N-direction field by Ginzburg-Landau on Crouzeix-Raviart elements (Beaufort et al. 2017), aligned to the "
-        "feature edges, as a "
-        "DirectionField. symmetry: N, 4 for crosses; method: \"ginzburg_landau\" or \"eigenvector\" (the start itself, "
-        "Knoeppel et al. 2013); "
-        "epsilon: coherence length, input unit, 0 means 2 mean edge lengths, at most a tenth of the bounding box's "
-        "diagonal; "
-        "tolerance: on the residual; energy_tolerance: relative decrease of a round at which to stop; seed: of the "
-        "random start, matters "
-        "without features only. "
-        "Cancelled by progress, the best state is returned with converged False. Raises InvalidInput, GeometryError, "
-        "SolverError.");
-    m.def(
-        "vertex_directions",
-        [](const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field) {
-            return own(run_interruptible([mesh = mesh, features = features, field](Job&) mutable {
-                check(mesh);
-                check(features, mesh);
-                check(field, mesh);
-                return vertex_directions(mesh, features, field);
-            }));
-        },
-        "mesh"_a, "features"_a, "field"_a,
-        "(V, 3) unit rows: one representative direction per vertex, orthogonal to vertex_normals(mesh), following "
-        "feature curves.");
-    m.def(
-        "triangle_directions",
-        [](const TriangleMesh& mesh, const DirectionField& field) {
-            return own(run_interruptible([mesh = mesh, field](Job&) {
-                check(mesh);
-                check(field, mesh);
-                return triangle_directions(mesh, field);
-            }));
-        },
-        "mesh"_a, "field"_a,
-        "(F, 3) unit rows: one representative direction per triangle, in its plane, at the centroid.");
-    m.def(
-        "surface_singularities",
-        [](const TriangleMesh& mesh, const DirectionField& field) {
-            return run_interruptible([mesh = mesh, field](Job&) {
-                check(mesh);
-                check(field, mesh);
-                return surface_singularities(mesh, field);
-            });
-        },
-        "mesh"_a, "field"_a,
-        "All triangles and vertices where the field has an index other than 0, as a list of SurfaceSingularity. The "
-        "indices add up to the "
-        "Euler characteristic.");
-}
-
 }  // namespace
 
 void bind_surface(py::module_& m) {
@@ -286,7 +207,9 @@ void bind_surface(py::module_& m) {
     bind_validation(m);
     bind_features(m);
     bind_remesh(m);
-    bind_fields(m);
+    bind_direction_fields(m);
+    bind_streamlines(m);
+    bind_renormalised_energy(m);
 }
 
 }  // namespace octafield::bindings

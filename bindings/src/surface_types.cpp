@@ -1,6 +1,5 @@
-// Structs of surface/ as Python classes.
+// Structs of surface/ as Python classes; those of direction fields are in direction_field_types.cpp.
 #include "bind.hpp"
-#include "octafield/surface/direction_field.hpp"
 #include "octafield/surface/remesh.hpp"
 #include "octafield/surface/repair.hpp"
 #include "octafield/surface/validate.hpp"
@@ -69,50 +68,12 @@ void bind_results(py::module_& m) {
         .finish([](const RemeshResult& r) { return repr_mesh(r.mesh) + ", " + repr_features(r.features); });
 }
 
-void bind_fields(py::module_& m) {
-    Record<DirectionField>(
-        m, "DirectionField",
-        "An N-direction field with one complex value exp(i N theta) per edge, theta the angle of the direction "
-        "from the edge (lower to higher vertex id).")
-        .field("symmetry", &DirectionField::symmetry, "N: 4 for a cross field.")
-        .field("topology", &DirectionField::topology, "EdgeTopology of the mesh the field lives on.")
-        .field("values", &DirectionField::values, "(E,) complex128, one value per edge in the edge's own frame.")
-        .field("epsilon", &DirectionField::epsilon, "Coherence length used, input unit.")
-        .field("energy", &DirectionField::energy, "Ginzburg-Landau energy, dimensionless.")
-        .field("dirichlet_energy", &DirectionField::dirichlet_energy, "Its Dirichlet part, 1/2 int |grad f|^2.")
-        .field("iterations", &DirectionField::iterations, "Descent steps done.")
-        .field("converged", &DirectionField::converged,
-               "Whether the residual or the decrease of the energy went below its tolerance.")
-        .field("residual", &DirectionField::residual, "Relative residual at the end.")
-        .field("energy_history", &DirectionField::energy_history,
-               "float64 energies at the start and after each iteration.")
-        .finish([](const DirectionField& f) {
-            return "symmetry " + std::to_string(f.symmetry) + ", " + count(f.values.rows(), "edge") + ", energy " +
-                   py::str(py::float_(f.energy)).cast<std::string>() + ", " +
-                   (f.converged ? "converged" : "not converged");
-        });
-
-    Record<SurfaceSingularity>(m, "SurfaceSingularity", "A singular point of a direction field.")
-        .field("position", &SurfaceSingularity::position,
-               "(3,) float64: the zero of the interpolant in a triangle, or the vertex.")
-        .field("index_times_symmetry", &SurfaceSingularity::index_times_symmetry, "N times the index, an integer.")
-        .field("index", &SurfaceSingularity::index,
-               "Turns of the direction round the point: +1/4 is valence 3 when N = 4.")
-        .field("triangle", &SurfaceSingularity::triangle, "Triangle id; -1 when at a vertex.")
-        .field("vertex", &SurfaceSingularity::vertex, "Vertex id; -1 when inside a triangle.")
-        .field("boundary", &SurfaceSingularity::boundary, "Whether it is a vertex of the mesh's boundary.")
-        .finish([](const SurfaceSingularity& s) {
-            return "index " + py::str(py::float_(s.index)).cast<std::string>() + ", " +
-                   (s.vertex >= 0 ? "vertex " + std::to_string(s.vertex) : "triangle " + std::to_string(s.triangle));
-        });
-}
-
 }  // namespace
 
 void bind_surface_types(py::module_& m) {
     bind_meshes(m);
     bind_results(m);
-    bind_fields(m);
+    bind_direction_field_types(m);
 }
 
 }  // namespace octafield::bindings

@@ -9,6 +9,7 @@
 
 #include "octafield/error.hpp"
 #include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/streamlines.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/smooth.hpp"
 
@@ -20,8 +21,28 @@ struct Words;
 template <>
 struct Words<surface::DirectionFieldMethod> {
     using E = surface::DirectionFieldMethod;
-    static constexpr std::array<std::pair<const char*, E>, 2> list{
-        {{"ginzburg_landau", E::ginzburg_landau}, {"eigenvector", E::eigenvector}}};
+    static constexpr std::array<std::pair<const char*, E>, 3> list{
+        {{"ginzburg_landau", E::ginzburg_landau}, {"eigenvector", E::eigenvector}, {"mbo", E::mbo}}};
+};
+
+template <>
+struct Words<surface::Alignment> {
+    using E = surface::Alignment;
+    static constexpr std::array<std::pair<const char*, E>, 3> list{
+        {{"strong", E::strong}, {"weak", E::weak}, {"none", E::none}}};
+};
+
+template <>
+struct Words<surface::StreamlineEnd> {
+    using E = surface::StreamlineEnd;
+    static constexpr std::array<std::pair<const char*, E>, 8> list{{{"singularity", E::singularity},
+                                                                    {"boundary", E::boundary},
+                                                                    {"feature", E::feature},
+                                                                    {"closed", E::closed},
+                                                                    {"length", E::length},
+                                                                    {"near_line", E::near_line},
+                                                                    {"seed", E::seed},
+                                                                    {"stuck", E::stuck}}};
 };
 
 template <>

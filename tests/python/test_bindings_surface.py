@@ -114,9 +114,9 @@ def test_remeshing_keeps_shape_and_corners(box_surface, box_features):
 def test_cross_field_of_the_cube_has_eight_corners(box_surface, box_features, box_field):
     assert box_field.symmetry == 4 and box_field.converged and box_field.values.dtype == np.complex128
     np.testing.assert_array_equal(box_field.topology.edges, edges_of(box_surface))
-    points = of.surface_singularities(box_surface, box_field)
-    assert sum(p.index for p in points) == pytest.approx(2)
-    assert [p.index_times_symmetry for p in points] == [1] * 8
+    found = of.surface_singularities(box_surface, box_field)
+    assert found.index_sum == pytest.approx(2) and found.euler_characteristic == 2 and found.agree
+    assert [p.index_times_symmetry for p in found.points] == [1] * 8 and found.boundary_deviation == 0
     features = {tuple(e) for e in box_features.edges.tolist()}
     on_features = [tuple(e) in features for e in box_field.topology.edges.tolist()]
     np.testing.assert_allclose(box_field.values[on_features], 1)
@@ -131,10 +131,12 @@ def test_directions_are_unit_tangents(box_surface, box_features, box_field):
     np.testing.assert_allclose(np.sum(per_vertex * of.vertex_normals(box_surface), axis=1), 0, atol=1e-12)
 
 
-@pytest.mark.parametrize("symmetry, method", [(4, "eigenvector"), (6, "eigenvector"), (4, "ginzburg_landau")])
+@pytest.mark.parametrize("symmetry, method", [
+    (4, "eigenvector"), (6, "eigenvector"), (4, "ginzburg_landau"), (6, "mbo"), (1, "mbo")])
 def test_indices_on_the_sphere_add_up_to_two(sphere, symmetry, method):
     field = of.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
-    assert sum(p.index for p in of.surface_singularities(sphere, field)) == pytest.approx(2)
+    found = of.surface_singularities(sphere, field)
+    assert sum(p.index for p in found.points) == pytest.approx(2) and found.agree
     again = of.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
     assert again.values.tobytes() == field.values.tobytes()
 
@@ -157,6 +159,9 @@ ON_MESH = [of.edge_topology, of.signed_volume, of.triangle_areas, of.triangle_no
            lambda m: of.remesh(m, NONE), lambda m: of.direction_field(m, NONE), lambda m: of.sector_normals(m, NONE),
            lambda m: of.vertex_directions(m, NONE, of.DirectionField()), lambda m: of.triangle_directions(m, of.DirectionField()),
            lambda m: of.surface_singularities(m, of.DirectionField()), lambda m: of.write_surface(m, "never.off"),
+           of.principal_directions, lambda m: of.separatrices(m, NONE, of.DirectionField(), of.SurfaceSingularities()),
+           lambda m: of.even_streamlines(m, NONE, of.DirectionField(), of.SurfaceSingularities()),
+           lambda m: of.streamlines(m, NONE, of.DirectionField(), of.SurfaceSingularities(), [], []),
            lambda m: of.write_surface_field("never.vtp", m, np.eye(3))]
 
 
@@ -175,7 +180,8 @@ def test_coordinates_that_are_not_finite_are_refused_everywhere(call):
 
 
 @pytest.mark.parametrize("call", [
-    of.mean_edge_length, of.detect_features, of.tetrahedralize, lambda m: of.remesh(m, NONE), lambda m: of.direction_field(m, NONE)])
+    of.mean_edge_length, of.detect_features, of.tetrahedralize, of.principal_directions, lambda m: of.remesh(m, NONE),
+    lambda m: of.direction_field(m, NONE)])
 def test_an_empty_mesh_is_refused_where_nothing_can_be_said(call):
     with pytest.raises(of.InvalidInput):
         call(of.TriangleMesh())
@@ -209,7 +215,7 @@ def test_options_out_of_range_are_refused(box_surface, box_features):
     for options in ({"symmetry": 0}, {"epsilon": -1.0}, {"epsilon": np.nan}, {"tolerance": np.inf}, {"max_iterations": -1}):
         with pytest.raises(of.InvalidInput):
             of.direction_field(box_surface, box_features, **options)
-    with pytest.raises(of.InvalidInput, match="ginzburg_landau, eigenvector") as caught:
+    with pytest.raises(of.InvalidInput, match="ginzburg_landau, eigenvector, mbo") as caught:
         of.direction_field(box_surface, box_features, method="gl")
     assert caught.value.kind == "unknown_word"
     for options in ({"edge_length": -1.0}, {"edge_length": np.nan}, {"iterations": 0}):

@@ -11,7 +11,8 @@ import octafield as of
 
 POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
 CLASSES = [of.TriangleMesh, of.EdgeTopology, of.FeatureGraph, of.Defect, of.RepairResult, of.RemeshResult, of.DirectionField,
-           of.SurfaceSingularity, of.TetMesh, of.BoundarySurface, of.BoundaryConstraints, of.SectorNormals, of.SmoothResult,
+           of.DirectionConstraints, of.DirectionGuide, of.SurfaceSingularity, of.SurfaceSingularities, of.Streamline,
+           of.PrincipalDirections, of.TetMesh, of.BoundarySurface, of.BoundaryConstraints, of.SectorNormals, of.SmoothResult,
            of.SingularTriangle, of.SingularGraph]
 
 
@@ -104,6 +105,28 @@ def test_pickles_hold_every_field():
     np.testing.assert_array_equal(again.points, graph.points)
 
 
+def test_enumerations_are_words():
+    line = of.Streamline([[0, 0, 0], [1, 0, 0]], [5], 1.0, "singularity", "boundary", 3)
+    assert repr(line) == "Streamline(2 points, length 1.0, singularity to boundary)" and line.last_singularity == -1
+    again = pickle.loads(pickle.dumps(line))
+    assert (again.first_end, again.last_end, again.first_singularity) == ("singularity", "boundary", 3)
+    line.last_end = "closed"
+    assert line.last_end == "closed"
+    with pytest.raises(of.InvalidInput, match="last_end: unknown word 'far'") as caught:
+        line.last_end = "far"
+    assert caught.value.kind == "unknown_word" and line.last_end == "closed"
+    with pytest.raises(TypeError, match="last_end"):
+        line.last_end = 3
+
+
+def test_singular_points_are_kept_with_their_sums():
+    point = of.SurfaceSingularity([1, 2, 3], 1, 0.25, 7, -1, False)
+    found = pickle.loads(pickle.dumps(of.SurfaceSingularities([point, point], 0.5, 2, False, 0.1)))
+    assert [list(p.position) for p in found.points] == [[1, 2, 3]] * 2 and found.points[1].triangle == 7
+    assert (found.index_sum, found.euler_characteristic, found.agree, found.boundary_deviation) == (0.5, 2, False, 0.1)
+    assert repr(found) == "SurfaceSingularities(2 points, index sum 0.5, Euler characteristic 2)"
+
+
 def test_reprs_count():
     assert repr(of.TriangleMesh(POINTS, [[0, 2, 1]])) == "TriangleMesh(4 vertices, 1 triangle)"
     assert repr(of.TetMesh(POINTS, [[0, 1, 2, 3]])) == "TetMesh(4 vertices, 1 tet)"
@@ -118,9 +141,10 @@ def test_reprs_count():
     lambda: of.TriangleMesh(POINTS, [[0, 1], [2]]), lambda: of.TriangleMesh(np.array(POINTS) * 1j, []),
     lambda: of.TetMesh(POINTS, [[0, 1, 2]]), lambda: of.FeatureGraph([0, 1], []), lambda: of.FeatureGraph([], [[0]]),
     lambda: of.BoundaryConstraints(kind=[300]), lambda: of.SurfaceSingularity([1, 2]),
-    lambda: of.DirectionField(values=["a"]), lambda: of.SingularGraph(curves=[[0.5]])])
+    lambda: of.DirectionConstraints(edges=[[0, 1, 2]]), lambda: of.PrincipalDirections(curvatures=[[0, 0, 1]]),
+    lambda: of.DirectionGuide(np.eye(2)), lambda: of.Streamline(triangles=[[0]]), lambda: of.DirectionField(values=["a"]), lambda: of.SingularGraph(curves=[[0.5]])])
 def test_wrong_arrays_are_refused_with_the_field_named(build):
-    with pytest.raises(of.InvalidInput, match=r"^(vertices|triangles|tets|edges|corners|kind|position|values|curves): "):
+    with pytest.raises(of.InvalidInput, match=r"^(vertices|triangles|tets|edges|corners|kind|position|values|curves|curvatures|directions): "):
         build()
 
 

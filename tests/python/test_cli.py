@@ -16,6 +16,7 @@ from pipeline_fixtures import SHARED_SURFACES, octafield, shared, write_cube, wr
 
 from octafield.console import error_code
 from octafield.errors import SolverError
+from octafield.results import SURFACE_FILES
 
 FAST = ("--edge-length", "0.4")
 
@@ -37,7 +38,7 @@ def leftovers(folder):
 def test_field_writes_its_files_and_the_same_record_to_json(tmp_path):
     out, figures = tmp_path / "out", tmp_path / "figures.json"
     octafield("field", write_cube(tmp_path), "-o", out, *FAST, "--json", figures, check=0)
-    names = {"field.vtu", "singular.vtp", "surface.vtp", "surface_singularities.vtp", "result.json"}
+    names = {"field.vtu", "singular.vtp", *SURFACE_FILES, "result.json"}
     assert {path.name for path in out.iterdir()} == names
     record = json.loads(figures.read_text())
     assert record == json.loads((out / "result.json").read_text())
@@ -66,6 +67,36 @@ def test_surface_field_reports_indices(tmp_path):
     assert {"triangles", "singularities", "energy", "epsilon", "iterations", "wall_seconds", "cpu_seconds"} <= set(
         record
     )
+
+
+@pytest.mark.parametrize("method", ["gl", "mbo", "eigen"])
+def test_surface_field_writes_singular_points_and_separatrices_by_every_method(tmp_path, method):
+    out = tmp_path / "out"
+    octafield("surface-field", write_sphere(tmp_path), "-o", out, "--method", method, "--no-remesh", "-q", check=0)
+    assert {path.name for path in out.iterdir()} == {*SURFACE_FILES, "result.json"}
+    record = json.loads((out / "result.json").read_text())
+    assert record["method"] == method and record["index_sum"] == pytest.approx(2)
+    points, curves = (pyvista.read(out / name) for name in SURFACE_FILES[1:])
+    assert curves.n_cells == sum(round(4 - 4 * index) for index in points.point_data["index"])  # N - k each
+    first = curves.cell_data["first_singularity"]
+    starts = [curves.get_cell(i).points[0] for i in range(curves.n_cells)]
+    np.testing.assert_allclose(starts, points.points[first], atol=1e-6)
+    assert set(curves.cell_data["first_end"]) == {"singularity"}
+    assert set(curves.cell_data["last_end"]) <= {"singularity", "length"}
+    assert curves.compute_cell_sizes()["Length"] == pytest.approx(curves.cell_data["length"], rel=1e-5)
+
+
+def test_the_rim_of_an_open_surface_is_followed_as_asked(tmp_path):
+    disk = tmp_path / "disk.ply"
+    pyvista.Disc(inner=0, r_res=8, c_res=32).triangulate().clean().save(disk)
+    energies = {}
+    for boundary in ("strong", "weak", "none"):
+        arguments = ("--boundary", boundary, "--no-remesh", "--json", "-")
+        record = json.loads(octafield("surface-field", disk, "-o", tmp_path / boundary, *arguments, check=0).stdout)
+        assert record["index_sum"] == pytest.approx(1) and record["options"]["boundary"] == boundary
+        energies[boundary] = record["energy"]
+    assert energies["strong"] > energies["weak"] > energies["none"] == pytest.approx(0, abs=1e-6)
+    octafield("surface-field", disk, "-o", tmp_path / "firm", "--boundary", "firm", check=2)
 
 
 def test_info_passes_a_sound_surface_and_names_the_failure_of_a_bad_one(tmp_path):
@@ -172,7 +203,7 @@ def test_file_names_beyond_ascii_are_kept_in_every_file(tmp_path):
     octafield("field", path, "-o", tmp_path / "räumlich", *FAST, check=0)
     volume = pyvista.read(tmp_path / "räumlich" / "field.vtu").GetFieldData().GetAbstractArray("input")
     assert bytes(np.asarray(volume)).rstrip(b"\0").decode() == str(path)
-    for name in ("singular.vtp", "surface.vtp", "surface_singularities.vtp"):
+    for name in ("singular.vtp", *SURFACE_FILES):
         words = pyvista.read(tmp_path / "räumlich" / name).GetFieldData().GetAbstractArray("input")
         assert words.GetValue(0) == str(path), name
 

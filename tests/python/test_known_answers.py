@@ -16,7 +16,7 @@ SOUND = [entry for entry in json.loads(MANIFEST.read_text()) if entry["what"] ==
 
 def test_the_cross_field_of_a_sphere_has_eight_points_of_index_one_quarter(tmp_path):
     found = compute_surface_field(write_sphere(tmp_path), SurfaceFieldOptions(edge_length=0.2))
-    assert [s.index for s in found.singularities] == [0.25] * 8
+    assert [s.index for s in found.singularities.points] == [0.25] * 8
     assert found.record["index_sum"] == found.record["euler_characteristic"] == 2
 
 

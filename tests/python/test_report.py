@@ -117,6 +117,14 @@ def test_captions_state_the_index_sum_and_the_table_the_energy(comparison, page)
         assert f"{row['energy']:.6g}" in page
 
 
+def test_separatrices_are_drawn_where_there_are_any(comparison, page):
+    drawn = [section for section in page.split("<h2 ")[1:] if "separatrix" in section]
+    assert len(drawn) == 1 and "sphere.ply" in drawn[0]  # those of the cube are its edges
+    for row in comparison.rows:
+        curves = pyvista.read(comparison.folder / row["folder"] / "surface_separatrices.vtp")
+        assert (curves.n_cells > 0) == row["input"].endswith("sphere.ply")
+
+
 def test_a_new_comparison_replaces_the_old_one_only(comparison, tmp_path):
     out, cube = tmp_path / "out", write_cube(tmp_path)
     compare(cube, out, options=COARSE)
