@@ -1,0 +1,109 @@
+"""Cross fields inside a jagged coast: Ginzburg-Landau with several coherence lengths, MBO and the eigenvector / harmonic field, strong and weak boundary.
+
+    python studies/surface_coast.py -o DIR [--edge 0.012] [--levels 6] [--seed 4]
+
+The coast is a random fractal (midpoint displacement of an octagon, 2^levels pieces per side), resampled at the mesh width; the thesis's Florida keys are not
+public. Table: CPU seconds, singular points inside and on the boundary, and the Dirichlet energy of each field at length 1 (one direction per triangle, as
+in benchmarks/surface_fields.py), which compares fields of different kinds. Strong means weak where the coast turns too sharply for any field.
+"""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from study_output import markdown_table, new_figure
+from surface_meshes import region
+from surface_pictures import save_drawing
+
+import octafield
+from octafield.plots import PALETTE
+
+sys.path.insert(0, str(Path(__file__).parent / "benchmarks"))
+from surface_fields import common_energy  # noqa: E402
+
+
+def coast(levels: int, seed: int, roughness: float = 0.27) -> np.ndarray:
+    generator = np.random.default_rng(seed)
+    angle = 2 * np.pi * np.arange(8) / 8
+    points = np.column_stack([np.cos(angle), 0.8 * np.sin(angle)])
+    for _ in range(levels):
+        step = np.roll(points, -1, axis=0) - points
+        shift = roughness * generator.uniform(-1, 1, len(points))[:, None] * np.column_stack([-step[:, 1], step[:, 0]])
+        points = np.stack([points, points + step / 2 + shift], axis=1).reshape(-1, 2)
+    return points
+
+
+def with_edges(curve: np.ndarray, edge: float) -> np.ndarray:
+    """The curve's vertices at least an edge apart, and its long sides divided: corners stay."""
+    kept = [curve[0]]
+    for p in curve[1:]:
+        if np.linalg.norm(p - kept[-1]) > 0.8 * edge:
+            kept.append(p)
+    kept = np.array(kept)
+    pieces = [np.linspace(a, b, max(1, round(np.linalg.norm(b - a) / edge)) + 1)[:-1] for a, b in zip(kept, np.roll(kept, -1, axis=0))]
+    return np.concatenate(pieces)
+
+
+def runs(mean_edge: float) -> dict[str, dict]:
+    half = {"epsilon": mean_edge / 2}
+    return {
+        "eigenvector (harmonic)": {"method": "eigenvector"},
+        "mbo": {"method": "mbo"},
+        "ginzburg_landau, eps h/2": half,
+        "ginzburg_landau, eps 2 h": {},
+        "ginzburg_landau, eps 8 h": {"epsilon": 8 * mean_edge},
+        "ginzburg_landau, eps 2 h, weak": {"boundary": "weak"},
+        "ginzburg_landau, eps 2 h, weak, L = eps / 10": {"boundary": "weak", "alignment_length": mean_edge / 5},
+    }
+
+
+def draw(axes, mesh, features, field, singular, title: str) -> None:
+    points = np.array(mesh.vertices)[:, :2]
+    lines = octafield.even_streamlines(mesh, features, field, singular, spacing=0.045)
+    axes.add_collection(LineCollection([line.points[:, :2] for line in lines], colors=PALETTE[6], linewidths=0.45))
+    axes.add_collection(LineCollection(points[np.array(features.edges)], colors="black", linewidths=0.7))
+    for inside in (False, True):
+        for sign, color in ((1, PALETTE[1]), (-1, PALETTE[0])):
+            x = np.array([s.position for s in singular.points if s.index * sign > 0 and s.boundary != inside]).reshape(-1, 3)
+            axes.plot(x[:, 0], x[:, 1], "o", color=color, markersize=4.5 if inside else 1.5, zorder=4)
+    axes.set(aspect="equal", title=title, xlim=(-1.15, 1.15), ylim=(-0.98, 0.98))
+    axes.axis("off")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--output", type=Path, required=True)
+    parser.add_argument("--edge", type=float, default=0.012)
+    parser.add_argument("--levels", type=int, default=6)
+    parser.add_argument("--seed", type=int, default=4)
+    arguments = parser.parse_args()
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    outline = with_edges(coast(arguments.levels, arguments.seed), arguments.edge)
+    mesh = region([outline], lambda points: np.full(len(points), arguments.edge))
+    features, mean_edge = octafield.detect_features(mesh), float(octafield.mean_edge_length(mesh))
+    rows, drawn = [], {}
+    for name, options in runs(mean_edge).items():
+        start = time.process_time()
+        field = octafield.direction_field(mesh, features, **options)
+        seconds = time.process_time() - start
+        singular = octafield.surface_singularities(mesh, field)
+        inside = [s.index for s in singular.points if not s.boundary]
+        drawn[name] = (field, singular)
+        rows.append((name, f"{seconds:.2f}", sum(i > 0 for i in inside), sum(i < 0 for i in inside), len(singular.points) - len(inside),
+                     f"{singular.index_sum:g}", f"{common_energy(mesh, features, np.array(octafield.triangle_directions(mesh, field))):.1f}",
+                     f"{field.energy:.2f}", field.iterations))
+    header = ["method", "CPU s", "points inside, +", "-", "on the boundary", "index sum", "energy at length 1", "own energy", "iterations"]
+    text = f"{len(mesh.triangles):,} triangles, {len(outline):,} boundary edges, mean edge h = {mean_edge:.4f}\n\n" + markdown_table(header, rows)
+    figure, panels = new_figure(9.4, 7.4, 2, 2)
+    for axes, name in zip(panels.ravel(), ("eigenvector (harmonic)", "mbo", "ginzburg_landau, eps 2 h", "ginzburg_landau, eps 8 h")):
+        draw(axes, mesh, features, *drawn[name], name)
+    save_drawing(figure, arguments.output / "surface_coast.png")
+    (arguments.output / "summary.md").write_text(text)
+    print(text)
+
+
+if __name__ == "__main__":
+    main()

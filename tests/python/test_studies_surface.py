@@ -1,0 +1,140 @@
+"""The studies of surface fields run on small meshes, write what they say, and find the numbers derived elsewhere."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import octafield
+
+STUDIES = Path(__file__).parents[2] / "studies"
+sys.path[:0] = [str(STUDIES), str(STUDIES / "benchmarks")]
+
+import surface_fields  # noqa: E402
+import surface_meshes  # noqa: E402
+
+
+def run(script: str, output: Path, *options: str) -> Path:
+    done = subprocess.run([sys.executable, STUDIES / script, "-o", output, *options], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return output
+
+
+def rows(folder: Path, table: int) -> list[dict[str, str]]:
+    """Of the table with this number in summary.md."""
+    blocks = [block for block in (folder / "summary.md").read_text().split("\n\n") if "| ---" in block]
+    lines = [line.strip("|").split("|") for line in blocks[table].splitlines() if line.startswith("|")]
+    header = [word.strip() for word in lines[0]]
+    return [dict(zip(header, map(str.strip, line))) for line in lines[2:]]
+
+
+def is_picture(path: Path) -> bool:
+    return path.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+# ---- meshes
+
+def area(mesh) -> float:
+    return float(np.sum(octafield.triangle_areas(mesh)))
+
+
+@pytest.mark.parametrize("mesh, triangles, euler, expected", [
+    (surface_meshes.even_disk(0.1), None, 1, np.pi), (surface_meshes.sphere(8), 1280, 2, 4 * np.pi), (surface_meshes.sphere(12, "octahedron"), 1152, 2, 4 * np.pi),
+    (surface_meshes.torus(60, 30), 3600, 0, 2 * np.pi**2),
+])
+def test_meshes_are_valid_and_have_the_area_of_their_surface(mesh, triangles, euler, expected):
+    octafield.require_valid(mesh, closed=euler != 1)
+    assert octafield.euler_characteristic(mesh) == euler
+    assert triangles in (None, len(mesh.triangles))
+    assert area(mesh) == pytest.approx(expected, rel=0.02)
+
+
+def test_a_region_with_a_hole_keeps_its_corners_and_follows_the_size_asked_for():
+    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1.0]])
+    angle = np.linspace(0, 2 * np.pi, 400)
+    circle = np.column_stack([np.cos(angle), np.sin(angle)]) / 4
+    size = lambda points: 0.02 + 0.15 * abs(np.hypot(*points.T) - 0.25)
+    sides = [np.linspace(a, b, 50) for a, b in zip(corners, np.roll(corners, -1, axis=0))]
+    mesh = surface_meshes.region([surface_meshes.resampled(sides, size), surface_meshes.resampled([circle], size)], size)
+    assert octafield.euler_characteristic(mesh) == 0
+    assert area(mesh) == pytest.approx(4 - np.pi / 16, rel=2e-3)
+    points, edges = np.array(mesh.vertices), np.array(octafield.edge_topology(mesh).edges)
+    assert all(np.min(np.linalg.norm(points[:, :2] - corner, axis=1)) < 1e-12 for corner in corners)
+    ratio = np.linalg.norm(points[edges[:, 1]] - points[edges[:, 0]], axis=1) / size(points[edges].mean(axis=1)[:, :2])
+    assert 0.3 < ratio.min() and ratio.max() < 2.2 and 0.8 < np.median(ratio) < 1.2
+
+
+# ---- the common energy of the benchmark
+
+def test_common_energy_is_the_dirichlet_integral_of_smooth_fields():
+    mesh = surface_meshes.torus(120, 60)
+    middle = np.array(mesh.vertices)[np.array(mesh.triangles)].mean(axis=1)
+    along = np.column_stack([-middle[:, 1], middle[:, 0], 0 * middle[:, 0]]) / np.linalg.norm(middle[:, :2], axis=1, keepdims=True)
+    exact = 32 * np.pi**2 * (2 - np.sqrt(3))  # along the curvature lines
+    assert surface_fields.common_energy(mesh, octafield.FeatureGraph(), along) == pytest.approx(exact, rel=0.01)
+
+
+def test_common_energy_does_not_know_which_of_the_four_directions_is_given():
+    mesh = surface_meshes.torus(40, 20)
+    directions = np.array(octafield.triangle_directions(mesh, octafield.direction_field(mesh, octafield.FeatureGraph(), method="mbo")))
+    turned = np.cross(octafield.triangle_normals(mesh), directions)
+    mixed = np.where(np.arange(len(turned))[:, None] % 2 == 0, directions, turned)
+    energies = [surface_fields.common_energy(mesh, octafield.FeatureGraph(), d) for d in (directions, turned, mixed)]
+    assert energies == pytest.approx([energies[0]] * 3, rel=1e-9)
+
+
+# ---- scripts
+
+def test_disk_points_come_near_the_radius_of_theory(tmp_path):
+    run("surface_disk.py", tmp_path, "--edges", "0.04", "--epsilons", "0.07")
+    curves, measured = rows(tmp_path, 0), rows(tmp_path, 1)
+    assert [float(row["least sample of the curve"]) for row in curves] == pytest.approx([(3 / 11) ** (1 / 8), (5 / 17) ** (1 / 12)], abs=1e-3)
+    for row, radius in zip(measured, (0.850, 0.903)):
+        assert row["points"] == row["N"]
+        assert float(row["radius"]) == pytest.approx(radius, abs=0.025)
+        assert float(row["energy"]) == pytest.approx(float(row["asymptotic"]), rel=0.03)
+    assert all(is_picture(tmp_path / f"surface_disk_{name}.png") for name in ("energy", "radius", "fields"))
+
+
+def test_sphere_points_come_near_the_antiprism_and_the_icosahedron(tmp_path):
+    run("surface_sphere.py", tmp_path, "--meshes", "10", "--seeds", "1", "--epsilons", "0.15")
+    assert [float(row["at twist (degrees)"]) for row in rows(tmp_path, 0)] == [45, 45]
+    for row in rows(tmp_path, 1):
+        symmetry = int(row["N"])
+        assert int(row["points"]) == 2 * symmetry and float(row["index sum"]) == 2
+        assert float(row["-sum log"]) == pytest.approx({4: -10.428018, 6: -21.606145}[symmetry], abs=0.05)
+    assert is_picture(tmp_path / "surface_sphere_4.png") and is_picture(tmp_path / "surface_sphere_6.png")
+
+
+def test_torus_has_a_state_of_each_number_of_points(tmp_path):
+    run("surface_torus.py", tmp_path, "--around", "48", "--epsilons", "0.12", "--points", "0,8,12")
+    states = {row["points asked"]: row for row in rows(tmp_path, 0)}
+    assert [row["points found, + and -"] for row in states.values()] == ["0 + 0", "4 + 4", "6 + 6"]
+    # On 20,736 triangles: 75.85, 49.48, 51.36.
+    assert [float(row["energy"]) for row in states.values()] == pytest.approx([75.85, 49.48, 51.36], rel=0.03)
+    assert all(float(row["of the constraints"]) < 0.02 for row in states.values())
+
+
+def test_weak_boundaries_let_points_sit_on_the_aerofoil(tmp_path):
+    run("surface_aerofoil.py", tmp_path, "--size", "0.003", "--lengths", "0.1")
+    strong, weak = rows(tmp_path, 0)
+    assert strong["index sum"] == weak["index sum"] == strong["Euler characteristic"] == "-2"
+    assert "on it" in weak["near leading edges"]
+    assert float(weak["energy"]) < float(strong["energy"])
+
+
+def test_index_sums_are_exact_on_a_jagged_coast(tmp_path):
+    run("surface_coast.py", tmp_path, "--edge", "0.04", "--levels", "4")
+    table = rows(tmp_path, 0)
+    assert {row["index sum"] for row in table} == {"1"}
+    inside = {row["method"]: int(row["points inside, +"]) + int(row["-"]) for row in table}
+    assert inside["ginzburg_landau, eps 2 h"] <= inside["eigenvector (harmonic)"]
+
+
+def test_the_benchmark_tells_every_method_s_points_and_energy(tmp_path):
+    run("benchmarks/surface_fields.py", tmp_path, "--surfaces", "sphere", "--sizes", "700")
+    table = {row["method"]: row for row in rows(tmp_path, 0)}
+    assert set(table) == {*surface_fields.OURS, surface_fields.HELD}
+    assert all(row["singular points"] == "8" and float(row["energy"]) < 120 and row["note"] == "" for row in table.values())
