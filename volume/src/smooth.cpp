@@ -12,9 +12,10 @@
 #include "constraints.hpp"
 #include "dirichlet_costs.hpp"
 #include "frame_manifolds.hpp"
-#include "octafield/frames/sh4.hpp"
+#include "octafield/frames/registry.hpp"
 #include "octafield/library_threads.hpp"
 #include "octafield/volume/operators.hpp"
+#include "trust_region.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -106,6 +107,7 @@ ceres::Solver::Options solver_options(const SmoothOptions& options, Index vertex
     // instead.
     o.num_threads = 1;
     o.logging_type = ceres::SILENT;
+    if (options.solver == SmoothSolver::lbfgs) o.minimizer_type = ceres::LINE_SEARCH;  // LBFGS is its default
     const bool cholesky = options.linear_solver == LinearSolver::cholesky ||
                           (options.linear_solver == LinearSolver::automatic && vertex_count <= cholesky_limit);
     o.linear_solver_type = cholesky ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::CGNR;
@@ -113,19 +115,16 @@ ceres::Solver::Options solver_options(const SmoothOptions& options, Index vertex
     return o;
 }
 
-}  // namespace
-
-SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
-                    const SmoothOptions& options, const Progress& progress) {
-    require_fitting(mesh, constraints, start);
-    if (options.max_iterations < 0) throw InvalidInput("max_iterations is negative; give 0 or more", "bad_option");
-    if (!(options.tolerance >= 0)) throw InvalidInput("tolerance must not be negative", "bad_option");
+// `start` is on the constraints.
+template <frames::Representation R>
+SmoothResult smooth_with_ceres(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+                               const SmoothOptions& options, const Progress& progress) {
     calm_library_threads();
     FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres would log is in the exception
 
     // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
     const double length = surface::bounding_box_diagonal(mesh.vertices);
-    EmbeddedField<frames::Sh4> field(constrained_start(constraints, start), options.threads);
+    EmbeddedField<R> field(start, options.threads);
     SmoothResult result;
     Reporter reporter(options, length, progress, result);
     Manifolds manifolds;
@@ -148,10 +147,28 @@ SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints,
                           "smoothing");
 
     result.frames = field.quaternions();
-    result.energy = dirichlet_energy(mesh, result.frames, options.threads);
+    result.objective = length * summary.final_cost;
     result.iterations = std::max<int>(0, static_cast<int>(summary.iterations.size()) - 1);
     result.converged = !reporter.cancelled && summary.termination_type == ceres::CONVERGENCE;
     result.message = reporter.cancelled ? "cancelled" : summary.message;
+    return result;
+}
+
+}  // namespace
+
+SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+                    const SmoothOptions& options, const Progress& progress) {
+    require_fitting(mesh, constraints, start);
+    if (options.max_iterations < 0) throw InvalidInput("max_iterations is negative; give 0 or more", "bad_option");
+    if (!(options.tolerance >= 0)) throw InvalidInput("tolerance must not be negative", "bad_option");
+    const Quaternions on_constraints = constrained_start(constraints, start);
+    SmoothResult result;
+    frames::with_representation(options.representation, [&]<frames::Representation R>() {
+        result = options.solver == SmoothSolver::trust_region
+                     ? trust_region<R>(mesh, constraints, on_constraints, options, progress)
+                     : smooth_with_ceres<R>(mesh, constraints, on_constraints, options, progress);
+    });
+    result.energy = dirichlet_energy(mesh, result.frames, options.threads);
     return result;
 }
 
