@@ -50,15 +50,20 @@ public:
         return sum;
     }
 
-    // y = L x; returns x . y.
+    // y = L x; returns x . y. Both from differences of neighbours, so that a constant field has no energy but the
+    // square of rounding.
     template <int K>
     double multiply(const Rows<double, K>& x, Rows<double, K>& y, int threads) const {
         y.resize(x.rows(), K);
         return block_sum(x.rows(), threads, [&](std::int64_t first, std::int64_t last) {
             double sum = 0;
             for (std::int64_t v = first; v < last; ++v) {
-                y.row(v) = row_times(static_cast<Index>(v), x).transpose();
-                sum += y.row(v).dot(x.row(v));
+                y.row(v).setZero();
+                for (auto k = matrix_.outerIndexPtr()[v]; k < matrix_.outerIndexPtr()[v + 1]; ++k) {
+                    const Eigen::Matrix<double, 1, K> difference = x.row(matrix_.innerIndexPtr()[k]) - x.row(v);
+                    y.row(v) += matrix_.valuePtr()[k] * difference;
+                    sum -= matrix_.valuePtr()[k] / 2 * difference.squaredNorm();
+                }
             }
             return sum;
         });

@@ -144,12 +144,11 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
     double radius = first_radius * root_;
     bool at_minimum = false, cancelled = false;
     while (result.iterations < options_.max_iterations) {
-        const double gradient = norm(model_.gradient());
-        at_minimum = gradient <= no_gradient || radius < least_radius * root_;
-        if (at_minimum) break;
         fraction_ = double(result.iterations) / options_.max_iterations;
         cancelled = !go_on();
-        if (cancelled) break;
+        const double gradient = norm(model_.gradient());
+        at_minimum = gradient <= no_gradient || radius < least_radius * root_;
+        if (at_minimum || cancelled) break;
         // Superlinear convergence (Dembo, Eisenstat, Steihaug 1982).
         const Step step = conjugate_gradients(radius, std::min(0.1, std::sqrt(gradient / first_gradient)));
         cancelled = step.cancelled;
