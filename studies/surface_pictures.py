@@ -19,7 +19,6 @@ import octafield
 from octafield import scene
 
 STREAMLINE, SEPARATRIX, SIGNS = "#8593a3", scene.GREEN, ((1, scene.VERMILLION, "o"), (-1, scene.BLUE, "s"))
-FEWEST_COLOURS, MOST_COLOURS = 64, 128
 
 
 # ---- surfaces in space
@@ -42,10 +41,12 @@ def draw_field(path: Path, mesh, field, singular, view, spacing: float, separatr
     if separatrix:
         lines = polylines(octafield.separatrices(mesh, features, field, singular, max_length=separatrix))
         shape.add_mesh(lines.translate(1.5 * lifted), color=SEPARATRIX, line_width=5, lighting=False)
-    ball = pyvista.Sphere(radius=0.012 * scene.diagonal(np.array(mesh.vertices)), theta_resolution=48, phi_resolution=48)
+    radius = 0.012 * scene.diagonal(np.array(mesh.vertices))
+    ball = pyvista.Sphere(radius=radius, theta_resolution=48, phi_resolution=48)
     for sign, color, _ in SIGNS:
         points = np.array([s.position for s in singular.points if s.index * sign > 0])
         if len(points):
+            points += radius * towards  # before the surface, not half in it
             shape.add_mesh(pyvista.PolyData(points).glyph(geom=ball, scale=False, orient=False), color=color, ambient=0.45, diffuse=0.6, smooth_shading=True)
     scene.look(shape, np.array(mesh.vertices), towards, np.array(up))
     image = np.array(shape.screenshot(return_img=True))
@@ -53,8 +54,8 @@ def draw_field(path: Path, mesh, field, singular, view, spacing: float, separatr
     drawn = np.argwhere((image < 255).any(axis=2))
     (top, left), (bottom, right) = drawn.min(0), drawn.max(0) + 1
     small = Image.fromarray(image[top:bottom, left:right])
-    small.thumbnail((700, 700), Image.Resampling.LANCZOS)
-    save_with_few_colours(small, path, MOST_COLOURS)
+    small.thumbnail((560, 560), Image.Resampling.LANCZOS)
+    save_with_few_colours(small, path, 64)
 
 
 # ---- plane fields
@@ -84,7 +85,7 @@ def point_legend(figure, symmetry, separatrices: bool = True, signs: tuple = (1,
     figure.legend(handles=points + lines, loc="outside lower center", ncols=3, frameon=False)
 
 
-def save_drawing(figure: Figure, path: Path, dpi: int = 100, colours: int = FEWEST_COLOURS) -> None:
+def save_drawing(figure: Figure, path: Path, dpi: int = 100, colours: int = 64) -> None:
     buffer = BytesIO()
     with rc_context(STYLE):
         figure.savefig(buffer, format="png", dpi=dpi, facecolor="white")

@@ -94,16 +94,18 @@ def states_table(around: int, epsilons: list[float], wanted: list[int]) -> tuple
 
 
 def free_table(around: int, epsilons: list[float]) -> str:
-    """Without constraints: each method as it is, and guided by the principal directions."""
+    """Without constraints: each method as it is, and guided by the principal directions. mbo and eigenvector do not depend on epsilon."""
     mesh, features, rows = torus(around, around // 2), octafield.FeatureGraph(), []
     principal = octafield.principal_directions(mesh)
     guide = octafield.DirectionGuide(principal.directions, principal.anisotropy)
-    for epsilon in epsilons:
-        for name, options in (("ginzburg_landau", {}), ("ginzburg_landau, no continuation", {"first_epsilon": epsilon}),
-                              ("ginzburg_landau, guided by curvature", {"guide": guide}), ("mbo", {"method": "mbo"}), ("eigenvector", {"method": "eigenvector"})):
-            field = octafield.direction_field(mesh, features, epsilon=epsilon, **options)
-            found = counts(octafield.surface_singularities(mesh, field))
-            rows.append((f"{epsilon:g}", name, f"{found[0]} + {found[1]}", f"{free_energy(mesh, features, field):.3f}", f"{field.dirichlet_energy:.3f}"))
+    runs = [(name, epsilon, {"epsilon": epsilon, **options}) for epsilon in epsilons
+            for name, options in (("ginzburg_landau", {}), ("ginzburg_landau, no continuation", {"first_epsilon": epsilon}),
+                                  ("ginzburg_landau, guided by curvature", {"guide": guide}))]
+    runs += [(name, None, {"method": name}) for name in ("mbo", "eigenvector")]
+    for name, epsilon, options in runs:
+        field = octafield.direction_field(mesh, features, **options)
+        found = counts(octafield.surface_singularities(mesh, field))
+        rows.append(("-" if epsilon is None else f"{epsilon:g}", name, f"{found[0]} + {found[1]}", f"{free_energy(mesh, features, field):.3f}", f"{field.dirichlet_energy:.3f}"))
     return markdown_table(["eps", "run", "points found, + and -", "energy", "Dirichlet"], rows)
 
 
@@ -118,17 +120,21 @@ def aligned(around: int) -> float:
 
 
 def energy_figure(path: Path, curves: dict) -> None:
-    figure, axes = new_figure(6.0, 3.8)
-    for (points, curve), number in zip(curves.items(), range(len(curves))):
+    figure, axes = new_figure(6.6, 4.0)
+    markers = "o^vDs*Pp"
+    for number, (points, curve) in enumerate(curves.items()):
         epsilon, energy = np.transpose(sorted(curve))
-        axes.plot(epsilon, energy, ("-", "--")[number // len(PALETTE)], marker="o", markersize=4, color=PALETTE[number % len(PALETTE)], label=f"{points} points")
+        axes.plot(epsilon, energy, ("-", "--")[number // len(PALETTE)], marker=markers[number % len(markers)], markersize=5, color=PALETTE[number % len(PALETTE)],
+                  label=f"{points} points")
+    for number, value in enumerate(PUBLISHED.values()):
+        axes.plot(PUBLISHED_EPSILON, float(value), "x", color="black", markersize=9, markeredgewidth=1.8, zorder=5, label=None if number else "thesis: 72.10, 84.58")
     axes.set(xlabel="eps", ylabel="energy", xscale="log")
     ticks = sorted({e for curve in curves.values() for e, _ in curve})
     axes.set_xticks(ticks, [f"{e:g}" for e in ticks], minor=False)
     axes.set_xticks([], minor=True)
     axes.legend(frameon=False, ncols=2)
     with_grid(axes)
-    save_figure(figure, path)
+    save_figure(figure, path, dpi=110)
 
 
 def main() -> None:
@@ -148,7 +154,7 @@ def main() -> None:
     for points in (8, 12):
         mesh = torus(arguments.around, arguments.around // 2)
         _, field, singular, _ = state(mesh, arguments.around, points, PUBLISHED_EPSILON)
-        draw_field(arguments.output / f"surface_torus_{points}.png", mesh, field, singular, (0, -0.8, 0.75), spacing=0.1)
+        draw_field(arguments.output / f"surface_torus_{points}.png", mesh, field, singular, (0, -0.75, 0.9), spacing=0.1, separatrix=0.35)
     (arguments.output / "summary.md").write_text(text)
     print(text)
 
