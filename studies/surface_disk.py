@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.lines import Line2D
-from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
+from study_output import markdown_table, new_figure, with_grid, write_csv
 from surface_meshes import even_disk
 from surface_pictures import SEPARATRIX, STREAMLINE, add_lines, add_points, point_legend, save_drawing
 from surface_points import located_in_plane
@@ -67,7 +67,7 @@ def figure_3_8(output: Path) -> str:
         with_grid(axes)
         sampled = radii[np.argmin(curves[-1])]
         lines.append((d, PRINTED[d], f"{best:.5f}", f"{sampled:.3f}", f"{octafield.disk_polygon_energy(d, best):.5f}"))
-    save_figure(figure, output / "surface_disk_energy.png")
+    save_drawing(figure, output / "surface_disk_energy.png")
     write_csv(output / "surface_disk_energy.csv", ["r", "W_4", "W_6"], np.column_stack([radii, *curves]).tolist())
     return markdown_table(["d", "printed radius", "root of (d-1)/(3d-1)", "least sample of the curve", "W there"], lines)
 
@@ -108,7 +108,7 @@ def figure_error(output: Path, rows: list[dict]) -> None:
     handles = [Line2D([], [], color=colors[d], marker="os"[d > 4], markersize=4, label=f"N = {d}") for d in PRINTED]
     handles += [Line2D([], [], color="black", linestyle=styles[n], linewidth=1.2, label=f"{n:,} triangles") for n in meshes]
     panels[1].legend(handles=handles, frameon=False, fontsize=9)
-    save_figure(figure, output / "surface_disk_radius.png", dpi=110)
+    save_drawing(figure, output / "surface_disk_radius.png")
 
 
 def main() -> None:

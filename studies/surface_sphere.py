@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import pyvista
-from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
+from study_output import markdown_table, new_figure, with_grid, write_csv
 from surface_meshes import sphere
-from surface_pictures import draw_field
+from surface_pictures import draw_field, save_drawing
 from surface_points import located_on_sphere
 
 import octafield
@@ -85,7 +85,7 @@ def figure_3_11(output: Path) -> str:
     axes.set(xlabel="twist of the two squares (degrees)", ylabel="$-\\Sigma_{i<j}\\,\\log |x_i - x_j|$", xticks=(0, 15, 30, 45, 60, 75, 90))
     axes.legend(frameon=False)
     with_grid(axes)
-    save_figure(figure, output / "surface_sphere_twist.png")
+    save_drawing(figure, output / "surface_sphere_twist.png")
     write_csv(output / "surface_sphere_twist.csv", ["twist_deg", "cube_height", "best_height"], np.column_stack([twists, *curves.values()]).tolist())
     rows = [(name, f"{values[0]:.6f}", f"{min(values):.6f}", f"{twists[np.argmin(values)]:g}") for name, values in curves.items()]
     return markdown_table(["height of the squares", "twist 0", "least", "at twist (degrees)"], rows)

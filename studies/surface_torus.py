@@ -1,6 +1,6 @@
 """4-direction fields on the torus R = 1, r = 0.5: the states with 0, 4, ..., 16 singular points, and which of them costs least (thesis figure 3.15).
 
-    python studies/surface_torus.py -o DIR [--around 144] [--epsilons 0.12,0.06,0.03] [--points 0,4,6,8,10,12,14,16]
+    python studies/surface_torus.py -o DIR [--around 144] [--epsilons 0.17,0.12,0.085,0.06,0.042,0.03] [--points 0,4,6,8,10,12,14,16]
 
 The torus has states for every even number of singular points, half of them of index +1/4 on the outer equator, half of -1/4 on the inner one:
 along the curvature lines f turns by exp(-i floor(m/2) phi) on the upper half and exp(+i ceil(m/2) phi) on the lower one, m points on each equator,
@@ -14,9 +14,9 @@ import argparse
 from pathlib import Path
 
 import numpy as np
-from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
+from study_output import markdown_table, new_figure, with_grid, write_csv
 from surface_meshes import torus
-from surface_pictures import draw_field
+from surface_pictures import draw_field, save_drawing
 
 import octafield
 from octafield.plots import PALETTE
@@ -134,14 +134,14 @@ def energy_figure(path: Path, curves: dict) -> None:
     axes.set_xticks([], minor=True)
     axes.legend(frameon=False, ncols=2)
     with_grid(axes)
-    save_figure(figure, path, dpi=110)
+    save_drawing(figure, path)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--around", type=int, default=144)
-    parser.add_argument("--epsilons", default="0.12,0.085,0.06,0.042,0.03")
+    parser.add_argument("--epsilons", default="0.17,0.12,0.085,0.06,0.042,0.03")
     parser.add_argument("--points", default="0,4,6,8,10,12,14,16")
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
