@@ -29,7 +29,7 @@ def midpoints(mesh) -> np.ndarray:
 def disk_rows(edge: float, epsilon: float, output: Path) -> list[tuple]:
     mesh = even_disk(edge)
     features, radii = octafield.detect_features(mesh), np.linalg.norm(midpoints(mesh), axis=1)
-    figure, panels = new_figure(9.4, 3.2, 1, 3, width_ratios=(1, 1, 1.15))
+    figure, panels = new_figure(9.8, 3.0, 1, 3, width_ratios=(1, 1.16, 1.3))
     rows = []
     for axes, name, eps, color in zip(panels, ("Laplacian smoothing", "Ginzburg-Landau"), (HARMONIC, epsilon), PALETTE):
         field = octafield.direction_field(mesh, features, epsilon=eps)
@@ -51,7 +51,7 @@ def disk_rows(edge: float, epsilon: float, output: Path) -> list[tuple]:
     panels[2].set(xlabel="distance from the centre", ylabel="|f| at edge midpoints", ylim=(0, 1.05), xlim=(0, 1))
     panels[2].legend(frameon=False, markerscale=4)
     with_grid(panels[2])
-    figure.colorbar(shown, ax=panels[:2], location="bottom", shrink=0.5, label="|f|", aspect=40, pad=0.0)
+    figure.colorbar(shown, ax=panels[1], shrink=0.7, label="|f|")
     save_drawing(figure, output / "surface_norm_disk.png")
     return rows
 
