@@ -143,15 +143,16 @@ def main() -> None:
     parser.add_argument("--around", type=int, default=144)
     parser.add_argument("--epsilons", default="0.17,0.12,0.085,0.06,0.042,0.03")
     parser.add_argument("--points", default="0,4,6,8,10,12,14,16")
+    parser.add_argument("--states-only", action="store_true", help="no runs without constraints, no pictures of fields")
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     epsilons = [float(x) for x in arguments.epsilons.split(",")]
     table, curves = states_table(arguments.around, epsilons, [int(x) for x in arguments.points.split(",")])
     along = f"Along the curvature lines, |f| = 1: {aligned(arguments.around):.3f} (exact {ALIGNED:.3f}, thesis {PUBLISHED[0]})\n"
-    text = "\n".join([along, table, free_table(arguments.around, epsilons)])
+    text = "\n".join([along, table, *([] if arguments.states_only else [free_table(arguments.around, epsilons)])])
     energy_figure(arguments.output / "surface_torus_energy.png", curves)
     write_csv(arguments.output / "surface_torus.csv", ["points", "eps", "energy"], [(n, *pair) for n, curve in curves.items() for pair in curve])
-    for points in (8, 12):
+    for points in () if arguments.states_only else (8, 12):
         mesh = torus(arguments.around, arguments.around // 2)
         _, field, singular, _ = state(mesh, arguments.around, points, PUBLISHED_EPSILON)
         draw_field(arguments.output / f"surface_torus_{points}.png", mesh, field, singular, (0, -0.75, 0.9), spacing=0.1, separatrix=0.35)
