@@ -57,10 +57,11 @@ void explaining_failure(const TriangleMesh& mesh, const std::function<void()>& s
             least = std::min(least, angle);
         }
         if (triangles.empty())
-            throw SolverError(std::string(error.what()) +
-                                  ": weights of weak alignment, constraints or the guide are too small or too different; "
-                                  "leave such weights out, or choose them between 1e-9 and 1e9",
-                              "bad_weights");
+            throw SolverError(
+                std::string(error.what()) +
+                    ": weights of weak alignment, constraints or the guide are too small or too different; "
+                    "leave such weights out, or choose them between 1e-9 and 1e9",
+                "bad_weights");
         throw SolverError(std::string(error.what()) + ": " + std::to_string(triangles.size()) + " triangles (" +
                               first_few(triangles) + ") are too thin, with angles down to " + short_number(least) +
                               " radians; remesh the surface",

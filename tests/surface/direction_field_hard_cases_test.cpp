@@ -14,8 +14,8 @@ void expect_sound_fields(const TriangleMesh& mesh, const FeatureGraph& features 
     for (const DirectionFieldMethod method : methods)
         for (const int symmetry : {2, 4, 6})
             for (const Alignment boundary : {Alignment::strong, Alignment::weak, Alignment::none}) {
-                const DirectionField field = direction_field(
-                    mesh, features, {.symmetry = symmetry, .method = method, .boundary = boundary});
+                const DirectionField field =
+                    direction_field(mesh, features, {.symmetry = symmetry, .method = method, .boundary = boundary});
                 const SurfaceSingularities found = surface_singularities(mesh, field);
                 EXPECT_TRUE(found.agree) << symmetry << ", sum " << found.index_sum;
                 EXPECT_EQ(found.euler_characteristic, euler_characteristic(mesh));
@@ -53,7 +53,8 @@ TriangleMesh ring(int count, bool twisted) {
 TEST(HardSurfaces, SmallestMeshesHaveFields) {
     expect_sound_fields(make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
     expect_sound_fields(make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}));
-    expect_sound_fields(make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}));
+    expect_sound_fields(
+        make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}));
 }
 
 TEST(HardSurfaces, StripsOneTriangleWideHaveFields) {
@@ -171,11 +172,11 @@ TEST(HardFeatures, CurvesOfAnyShapeGiveSoundFields) {
         return feature_graph(mesh, edges);
     };
     const double h = 1.0 / 8, a = 3 * h, b = 4 * h;
-    expect_sound_fields(mesh, path({{a, a}, {b, a}, {b, b}, {a, b}, {a, a}}));              // closed loop
-    expect_sound_fields(mesh, path({{a, a}, {b, a}, {b + h, a}}));                          // two dead ends
-    expect_sound_fields(mesh, path({{0, b}, {h, b}, {2 * h, b}}));                          // touches the boundary
-    expect_sound_fields(mesh, path({{a, a}, {b, a}, {a, a}, {b, a}}));                      // one edge thrice
-    expect_sound_fields(mesh, path({{a, b}, {b, b}, {b + h, b}, {b, b}, {b, b + h}}));      // T-junction
+    expect_sound_fields(mesh, path({{a, a}, {b, a}, {b, b}, {a, b}, {a, a}}));          // closed loop
+    expect_sound_fields(mesh, path({{a, a}, {b, a}, {b + h, a}}));                      // two dead ends
+    expect_sound_fields(mesh, path({{0, b}, {h, b}, {2 * h, b}}));                      // touches the boundary
+    expect_sound_fields(mesh, path({{a, a}, {b, a}, {a, a}, {b, a}}));                  // one edge thrice
+    expect_sound_fields(mesh, path({{a, b}, {b, b}, {b + h, b}, {b, b}, {b, b + h}}));  // T-junction
     EXPECT_EQ(path({{a, a}, {b, a}, {a, a}}).edges.rows(), 1);
 }
 
