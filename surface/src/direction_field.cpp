@@ -6,6 +6,7 @@
 #include <string>
 
 #include "alignment.hpp"
+#include "definiteness.hpp"
 #include "ginzburg_landau.hpp"
 #include "mbo.hpp"
 #include "octafield/library_threads.hpp"
@@ -22,7 +23,9 @@ constexpr double least_length = 0.1;
 
 void require_usable(const TriangleMesh& mesh, const DirectionFieldOptions& options) {
     const auto is_length = [](double length) { return length >= 0 && std::isfinite(length); };
-    if (options.symmetry < 1) throw InvalidInput("the symmetry of a direction field must be at least 1");
+    if (options.symmetry < 1 || options.symmetry > largest_symmetry)
+        throw InvalidInput("the symmetry of a direction field must be at least 1 and at most " +
+                           std::to_string(largest_symmetry) + ", not " + std::to_string(options.symmetry));
     if (!is_length(options.epsilon)) throw InvalidInput("epsilon must be a length, or 0 for the default");
     if (!is_length(options.first_epsilon)) throw InvalidInput("first_epsilon must be a length, or 0 for none");
     if (!is_length(options.alignment_length))
@@ -39,20 +42,6 @@ void require_usable(const TriangleMesh& mesh, const DirectionFieldOptions& optio
         throw GeometryError("a triangle names a vertex that does not exist; there are " +
                                 std::to_string(mesh.vertices.rows()) + " vertices, numbered from 0",
                             "index_out_of_range");
-}
-
-EdgeTopology oriented_topology(const TriangleMesh& mesh) {
-    try {
-        return edge_topology(mesh);
-    } catch (const GeometryError& error) {
-        if (error.kind() != "inconsistent_orientation") throw;
-        const std::vector<Index> twisted = unorientable_triangles(mesh);
-        if (twisted.empty()) throw;
-        throw GeometryError("the surface has one side only, like a Moebius strip: no orientation of its " +
-                                std::to_string(twisted.size()) + " connected triangles (" + first_few(twisted) +
-                                ") is consistent; cut it open, or take the boundary of the solid",
-                            "not_orientable", twisted);
-    }
 }
 
 // Of the components that nothing aligns, the only ones that a large epsilon makes vanish; infinity if there are none.
@@ -72,6 +61,9 @@ void require_not_below_edges(const DirectionFieldOptions& options, double epsilo
         "epsilon_too_small");
 }
 
+// Whether squares of length / mean and of their ratio to areas are numbers.
+bool is_scale(double length, double mean) { return length >= 1e-60 * mean && length <= 1e60 * mean; }
+
 // (E)
 Eigen::VectorXd chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& topology, const Components& components,
                                const DirectionFieldOptions& options) {
@@ -82,10 +74,17 @@ Eigen::VectorXd chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& top
     const double mean = sum / edges;
     if (options.edge_epsilon.size() != 0) {
         const Eigen::VectorXd& given = options.edge_epsilon;
-        if (given.size() != edges || !given.allFinite() || !(given.minCoeff() > 0))
+        if (given.size() != edges)
             throw InvalidInput("edge_epsilon must hold one length above 0 per edge, " + std::to_string(edges) +
                                    "; it has " + std::to_string(given.size()) + " entries",
                                "wrong_size");
+        std::vector<Index> bad;
+        for (Index e = 0; e < edges; ++e)
+            if (!is_scale(given[e], mean)) bad.push_back(e);
+        if (!bad.empty())
+            throw InvalidInput("edge_epsilon must hold lengths above 0; it does not at " + std::to_string(bad.size()) +
+                                   " edges (" + first_few(bad) + ")",
+                               "bad_epsilon", bad);
         require_not_below_edges(options, given.minCoeff(), mean);
         return given;
     }
@@ -95,6 +94,11 @@ Eigen::VectorXd chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& top
                             std::max(smallest_free_diagonal(components) / 10, mean / 4)});
     else
         require_not_below_edges(options, epsilon, mean);
+    if (!is_scale(epsilon, mean))
+        throw InvalidInput("an epsilon of " + short_number(epsilon) +
+                               " is no length on the scale of the mesh, whose mean edge length is " +
+                               short_number(mean) + "; 2 mean edge lengths are usual",
+                           "bad_epsilon");
     return Eigen::VectorXd::Constant(edges, epsilon);
 }
 
@@ -170,6 +174,7 @@ public:
         for (const WeakEdge& weak : aligned_.weak) anchor(weak.edge);
         epsilon_ = chosen_epsilon(mesh, field.topology, components_, options);
         add_weak_edges(aligned_, options.alignment_length, epsilon_);
+        release_negligible(components_, aligned_);
         field.epsilon = epsilon_.minCoeff();
     }
 
@@ -251,7 +256,7 @@ DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& fea
     DirectionField field;
     field.symmetry = options.symmetry;
     field.topology = oriented_topology(mesh);
-    Solver(mesh, features, options, field, progress).run();
+    explaining_failure(mesh, [&] { Solver(mesh, features, options, field, progress).run(); });
     return field;
 }
 

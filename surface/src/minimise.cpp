@@ -7,6 +7,7 @@
 // always enough, as H >= K - W. Near a minimum mu falls to its floor and the first step of a round is Newton's.
 #include <cmath>
 
+#include "definiteness.hpp"
 #include "ginzburg_landau.hpp"
 #include "limited_memory.hpp"
 #include "line_search.hpp"
@@ -63,6 +64,8 @@ private:
 // Takes note of new values.
 void Descent::moved() {
     slope_ = functional_.slope(values_);
+    if (!std::isfinite(slope_.energy))
+        throw SolverError("the energy of the direction field is not a number to double precision", not_definite);
     result_.energy_history.push_back(slope_.energy);
     result_.iterations = static_cast<int>(result_.energy_history.size()) - 1;
     const double fraction = static_cast<double>(result_.iterations) / std::max(1, options_.max_iterations);
@@ -77,9 +80,7 @@ void Descent::factorize() {
         functional_.hessian(values_, shift_, matrix_);
         if (cholesky_.factorize(matrix_)) return;
         if (shift_ >= largest_shift)
-            throw SolverError(
-                "the matrix of the direction field is not positive definite to rounding; "
-                "remesh the surface, its triangles are too thin");
+            throw SolverError("the matrix of the direction field is not positive definite to rounding", not_definite);
     }
 }
 

@@ -194,3 +194,22 @@ def test_the_benchmark_tells_every_method_s_points_and_energy(tmp_path):
     table = {row["method"]: row for row in rows(tmp_path, 0)}
     assert set(table) == {*surface_fields.OURS, surface_fields.HELD}
     assert all(row["singular points"] == "8" and float(row["energy"]) < 120 and row["note"] == "" for row in table.values())
+
+
+# ---- reliability
+
+def test_the_study_of_reliability_tells_right_sums_and_refused_files(tmp_path):
+    inputs = tmp_path / "inputs"
+    inputs.mkdir()
+    octafield.write_surface(surface_meshes.sphere(4), inputs / "sphere.obj")
+    octafield.write_surface(surface_meshes.torus(16, 8), inputs / "torus.ply")
+    (inputs / "notes.txt").write_text("no surface")
+    (inputs / "bad.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
+    script = [sys.executable, STUDIES / "surface_reliability.py", inputs, "-o", tmp_path / "out", "--symmetries", "4", "1"]
+    done = subprocess.run(script, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    table = rows(tmp_path / "out", 0)
+    assert len(table) == 2 * 2 * 3 and {line["agree"] for line in table} == {"yes"}
+    assert {(line["file"], line["chi"]) for line in table} == {("sphere.obj", "2"), ("torus.ply", "0")}
+    (refused,) = rows(tmp_path / "out", 1)
+    assert refused["file"] == "bad.obj" and refused["kind"] == "degenerate_triangle"

@@ -44,8 +44,11 @@ enum class Alignment {
     none,    // not at all: the natural boundary condition
 };
 
+// Of N. Indices and angles are exact far beyond; no mesh has room for more.
+inline constexpr int largest_symmetry = 1000;
+
 struct DirectionFieldOptions {
-    int symmetry = 4;  // N >= 1
+    int symmetry = 4;  // N, 1 to largest_symmetry
     DirectionFieldMethod method = DirectionFieldMethod::ginzburg_landau;
     // Coherence length, eps in the thesis, input unit; 0: 2 mean edge lengths, at most 1/10 of the bounding-box
     // diagonal, also of each connected part that nothing aligns as long as that is at least 1/4 of the mean edge
@@ -104,7 +107,8 @@ struct DirectionField {
 // components. Cancelling through progress keeps the best state (converged = false). Throws InvalidInput; GeometryError,
 // where the surface cannot be oriented with kind "not_orientable";
 // SolverError when the descent ends with |f| < 0.1 on all free edges of a component (kind "epsilon_too_large", elements
-// its triangles): such a field has no directions.
+// its triangles): such a field has no directions; SolverError where triangles are too thin for double precision (kind
+// "thin_triangles", elements; angles far below 1e-6 radians) or weights too small to count (kind "bad_weights").
 DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& features,
                                const DirectionFieldOptions& options = {}, const Progress& progress = {});
 
