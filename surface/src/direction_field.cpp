@@ -6,6 +6,7 @@
 #include <string>
 
 #include "alignment.hpp"
+#include "angle_descent.hpp"
 #include "ginzburg_landau.hpp"
 #include "mbo.hpp"
 #include "octafield/library_threads.hpp"
@@ -177,6 +178,8 @@ public:
 
 private:
     void start();
+    void diffuse(const Problem& problem, DiffusionSolver& diffusion);
+    void settle(const Problem& problem);
     void descend();
 
     const DirectionFieldOptions& options_;
@@ -208,20 +211,45 @@ void Solver::run() {
     if (field_.energy_history.empty()) field_.energy_history = {field_.energy};
 }
 
-// The methods of length 1, whose factorization is gone before that of the descent needs the memory.
+// The methods of length 1. Their factorizations are gone before that of the descent needs the memory.
 void Solver::start() {
     const Problem problem{links_, system_, masses_, components_, aligned_.held, aligned_.pull};
-    DiffusionSolver diffusion(system_);
-    order_ = diffusion.order();
-    field_.values = start_field(problem, diffusion, options_.seed, progress_);
-    if (options_.method == DirectionFieldMethod::mbo && !cancelled_) {
-        DiffusionResult result =
-            diffuse_and_project(problem, diffusion, field_.values, options_.max_iterations, options_.seed, progress_);
-        field_.iterations = result.iterations;
-        field_.converged = result.converged;
-        field_.energy_history = std::move(result.energy_history);
+    const bool mbo = options_.method == DirectionFieldMethod::mbo;
+    {
+        DiffusionSolver diffusion(system_);
+        order_ = diffusion.order();
+        field_.values = start_field(problem, diffusion, options_.seed, progress_);
+        if (mbo && !cancelled_) diffuse(problem, diffusion);
     }
+    if (mbo && field_.converged) settle(problem);
     field_.converged = field_.converged && !cancelled_;
+}
+
+constexpr double diffusion_part = 0.7;  // of the progress of mbo
+
+void Solver::diffuse(const Problem& problem, DiffusionSolver& diffusion) {
+    const Progress told = [this](std::string_view phase, double fraction, double energy) {
+        return progress_(phase, diffusion_part * fraction, energy);
+    };
+    DiffusionResult result =
+        diffuse_and_project(problem, diffusion, field_.values, options_.max_iterations, options_.seed, told);
+    field_.iterations = result.iterations;
+    field_.converged = result.converged;
+    field_.energy_history = std::move(result.energy_history);
+}
+
+// From the projected field to the local minimum beside it.
+void Solver::settle(const Problem& problem) {
+    int steps = 0;
+    const auto told = [&](double energy) {
+        field_.energy_history.push_back(energy);
+        ++field_.iterations;
+        const double left = 1 / (1 + ++steps / 8.0);
+        return progress_("cross field", 1 - (1 - diffusion_part) * left, energy) &&
+               field_.iterations < options_.max_iterations;
+    };
+    const bool more = field_.iterations < options_.max_iterations;
+    field_.converged = more && descend_angles(problem, order_, field_.values, options_.seed, told);
 }
 
 void Solver::descend() {
