@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "angle_energy.hpp"
+#include "core_moves.hpp"
 #include "limited_memory.hpp"
 #include "random_field.hpp"
 #include "sparse_cholesky.hpp"
@@ -13,7 +14,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr int most_rounds = 40, steps_per_round = 8;
+constexpr int most_rounds = 40, steps_per_round = 8, most_moves = 20;
 constexpr double energy_tolerance = 1e-10;  // gain to be expected from a step, relative to the energy
 constexpr double armijo = 1e-4, least_length = 1e-6;
 // Length of the step that leaves a saddle point, radian, of the edge that turns most.
@@ -23,7 +24,8 @@ class AngleDescent {
 public:
     AngleDescent(const Problem& problem, const Eigen::VectorXi& order, Eigen::VectorXcd& values, std::uint64_t seed,
                  const std::function<bool(double)>& told)
-        : energy_(problem),
+        : problem_(problem),
+          energy_(problem),
           values_(values),
           seed_(seed),
           told_(told),
@@ -33,12 +35,14 @@ public:
     bool run();
 
 private:
+    bool descend(double tolerance);
     using Curvature = AngleEnergy::Curvature;
     bool factorize(Curvature curvature) { return cholesky_.factorize(energy_.hessian(values_, curvature)); }
     bool line_search(const Eigen::VectorXd& direction, double slope, LimitedMemory& memory);
     void round();
     bool leave_saddle();
 
+    const Problem& problem_;
     AngleEnergy energy_;
     Eigen::VectorXcd& values_;
     std::uint64_t seed_;
@@ -46,6 +50,7 @@ private:
     SparseCholesky<double> cholesky_;
     AngleEnergy::Slope slope_;
     bool stopped_ = false, flat_ = false;
+    double tolerance_ = energy_tolerance;
 };
 
 // Backtracks from the whole step; `slope`: the energy's along it. False where nothing is gained.
@@ -75,7 +80,7 @@ void AngleDescent::round() {
     for (int i = 0; i < steps_per_round && !stopped_; ++i) {
         const Eigen::VectorXd direction = -memory.apply(slope_.gradient, solve);
         const double slope = direction.dot(slope_.gradient);
-        flat_ = -slope / 2 <= std::max(energy_tolerance * slope_.energy, energy_.rounding());
+        flat_ = -slope / 2 <= std::max(tolerance_ * slope_.energy, energy_.rounding());
         if (flat_ || !line_search(direction, slope, memory)) return;
     }
 }
@@ -98,10 +103,12 @@ bool AngleDescent::leave_saddle() {
     return line_search(saddle_step * direction, saddle_step * saddle_step * curvature / 2, memory);
 }
 
-bool AngleDescent::run() {
+// To a minimum beside the present field. False where the matrix is not definite to rounding, or when stopped.
+bool AngleDescent::descend(double tolerance) {
+    tolerance_ = tolerance;
     for (int i = 0; i < most_rounds && !stopped_; ++i) {
         const bool exact = factorize(Curvature::exact);
-        if (!exact && !factorize(Curvature::convex)) return false;  // not to rounding: triangles too thin
+        if (!exact && !factorize(Curvature::convex)) return false;
         const double before = slope_.energy;
         round();
         if (flat_ && exact) return true;
@@ -110,6 +117,17 @@ bool AngleDescent::run() {
         if (exact || !leave_saddle()) return exact;
     }
     return false;
+}
+
+bool AngleDescent::run() {
+    CoreMoves cores(problem_);
+    bool settled = descend(energy_tolerance);
+    for (int i = 0; i < most_moves && settled && cores.improve(values_) > 0; ++i) {
+        slope_ = energy_.slope(values_);
+        stopped_ = !told_(slope_.energy);
+        settled = !stopped_ && descend(energy_tolerance);
+    }
+    return settled;
 }
 
 }  // namespace
