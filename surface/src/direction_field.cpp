@@ -119,15 +119,18 @@ void require_not_collapsed(const DirectionField& field, const Components& compon
                       "epsilon_too_large", triangles);
 }
 
-constexpr double continuation_ratio = 4;
-constexpr double stage_tolerance = 1e-3;  // of residual and energy, before the last stage
+constexpr double continuation_ratio = 5;  // at most
+constexpr double stage_tolerance = 1e-4;  // of residual and energy, before the last stage
 
 // Coherence lengths, one (E) array after the other, the last as given.
 std::vector<Eigen::VectorXd> continuation(const Eigen::VectorXd& epsilon, double first, const Components& components) {
     const double widest = *std::max_element(components.diagonals.begin(), components.diagonals.end()) / 10;
     if (first == 0 || first > widest) first = widest;
+    const double fall = first / epsilon.minCoeff();
+    const int steps = fall > 1 ? static_cast<int>(std::ceil(std::log(fall) / std::log(continuation_ratio) - 1e-9)) : 0;
     std::vector<Eigen::VectorXd> stages;
-    for (double least = first; least > epsilon.minCoeff(); least /= continuation_ratio) {
+    for (int i = 0; i < steps; ++i) {
+        const double least = first * std::pow(fall, -static_cast<double>(i) / steps);
         stages.push_back(epsilon);
         for (Eigen::Index e = 0; e < epsilon.size(); ++e)
             stages.back()[e] = std::max(epsilon[e], std::min(least, components.diagonals[components.of_edge[e]] / 10));
@@ -259,7 +262,8 @@ void Solver::descend() {
         if (i > 0) narrow_cores(field_.values, aligned_.is_held, stages[i - 1], stages[i]);
         const GinzburgLandau functional(links_, masses_, system_, aligned_.pull, stages[i]);
         const DescentOptions descent{options_.max_iterations, last ? options_.tolerance : stage_tolerance,
-                                     last ? options_.energy_tolerance : stage_tolerance, options_.seed};
+                                     last ? options_.energy_tolerance : stage_tolerance, options_.seed, last,
+                                     i == 0 && !last};
         const Progress& told = last ? progress_ : silent_;
         DescentResult result = minimise(functional, order_, field_.values, descent, told);
         field_.iterations = result.iterations;
