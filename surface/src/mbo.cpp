@@ -14,7 +14,7 @@ namespace {
 
 // Diffusion lengths sqrt(t) of the first level, in diagonals of the component, and of the last, in local edge lengths.
 constexpr double first_length = 0.25, last_length = 1.5;
-constexpr double most_fall = 100; // of the time step, from one level to the next
+constexpr double most_fall = 100;  // of the time step, from one level to the next
 constexpr int first_iterations = 16, iterations_per_level = 10;
 // Relative change of the energy below which a level is done.
 constexpr double least_change = 1e-4;

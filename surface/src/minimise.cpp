@@ -161,18 +161,19 @@ bool Descent::leave_saddle() {
 
 DescentResult Descent::run() {
     moved();
-    while (!stopped_ && !result_.converged) {
+    for (bool tried_saddle = false; !stopped_ && !result_.converged;) {
         const double before = slope_.energy;
-        const bool newton = shift_ <= saddle_shift;
-        const bool settled = flat() || round();
+        const bool newton = shift_ <= saddle_shift, was_flat = flat();
+        const bool settled = was_flat || round();
         if (stopped_) break;
         const bool slow = before - slope_.energy <= newton_start * std::abs(before);
         if (!options_.to_minimum) {
             result_.converged = settled || slow;
-        } else if (settled && newton && !raised_) {
-            result_.converged = true;
-        } else if (settled && newton) {
-            result_.converged = !leave_saddle();
+        } else if (settled && (newton || was_flat)) {
+            // A saddle point is left once: what gains next to nothing after that is a flat valley.
+            const bool proven = newton && !was_flat && !raised_;
+            result_.converged = proven || tried_saddle || !leave_saddle();
+            tried_saddle = true;
         } else if (settled || slow) {
             shift_ = saddle_shift;  // the next factorization also tells a minimum from a saddle point
         }
