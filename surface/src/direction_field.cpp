@@ -6,6 +6,7 @@
 #include <string>
 
 #include "alignment.hpp"
+#include "angle_descent.hpp"
 #include "definiteness.hpp"
 #include "ginzburg_landau.hpp"
 #include "mbo.hpp"
@@ -122,15 +123,18 @@ void require_not_collapsed(const DirectionField& field, const Components& compon
                       "epsilon_too_large", triangles);
 }
 
-constexpr double continuation_ratio = 4;
-constexpr double stage_tolerance = 1e-3;  // of residual and energy, before the last stage
+constexpr double continuation_ratio = 5;  // at most
+constexpr double stage_tolerance = 1e-4;  // of residual and energy, before the last stage
 
 // Coherence lengths, one (E) array after the other, the last as given.
 std::vector<Eigen::VectorXd> continuation(const Eigen::VectorXd& epsilon, double first, const Components& components) {
     const double widest = *std::max_element(components.diagonals.begin(), components.diagonals.end()) / 10;
     if (first == 0 || first > widest) first = widest;
+    const double fall = first / epsilon.minCoeff();
+    const int steps = fall > 1 ? static_cast<int>(std::ceil(std::log(fall) / std::log(continuation_ratio) - 1e-9)) : 0;
     std::vector<Eigen::VectorXd> stages;
-    for (double least = first; least > epsilon.minCoeff(); least /= continuation_ratio) {
+    for (int i = 0; i < steps; ++i) {
+        const double least = first * std::pow(fall, -static_cast<double>(i) / steps);
         stages.push_back(epsilon);
         for (Eigen::Index e = 0; e < epsilon.size(); ++e)
             stages.back()[e] = std::max(epsilon[e], std::min(least, components.diagonals[components.of_edge[e]] / 10));
@@ -182,6 +186,8 @@ public:
 
 private:
     void start();
+    void diffuse(const Problem& problem, DiffusionSolver& diffusion);
+    void settle(const Problem& problem);
     void descend();
 
     const DirectionFieldOptions& options_;
@@ -213,20 +219,45 @@ void Solver::run() {
     if (field_.energy_history.empty()) field_.energy_history = {field_.energy};
 }
 
-// The methods of length 1, whose factorization is gone before that of the descent needs the memory.
+// The methods of length 1. Their factorizations are gone before that of the descent needs the memory.
 void Solver::start() {
     const Problem problem{links_, system_, masses_, components_, aligned_.held, aligned_.pull};
-    DiffusionSolver diffusion(system_);
-    order_ = diffusion.order();
-    field_.values = start_field(problem, diffusion, options_.seed, progress_);
-    if (options_.method == DirectionFieldMethod::mbo && !cancelled_) {
-        DiffusionResult result =
-            diffuse_and_project(problem, diffusion, field_.values, options_.max_iterations, options_.seed, progress_);
-        field_.iterations = result.iterations;
-        field_.converged = result.converged;
-        field_.energy_history = std::move(result.energy_history);
+    const bool mbo = options_.method == DirectionFieldMethod::mbo;
+    {
+        DiffusionSolver diffusion(system_);
+        order_ = diffusion.order();
+        field_.values = start_field(problem, diffusion, options_.seed, progress_);
+        if (mbo && !cancelled_) diffuse(problem, diffusion);
     }
+    if (mbo && field_.converged) settle(problem);
     field_.converged = field_.converged && !cancelled_;
+}
+
+constexpr double diffusion_part = 0.7;  // of the progress of mbo
+
+void Solver::diffuse(const Problem& problem, DiffusionSolver& diffusion) {
+    const Progress told = [this](std::string_view phase, double fraction, double energy) {
+        return progress_(phase, diffusion_part * fraction, energy);
+    };
+    DiffusionResult result =
+        diffuse_and_project(problem, diffusion, field_.values, options_.max_iterations, options_.seed, told);
+    field_.iterations = result.iterations;
+    field_.converged = result.converged;
+    field_.energy_history = std::move(result.energy_history);
+}
+
+// From the projected field to the local minimum beside it.
+void Solver::settle(const Problem& problem) {
+    int steps = 0;
+    const auto told = [&](double energy) {
+        field_.energy_history.push_back(energy);
+        ++field_.iterations;
+        const double left = 1 / (1 + ++steps / 8.0);
+        return progress_("cross field", 1 - (1 - diffusion_part) * left, energy) &&
+               field_.iterations < options_.max_iterations;
+    };
+    const bool more = field_.iterations < options_.max_iterations;
+    field_.converged = more && descend_angles(problem, order_, field_.values, options_.seed, told);
 }
 
 void Solver::descend() {
@@ -236,7 +267,8 @@ void Solver::descend() {
         if (i > 0) narrow_cores(field_.values, aligned_.is_held, stages[i - 1], stages[i]);
         const GinzburgLandau functional(links_, masses_, system_, aligned_.pull, stages[i]);
         const DescentOptions descent{options_.max_iterations, last ? options_.tolerance : stage_tolerance,
-                                     last ? options_.energy_tolerance : stage_tolerance, options_.seed};
+                                     last ? options_.energy_tolerance : stage_tolerance, options_.seed, last,
+                                     i == 0 && !last};
         const Progress& told = last ? progress_ : silent_;
         DescentResult result = minimise(functional, order_, field_.values, descent, told);
         field_.iterations = result.iterations;
