@@ -3,6 +3,7 @@
 // instead.
 #include "angle_descent.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "angle_energy.hpp"
@@ -19,6 +20,7 @@ constexpr double energy_tolerance = 1e-10;  // gain to be expected from a step, 
 constexpr double armijo = 1e-4, least_length = 1e-6;
 // Length of the step that leaves a saddle point, radian, of the edge that turns most.
 constexpr double saddle_step = 0.1;
+constexpr int saddle_iterations = 60;
 
 class AngleDescent {
 public:
@@ -40,7 +42,8 @@ private:
     bool factorize(Curvature curvature) { return cholesky_.factorize(energy_.hessian(values_, curvature)); }
     bool line_search(const Eigen::VectorXd& direction, double slope, LimitedMemory& memory);
     void round();
-    bool leave_saddle();
+    enum class Saddle { left, stuck, none };
+    Saddle leave_saddle();
 
     const Problem& problem_;
     AngleEnergy energy_;
@@ -86,21 +89,28 @@ void AngleDescent::round() {
 }
 
 // From a point where the gradient vanishes and the second derivative is indefinite: down along (nearly) the most
-// negative curvature, by inverse iteration with the convex matrix. False where nothing is gained.
-bool AngleDescent::leave_saddle() {
+// negative curvature relative to the convex matrix C. E - s C with s at the largest eigenvalue of C^-1 E (the part of E
+// that C leaves out may be positive too) is negative, so power iteration with it finds the least one.
+AngleDescent::Saddle AngleDescent::leave_saddle() {
     const FreeSystem::RealMatrix exact = energy_.hessian(values_, Curvature::exact);
-    if (!factorize(Curvature::convex)) return false;
+    if (!factorize(Curvature::convex)) return Saddle::stuck;
+    const auto times = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+        return exact.selfadjointView<Eigen::Lower>() * x;
+    };
     Eigen::VectorXd direction = random_vector(slope_.gradient.size(), seed_);
-    for (int i = 0; i < 10; ++i) {
-        // convex^-1 (convex - exact) has the directions of negative curvature as its eigenvectors above 1.
-        direction -= cholesky_.solve(exact.selfadjointView<Eigen::Lower>() * direction);
+    double largest = 1;
+    for (int i = 0; i < saddle_iterations; ++i) {
+        const Eigen::VectorXd image = cholesky_.solve(times(direction));
+        largest = std::max(largest, image.norm() / direction.norm());
+        direction = largest * direction - image;
         direction /= direction.cwiseAbs().maxCoeff();
     }
-    const double curvature = direction.dot(exact.selfadjointView<Eigen::Lower>() * direction);
-    if (!(curvature < 0)) return false;
+    const double curvature = direction.dot(times(direction));
+    if (!(curvature < 0)) return Saddle::none;
     if (direction.dot(slope_.gradient) > 0) direction = -direction;
     LimitedMemory memory(1);
-    return line_search(saddle_step * direction, saddle_step * saddle_step * curvature / 2, memory);
+    const bool gained = line_search(saddle_step * direction, saddle_step * saddle_step * curvature / 2, memory);
+    return gained ? Saddle::left : Saddle::stuck;
 }
 
 // To a minimum beside the present field. False where the matrix is not definite to rounding, or when stopped.
@@ -114,7 +124,9 @@ bool AngleDescent::descend(double tolerance) {
         if (flat_ && exact) return true;
         if (stopped_) return false;
         if (slope_.energy < before && !flat_) continue;
-        if (exact || !leave_saddle()) return exact;
+        if (exact) return true;
+        const Saddle saddle = leave_saddle();
+        if (saddle != Saddle::left) return saddle == Saddle::none;
     }
     return false;
 }
