@@ -1,10 +1,10 @@
 """Singular points of 4- and 6-direction fields on the unit sphere: the square antiprism and the icosahedron (thesis figures 3.10, 3.11, 3.13).
 
-    python studies/surface_sphere.py -o DIR [--meshes 12,24,48] [--epsilons 0.1,0.05,0.025] [--seeds 3]
+    python studies/surface_sphere.py -o DIR [--meshes 12,24,48,96] [--epsilons 0.1,0.05,0.025] [--seeds 3]
 
 2 N singular points of index 1/N; where they sit is decided by the renormalised energy, that is by -sum over pairs of log|x_i - x_j|. DIR gets
-pictures, the curve of figure 3.11 (CSV) and summary.md: that sum and the distances of the points beside its minimisers. A mesh of number n
-has 20 n^2 triangles (N = 4, icosahedral) or 8 (1.6 n)^2 (N = 6, octahedral, so that the mesh has not the symmetry of the answer).
+pictures, the curve of figure 3.11 (CSV) and summary.md: that sum and the distances of the points beside its minimisers. Points are located by a fit to the
+core (surface_points.py). A mesh of number n has 20 n^2 triangles (N = 4, icosahedral) or 8 (1.6 n)^2 (N = 6, octahedral, so that the mesh has not the symmetry of the answer).
 """
 
 import argparse
@@ -12,9 +12,10 @@ from pathlib import Path
 
 import numpy as np
 import pyvista
-from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
+from study_output import markdown_table, new_figure, with_grid, write_csv
 from surface_meshes import sphere
-from surface_pictures import draw_field
+from surface_pictures import draw_field, save_drawing
+from surface_points import located_on_sphere
 
 import octafield
 from octafield.plots import PALETTE
@@ -62,15 +63,14 @@ def solve(symmetry: int, n: int, epsilon: float, seed: int):
 
 def measured(symmetry: int, n: int, epsilon: float, seed: int) -> tuple:
     mesh, _, field, singular = solve(symmetry, n, epsilon, seed)
-    points = np.array([s.position for s in singular.points])
-    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    points = located_on_sphere(mesh, field, np.array([s.position for s in singular.points]), epsilon)
     logarithmic = octafield.logarithmic_energy(points)
     if len(points) == 2 * symmetry:
-        distances = ", ".join(f"{g.min():.3f} to {g.max():.3f}" for g in grouped(points, symmetry))
+        distances = ", ".join(f"{g.min():.4f} to {g.max():.4f}" for g in grouped(points, symmetry))
         theory = octafield.asymptotic_energy(len(points), octafield.sphere_renormalised_energy(points), epsilon)
     else:
         distances, theory = "-", float("nan")
-    return (symmetry, f"{len(mesh.triangles):,}", f"{epsilon:g}", seed, len(points), f"{singular.index_sum:g}", f"{logarithmic:.5f}", f"{logarithmic - BEST[symmetry]:.5f}",
+    return (symmetry, f"{len(mesh.triangles):,}", f"{epsilon:g}", seed, len(points), f"{singular.index_sum:g}", f"{logarithmic:.5f}", f"{logarithmic - BEST[symmetry]:.1e}",
             distances, f"{field.energy:.3f}", f"{theory:.3f}", f"{field.dirichlet_energy:.3f}", field.iterations, f"{field.residual:.0e}")
 
 
@@ -85,7 +85,7 @@ def figure_3_11(output: Path) -> str:
     axes.set(xlabel="twist of the two squares (degrees)", ylabel="$-\\Sigma_{i<j}\\,\\log |x_i - x_j|$", xticks=(0, 15, 30, 45, 60, 75, 90))
     axes.legend(frameon=False)
     with_grid(axes)
-    save_figure(figure, output / "surface_sphere_twist.png")
+    save_drawing(figure, output / "surface_sphere_twist.png")
     write_csv(output / "surface_sphere_twist.csv", ["twist_deg", "cube_height", "best_height"], np.column_stack([twists, *curves.values()]).tolist())
     rows = [(name, f"{values[0]:.6f}", f"{min(values):.6f}", f"{twists[np.argmin(values)]:g}") for name, values in curves.items()]
     return markdown_table(["height of the squares", "twist 0", "least", "at twist (degrees)"], rows)
@@ -112,7 +112,7 @@ def main() -> None:
     text = figure_3_11(arguments.output) + "\n" + markdown_table(header, rows)
     for symmetry in BEST:
         mesh, _, field, singular = solve(symmetry, sizes[len(sizes) // 2], epsilons[0], 1)
-        draw_field(arguments.output / f"surface_sphere_{symmetry}.png", mesh, field, singular, (0.5, -0.7, 0.5), spacing=0.09, separatrix=0.3)
+        draw_field(arguments.output / f"surface_sphere_{symmetry}.png", mesh, field, singular, (0.5, -0.7, 0.5), spacing=0.09, separatrix=0.35)
     (arguments.output / "summary.md").write_text(text)
     print(text)
 

@@ -1,6 +1,6 @@
 """4-direction fields on the torus R = 1, r = 0.5: the states with 0, 4, ..., 16 singular points, and which of them costs least (thesis figure 3.15).
 
-    python studies/surface_torus.py -o DIR [--around 144] [--epsilons 0.12,0.06,0.03] [--points 0,4,6,8,10,12,14,16]
+    python studies/surface_torus.py -o DIR [--around 144] [--epsilons 0.17,0.12,0.085,0.06,0.042,0.03] [--points 0,4,6,8,10,12,14,16]
 
 The torus has states for every even number of singular points, half of them of index +1/4 on the outer equator, half of -1/4 on the inner one:
 along the curvature lines f turns by exp(-i floor(m/2) phi) on the upper half and exp(+i ceil(m/2) phi) on the lower one, m points on each equator,
@@ -14,9 +14,9 @@ import argparse
 from pathlib import Path
 
 import numpy as np
-from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
+from study_output import markdown_table, new_figure, with_grid, write_csv
 from surface_meshes import torus
-from surface_pictures import draw_field
+from surface_pictures import draw_field, save_drawing
 
 import octafield
 from octafield.plots import PALETTE
@@ -94,16 +94,18 @@ def states_table(around: int, epsilons: list[float], wanted: list[int]) -> tuple
 
 
 def free_table(around: int, epsilons: list[float]) -> str:
-    """Without constraints: each method as it is, and guided by the principal directions."""
+    """Without constraints: each method as it is, and guided by the principal directions. mbo and eigenvector do not depend on epsilon."""
     mesh, features, rows = torus(around, around // 2), octafield.FeatureGraph(), []
     principal = octafield.principal_directions(mesh)
     guide = octafield.DirectionGuide(principal.directions, principal.anisotropy)
-    for epsilon in epsilons:
-        for name, options in (("ginzburg_landau", {}), ("ginzburg_landau, no continuation", {"first_epsilon": epsilon}),
-                              ("ginzburg_landau, guided by curvature", {"guide": guide}), ("mbo", {"method": "mbo"}), ("eigenvector", {"method": "eigenvector"})):
-            field = octafield.direction_field(mesh, features, epsilon=epsilon, **options)
-            found = counts(octafield.surface_singularities(mesh, field))
-            rows.append((f"{epsilon:g}", name, f"{found[0]} + {found[1]}", f"{free_energy(mesh, features, field):.3f}", f"{field.dirichlet_energy:.3f}"))
+    runs = [(name, epsilon, {"epsilon": epsilon, **options}) for epsilon in epsilons
+            for name, options in (("ginzburg_landau", {}), ("ginzburg_landau, no continuation", {"first_epsilon": epsilon}),
+                                  ("ginzburg_landau, guided by curvature", {"guide": guide}))]
+    runs += [(name, None, {"method": name}) for name in ("mbo", "eigenvector")]
+    for name, epsilon, options in runs:
+        field = octafield.direction_field(mesh, features, **options)
+        found = counts(octafield.surface_singularities(mesh, field))
+        rows.append(("-" if epsilon is None else f"{epsilon:g}", name, f"{found[0]} + {found[1]}", f"{free_energy(mesh, features, field):.3f}", f"{field.dirichlet_energy:.3f}"))
     return markdown_table(["eps", "run", "points found, + and -", "energy", "Dirichlet"], rows)
 
 
@@ -118,37 +120,42 @@ def aligned(around: int) -> float:
 
 
 def energy_figure(path: Path, curves: dict) -> None:
-    figure, axes = new_figure(6.0, 3.8)
-    for (points, curve), number in zip(curves.items(), range(len(curves))):
+    figure, axes = new_figure(6.6, 4.0)
+    markers = "o^vDs*Pp"
+    for number, (points, curve) in enumerate(curves.items()):
         epsilon, energy = np.transpose(sorted(curve))
-        axes.plot(epsilon, energy, ("-", "--")[number // len(PALETTE)], marker="o", markersize=4, color=PALETTE[number % len(PALETTE)], label=f"{points} points")
+        axes.plot(epsilon, energy, ("-", "--")[number // len(PALETTE)], marker=markers[number % len(markers)], markersize=5, color=PALETTE[number % len(PALETTE)],
+                  label=f"{points} points")
+    for number, value in enumerate(PUBLISHED.values()):
+        axes.plot(PUBLISHED_EPSILON, float(value), "x", color="black", markersize=9, markeredgewidth=1.8, zorder=5, label=None if number else "thesis: 72.10, 84.58")
     axes.set(xlabel="eps", ylabel="energy", xscale="log")
     ticks = sorted({e for curve in curves.values() for e, _ in curve})
     axes.set_xticks(ticks, [f"{e:g}" for e in ticks], minor=False)
     axes.set_xticks([], minor=True)
     axes.legend(frameon=False, ncols=2)
     with_grid(axes)
-    save_figure(figure, path)
+    save_drawing(figure, path)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--around", type=int, default=144)
-    parser.add_argument("--epsilons", default="0.12,0.085,0.06,0.042,0.03")
+    parser.add_argument("--epsilons", default="0.17,0.12,0.085,0.06,0.042,0.03")
     parser.add_argument("--points", default="0,4,6,8,10,12,14,16")
+    parser.add_argument("--states-only", action="store_true", help="no runs without constraints, no pictures of fields")
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     epsilons = [float(x) for x in arguments.epsilons.split(",")]
     table, curves = states_table(arguments.around, epsilons, [int(x) for x in arguments.points.split(",")])
     along = f"Along the curvature lines, |f| = 1: {aligned(arguments.around):.3f} (exact {ALIGNED:.3f}, thesis {PUBLISHED[0]})\n"
-    text = "\n".join([along, table, free_table(arguments.around, epsilons)])
+    text = "\n".join([along, table, *([] if arguments.states_only else [free_table(arguments.around, epsilons)])])
     energy_figure(arguments.output / "surface_torus_energy.png", curves)
     write_csv(arguments.output / "surface_torus.csv", ["points", "eps", "energy"], [(n, *pair) for n, curve in curves.items() for pair in curve])
-    for points in (8, 12):
+    for points in () if arguments.states_only else (8, 12):
         mesh = torus(arguments.around, arguments.around // 2)
         _, field, singular, _ = state(mesh, arguments.around, points, PUBLISHED_EPSILON)
-        draw_field(arguments.output / f"surface_torus_{points}.png", mesh, field, singular, (0, -0.8, 0.75), spacing=0.1)
+        draw_field(arguments.output / f"surface_torus_{points}.png", mesh, field, singular, (0, -0.75, 0.9), spacing=0.1, separatrix=0.35)
     (arguments.output / "summary.md").write_text(text)
     print(text)
 

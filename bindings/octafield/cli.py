@@ -162,8 +162,14 @@ def surface_field(
         str,
         typer.Option(metavar=choices(ALIGNMENTS), help="How the field follows the rim of an open surface."),
     ] = _SURFACE.boundary,
+    curvature: Annotated[
+        float, typer.Option(metavar="WEIGHT", help="Pull towards the lines of curvature, 1 is usual; 0: none.")
+    ] = _SURFACE.curvature,
     features: Features = _SURFACE.features,
     feature_angle: FeatureAngle = _ANGLE,
+    least_feature_angle: Annotated[
+        float, typer.Option(metavar="DEG", help="Feature edges that bend by less are not followed, degrees.")
+    ] = math.degrees(_SURFACE.least_feature_angle),
     edge_length: EdgeLength = _SURFACE.edge_length,
     remesh: Remesh = _SURFACE.remesh,
     repair: Repair = _SURFACE.repair,
@@ -185,6 +191,8 @@ def surface_field(
             method=method,
             epsilon=epsilon,
             boundary=boundary,
+            least_feature_angle=math.radians(least_feature_angle),
+            curvature=curvature,
             seed=seed,
             **_mesh_options(features, feature_angle, edge_length, remesh, repair),
         )

@@ -27,7 +27,8 @@ _REPAIRABLE = (
     "inside_out",
 )
 
-_OPTION_AT_FAULT = ("epsilon_too_large",)  # kinds of SolverError that another option value avoids
+# kinds of SolverError that another option or another mesh avoids
+_OPTION_AT_FAULT = ("epsilon_too_large", "thin_triangles", "bad_weights")
 
 log = logging.getLogger("octafield")
 

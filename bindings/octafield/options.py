@@ -13,6 +13,7 @@ SOLVERS = ("default", "trust_region", "levenberg_marquardt", "lbfgs")  # default
 BOUNDARIES = ("aligned", "fixed", "none")
 FEATURES = ("default", "file", "angle", "none")
 LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
+LARGEST_SYMMETRY = 1000  # largest_symmetry of direction_field.hpp
 METHODS = {"gl": "ginzburg_landau", "mbo": "mbo", "eigen": "eigenvector"}
 ALIGNMENTS = ("strong", "weak", "none")
 
@@ -70,20 +71,38 @@ class SurfaceFieldOptions(MeshOptions):
     epsilon the coherence length (0: default).
 
     boundary: how the field follows the rim of an open surface, "strong", "weak" (singular points may sit there), "none".
+    least_feature_angle: radians; feature edges inside the surface that bend by less are not followed (0: all are).
+    curvature: pull towards the lines of curvature, 0 (none) or more; symmetry must be even. 1 lets the field follow
+        them over lengths of a tenth of the bounding-box diagonal, 100 over a hundredth; where the two principal
+        curvatures are alike it pulls less (weight = curvature * octafield.principal_directions().anisotropy).
     """
 
     symmetry: int = default_of("direction_field", "symmetry")
     method: str = "gl"
     epsilon: float = default_of("direction_field", "epsilon")
     boundary: str = default_of("direction_field", "boundary")
+    least_feature_angle: float = default_of("direction_field", "least_feature_angle")
+    curvature: float = 0.0
     seed: int = 0
 
     def __post_init__(self) -> None:
         super().__post_init__()
         require_one_of("method", self.method, METHODS)
         require_one_of("boundary", self.boundary, ALIGNMENTS)
-        _make_integer(self, "symmetry", 1, LARGEST_INT)
+        _make_integer(self, "symmetry", 1, LARGEST_SYMMETRY)
         _require(math.isfinite(self.epsilon) and self.epsilon >= 0, "epsilon must be positive (0: default)")
+        _require(
+            math.isfinite(self.least_feature_angle) and 0 <= self.least_feature_angle < math.pi,
+            "the least feature angle must lie between 0 and 180 degrees",
+        )
+        _require(
+            math.isfinite(self.curvature) and 0 <= self.curvature <= 1e9,
+            "the weight of curvature must lie between 0 and 1e9",
+        )
+        _require(
+            self.curvature == 0 or self.symmetry % 2 == 0,
+            "lines of curvature have no sense to run in: curvature needs an even symmetry",
+        )
         _make_integer(self, "seed", 0, LARGEST_SEED)
 
 

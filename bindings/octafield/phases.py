@@ -88,7 +88,22 @@ def forward(progress: Progress | None, phase: str, low: float = 0.0, high: float
     return report
 
 
+class StopNote:
+    """Passes reports on to a callback and remembers whether it said stop."""
+
+    def __init__(self, progress: Progress | None):
+        self.stopped = False
+        self.progress = None if progress is None else self._report
+        self._callback = progress
+
+    def _report(self, phase: str, fraction: float, merit: float) -> bool | None:
+        answer = self._callback(phase, fraction, merit)
+        self.stopped = self.stopped or (answer is not None and not answer)
+        return answer
+
+
 def announce(progress: Progress | None, phase: str, fraction: float = -1.0) -> None:
     """Reports that a phase of unknown length begins; raises Cancelled when the callback says stop."""
-    if progress is not None and progress(phase, fraction, float("nan")) is False:
+    answer = None if progress is None else progress(phase, fraction, float("nan"))
+    if answer is not None and not answer:
         raise Cancelled(f"cancelled during {phase}")

@@ -28,10 +28,10 @@ from ._core import (
     TetMesh,
     TriangleMesh,
 )
-from .inputs import naming
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
-from .options import METHODS, FieldOptions, MeshOptions, SurfaceFieldOptions
-from .phases import PeakMemory, PhaseClock, Progress, announce, forward, octafield_version, versions
+from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
+from .phases import PeakMemory, PhaseClock, Progress, announce, forward
+from .surface_pipeline import SurfaceFieldResult, common_record, compute_surface_field, index_summary, structure
 
 __all__ = [
     "FieldOptions",
@@ -48,19 +48,6 @@ __all__ = [
     "prepare_mesh",
     "run",
 ]
-
-
-@dataclass
-class SurfaceFieldResult:
-    """An N-direction field on a surface. directions: (V, 3), one representative per vertex. record: the JSON object."""
-
-    surface: TriangleMesh
-    features: FeatureGraph
-    direction_field: DirectionField
-    directions: np.ndarray
-    singularities: SurfaceSingularities
-    separatrices: Sequence[Streamline]
-    record: dict
 
 
 @dataclass
@@ -96,50 +83,6 @@ class FieldResult:
     record: dict
 
 
-def compute_surface_field(
-    source: Source, options: SurfaceFieldOptions = SurfaceFieldOptions(), progress: Progress | None = None
-) -> SurfaceFieldResult:
-    """N-direction field on a surface (path or TriangleMesh) or on the boundary of a tet mesh."""
-    memory = PeakMemory()
-    meshed = prepare_mesh(source, options, volume=False, progress=progress)
-    clock = meshed.clock
-    with naming(meshed.name), clock.phase("surface"):
-        field = _core.direction_field(
-            meshed.surface,
-            meshed.features,
-            symmetry=options.symmetry,
-            method=METHODS[options.method],
-            epsilon=options.epsilon,
-            boundary=options.boundary,
-            seed=options.seed,
-            progress=forward(progress, "surface", 0.0, 0.9),
-        )
-        directions, singularities, separatrices = _structure(meshed, field, progress)
-    points = [
-        {"position": [float(x) for x in s.position], "index": float(s.index), "boundary": bool(s.boundary)}
-        for s in singularities.points
-    ]
-    record = {
-        **_common_record(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
-        "vertices": len(meshed.surface.vertices),
-        "triangles": len(meshed.surface.triangles),
-        "symmetry": options.symmetry,
-        "method": options.method,
-        "seed": options.seed,
-        **_index_summary(singularities),
-        "singularities": points,
-        "energy": field.energy,
-        "dirichlet_energy": field.dirichlet_energy,
-        "energy_history": [float(e) for e in field.energy_history],
-        "epsilon": field.epsilon,
-        "iterations": field.iterations,
-        "converged": bool(field.converged),
-        "residual": field.residual,
-        "options": asdict(options),
-    }
-    return SurfaceFieldResult(meshed.surface, meshed.features, field, directions, singularities, separatrices, record)
-
-
 def compute_field(
     source: Source, options: FieldOptions = FieldOptions(), progress: Progress | None = None
 ) -> FieldResult:
@@ -157,22 +100,9 @@ def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None
         field = _core.direction_field(
             meshed.surface, meshed.features, seed=seed, progress=forward(progress, "surface", 0.0, 0.9)
         )
-        directions, singularities, separatrices = _structure(meshed, field, progress)
+        directions, singularities, separatrices = structure(meshed, field, progress)
     peak = max(meshed.peak_mb, memory.megabytes())
     return Problem(meshed, seed, field, directions, singularities, separatrices, clock, peak)
-
-
-def _structure(
-    meshed: MeshedInput, field: DirectionField, progress: Progress | None
-) -> tuple[np.ndarray, SurfaceSingularities, list[Streamline]]:
-    """Directions at the vertices, singular points and separatrices of a surface field."""
-    surface, features = meshed.surface, meshed.features
-    directions = np.asarray(_core.vertex_directions(surface, features, field))
-    singularities = _core.surface_singularities(surface, field)
-    separatrices = _core.separatrices(
-        surface, features, field, singularities, progress=forward(progress, "surface", 0.9, 1.0)
-    )
-    return directions, singularities, separatrices
 
 
 def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Progress | None = None) -> FieldResult:
@@ -206,7 +136,7 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         alignment = np.asarray(_core.alignment_angles(meshed.boundary, meshed.features, frames))
         energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
     record = {
-        **_common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
+        **common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
         "vertices": len(tets.vertices),
         "tets": len(tets.tets),
         "boundary_triangles": len(meshed.surface.triangles),
@@ -230,7 +160,7 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
             "epsilon": problem.direction_field.epsilon,
             "iterations": problem.direction_field.iterations,
             "converged": bool(problem.direction_field.converged),
-            **_index_summary(problem.singularities),
+            **index_summary(problem.singularities),
         },
         "released_corners": len(constraints.released_corners),
         "options": asdict(replace(options, seed=problem.seed)),
@@ -249,31 +179,6 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         alignment,
         record,
     )
-
-
-def _common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dict:
-    return {
-        "input": meshed.name,
-        "version": octafield_version(),
-        "input_kind": meshed.kind,
-        "mesh_sha256": meshed.digest(),
-        "edge_length": float(_core.mean_edge_length(meshed.surface)),
-        "feature_source": meshed.feature_source,
-        "feature_edges": len(meshed.features.edges),
-        "feature_corners": len(meshed.features.corners),
-        "notes": list(meshed.notes),
-        "wall_seconds": clock.wall,
-        "cpu_seconds": clock.cpu,
-        "peak_mb": round(peak_mb, 1),
-        "versions": versions(),
-    }
-
-
-def _index_summary(singularities: SurfaceSingularities) -> dict:
-    return {
-        "euler_characteristic": singularities.euler_characteristic,
-        "index_sum": singularities.index_sum,
-    }
 
 
 def _counts_by_index(singularities: SurfaceSingularities) -> dict[str, int]:

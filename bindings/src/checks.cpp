@@ -111,8 +111,10 @@ void check(surface::FeatureGraph& features, const surface::TriangleMesh& mesh) {
 }
 
 void check(const surface::DirectionField& field, const surface::TriangleMesh& mesh) {
-    if (field.symmetry < 1)
-        throw InvalidInput("field.symmetry: " + std::to_string(field.symmetry) + " is below 1", "option_out_of_range");
+    if (field.symmetry < 1 || field.symmetry > surface::largest_symmetry)
+        throw InvalidInput("field.symmetry: " + std::to_string(field.symmetry) + " is not in 1 .. " +
+                               std::to_string(surface::largest_symmetry),
+                           "option_out_of_range");
     const auto topology = surface::edge_topology(mesh);
     const auto same = [](const auto& a, const auto& b) {
         return a.rows() == b.rows() && (a.array() == b.array()).all();
@@ -156,11 +158,21 @@ void check(const surface::DirectionGuide& guide, const surface::TriangleMesh& me
 void check(const surface::SurfaceSingularities& singularities, const surface::TriangleMesh& mesh) {
     // Inside a triangle a linear interpolant turns once at most; some room for points that stand for several.
     constexpr int most_turns = 1000;
+    const auto near = [&](const Eigen::Vector3d& position, Index triangle) {  // no farther than its longest side
+        const Eigen::Matrix3d corners = mesh.vertices(mesh.triangles.row(triangle), Eigen::all);
+        const double reach = (corners.rowwise() - corners.row(0)).rowwise().norm().maxCoeff();
+        return (position - corners.colwise().mean().transpose()).norm() <= reach;
+    };
+    const double diagonal = surface::bounding_box_diagonal(mesh.vertices);
+    const auto at = [&](const Eigen::Vector3d& position, Index vertex) {
+        return (position - mesh.vertices.row(vertex).transpose()).norm() <= 1e-6 * diagonal;
+    };
     const auto lost = [&](auto i) {
         const auto& p = singularities.points[i];
-        const bool at_vertex = p.vertex >= 0 && p.vertex < mesh.vertices.rows();
+        const bool at_vertex = p.vertex >= 0 && p.vertex < mesh.vertices.rows() && at(p.position, p.vertex);
         const bool in_triangle = p.vertex == -1 && p.triangle >= 0 && p.triangle < mesh.triangles.rows() &&
-                                 p.index_times_symmetry >= -most_turns && p.index_times_symmetry <= most_turns;
+                                 p.index_times_symmetry >= -most_turns && p.index_times_symmetry <= most_turns &&
+                                 near(p.position, p.triangle);
         return !p.position.allFinite() || !(at_vertex || in_triangle);
     };
     require_none(static_cast<std::int64_t>(singularities.points.size()), lost, "singularities.points",

@@ -40,7 +40,9 @@ bool Job::call_back(std::string_view phase, double fraction, double merit) {
     try {
         const ProgressCallable callback = *callback_;  // an abandoning caller drops its own reference
         const py::object answer = callback(py::str(phase.data(), phase.size()), fraction, merit);
-        if (!answer.is_none() && !answer.cast<bool>()) cancelled_ = true;
+        const int goes_on = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
+        if (goes_on < 0) throw py::error_already_set();
+        if (goes_on == 0) cancelled_ = true;
     } catch (...) {
         callback_error_ = std::current_exception();
         cancelled_ = true;

@@ -8,13 +8,16 @@ namespace octafield::surface::detail {
 
 ChartedField::ChartedField(const TriangleMesh& mesh, const DirectionField& field, const std::vector<CornerLink>& links)
     : mesh_(mesh), topology_(field.topology), symmetry_(field.symmetry), charts_(mesh.triangles.rows()) {
+    // Directions do not depend on the size of f: scaled, its derivatives stay numbers.
+    const double largest = field.values.size() > 0 ? field.values.cwiseAbs().maxCoeff() : 0;
+    const Eigen::VectorXcd scaled = largest > 0 ? Eigen::VectorXcd(field.values / largest) : field.values;
     for (Index t = 0; t < mesh.triangles.rows(); ++t) {
         Chart& chart = charts_[t];
         const Eigen::Vector3d origin = mesh.vertices.row(mesh.triangles(t, 0));
         chart.corners[0] = 0;
         for (int k = 1; k < 3; ++k)
             chart.corners[k] = lower_vector(t, mesh.vertices.row(mesh.triangles(t, k)).transpose() - origin);
-        const auto values = local_values(links, field.values, t);
+        const auto values = local_values(links, scaled, t);
         // The shape function of edge k is 1 - 2 times the barycentric function of corner k + 2, whose gradient is
         // i * side(k) / twice the area.
         chart.constant = chart.by_x = chart.by_y = 0;

@@ -7,6 +7,7 @@
 
 #include "alignment.hpp"
 #include "octafield/error.hpp"
+#include "short_number.hpp"
 #include "vertex_fans.hpp"
 
 namespace octafield::surface::detail {
@@ -167,6 +168,11 @@ void add_guide(const TriangleMesh& mesh, const EdgeTopology& topology, int symme
     const Points normals = triangle_normals(mesh);
     const Eigen::VectorXd areas = triangle_areas(mesh);
     const double length = guide.length > 0 ? guide.length : bounding_box_diagonal(mesh.vertices) / 10;
+    if (!std::isnormal(length * length))
+        throw InvalidInput("the length of a guide field, " + short_number(length) +
+                               ", is beyond double precision when squared; choose one between the edge length and the "
+                               "size of the surface",
+                           "option_out_of_range");
     std::vector<Index> bad;
     for (Index t = 0; t < triangles; ++t) {
         const double weight = guide.weights.size() == 0 ? 1 : guide.weights[t];

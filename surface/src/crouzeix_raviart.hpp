@@ -31,6 +31,9 @@ std::vector<CornerLink> corner_links(const TriangleMesh& mesh, const EdgeTopolog
 // Diagonal of the mass matrix, (E): a third of the areas of the adjacent triangles.
 Eigen::VectorXd edge_masses(const TriangleMesh& mesh, const EdgeTopology& topology);
 
+// Unit values; where f = 0, exactly as in the middle of a symmetric mesh, any direction does.
+Eigen::VectorXcd unit_values(const Eigen::VectorXcd& values);
+
 // How far the direction's N-fold angle turns from the first edge of the corner to the second, in (-pi, pi], against the
 // triangle's plane.
 double turn(const CornerLink& link, const Eigen::VectorXcd& values);

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "alignment.hpp"
+#include "angle_descent.hpp"
+#include "definiteness.hpp"
 #include "ginzburg_landau.hpp"
 #include "mbo.hpp"
 #include "octafield/library_threads.hpp"
@@ -22,7 +24,9 @@ constexpr double least_length = 0.1;
 
 void require_usable(const TriangleMesh& mesh, const DirectionFieldOptions& options) {
     const auto is_length = [](double length) { return length >= 0 && std::isfinite(length); };
-    if (options.symmetry < 1) throw InvalidInput("the symmetry of a direction field must be at least 1");
+    if (options.symmetry < 1 || options.symmetry > largest_symmetry)
+        throw InvalidInput("the symmetry of a direction field must be at least 1 and at most " +
+                           std::to_string(largest_symmetry) + ", not " + std::to_string(options.symmetry));
     if (!is_length(options.epsilon)) throw InvalidInput("epsilon must be a length, or 0 for the default");
     if (!is_length(options.first_epsilon)) throw InvalidInput("first_epsilon must be a length, or 0 for none");
     if (!is_length(options.alignment_length))
@@ -39,20 +43,6 @@ void require_usable(const TriangleMesh& mesh, const DirectionFieldOptions& optio
         throw GeometryError("a triangle names a vertex that does not exist; there are " +
                                 std::to_string(mesh.vertices.rows()) + " vertices, numbered from 0",
                             "index_out_of_range");
-}
-
-EdgeTopology oriented_topology(const TriangleMesh& mesh) {
-    try {
-        return edge_topology(mesh);
-    } catch (const GeometryError& error) {
-        if (error.kind() != "inconsistent_orientation") throw;
-        const std::vector<Index> twisted = unorientable_triangles(mesh);
-        if (twisted.empty()) throw;
-        throw GeometryError("the surface has one side only, like a Moebius strip: no orientation of its " +
-                                std::to_string(twisted.size()) + " connected triangles (" + first_few(twisted) +
-                                ") is consistent; cut it open, or take the boundary of the solid",
-                            "not_orientable", twisted);
-    }
 }
 
 // Of the components that nothing aligns, the only ones that a large epsilon makes vanish; infinity if there are none.
@@ -72,6 +62,9 @@ void require_not_below_edges(const DirectionFieldOptions& options, double epsilo
         "epsilon_too_small");
 }
 
+// Whether squares of length / mean and of their ratio to areas are numbers.
+bool is_scale(double length, double mean) { return length >= 1e-60 * mean && length <= 1e60 * mean; }
+
 // (E)
 Eigen::VectorXd chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& topology, const Components& components,
                                const DirectionFieldOptions& options) {
@@ -82,10 +75,17 @@ Eigen::VectorXd chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& top
     const double mean = sum / edges;
     if (options.edge_epsilon.size() != 0) {
         const Eigen::VectorXd& given = options.edge_epsilon;
-        if (given.size() != edges || !given.allFinite() || !(given.minCoeff() > 0))
+        if (given.size() != edges)
             throw InvalidInput("edge_epsilon must hold one length above 0 per edge, " + std::to_string(edges) +
                                    "; it has " + std::to_string(given.size()) + " entries",
                                "wrong_size");
+        std::vector<Index> bad;
+        for (Index e = 0; e < edges; ++e)
+            if (!is_scale(given[e], mean)) bad.push_back(e);
+        if (!bad.empty())
+            throw InvalidInput("edge_epsilon must hold lengths above 0; it does not at " + std::to_string(bad.size()) +
+                                   " edges (" + first_few(bad) + ")",
+                               "bad_epsilon", bad);
         require_not_below_edges(options, given.minCoeff(), mean);
         return given;
     }
@@ -95,6 +95,11 @@ Eigen::VectorXd chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& top
                             std::max(smallest_free_diagonal(components) / 10, mean / 4)});
     else
         require_not_below_edges(options, epsilon, mean);
+    if (!is_scale(epsilon, mean))
+        throw InvalidInput("an epsilon of " + short_number(epsilon) +
+                               " is no length on the scale of the mesh, whose mean edge length is " +
+                               short_number(mean) + "; 2 mean edge lengths are usual",
+                           "bad_epsilon");
     return Eigen::VectorXd::Constant(edges, epsilon);
 }
 
@@ -118,15 +123,18 @@ void require_not_collapsed(const DirectionField& field, const Components& compon
                       "epsilon_too_large", triangles);
 }
 
-constexpr double continuation_ratio = 4;
-constexpr double stage_tolerance = 1e-3;  // of residual and energy, before the last stage
+constexpr double continuation_ratio = 5;  // at most
+constexpr double stage_tolerance = 1e-4;  // of residual and energy, before the last stage
 
 // Coherence lengths, one (E) array after the other, the last as given.
 std::vector<Eigen::VectorXd> continuation(const Eigen::VectorXd& epsilon, double first, const Components& components) {
     const double widest = *std::max_element(components.diagonals.begin(), components.diagonals.end()) / 10;
     if (first == 0 || first > widest) first = widest;
+    const double fall = first / epsilon.minCoeff();
+    const int steps = fall > 1 ? static_cast<int>(std::ceil(std::log(fall) / std::log(continuation_ratio) - 1e-9)) : 0;
     std::vector<Eigen::VectorXd> stages;
-    for (double least = first; least > epsilon.minCoeff(); least /= continuation_ratio) {
+    for (int i = 0; i < steps; ++i) {
+        const double least = first * std::pow(fall, -static_cast<double>(i) / steps);
         stages.push_back(epsilon);
         for (Eigen::Index e = 0; e < epsilon.size(); ++e)
             stages.back()[e] = std::max(epsilon[e], std::min(least, components.diagonals[components.of_edge[e]] / 10));
@@ -170,6 +178,7 @@ public:
         for (const WeakEdge& weak : aligned_.weak) anchor(weak.edge);
         epsilon_ = chosen_epsilon(mesh, field.topology, components_, options);
         add_weak_edges(aligned_, options.alignment_length, epsilon_);
+        release_negligible(components_, aligned_);
         field.epsilon = epsilon_.minCoeff();
     }
 
@@ -177,6 +186,8 @@ public:
 
 private:
     void start();
+    void diffuse(const Problem& problem, DiffusionSolver& diffusion);
+    void settle(const Problem& problem);
     void descend();
 
     const DirectionFieldOptions& options_;
@@ -208,20 +219,45 @@ void Solver::run() {
     if (field_.energy_history.empty()) field_.energy_history = {field_.energy};
 }
 
-// The methods of length 1, whose factorization is gone before that of the descent needs the memory.
+// The methods of length 1. Their factorizations are gone before that of the descent needs the memory.
 void Solver::start() {
     const Problem problem{links_, system_, masses_, components_, aligned_.held, aligned_.pull};
-    DiffusionSolver diffusion(system_);
-    order_ = diffusion.order();
-    field_.values = start_field(problem, diffusion, options_.seed, progress_);
-    if (options_.method == DirectionFieldMethod::mbo && !cancelled_) {
-        DiffusionResult result =
-            diffuse_and_project(problem, diffusion, field_.values, options_.max_iterations, options_.seed, progress_);
-        field_.iterations = result.iterations;
-        field_.converged = result.converged;
-        field_.energy_history = std::move(result.energy_history);
+    const bool mbo = options_.method == DirectionFieldMethod::mbo;
+    {
+        DiffusionSolver diffusion(system_);
+        order_ = diffusion.order();
+        field_.values = start_field(problem, diffusion, options_.seed, progress_);
+        if (mbo && !cancelled_) diffuse(problem, diffusion);
     }
+    if (mbo && field_.converged) settle(problem);
     field_.converged = field_.converged && !cancelled_;
+}
+
+constexpr double diffusion_part = 0.7;  // of the progress of mbo
+
+void Solver::diffuse(const Problem& problem, DiffusionSolver& diffusion) {
+    const Progress told = [this](std::string_view phase, double fraction, double energy) {
+        return progress_(phase, diffusion_part * fraction, energy);
+    };
+    DiffusionResult result =
+        diffuse_and_project(problem, diffusion, field_.values, options_.max_iterations, options_.seed, told);
+    field_.iterations = result.iterations;
+    field_.converged = result.converged;
+    field_.energy_history = std::move(result.energy_history);
+}
+
+// From the projected field to the local minimum beside it.
+void Solver::settle(const Problem& problem) {
+    int steps = 0;
+    const auto told = [&](double energy) {
+        field_.energy_history.push_back(energy);
+        ++field_.iterations;
+        const double left = 1 / (1 + ++steps / 8.0);
+        return progress_("cross field", 1 - (1 - diffusion_part) * left, energy) &&
+               field_.iterations < options_.max_iterations;
+    };
+    const bool more = field_.iterations < options_.max_iterations;
+    field_.converged = more && descend_angles(problem, order_, field_.values, options_.seed, told);
 }
 
 void Solver::descend() {
@@ -231,7 +267,8 @@ void Solver::descend() {
         if (i > 0) narrow_cores(field_.values, aligned_.is_held, stages[i - 1], stages[i]);
         const GinzburgLandau functional(links_, masses_, system_, aligned_.pull, stages[i]);
         const DescentOptions descent{options_.max_iterations, last ? options_.tolerance : stage_tolerance,
-                                     last ? options_.energy_tolerance : stage_tolerance, options_.seed};
+                                     last ? options_.energy_tolerance : stage_tolerance, options_.seed, last,
+                                     i == 0 && !last};
         const Progress& told = last ? progress_ : silent_;
         DescentResult result = minimise(functional, order_, field_.values, descent, told);
         field_.iterations = result.iterations;
@@ -251,7 +288,7 @@ DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& fea
     DirectionField field;
     field.symmetry = options.symmetry;
     field.topology = oriented_topology(mesh);
-    Solver(mesh, features, options, field, progress).run();
+    explaining_failure(mesh, [&] { Solver(mesh, features, options, field, progress).run(); });
     return field;
 }
 

@@ -151,11 +151,12 @@ struct FieldTracer::Run {
         const Point from = curve.points.back(), target = field.lift(triangle, to);
         if (admit && !admit(from, target, triangle)) return finish(StreamlineEnd::near_line);
         const Index singularity = singularity_near(from, target);
-        if (closes(to)) {
+        const double rest = tracer.max_length_ - curve.length;
+        if (closes(to) && (curve.points.front() - from).norm() <= rest) {
             add(curve.points.front());
             return finish(StreamlineEnd::closed);
         }
-        const double step = (target - from).norm(), rest = tracer.max_length_ - curve.length;
+        const double step = (target - from).norm();
         if (step > rest) {
             add(from + rest / step * (target - from));
             return finish(StreamlineEnd::length);

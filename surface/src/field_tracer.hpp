@@ -35,6 +35,7 @@ public:
     // From the singular point `origin`, if >= 0, whose surroundings do not end the curve before it has left them.
     Curve trace(const Place& start, Index origin = -1, const Admit& admit = {}) const;
 
+    double max_length() const { return max_length_; }
     bool is_feature(Index edge) const { return is_feature_[edge]; }
 
 private:

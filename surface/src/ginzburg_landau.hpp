@@ -47,7 +47,9 @@ struct DescentOptions {
     int max_iterations = 1000;
     double tolerance = 1e-10;        // of the residual
     double energy_tolerance = 1e-6;  // of a round's gain, relative to the energy
-    std::uint64_t seed = 0;          // of the directions tried to leave a saddle point
+    std::uint64_t seed = 0;          // of the directions tried to leave a saddle point, and of the disturbance
+    bool to_minimum = true;          // false: saddle points will do, and a round that gains little
+    bool disturb = false;            // the start, slightly
 };
 
 struct DescentResult {

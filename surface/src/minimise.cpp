@@ -7,6 +7,7 @@
 // always enough, as H >= K - W. Near a minimum mu falls to its floor and the first step of a round is Newton's.
 #include <cmath>
 
+#include "definiteness.hpp"
 #include "ginzburg_landau.hpp"
 #include "limited_memory.hpp"
 #include "line_search.hpp"
@@ -25,6 +26,10 @@ constexpr int steps_per_round = 8;
 constexpr int remembered_steps = 10;
 // Curvature below -this, in units of 1 / eps^2, marks a saddle point.
 constexpr double saddle_shift = 1e-6;
+// Relative gain of a round from which on the next one tries Newton's method.
+constexpr double newton_start = 1e-3;
+// Largest length of what is added to a start.
+constexpr double disturbance = 0.1;
 
 class Descent {
 public:
@@ -43,7 +48,8 @@ private:
     bool flat() const { return slope_.residual <= options_.tolerance; }
     void factorize();
     double step(LimitedMemory& memory);
-    void round();
+    bool round();
+    void disturb();
     bool leave_saddle();
     void moved();
 
@@ -63,6 +69,8 @@ private:
 // Takes note of new values.
 void Descent::moved() {
     slope_ = functional_.slope(values_);
+    if (!std::isfinite(slope_.energy))
+        throw SolverError("the energy of the direction field is not a number to double precision", not_definite);
     result_.energy_history.push_back(slope_.energy);
     result_.iterations = static_cast<int>(result_.energy_history.size()) - 1;
     const double fraction = static_cast<double>(result_.iterations) / std::max(1, options_.max_iterations);
@@ -77,9 +85,7 @@ void Descent::factorize() {
         functional_.hessian(values_, shift_, matrix_);
         if (cholesky_.factorize(matrix_)) return;
         if (shift_ >= largest_shift)
-            throw SolverError(
-                "the matrix of the direction field is not positive definite to rounding; "
-                "remesh the surface, its triangles are too thin");
+            throw SolverError("the matrix of the direction field is not positive definite to rounding", not_definite);
     }
 }
 
@@ -98,17 +104,34 @@ double Descent::step(LimitedMemory& memory) {
     return length;
 }
 
-void Descent::round() {
+// Steps with one factorization; true when they gain no more than the tolerance.
+bool Descent::round() {
     factorize();
+    if (options_.disturb && result_.iterations == 0) disturb();
     LimitedMemory memory(remembered_steps);
-    const double first = step(memory);
-    for (int i = 1; i < steps_per_round && !stopped_ && !flat(); ++i)
-        if (step(memory) == 0) break;
+    double first = 0;
+    bool settled = false;
+    for (int i = 0; i < steps_per_round && !stopped_ && !settled && !flat(); ++i) {
+        const double before = slope_.energy, length = step(memory);
+        if (i == 0) first = length;
+        settled = before - slope_.energy <= options_.energy_tolerance / steps_per_round * std::abs(before);
+    }
     if (first > 0.5) {
         shift_ = std::max(smallest_shift, shift_ / (raised_ ? 2 : 8));
     } else if (first < 0.25) {
         shift_ = std::min(largest_shift, 4 * shift_);
     }
+    return settled || flat();
+}
+
+// A symmetric start may have multiple singular points, which stay where they are otherwise.
+void Descent::disturb() {
+    const FreeSystem& system = functional_.system();
+    const Eigen::VectorXcd noise = as_complex(random_vector(2 * system.size(), options_.seed));
+    const Eigen::VectorXd rough = as_real(system.gather(functional_.weights()).cast<Complex>().cwiseProduct(noise));
+    const Eigen::VectorXd smooth = cholesky_.solve(rough);
+    values_ += system.scatter(as_complex(smooth * (disturbance / smooth.cwiseAbs().maxCoeff())), values_.size());
+    slope_ = functional_.slope(values_);
 }
 
 // Where E has negative curvature, goes down along (nearly) the most negative one. False at a minimum.
@@ -139,15 +162,22 @@ bool Descent::leave_saddle() {
 
 DescentResult Descent::run() {
     moved();
-    // A round that gains little ends the descent, unless it sat at a saddle point that has not been tried yet.
-    for (bool tried_saddle = false; !stopped_;) {
+    for (bool tried_saddle = false; !stopped_ && !result_.converged;) {
         const double before = slope_.energy;
-        if (!flat()) round();
+        const bool newton = shift_ <= saddle_shift, was_flat = flat();
+        const bool settled = was_flat || round();
         if (stopped_) break;
-        const bool settled = flat() || before - slope_.energy <= options_.energy_tolerance * std::abs(before);
-        result_.converged = settled && (tried_saddle || !leave_saddle());
-        if (result_.converged) break;
-        tried_saddle = settled;
+        const bool slow = before - slope_.energy <= newton_start * std::abs(before);
+        if (!options_.to_minimum) {
+            result_.converged = settled || slow;
+        } else if (settled && (newton || was_flat)) {
+            // A saddle point is left once: what gains next to nothing after that is a flat valley.
+            const bool proven = newton && !was_flat && !raised_;
+            result_.converged = proven || tried_saddle || !leave_saddle();
+            tried_saddle = true;
+        } else if (settled || slow) {
+            shift_ = saddle_shift;  // the next factorization also tells a minimum from a saddle point
+        }
     }
     result_.residual = slope_.residual;
     result_.converged = result_.converged || flat();

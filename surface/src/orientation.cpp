@@ -1,8 +1,10 @@
 #include "orientation.hpp"
 
 #include <numeric>
+#include <string>
 
 #include "half_edges.hpp"
+#include "octafield/error.hpp"
 
 namespace octafield::surface::detail {
 namespace {
@@ -54,6 +56,20 @@ std::vector<Index> unorientable_triangles(const TriangleMesh& mesh) {
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
         if (turns.broken(t)) result.push_back(t);
     return result;
+}
+
+EdgeTopology oriented_topology(const TriangleMesh& mesh) {
+    try {
+        return edge_topology(mesh);
+    } catch (const GeometryError& error) {
+        if (error.kind() != "inconsistent_orientation") throw;
+        const std::vector<Index> twisted = unorientable_triangles(mesh);
+        if (twisted.empty()) throw;
+        throw GeometryError("the surface has one side only, like a Moebius strip: no orientation of its " +
+                                std::to_string(twisted.size()) + " connected triangles (" + first_few(twisted) +
+                                ") is consistent; cut it open, or take the boundary of the solid",
+                            "not_orientable", twisted);
+    }
 }
 
 }  // namespace octafield::surface::detail

@@ -11,4 +11,7 @@ namespace octafield::surface::detail {
 // over is enough. Edges of more than two triangles do not connect.
 std::vector<Index> unorientable_triangles(const TriangleMesh& mesh);
 
+// edge_topology, whose error for a surface that cannot be oriented has the kind "not_orientable" and names it.
+EdgeTopology oriented_topology(const TriangleMesh& mesh);
+
 }  // namespace octafield::surface::detail

@@ -6,6 +6,7 @@
 
 #include "crouzeix_raviart.hpp"
 #include "feature_flags.hpp"
+#include "orientation.hpp"
 #include "vertex_fans.hpp"
 
 namespace octafield::surface {
@@ -140,7 +141,7 @@ std::vector<Average> sector_tensors(const TriangleMesh& mesh, const Sectors& sec
 }  // namespace
 
 PrincipalDirections principal_directions(const TriangleMesh& mesh, const FeatureGraph& features) {
-    const EdgeTopology topology = edge_topology(mesh);
+    const EdgeTopology topology = detail::oriented_topology(mesh);
     detail::corner_links(mesh, topology, 1);  // refuses triangles without area
     const Sectors sectors = smooth_sectors(mesh, topology, detail::feature_flags(features, topology));
     const std::vector<Vector> normals = sector_normals(mesh, sectors);

@@ -50,12 +50,12 @@ double disk_renormalised_energy(std::span<const std::complex<double>> points) {
 double disk_polygon_energy(int d, double r) {
     require_polygon(d);
     if (!(r > 0 && r < 1)) throw InvalidInput("the radius of a polygon in the unit disk must be in (0, 1)");
-    return -pi * d * (std::log(d) + (d - 1) * std::log(r) + std::log1p(-std::pow(r, 2 * d)));
+    return -pi * d * (std::log(d) + (d - 1) * std::log(r) + std::log1p(-std::pow(r, 2.0 * d)));
 }
 
 double disk_polygon_radius(int d) {
     require_polygon(d);
-    return std::pow((d - 1.0) / (3 * d - 1.0), 1.0 / (2 * d));
+    return std::pow((d - 1.0) / (3.0 * d - 1), 1 / (2.0 * d));
 }
 
 double logarithmic_energy(const Points& points) {

@@ -57,6 +57,26 @@ void prepend(FieldTracer::Curve& curve, const detail::SeparatrixStart& start) {
     curve.triangles.insert(curve.triangles.begin(), start.triangles.begin(), start.triangles.end());
 }
 
+// No longer than `most`.
+void cut(FieldTracer::Curve& curve, double most) {
+    if (curve.length <= most) return;
+    double length = 0;
+    std::size_t last = 0;  // the point reached
+    for (; last + 1 < curve.points.size(); ++last) {
+        const Eigen::Vector3d along = curve.points[last + 1] - curve.points[last];
+        if (length + along.norm() > most) {
+            curve.points[last + 1] = curve.points[last] + (most - length) / along.norm() * along;
+            break;
+        }
+        length += along.norm();
+    }
+    curve.points.resize(std::min(last + 2, curve.points.size()));
+    curve.triangles.resize(curve.points.size() - 1);
+    curve.length = most;
+    curve.end = StreamlineEnd::length;
+    curve.singularity = -1;
+}
+
 }  // namespace
 
 std::vector<Streamline> streamlines(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field,
@@ -76,6 +96,7 @@ std::vector<Streamline> separatrices(const TriangleMesh& mesh, const FeatureGrap
     const detail::TwoWayTracer tracer(mesh, features, field, singularities, one_way);
     const auto links = detail::corner_links(mesh, field.topology, field.symmetry);
     const auto fans = detail::vertex_fans(mesh, field.topology);
+    const Eigen::VectorXcd unit_values = detail::unit_values(field.values);
     std::vector<Streamline> lines;
     for (std::size_t i = 0; i < singularities.points.size(); ++i) {
         const SurfaceSingularity& point = singularities.points[i];
@@ -84,11 +105,12 @@ std::vector<Streamline> separatrices(const TriangleMesh& mesh, const FeatureGrap
         if (point.vertex < 0) {
             starts = detail::starts_in_triangle(tracer.field(), point, tracer.forward());
         } else if (const auto* fan = only_fan(fans, point.vertex)) {
-            starts = detail::starts_at_vertex(tracer.field(), links, field.values, fans, *fan, tracer.forward());
+            starts = detail::starts_at_vertex(tracer.field(), links, unit_values, fans, *fan, tracer.forward());
         }
         for (const auto& start : starts) {
             FieldTracer::Curve curve = tracer.forward().trace(start.place, static_cast<Index>(i));
             prepend(curve, start);
+            cut(curve, tracer.forward().max_length());
             Streamline line = detail::joined({}, curve);
             line.first_end = StreamlineEnd::singularity;
             line.first_singularity = static_cast<Index>(i);

@@ -73,16 +73,6 @@ void require_fit(const TriangleMesh& mesh, const DirectionField& field) {
             "not_finite", bad);
 }
 
-// Unit values; where f = 0, exactly as in the middle of a symmetric mesh, any direction does.
-Eigen::VectorXcd unit_values(const Eigen::VectorXcd& values) {
-    Eigen::VectorXcd result(values.size());
-    for (Index e = 0; e < values.size(); ++e) {
-        const double length = std::abs(values[e]);
-        result[e] = length > 0 ? detail::Complex(values[e].real() / length, values[e].imag() / length) : 1;
-    }
-    return result;
-}
-
 // (E), 0 at edges inside.
 Eigen::VectorXd boundary_deviations(const DirectionField& field, const Eigen::VectorXcd& values) {
     Eigen::VectorXd deviations = Eigen::VectorXd::Zero(values.size());
@@ -113,7 +103,7 @@ int vertex_index(int symmetry, const std::vector<detail::CornerLink>& links, con
 SurfaceSingularities surface_singularities(const TriangleMesh& mesh, const DirectionField& field) {
     require_fit(mesh, field);
     const std::vector<detail::CornerLink> links = detail::corner_links(mesh, field.topology, field.symmetry);
-    const Eigen::VectorXcd values = unit_values(field.values);
+    const Eigen::VectorXcd values = detail::unit_values(field.values);
     const Eigen::VectorXd deviations = boundary_deviations(field, values);
     std::vector<double> turns(links.size());
     for (std::size_t c = 0; c < links.size(); ++c) turns[c] = detail::turn(links[c], values);

@@ -15,6 +15,12 @@ namespace {
 
 using detail::Complex;
 
+// Whether the direction at an edge is the edge's, to a millionth of a radian of the N-fold angle.
+bool along_edge(Complex value, int symmetry) {
+    return std::abs(value.imag()) <= 1e-6 * std::abs(value.real()) &&
+           (symmetry % 2 == 0 ? value.real() > 0 : value.real() != 0);
+}
+
 // An edge leaving a vertex.
 struct Spoke {
     Index edge;
@@ -22,7 +28,7 @@ struct Spoke {
     double tangent_angle;  // of its projection onto the tangent plane
     double weight;         // half the angles of the corners beside it
     Complex value;         // of the field, from the outgoing direction
-    bool feature;
+    bool feature;          // that the field follows
 };
 
 struct TangentFrame {
@@ -124,7 +130,7 @@ Points vertex_directions(const TriangleMesh& mesh, const FeatureGraph& features,
                          std::atan2(along.dot(frame.y), along.dot(frame.x)),
                          weight,
                          sign * field.values[e],
-                         is_feature[e]};
+                         is_feature[e] && along_edge(field.values[e], field.symmetry)};
         };
         spokes.clear();
         double map_angle = 0, before = fan.closed ? links[fans.corners[fan.last - 1]].angle : 0;

@@ -14,6 +14,7 @@ sys.path[:0] = [str(STUDIES), str(STUDIES / "benchmarks")]
 
 import surface_fields  # noqa: E402
 import surface_meshes  # noqa: E402
+import surface_points  # noqa: E402
 
 
 def run(script: str, output: Path, *options: str) -> Path:
@@ -85,6 +86,47 @@ def test_common_energy_does_not_know_which_of_the_four_directions_is_given():
     assert energies == pytest.approx([energies[0]] * 3, rel=1e-9)
 
 
+# ---- where singular points are
+
+def with_values(mesh, symmetry: int, values: np.ndarray):
+    topology = octafield.edge_topology(mesh)
+    return octafield.DirectionField(symmetry=symmetry, topology=topology, values=values)
+
+
+def core(z: np.ndarray) -> np.ndarray:
+    """Like one of Ginzburg-Landau, times a smooth factor."""
+    return z / np.sqrt(0.03 + abs(z) ** 2) * np.exp(0.3j + 0.5 * z)
+
+
+def test_a_zero_in_the_plane_is_found_far_below_the_mesh_width():
+    mesh, zero = surface_meshes.even_disk(0.05), 0.312 + 0.147j
+    ends = np.array(mesh.vertices)[np.array(octafield.edge_topology(mesh).edges)]
+    middle, along = ends.mean(axis=1), ends[:, 1] - ends[:, 0]
+    f = core(middle[:, 0] + 1j * middle[:, 1] - zero)
+    field = with_values(mesh, 4, f * np.exp(-4j * np.arctan2(along[:, 1], along[:, 0])))
+    start = np.array([[zero.real + 0.02, zero.imag - 0.015, 0]])
+    assert abs(surface_points.located_in_plane(mesh, field, start, 0.15)[0] - zero) < 5e-4
+
+
+@pytest.mark.parametrize("symmetry", [4, 6])
+def test_a_zero_on_the_sphere_is_found_far_below_the_mesh_width(symmetry):
+    """The field with f = z, of index 1/N, round a point of the sphere, made by turning the azimuthal direction."""
+    mesh, axis = surface_meshes.sphere(20), np.array([0.3, -0.5, 0.81])
+    axis /= np.linalg.norm(axis)
+    ends = np.array(mesh.vertices)[np.array(octafield.edge_topology(mesh).edges)]
+    middle, along = ends.mean(axis=1), ends[:, 1] - ends[:, 0]
+    normal = middle / np.linalg.norm(middle, axis=1, keepdims=True)
+    first = np.cross(axis, [1.0, 0, 0]) / np.linalg.norm(np.cross(axis, [1.0, 0, 0]))
+    azimuth = np.arctan2(normal @ np.cross(axis, first), normal @ first)
+    east = np.cross(axis, normal)
+    edge = np.arctan2(np.sum(np.cross(east, along) * normal, axis=1), np.sum(east * along, axis=1))  # from east to the edge
+    wanted = azimuth * (1 / symmetry - 1)  # from east, which itself turns once
+    distance = np.linalg.norm(normal - axis, axis=1)
+    field = with_values(mesh, symmetry, distance / np.sqrt(0.03 + distance**2) * np.exp(1j * symmetry * (wanted - edge)))
+    start = (axis + [0.02, 0.01, 0])[None]
+    assert np.linalg.norm(surface_points.located_on_sphere(mesh, field, start, 0.15)[0] - axis) < 5e-4
+
+
 # ---- scripts
 
 def test_disk_points_come_near_the_radius_of_theory(tmp_path):
@@ -93,7 +135,8 @@ def test_disk_points_come_near_the_radius_of_theory(tmp_path):
     assert [float(row["least sample of the curve"]) for row in curves] == pytest.approx([(3 / 11) ** (1 / 8), (5 / 17) ** (1 / 12)], abs=1e-3)
     for row, radius in zip(measured, (0.850, 0.903)):
         assert row["points"] == row["N"]
-        assert float(row["radius"]) == pytest.approx(radius, abs=0.025)
+        assert float(row["radius"]) == pytest.approx(radius, abs=0.015)  # what is left is of epsilon, alike on every mesh
+        assert float(row["largest - smallest radius"]) < 5e-4
         assert float(row["energy"]) == pytest.approx(float(row["asymptotic"]), rel=0.03)
     assert all(is_picture(tmp_path / f"surface_disk_{name}.png") for name in ("energy", "radius", "fields"))
 
@@ -104,7 +147,7 @@ def test_sphere_points_come_near_the_antiprism_and_the_icosahedron(tmp_path):
     for row in rows(tmp_path, 1):
         symmetry = int(row["N"])
         assert int(row["points"]) == 2 * symmetry and float(row["index sum"]) == 2
-        assert float(row["-sum log"]) == pytest.approx({4: -10.428018, 6: -21.606145}[symmetry], abs=0.05)
+        assert float(row["-sum log"]) == pytest.approx({4: -10.428018, 6: -21.606145}[symmetry], abs=1e-3)
     assert is_picture(tmp_path / "surface_sphere_4.png") and is_picture(tmp_path / "surface_sphere_6.png")
 
 
@@ -117,18 +160,31 @@ def test_torus_has_a_state_of_each_number_of_points(tmp_path):
     assert all(float(row["of the constraints"]) < 0.02 for row in states.values())
 
 
+def test_laplacian_smoothing_of_the_disk_is_r_to_the_fourth_and_ginzburg_landau_keeps_the_norm(tmp_path):
+    run("surface_norm.py", tmp_path, "--edge", "0.05", "--epsilon", "0.1")
+    laplacian, descent = rows(tmp_path, 0)
+    assert float(laplacian["area with abs(f) < 1/2, %"]) == pytest.approx(100 * np.sqrt(0.5), abs=1)
+    assert float(laplacian["Dirichlet"]) == pytest.approx(4 * np.pi, rel=3e-3)
+    assert float(laplacian["largest error of r^4"]) < 0.005
+    assert float(descent["area with abs(f) < 1/2, %"]) < 5
+    assert [(row["points +1/4"], row["-1/4"], row["index sum"]) for row in rows(tmp_path, 1)] == [("5", "1", "1")] * 2
+    assert is_picture(tmp_path / "surface_norm_disk.png")
+
+
 def test_weak_boundaries_let_points_sit_on_the_aerofoil(tmp_path):
-    run("surface_aerofoil.py", tmp_path, "--size", "0.003", "--lengths", "0.1")
+    run("surface_aerofoil.py", tmp_path, "--size", "0.002", "--lengths", "0.003", "--drawn", "0.003")
     strong, weak = rows(tmp_path, 0)
     assert strong["index sum"] == weak["index sum"] == strong["Euler characteristic"] == "-2"
-    assert "on it" in weak["near leading edges"]
+    for name in ("slat", "main", "flap"):
+        assert "on it" not in strong[f"at the nose of the {name}"]
+        assert weak[f"at the nose of the {name}"] == "-1/4 on it, -1/4 on it"
     assert float(weak["energy"]) < float(strong["energy"])
 
 
 def test_index_sums_are_exact_on_a_jagged_coast(tmp_path):
     run("surface_coast.py", tmp_path, "--edge", "0.04", "--levels", "4")
     table = rows(tmp_path, 0)
-    assert {row["index sum"] for row in table} == {"1"}
+    assert {row["index sum"] for row in table} == {"-2"}  # three islands
     inside = {row["method"]: int(row["points inside, +"]) + int(row["-"]) for row in table}
     assert inside["ginzburg_landau, eps 2 h"] <= inside["eigenvector (harmonic)"]
 
@@ -138,3 +194,22 @@ def test_the_benchmark_tells_every_method_s_points_and_energy(tmp_path):
     table = {row["method"]: row for row in rows(tmp_path, 0)}
     assert set(table) == {*surface_fields.OURS, surface_fields.HELD}
     assert all(row["singular points"] == "8" and float(row["energy"]) < 120 and row["note"] == "" for row in table.values())
+
+
+# ---- reliability
+
+def test_the_study_of_reliability_tells_right_sums_and_refused_files(tmp_path):
+    inputs = tmp_path / "inputs"
+    inputs.mkdir()
+    octafield.write_surface(surface_meshes.sphere(4), inputs / "sphere.obj")
+    octafield.write_surface(surface_meshes.torus(16, 8), inputs / "torus.ply")
+    (inputs / "notes.txt").write_text("no surface")
+    (inputs / "bad.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
+    script = [sys.executable, STUDIES / "surface_reliability.py", inputs, "-o", tmp_path / "out", "--symmetries", "4", "1"]
+    done = subprocess.run(script, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    table = rows(tmp_path / "out", 0)
+    assert len(table) == 2 * 2 * 3 and {line["agree"] for line in table} == {"yes"}
+    assert {(line["file"], line["chi"]) for line in table} == {("sphere.obj", "2"), ("torus.ply", "0")}
+    (refused,) = rows(tmp_path / "out", 1)
+    assert refused["file"] == "bad.obj" and refused["kind"] == "degenerate_triangle"

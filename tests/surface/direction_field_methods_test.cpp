@@ -44,6 +44,42 @@ TEST(DiffusedField, OnTheDiskItsPointsAreNearThePublishedRadius) {
     }
 }
 
+TEST(DiffusedField, IsALocalMinimumAmongFieldsOfLengthOne) {
+    for (const auto boundary : {Alignment::strong, Alignment::weak})
+        for (const TriangleMesh& mesh : {icosphere(4), disk(24), torus(80, 40, 1, 0.5)}) {
+            const DirectionField field = direction_field(mesh, {}, {.method = mbo, .boundary = boundary});
+            ASSERT_TRUE(field.converged);
+            const auto links = detail::corner_links(mesh, field.topology, 4);
+            const auto is_free = [&](Index e) { return field.topology.edge_triangles.row(e).minCoeff() >= 0; };
+            std::mt19937 random(5);
+            std::uniform_real_distribution<double> turn(-1, 1);
+            const auto energy = [&](const Eigen::VectorXcd& values) { return detail::dirichlet_energy(links, values); };
+            for (int i = 0; i < 5; ++i) {
+                Eigen::VectorXcd values = field.values;
+                for (Index e = 0; e < values.size(); ++e)
+                    if (is_free(e)) values[e] *= std::polar(1.0, 0.01 * turn(random));
+                EXPECT_GT(energy(values), field.dirichlet_energy);
+            }
+            // One edge by any angle.
+            for (Index e = 0; e < field.values.size(); e += 7)
+                for (const double angle : {-1.0, -0.1, 0.1, 1.0, pi}) {
+                    Eigen::VectorXcd values = field.values;
+                    if (is_free(e)) values[e] *= std::polar(1.0, angle);
+                    EXPECT_GE(energy(values), field.dirichlet_energy * (1 - 1e-9));
+                }
+        }
+}
+
+TEST(DiffusedField, EndsBelowItsDiffusedStateAndNeverRisesAfterIt) {
+    const TriangleMesh mesh = disk(24);
+    const DirectionField field = computed(mesh, mbo);
+    const auto& history = field.energy_history;
+    // The descent begins where the steps of diffusion, which may raise the energy a little at first, are over.
+    EXPECT_TRUE(std::is_sorted(history.rbegin(), history.rbegin() + 5));
+    EXPECT_NEAR(history.back(), *std::min_element(history.begin(), history.end()), 1e-12 * history.back());
+    EXPECT_LT(field.dirichlet_energy, 0.99 * history[history.size() / 2]);
+}
+
 TEST(DiffusedField, AParallelFieldIsFound) {
     // A flat square with free boundary, and a cylinder whose rims are followed: energy 0 and that of the chords.
     const TriangleMesh square = plate(8, [](double, double) { return true; });

@@ -31,9 +31,9 @@ enum class DirectionFieldMethod {
     // |f| = 1: globally smoothest (Knoeppel et al. 2013) on components that nothing aligns, the harmonic extension of
     // what is aligned on the others, scaled to length 1. The start of the other two methods.
     eigenvector,
-    // |f| = 1: implicit diffusion and projection in turn, with a falling time step (Merriman, Bence, Osher 1992;
-    // Viertel
-    // and Osting 2019). Close to the minimum of E at a fraction of the time.
+    // |f| = 1: implicit diffusion and projection in turn, with a falling time step (Merriman, Bence, Osher 1992; Viertel
+    // and Osting 2019), then descent on 1/2 int |grad f|^2 and the second line of E by the angles of f to a local
+    // minimum, with singular points moved to neighbouring places where that lowers the energy (single edges tried).
     mbo,
 };
 
@@ -44,8 +44,11 @@ enum class Alignment {
     none,    // not at all: the natural boundary condition
 };
 
+// Of N. Indices and angles are exact far beyond; no mesh has room for more.
+inline constexpr int largest_symmetry = 1000;
+
 struct DirectionFieldOptions {
-    int symmetry = 4;  // N >= 1
+    int symmetry = 4;  // N, 1 to largest_symmetry
     DirectionFieldMethod method = DirectionFieldMethod::ginzburg_landau;
     // Coherence length, eps in the thesis, input unit; 0: 2 mean edge lengths, at most 1/10 of the bounding-box
     // diagonal, also of each connected part that nothing aligns as long as that is at least 1/4 of the mean edge
@@ -56,18 +59,18 @@ struct DirectionFieldOptions {
     // Coherence length per edge, (E) in the order of edge_topology, input unit, all > 0; overrides `epsilon`. (0):
     // none.
     Eigen::VectorXd edge_epsilon{};
-    // Continuation: E is first minimised, to part of the accuracy, with this coherence length, then with quarters of it
-    // down to the one above: singular points move freely while their cores are wide. 0 or above 1/10 of the
+    // Continuation: E is first minimised, to part of the accuracy, with this coherence length, then with equal
+    // fractions, down to 1/5, of the one before until the one above: singular points move freely while their cores are wide. 0 or above 1/10 of the
     // bounding-box diagonal of a connected part: that 1/10; `epsilon` or less: no continuation.
     double first_epsilon = 0;
     int max_iterations = 1000;  // of the descent, or of diffusion and projection
     // Ginzburg-Landau: stop when the residual falls to `tolerance`: the norm of E's gradient over that of the
-    // mass-weighted f / eps^2 (for an edge whose stiffness is less, of the stiffness times f); or when a round of 8
-    // steps lowers E by less than `energy_tolerance` of itself at a point that is no saddle. The second is what ends
+    // mass-weighted f / eps^2 (for an edge whose stiffness is less, of the stiffness times f); or when a step lowers E
+    // by less than 1/8 of `energy_tolerance` of itself near a point that is no saddle. The second is what ends
     // the descent where the singular points move freely (a sphere turned in itself); 0 leaves it out.
     double tolerance = 1e-10;
     double energy_tolerance = 1e-6;
-    std::uint64_t seed = 0;  // of the eigenvector's random start where nothing is aligned, and of mbo's disturbance
+    std::uint64_t seed = 0;  // of the eigenvector's random start where nothing is aligned, and of disturbances
 
     Alignment boundary = Alignment::strong;  // edges with one triangle
     Alignment features = Alignment::strong;  // feature edges with two
@@ -104,7 +107,8 @@ struct DirectionField {
 // components. Cancelling through progress keeps the best state (converged = false). Throws InvalidInput; GeometryError,
 // where the surface cannot be oriented with kind "not_orientable";
 // SolverError when the descent ends with |f| < 0.1 on all free edges of a component (kind "epsilon_too_large", elements
-// its triangles): such a field has no directions.
+// its triangles): such a field has no directions; SolverError where triangles are too thin for double precision (kind
+// "thin_triangles", elements; angles far below 1e-6 radians) or weights too small to count (kind "bad_weights").
 DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& features,
                                const DirectionFieldOptions& options = {}, const Progress& progress = {});
 

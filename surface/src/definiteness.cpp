@@ -1,0 +1,72 @@
+#include "definiteness.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "octafield/error.hpp"
+#include "short_number.hpp"
+
+namespace octafield::surface::detail {
+namespace {
+
+// Factorizations have failed with angles (radians) below this, never above.
+constexpr double thin = 1e-6;
+
+double least_angle(const TriangleMesh& mesh, Index t) {
+    double least = std::numbers::pi;
+    for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d origin = mesh.vertices.row(mesh.triangles(t, k));
+        const Eigen::Vector3d a = mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)).transpose() - origin;
+        const Eigen::Vector3d b = mesh.vertices.row(mesh.triangles(t, (k + 2) % 3)).transpose() - origin;
+        least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
+    }
+    return least;
+}
+
+// Sum of the weights at a component: stiffness entries are about 1.
+constexpr double negligible = 1e-12;
+
+}  // namespace
+
+void release_negligible(Components& components, AlignedEdges& aligned) {
+    std::vector<double> total(components.size(), 0);
+    const auto edges = static_cast<Index>(aligned.is_held.size());
+    for (Index e = 0; e < edges; ++e) total[components.of_edge[e]] += aligned.is_held[e] ? 1 : aligned.pull.weights[e];
+    for (Index e = 0; e < edges; ++e) {
+        const Index c = components.of_edge[e];
+        if (!(total[c] < negligible)) continue;
+        components.anchored[c] = false;
+        aligned.pull.weights[e] = 0;
+        aligned.pull.targets[e] = 0;
+    }
+}
+
+void explaining_failure(const TriangleMesh& mesh, const std::function<void()>& solve) {
+    try {
+        solve();
+    } catch (const SolverError& error) {
+        if (error.kind() != not_definite) throw;
+        std::vector<Index> triangles;
+        double least = std::numbers::pi;
+        for (Index t = 0; t < mesh.triangles.rows(); ++t) {
+            const double angle = least_angle(mesh, t);
+            if (angle < thin) triangles.push_back(t);
+            least = std::min(least, angle);
+        }
+        if (triangles.empty())
+            throw SolverError(
+                std::string(error.what()) +
+                    ": weights of weak alignment, constraints or the guide are too small or too different; "
+                    "leave such weights out, or choose them between 1e-9 and 1e9",
+                "bad_weights");
+        throw SolverError(std::string(error.what()) + ": " + std::to_string(triangles.size()) + " triangles (" +
+                              first_few(triangles) + ") are too thin, with angles down to " + short_number(least) +
+                              " radians; remesh the surface",
+                          "thin_triangles", triangles);
+    }
+}
+
+}  // namespace octafield::surface::detail
