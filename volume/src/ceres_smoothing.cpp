@@ -20,10 +20,13 @@ public:
         : options_(options), scale_(energy_scale), progress_(progress), result_(result) {}
 
     ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
-        // A rejected step's summary holds the cost of the state that was kept.
-        result_.energy_history.push_back(scale_ * step.cost);
+        auto& history = result_.energy_history;
+        // The summary of a rejected step may hold the cost of what was rejected.
+        const bool rejected = !step.step_is_successful && !history.empty();
+        const double energy = rejected ? history.back() : scale_ * step.cost;
+        history.push_back(energy);
         const double fraction = options_.max_iterations > 0 ? double(step.iteration) / options_.max_iterations : 1;
-        cancelled = !report(progress_, "smooth", fraction, scale_ * step.cost);
+        cancelled = !report(progress_, "smooth", fraction, energy);
         return cancelled ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
     }
 
@@ -85,14 +88,14 @@ ceres::Problem::Options problem_options(ceres::EvaluationCallback& field) {
     return options;
 }
 
-SmoothResult solve_with_ceres(ceres::Problem& problem, double energy_scale, Index vertex_count,
+SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quaternions, double energy_scale,
                               const SmoothOptions& options, const Progress& progress) {
     calm_library_threads();
     FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres would log is in the exception
 
     SmoothResult result;
     Reporter reporter(options, energy_scale, progress, result);
-    ceres::Solver::Options o = solver_options(options, vertex_count);
+    ceres::Solver::Options o = solver_options(options, static_cast<Index>(quaternions.rows()));
     o.callbacks.push_back(&reporter);
     ceres::Solver::Summary summary;
     ceres::Solve(o, &problem, &summary);
@@ -101,6 +104,7 @@ SmoothResult solve_with_ceres(ceres::Problem& problem, double energy_scale, Inde
                               "; look for degenerate tets (octafield info), or try linear_solver=conjugate_gradients",
                           "smoothing");
 
+    result.frames = quaternions;
     result.objective = energy_scale * summary.final_cost;
     result.iterations = std::max<int>(0, static_cast<int>(summary.iterations.size()) - 1);
     result.converged = !reporter.cancelled && summary.termination_type == ceres::CONVERGENCE;

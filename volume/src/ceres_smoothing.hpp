@@ -23,9 +23,9 @@ void set_manifolds(ceres::Problem& problem, Quaternions& quaternions, const Boun
 
 ceres::Problem::Options problem_options(ceres::EvaluationCallback& field);
 
-// Everything of the result but the frames, which are the problem's parameters, and the sh4 energy. `energy_scale`
-// turns Ceres' cost into the objective.
-SmoothResult solve_with_ceres(ceres::Problem& problem, double energy_scale, Index vertex_count,
+// Everything of the result but the sh4 energy. `quaternions` are the problem's parameters; `energy_scale` turns Ceres'
+// cost into the objective.
+SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quaternions, double energy_scale,
                               const SmoothOptions& options, const Progress& progress);
 
 }  // namespace octafield::volume

@@ -46,10 +46,7 @@ public:
     }
 
     SmoothResult solve(const SmoothOptions& options, const Progress& progress) {
-        const auto n = static_cast<Index>(field.quaternions().rows());
-        SmoothResult result = solve_with_ceres(problem_, length_, n, options, progress);
-        result.frames = field.quaternions();
-        return result;
+        return solve_with_ceres(problem_, field.quaternions(), length_, options, progress);
     }
 
 private:

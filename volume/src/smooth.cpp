@@ -51,10 +51,7 @@ SmoothResult smooth_with_ceres(const TetMesh& mesh, const BoundaryConstraints& c
     ceres::Problem problem(problem_options(field));
     add_costs(problem, field, dirichlet_blocks(mesh), 1 / length);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
-    SmoothResult result =
-        solve_with_ceres(problem, length, static_cast<Index>(mesh.vertices.rows()), options, progress);
-    result.frames = field.quaternions();
-    return result;
+    return solve_with_ceres(problem, field.quaternions(), length, options, progress);
 }
 
 void require_options(const SmoothOptions& options) {
