@@ -36,6 +36,13 @@ def degrees(a: np.ndarray, b: np.ndarray, where: np.ndarray) -> np.ndarray:
     return np.degrees(octafield.distance(a, b))[where]
 
 
+def edge_angles(problem: Problem, frames: np.ndarray) -> np.ndarray:
+    tets = np.asarray(problem.mesh.tets)
+    pairs = np.concatenate([tets[:, [i, j]] for i in range(4) for j in range(i + 1, 4)])
+    i, j = np.unique(np.sort(pairs, 1), axis=0).T
+    return np.degrees(octafield.distance(frames[i], frames[j]))
+
+
 def orders(values, spacings) -> list[str]:
     """Between neighbours: log of the ratio of values over that of spacings."""
     rates = np.diff(np.log(values)) / np.diff(np.log(spacings))
@@ -44,7 +51,7 @@ def orders(values, spacings) -> list[str]:
 
 def save(folder: Path, name: str, header, rows) -> None:
     write_csv(folder / f"{name}.csv", header, rows)
-    text = [[f"{x:.4g}" if isinstance(x, float) else x for x in row] for row in rows]
+    text = [[("-" if np.isnan(x) else f"{x:.4g}") if isinstance(x, float) else x for x in row] for row in rows]
     (folder / f"{name}.md").write_text(markdown_table(header, text))
     print(markdown_table(header, text))
 
@@ -66,7 +73,7 @@ def study_bar(folder: Path) -> None:
             rows.append([scheme, cells, line.max(), degrees(result.frames, limit, np.arange(len(x))).max()])
     save(folder, "bar", ["scheme", "cells", "max deviation from the geodesic, degrees", "max deviation from its own limit, degrees"],
          sorted(rows, key=lambda row: shown.index(row[0])))
-    figure, axes = new_figure(6, 3.6)
+    figure, axes = new_figure(7.5, 3.4)
     fine = np.linspace(0, 1, 101)
     straight = octafield.slerp(np.tile(ends[0], (101, 1)), np.tile(ends[1], (101, 1)), fine)
     for scheme in shown:
@@ -76,7 +83,7 @@ def study_bar(folder: Path) -> None:
         axes.plot(x, line, "o", markersize=3, color=COLOURS[scheme], label=scheme)
     axes.set(xlabel="x", ylabel="degrees from the geodesic", title="Frames held at both ends of a bar, 28.2 degrees apart")
     with_grid(axes)
-    axes.legend(title="dots: 32 cells, lines: continuum")
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside right center", fontsize=9, title="dots: 32 cells\nlines: continuum")
     save_figure(figure, folder / "su2_bar.png")
 
 
@@ -97,7 +104,7 @@ def study_cube(folder: Path, amplitude: float) -> None:
     save(folder, f"cube_{amplitude:g}", ["mesh", "scheme", "n", "free vertices", "mean from sh4", "max from sh4", "mean from reference",
                                          "max from reference", "E / E(sh4) - 1", "converged"], rows)
     table = []
-    figure, panels = new_figure(11, 3.8, 1, 3, sharey=True)
+    figure, panels = new_figure(11, 3.4, 1, 3, sharey=True)
     for axes, family in zip(panels, ("kuhn", "jittered", "tetgen")):
         for scheme in SCHEMES:
             mine = [row for row in rows if row[0] == family and row[1] == scheme]
@@ -113,7 +120,8 @@ def study_cube(folder: Path, amplitude: float) -> None:
         axes.minorticks_off()
         with_grid(axes)
     panels[0].set_ylabel("mean degrees from the fine reference")
-    panels[-1].legend(fontsize=8)
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside right center", fontsize=9)
     save_figure(figure, folder / f"su2_cube_{amplitude:g}.png")
     save(folder, f"cube_{amplitude:g}_orders", ["mesh", "scheme", *(f"n = {n}" for n in SIZES), "order (sh4)", "order (reference)"], table)
 
@@ -126,7 +134,7 @@ def study_starts(folder: Path) -> None:
         sh4 = minimise(problem, "sh4", linear).frames
         noise = rng.uniform(-1, 1, (len(sh4), 3))
         starts = {"sh4": sh4, "diffusion": octafield.diffuse(problem.mesh, problem.constraints, linear).frames,
-                  **{f"target + {a}": octafield.frame_exp(problem.target, a * noise) for a in (0.05, 0.1, 0.2, 0.3)},
+                  **{f"target + {a}": octafield.frame_exp(problem.target, a * noise) for a in (0.05, 0.3, 0.5)},
                   "random": octafield.random_rotations(len(sh4), seed=2)}
         for label, start in starts.items():
             row = [family, label]
@@ -162,11 +170,12 @@ def study_thesis(folder: Path) -> None:
 def study_ball(folder: Path, paths: list[Path]) -> None:
     schemes = [("sh4", {}), ("geodesic", {}), ("su2_geodesic", {}),
                *(("su2_midpoint", {"midpoint_limit": np.radians(limit)}) for limit in LIMITS), ("su2_frozen", {}), ("su2", {})]
-    rows, drawn = [], []
+    rows, drawn, edges = [], [], []
     for path in paths:
         problem, rng = ball(path), np.random.default_rng(4)
         field = octafield.frame_field(problem.mesh, problem.constraints).smooth
         noise = rng.uniform(-1, 1, field.frames.shape[:1] + (3,))
+        edges.append([problem.name, *(float(np.mean(edge_angles(problem, field.frames) < limit)) for limit in LIMITS[:-1])])
         starts = {"frame_field": field.frames, **{f"+ {a} rad": octafield.frame_exp(field.frames, a * noise) for a in (0.1, 0.3)},
                   "linear": octafield.initial_frames(problem.mesh, problem.constraints)}
         if len(field.frames) > 2000:
@@ -184,15 +193,16 @@ def study_ball(folder: Path, paths: list[Path]) -> None:
                              graph.length, graph.complex_triangles, result.iterations, "yes" if result.converged else "no", seconds])
                 if label == "frame_field" and name in ("sh4", "geodesic", "su2_midpoint 20", "su2") and path == paths[-1]:
                     drawn.append((name, problem, result, graph))
+    save(folder, "ball_edges", ["mesh", *(f"edges below {limit} degrees" for limit in LIMITS[:-1])], edges)
     save(folder, "ball", ["mesh", "start", "scheme", "E / E(sh4)", "0.15 E / objective", "median", "mean", "max degrees", "singular triangles",
                           "length", "complex", "iterations", "converged", "CPU s"], rows)
-    figure, panels = new_figure(13, 3.6, 1, len(drawn), subplot_kw={"projection": "3d"})
+    figure, panels = new_figure(12, 3.3, 1, len(drawn), subplot_kw={"projection": "3d"})
     for axes, (name, problem, result, graph) in zip(panels, drawn):
         points = np.asarray(graph.points)
         for curve, turns in zip(graph.curves, graph.curve_quarter_turns):
             axes.plot(*points[curve].T, color=PALETTE[0] if turns > 0 else PALETTE[1], linewidth=1.4)
         axes.set_title(f"{name}: E = {result.energy:.2f}", fontsize=10)
-        axes.set_box_aspect((1, 1, 1))
+        axes.set_box_aspect((1, 1, 1), zoom=1.3)
         axes.set_axis_off()
     save_figure(figure, folder / "su2_ball.png")
 

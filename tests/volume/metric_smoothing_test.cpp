@@ -9,8 +9,9 @@
 #include "frame_difference.hpp"
 #include "octafield/frames/geodesic.hpp"
 #include "octafield/frames/registry.hpp"
+#include "octafield/volume/frame_field.hpp"
 #include "octafield/volume/operators.hpp"
-#include "octafield/volume/smooth.hpp"
+#include "octafield/volume/singularities.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -26,7 +27,9 @@ using testing::smooth_field;
 constexpr double degree = std::numbers::pi / 180;
 const std::vector<std::string> consistent = {"geodesic", "su2_geodesic", "su2_midpoint"};
 
-Quaternion row(const Quaternions& q, Eigen::Index v) { return frames::from_wxyz(frames::Vector4(q.row(v).transpose())); }
+Quaternion row(const Quaternions& q, Eigen::Index v) {
+    return frames::from_wxyz(frames::Vector4(q.row(v).transpose()));
+}
 
 Quaternions in_random_representatives(Quaternions field, std::uint64_t seed) {
     std::mt19937_64 generator(seed);
@@ -95,8 +98,10 @@ double jacobian_error(const Scheme& scheme, double angle, std::uint64_t seed) {
         constexpr double h = 1e-5;
         for (int k = 0; k < 3; ++k) {
             const Vector3 e = h * Vector3::Unit(k);
-            const auto by_first = ((value(frames::frame_exp(p, e), q) - value(frames::frame_exp(p, -e), q)) / (2 * h)).eval();
-            const auto by_second = ((value(p, frames::frame_exp(q, e)) - value(p, frames::frame_exp(q, -e))) / (2 * h)).eval();
+            const auto by_first =
+                ((value(frames::frame_exp(p, e), q) - value(frames::frame_exp(p, -e), q)) / (2 * h)).eval();
+            const auto by_second =
+                ((value(p, frames::frame_exp(q, e)) - value(p, frames::frame_exp(q, -e))) / (2 * h)).eval();
             worst = std::max(worst, (by_first - exact.by_first.col(k)).norm());
             worst = std::max(worst, (by_second - exact.by_second.col(k)).norm());
         }
@@ -201,7 +206,8 @@ TEST(MetricSmoothing, NeverRaisesItsObjectiveAndHoldsConstraintsExactly) {
             EXPECT_NEAR(result.energy, dirichlet_energy(mesh, result.frames), 1e-12 * result.energy);
             for (Eigen::Index v = 0; v < start.rows(); ++v) {
                 if (constraints.kind[v] != VertexConstraint::axis) continue;
-                const Vector3 in_frame = row(result.frames, v).conjugate() * Vector3(constraints.axis.row(v).transpose());
+                const Vector3 in_frame =
+                    row(result.frames, v).conjugate() * Vector3(constraints.axis.row(v).transpose());
                 EXPECT_NEAR(in_frame.cwiseAbs().maxCoeff(), 1, 1e-13);
             }
         }
@@ -210,14 +216,48 @@ TEST(MetricSmoothing, NeverRaisesItsObjectiveAndHoldsConstraintsExactly) {
 // Frames turned by 40 degrees from one side to the other of one layer of tets: far beyond the midpoint metric.
 TEST(MetricSmoothing, MidpointIsTheGeodesicWhereFramesDifferByMoreThanTheLimit) {
     const TetMesh mesh = kuhn_cube(1);
-    const Quaternions field = testing::sample(
-        mesh, [](const Vector3& x) { return frames::exp({0, 0, x.x() * 40 * degree}) * frames::exp({0, 0.1, 0}); });
+    const Quaternions field = testing::sample(mesh, [](const Vector3& x) {
+        return frames::exp({0, 0, x.x() * 40 * degree}) * frames::exp({0, 0.1, 0});
+    });
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, field);
     const double expected = std::pow(40 * degree, 2) / 2;  // unit cube, gradient 40 degrees over length 1
     SmoothOptions options = with("su2_midpoint");
     EXPECT_NEAR(smooth(mesh, constraints, field, options).objective, expected, 1e-9);
     options.midpoint_limit = std::numeric_limits<double>::infinity();
     EXPECT_GT(std::abs(smooth(mesh, constraints, field, options).objective - expected), 0.01 * expected);
+}
+
+// A cube whose boundary frames hold the direction from its centre: singular curves as in a ball.
+TEST(MetricSmoothing, StaysNearTheFieldOfSh4RoundSingularCurvesWhereTheNaiveSchemeLeavesIt) {
+    const TetMesh mesh = kuhn_cube(8);
+    const BoundaryConstraints constraints =
+        constraints_on(mesh, VertexConstraint::axis, testing::sample(mesh, [](const Vector3& x) {
+                           return frames::frame_from_axes({1, 0.3, 0.2}, x - Vector3::Constant(0.5));
+                       }));
+    const SmoothResult start = frame_field(mesh, constraints).smooth;
+    ASSERT_GT(singular_graph(mesh, start.frames).triangles.size(), 100u);
+    for (const std::string& name : consistent) {
+        SmoothOptions options = with(name);
+        options.tolerance = 1e-7;
+        const SmoothResult result = smooth(mesh, constraints, start.frames, options);
+        EXPECT_TRUE(result.converged) << name;
+        EXPECT_LT(result.energy, 1.06 * start.energy) << name;
+        EXPECT_LT(mean_distance(result.frames, start.frames, constraints), 4 * degree) << name;
+    }
+    const SmoothResult naive = smooth(mesh, constraints, start.frames, with("su2"));
+    EXPECT_GT(naive.energy, 1.3 * start.energy);
+}
+
+TEST(MetricSmoothing, EndsTheRecipe) {
+    const TetMesh mesh = jittered_cube(5, 0.2, 34);
+    const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));
+    const SmoothResult direct =
+        smooth(mesh, constraints, frame_field(mesh, constraints).smooth.frames, with("geodesic"));
+    FrameFieldOptions options;
+    options.smooth = with("geodesic");
+    const SmoothResult result = frame_field(mesh, constraints, options).smooth;
+    EXPECT_NEAR(result.objective, direct.objective, 1e-9 * direct.objective);
+    EXPECT_LT(largest_distance(result.frames, direct.frames), 1e-4);
 }
 
 TEST(MetricSmoothing, DoesNotDependOnTheInputsUnit) {
@@ -272,6 +312,10 @@ TEST(MetricSmoothing, SaysWhatItCannotDo) {
     SmoothOptions options = with("geodesic");
     options.solver = SmoothSolver::trust_region;
     EXPECT_THROW(smooth(mesh, constraints, field, options), InvalidInput);
+    FrameFieldOptions recipe;
+    recipe.smooth = options;
+    EXPECT_THROW(frame_field(mesh, constraints, recipe, [](std::string_view, double, double) { return false; }),
+                 InvalidInput);  // before any work
     options = with("su2_midpoint");
     options.midpoint_limit = 0;
     EXPECT_THROW(smooth(mesh, constraints, field, options), InvalidInput);

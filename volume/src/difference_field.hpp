@@ -1,5 +1,5 @@
-// The field as a least-squares solver sees it when it is smoothed in a metric: quaternions, and the differences over all
-// pairs of vertices that costs need, computed once per evaluation and in parallel.
+// The field as a least-squares solver sees it when it is smoothed in a metric: quaternions, and the differences over
+// all pairs of vertices that costs need, computed once per evaluation and in parallel.
 #pragma once
 
 #include <ceres/cost_function.h>
@@ -75,7 +75,8 @@ private:
 };
 
 // Rows of coefficients times the differences from one vertex to others: an edge (one row, one pair) or a tet (its
-// gradient, from its first vertex). Parameters: the first vertex, then the others. Residuals: Scheme::dimension per row.
+// gradient, from its first vertex). Parameters: the first vertex, then the others. Residuals: Scheme::dimension per
+// row.
 template <class Scheme>
 class DifferenceCost final : public ceres::CostFunction {
 public:

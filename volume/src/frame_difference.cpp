@@ -46,8 +46,8 @@ Matrix3 cross_matrix(const Vector3& r) {
 Matrix3 inverse_left_jacobian(const Vector3& r) {
     const double angle = r.norm();
     // 1 / t^2 - (1 + cos t) / (2 t sin t), by its series where the difference would lose digits.
-    const double c = angle < 1e-2 ? 1.0 / 12 + angle * angle / 720
-                                  : (1 - angle / 2 / std::tan(angle / 2)) / (angle * angle);
+    const double c =
+        angle < 1e-2 ? 1.0 / 12 + angle * angle / 720 : (1 - angle / 2 / std::tan(angle / 2)) / (angle * angle);
     const Matrix3 k = cross_matrix(r);
     return Matrix3::Identity() - k / 2 + c * k * k;
 }
@@ -121,9 +121,7 @@ Difference<3> GeodesicScheme::difference(std::size_t, const Vertex& p, const Ver
     return result;
 }
 
-Quaternion Su2GeodesicScheme::at(const Quaternion& q, bool) {
-    return Su2::inverse_frame(Su2::complex(Su2::embed(q)));
-}
+Quaternion Su2GeodesicScheme::at(const Quaternion& q, bool) { return Su2::inverse_frame(Su2::complex(Su2::embed(q))); }
 
 Su2Vertex su2_vertex(const Quaternion& q, bool derivatives) {
     Su2Vertex result{q, Su2::invariants({q.w(), q.x()}, {q.y(), q.z()}), {}};
@@ -162,10 +160,8 @@ Difference<4> MidpointScheme::difference(std::size_t pair, const Vertex& p, cons
 
 Difference<8> SymmetricScheme::difference(std::size_t, const Vertex& p, const Vertex& q, bool derivatives) const {
     const Quaternion near = frames::closest_representative(p.q, q.q);
-    const Difference<4> first =
-        measured_at(frames::to_wxyz(near), motions(near), Matrix43::Zero(), p, q, derivatives);
-    const Difference<4> second =
-        measured_at(frames::to_wxyz(q.q), Matrix43::Zero(), motions(q.q), p, q, derivatives);
+    const Difference<4> first = measured_at(frames::to_wxyz(near), motions(near), Matrix43::Zero(), p, q, derivatives);
+    const Difference<4> second = measured_at(frames::to_wxyz(q.q), Matrix43::Zero(), motions(q.q), p, q, derivatives);
     Difference<8> result;
     result.value << first.value, second.value;
     result.value /= std::sqrt(2);

@@ -1,8 +1,8 @@
 // Differences of two frames: what stands for a_j - a_i when a field is smoothed in a metric instead of an embedding.
 //
-// All are vectors in world axes, radians, that agree with the rotation vector from p to q to first order in it, whatever
-// representatives p and q are. Derivatives are by world rotation vectors of p and of q. The su2 ones have a fourth
-// component, first, for what part of (du, dv) changes the norm of the quaternion.
+// All are vectors in world axes, radians, that agree with the rotation vector from p to q to first order in it,
+// whatever representatives p and q are. Derivatives are by world rotation vectors of p and of q. The su2 ones have a
+// fourth component, first, for what part of (du, dv) changes the norm of the quaternion.
 #pragma once
 
 #include <vector>

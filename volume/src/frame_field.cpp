@@ -6,6 +6,7 @@
 
 #include "octafield/frames/quaternion.hpp"
 #include "octafield/frames/sh4.hpp"
+#include "smooth_options.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -35,6 +36,7 @@ bool minimises_sh4_to_second_order(const SmoothOptions& options) {
 FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
                              const FrameFieldOptions& options, const Progress& progress) {
     require_sound(options);
+    require_sound(options.smooth);
     DiffuseOptions diffusion = options.diffuse;
     SmoothOptions last = options.smooth, polish;
     diffusion.threads = last.threads = polish.threads = options.threads;

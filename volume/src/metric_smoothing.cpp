@@ -83,8 +83,8 @@ SmoothResult smooth_frozen(const TetMesh& mesh, const BoundaryConstraints& const
         result.energy_history.push_back(result.objective);
         result.message = step.message;
         const double gain = result.objective - step.objective;
-        result.converged = round.max_iterations > 0 && step.message != "cancelled" &&
-                           gain <= options.tolerance * result.objective;
+        result.converged =
+            round.max_iterations > 0 && step.message != "cancelled" && gain <= options.tolerance * result.objective;
         if (step.message == "cancelled" || result.converged || round.max_iterations == 0) return result;
         result.frames = step.frames;
         result.iterations += std::max(1, step.iterations);

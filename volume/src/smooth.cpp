@@ -10,6 +10,7 @@
 #include "metric_smoothing.hpp"
 #include "octafield/frames/registry.hpp"
 #include "octafield/volume/operators.hpp"
+#include "smooth_options.hpp"
 #include "trust_region.hpp"
 
 namespace octafield::volume {
@@ -54,7 +55,9 @@ SmoothResult smooth_with_ceres(const TetMesh& mesh, const BoundaryConstraints& c
     return solve_with_ceres(problem, field.quaternions(), length, options, progress);
 }
 
-void require_options(const SmoothOptions& options) {
+}  // namespace
+
+void require_sound(const SmoothOptions& options) {
     if (options.max_iterations < 0) throw InvalidInput("max_iterations is negative; give 0 or more", "bad_option");
     if (!(options.tolerance >= 0)) throw InvalidInput("tolerance must not be negative", "bad_option");
     if (!(options.midpoint_limit > 0)) throw InvalidInput("midpoint_limit must be positive", "bad_option");
@@ -66,8 +69,6 @@ void require_options(const SmoothOptions& options) {
                                "' is a metric: choose solver levenberg_marquardt or lbfgs",
                            "bad_option");
 }
-
-}  // namespace
 
 std::vector<std::string> smooth_representations() {
     std::vector<std::string> names = frames::Representations::names();
@@ -81,7 +82,7 @@ SmoothSolver default_solver(std::string_view representation) {
 
 SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
                     const SmoothOptions& options, const Progress& progress) {
-    require_options(options);
+    require_sound(options);
     require_fitting(mesh, constraints, start);
     const Quaternions on_constraints = constrained_start(constraints, start);
     SmoothResult result;

@@ -1,5 +1,5 @@
-// Smoothing: minimise the Dirichlet energy of a frame field with one unit quaternion per vertex, in an embedding or in a
-// metric on frames.
+// Smoothing: minimise the Dirichlet energy of a frame field with one unit quaternion per vertex, in an embedding or in
+// a metric on frames.
 #pragma once
 
 #include <numbers>
@@ -30,17 +30,17 @@ struct SmoothOptions {
     // a_j - a_i (docs/su2_smoothing.md):
     //   geodesic       the rotation vector of the smallest rotation from q_i to q_j, matched anew at every evaluation
     //   su2_geodesic   the same, read from the invariants (h0, h1, h2) through their inverse map
-    //   su2_midpoint   2 J^+ (h_j - h_i) with the pseudo-inverse J^+ of dh/d(u, v) half-way, differentiated by both ends
-    //   su2_symmetric  the same with J^+ at either end, root mean square
-    //   su2_frozen     su2_midpoint with J^+ held during each step: inconsistent, kept to show how it fails
+    //   su2_midpoint   2 J^+ (h_j - h_i) with the pseudo-inverse J^+ of dh/d(u, v) half-way, differentiated by both
+    //   ends su2_symmetric  the same with J^+ at either end, root mean square su2_frozen     su2_midpoint with J^+ held
+    //   during each step: inconsistent, kept to show how it fails
     std::string representation = "sh4";
     SmoothSolver solver = SmoothSolver::trust_region;  // of metrics: levenberg_marquardt or lbfgs only
     int max_iterations = 200;
     double tolerance = 1e-6;  // stop when an iteration lowers the energy by less than this fraction of it
     LinearSolver linear_solver = LinearSolver::automatic;  // automatic: sparse Cholesky up to 10,000 vertices
     int threads = 0;                                       // 0: all; the result does not depend on it
-    // Of su2_midpoint, radians: edges whose frames differ by more are measured by the geodesic, with a smooth transition
-    // from half of it. Infinity: never.
+    // Of su2_midpoint, radians: edges whose frames differ by more are measured by the geodesic, with a smooth
+    // transition from half of it. Infinity: never.
     double midpoint_limit = 20 * std::numbers::pi / 180;
 };
 
@@ -50,8 +50,8 @@ std::vector<std::string> smooth_representations();
 SmoothSolver default_solver(std::string_view representation);
 
 struct SmoothResult {
-    Quaternions frames;    // (n, 4) unit quaternions w x y z
-    double energy = 0;     // operators.hpp: dirichlet_energy, of sh4 whatever was minimised
+    Quaternions frames;  // (n, 4) unit quaternions w x y z
+    double energy = 0;   // operators.hpp: dirichlet_energy, of sh4 whatever was minimised
     // What was minimised: 1/2 sum_c a_c^T L a_c of an embedding, 1/2 of the squared gradient in radians of a metric.
     double objective = 0;
     int iterations = 0;
