@@ -6,6 +6,7 @@
 
 #include "octafield/frames/quaternion.hpp"
 #include "octafield/frames/sh4.hpp"
+#include "smooth_options.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -27,7 +28,8 @@ Progress part(const Progress& progress, double begin, double end) {
 }
 
 bool minimises_sh4_to_second_order(const SmoothOptions& options) {
-    return options.representation == frames::Sh4::name && options.solver == SmoothSolver::trust_region;
+    return options.representation == frames::Sh4::name &&
+           (options.solver == SmoothSolver::automatic || options.solver == SmoothSolver::trust_region);
 }
 
 }  // namespace
@@ -35,6 +37,7 @@ bool minimises_sh4_to_second_order(const SmoothOptions& options) {
 FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
                              const FrameFieldOptions& options, const Progress& progress) {
     require_sound(options);
+    require_sound(options.smooth);
     DiffuseOptions diffusion = options.diffuse;
     SmoothOptions last = options.smooth, polish;
     diffusion.threads = last.threads = polish.threads = options.threads;
