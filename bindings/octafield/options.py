@@ -9,6 +9,7 @@ from .defaults import default_of
 from .errors import InvalidInput
 
 REPRESENTATIONS = _core.smooth_representations
+COMPARED = (*_core.representations, "geodesic", "su2_midpoint")  # what a comparison takes when not told
 SOLVERS = ("default", "trust_region", "levenberg_marquardt", "lbfgs")  # default: what goes with the representation
 BOUNDARIES = ("aligned", "fixed", "none")
 FEATURES = ("default", "file", "angle", "none")
