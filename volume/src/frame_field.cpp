@@ -75,8 +75,12 @@ FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& con
         diffusion.keep_best = false;
     }
     if (going && (!second_order || options.rounds == 0)) {
-        const SmoothResult final =
+        SmoothResult final =
             smooth(mesh, constraints, best.frames, last, part(progress, options.rounds / parts, 1));
+        if (!history.empty() && final.energy_history.front() > 0) {
+            const double scale = best.energy / final.energy_history.front();
+            for (double& energy : final.energy_history) energy *= scale;
+        }
         best.energy = std::numeric_limits<double>::infinity();  // its own objective decides
         keep(final);
     } else if (!going) {
