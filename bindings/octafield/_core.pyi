@@ -550,6 +550,7 @@ class SectorNormals:
 
 class SmoothResult:
     energy: float
+    objective: float
     iterations: int
     converged: bool
     message: str
@@ -557,6 +558,7 @@ class SmoothResult:
         self,
         frames: ArrayLike = ...,
         energy: float = ...,
+        objective: float = ...,
         iterations: int = ...,
         converged: bool = ...,
         message: str = ...,
@@ -570,6 +572,12 @@ class SmoothResult:
     def energy_history(self) -> Float64s: ...
     @energy_history.setter
     def energy_history(self, value: ArrayLike) -> None: ...
+
+class FrameFieldResult:
+    diffusion_steps: int
+    def __init__(self, smooth: SmoothResult = ..., diffusion_steps: int = ...) -> None: ...
+    @property
+    def smooth(self) -> SmoothResult: ...
 
 class SingularTriangle:
     a: int
@@ -648,15 +656,22 @@ def boundary_constraints(
     feature_tolerance: float = ...,
 ) -> BoundaryConstraints: ...
 def alignment_angles(boundary: BoundarySurface, features: FeatureGraph, frames: ArrayLike) -> Float64s: ...
-def initial_frames(mesh: TetMesh, constraints: BoundaryConstraints, *, threads: int = 0) -> Float64s: ...
+smooth_representations: tuple[str, ...]
+
+def initial_frames(
+    mesh: TetMesh, constraints: BoundaryConstraints, *, start: str = ..., threads: int = ...
+) -> Float64s: ...
 def diffuse(
     mesh: TetMesh,
     constraints: BoundaryConstraints,
     start: ArrayLike,
     *,
     first_time: float = ...,
+    last_time: float = ...,
     time_exponent: float = ...,
     max_steps: int = ...,
+    linear_tolerance: float = ...,
+    keep_best: bool = ...,
     threads: int = ...,
     progress: Progress | None = None,
 ) -> SmoothResult: ...
@@ -665,12 +680,37 @@ def smooth(
     constraints: BoundaryConstraints,
     start: ArrayLike,
     *,
+    representation: str = ...,
+    solver: str = ...,
     max_iterations: int = ...,
     tolerance: float = ...,
     linear_solver: str = ...,
+    midpoint_limit: float = ...,
     threads: int = ...,
     progress: Progress | None = None,
 ) -> SmoothResult: ...
+def frame_field(
+    mesh: TetMesh,
+    constraints: BoundaryConstraints,
+    *,
+    start: str = ...,
+    seed: int = ...,
+    rounds: int = ...,
+    round_time: float = ...,
+    first_time: float = ...,
+    last_time: float = ...,
+    time_exponent: float = ...,
+    max_steps: int = ...,
+    linear_tolerance: float = ...,
+    representation: str = ...,
+    solver: str = ...,
+    max_iterations: int = ...,
+    tolerance: float = ...,
+    linear_solver: str = ...,
+    midpoint_limit: float = ...,
+    threads: int = ...,
+    progress: Progress | None = None,
+) -> FrameFieldResult: ...
 def singular_graph(mesh: TetMesh, frames: ArrayLike, *, threads: int = 0) -> SingularGraph: ...
 def write_field(path: Path, mesh: TetMesh, frames: ArrayLike, metadata: Mapping[str, str] = ...) -> None: ...
 def write_singular_graph(path: Path, graph: SingularGraph, metadata: Mapping[str, str] = ...) -> None: ...

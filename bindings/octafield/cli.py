@@ -30,6 +30,7 @@ from .errors import InvalidInput
 from .options import (
     ALIGNMENTS,
     BOUNDARIES,
+    COMPARED,
     METHODS,
     REPRESENTATIONS,
     SOLVERS,
@@ -111,6 +112,7 @@ def field(
     edge_length: EdgeLength = _FIELD.edge_length,
     remesh: Remesh = _FIELD.remesh,
     repair: Repair = _FIELD.repair,
+    rounds: Annotated[int, typer.Option(metavar="K", help="Rounds of diffusion and polish.")] = _FIELD.rounds,
     seed: Seed = _FIELD.seed,
     threads: Threads = _FIELD.threads,
     json: Json = None,
@@ -128,6 +130,7 @@ def field(
             representation=representation,
             solver=solver,
             boundary=boundary,
+            rounds=rounds,
             seed=seed,
             threads=threads,
             **_mesh_options(features, feature_angle, edge_length, remesh, repair),
@@ -206,7 +209,10 @@ def surface_field(
 def compare(
     inputs: InputFiles = None,
     output: Output = ...,
-    representations: Annotated[str, typer.Option(metavar="all|A,B", help=f"Of: {choices(REPRESENTATIONS)}.")] = "all",
+    representations: Annotated[
+        str,
+        typer.Option(metavar="all|A,B", help=f"Of: {choices(REPRESENTATIONS)}; all: {', '.join(COMPARED)}."),
+    ] = "all",
     boundaries: Annotated[str, typer.Option(metavar="A,B", help=f"Of: {choices(BOUNDARIES)}.")] = "fixed,aligned",
     seeds: Annotated[int, typer.Option(metavar="K", help="Seeds per run: --seed and the K - 1 numbers after it.")] = 1,
     features: Features = _FIELD.features,
@@ -229,7 +235,7 @@ def compare(
         options = FieldOptions(
             seed=seed, threads=threads, **_mesh_options(features, feature_angle, edge_length, remesh, repair)
         )
-        chosen = REPRESENTATIONS if representations == "all" else _listed(representations)
+        chosen = COMPARED if representations == "all" else _listed(representations)
         with console.progress_bar(quiet) as progress:
             comparison = run_comparison(
                 inputs or [default_input()],

@@ -4,11 +4,13 @@ import math
 import numbers
 from dataclasses import dataclass
 
+from . import _core
 from .defaults import default_of
 from .errors import InvalidInput
 
-REPRESENTATIONS = ("sh4",)
-SOLVERS = ("default",)
+REPRESENTATIONS = _core.smooth_representations
+COMPARED = (*_core.representations, "geodesic", "su2_midpoint")  # what a comparison takes when not told
+SOLVERS = ("default", "trust_region", "levenberg_marquardt", "lbfgs")  # default: what goes with the representation
 BOUNDARIES = ("aligned", "fixed", "none")
 FEATURES = ("default", "file", "angle", "none")
 LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
@@ -110,8 +112,9 @@ class FieldOptions(MeshOptions):
     """Of a frame field in a volume.
 
     boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none".
-    seed: of every random start. threads: 0 means all; results do not depend on it.
-    max_iterations, tolerance: of smoothing, see octafield.smooth.
+    seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
+    not depend on it. representation, solver: what the last smoothing minimises and how; rounds, max_iterations,
+    tolerance: see octafield.frame_field.
     """
 
     representation: str = "sh4"
@@ -119,6 +122,7 @@ class FieldOptions(MeshOptions):
     boundary: str = "aligned"
     seed: int = 0
     threads: int = 0
+    rounds: int = default_of("frame_field", "rounds")
     max_iterations: int = default_of("smooth", "max_iterations")
     tolerance: float = default_of("smooth", "tolerance")
 
@@ -129,5 +133,6 @@ class FieldOptions(MeshOptions):
         require_one_of("boundary", self.boundary, BOUNDARIES)
         _make_integer(self, "seed", 0, LARGEST_SEED)
         _make_integer(self, "threads", 0, LARGEST_INT, " (0: all)")
+        _make_integer(self, "rounds", 0, LARGEST_INT)
         _make_integer(self, "max_iterations", 0, LARGEST_INT)
         _require(math.isfinite(self.tolerance) and self.tolerance >= 0, "the tolerance must not be negative")

@@ -115,19 +115,20 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         constraints = _core.boundary_constraints(
             len(tets.vertices), meshed.boundary, meshed.features, problem.directions, mode=options.boundary
         )
-        start = _core.initial_frames(tets, constraints, threads=threads)
-        diffused = _core.diffuse(
-            tets, constraints, start, threads=threads, progress=forward(progress, "smooth", 0.0, 0.4)
-        )
-        smoothed = _core.smooth(
+        found = _core.frame_field(
             tets,
             constraints,
-            diffused.frames,
+            start="cross_field" if options.boundary == "none" else "constraints",
+            seed=problem.seed,
+            rounds=options.rounds,
+            representation=options.representation,
             max_iterations=options.max_iterations,
             tolerance=options.tolerance,
             threads=threads,
-            progress=forward(progress, "smooth", 0.4, 1.0),
+            progress=forward(progress, "smooth", 0.0, 1.0),
+            **({} if options.solver == "default" else {"solver": options.solver}),
         )
+        smoothed = found.smooth
     with clock.phase("analyse"):
         announce(progress, "analyse")
         frames = np.asarray(smoothed.frames)
@@ -148,11 +149,12 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         "energy_unit_speed": _core.unit_speed_factor * energy,
         **_singular_record(graph),
         "alignment_deg": _degrees(alignment),
-        "iterations": diffused.iterations + smoothed.iterations,
-        "diffusion_steps": diffused.iterations,
+        "objective": float(smoothed.objective),
+        "iterations": smoothed.iterations,
+        "diffusion_steps": found.diffusion_steps,
         "converged": bool(smoothed.converged),
         "stop_reason": smoothed.message,
-        "energy_history": [float(e) for e in (*diffused.energy_history, *smoothed.energy_history[1:])],
+        "energy_history": [float(e) for e in smoothed.energy_history],
         "surface_field": {
             "singular_points": _counts_by_index(problem.singularities),
             "epsilon": problem.direction_field.epsilon,

@@ -19,5 +19,6 @@ void bind_streamlines(pybind11::module_& module);
 void bind_renormalised_energy(pybind11::module_& module);
 void bind_volume_types(pybind11::module_& module);
 void bind_volume(pybind11::module_& module);
+void bind_smoothing(pybind11::module_& module);
 
 }  // namespace octafield::bindings

@@ -52,4 +52,5 @@ PYBIND11_MODULE(_core, module) {
     bind_surface(module);
     bind_volume_types(module);
     bind_volume(module);
+    bind_smoothing(module);
 }

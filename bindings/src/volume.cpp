@@ -9,9 +9,7 @@
 #include "checks.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/boundary.hpp"
-#include "octafield/volume/diffuse.hpp"
 #include "octafield/volume/singularities.hpp"
-#include "octafield/volume/smooth.hpp"
 #include "octafield/volume/tetrahedralize.hpp"
 #include "octafield/volume/write_vtk.hpp"
 #include "words.hpp"
@@ -162,79 +160,7 @@ void bind_boundary(py::module_& m) {
         "(n, 4), one per tet-mesh vertex.");
 }
 
-void bind_smoothing(py::module_& m) {
-    m.def(
-        "initial_frames",
-        [](const TetMesh& mesh, const BoundaryConstraints& constraints, int threads) {
-            threads_option(threads);
-            return own(run_interruptible([mesh = mesh, constraints = constraints, threads](Job&) mutable {
-                check(mesh);
-                check(constraints, static_cast<Index>(mesh.vertices.rows()));
-                return initial_frames(mesh, constraints, threads);
-            }));
-        },
-        "mesh"_a, "constraints"_a, py::kw_only(), "threads"_a = 0,
-        "(n, 4) start frames: componentwise harmonic sh4 vectors with every boundary frame held (Ray et al. 2016), "
-        "projected.");
-
-    const DiffuseOptions diffusion;
-    m.def(
-        "diffuse",
-        [](const TetMesh& mesh, const BoundaryConstraints& constraints, const ArrayLike& start, double first_time,
-           double time_exponent, int max_steps, int threads, const std::optional<ProgressCallable>& progress) {
-            const DiffuseOptions options{.first_time = finite(first_time, "first_time"),
-                                         .time_exponent = finite(time_exponent, "time_exponent"),
-                                         .max_steps = max_steps,
-                                         .threads = threads_option(threads)};
-            return run_interruptible(
-                [mesh = mesh, constraints = constraints, options,
-                 rows = from_python<Quaternions>(start, "start")](Job& job) mutable {
-                    check(mesh);
-                    check(constraints, static_cast<Index>(mesh.vertices.rows()));
-                    check_unit(rows, mesh.vertices.rows(), "start");
-                    return diffuse(mesh, constraints, rows, options, job.progress());
-                },
-                progress);
-        },
-        "mesh"_a, "constraints"_a, "start"_a, py::kw_only(), "first_time"_a = diffusion.first_time,
-        "time_exponent"_a = diffusion.time_exponent, "max_steps"_a = diffusion.max_steps,
-        "threads"_a = diffusion.threads, "progress"_a = py::none(),
-        "Implicit heat flow of the sh4 vectors alternating with projection onto frames (modified MBO, Palmer et al. "
-        "2020), from (n, 4) start frames, as a SmoothResult of the lowest energy met: the start for smooth. "
-        "first_time: of the first step over the squared size of the body, step k lasts 1/k^time_exponent of it. "
-        "Cancelled by "
-        "progress, the best state is returned with converged False. Raises InvalidInput, SolverError.");
-
-    const SmoothOptions defaults;
-    m.def(
-        "smooth",
-        [](const TetMesh& mesh, const BoundaryConstraints& constraints, const ArrayLike& start, int max_iterations,
-           double tolerance, const std::string& linear_solver, int threads,
-           const std::optional<ProgressCallable>& progress) {
-            const SmoothOptions options{.max_iterations = max_iterations,
-                                        .tolerance = finite(tolerance, "tolerance"),
-                                        .linear_solver = from_word<LinearSolver>(linear_solver, "linear_solver"),
-                                        .threads = threads_option(threads)};
-            return run_interruptible(
-                [mesh = mesh, constraints = constraints, options,
-                 rows = from_python<Quaternions>(start, "start")](Job& job) mutable {
-                    check(mesh);
-                    check(constraints, static_cast<Index>(mesh.vertices.rows()));
-                    check_unit(rows, mesh.vertices.rows(), "start");
-                    return smooth(mesh, constraints, rows, options, job.progress());
-                },
-                progress);
-        },
-        "mesh"_a, "constraints"_a, "start"_a, py::kw_only(), "max_iterations"_a = defaults.max_iterations,
-        "tolerance"_a = defaults.tolerance, "linear_solver"_a = to_word(defaults.linear_solver),
-        "threads"_a = defaults.threads, "progress"_a = py::none(),
-        "Minimise dirichlet_energy from (n, 4) start frames by Levenberg-Marquardt over one quaternion per vertex, "
-        "constraints held exactly, as a "
-        "SmoothResult. tolerance: relative energy decrease at which to stop; linear_solver: \"automatic\", "
-        "\"cholesky\" or "
-        "\"conjugate_gradients\"; the result does not depend on threads. Cancelled by progress, the best state is "
-        "returned with converged "
-        "False. Raises InvalidInput, SolverError.");
+void bind_analysis(py::module_& m) {
     m.def(
         "singular_graph",
         [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
@@ -302,7 +228,7 @@ void bind_volume(py::module_& m) {
     bind_meshes(m);
     bind_operators(m);
     bind_boundary(m);
-    bind_smoothing(m);
+    bind_analysis(m);
     bind_files(m);
 }
 

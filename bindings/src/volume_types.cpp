@@ -1,8 +1,8 @@
 // Structs of volume/ as Python classes.
 #include "bind.hpp"
 #include "octafield/volume/boundary.hpp"
+#include "octafield/volume/frame_field.hpp"
 #include "octafield/volume/singularities.hpp"
-#include "octafield/volume/smooth.hpp"
 #include "record.hpp"
 
 namespace octafield::bindings {
@@ -62,15 +62,26 @@ void bind_results(py::module_& m) {
     Record<SmoothResult>(m, "SmoothResult", "A smoothed frame field and how it was reached.")
         .field("frames", &SmoothResult::frames, "(n, 4) float64 unit quaternions w x y z.")
         .field("energy", &SmoothResult::energy, "dirichlet_energy of the frames, input length unit.")
+        .field("objective", &SmoothResult::objective,
+               "What was minimised: the Dirichlet energy of the representation smoothed.")
         .field("iterations", &SmoothResult::iterations, "Iterations done.")
         .field("converged", &SmoothResult::converged,
                "Whether the last step lowered the energy by less than the tolerance.")
         .field("message", &SmoothResult::message, "Why the solver stopped.")
         .field("energy_history", &SmoothResult::energy_history,
-               "float64 energies at the start and after each accepted or rejected step.")
+               "float64 objectives at the start and after each accepted or rejected step.")
         .finish([](const SmoothResult& r) {
             return count(r.frames.rows(), "frame") + ", energy " + py::str(py::float_(r.energy)).cast<std::string>() +
                    ", " + count(r.iterations, "iteration") + ", " + (r.converged ? "converged" : "not converged");
+        });
+
+    Record<FrameFieldResult>(m, "FrameFieldResult", "A frame field by frame_field, and how it was reached.")
+        .field("smooth", &FrameFieldResult::smooth,
+               "SmoothResult of the field of lowest energy; iterations and energy_history are those of all rounds.")
+        .field("diffusion_steps", &FrameFieldResult::diffusion_steps, "Steps of diffusion, of all rounds.")
+        .finish([](const FrameFieldResult& r) {
+            return "energy " + py::str(py::float_(r.smooth.energy)).cast<std::string>() + ", " +
+                   count(r.diffusion_steps, "diffusion step") + ", " + count(r.smooth.iterations, "iteration");
         });
 
     Record<SingularTriangle>(m, "SingularTriangle",

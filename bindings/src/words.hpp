@@ -53,6 +53,22 @@ struct Words<volume::BoundaryMode> {
 };
 
 template <>
+struct Words<volume::Start> {
+    using E = volume::Start;
+    static constexpr std::array<std::pair<const char*, E>, 2> list{
+        {{"constraints", E::constraints}, {"cross_field", E::cross_field}}};
+};
+
+template <>
+struct Words<volume::SmoothSolver> {
+    using E = volume::SmoothSolver;
+    static constexpr std::array<std::pair<const char*, E>, 4> list{{{"automatic", E::automatic},
+                                                                    {"trust_region", E::trust_region},
+                                                                    {"levenberg_marquardt", E::levenberg_marquardt},
+                                                                    {"lbfgs", E::lbfgs}}};
+};
+
+template <>
 struct Words<volume::LinearSolver> {
     using E = volume::LinearSolver;
     static constexpr std::array<std::pair<const char*, E>, 3> list{

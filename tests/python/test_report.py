@@ -21,7 +21,7 @@ PNG = b"\x89PNG\r\n\x1a\n"
 @pytest.fixture(scope="module")
 def comparison(tmp_path_factory):
     folder = tmp_path_factory.mktemp("compare")
-    return compare([write_sphere(folder), write_cube(folder)], folder / "out", options=COARSE)
+    return compare([write_sphere(folder), write_cube(folder)], folder / "out", representations=("sh4", "odeco"), options=COARSE)
 
 
 @pytest.fixture(scope="module")
@@ -59,8 +59,9 @@ def elements(page):
     return parser.seen
 
 
-def test_two_rows_per_input_fixed_and_aligned(comparison):
-    assert [row["boundary"] for row in comparison.rows] == ["fixed", "aligned"] * 2
+def test_a_row_per_input_representation_and_boundary_treatment(comparison):
+    assert [row["boundary"] for row in comparison.rows] == ["fixed", "aligned"] * 4
+    assert [row["representation"] for row in comparison.rows] == ["sh4", "sh4", "odeco", "odeco"] * 2
     assert json.loads((comparison.folder / "results.json").read_text()) == comparison.rows
 
 
@@ -105,7 +106,7 @@ def test_links_lead_to_files_beside_the_page(comparison, page):
 
 def test_pictures_are_png_below_the_bound(page):
     pictures = [a["src"] for tag, a in elements(page) if tag == "img"]
-    assert len(pictures) == 2 * (1 + 2 * 2)  # per input: the surface, then curves and cut per run
+    assert len(pictures) == 2 * (1 + 2 * 4)  # per input: the surface, then curves and cut per run
     for source in pictures:
         data = base64.b64decode(source.removeprefix("data:image/png;base64,"), validate=True)
         assert data.startswith(PNG) and len(data) < 400_000
@@ -129,7 +130,7 @@ def test_a_new_comparison_replaces_the_old_one_only(comparison, tmp_path):
     out, cube = tmp_path / "out", write_cube(tmp_path)
     compare(cube, out, options=COARSE)
     (out / "notes.txt").write_text("mine")
-    compare(cube, out, boundaries=("none",), options=COARSE)
+    compare(cube, out, representations=("sh4",), boundaries=("none",), options=COARSE)
     assert {p.name for p in out.iterdir()} == {
         "report.html",
         "results.json",
@@ -147,7 +148,7 @@ def test_a_folder_of_something_else_is_refused_and_untouched(tmp_path):
 
 
 def test_seeds_make_rows_of_their_own(tmp_path):
-    rows = compare(write_sphere(tmp_path), tmp_path / "out", boundaries=("aligned",), seeds=2, options=COARSE).rows
+    rows = compare(write_sphere(tmp_path), tmp_path / "out", representations=("sh4",), boundaries=("aligned",), seeds=2, options=COARSE).rows
     assert [row["seed"] for row in rows] == [0, 1]
     assert rows[0]["mesh_sha256"] == rows[1]["mesh_sha256"]
 

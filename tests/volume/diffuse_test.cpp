@@ -18,13 +18,22 @@ using testing::jittered_cube;
 using testing::largest_distance;
 using testing::smooth_field;
 
+// Linear solves and last step small enough to be those of the flow itself.
+DiffuseOptions accurate() {
+    DiffuseOptions options;
+    options.linear_tolerance = 1e-4;
+    options.last_time = 1.0 / 16;
+    options.max_steps = 200;
+    return options;
+}
+
 TEST(Diffuse, FindsTheConstantFieldFromARandomStart) {
     const TetMesh mesh = jittered_cube(6, 0.2, 1);
     const Quaternion q = frames::exp({0.5, -0.2, 0.4});
     const Quaternions constant = testing::sample(mesh, [&](const Vector3&) { return q; });
     const Quaternions random = frames::random_rotations(mesh.vertices.rows(), 2);
     for (const VertexConstraint kind : {VertexConstraint::fixed, VertexConstraint::axis}) {
-        const SmoothResult result = diffuse(mesh, constraints_on(mesh, kind, constant), random);
+        const SmoothResult result = diffuse(mesh, constraints_on(mesh, kind, constant), random, accurate());
         EXPECT_LT(result.energy, 1e-5 * dirichlet_energy(mesh, random));
         EXPECT_TRUE(result.converged);
         // With free twist every constant field about the common axis has no energy.
@@ -52,7 +61,7 @@ TEST(Diffuse, EndsNearTheMinimiserOfSmooth) {
     for (const VertexConstraint kind : {VertexConstraint::fixed, VertexConstraint::axis}) {
         const BoundaryConstraints constraints = constraints_on(mesh, kind, field);
         const SmoothResult minimum = smooth(mesh, constraints, field);
-        const SmoothResult diffused = diffuse(mesh, constraints, field);
+        const SmoothResult diffused = diffuse(mesh, constraints, field, accurate());
         EXPECT_GE(diffused.energy, minimum.energy * (1 - 1e-6));
         EXPECT_LT(diffused.energy, minimum.energy * 1.02);
         EXPECT_LT(largest_distance(diffused.frames, minimum.frames), 0.1);
@@ -89,7 +98,6 @@ TEST(Diffuse, GivesTheSameBitsAtAnyThreadCountAndDoesNotDependOnTheUnit) {
     const SmoothResult one = diffuse(mesh, constraints, start, options);
     options.threads = 3;
     EXPECT_EQ(one.frames, diffuse(mesh, constraints, start, options).frames);
-    EXPECT_FALSE(one.converged);
     for (const double unit : {0x1p-20, 0x1p20}) {  // powers of two: no rounding in the change of unit
         TetMesh scaled = mesh;
         scaled.vertices *= unit;

@@ -182,8 +182,8 @@ TEST(Smooth, GivesTheSameBitsAtAnyThreadCount) {
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::axis, smooth_field(mesh));
     SmoothOptions options;
     options.max_iterations = 5;
-    const Quaternions start = initial_frames(mesh, constraints, 1);
-    EXPECT_EQ(start, initial_frames(mesh, constraints, 3));
+    const Quaternions start = initial_frames(mesh, constraints, Start::constraints, 1);
+    EXPECT_EQ(start, initial_frames(mesh, constraints, Start::constraints, 3));
     options.threads = 1;
     const SmoothResult one = smooth(mesh, constraints, start, options);
     options.threads = 3;

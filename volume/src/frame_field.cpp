@@ -1,0 +1,95 @@
+#include "octafield/volume/frame_field.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "octafield/frames/quaternion.hpp"
+#include "octafield/frames/sh4.hpp"
+#include "smooth_options.hpp"
+
+namespace octafield::volume {
+namespace {
+
+// Of the polish in all rounds but the last: what comes after diffuses again.
+constexpr double rough_tolerance = 1e-3;
+
+void require_sound(const FrameFieldOptions& options) {
+    if (options.rounds < 0) throw InvalidInput("rounds is negative; give 0 or more", "bad_option");
+    if (!(options.round_time > 0)) throw InvalidInput("round_time must be positive", "bad_option");
+}
+
+// Passes progress on as part of [begin, end] of the whole.
+Progress part(const Progress& progress, double begin, double end) {
+    if (!progress) return {};
+    return [&progress, begin, end](std::string_view phase, double fraction, double merit) {
+        return progress(phase, fraction < 0 ? fraction : begin + (end - begin) * fraction, merit);
+    };
+}
+
+bool minimises_sh4_to_second_order(const SmoothOptions& options) {
+    return options.representation == frames::Sh4::name &&
+           (options.solver == SmoothSolver::automatic || options.solver == SmoothSolver::trust_region);
+}
+
+}  // namespace
+
+FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
+                             const FrameFieldOptions& options, const Progress& progress) {
+    require_sound(options);
+    require_sound(options.smooth);
+    DiffuseOptions diffusion = options.diffuse;
+    SmoothOptions last = options.smooth, polish;
+    diffusion.threads = last.threads = polish.threads = options.threads;
+    polish.max_iterations = last.max_iterations;
+
+    const bool second_order = minimises_sh4_to_second_order(last);
+    const double parts = options.rounds + (second_order ? 0 : 1);
+    FrameFieldResult result;
+    SmoothResult& best = result.smooth;
+    best.frames = options.seed == 0 ? initial_frames(mesh, constraints, options.start, options.threads)
+                                    : frames::random_rotations(mesh.vertices.rows(), options.seed);
+    best.energy = std::numeric_limits<double>::infinity();
+    std::vector<double> history;
+    int iterations = 0;
+    // False when cancelled.
+    const auto keep = [&](const SmoothResult& next) {
+        // Each begins with the energy that the one before ended with.
+        history.insert(history.end(), next.energy_history.begin() + (history.empty() ? 0 : 1),
+                       next.energy_history.end());
+        iterations += next.iterations;
+        if (next.energy < best.energy) best = next;
+        return next.message != "cancelled";
+    };
+    bool going = true;
+    for (int round = 0; round < options.rounds && going; ++round) {
+        const double begin = round / parts, end = (round + 1) / parts, middle = 0.6 * begin + 0.4 * end;
+        const SmoothResult diffused = diffuse(mesh, constraints, best.frames, diffusion, part(progress, begin, middle));
+        result.diffusion_steps += diffused.iterations;
+        going = keep(diffused);
+        if (!going) break;
+        const bool is_last = second_order && round + 1 == options.rounds;
+        polish.tolerance = is_last ? last.tolerance : std::max(rough_tolerance, last.tolerance);
+        going = keep(smooth(mesh, constraints, diffused.frames, polish, part(progress, middle, end)));
+        diffusion.first_time *= options.round_time;
+        diffusion.keep_best = false;
+    }
+    if (going && (!second_order || options.rounds == 0)) {
+        SmoothResult final =
+            smooth(mesh, constraints, best.frames, last, part(progress, options.rounds / parts, 1));
+        if (!history.empty() && final.energy_history.front() > 0) {
+            const double scale = best.energy / final.energy_history.front();
+            for (double& energy : final.energy_history) energy *= scale;
+        }
+        best.energy = std::numeric_limits<double>::infinity();  // its own objective decides
+        keep(final);
+    } else if (!going) {
+        best.converged = false;
+        best.message = "cancelled";
+    }
+    best.iterations = iterations;
+    best.energy_history = std::move(history);
+    return result;
+}
+
+}  // namespace octafield::volume

@@ -1,0 +1,15 @@
+// Riemannian trust region for the Dirichlet energy of an embedded frame field (after Palmer, Bommes, Solomon 2020,
+// section 5): Newton steps with the exact Hessian, solved by truncated conjugate gradients (Steihaug 1983).
+#pragma once
+
+#include "octafield/frames/representation.hpp"
+#include "octafield/volume/smooth.hpp"
+
+namespace octafield::volume {
+
+// `start` is on the constraints. Instantiated for the representations of frames/registry.hpp.
+template <frames::Representation R>
+SmoothResult trust_region(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+                          const SmoothOptions& options, const Progress& progress);
+
+}  // namespace octafield::volume
