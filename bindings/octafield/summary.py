@@ -87,6 +87,14 @@ COLUMNS: tuple[Column, ...] = (
         "singular",
     ),
     Column(
+        "non-meshable",
+        lambda _, r: r["non_meshable_vertices"],
+        ",d",
+        "places where singular curves meet, change or reach the surface in a way no hex mesh has (a necessary "
+        "condition: the others may still have none); nodes that complex edges join count one by one",
+        "singular",
+    ),
+    Column(
         "median",
         lambda _, r: r["alignment_deg"]["median"],
         ".2f",
@@ -94,6 +102,21 @@ COLUMNS: tuple[Column, ...] = (
         "alignment \N{DEGREE SIGN}",
     ),
     Column("max", lambda _, r: r["alignment_deg"]["max"], ".2f", "its maximum", "alignment \N{DEGREE SIGN}"),
+    Column(
+        "features",
+        lambda _, r: r["feature_alignment_deg"]["max"],
+        ".2f",
+        "largest angle between a feature curve and the nearest frame axis, corners included",
+        "alignment \N{DEGREE SIGN}",
+    ),
+    Column(
+        "jump",
+        lambda _, r: r["integrability"]["jump_rms"],
+        ".3g",
+        "jump of the axes along the face between two tets, root mean square: 0 for gradients of a map, of the order of "
+        "the mesh width on smooth fields; compare on one mesh only",
+        "integrability",
+    ),
     Column("iterations", lambda _, r: r["iterations"], "d", "diffusion steps and Levenberg-Marquardt iterations"),
     *(_phase(phase, _PHASE_MEANINGS[phase]) for phase in PHASES),
     Column("total", lambda _, r: total_seconds(r), ".2f", "sum of the phases, wall clock", "seconds"),
