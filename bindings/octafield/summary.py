@@ -8,13 +8,15 @@ from .phases import PHASES
 
 @dataclass(frozen=True)
 class Column:
-    """value(input name, record) is shown with format `form` (empty: text). meaning: HTML."""
+    """value(input name, record) is shown with format `form` (empty: text). meaning: HTML. report_only: not on the
+    terminal, where lines are short."""
 
     head: str
     value: Callable[[str, dict], object]
     form: str
     meaning: str
     group: str = ""
+    report_only: bool = False
 
     def show(self, value) -> str:
         return format(value, self.form) if self.form else str(value)
@@ -108,6 +110,7 @@ COLUMNS: tuple[Column, ...] = (
         ".2f",
         "largest angle between a feature curve and the nearest frame axis, corners included",
         "alignment \N{DEGREE SIGN}",
+        report_only=True,
     ),
     Column(
         "jump",
@@ -116,6 +119,7 @@ COLUMNS: tuple[Column, ...] = (
         "jump of the axes along the face between two tets, root mean square: 0 for gradients of a map, of the order of "
         "the mesh width on smooth fields; compare on one mesh only",
         "integrability",
+        report_only=True,
     ),
     Column("iterations", lambda _, r: r["iterations"], "d", "diffusion steps and Levenberg-Marquardt iterations"),
     *(_phase(phase, _PHASE_MEANINGS[phase]) for phase in PHASES),
