@@ -713,5 +713,109 @@ def frame_field(
 ) -> FrameFieldResult: ...
 def singular_graph(mesh: TetMesh, frames: ArrayLike, *, threads: int = 0) -> SingularGraph: ...
 def write_field(path: Path, mesh: TetMesh, frames: ArrayLike, metadata: Mapping[str, str] = ...) -> None: ...
-def write_singular_graph(path: Path, graph: SingularGraph, metadata: Mapping[str, str] = ...) -> None: ...
+def write_singular_graph(
+    path: Path, graph: SingularGraph, metadata: Mapping[str, str] = ..., meshability: Meshability | None = None
+) -> None: ...
 def write_surface_field(path: Path, mesh: TriangleMesh, directions: ArrayLike, metadata: Mapping[str, str] = ...) -> None: ...
+
+class SingularVertex:
+    point: int
+    kind: str
+    valence3: int
+    valence5: int
+    valence6: int
+    complex: int
+    about_normal: bool
+    meshable: bool
+    junction: int
+    def __init__(
+        self,
+        point: int = ...,
+        kind: str = ...,
+        valence3: int = ...,
+        valence5: int = ...,
+        valence6: int = ...,
+        complex: int = ...,
+        about_normal: bool = ...,
+        meshable: bool = ...,
+        junction: int = ...,
+    ) -> None: ...
+
+class SingularJunction:
+    vertices: int
+    valence3: int
+    valence5: int
+    valence6: int
+    complex: int
+    meshable: bool
+    def __init__(
+        self,
+        vertices: int = ...,
+        valence3: int = ...,
+        valence5: int = ...,
+        valence6: int = ...,
+        complex: int = ...,
+        meshable: bool = ...,
+    ) -> None: ...
+
+class Meshability:
+    non_meshable_vertices: int
+    non_meshable_junctions: int
+    closed_curves: int
+    boundary_ends: int
+    boundary_ends_about_normal: int
+    def __init__(
+        self,
+        vertices: Sequence[SingularVertex] = ...,
+        junctions: Sequence[SingularJunction] = ...,
+        curve_ends: ArrayLike = ...,
+        non_meshable_vertices: int = ...,
+        non_meshable_junctions: int = ...,
+        closed_curves: int = ...,
+        boundary_ends: int = ...,
+        boundary_ends_about_normal: int = ...,
+    ) -> None: ...
+    @property
+    def vertices(self) -> list[SingularVertex]: ...
+    @property
+    def junctions(self) -> list[SingularJunction]: ...
+    @property
+    def curve_ends(self) -> Int32s: ...
+    @curve_ends.setter
+    def curve_ends(self, value: ArrayLike) -> None: ...
+
+class Integrability:
+    jump_rms: float
+    jump_max: float
+    twist_rms: float
+    twist_max: float
+    def __init__(
+        self,
+        jump_rms: float = ...,
+        jump_max: float = ...,
+        twist_rms: float = ...,
+        twist_max: float = ...,
+        twist: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def twist(self) -> Float64s: ...
+    @twist.setter
+    def twist(self, value: ArrayLike) -> None: ...
+
+class FeatureTangents:
+    def __init__(self, vertex: ArrayLike = ..., tangent: ArrayLike = ...) -> None: ...
+    @property
+    def vertex(self) -> Int32s: ...
+    @vertex.setter
+    def vertex(self, value: ArrayLike) -> None: ...
+    @property
+    def tangent(self) -> Float64s: ...
+    @tangent.setter
+    def tangent(self, value: ArrayLike) -> None: ...
+
+def hex_vertex_exists(valence3: int, valence5: int, valence6: int = ...) -> bool: ...
+def local_meshability(mesh: TetMesh, frames: ArrayLike, graph: SingularGraph) -> Meshability: ...
+def integrability(mesh: TetMesh, frames: ArrayLike, *, threads: int = 0) -> Integrability: ...
+def tet_frames(mesh: TetMesh, frames: ArrayLike, *, threads: int = 0) -> Float64s: ...
+def feature_tangents(boundary: TriangleMesh, features: FeatureGraph) -> FeatureTangents: ...
+def feature_alignment_angles(boundary: BoundarySurface, features: FeatureGraph, frames: ArrayLike) -> Float64s: ...

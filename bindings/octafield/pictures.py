@@ -199,7 +199,9 @@ def _curves_caption(result: FieldResult) -> str:
         return "No singular edges."
     what = f"{scene.counted(record['singular_edges'], 'singular edge')} ({parts})"
     curves = f"{scene.counted(record['singular_curves'], 'curve')} of total length {record['singular_length']:.4g}"
-    return f"{what}; {curves}; {scene.counted(record['singular_nodes'], 'node')}."
+    ends = f"{record['singular_boundary_ends']} ends on the surface"
+    bad = f"{record['non_meshable_vertices']} places that no hex mesh has"
+    return f"{what}; {curves}; {scene.counted(record['singular_nodes'], 'node')}; {ends}; {bad}."
 
 
 def _signed(value: Fraction) -> str:

@@ -10,7 +10,6 @@ A comparison prepares a Problem once and runs it with several options:
     results = [run(problem, FieldOptions(boundary=boundary)) for boundary in ("fixed", "aligned")]
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
@@ -22,12 +21,15 @@ from ._core import (
     BoundaryConstraints,
     DirectionField,
     FeatureGraph,
+    Integrability,
+    Meshability,
     SingularGraph,
     Streamline,
     SurfaceSingularities,
     TetMesh,
     TriangleMesh,
 )
+from .analysis import analyse
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
@@ -67,7 +69,7 @@ class Problem:
 @dataclass
 class FieldResult:
     """A frame field and what led to it. frames: (n, 4) unit quaternions w x y z, per tet vertex. alignment: radians,
-    per boundary vertex and smooth sector. record: the JSON object of the command line."""
+    per boundary vertex and smooth sector. feature_alignment: radians, per feature tangent. record: the JSON object of the command line."""
 
     surface: TriangleMesh
     features: FeatureGraph
@@ -80,6 +82,9 @@ class FieldResult:
     frames: np.ndarray
     singular_graph: SingularGraph
     alignment: np.ndarray
+    feature_alignment: np.ndarray
+    meshability: Meshability
+    integrability: Integrability
     record: dict
 
 
@@ -132,9 +137,7 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
     with clock.phase("analyse"):
         announce(progress, "analyse")
         frames = np.asarray(smoothed.frames)
-        graph = _core.singular_graph(tets, frames, threads=threads)
-        alignment = np.asarray(_core.alignment_angles(meshed.boundary, meshed.features, frames))
-        energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
+        analysis = analyse(meshed, frames, threads)
     record = {
         **common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
         "vertices": len(tets.vertices),
@@ -145,10 +148,7 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         "boundary": options.boundary,
         "seed": problem.seed,
         "threads": threads,
-        "energy": energy,
-        "energy_unit_speed": _core.unit_speed_factor * energy,
-        **_singular_record(graph),
-        "alignment_deg": _degrees(alignment),
+        **analysis.record,
         "objective": float(smoothed.objective),
         "iterations": smoothed.iterations,
         "diffusion_steps": found.diffusion_steps,
@@ -175,8 +175,11 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         tets,
         constraints,
         frames,
-        graph,
-        alignment,
+        analysis.singular_graph,
+        analysis.alignment,
+        analysis.feature_alignment,
+        analysis.meshability,
+        analysis.integrability,
         record,
     )
 
@@ -185,23 +188,3 @@ def _counts_by_index(singularities: SurfaceSingularities) -> dict[str, int]:
     """{"1/4": 8}: how many singular points of each index, positive ones first."""
     indices = sorted((Fraction(float(s.index)).limit_denominator(1000) for s in singularities.points), reverse=True)
     return {("+" if index > 0 else "") + str(index): indices.count(index) for index in dict.fromkeys(indices)}
-
-
-def _singular_record(graph: SingularGraph) -> dict:
-    turns = [int(t.quarter_turns) for t in graph.triangles]
-    return {
-        "singular_edges": len(turns),
-        "singular_length": float(graph.length),
-        "singular_curves": len(graph.curves),
-        "singular_nodes": len(graph.nodes),
-        "complex_edges": int(graph.complex_triangles),
-        "singular_edges_by_turns": {
-            f"{t:+d}" if t else "complex": turns.count(t) for t in sorted(set(turns), reverse=True)
-        },
-    }
-
-
-def _degrees(angles: np.ndarray) -> dict[str, float]:
-    if len(angles) == 0:
-        return {"median": 0.0, "max": 0.0}
-    return {"median": math.degrees(float(np.median(angles))), "max": math.degrees(float(angles.max()))}

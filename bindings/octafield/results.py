@@ -24,7 +24,7 @@ def write_field_result(result: FieldResult, folder: Path, progress: Progress | N
     clock = _clock(result.record)
     with clock.phase("write"):
         _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata)
-        _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata)
+        _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
         _write_surface_files(result, folder, metadata)
     result.record["files"] = [*FIELD_FILES, RECORD_FILE]
     write_json(folder / RECORD_FILE, result.record)

@@ -8,13 +8,15 @@ from .phases import PHASES
 
 @dataclass(frozen=True)
 class Column:
-    """value(input name, record) is shown with format `form` (empty: text). meaning: HTML."""
+    """value(input name, record) is shown with format `form` (empty: text). meaning: HTML. report_only: not on the
+    terminal, where lines are short."""
 
     head: str
     value: Callable[[str, dict], object]
     form: str
     meaning: str
     group: str = ""
+    report_only: bool = False
 
     def show(self, value) -> str:
         return format(value, self.form) if self.form else str(value)
@@ -87,6 +89,14 @@ COLUMNS: tuple[Column, ...] = (
         "singular",
     ),
     Column(
+        "non-meshable",
+        lambda _, r: r["non_meshable_vertices"],
+        ",d",
+        "places where singular curves meet, change or reach the surface in a way no hex mesh has (a necessary "
+        "condition: the others may still have none); nodes that complex edges join count one by one",
+        "singular",
+    ),
+    Column(
         "median",
         lambda _, r: r["alignment_deg"]["median"],
         ".2f",
@@ -94,6 +104,23 @@ COLUMNS: tuple[Column, ...] = (
         "alignment \N{DEGREE SIGN}",
     ),
     Column("max", lambda _, r: r["alignment_deg"]["max"], ".2f", "its maximum", "alignment \N{DEGREE SIGN}"),
+    Column(
+        "features",
+        lambda _, r: r["feature_alignment_deg"]["max"],
+        ".2f",
+        "largest angle between a feature curve and the nearest frame axis, corners included",
+        "alignment \N{DEGREE SIGN}",
+        report_only=True,
+    ),
+    Column(
+        "jump",
+        lambda _, r: r["integrability"]["jump_rms"],
+        ".3g",
+        "jump of the axes along the face between two tets, root mean square: 0 for gradients of a map, of the order of "
+        "the mesh width on smooth fields; compare on one mesh only",
+        "integrability",
+        report_only=True,
+    ),
     Column("iterations", lambda _, r: r["iterations"], "d", "diffusion steps and iterations of smoothing"),
     *(_phase(phase, _PHASE_MEANINGS[phase]) for phase in PHASES),
     Column("total", lambda _, r: total_seconds(r), ".2f", "sum of the phases, wall clock", "seconds"),

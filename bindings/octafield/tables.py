@@ -13,7 +13,7 @@ from .summary import COLUMNS
 def show_record(record: dict) -> None:
     facts = []
     for name, value in record.items():
-        if name in ("alignment_deg", "wall_seconds"):
+        if name in ("alignment_deg", "feature_alignment_deg", "integrability", "wall_seconds"):
             facts.append((name, "  ".join(f"{key} {number:.3g}" for key, number in value.items())))
         elif isinstance(value, (str, int, float)) and name != "input":
             facts.append((name, f"{value:.8g}" if isinstance(value, float) else str(value)))
@@ -21,19 +21,9 @@ def show_record(record: dict) -> None:
 
 
 def show_comparison(rows: list[dict]) -> None:
-    heads = [
-        f"{column.group} {column.head}".strip()
-        for column in COLUMNS
-        if column.group != "seconds" or column.head == "total"
-    ]
-    cells = [
-        [
-            column.show(column.value(Path(row["input"]).name, row))
-            for column in COLUMNS
-            if column.group != "seconds" or column.head == "total"
-        ]
-        for row in rows
-    ]
+    columns = [c for c in COLUMNS if not c.report_only and (c.group != "seconds" or c.head == "total")]
+    heads = [f"{column.group} {column.head}".strip() for column in columns]
+    cells = [[column.show(column.value(Path(row["input"]).name, row)) for column in columns] for row in rows]
     _table(heads, cells, left=3)
 
 
@@ -85,4 +75,4 @@ def _table(heads: list[str], rows: list[list[str]], left: int = 1) -> None:
 
 def _stdout() -> Console:
     """Wide where nobody reads on a terminal, so that pipes get whole lines."""
-    return Console(width=None if sys.stdout.isatty() else 240, highlight=False)
+    return Console(width=None if sys.stdout.isatty() else 280, highlight=False)

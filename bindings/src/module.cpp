@@ -51,6 +51,8 @@ PYBIND11_MODULE(_core, module) {
     bind_surface_types(module);
     bind_surface(module);
     bind_volume_types(module);
+    bind_field_analysis_types(module);
     bind_volume(module);
     bind_smoothing(module);
+    bind_field_analysis(module);
 }

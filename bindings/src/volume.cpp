@@ -196,16 +196,17 @@ void bind_files(py::module_& m) {
         "metadata: words written as field data. Raises IoError.");
     m.def(
         "write_singular_graph",
-        [](const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata) {
+        [](const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata,
+           const std::optional<Meshability>& meshability) {
             run_interruptible([=](Job&) {
                 check(graph);
-                write_singular_graph(path, graph, metadata);
+                write_singular_graph(path, graph, metadata, meshability ? &*meshability : nullptr);
                 return true;
             });
         },
-        "path"_a, "graph"_a, "metadata"_a = Metadata{},
-        "Write a .vtp file of the singular curves with cell data quarter_turns, index and curve, and point data node. "
-        "Raises IoError.");
+        "path"_a, "graph"_a, "metadata"_a = Metadata{}, "meshability"_a = py::none(),
+        "Write a .vtp file of the singular curves with cell data quarter_turns, index and curve, and point data node; "
+        "with meshability also meshable (1 or 0 where curves end, -1 elsewhere) and junction. Raises IoError.");
     m.def(
         "write_surface_field",
         [](const std::filesystem::path& path, const TriangleMesh& mesh, const ArrayLike& directions,

@@ -144,6 +144,20 @@ void require_graph(const SingularGraph& graph) {
     std::for_each(graph.nodes.begin(), graph.nodes.end(), require_point);
 }
 
+void add_meshability(vtkPointData* data, const Meshability& meshability, Eigen::Index point_count) {
+    std::vector<int> meshable(point_count, -1), junction(point_count, -1);
+    for (const SingularVertex& v : meshability.vertices) {
+        if (v.point < 0 || v.point >= point_count)
+            throw InvalidInput("the meshability refers to point " + std::to_string(v.point) + " of " +
+                                   std::to_string(point_count) + "; give that of this graph",
+                               "index_out_of_range", {v.point});
+        meshable[v.point] = v.meshable;
+        junction[v.point] = v.junction;
+    }
+    add_array<vtkIntArray>(data, "meshable", 1, point_count, [&](Eigen::Index i) { return one(meshable[i]); });
+    add_array<vtkIntArray>(data, "junction", 1, point_count, [&](Eigen::Index i) { return one(junction[i]); });
+}
+
 }  // namespace
 
 void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& frames, const Metadata& metadata) {
@@ -162,7 +176,8 @@ void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& f
     write<vtkXMLUnstructuredGridWriter>(path, grid.Get());
 }
 
-void write_singular_graph(const fs::path& path, const SingularGraph& graph, const Metadata& metadata) {
+void write_singular_graph(const fs::path& path, const SingularGraph& graph, const Metadata& metadata,
+                          const Meshability* meshability) {
     require_graph(graph);
     vtkNew<vtkPolyData> data;
     data->SetPoints(to_points(graph.points));
@@ -187,6 +202,7 @@ void write_singular_graph(const fs::path& path, const SingularGraph& graph, cons
     for (const Index p : graph.nodes) is_node[p] = 1;
     add_array<vtkUnsignedCharArray>(data->GetPointData(), "node", 1, graph.points.rows(),
                                     [&](Eigen::Index i) { return one(is_node[i]); });
+    if (meshability) add_meshability(data->GetPointData(), *meshability, graph.points.rows());
     add_metadata(data, metadata);
     write<vtkXMLPolyDataWriter>(path, data.Get());
 }

@@ -8,7 +8,7 @@
 
 #include "octafield/surface/surface_singularities.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
-#include "octafield/volume/singularities.hpp"
+#include "octafield/volume/meshability.hpp"
 #include "octafield/volume/tet_mesh.hpp"
 
 namespace octafield::volume {
@@ -27,8 +27,10 @@ void write_field(const std::filesystem::path& path, const TetMesh& mesh, const Q
                  const Metadata& metadata = {});
 
 // .vtp polylines with cell data quarter_turns, index (quarter_turns / 4), curve (0-based); nodes as vertex cells with
-// point data node (0/1), their cell data 0, 0, -1. Vertex cells come first.
-void write_singular_graph(const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata = {});
+// point data node (0/1), their cell data 0, 0, -1. Vertex cells come first. With the graph's meshability, point data
+// meshable (1 or 0 where curves end, -1 elsewhere) and junction (-1 elsewhere).
+void write_singular_graph(const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata = {},
+                          const Meshability* meshability = nullptr);
 
 // .vtp triangles with point data direction (3).
 void write_surface_field(const std::filesystem::path& path, const surface::TriangleMesh& mesh, const Points& directions,

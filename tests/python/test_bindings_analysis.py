@@ -1,0 +1,91 @@
+"""Analysis of frame fields: meshability, integrability, alignment with features."""
+
+import numpy as np
+import pyvista
+import pytest
+from pipeline_fixtures import shared
+from conftest import SHARED_DATA
+
+import octafield as of
+from octafield.pipeline import compute_field
+
+
+def turning(points, turns=0.25, centre=(0.48, 0.53)):
+    """One straight line of the given index, along z."""
+    angle = turns * np.arctan2(points[:, 1] - centre[1], points[:, 0] - centre[0])
+    return of.quaternion_exp(np.column_stack([0 * angle, 0 * angle, angle]))
+
+
+@pytest.mark.parametrize("turns", [1, -1])
+def test_a_straight_line_ends_twice_at_singular_points_of_the_surface(box, turns):
+    frames = turning(np.asarray(box.vertices), turns / 4)
+    found = of.local_meshability(box, frames, of.singular_graph(box, frames))
+    assert found.boundary_ends == found.boundary_ends_about_normal == len(found.vertices) == 2
+    assert found.non_meshable_vertices == found.non_meshable_junctions == found.closed_curves == 0
+    assert [v.kind for v in found.vertices] == ["boundary_end"] * 2 and all(v.meshable for v in found.vertices)
+    assert [(v.valence3, v.valence5) for v in found.vertices] == [(1, 0) if turns > 0 else (0, 1)] * 2
+    np.testing.assert_array_equal(np.sort(found.curve_ends), [[0, 1]])
+
+
+def test_hex_vertices_of_low_valence_are_eleven():
+    assert sum(of.hex_vertex_exists(v3, v5) for v3 in range(13) for v5 in range(13)) == 11
+    assert of.hex_vertex_exists(4, 0) and not of.hex_vertex_exists(1, 1) and not of.hex_vertex_exists(3, 1)
+    with pytest.raises(of.InvalidInput):
+        of.hex_vertex_exists(-1, 0)
+
+
+def test_meshability_is_written_with_the_graph(box, tmp_path):
+    frames = of.random_rotations(len(box.vertices), 5)
+    graph = of.singular_graph(box, frames)
+    found = of.local_meshability(box, frames, graph)
+    of.write_singular_graph(tmp_path / "singular.vtp", graph, meshability=found)
+    data = pyvista.read(tmp_path / "singular.vtp").point_data
+    expected = np.full(len(graph.points), -1)
+    expected[[v.point for v in found.vertices]] = [v.meshable for v in found.vertices]
+    np.testing.assert_array_equal(data["meshable"], expected)
+    assert data["junction"].max() == len(found.junctions) - 1
+    other = of.Meshability(vertices=[of.SingularVertex(point=10**6)])
+    with pytest.raises(of.InvalidInput):
+        of.write_singular_graph(tmp_path / "other.vtp", graph, meshability=other)
+
+
+def test_integrability_of_a_screw_field_is_its_twist(box):
+    z = np.asarray(box.vertices)[:, 2]
+    found = of.integrability(box, of.quaternion_exp(np.column_stack([0 * z, 0 * z, 0.5 * z])))
+    assert found.twist_rms == pytest.approx(0.5 * 2**0.5, rel=0.01) and found.twist.shape == (len(box.tets),)
+    assert 0 < found.jump_rms <= found.jump_max < 0.2
+    still = of.integrability(box, np.tile([1.0, 0, 0, 0], (len(z), 1)))
+    assert still.jump_max == still.twist_max == 0
+    # Each tet's frame turns by the mean of z, to the third order in the turns within it.
+    frames = of.tet_frames(box, of.quaternion_exp(np.column_stack([0 * z, 0 * z, 0.5 * z])))
+    np.testing.assert_allclose(2 * np.arctan2(frames[:, 3], frames[:, 0]), 0.5 * z[box.tets].mean(axis=1), atol=1e-3)
+
+
+def test_feature_alignment_of_a_cube_is_the_angle_it_is_turned_by(box):
+    boundary = of.boundary_surface(box)
+    features = of.detect_features(boundary.mesh)
+    tangents = of.feature_tangents(boundary.mesh, features)
+    frames = of.quaternion_exp(np.tile([0, 0, 0.2], (len(box.vertices), 1)))
+    angles = of.feature_alignment_angles(boundary, features, frames)
+    np.testing.assert_allclose(angles, np.where(abs(tangents.tangent[:, 2]) > 0.5, 0, 0.2), atol=1e-14)
+
+
+def test_graphs_of_other_meshes_are_refused(box):
+    frames = turning(np.asarray(box.vertices))
+    graph = of.singular_graph(box, frames)
+    small = of.TetMesh(np.eye(4)[:, :3], [[0, 1, 2, 3]])
+    with pytest.raises(of.Error):
+        of.local_meshability(small, frames[:4], graph)
+
+
+def test_in_a_ball_eight_nodes_of_four_curves_of_valence_three_and_eight_curves_to_the_surface():
+    """As in a cube blown up to a ball: a block inside, whose eight corners are the nodes."""
+    result = compute_field(shared(SHARED_DATA / "arff" / "sphere_r0.17.mesh.gz"))
+    found, record = result.meshability, result.record
+    nodes = [j for j in found.junctions if (j.valence3, j.valence5, j.valence6) == (4, 0, 0)]
+    assert len(nodes) == 8 and all(j.meshable for j in nodes)
+    assert record["singular_boundary_ends"] == record["singular_boundary_ends_about_normal"] == 8
+    assert record["non_meshable_vertices"] >= record["non_meshable_junctions"]
+    assert sum(record["singular_vertex_types"].values()) == len(found.vertices) - 8
+    assert record["feature_alignment_deg"] == {"median": 0, "max": 0}
+    assert record["integrability"]["jump_rms"] == result.integrability.jump_rms > 0

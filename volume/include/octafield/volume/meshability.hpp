@@ -1,0 +1,75 @@
+// Whether a hex mesh can exist round the singular curves of a frame field and where they meet. NECESSARY conditions
+// only: a field that meets them all may still have no hex mesh, for local reasons (the lengths along axes) and global
+// ones.
+//
+// After the local conditions of Liu et al. 2018 (Singularity-constrained octahedral fields, enumeration of hex-mesh
+// vertices and Hopf-Poincare formula) and Liu, Bommes 2023 (Locally meshable frame fields). The hexahedra round an
+// interior vertex of a hex mesh cut a small sphere into triangles, one per hexahedron, a corner per edge; an edge of
+// valence d is a corner of degree d. Euler's formula says sum (6 - d) = 12, where regular corners (d = 4) count 2.
+// Round a vertex of the boundary the triangles form a disk; where the boundary is smooth, each of its boundary edges
+// has two hexahedra, so all triangles share one corner: a single edge leaves inwards, along the normal.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "octafield/volume/singularities.hpp"
+
+namespace octafield::volume {
+
+// Whether a sphere has a triangulation with so many corners of degree 3, 5 and 6 and all others of degree 4, no two
+// edges joining the same corners. 3 v3 + v5 + 2 v4 = 12 gives the number v4 of regular ones. Exact where there are at
+// most 12 corners in all (by enumeration of the 9150 triangulations; 11 types without degree 6, two of them curves
+// that pass, one regular); beyond that, which takes degree 6, true means only that no count forbids it. Throws
+// InvalidInput for negative numbers.
+bool hex_vertex_exists(int valence3, int valence5, int valence6);
+
+enum class SingularVertexKind : std::uint8_t {
+    node,         // three or four singular segments meet in a tet
+    change,       // the curve goes on with another type: valence 3 on one side and 5 on the other
+    boundary_end  // the curve leaves through a triangle of the boundary
+};
+
+// Where curves of the singular graph end.
+struct SingularVertex {
+    Index point;  // into SingularGraph::points
+    SingularVertexKind kind;
+    // Curves that end here, by type; a curve with both ends here counts twice. A half turn counts as valence 6: valence
+    // 2 would have two hexahedra share two faces.
+    int valence3, valence5, valence6, complex;
+    // At a boundary end: the frames turn round the triangle about the axis nearest to its normal, so that the surface
+    // cross field has a singular point of the same index there. False at other kinds.
+    bool about_normal;
+    // node, change: not complex, and hex_vertex_exists(valence3, valence5, valence6). boundary_end: not complex, and
+    // about_normal.
+    bool meshable;
+    Index junction;  // into Meshability::junctions
+};
+
+// Vertices that complex curves join, as if these curves were shrunk to a point: a sampled node of a hex mesh often
+// appears as two nodes a triangle apart, joined by one complex segment.
+struct SingularJunction {
+    int vertices;                      // in it
+    int valence3, valence5, valence6;  // ends of curves that leave it
+    int complex;                       // complex curves inside it; none leaves it
+    // One vertex: that vertex's. More: the complex curves form a tree (shrinking keeps a ball), no end on the boundary
+    // is among its vertices, and hex_vertex_exists(valence3, valence5, valence6).
+    bool meshable;
+};
+
+struct Meshability {
+    std::vector<SingularVertex> vertices;  // ascending points
+    std::vector<SingularJunction> junctions;
+    Edges curve_ends;  // (curves, 2): vertices at the first and last point of each curve; -1, -1: closed without one
+    int non_meshable_vertices = 0;
+    int non_meshable_junctions = 0;
+    int closed_curves = 0;
+    int boundary_ends = 0;               // ends of curves on the boundary
+    int boundary_ends_about_normal = 0;  // of those, the ones at singular points of the surface cross field
+};
+
+// graph: singular_graph(mesh, frames). frames: (n, 4) unit quaternions w x y z. Feature curves of the boundary are not
+// looked at. Linear in the graph. Throws InvalidInput where the sizes do not fit together.
+Meshability local_meshability(const TetMesh& mesh, const Quaternions& frames, const SingularGraph& graph);
+
+}  // namespace octafield::volume

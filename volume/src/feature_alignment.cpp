@@ -1,0 +1,74 @@
+#include "octafield/volume/feature_alignment.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "boundary_star.hpp"
+#include "octafield/error.hpp"
+#include "octafield/frames/quaternion.hpp"
+#include "require_frames.hpp"
+
+namespace octafield::volume {
+namespace {
+
+using frames::Vector3;
+
+// By atan2, which is accurate at small angles.
+double angle_to_nearest_axis(const frames::Quaternion& frame, const Vector3& direction) {
+    const Vector3 own = frame.conjugate() * direction;
+    Eigen::Index nearest;
+    own.cwiseAbs().maxCoeff(&nearest);
+    const Vector3 axis = Vector3::Unit(nearest);
+    return std::atan2(axis.cross(own).norm(), std::abs(axis.dot(own)));
+}
+
+// Unit vectors away from the vertex in, tangents out.
+std::vector<Vector3> tangents(const std::vector<Vector3>& edges, bool corner) {
+    if (edges.size() != 2 || corner) return edges;
+    const Vector3 mean = edges[0] - edges[1];
+    if (mean.norm() < 1e-9) return edges;  // of unit vectors: the curve turns back on itself
+    return {mean.normalized()};
+}
+
+}  // namespace
+
+FeatureTangents feature_tangents(const surface::TriangleMesh& boundary, const surface::FeatureGraph& features) {
+    const BoundaryStars stars(boundary, features);
+    std::vector<std::uint8_t> corner(stars.vertex_count(), 0);
+    for (const Index v : features.corners) {
+        if (v < 0 || v >= stars.vertex_count())
+            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the boundary mesh",
+                               "index_out_of_range", {v});
+        corner[v] = 1;
+    }
+    FeatureTangents result;
+    std::vector<Vector3> all;
+    for (Index v = 0; v < stars.vertex_count(); ++v)
+        for (const Vector3& tangent : tangents(stars.feature_directions(v), corner[v])) {
+            result.vertex.push_back(v);
+            all.push_back(tangent);
+        }
+    result.tangent.resize(static_cast<Eigen::Index>(all.size()), 3);
+    for (std::size_t i = 0; i < all.size(); ++i) result.tangent.row(i) = all[i].transpose();
+    return result;
+}
+
+Eigen::VectorXd feature_alignment_angles(const BoundarySurface& boundary, const surface::FeatureGraph& features,
+                                         const Quaternions& frames) {
+    if (static_cast<Eigen::Index>(boundary.vertex_map.size()) != boundary.mesh.vertices.rows())
+        throw InvalidInput("vertex_map must have one entry per boundary vertex", "wrong_size");
+    for (const Index v : boundary.vertex_map)
+        if (v < 0 || v >= frames.rows())
+            throw InvalidInput("frames has " + std::to_string(frames.rows()) + " rows, but the boundary uses vertex " +
+                                   std::to_string(v),
+                               "wrong_size", {v});
+    require_frames(frames, frames.rows());
+    const FeatureTangents found = feature_tangents(boundary.mesh, features);
+    Eigen::VectorXd angles(static_cast<Eigen::Index>(found.vertex.size()));
+    for (Eigen::Index i = 0; i < angles.size(); ++i)
+        angles[i] = angle_to_nearest_axis(frames::from_wxyz(frames.row(boundary.vertex_map[found.vertex[i]])),
+                                          found.tangent.row(i).transpose());
+    return angles;
+}
+
+}  // namespace octafield::volume
