@@ -171,6 +171,18 @@ from ._core import (
     write_surface,
     write_surface_field,
 )
+from ._core import (  # volume input
+    LockingElements,
+    LockingSplit,
+    RegionSurface,
+    Sheets,
+    VertexConstraints,
+    cut_into_sheets,
+    find_locking,
+    region_surface,
+    split_locking,
+    with_constraints,
+)
 from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 
 # Written in Python.
@@ -352,4 +364,14 @@ __all__ = [
     "write_singular_graph",
     "write_surface",
     "write_surface_field",
+    "LockingElements",
+    "LockingSplit",
+    "RegionSurface",
+    "Sheets",
+    "VertexConstraints",
+    "cut_into_sheets",
+    "find_locking",
+    "region_surface",
+    "split_locking",
+    "with_constraints",
 ]

@@ -20,5 +20,6 @@ void bind_renormalised_energy(pybind11::module_& module);
 void bind_volume_types(pybind11::module_& module);
 void bind_volume(pybind11::module_& module);
 void bind_smoothing(pybind11::module_& module);
+void bind_volume_input(pybind11::module_& module);
 
 }  // namespace octafield::bindings

@@ -53,4 +53,5 @@ PYBIND11_MODULE(_core, module) {
     bind_volume_types(module);
     bind_volume(module);
     bind_smoothing(module);
+    bind_volume_input(module);
 }
