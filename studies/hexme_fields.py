@@ -47,7 +47,7 @@ def alignment_error(meshed, result) -> float:
         np.add.at(normals, triangles[:, k], area)
     tangents, degree = np.zeros_like(points), np.bincount(edges.ravel(), minlength=len(points))
     first = np.zeros(len(points), bool)
-    for a, b in np.concatenate([edges, edges[:, ::-1]]):  # away from a along the first edge, towards it along the second
+    for a, b in np.concatenate([edges, edges[:, ::-1]]):  # along the first edge at a, against the second
         unit = (points[b] - points[a]) / np.linalg.norm(points[b] - points[a])
         tangents[a] += -unit if first[a] else unit
         first[a] = True
@@ -71,7 +71,8 @@ def row_of(path: Path, options: FieldOptions) -> list:
         path.name.split(".")[0], r["vertices"], r["tets"], r["regions"], r["interface_triangles"], r["energy"],
         r["singular_edges"], r["complex_edges"], alignment_error(meshed, result), r["alignment_deg"]["max"],
         r["released_corners"], int((np.asarray(held.kind)[on_features] == 1).sum()), r["locking"]["tets"],
-        r["locking"]["edges"], *(r["cpu_seconds"][phase] for phase in PHASES), sum(r["cpu_seconds"].values()), r["peak_mb"],
+        r["locking"]["edges"], *(r["cpu_seconds"][phase] for phase in PHASES),
+        sum(r["cpu_seconds"].values()), r["peak_mb"],
     ]  # fmt: skip
 
 

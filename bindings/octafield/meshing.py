@@ -23,7 +23,7 @@ class MeshedInput:
 
     Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too and
     `surface` is it cut into sheets: manifold, each vertex a copy of vertex `sheet_map` of the boundary. features are
-    those of `surface`, boundary_features those of `boundary`. locking: counts of the elements that split_locking is for.
+    those of `surface`, boundary_features those of `boundary`. locking: counts of what split_locking is for.
     """
 
     name: str

@@ -64,7 +64,8 @@ def read_medit(text: str, name: str) -> TextMesh:
         _require_ids(section, name, rows[:, :corners], 1, len(mesh.points))
     if "Ridges" in found and "Edges" in found:
         mesh.ridges = _table(found["Ridges"], name, 1, whole=True).ravel() - 1
-        _require_ids(found["Ridges"], name, mesh.ridges[:, None] + 1, 1, sum(len(c) for k, c in mesh.cells if k == "line"))
+        lines = sum(len(cells) for kind, cells in mesh.cells if kind == "line")
+        _require_ids(found["Ridges"], name, mesh.ridges[:, None] + 1, 1, lines)
     return mesh
 
 
@@ -74,7 +75,8 @@ def read_tetgen(node_text: str, ele_text: str, node_name: str, ele_name: str) ->
     base = int(nodes[0, 0]) if len(nodes) else 0
     wrong = np.flatnonzero(nodes[:, 0] != np.arange(base, base + len(nodes)))
     if len(wrong):
-        raise IoError(f"{node_name}: row {wrong[0] + 1} of the points has number {nodes[wrong[0], 0]:g}; number them in order")
+        row = wrong[0]
+        raise IoError(f"{node_name}: row {row + 1} of the points has number {nodes[row, 0]:g}; number them in order")
     tets = _headed(ele_text, ele_name, "tets", (4, "vertices per tet"))
     ids = _whole(tets[:, 1:5])
     if ids is None:
@@ -83,7 +85,8 @@ def read_tetgen(node_text: str, ele_text: str, node_name: str, ele_name: str) ->
     if len(outside):
         line = _line_of_row(_Section("", _without_comments(ele_text), 1), outside[0], tets.shape[1], skip=3)
         raise IoError(
-            f"{ele_name}, line {line}: a tet names a point outside {base} .. {base + len(nodes) - 1}, the ids of {node_name}"
+            f"{ele_name}, line {line}: a tet names a point outside {base} .. {base + len(nodes) - 1}, "
+            f"the ids of {node_name}"
         )
     regions = np.unique(tets[:, 5], return_inverse=True)[1] + 1 if tets.shape[1] > 5 else np.zeros(len(tets), np.int64)
     whole = _whole(tets[:, 5:6])
