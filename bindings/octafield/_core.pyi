@@ -656,6 +656,8 @@ def boundary_constraints(
     feature_tolerance: float = ...,
 ) -> BoundaryConstraints: ...
 def alignment_angles(boundary: BoundarySurface, features: FeatureGraph, frames: ArrayLike) -> Float64s: ...
+smooth_representations: tuple[str, ...]
+
 def initial_frames(
     mesh: TetMesh, constraints: BoundaryConstraints, *, start: str = ..., threads: int = ...
 ) -> Float64s: ...
@@ -683,6 +685,7 @@ def smooth(
     max_iterations: int = ...,
     tolerance: float = ...,
     linear_solver: str = ...,
+    midpoint_limit: float = ...,
     threads: int = ...,
     progress: Progress | None = None,
 ) -> SmoothResult: ...
@@ -704,6 +707,7 @@ def frame_field(
     max_iterations: int = ...,
     tolerance: float = ...,
     linear_solver: str = ...,
+    midpoint_limit: float = ...,
     threads: int = ...,
     progress: Progress | None = None,
 ) -> FrameFieldResult: ...

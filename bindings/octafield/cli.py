@@ -32,6 +32,7 @@ from .errors import InvalidInput
 from .options import (
     ALIGNMENTS,
     BOUNDARIES,
+    COMPARED,
     METHODS,
     REPRESENTATIONS,
     SOLVERS,
@@ -219,7 +220,10 @@ def surface_field(
 def compare(
     inputs: InputFiles = None,
     output: Output = ...,
-    representations: Annotated[str, typer.Option(metavar="all|A,B", help=f"Of: {choices(REPRESENTATIONS)}.")] = "all",
+    representations: Annotated[
+        str,
+        typer.Option(metavar="all|A,B", help=f"Of: {choices(REPRESENTATIONS)}; all: {', '.join(COMPARED)}."),
+    ] = "all",
     boundaries: Annotated[str, typer.Option(metavar="A,B", help=f"Of: {choices(BOUNDARIES)}.")] = "fixed,aligned",
     seeds: Annotated[int, typer.Option(metavar="K", help="Seeds per run: --seed and the K - 1 numbers after it.")] = 1,
     features: Features = _FIELD.features,
@@ -248,7 +252,7 @@ def compare(
                 features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split
             ),
         )
-        chosen = REPRESENTATIONS if representations == "all" else _listed(representations)
+        chosen = COMPARED if representations == "all" else _listed(representations)
         with console.progress_bar(quiet) as progress:
             comparison = run_comparison(
                 inputs or [default_input()],

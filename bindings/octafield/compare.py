@@ -11,7 +11,7 @@ from pathlib import Path
 
 from .errors import InvalidInput
 from .meshing import MeshedInput, Source, prepare_mesh, read_sound
-from .options import BOUNDARIES, LARGEST_SEED, REPRESENTATIONS, FieldOptions, integer_in, require_one_of
+from .options import BOUNDARIES, COMPARED, LARGEST_SEED, REPRESENTATIONS, FieldOptions, integer_in, require_one_of
 from .output import staged_folder, write_json
 from .phases import Progress
 from .pipeline import FieldResult, Problem, prepare, run
@@ -46,7 +46,7 @@ def compare(
     inputs: Sequence[Source] | Source,
     output: str | Path,
     *,
-    representations: Sequence[str] = REPRESENTATIONS,
+    representations: Sequence[str] = COMPARED,
     boundaries: Sequence[str] = ("fixed", "aligned"),
     seeds: int = 1,
     options: FieldOptions = FieldOptions(),

@@ -8,8 +8,9 @@ from . import _core
 from .defaults import default_of
 from .errors import InvalidInput
 
-REPRESENTATIONS = tuple(_core.representations)
-SOLVERS = ("default", "trust_region", "levenberg_marquardt", "lbfgs")  # default: what octafield.smooth takes
+REPRESENTATIONS = _core.smooth_representations
+COMPARED = (*_core.representations, "geodesic", "su2_midpoint")  # what a comparison takes when not told
+SOLVERS = ("default", "trust_region", "levenberg_marquardt", "lbfgs")  # default: what goes with the representation
 BOUNDARIES = ("aligned", "fixed", "none")
 FEATURES = ("default", "file", "angle", "none")
 LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core

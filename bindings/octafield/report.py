@@ -12,8 +12,8 @@ from .plots import convergence_plot, seconds_plot
 from .summary import COLUMNS, Column, total_seconds
 
 CONVERGENCE = (
-    "Dirichlet energy of the frames at the start (iteration 0) and after each step: diffusion first, "
-    "then Levenberg-Marquardt."
+    "Dirichlet energy of the frames at the start (iteration 0) and after each step: rounds of diffusion and of Newton "
+    "steps in sh4, then, where something else is smoothed, what that minimises, scaled to begin where sh4 ended."
 )
 TIME = "Reading, meshing and the surface field are done once and shared; their times are shown in every run."
 

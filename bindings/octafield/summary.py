@@ -94,7 +94,7 @@ COLUMNS: tuple[Column, ...] = (
         "alignment \N{DEGREE SIGN}",
     ),
     Column("max", lambda _, r: r["alignment_deg"]["max"], ".2f", "its maximum", "alignment \N{DEGREE SIGN}"),
-    Column("iterations", lambda _, r: r["iterations"], "d", "diffusion steps and Levenberg-Marquardt iterations"),
+    Column("iterations", lambda _, r: r["iterations"], "d", "diffusion steps and iterations of smoothing"),
     *(_phase(phase, _PHASE_MEANINGS[phase]) for phase in PHASES),
     Column("total", lambda _, r: total_seconds(r), ".2f", "sum of the phases, wall clock", "seconds"),
     Column(

@@ -3,6 +3,8 @@
 
 #include <pybind11/eigen.h>
 
+#include <cmath>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "checks.hpp"
@@ -29,13 +31,15 @@ DiffuseOptions diffuse_options(double first_time, double last_time, double time_
 }
 
 SmoothOptions smooth_options(std::string representation, const std::string& solver, int max_iterations,
-                             double tolerance, const std::string& linear_solver, int threads) {
+                             double tolerance, const std::string& linear_solver, double midpoint_limit, int threads) {
+    if (std::isnan(midpoint_limit)) throw InvalidInput("midpoint_limit is not a number", "bad_option");
     return {.representation = std::move(representation),
             .solver = from_word<SmoothSolver>(solver, "solver"),
             .max_iterations = max_iterations,
             .tolerance = finite(tolerance, "tolerance"),
             .linear_solver = from_word<LinearSolver>(linear_solver, "linear_solver"),
-            .threads = threads_option(threads)};
+            .threads = threads_option(threads),
+            .midpoint_limit = midpoint_limit};
 }
 
 // body(mesh, constraints, job) on checked copies, away from Python's lock.
@@ -102,9 +106,10 @@ void bind_smoothing(py::module_& m) {
         "smooth",
         [](const TetMesh& mesh, const BoundaryConstraints& constraints, const ArrayLike& start,
            const std::string& representation, const std::string& solver, int max_iterations, double tolerance,
-           const std::string& linear_solver, int threads, const std::optional<ProgressCallable>& progress) {
-            const SmoothOptions options =
-                smooth_options(representation, solver, max_iterations, tolerance, linear_solver, threads);
+           const std::string& linear_solver, double midpoint_limit, int threads,
+           const std::optional<ProgressCallable>& progress) {
+            const SmoothOptions options = smooth_options(representation, solver, max_iterations, tolerance,
+                                                         linear_solver, midpoint_limit, threads);
             return run_on(
                 mesh, constraints,
                 [options, rows = from_python<Quaternions>(start, "start")](const auto& tets, const auto& held,
@@ -117,29 +122,36 @@ void bind_smoothing(py::module_& m) {
         "mesh"_a, "constraints"_a, "start"_a, py::kw_only(), "representation"_a = smoothing.representation,
         "solver"_a = to_word(smoothing.solver), "max_iterations"_a = smoothing.max_iterations,
         "tolerance"_a = smoothing.tolerance, "linear_solver"_a = to_word(smoothing.linear_solver),
-        "threads"_a = smoothing.threads, "progress"_a = py::none(),
-        "Minimise the Dirichlet energy of an embedded field from (n, 4) start frames, over one quaternion per vertex, "
-        "constraints held exactly, as a SmoothResult. representation: the embedding, a name of representations(). "
-        "solver: \"trust_region\" (Newton steps with the exact Hessian), \"levenberg_marquardt\" or \"lbfgs\" "
-        "(Ceres). tolerance: relative energy decrease at which to stop; linear_solver (of levenberg_marquardt): "
-        "\"automatic\", \"cholesky\" or \"conjugate_gradients\"; the result does not depend on threads. Cancelled "
-        "by progress, the best state is returned with converged False. Raises InvalidInput, SolverError.");
+        "midpoint_limit"_a = smoothing.midpoint_limit, "threads"_a = smoothing.threads, "progress"_a = py::none(),
+        "Minimise the Dirichlet energy of a frame field from (n, 4) start frames, over one quaternion per vertex, "
+        "constraints held exactly, as a SmoothResult. representation: a name of smooth_representations: an embedding, "
+        "or a "
+        "metric on frames (\"geodesic\", \"su2_midpoint\", \"su2_geodesic\", \"su2_symmetric\", and \"su2_frozen\", "
+        "which is inconsistent), which wants a start near its minimum, as frame_field gives. solver: "
+        "\"trust_region\" (Newton steps with the exact Hessian; embeddings only), \"levenberg_marquardt\" or "
+        "\"lbfgs\" (Ceres), or \"automatic\", the first that goes. tolerance: relative energy decrease at which to "
+        "stop; "
+        "linear_solver (of levenberg_marquardt): \"automatic\", \"cholesky\" or \"conjugate_gradients\"; "
+        "midpoint_limit (of su2_midpoint, radians): beyond it edges are measured by the geodesic; the result does not "
+        "depend on threads. Cancelled by progress, the best state is returned with converged False. Raises "
+        "InvalidInput, SolverError.");
+    m.attr("smooth_representations") = py::tuple(py::cast(smooth_representations()));
     m.def(
         "frame_field",
         [](const TetMesh& mesh, const BoundaryConstraints& constraints, const std::string& start, std::uint64_t seed,
            int rounds, double round_time, double first_time, double last_time, double time_exponent, int max_steps,
            double linear_tolerance, const std::string& representation, const std::string& solver, int max_iterations,
-           double tolerance, const std::string& linear_solver, int threads,
+           double tolerance, const std::string& linear_solver, double midpoint_limit, int threads,
            const std::optional<ProgressCallable>& progress) {
-            const FrameFieldOptions options{
-                .start = from_word<Start>(start, "start"),
-                .seed = seed,
-                .diffuse =
-                    diffuse_options(first_time, last_time, time_exponent, max_steps, linear_tolerance, true, threads),
-                .smooth = smooth_options(representation, solver, max_iterations, tolerance, linear_solver, threads),
-                .rounds = rounds,
-                .round_time = finite(round_time, "round_time"),
-                .threads = threads_option(threads)};
+            const FrameFieldOptions options{.start = from_word<Start>(start, "start"),
+                                            .seed = seed,
+                                            .diffuse = diffuse_options(first_time, last_time, time_exponent, max_steps,
+                                                                       linear_tolerance, true, threads),
+                                            .smooth = smooth_options(representation, solver, max_iterations, tolerance,
+                                                                     linear_solver, midpoint_limit, threads),
+                                            .rounds = rounds,
+                                            .round_time = finite(round_time, "round_time"),
+                                            .threads = threads_option(threads)};
             return run_on(
                 mesh, constraints,
                 [options](const auto& tets, const auto& held, Job& job) {
@@ -153,7 +165,8 @@ void bind_smoothing(py::module_& m) {
         "max_steps"_a = diffusion.max_steps, "linear_tolerance"_a = diffusion.linear_tolerance,
         "representation"_a = smoothing.representation, "solver"_a = to_word(smoothing.solver),
         "max_iterations"_a = smoothing.max_iterations, "tolerance"_a = smoothing.tolerance,
-        "linear_solver"_a = to_word(smoothing.linear_solver), "threads"_a = recipe.threads, "progress"_a = py::none(),
+        "linear_solver"_a = to_word(smoothing.linear_solver), "midpoint_limit"_a = smoothing.midpoint_limit,
+        "threads"_a = recipe.threads, "progress"_a = py::none(),
         "The recipe: initial_frames, then rounds of diffuse and smooth, as a FrameFieldResult of the lowest energy. "
         "seed other than 0: a random start. round_time: first_time of each round over that of the one before. Rounds "
         "polish in sh4 with the trust region; another representation or solver starts from the best of them. The "

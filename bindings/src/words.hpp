@@ -62,8 +62,10 @@ struct Words<volume::Start> {
 template <>
 struct Words<volume::SmoothSolver> {
     using E = volume::SmoothSolver;
-    static constexpr std::array<std::pair<const char*, E>, 3> list{
-        {{"trust_region", E::trust_region}, {"levenberg_marquardt", E::levenberg_marquardt}, {"lbfgs", E::lbfgs}}};
+    static constexpr std::array<std::pair<const char*, E>, 4> list{{{"automatic", E::automatic},
+                                                                    {"trust_region", E::trust_region},
+                                                                    {"levenberg_marquardt", E::levenberg_marquardt},
+                                                                    {"lbfgs", E::lbfgs}}};
 };
 
 template <>

@@ -56,6 +56,12 @@ std::array<Jet, 3> tetrahedral_jets(const Complex& u, const Complex& v) {
     return g;
 }
 
+// Of h0, h1, h2.
+std::array<Jet, 3> invariant_jets(const Complex& u, const Complex& v) {
+    const auto g = tetrahedral_jets(u, v);
+    return {g[1], g[0] * g[0], g[0] * g[2]};
+}
+
 // Column k: d/dt (u, v) of exp(t e_k) q at t = 0, that is e_k q / 2 with q = u + v j.
 Motions motions(const Complex& u, const Complex& v) {
     const Complex half(0.5, 0), half_i(0, 0.5);
@@ -89,8 +95,7 @@ Su2::Differential Su2::differential(const Quaternion& q) {
 Matrix3 Su2::hessian(const Quaternion& q, const Vector& v) {
     require_unit(q);
     const Complex x = first(q), y = second(q);
-    const auto g = tetrahedral_jets(x, y);
-    const std::array<Jet, 3> forms = {g[1], g[0] * g[0], g[0] * g[2]};
+    const auto forms = invariant_jets(x, y);
     const auto degrees = invariant_degrees(BinaryGroup::octahedral);
     const Complex3 weights = complex(v).conjugate();
     const Motions m = motions(x, y);
@@ -132,6 +137,11 @@ Su2::Jacobian Su2::jacobian(const Complex& u, const Complex& v) {
         2.0 * g0 * g0_u, 2.0 * g0 * g0_v,                         //
         g0_u * g2 + g0 * g2_u, g0_v * g2 + g0 * g2_v;
     return j;
+}
+
+Su2::SecondDerivatives Su2::second_derivatives(const Complex& u, const Complex& v) {
+    const auto forms = invariant_jets(u, v);
+    return {forms[0].hessian, forms[1].hessian, forms[2].hessian};
 }
 
 Complex Su2::surface_residual(const Complex3& h) { return relation_residual(BinaryGroup::octahedral, h); }

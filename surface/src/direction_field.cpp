@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "alignment.hpp"
@@ -11,6 +12,7 @@
 #include "ginzburg_landau.hpp"
 #include "mbo.hpp"
 #include "octafield/library_threads.hpp"
+#include "octafield/surface/principal_directions.hpp"
 #include "orientation.hpp"
 #include "short_number.hpp"
 
@@ -183,12 +185,20 @@ public:
     }
 
     void run();
+    // The same from a field |f| = 1 (E): to the local minimum beside it, without diffusion and continuation.
+    void run_from(const Eigen::VectorXcd& values);
+    // Whether a component is free of anything to follow.
+    bool has_free_component() const {
+        return std::find(components_.anchored.begin(), components_.anchored.end(), false) != components_.anchored.end();
+    }
 
 private:
+    Problem problem() const { return {links_, system_, masses_, components_, aligned_.held, aligned_.pull}; }
     void start();
+    void tell();
     void diffuse(const Problem& problem, DiffusionSolver& diffusion);
     void settle(const Problem& problem);
-    void descend();
+    void descend(const std::vector<Eigen::VectorXd>& stages);
 
     const DirectionFieldOptions& options_;
     DirectionField& field_;
@@ -209,8 +219,24 @@ void Solver::run() {
     field_.converged = true;
     if (system_.size() > 0) {
         start();
-        if (options_.method == DirectionFieldMethod::ginzburg_landau) descend();
+        if (options_.method == DirectionFieldMethod::ginzburg_landau)
+            descend(continuation(epsilon_, options_.first_epsilon, components_));
     }
+    tell();
+}
+
+void Solver::run_from(const Eigen::VectorXcd& values) {
+    field_.values = values;
+    field_.converged = true;
+    order_ = system_.elimination_order();
+    if (options_.method == DirectionFieldMethod::ginzburg_landau)
+        descend({epsilon_});
+    else
+        settle(problem());
+    tell();
+}
+
+void Solver::tell() {
     const GinzburgLandau functional(links_, masses_, system_, aligned_.pull, epsilon_);
     const GinzburgLandau::Slope slope = functional.slope(field_.values);
     field_.energy = slope.energy;
@@ -221,7 +247,7 @@ void Solver::run() {
 
 // The methods of length 1. Their factorizations are gone before that of the descent needs the memory.
 void Solver::start() {
-    const Problem problem{links_, system_, masses_, components_, aligned_.held, aligned_.pull};
+    const Problem problem = this->problem();
     const bool mbo = options_.method == DirectionFieldMethod::mbo;
     {
         DiffusionSolver diffusion(system_);
@@ -260,14 +286,17 @@ void Solver::settle(const Problem& problem) {
     field_.converged = more && descend_angles(problem, order_, field_.values, options_.seed, told);
 }
 
-void Solver::descend() {
-    const std::vector<Eigen::VectorXd> stages = continuation(epsilon_, options_.first_epsilon, components_);
+// By the coherence lengths of the stages, one after the other.
+void Solver::descend(const std::vector<Eigen::VectorXd>& stages) {
     for (std::size_t i = 0; i < stages.size(); ++i) {
         const bool last = i + 1 == stages.size();
         if (i > 0) narrow_cores(field_.values, aligned_.is_held, stages[i - 1], stages[i]);
         const GinzburgLandau functional(links_, masses_, system_, aligned_.pull, stages[i]);
-        const DescentOptions descent{options_.max_iterations, last ? options_.tolerance : stage_tolerance,
-                                     last ? options_.energy_tolerance : stage_tolerance, options_.seed, last,
+        const DescentOptions descent{options_.max_iterations,
+                                     last ? options_.tolerance : stage_tolerance,
+                                     last ? options_.energy_tolerance : stage_tolerance,
+                                     options_.seed,
+                                     last,
                                      i == 0 && !last};
         const Progress& told = last ? progress_ : silent_;
         DescentResult result = minimise(functional, order_, field_.values, descent, told);
@@ -279,6 +308,46 @@ void Solver::descend() {
     require_not_collapsed(field_, components_, aligned_.is_held);
 }
 
+constexpr double least_anisotropy = 0.05;  // mean over the area, for principal directions to mean something
+
+// Along the principal directions as far as a linear solve follows them, |f| = 1 (E); nothing where the surface bends
+// nearly alike in all directions.
+std::optional<Eigen::VectorXcd> along_curvature(const TriangleMesh& mesh, const FeatureGraph& features,
+                                                const DirectionFieldOptions& options) {
+    const PrincipalDirections curvature = principal_directions(mesh, features);
+    const Eigen::VectorXd areas = triangle_areas(mesh);
+    if (!(areas.dot(curvature.anisotropy) > least_anisotropy * areas.sum())) return {};
+    DirectionFieldOptions guided = options;
+    guided.method = DirectionFieldMethod::eigenvector;
+    guided.guide = {.directions = curvature.directions, .weights = curvature.anisotropy};
+    DirectionField field;
+    field.symmetry = options.symmetry;
+    field.topology = oriented_topology(mesh);
+    Solver(mesh, features, guided, field, {}).run();
+    return field.values;
+}
+
+Progress part(const Progress& progress, double begin, double end) {
+    return [&progress, begin, end](std::string_view phase, double fraction, double merit) {
+        return report(progress, phase, begin + (end - begin) * fraction, merit);
+    };
+}
+
+constexpr double first_part = 0.8;  // of the progress, where two starts are tried
+
+// Where nothing tells the field which way to run there are local minima of very different kind: a torus has one without
+// singular points, along its lines of curvature, which neither diffusion nor continuation from a large epsilon finds.
+void improve_from_curvature(const TriangleMesh& mesh, const FeatureGraph& features,
+                            const DirectionFieldOptions& options, DirectionField& field, const Progress& progress) {
+    const std::optional<Eigen::VectorXcd> start = along_curvature(mesh, features, options);
+    if (!start) return;
+    DirectionField other;
+    other.symmetry = field.symmetry;
+    other.topology = field.topology;
+    Solver(mesh, features, options, other, part(progress, first_part, 1)).run_from(*start);
+    if (other.converged && other.energy < field.energy) field = std::move(other);
+}
+
 }  // namespace
 
 DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& features,
@@ -288,7 +357,17 @@ DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& fea
     DirectionField field;
     field.symmetry = options.symmetry;
     field.topology = oriented_topology(mesh);
-    explaining_failure(mesh, [&] { Solver(mesh, features, options, field, progress).run(); });
+    explaining_failure(mesh, [&] {
+        bool free = false;
+        {
+            const Progress told = part(progress, 0, first_part);
+            Solver solver(mesh, features, options, field, told);
+            free = solver.has_free_component();
+            solver.run();
+        }
+        if (free && field.converged && options.symmetry % 2 == 0 && options.method != DirectionFieldMethod::eigenvector)
+            improve_from_curvature(mesh, features, options, field, progress);
+    });
     return field;
 }
 

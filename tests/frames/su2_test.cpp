@@ -164,6 +164,22 @@ TEST(Su2Axis, ResidualVanishesExactlyOnFramesWithTheAxis) {
     }
 }
 
+TEST(Su2, SecondDerivativesAreThoseOfTheJacobian) {
+    std::mt19937_64 generator(50);
+    const auto number = [&] { return Complex(2 * uniform01(generator) - 1, 2 * uniform01(generator) - 1); };
+    for (int trial = 0; trial < 100; ++trial) {
+        const Complex u = number(), v = number(), du = 1e-6 * number(), dv = 1e-6 * number();
+        const Su2::Jacobian change = Su2::jacobian(u + du, v + dv) - Su2::jacobian(u - du, v - dv);
+        const auto second = Su2::second_derivatives(u, v);
+        for (int i = 0; i < 3; ++i) {
+            const Eigen::Matrix<Complex, 2, 1> step(2.0 * du, 2.0 * dv);
+            EXPECT_LT((second[i] * step - change.row(i).transpose()).norm(),
+                      1e-9 * second[i].norm() * step.norm() + 1e-14 * Su2::jacobian(u, v).norm());
+            EXPECT_LT(std::abs(second[i](0, 1) - second[i](1, 0)), 1e-14 * second[i].norm());
+        }
+    }
+}
+
 TEST(Su2Axis, OnlyTheSecondResidualTellsTheMirrorImage) {
     std::mt19937_64 generator(49);
     for (int trial = 0; trial < 200; ++trial) {

@@ -88,6 +88,20 @@ TEST(DiffusedField, AParallelFieldIsFound) {
                     1e-9);
 }
 
+// Beaufort, thesis section 3.9: no singular point once epsilon is small. The energy is that of the curvature lines.
+TEST(EveryMethod, FindsTheFieldWithoutPointsOnATorusWhereItCostsLess) {
+    const TriangleMesh mesh = torus(96, 48, 1, 0.5);
+    const double exact = 32 * std::pow(std::numbers::pi, 2) * (2 - std::sqrt(3.0));
+    const DirectionField diffused = computed(mesh, mbo);
+    EXPECT_TRUE(surface_singularities(mesh, diffused).points.empty());
+    EXPECT_LT(diffused.energy, 1.001 * exact);
+    EXPECT_GT(diffused.energy, 0.98 * exact);
+    const DirectionField fine = direction_field(mesh, {}, {.epsilon = 0.03}),
+                         wide = direction_field(mesh, {}, {.epsilon = 0.12});
+    EXPECT_TRUE(surface_singularities(mesh, fine).points.empty());
+    EXPECT_EQ(surface_singularities(mesh, wide).points.size(), 12u);
+}
+
 TEST(DiffusedField, HistoryIterationsAndProgressBelongTogether) {
     const TriangleMesh mesh = icosphere(3);
     std::vector<double> told;

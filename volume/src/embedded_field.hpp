@@ -27,7 +27,7 @@ public:
           jacobians_(quaternions_.rows()) {}
 
     double* parameters(Index vertex) { return quaternions_.row(vertex).data(); }
-    const Quaternions& quaternions() const { return quaternions_; }
+    Quaternions& quaternions() { return quaternions_; }
     const Vector& value(Index vertex) const { return values_[vertex]; }
     const Jacobian& jacobian(Index vertex) const { return jacobians_[vertex]; }
 

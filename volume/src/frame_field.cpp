@@ -6,6 +6,7 @@
 
 #include "octafield/frames/quaternion.hpp"
 #include "octafield/frames/sh4.hpp"
+#include "smooth_options.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -27,7 +28,8 @@ Progress part(const Progress& progress, double begin, double end) {
 }
 
 bool minimises_sh4_to_second_order(const SmoothOptions& options) {
-    return options.representation == frames::Sh4::name && options.solver == SmoothSolver::trust_region;
+    return options.representation == frames::Sh4::name &&
+           (options.solver == SmoothSolver::automatic || options.solver == SmoothSolver::trust_region);
 }
 
 }  // namespace
@@ -35,6 +37,7 @@ bool minimises_sh4_to_second_order(const SmoothOptions& options) {
 FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
                              const FrameFieldOptions& options, const Progress& progress) {
     require_sound(options);
+    require_sound(options.smooth);
     DiffuseOptions diffusion = options.diffuse;
     SmoothOptions last = options.smooth, polish;
     diffusion.threads = last.threads = polish.threads = options.threads;
@@ -72,8 +75,12 @@ FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& con
         diffusion.keep_best = false;
     }
     if (going && (!second_order || options.rounds == 0)) {
-        const SmoothResult final =
+        SmoothResult final =
             smooth(mesh, constraints, best.frames, last, part(progress, options.rounds / parts, 1));
+        if (!history.empty() && final.energy_history.front() > 0) {
+            const double scale = best.energy / final.energy_history.front();
+            for (double& energy : final.energy_history) energy *= scale;
+        }
         best.energy = std::numeric_limits<double>::infinity();  // its own objective decides
         keep(final);
     } else if (!going) {

@@ -1,54 +1,26 @@
 #include "octafield/volume/smooth.hpp"
 
-#include <ceres/problem.h>
-#include <ceres/solver.h>
-#include <glog/logging.h>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <memory>
 
+#include "ceres_smoothing.hpp"
 #include "constraints.hpp"
 #include "dirichlet_costs.hpp"
-#include "frame_manifolds.hpp"
+#include "metric_smoothing.hpp"
 #include "octafield/frames/registry.hpp"
-#include "octafield/library_threads.hpp"
 #include "octafield/volume/operators.hpp"
+#include "smooth_options.hpp"
 #include "trust_region.hpp"
 
 namespace octafield::volume {
 namespace {
 
-using frames::Quaternion;
-using frames::Vector3;
-using frames::Vector4;
+constexpr std::array metric_names = {"geodesic", "su2_midpoint", "su2_geodesic", "su2_symmetric", "su2_frozen"};
 
-// Vertices; beyond, the fill of a 3D factorization costs more than inexact steps.
-constexpr Index cholesky_limit = 10000;
-
-// Passes energies on, keeps the history, and stops the solver when the caller wishes.
-class Reporter final : public ceres::IterationCallback {
-public:
-    Reporter(const SmoothOptions& options, double energy_scale, const Progress& progress, SmoothResult& result)
-        : options_(options), scale_(energy_scale), progress_(progress), result_(result) {}
-
-    ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
-        // A rejected step's summary holds the cost of the state that was kept.
-        result_.energy_history.push_back(scale_ * step.cost);
-        const double fraction = options_.max_iterations > 0 ? double(step.iteration) / options_.max_iterations : 1;
-        cancelled = !report(progress_, "smooth", fraction, scale_ * step.cost);
-        return cancelled ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
-    }
-
-    bool cancelled = false;
-
-private:
-    const SmoothOptions& options_;
-    double scale_;
-    const Progress& progress_;
-    SmoothResult& result_;
-};
+bool is_metric(std::string_view name) {
+    return std::find(metric_names.begin(), metric_names.end(), name) != metric_names.end();
+}
 
 template <frames::Representation R>
 void add_costs(ceres::Problem& problem, EmbeddedField<R>& field, const DirichletBlocks& blocks, double scale) {
@@ -69,105 +41,61 @@ void add_costs(ceres::Problem& problem, EmbeddedField<R>& field, const Dirichlet
     }
 }
 
-// One manifold per axis-constrained vertex; free vertices share one.
-struct Manifolds {
-    FrameManifold frame;
-    std::vector<std::unique_ptr<TwistManifold>> twists;
-};
-
-template <frames::Representation R>
-void set_manifolds(ceres::Problem& problem, EmbeddedField<R>& field, const BoundaryConstraints& constraints,
-                   Manifolds& manifolds) {
-    for (std::size_t v = 0; v < constraints.kind.size(); ++v) {
-        double* parameters = field.parameters(static_cast<Index>(v));
-        if (!problem.HasParameterBlock(parameters)) continue;
-        switch (constraints.kind[v]) {
-            case VertexConstraint::fixed:
-                problem.SetParameterBlockConstant(parameters);
-                break;
-            case VertexConstraint::axis:
-                manifolds.twists.push_back(
-                    std::make_unique<TwistManifold>(Vector3(constraints.axis.row(v).transpose())));
-                problem.SetManifold(parameters, manifolds.twists.back().get());
-                break;
-            case VertexConstraint::free:
-                problem.SetManifold(parameters, &manifolds.frame);
-                break;
-        }
-    }
-}
-
-ceres::Solver::Options solver_options(const SmoothOptions& options, Index vertex_count) {
-    ceres::Solver::Options o;
-    o.max_num_iterations = options.max_iterations;
-    o.function_tolerance = options.tolerance;
-    o.gradient_tolerance = 1e-14;  // of the problem scaled to unit size: reached only by fields of zero energy
-    o.parameter_tolerance = 1e-14;
-    // Ceres sums costs per thread, so more than one would change the last bits; embeddings are computed in parallel
-    // instead.
-    o.num_threads = 1;
-    o.logging_type = ceres::SILENT;
-    if (options.solver == SmoothSolver::lbfgs) o.minimizer_type = ceres::LINE_SEARCH;  // LBFGS is its default
-    const bool cholesky = options.linear_solver == LinearSolver::cholesky ||
-                          (options.linear_solver == LinearSolver::automatic && vertex_count <= cholesky_limit);
-    o.linear_solver_type = cholesky ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::CGNR;
-    o.preconditioner_type = ceres::JACOBI;
-    return o;
+// Of an embedding.
+bool by_trust_region(const SmoothOptions& options) {
+    return options.solver == SmoothSolver::automatic || options.solver == SmoothSolver::trust_region;
 }
 
 // `start` is on the constraints.
 template <frames::Representation R>
 SmoothResult smooth_with_ceres(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
                                const SmoothOptions& options, const Progress& progress) {
-    calm_library_threads();
-    FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres would log is in the exception
-
     // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
     const double length = surface::bounding_box_diagonal(mesh.vertices);
     EmbeddedField<R> field(start, options.threads);
-    SmoothResult result;
-    Reporter reporter(options, length, progress, result);
     Manifolds manifolds;
-
-    ceres::Problem::Options problem_options;
-    problem_options.evaluation_callback = &field;
-    problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    problem_options.disable_all_safety_checks = true;  // quadratic in the valence otherwise
-    ceres::Problem problem(problem_options);
+    ceres::Problem problem(problem_options(field));
     add_costs(problem, field, dirichlet_blocks(mesh), 1 / length);
-    set_manifolds(problem, field, constraints, manifolds);
-
-    ceres::Solver::Options o = solver_options(options, static_cast<Index>(mesh.vertices.rows()));
-    o.callbacks.push_back(&reporter);
-    ceres::Solver::Summary summary;
-    ceres::Solve(o, &problem, &summary);
-    if (summary.termination_type == ceres::FAILURE)
-        throw SolverError("smoothing failed: " + summary.message +
-                              "; look for degenerate tets (octafield info), or try linear_solver=conjugate_gradients",
-                          "smoothing");
-
-    result.frames = field.quaternions();
-    result.objective = length * summary.final_cost;
-    result.iterations = std::max<int>(0, static_cast<int>(summary.iterations.size()) - 1);
-    result.converged = !reporter.cancelled && summary.termination_type == ceres::CONVERGENCE;
-    result.message = reporter.cancelled ? "cancelled" : summary.message;
-    return result;
+    set_manifolds(problem, field.quaternions(), constraints, manifolds);
+    return solve_with_ceres(problem, field.quaternions(), length, options, progress);
 }
 
 }  // namespace
 
-SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
-                    const SmoothOptions& options, const Progress& progress) {
-    require_fitting(mesh, constraints, start);
+void require_sound(const SmoothOptions& options) {
     if (options.max_iterations < 0) throw InvalidInput("max_iterations is negative; give 0 or more", "bad_option");
     if (!(options.tolerance >= 0)) throw InvalidInput("tolerance must not be negative", "bad_option");
+    if (!(options.midpoint_limit > 0)) throw InvalidInput("midpoint_limit must be positive", "bad_option");
+    const auto names = smooth_representations();
+    if (std::find(names.begin(), names.end(), options.representation) == names.end())
+        frames::throw_unknown_name("representation", options.representation, names);
+    if (is_metric(options.representation) && options.solver == SmoothSolver::trust_region)
+        throw InvalidInput("the trust region minimises embeddings only; representation '" + options.representation +
+                               "' is a metric: choose solver automatic, levenberg_marquardt or lbfgs",
+                           "bad_option");
+}
+
+std::vector<std::string> smooth_representations() {
+    std::vector<std::string> names = frames::Representations::names();
+    names.insert(names.end(), metric_names.begin(), metric_names.end());
+    return names;
+}
+
+SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+                    const SmoothOptions& options, const Progress& progress) {
+    require_sound(options);
+    require_fitting(mesh, constraints, start);
     const Quaternions on_constraints = constrained_start(constraints, start);
     SmoothResult result;
-    frames::with_representation(options.representation, [&]<frames::Representation R>() {
-        result = options.solver == SmoothSolver::trust_region
-                     ? trust_region<R>(mesh, constraints, on_constraints, options, progress)
-                     : smooth_with_ceres<R>(mesh, constraints, on_constraints, options, progress);
-    });
+    if (is_metric(options.representation)) {
+        result = smooth_metric(mesh, constraints, on_constraints, options, progress);
+    } else {
+        frames::with_representation(options.representation, [&]<frames::Representation R>() {
+            result = by_trust_region(options)
+                         ? trust_region<R>(mesh, constraints, on_constraints, options, progress)
+                         : smooth_with_ceres<R>(mesh, constraints, on_constraints, options, progress);
+        });
+    }
     result.energy = dirichlet_energy(mesh, result.frames, options.threads);
     return result;
 }

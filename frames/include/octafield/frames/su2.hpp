@@ -44,6 +44,9 @@ struct Su2 {
     // d(h0, h1, h2) / d(u, v), complex derivatives. Of full rank except at 0: singular values between 0.3019 and 8 on
     // the unit 3-sphere.
     static Jacobian jacobian(const Complex& u, const Complex& v);
+    // d^2 h_i / d(u, v)^2, one symmetric 2 x 2 matrix per invariant.
+    using SecondDerivatives = std::array<Eigen::Matrix<Complex, 2, 2>, 3>;
+    static SecondDerivatives second_derivatives(const Complex& u, const Complex& v);
 
     // h2^2 - h1 (h0^3 - 108 h1^2).
     static Complex surface_residual(const Complex3& h);

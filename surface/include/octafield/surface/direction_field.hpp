@@ -31,7 +31,8 @@ enum class DirectionFieldMethod {
     // |f| = 1: globally smoothest (Knoeppel et al. 2013) on components that nothing aligns, the harmonic extension of
     // what is aligned on the others, scaled to length 1. The start of the other two methods.
     eigenvector,
-    // |f| = 1: implicit diffusion and projection in turn, with a falling time step (Merriman, Bence, Osher 1992; Viertel
+    // |f| = 1: implicit diffusion and projection in turn, with a falling time step (Merriman, Bence, Osher 1992;
+    // Viertel
     // and Osting 2019), then descent on 1/2 int |grad f|^2 and the second line of E by the angles of f to a local
     // minimum, with singular points moved to neighbouring places where that lowers the energy (single edges tried).
     mbo,
@@ -60,8 +61,9 @@ struct DirectionFieldOptions {
     // none.
     Eigen::VectorXd edge_epsilon{};
     // Continuation: E is first minimised, to part of the accuracy, with this coherence length, then with equal
-    // fractions, down to 1/5, of the one before until the one above: singular points move freely while their cores are wide. 0 or above 1/10 of the
-    // bounding-box diagonal of a connected part: that 1/10; `epsilon` or less: no continuation.
+    // fractions, down to 1/5, of the one before until the one above: singular points move freely while their cores are
+    // wide. 0 or above 1/10 of the bounding-box diagonal of a connected part: that 1/10; `epsilon` or less: no
+    // continuation.
     double first_epsilon = 0;
     int max_iterations = 1000;  // of the descent, or of diffusion and projection
     // Ginzburg-Landau: stop when the residual falls to `tolerance`: the norm of E's gradient over that of the
@@ -103,9 +105,10 @@ struct DirectionField {
 
 // Edges of the mesh boundary and of `features` have g = 1: one direction along the edge. With odd N the direction
 // follows the boundary, surface on its left, and features inside the surface are refused: they have no sense to run in.
-// Requires an edge-manifold, consistently oriented mesh without degenerate triangles, closed or not, any number of
-// components. Cancelling through progress keeps the best state (converged = false). Throws InvalidInput; GeometryError,
-// where the surface cannot be oriented with kind "not_orientable";
+// Where nothing aligns a component, the methods ginzburg_landau and mbo also descend from the principal directions
+// (even N) and give the field of lower E. Requires an edge-manifold, consistently oriented mesh without degenerate
+// triangles, closed or not, any number of components. Cancelling through progress keeps the best state (converged =
+// false). Throws InvalidInput; GeometryError, where the surface cannot be oriented with kind "not_orientable";
 // SolverError when the descent ends with |f| < 0.1 on all free edges of a component (kind "epsilon_too_large", elements
 // its triangles): such a field has no directions; SolverError where triangles are too thin for double precision (kind
 // "thin_triangles", elements; angles far below 1e-6 radians) or weights too small to count (kind "bad_weights").

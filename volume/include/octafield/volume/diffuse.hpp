@@ -12,7 +12,7 @@ struct DiffuseOptions {
     // Time of the last step over the square of the mean boundary edge.
     double last_time = 0.25;
     // Step k lasts 1/k^time_exponent of the first, and steps end when last_time is reached. Palmer et al. take 3: fewer
-    // steps, higher energies (docs/diffusion.md).
+    // steps, higher energies (docs/frame_fields.md).
     double time_exponent = 2;
     int max_steps = 60;  // where more would be needed, the exponent is raised instead
     // Of the linear solves: relative residual in the preconditioned norm. Steps are projected anyway.

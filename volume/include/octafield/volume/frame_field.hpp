@@ -20,7 +20,9 @@ struct FrameFieldOptions {
 };
 
 struct FrameFieldResult {
-    SmoothResult smooth;      // of the last smoothing; its energy_history has that of all rounds, start included
+    // Of the last smoothing. Its iterations and energy_history are those of all rounds; where the last part minimises
+    // something else than sh4's energy, its history is scaled to begin with that.
+    SmoothResult smooth;
     int diffusion_steps = 0;  // of all rounds
 };
 

@@ -1,7 +1,10 @@
-// Smoothing: minimise the Dirichlet energy of an embedded frame field with one unit quaternion per vertex.
+// Smoothing: minimise the Dirichlet energy of a frame field with one unit quaternion per vertex, in an embedding or in
+// a metric on frames.
 #pragma once
 
+#include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "octafield/progress.hpp"
@@ -11,6 +14,7 @@
 namespace octafield::volume {
 
 enum class SmoothSolver {
+    automatic,  // trust_region for embeddings, levenberg_marquardt for metrics
     // Newton steps with the exact Hessian in a trust region (Palmer, Bommes, Solomon 2020): follows negative curvature,
     // so that it does not stop at saddles.
     trust_region,
@@ -22,19 +26,34 @@ enum class SmoothSolver {
 enum class LinearSolver { automatic, cholesky, conjugate_gradients };
 
 struct SmoothOptions {
-    // The embedding whose Dirichlet energy is minimised: a name of frames/registry.hpp.
+    // What is minimised: the Dirichlet energy of an embedding (sh4, tensor4, odeco, sh469, and su2, which is the naive
+    // scheme), or of a metric on frames, whose edges ij have differences d_ij (world axes, radians) in place of
+    // a_j - a_i (docs/su2_smoothing.md):
+    // - geodesic: the rotation vector of the smallest rotation from q_i to q_j, matched anew at every evaluation
+    // - su2_geodesic: the same, read from the invariants (h0, h1, h2) through their inverse map
+    // - su2_midpoint: 2 J^+ (h_j - h_i) with the pseudo-inverse J^+ of dh/d(u, v) half-way, differentiated by both
+    //   ends
+    // - su2_symmetric: the same with J^+ at either end, root mean square
+    // - su2_frozen: su2_midpoint with J^+ held during each step: inconsistent, kept to show how it fails
     std::string representation = "sh4";
-    SmoothSolver solver = SmoothSolver::trust_region;
+    SmoothSolver solver = SmoothSolver::automatic;  // trust_region: embeddings only
     int max_iterations = 200;
     double tolerance = 1e-6;  // stop when an iteration lowers the energy by less than this fraction of it
     LinearSolver linear_solver = LinearSolver::automatic;  // automatic: sparse Cholesky up to 10,000 vertices
     int threads = 0;                                       // 0: all; the result does not depend on it
+    // Of su2_midpoint, radians: edges whose frames differ by more are measured by the geodesic, with a smooth
+    // transition from half of it. Infinity: never.
+    double midpoint_limit = 20 * std::numbers::pi / 180;
 };
 
+// The embeddings of frames/registry.hpp, then the metrics above.
+std::vector<std::string> smooth_representations();
+
 struct SmoothResult {
-    Quaternions frames;    // (n, 4) unit quaternions w x y z
-    double energy = 0;     // operators.hpp: dirichlet_energy, of sh4 whatever was minimised
-    double objective = 0;  // 1/2 sum_c a_c^T L a_c of the representation that was smoothed
+    Quaternions frames;  // (n, 4) unit quaternions w x y z
+    double energy = 0;   // operators.hpp: dirichlet_energy, of sh4 whatever was minimised
+    // What was minimised: 1/2 sum_c a_c^T L a_c of an embedding, 1/2 of the squared gradient in radians of a metric.
+    double objective = 0;
     int iterations = 0;
     bool converged = false;
     std::string message;                 // why the solver stopped
@@ -52,6 +71,9 @@ enum class Start {
 Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints,
                            Start start = Start::constraints, int threads = 0);
 
+// Metrics keep the matchings of a rough start, so begin them near a minimum of sh4 (frame_field does); su2_frozen does
+// not lower any energy and may never converge.
+//
 // Minimises from `start` over tangent unknowns of size 3 (free), 1 (axis) and 0 (fixed). Constraints hold exactly: the
 // start is first moved onto them. Cancelling keeps the best state. Ceres' solvers set the process to one OpenBLAS
 // thread and silence glog below fatal: what Ceres would log is in the exception. Throws InvalidInput, GeometryError

@@ -1,0 +1,5 @@
+"""python -m octafield: the command line."""
+
+from .cli import main
+
+main()

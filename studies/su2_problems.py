@@ -1,0 +1,123 @@
+"""Problems of su2_consistency.py: tet meshes of the unit cube, a bar and a ball, with constrained boundary frames."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.interpolate import RegularGridInterpolator
+
+import octafield
+
+EVEN_AND_ODD_ORDERS = ((0, 1, 2), (1, 2, 0), (2, 0, 1), (1, 0, 2), (0, 2, 1), (2, 1, 0))
+FIXED, AXIS = 2, 1
+
+
+@dataclass
+class Problem:
+    name: str
+    spacing: float
+    mesh: octafield.TetMesh
+    constraints: octafield.BoundaryConstraints
+    target: np.ndarray | None  # (n, 4) the smooth frames whose boundary values are held
+    free: np.ndarray  # vertices that are not fixed
+    boundary: octafield.BoundarySurface | None = None
+
+
+def kuhn_grid(nx: int, ny: int, nz: int, h: float) -> octafield.TetMesh:
+    """Six tets round the diagonal of every cell of a grid of cubes of side h."""
+    shape = np.array([nx, ny, nz]) + 1
+    points = h * np.stack(np.meshgrid(*map(np.arange, shape), indexing="ij"), -1).reshape(-1, 3)
+    cells = np.stack(np.meshgrid(*map(np.arange, shape - 1), indexing="ij"), -1).reshape(-1, 3)
+    tets = []
+    for k, order in enumerate(EVEN_AND_ODD_ORDERS):
+        corner, ids = cells.copy(), []
+        for axis in (None, *order):
+            if axis is not None:
+                corner[:, axis] += 1
+            ids.append(np.ravel_multi_index(corner.T, shape))
+        if k >= 3:
+            ids[2], ids[3] = ids[3], ids[2]
+        tets.append(np.stack(ids, 1))
+    return octafield.TetMesh(points, np.concatenate(tets).astype(np.int32))
+
+
+def jittered_cube(n: int, amount: float, seed: int) -> octafield.TetMesh:
+    """Kuhn cube, inner vertices moved by up to `amount` cells along each axis: obtuse tets, negative cotangents."""
+    mesh = kuhn_grid(n, n, n, 1 / n)
+    points = np.array(mesh.vertices)
+    inner = np.all((points > 1e-9) & (points < 1 - 1e-9), axis=1)
+    points[inner] += amount / n * np.random.default_rng(seed).uniform(-1, 1, (inner.sum(), 3))
+    return octafield.TetMesh(points, mesh.tets)
+
+
+def tetgen_cube(n: int) -> octafield.TetMesh:
+    """TetGen inside the boundary of the Kuhn cube, inner points by its own rules."""
+    surface = octafield.boundary_surface(kuhn_grid(n, n, n, 1 / n)).mesh
+    return octafield.tetrahedralize(surface, edge_length=1 / n)
+
+
+def smooth_frames(points: np.ndarray, amplitude: float) -> np.ndarray:
+    """Smooth, without singularities, far from constant: turns by 0.6 to 1 rad across the cube at amplitude 1."""
+    x, y, z = points.T
+    return octafield.quaternion_exp(amplitude * np.stack([0.4 * np.sin(2 * y), 0.5 * x * z, 0.6 * x - 0.3 * z], 1))
+
+
+def held(mesh: octafield.TetMesh, frames: np.ndarray, vertices: np.ndarray) -> octafield.BoundaryConstraints:
+    n = len(mesh.vertices)
+    kind, on_boundary, values = np.zeros(n, np.uint8), np.zeros(n, np.uint8), np.tile([1.0, 0, 0, 0], (n, 1))
+    kind[vertices] = FIXED
+    on_boundary[octafield.boundary_surface(mesh).vertex_map] = 1
+    values[vertices] = frames[vertices]
+    return octafield.BoundaryConstraints(kind, np.zeros((n, 3)), values, on_boundary)
+
+
+def cube(family: str, n: int, amplitude: float = 1) -> Problem:
+    mesh = {"kuhn": lambda: kuhn_grid(n, n, n, 1 / n), "jittered": lambda: jittered_cube(n, 0.2, n),
+            "tetgen": lambda: tetgen_cube(n)}[family]()
+    target = smooth_frames(np.asarray(mesh.vertices), amplitude)
+    boundary = np.asarray(octafield.boundary_surface(mesh).vertex_map)
+    return Problem(f"{family} n = {n}", 1 / n, mesh, held(mesh, target, boundary), target,
+                   np.setdiff1d(np.arange(len(target)), boundary))
+
+
+def bar(cells: int, ends: np.ndarray) -> Problem:
+    """[0, 1] x [0, 2 / cells]^2 with frames held at x = 0 and x = 1 only: a problem in one dimension."""
+    mesh = kuhn_grid(cells, 2, 2, 1 / cells)
+    x = np.asarray(mesh.vertices)[:, 0]
+    target = octafield.slerp(np.tile(ends[0], (len(x), 1)), np.tile(ends[1], (len(x), 1)), x)
+    fixed = np.flatnonzero((x < 1e-9) | (x > 1 - 1e-9))
+    return Problem("bar", 1 / cells, mesh, held(mesh, target, fixed), target, np.setdiff1d(np.arange(len(x)), fixed))
+
+
+def ball(path: Path) -> Problem:
+    """A tet mesh of a ball, one axis on the area-weighted normal of every boundary vertex, twist free."""
+    read = octafield.inputs.read_input(path)
+    mesh, vertices = read.tets, np.asarray(read.boundary.vertex_map)
+    n, normals = len(mesh.vertices), np.asarray(octafield.vertex_normals(read.boundary.mesh))
+    kind, axis, frames = np.zeros(n, np.uint8), np.zeros((n, 3)), np.tile([1.0, 0, 0, 0], (n, 1))
+    kind[vertices], axis[vertices] = AXIS, normals
+    frames[vertices] = octafield.frame_from_axes(np.tile([1.0, 0, 0], (len(vertices), 1)), normals)
+    constraints = octafield.BoundaryConstraints(kind, axis, frames, (kind > 0).astype(np.uint8))
+    return Problem(path.name.removesuffix(".mesh.gz"), octafield.mean_edge_length(read.boundary.mesh), mesh, constraints,
+                   None, np.arange(n), read.boundary)
+
+
+def grid_values(frames: np.ndarray, n: int, points: np.ndarray) -> np.ndarray:
+    """Frames of a Kuhn cube at points: exact at its vertices, else trilinear in sh4 and projected."""
+    axis = np.linspace(0, 1, n + 1)
+    table = octafield.sh4_embed(frames).reshape(n + 1, n + 1, n + 1, 9)
+    values = RegularGridInterpolator((axis, axis, axis), table)(np.clip(points, 0, 1))
+    return octafield.sh4_project(values)[0]
+
+
+def random_representatives(frames: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Each quaternion times one of the 48 of the binary octahedral group: the same frames."""
+    group = np.asarray(octafield.binary_octahedral_group())[rng.integers(48, size=len(frames))]
+    return quaternion_product(frames, group)
+
+
+def quaternion_product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    w = a[:, 0] * b[:, 0] - np.sum(a[:, 1:] * b[:, 1:], 1)
+    v = a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])
+    product = np.column_stack([w, v])
+    return product / np.linalg.norm(product, axis=1, keepdims=True)

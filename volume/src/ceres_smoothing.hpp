@@ -1,0 +1,31 @@
+// What the least-squares smoothers share: manifolds by constraint, solver options by size, progress, errors.
+#pragma once
+
+#include <ceres/problem.h>
+
+#include <memory>
+#include <vector>
+
+#include "frame_manifolds.hpp"
+#include "octafield/volume/smooth.hpp"
+
+namespace octafield::volume {
+
+// Outlives the problem: one manifold per axis-constrained vertex; free vertices share one.
+struct Manifolds {
+    FrameManifold frame;
+    std::vector<std::unique_ptr<TwistManifold>> twists;
+};
+
+// The parameter block of a vertex is its row of `quaternions`; vertices in no residual are skipped.
+void set_manifolds(ceres::Problem& problem, Quaternions& quaternions, const BoundaryConstraints& constraints,
+                   Manifolds& manifolds);
+
+ceres::Problem::Options problem_options(ceres::EvaluationCallback& field);
+
+// Everything of the result but the sh4 energy. `quaternions` are the problem's parameters; `energy_scale` turns Ceres'
+// cost into the objective.
+SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quaternions, double energy_scale,
+                              const SmoothOptions& options, const Progress& progress);
+
+}  // namespace octafield::volume

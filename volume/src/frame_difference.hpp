@@ -1,0 +1,75 @@
+// Differences of two frames: what stands for a_j - a_i when a field is smoothed in a metric instead of an embedding.
+//
+// All are vectors in world axes, radians, that agree with the rotation vector from p to q to first order in it,
+// whatever representatives p and q are. Derivatives are by world rotation vectors of p and of q. The su2 ones have a
+// fourth component, first, for what part of (du, dv) changes the norm of the quaternion.
+#pragma once
+
+#include <vector>
+
+#include "octafield/frames/su2.hpp"
+
+namespace octafield::volume {
+
+template <int Dimension>
+struct Difference {
+    Eigen::Matrix<double, Dimension, 1> value;
+    Eigen::Matrix<double, Dimension, 3> by_first, by_second;  // set only if asked for
+};
+
+// log(q (p o)^-1), o the matching.
+struct GeodesicScheme {
+    static constexpr int dimension = 3;
+    using Vertex = frames::Quaternion;
+    static Vertex at(const frames::Quaternion& q, bool) { return q; }
+    Difference<3> difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const;
+};
+
+// The same of quaternions that are read from the invariants of p and q.
+struct Su2GeodesicScheme {
+    static constexpr int dimension = 3;
+    using Vertex = frames::Quaternion;
+    static Vertex at(const frames::Quaternion& q, bool);
+    Difference<3> difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const {
+        return GeodesicScheme{}.difference(pair, p, q, derivatives);
+    }
+};
+
+// A frame with its invariants and their derivative by its world rotation vector.
+struct Su2Vertex {
+    frames::Quaternion q;
+    frames::Complex3 h;
+    Eigen::Matrix<frames::Complex, 3, 3> dh;
+};
+Su2Vertex su2_vertex(const frames::Quaternion& q, bool derivatives);
+
+// 2 J^+(m) (h(q) - h(p)) m^-1, m half-way between p o and q; blended into the geodesic one over angles from limit / 2
+// to limit.
+struct MidpointScheme {
+    static constexpr int dimension = 4;
+    using Vertex = Su2Vertex;
+    double limit;  // radians
+    static Vertex at(const frames::Quaternion& q, bool derivatives) { return su2_vertex(q, derivatives); }
+    Difference<4> difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const;
+};
+
+// Over sqrt(2), 2 J^+(m) (h(q) - h(p)) m^-1 for m = p o and for m = q.
+struct SymmetricScheme {
+    static constexpr int dimension = 8;
+    using Vertex = Su2Vertex;
+    static Vertex at(const frames::Quaternion& q, bool derivatives) { return su2_vertex(q, derivatives); }
+    Difference<8> difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const;
+};
+
+// As MidpointScheme without a limit, at midpoints of another field that do not move with p and q.
+struct FrozenScheme {
+    static constexpr int dimension = 4;
+    using Vertex = Su2Vertex;
+    using Metric = Eigen::Matrix<double, 4, 6>;  // takes (re, im of h0, h1, h2) to the difference
+    std::vector<Metric> metrics;                 // per pair
+    static Vertex at(const frames::Quaternion& q, bool derivatives) { return su2_vertex(q, derivatives); }
+    static Metric metric(const frames::Quaternion& p, const frames::Quaternion& q);
+    Difference<4> difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const;
+};
+
+}  // namespace octafield::volume
