@@ -183,6 +183,18 @@ from ._core import (
     write_surface,
     write_surface_field,
 )
+from ._core import (  # volume input
+    LockingElements,
+    LockingSplit,
+    RegionSurface,
+    Sheets,
+    VertexConstraints,
+    cut_into_sheets,
+    find_locking,
+    region_surface,
+    split_locking,
+    with_constraints,
+)
 from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 
 # Written in Python.
@@ -376,4 +388,14 @@ __all__ = [
     "write_singular_graph",
     "write_surface",
     "write_surface_field",
+    "LockingElements",
+    "LockingSplit",
+    "RegionSurface",
+    "Sheets",
+    "VertexConstraints",
+    "cut_into_sheets",
+    "find_locking",
+    "region_surface",
+    "split_locking",
+    "with_constraints",
 ]

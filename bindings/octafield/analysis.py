@@ -30,8 +30,8 @@ def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0) -> FieldA
     graph = _core.singular_graph(tets, frames, threads=threads)
     meshability = _core.local_meshability(tets, frames, graph)
     integrability = _core.integrability(tets, frames, threads=threads)
-    alignment = np.asarray(_core.alignment_angles(meshed.boundary, meshed.features, frames))
-    feature_alignment = np.asarray(_core.feature_alignment_angles(meshed.boundary, meshed.features, frames))
+    alignment = np.asarray(_core.alignment_angles(meshed.boundary, meshed.boundary_features, frames))
+    feature_alignment = np.asarray(_core.feature_alignment_angles(meshed.boundary, meshed.boundary_features, frames))
     energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
     record = {
         "energy": energy,

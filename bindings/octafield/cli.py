@@ -15,12 +15,14 @@ from .cli_options import (
     Features,
     InputFile,
     InputFiles,
+    Interfaces,
     Json,
     Output,
     Quiet,
     Remesh,
     Repair,
     Seed,
+    Split,
     Threads,
     Verbose,
     choices,
@@ -83,8 +85,11 @@ def _carry_out(work: Callable[[], None], quiet: bool, verbose: bool, json: str |
         raise typer.Exit(console.error_code(error)) from None
 
 
-def _mesh_options(features: str, feature_angle: float, edge_length: float, remesh: bool, repair: bool) -> dict:
+def _mesh_options(
+    features: str, feature_angle: float, edge_length: float, remesh: bool, repair: bool, **others: bool
+) -> dict:
     return {
+        **others,
         "features": features,
         "feature_angle": math.radians(feature_angle),
         "edge_length": edge_length,
@@ -107,11 +112,16 @@ def field(
     boundary: Annotated[
         str, typer.Option(metavar=choices(BOUNDARIES), help="aligned: twist free; fixed: whole frame held.")
     ] = _FIELD.boundary,
+    feature_tolerance: Annotated[
+        float, typer.Option(metavar="DEG", help="How well one frame must fit a feature vertex to be held, degrees.")
+    ] = round(math.degrees(_FIELD.feature_tolerance), 6),
     features: Features = _FIELD.features,
     feature_angle: FeatureAngle = _ANGLE,
     edge_length: EdgeLength = _FIELD.edge_length,
     remesh: Remesh = _FIELD.remesh,
     repair: Repair = _FIELD.repair,
+    interfaces: Interfaces = _FIELD.interfaces,
+    split: Split = _FIELD.split,
     rounds: Annotated[int, typer.Option(metavar="K", help="Rounds of diffusion and polish.")] = _FIELD.rounds,
     seed: Seed = _FIELD.seed,
     threads: Threads = _FIELD.threads,
@@ -130,10 +140,11 @@ def field(
             representation=representation,
             solver=solver,
             boundary=boundary,
+            feature_tolerance=math.radians(feature_tolerance),
             rounds=rounds,
             seed=seed,
             threads=threads,
-            **_mesh_options(features, feature_angle, edge_length, remesh, repair),
+            **_mesh_options(features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split),
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             result = compute_field(input, options, progress)
@@ -220,6 +231,8 @@ def compare(
     edge_length: EdgeLength = _FIELD.edge_length,
     remesh: Remesh = _FIELD.remesh,
     repair: Repair = _FIELD.repair,
+    interfaces: Interfaces = _FIELD.interfaces,
+    split: Split = _FIELD.split,
     seed: Seed = _FIELD.seed,
     threads: Threads = _FIELD.threads,
     json: Json = None,
@@ -233,7 +246,11 @@ def compare(
         from .compare import default_input
 
         options = FieldOptions(
-            seed=seed, threads=threads, **_mesh_options(features, feature_angle, edge_length, remesh, repair)
+            seed=seed,
+            threads=threads,
+            **_mesh_options(
+                features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split
+            ),
         )
         chosen = COMPARED if representations == "all" else _listed(representations)
         with console.progress_bar(quiet) as progress:

@@ -14,7 +14,7 @@ def choices(values) -> str:
 
 InputFile = Annotated[
     str,
-    typer.Argument(metavar="INPUT", help="Surface (.stl .obj .off .ply) or tet mesh (.vtk .vtu .msh .mesh), also .gz."),
+    typer.Argument(metavar="INPUT", help="Surface (.stl .obj .off .ply) or tet mesh (.vtk .vtu .msh .mesh .node/.ele), also .gz."),
 ]
 InputFiles = Annotated[
     list[str] | None, typer.Argument(metavar="[INPUT]...", help="Surfaces or tet meshes; none: the nut of pyvista.")
@@ -35,6 +35,10 @@ EdgeLength = Annotated[
 ]
 Remesh = Annotated[bool, typer.Option("--remesh/--no-remesh", help="Remesh a surface, or keep its triangles.")]
 Repair = Annotated[bool, typer.Option("--repair", help="Repair a surface first; every action is reported.")]
+Interfaces = Annotated[
+    bool, typer.Option("--interfaces/--no-interfaces", help="Follow the interfaces between regions of a tet mesh.")
+]
+Split = Annotated[bool, typer.Option("--split", help="Split inner edges and tets that join the surface to itself.")]
 Seed = Annotated[int, typer.Option(metavar="N", help="Seed of every random start.")]
 Threads = Annotated[int, typer.Option(metavar="N", help="Threads; 0: all. Results do not depend on it.")]
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Nothing but errors.")]

@@ -58,6 +58,9 @@ def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict:
         repaired = _core.repair(found.surface)
         found.surface = repaired.mesh
         found.notes += [f"repair: {action}" for action in repaired.actions]
+    lines_are_features = found.lines_are_features()
+    if found.interface_triangles:
+        found.surface = _core.boundary_surface(found.tets).mesh  # interfaces are sound where the tets are
     requirements = _requirements(found, options)
     record = {
         "input": found.name,
@@ -71,7 +74,7 @@ def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict:
     }
     failed = {r["requirement"] for r in requirements if r["state"] != PASS}
     if not failed & {"has triangles", "vertex numbers in range", "finite coordinates"}:
-        record |= _topology(found, options, failed)
+        record |= _topology(found, options, failed, lines_are_features)
     return record
 
 
@@ -109,6 +112,8 @@ def _counts(found: Input) -> dict:
             "vertices": len(found.tets.vertices),
             "tets": len(found.tets.tets),
             "boundary_vertices": len(found.surface.vertices),
+            "regions": 1 if found.regions is None else len(np.unique(found.regions)),
+            "interface_triangles": found.interface_triangles,
         }
     return counts
 
@@ -122,7 +127,7 @@ def _geometry(found: Input) -> dict:
     return {"bounding_box": {"min": low.tolist(), "max": high.tolist(), "diagonal": float(np.linalg.norm(high - low))}}
 
 
-def _topology(found: Input, options: MeshOptions, failed: set[str]) -> dict:
+def _topology(found: Input, options: MeshOptions, failed: set[str], lines_are_features: bool) -> dict:
     """Numbers that mean something only where the requirements they rest on are met."""
     facts = {
         "area": float(np.asarray(_core.triangle_areas(found.surface)).sum()),
@@ -143,6 +148,6 @@ def _topology(found: Input, options: MeshOptions, failed: set[str]) -> dict:
         facts["feature_lines"] = {
             "edges": len(found.lines),
             "not_on_boundary": found.ignored_lines,
-            "used_by_default": found.lines_are_features(),
+            "used_by_default": lines_are_features,
         }
     return facts

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from . import _core
-from ._core import BoundarySurface, FeatureGraph, TetMesh, TriangleMesh
+from ._core import BoundarySurface, FeatureGraph, Sheets, TetMesh, TriangleMesh
 from .errors import GeometryError, InvalidInput
-from .inputs import Input, from_mesh, naming, read_input
+from .inputs import Input, from_mesh, naming, read_input, with_regions
 from .options import MeshOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
 
@@ -19,7 +19,12 @@ Source = str | Path | TriangleMesh | TetMesh
 
 @dataclass
 class MeshedInput:
-    """A sound input, ready for fields: `surface` is the boundary of `tets` (None where only a surface was wanted)."""
+    """A sound input, ready for fields: `surface` is the boundary of `tets` (None where only a surface was wanted).
+
+    Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too and
+    `surface` is it cut into sheets: manifold, each vertex a copy of vertex `sheet_map` of the boundary. features are
+    those of `surface`, boundary_features those of `boundary`. locking: counts of what split_locking is for.
+    """
 
     name: str
     kind: str  # "surface" or "tets": what the input was
@@ -31,6 +36,17 @@ class MeshedInput:
     notes: list[str] = field(default_factory=list)
     clock: PhaseClock = field(default_factory=PhaseClock)
     peak_mb: float = 0.0
+    boundary_features: FeatureGraph | None = None
+    regions: np.ndarray | None = None
+    interface_triangles: int = 0
+    sheet_map: np.ndarray | None = None
+    locking: dict = field(default_factory=dict)
+
+    def at_boundary_vertices(self, values: np.ndarray) -> np.ndarray:
+        """Of values at the vertices of the surface, those at the boundary's: of its first copy in each case."""
+        if self.sheet_map is None:
+            return values
+        return values[np.unique(self.sheet_map, return_index=True)[1]]
 
     def digest(self) -> str:
         """SHA-256 of the mesh arrays, first 16 hexadecimal digits: equal for equal meshes."""
@@ -56,6 +72,9 @@ class SoundInput:
     feature_source: str
     clock: PhaseClock
     peak_mb: float
+    boundary_features: FeatureGraph
+    sheets: Sheets | None
+    locking: dict
 
 
 def read_sound(
@@ -66,12 +85,15 @@ def read_sound(
     clock = PhaseClock()
     with clock.phase("read"):
         announce(progress, "read")
-        found = from_mesh(source) if isinstance(source, (TriangleMesh, TetMesh)) else read_input(source)
+        found = from_mesh(source) if isinstance(source, (TriangleMesh, TetMesh)) else read_input(source, interfaces=options.interfaces)
         with naming(found.name):
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):
-        features, feature_source = _features(found, options)
-    return SoundInput(found, features, feature_source, clock, memory.megabytes())
+        locking = {} if found.tets is None else _treat_locking(found, options)
+        sheets = _core.cut_into_sheets(found.surface) if found.interface_triangles else None
+        features, feature_source = _features(found, options, sheets)
+        of_surface = features if sheets is None else _lifted(features, sheets)
+    return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), features, sheets, locking)
 
 
 def prepare_mesh(
@@ -94,13 +116,18 @@ def prepare_mesh(
         meshed = MeshedInput(
             found.name,
             found.kind,
-            found.surface,
+            found.surface if source.sheets is None else source.sheets.mesh,
             source.features,
             source.feature_source,
             found.tets,
             found.boundary,
             found.notes,
             clock,
+            boundary_features=source.boundary_features,
+            regions=found.regions,
+            interface_triangles=found.interface_triangles,
+            sheet_map=None if source.sheets is None else np.asarray(source.sheets.vertex_map),
+            locking=source.locking,
         )
         if found.tets is not None:
             _note_unused(meshed, options)
@@ -108,7 +135,7 @@ def prepare_mesh(
             if options.remesh:
                 _remesh(meshed, options, progress, volume)
             if volume:
-                _fill(meshed, progress)
+                _fill(meshed, progress, options)
     meshed.peak_mb = max(source.peak_mb, memory.megabytes())
     return meshed
 
@@ -124,7 +151,7 @@ def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
         found.surface = repaired.mesh
         found.notes += [f"repair: {action}" for action in repaired.actions]
     if found.tets is not None:
-        # Tets of positive volume rarely cross, and the test is slow.
+        # Tets of positive volume rarely cross, and the test is slow. Interfaces are sound where the tets are.
         _require_valid(found, options, self_intersection=False)
         return found
     _require_valid(found, options, closed=closed)
@@ -141,8 +168,9 @@ def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
 
 
 def _require_valid(found: Input, options: MeshOptions, **tests: bool) -> None:
+    surface = found.surface if not found.interface_triangles else _core.boundary_surface(found.tets).mesh
     try:
-        _core.require_valid(found.surface, **tests)
+        _core.require_valid(surface, **tests)
     except GeometryError as error:
         raise GeometryError(possible_remedy(str(error), found, options), error.kind, error.elements) from error
 
@@ -159,7 +187,8 @@ def possible_remedy(message: str, found: Input, options: MeshOptions) -> str:
     return f"{fact}; {done}correct {mesh} where it was made"
 
 
-def _features(found: Input, options: MeshOptions) -> tuple[FeatureGraph, str]:
+def _features(found: Input, options: MeshOptions, sheets: Sheets | None) -> tuple[FeatureGraph, str]:
+    """Of found.surface. Curves where interfaces meet the boundary or each other always belong to them."""
     source = options.features
     if source == "default":
         source = "file" if found.lines_are_features() else "angle"
@@ -171,10 +200,26 @@ def _features(found: Input, options: MeshOptions) -> tuple[FeatureGraph, str]:
             "use --features angle or none",
             "no_feature_lines",
         )
-    if source == "angle":
+    if source == "angle" and sheets is None:
         return _core.detect_features(found.surface, angle=options.feature_angle), source
     edges = found.lines if source == "file" else np.empty((0, 2), np.int32)
+    if sheets is not None:
+        cuts = np.asarray(sheets.cuts)
+        if source == "angle":
+            edges = np.asarray(_core.detect_features(sheets.mesh, angle=options.feature_angle).edges)
+            edges = np.asarray(sheets.vertex_map)[edges]
+        edges = np.unique(np.sort(np.concatenate([edges, cuts]), axis=1), axis=0)
     return _core.feature_graph(found.surface, edges), source
+
+
+def _lifted(features: FeatureGraph, sheets: Sheets) -> FeatureGraph:
+    """The edges of the sheets that are copies of features."""
+    triangles, copy_of = np.asarray(sheets.mesh.triangles), np.asarray(sheets.vertex_map).astype(np.int64)
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    count = int(copy_of.max()) + 1
+    keys = [low * count + high for low, high in (np.sort(copy_of[edges], axis=1).T, np.asarray(features.edges).T)]
+    chosen = edges[np.isin(keys[0], keys[1])]
+    return _core.feature_graph(sheets.mesh, np.unique(np.sort(chosen, axis=1), axis=0))
 
 
 def _remesh(meshed: MeshedInput, options: MeshOptions, progress: Progress | None, volume: bool) -> None:
@@ -187,14 +232,37 @@ def _remesh(meshed: MeshedInput, options: MeshOptions, progress: Progress | None
     meshed.surface, meshed.features = result.mesh, result.features
 
 
-def _fill(meshed: MeshedInput, progress: Progress | None) -> None:
+def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) -> None:
     announce(progress, "mesh", 0.7)
     count = len(meshed.surface.vertices)
     meshed.tets = _core.tetrahedralize(meshed.surface)
     meshed.boundary = _core.boundary_surface(meshed.tets)
     if not np.array_equal(np.asarray(meshed.boundary.vertex_map), np.arange(count)):
         raise GeometryError("the tet mesh does not keep the vertices of the surface; please report this input")
+    meshed.locking = _treat_locking(meshed, options)
     meshed.surface = meshed.boundary.mesh  # the same vertices; triangles in the order of the tets
+    meshed.boundary_features = meshed.features
+
+
+def _treat_locking(mesh: Input | MeshedInput, options: MeshOptions) -> dict:
+    """Counts what joins the surface to itself and splits it on request: tets, regions and boundary change, surface
+    vertices and features stay."""
+    if not options.split:
+        found = _core.find_locking(mesh.tets, mesh.boundary)
+        return _locking_record(found)
+    split = _core.split_locking(mesh.tets, mesh.boundary)
+    mesh.tets = split.mesh
+    regions = None if mesh.regions is None else np.asarray(mesh.regions)[np.asarray(split.parent)]
+    with_regions(mesh, regions)
+    return _locking_record(split.found) | {
+        "added_vertices": split.added_vertices,
+        "added_tets": len(split.parent) - len(np.unique(split.parent)),
+        "left": len(split.left),
+    }
+
+
+def _locking_record(found) -> dict:
+    return {"tets": len(found.tets), "edges": len(found.edges), "triangles": len(found.triangles)}
 
 
 def _note_unused(meshed: MeshedInput, options: MeshOptions) -> None:

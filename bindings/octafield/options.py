@@ -50,6 +50,8 @@ class MeshOptions:
     edge_length: target of surface remeshing, input unit; 0: a fixed fraction of the bounding-box diagonal (see remesh).
     remesh: False keeps the triangles of a surface. Tet meshes are always kept as they are.
     repair: repairs a surface before it is tested (octafield.repair); each action is recorded.
+    interfaces: triangles between tets of different regions of the file hold the field as the boundary does.
+    split: splits edges, triangles and tets inside that join the surface to itself (octafield.split_locking).
     """
 
     features: str = "default"
@@ -57,6 +59,8 @@ class MeshOptions:
     edge_length: float = 0.0
     remesh: bool = True
     repair: bool = False
+    interfaces: bool = True
+    split: bool = False
 
     def __post_init__(self) -> None:
         require_one_of("features", self.features, FEATURES)
@@ -112,6 +116,8 @@ class FieldOptions(MeshOptions):
     """Of a frame field in a volume.
 
     boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none".
+    feature_tolerance: radians; a vertex on a feature keeps its whole frame when one frame fits all its normals and
+        tangents so well (octafield.boundary_constraints).
     seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
     not depend on it. representation, solver: what the last smoothing minimises and how; rounds, max_iterations,
     tolerance: see octafield.frame_field.
@@ -120,6 +126,7 @@ class FieldOptions(MeshOptions):
     representation: str = "sh4"
     solver: str = "default"
     boundary: str = "aligned"
+    feature_tolerance: float = default_of("boundary_constraints", "feature_tolerance")
     seed: int = 0
     threads: int = 0
     rounds: int = default_of("frame_field", "rounds")
@@ -131,6 +138,7 @@ class FieldOptions(MeshOptions):
         require_one_of("representation", self.representation, REPRESENTATIONS)
         require_one_of("solver", self.solver, SOLVERS)
         require_one_of("boundary", self.boundary, BOUNDARIES)
+        _require(0 <= self.feature_tolerance <= math.pi / 2, "the feature tolerance must lie between 0 and 90 degrees")
         _make_integer(self, "seed", 0, LARGEST_SEED)
         _make_integer(self, "threads", 0, LARGEST_INT, " (0: all)")
         _make_integer(self, "rounds", 0, LARGEST_INT)

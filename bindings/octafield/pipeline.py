@@ -28,8 +28,10 @@ from ._core import (
     SurfaceSingularities,
     TetMesh,
     TriangleMesh,
+    VertexConstraints,
 )
 from .analysis import analyse
+from .errors import InvalidInput
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
@@ -69,7 +71,8 @@ class Problem:
 @dataclass
 class FieldResult:
     """A frame field and what led to it. frames: (n, 4) unit quaternions w x y z, per tet vertex. alignment: radians,
-    per boundary vertex and smooth sector. feature_alignment: radians, per feature tangent. record: the JSON object of the command line."""
+    per boundary vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record:
+    the JSON object of the command line. regions: (m,) ids of the tets where the mesh has several."""
 
     surface: TriangleMesh
     features: FeatureGraph
@@ -86,14 +89,33 @@ class FieldResult:
     meshability: Meshability
     integrability: Integrability
     record: dict
+    regions: np.ndarray | None = None
 
 
 def compute_field(
-    source: Source, options: FieldOptions = FieldOptions(), progress: Progress | None = None
+    source: Source | MeshedInput,
+    options: FieldOptions = FieldOptions(),
+    progress: Progress | None = None,
+    *,
+    constraints: VertexConstraints | None = None,
 ) -> FieldResult:
-    """Frame field inside a closed surface or on a tet mesh (paths or meshes in memory)."""
-    meshed = prepare_mesh(source, options, progress=progress)
-    return run(prepare(meshed, options.seed, progress), options, progress)
+    """Frame field inside a closed surface or on a tet mesh (paths or meshes in memory).
+
+    constraints: the user's own, on vertices of the tet mesh that the field is computed on. Meshing and splitting make
+    another mesh of the input, so prepare it first:
+
+        meshed = prepare_mesh("part.stl", options)
+        held = VertexConstraints(vertices=[7], kinds=[1], axes=[[0, 0, 1]])  # of meshed.tets
+        result = compute_field(meshed, options, constraints=held)
+    """
+    if constraints is not None and not isinstance(source, MeshedInput):
+        raise InvalidInput(
+            "constraints belong to the tet mesh the field is computed on; "
+            "give the result of prepare_mesh(source, options) instead of the source",
+            "not_meshed",
+        )
+    meshed = source if isinstance(source, MeshedInput) else prepare_mesh(source, options, progress=progress)
+    return run(prepare(meshed, options.seed, progress), options, progress, constraints=constraints)
 
 
 def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None) -> Problem:
@@ -110,19 +132,33 @@ def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None
     return Problem(meshed, seed, field, directions, singularities, separatrices, clock, peak)
 
 
-def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Progress | None = None) -> FieldResult:
-    """One frame field on a prepared problem. The record's phase times include those of the shared preparation."""
+def run(
+    problem: Problem,
+    options: FieldOptions = FieldOptions(),
+    progress: Progress | None = None,
+    *,
+    constraints: VertexConstraints | None = None,
+) -> FieldResult:
+    """One frame field on a prepared problem. The record's phase times include those of the shared preparation.
+    constraints: see compute_field."""
     memory = PeakMemory()
     meshed, clock = problem.meshed, PhaseClock(problem.clock)
     tets, threads = meshed.tets, options.threads
     with clock.phase("smooth"):
         announce(progress, "smooth")
-        constraints = _core.boundary_constraints(
-            len(tets.vertices), meshed.boundary, meshed.features, problem.directions, mode=options.boundary
+        held = _core.boundary_constraints(
+            len(tets.vertices),
+            meshed.boundary,
+            meshed.boundary_features,
+            meshed.at_boundary_vertices(problem.directions),
+            mode=options.boundary,
+            feature_tolerance=options.feature_tolerance,
         )
+        if constraints is not None:
+            held = _core.with_constraints(held, constraints)
         found = _core.frame_field(
             tets,
-            constraints,
+            held,
             start="cross_field" if options.boundary == "none" else "constraints",
             seed=problem.seed,
             rounds=options.rounds,
@@ -142,7 +178,10 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         **common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
         "vertices": len(tets.vertices),
         "tets": len(tets.tets),
-        "boundary_triangles": len(meshed.surface.triangles),
+        "boundary_triangles": len(meshed.surface.triangles) - meshed.interface_triangles,
+        "regions": 1 if meshed.regions is None else len(np.unique(meshed.regions)),
+        "interface_triangles": meshed.interface_triangles,
+        "locking": meshed.locking,
         "representation": options.representation,
         "solver": options.solver,
         "boundary": options.boundary,
@@ -162,7 +201,9 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
             "converged": bool(problem.direction_field.converged),
             **index_summary(problem.singularities),
         },
-        "released_corners": len(constraints.released_corners),
+        "constraints": _constraint_counts(held, constraints),
+        "released_corners": len(held.released_corners),
+        "released_corner_vertices": np.asarray(held.released_corners).tolist(),
         "options": asdict(replace(options, seed=problem.seed)),
     }
     return FieldResult(
@@ -173,7 +214,7 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         problem.singularities,
         problem.separatrices,
         tets,
-        constraints,
+        held,
         frames,
         analysis.singular_graph,
         analysis.alignment,
@@ -181,7 +222,13 @@ def run(problem: Problem, options: FieldOptions = FieldOptions(), progress: Prog
         analysis.meshability,
         analysis.integrability,
         record,
+        meshed.regions,
     )
+
+
+def _constraint_counts(held: BoundaryConstraints, given: VertexConstraints | None) -> dict[str, int]:
+    free, axis, fixed = np.bincount(np.asarray(held.kind), minlength=3).tolist()
+    return {"free": free, "axis": axis, "fixed": fixed, "given": 0 if given is None else len(given.vertices)}
 
 
 def _counts_by_index(singularities: SurfaceSingularities) -> dict[str, int]:

@@ -23,7 +23,8 @@ def write_field_result(result: FieldResult, folder: Path, progress: Progress | N
     metadata = _metadata(result.record)
     clock = _clock(result.record)
     with clock.phase("write"):
-        _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata)
+        regions = [] if result.regions is None else result.regions
+        _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions)
         _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
         _write_surface_files(result, folder, metadata)
     result.record["files"] = [*FIELD_FILES, RECORD_FILE]

@@ -22,5 +22,6 @@ void bind_volume(pybind11::module_& module);
 void bind_smoothing(pybind11::module_& module);
 void bind_field_analysis_types(pybind11::module_& module);
 void bind_field_analysis(pybind11::module_& module);
+void bind_volume_input(pybind11::module_& module);
 
 }  // namespace octafield::bindings

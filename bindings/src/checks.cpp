@@ -207,6 +207,13 @@ void check(volume::BoundaryConstraints& constraints, Index vertex_count) {
     require_ids(constraints.released_corners, vertex_count, "constraints.released_corners");
 }
 
+void check(const volume::VertexConstraints& constraints) {
+    const auto& kinds = constraints.kinds;
+    require_none(
+        static_cast<std::int64_t>(kinds.size()), [&](auto i) { return kinds[i] > volume::VertexConstraint::fixed; },
+        "constraints.kinds", "a value above 2 (0 free, 1 axis, 2 fixed)", "unknown_word");
+}
+
 void check(const volume::SingularGraph& graph) {
     require_finite(graph.points, "graph.points");
     for (const auto& curve : graph.curves) require_ids(curve, graph.points.rows(), "graph.curves");

@@ -13,6 +13,7 @@
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/singularities.hpp"
 #include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/vertex_constraints.hpp"
 
 namespace octafield::bindings {
 
@@ -44,6 +45,9 @@ void check(const volume::BoundarySurface& boundary, Index vertex_count);
 
 // Every array has one row per vertex; frames are normalised.
 void check(volume::BoundaryConstraints& constraints, Index vertex_count);
+
+// Kinds are known words; the rest is tested where they are used.
+void check(const volume::VertexConstraints& constraints);
 
 void check(const volume::SingularGraph& graph);
 

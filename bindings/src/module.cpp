@@ -55,4 +55,5 @@ PYBIND11_MODULE(_core, module) {
     bind_volume(module);
     bind_smoothing(module);
     bind_field_analysis(module);
+    bind_volume_input(module);
 }

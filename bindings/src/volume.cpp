@@ -181,19 +181,21 @@ void bind_analysis(py::module_& m) {
 void bind_files(py::module_& m) {
     m.def(
         "write_field",
-        [](const std::filesystem::path& path, const TetMesh& mesh, const ArrayLike& frames, const Metadata& metadata) {
-            run_interruptible(
-                [path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                    check(mesh, false);
-                    check_unit(rows, mesh.vertices.rows(), "frames");
-                    write_field(path, mesh, rows, metadata);
-                    return true;
-                });
+        [](const std::filesystem::path& path, const TetMesh& mesh, const ArrayLike& frames, const Metadata& metadata,
+           const ArrayLike& regions) {
+            run_interruptible([path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames"),
+                               ids = from_python<std::vector<Index>>(regions, "regions")](Job&) mutable {
+                check(mesh, false);
+                check_unit(rows, mesh.vertices.rows(), "frames");
+                write_field(path, mesh, rows, metadata, ids);
+                return true;
+            });
         },
-        "path"_a, "mesh"_a, "frames"_a, "metadata"_a = Metadata{},
+        "path"_a, "mesh"_a, "frames"_a, "metadata"_a = Metadata{}, "regions"_a = py::tuple(),
         "Write a .vtu file with point data frame_u, frame_v, frame_w (unit axes), quaternion (w x y z), sh4 (9) and "
         "boundary (0/1). frames: (n, 4); "
-        "metadata: words written as field data. Raises IoError.");
+        "metadata: words written as field data; regions: (m,) ids written as cell data region, or none. Raises "
+        "IoError.");
     m.def(
         "write_singular_graph",
         [](const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata,

@@ -208,6 +208,43 @@ TEST(BoundaryConstraints, AFrameOnACurveSharesTheMisfitOfItsTwoNormals) {
     EXPECT_EQ(checked, 10);
 }
 
+// Where normals are not orthogonal, the frame on a curve is the one that follows them best, each weighted by the fourth
+// power of its part across the tangent: no other twist has a larger sum of |d'|^4 cos 4 (angle to an axis).
+TEST(BoundaryConstraints, AFrameOnACurveIsTheBestWeightedFitAboutItsTangent) {
+    for (const double angle : {65.0, 75.0, 90.0, 110.0, 120.0}) {
+        const double a = angle * degree;  // between the two sides of a roof that also slopes along its ridge
+        std::vector<Vector3> points;
+        std::vector<Eigen::Vector3i> triangles;
+        for (int i = 0; i < 3; ++i) {
+            points.emplace_back(i, 0, 0);
+            points.emplace_back(i + 0.3, -std::cos(a / 2), -std::sin(a / 2));
+            points.emplace_back(i - 0.2, std::cos(a / 2), -std::sin(a / 2));
+        }
+        for (int i = 0; i < 6; i += 3) {
+            triangles.insert(triangles.end(), {{i, i + 1, i + 4}, {i, i + 4, i + 3}});
+            triangles.insert(triangles.end(), {{i, i + 5, i + 2}, {i, i + 3, i + 5}});
+        }
+        const BoundarySurface roof = as_boundary(surface::testing::make_mesh(points, triangles));
+        FeatureGraph features;
+        features.edges.resize(2, 2);
+        features.edges << 0, 3, 3, 6;
+        const auto c = boundary_constraints(9, roof, features, everywhere(roof, {1, 0, 0}), {.feature_tolerance = 0.7});
+        ASSERT_EQ(c.kind[3], VertexConstraint::fixed);
+        const auto merit = [&](const Quaternion& q) {
+            const SectorNormals normals = sector_normals(roof.mesh, features);
+            double sum = 0;
+            for (std::size_t i = 0; i < normals.vertex.size(); ++i)
+                if (normals.vertex[i] == 3)
+                    sum += (q.conjugate() * Vector3(normals.normal.row(i).transpose())).array().pow(4).sum();
+            return sum;
+        };
+        const Quaternion frame = frame_at(c, 3);
+        EXPECT_NEAR((frame.toRotationMatrix().transpose() * Vector3::UnitX()).cwiseAbs().maxCoeff(), 1, 1e-14);
+        for (int i = 0; i < 360; ++i)
+            EXPECT_LE(merit(frames::exp(Vector3(i * degree, 0, 0)) * frame), merit(frame) + 1e-12);
+    }
+}
+
 // A flat square grid in z = 0 of n x n cells, vertex (i, j) at j (n + 1) + i.
 BoundarySurface flat_grid(int n) {
     std::vector<Vector3> points;

@@ -66,9 +66,9 @@ std::vector<Eigen::Vector3d> BoundaryStars::feature_directions(Index v) const {
     return directions;
 }
 
-std::vector<Eigen::Vector3d> BoundaryStars::sector_normals(Index v) const {
-    const Index* star = triangles_.data() + triangle_begin_[v];
-    const int size = static_cast<int>(triangle_begin_[v + 1] - triangle_begin_[v]);
+std::vector<int> BoundaryStars::sectors(Index v) const {
+    const std::span<const Index> star = triangles(v);
+    const int size = static_cast<int>(star.size());
     std::vector<std::pair<Index, int>>
         spokes;  // (other end of an edge at v, local number of a triangle with that edge)
     for (int i = 0; i < size; ++i)
@@ -91,14 +91,20 @@ std::vector<Eigen::Vector3d> BoundaryStars::sector_normals(Index v) const {
         }
         i = end;
     }
+    for (int& s : sector) s = find(s);
+    return sector;
+}
 
+std::vector<Eigen::Vector3d> BoundaryStars::sector_normals(Index v) const {
+    const std::span<const Index> star = triangles(v);
+    const std::vector<int> sector = sectors(v);
+    const int size = static_cast<int>(star.size());
     std::vector<Eigen::Vector3d> sums(size, Eigen::Vector3d::Zero());
     std::vector<Eigen::Vector3d> largest(size, Eigen::Vector3d::Zero());
     for (int i = 0; i < size; ++i) {
         const Eigen::Vector3d area = area_vector(star[i]);
-        const int root = find(i);
-        sums[root] += area;
-        if (area.norm() > largest[root].norm()) largest[root] = area;
+        sums[sector[i]] += area;
+        if (area.norm() > largest[sector[i]].norm()) largest[sector[i]] = area;
     }
     std::vector<Eigen::Vector3d> normals;
     for (int i = 0; i < size; ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "octafield/surface/features.hpp"
@@ -19,8 +20,16 @@ public:
     // Unit vectors from v along its feature edges, in the order of the edges.
     std::vector<Eigen::Vector3d> feature_directions(Index v) const;
 
-    // Unit normals, weighted by triangle area, of the sectors: sets of triangles round v joined across edges that are
-    // no features and belong to exactly two triangles. In the order of each sector's lowest triangle.
+    // Triangles round v, ascending.
+    std::span<const Index> triangles(Index v) const {
+        return {triangles_.data() + triangle_begin_[v], triangles_.data() + triangle_begin_[v + 1]};
+    }
+
+    // Sectors: sets of triangles round v joined across edges that are no features and belong to exactly two triangles.
+    // Per triangle of triangles(v): place there of the lowest triangle of its sector.
+    std::vector<int> sectors(Index v) const;
+
+    // Unit normals of the sectors, weighted by triangle area, in the order of each sector's lowest triangle.
     std::vector<Eigen::Vector3d> sector_normals(Index v) const;
 
 private:

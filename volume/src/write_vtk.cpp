@@ -160,9 +160,14 @@ void add_meshability(vtkPointData* data, const Meshability& meshability, Eigen::
 
 }  // namespace
 
-void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& frames, const Metadata& metadata) {
+void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& frames, const Metadata& metadata,
+                 const std::vector<Index>& regions) {
     const BoundarySurface boundary = boundary_surface(mesh);
     require_frames(frames, mesh.vertices.rows());
+    if (!regions.empty() && static_cast<Eigen::Index>(regions.size()) != mesh.tets.rows())
+        throw InvalidInput("regions has " + std::to_string(regions.size()) + " ids; give one per tet, " +
+                               std::to_string(mesh.tets.rows()) + ", or none",
+                           "wrong_size");
     std::vector<std::uint8_t> on_boundary(mesh.vertices.rows(), 0);
     for (const Index v : boundary.vertex_map) on_boundary[v] = 1;
 
@@ -172,6 +177,9 @@ void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& f
     add_frames(grid->GetPointData(), frames);
     add_array<vtkUnsignedCharArray>(grid->GetPointData(), "boundary", 1, mesh.vertices.rows(),
                                     [&](Eigen::Index i) { return one(on_boundary[i]); });
+    if (!regions.empty())
+        add_array<vtkIntArray>(grid->GetCellData(), "region", 1, mesh.tets.rows(),
+                               [&](Eigen::Index i) { return one(regions[i]); });
     add_metadata(grid, metadata);
     write<vtkXMLUnstructuredGridWriter>(path, grid.Get());
 }

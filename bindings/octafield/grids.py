@@ -1,0 +1,155 @@
+"""Files of cells: what they hold as arrays, by meshio or our own readers of text, before any meaning is given to it."""
+
+import gzip
+import shutil
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .errors import IoError
+from .output import scratch_folder
+from .text_meshes import TextMesh, read_medit, read_tetgen
+
+GRID_SUFFIXES = (".vtk", ".vtu", ".msh", ".mesh", ".meshb", ".node", ".ele")
+_SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
+LOWER = ("vertex", "line", "triangle")
+
+
+@dataclass
+class Grid:
+    """Points, connectivity per meshio cell type, and, where the file tells, the CAD face of each triangle, the region
+    of each tet and which lines are creases (all, where it does not)."""
+
+    points: np.ndarray
+    cells: dict[str, np.ndarray]
+    faces: np.ndarray | None = None
+    regions: np.ndarray | None = None
+    creases: np.ndarray | None = None
+
+
+def read_grid(path: Path, suffix: str) -> Grid:
+    """Whatever a reader stumbles over becomes an IoError."""
+    try:
+        if suffix == ".mesh":
+            return _grid_of_text(read_medit(_text(path), str(path)))
+        if suffix in (".node", ".ele"):
+            node, ele = _tetgen_pair(path, suffix)
+            return _grid_of_text(read_tetgen(_text(node), _text(ele), str(node), str(ele)))
+        if not path.is_file():
+            raise IoError(f"{path}: no such file")
+        return _meshio_grid(path, suffix)
+    except IoError:
+        raise
+    except (gzip.BadGzipFile, EOFError, zlib.error) as error:
+        raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
+    except (Exception, SystemExit) as error:  # meshio raises whatever its parsers run into, and exits on failure
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise IoError(f"{path}: cannot be read as {suffix} ({reason})") from error
+
+
+def _text(path: Path) -> str:
+    if not path.is_file():
+        raise IoError(f"{path}: no such file")
+    data = path.read_bytes()
+    return (gzip.decompress(data) if path.name.lower().endswith(".gz") else data).decode("utf-8")
+
+
+def _tetgen_pair(path: Path, suffix: str) -> tuple[Path, Path]:
+    """The .node and the .ele file, of which one was given; the other may be packed or not."""
+    other = ".ele" if suffix == ".node" else ".node"
+    stem = path.name[: path.name.lower().rindex(suffix)]
+    partners = [path.with_name(stem + other + packed) for packed in ("", ".gz")]
+    partner = next((p for p in partners if p.is_file()), None)
+    if partner is None:
+        raise IoError(f"{path}: needs {partners[0].name} (or .gz) beside it, which is not there")
+    return (path, partner) if suffix == ".node" else (partner, path)
+
+
+def _grid_of_text(mesh: TextMesh) -> Grid:
+    return _grid(mesh.points, mesh.cells, mesh.references, mesh.references, mesh.ridges)
+
+
+def _meshio_grid(path: Path, suffix: str) -> Grid:
+    """Readers are called directly: meshio.read guesses by the name."""
+    import meshio
+
+    reader = {".vtk": meshio.vtk, ".vtu": meshio.vtu, ".msh": meshio.gmsh, ".meshb": meshio.medit}[suffix]
+    if path.name.lower().endswith(".gz"):
+        with scratch_folder() as folder:
+            plain = folder / f"input{suffix}"
+            with gzip.open(path, "rb") as packed, open(plain, "wb") as unpacked:
+                shutil.copyfileobj(packed, unpacked)
+            found = reader.read(str(plain))
+    else:
+        found = reader.read(str(path))
+    blocks = [(block.type, np.asarray(block.data)) for block in found.cells]
+    entities = _entity_ids(found, ("CellEntityIds", "gmsh:geometrical", "medit:ref"))
+    return _grid(found.points, blocks, entities, _regions_of(found, entities))
+
+
+def _regions_of(found, entities: list[np.ndarray] | None) -> list[np.ndarray] | None:
+    """Gmsh: physical volumes where all tets are in one, which is how a file says what belongs together; else CAD
+    volumes. Our own files: cell data region."""
+    for name in ("region", "gmsh:physical"):
+        ids = _entity_ids(found, (name,))
+        if ids is None:
+            continue
+        of_tets = [i for block, i in zip(found.cells, ids, strict=True) if block.type == "tetra"]
+        if of_tets and all((i > 0).all() for i in of_tets):
+            return ids
+    return entities
+
+
+def _entity_ids(found, names: tuple[str, ...]) -> list[np.ndarray] | None:
+    """Cell data of the first of these names, per block."""
+    for name in names:
+        if name in found.cell_data:
+            return [np.ravel(values).astype(np.int64) for values in found.cell_data[name]]
+    return None
+
+
+def _grid(
+    points: np.ndarray,
+    blocks: list[tuple[str, np.ndarray]],
+    entities: list[np.ndarray] | None,
+    regions: list[np.ndarray] | None,
+    creases: np.ndarray | None = None,
+) -> Grid:
+    """Blocks of one type joined. An entity 0 or below, as in Gmsh files without geometry, is no CAD face."""
+    in_space = np.zeros((len(points), 3))
+    in_space[:, : points.shape[1]] = points
+    faces = None if entities is None else [np.where(ids > 0, ids, -1) for ids in entities]
+    of_tets = None if regions is None else _of_kind("tetra", blocks, regions)
+    if not any(kind == "tetra" and len(data) for kind, data in blocks):
+        blocks, faces = _split_sides(blocks, faces)
+    of_triangles = None if faces is None else _of_kind("triangle", blocks, faces)
+    return Grid(in_space, _joined(blocks), of_triangles, of_tets, creases)
+
+
+def _of_kind(kind: str, blocks: list[tuple[str, np.ndarray]], ids: list[np.ndarray]) -> np.ndarray | None:
+    chosen = [i for (name, data), i in zip(blocks, ids, strict=True) if name == kind and len(data)]
+    return np.concatenate(chosen) if chosen else None
+
+
+def _split_sides(blocks: list[tuple[str, np.ndarray]], ids: list[np.ndarray] | None) -> tuple[list, list | None]:
+    """Quads as two triangles each, with the face of the quad."""
+    split, split_ids = [], []
+    for number, (kind, data) in enumerate(blocks):
+        if kind == "polygon" and data.ndim == 2:
+            kind = {3: "triangle", 4: "quad"}.get(data.shape[1], kind)
+        corners = _SIDES.get(kind)
+        split.append(("triangle", data[:, corners].reshape(-1, 3)) if corners else (kind, data))
+        if ids is not None:
+            split_ids.append(np.repeat(ids[number], len(corners)) if corners else ids[number])
+    return split, split_ids if ids is not None else None
+
+
+def _joined(blocks: list[tuple[str, np.ndarray]]) -> dict[str, np.ndarray]:
+    """Connectivity per cell type. Blocks of one type differ in width for polygons only, which are merely counted."""
+    cells: dict[str, list[np.ndarray]] = {}
+    for kind, data in blocks:
+        if len(data):
+            cells.setdefault(kind, []).append(data if kind in (*LOWER, "tetra") else np.empty((len(data), 0)))
+    return {kind: np.concatenate(found).astype(np.int64) for kind, found in cells.items()}

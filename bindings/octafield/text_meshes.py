@@ -1,0 +1,190 @@
+"""Readers of Medit .mesh and TetGen .node/.ele text: all sections, double precision, errors with their line.
+
+meshio reads these too, but rounds Medit files of version 1 to single precision, stops at sections it does not know, at
+comments inside tables and at TetGen ids that begin elsewhere, and does not say where.
+"""
+
+import re
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .errors import IoError
+
+# Section: meshio's name of the cells and how many vertices one has. Every row ends with a reference.
+_MEDIT_CELLS = {
+    "Edges": ("line", 2),
+    "Triangles": ("triangle", 3),
+    "Quadrilaterals": ("quad", 4),
+    "Tetrahedra": ("tetra", 4),
+    "Prisms": ("wedge", 6),
+    "Pyramids": ("pyramid", 5),
+    "Hexahedra": ("hexahedron", 8),
+    "Hexaedra": ("hexahedron", 8),
+}
+
+
+@dataclass
+class TextMesh:
+    """cells, references: per block; a reference is the id of the CAD entity or region, 0 where there is none.
+    ridges: ids of the rows of the line block that are creases; None where the file does not tell."""
+
+    points: np.ndarray
+    cells: list[tuple[str, np.ndarray]] = field(default_factory=list)
+    references: list[np.ndarray] = field(default_factory=list)
+    ridges: np.ndarray | None = None
+
+
+@dataclass
+class _Section:
+    """The text from one keyword to the next, comments blanked. line: number of its first line."""
+
+    name: str
+    text: str
+    line: int
+
+
+def read_medit(text: str, name: str) -> TextMesh:
+    sections = _sections(text, name)
+    found = {section.name: section for section in sections}
+    if "Vertices" not in found:
+        raise IoError(f"{name}: has no section Vertices; a Medit .mesh file is needed")
+    dimension = int(_table(found["Dimension"], name, 1, counted=False)[0, 0]) if "Dimension" in found else 3
+    if dimension != 3:
+        line = found["Dimension"].line
+        raise IoError(f"{name}, line {line}: points of dimension {dimension}; 3 is needed")
+    mesh = TextMesh(_table(found["Vertices"], name, 4)[:, :3])
+    for section in sections:
+        if section.name not in _MEDIT_CELLS:
+            continue
+        kind, corners = _MEDIT_CELLS[section.name]
+        rows = _table(section, name, corners + 1, whole=True)
+        mesh.cells.append((kind, rows[:, :corners] - 1))
+        mesh.references.append(rows[:, corners])
+        _require_ids(section, name, rows[:, :corners], 1, len(mesh.points))
+    if "Ridges" in found and "Edges" in found:
+        mesh.ridges = _table(found["Ridges"], name, 1, whole=True).ravel() - 1
+        lines = sum(len(cells) for kind, cells in mesh.cells if kind == "line")
+        _require_ids(found["Ridges"], name, mesh.ridges[:, None] + 1, 1, lines)
+    return mesh
+
+
+def read_tetgen(node_text: str, ele_text: str, node_name: str, ele_name: str) -> TextMesh:
+    """The first attribute of a tet is its region."""
+    nodes = _headed(node_text, node_name, "points", (3, "dimension"))
+    base = int(nodes[0, 0]) if len(nodes) else 0
+    wrong = np.flatnonzero(nodes[:, 0] != np.arange(base, base + len(nodes)))
+    if len(wrong):
+        row = wrong[0]
+        raise IoError(f"{node_name}: row {row + 1} of the points has number {nodes[row, 0]:g}; number them in order")
+    tets = _headed(ele_text, ele_name, "tets", (4, "vertices per tet"))
+    ids = _whole(tets[:, 1:5])
+    if ids is None:
+        raise IoError(f"{ele_name}: a vertex id is no whole number")
+    outside = np.flatnonzero(((ids < base) | (ids >= base + len(nodes))).any(axis=1))
+    if len(outside):
+        line = _line_of_row(_Section("", _without_comments(ele_text), 1), outside[0], tets.shape[1], skip=3)
+        raise IoError(
+            f"{ele_name}, line {line}: a tet names a point outside {base} .. {base + len(nodes) - 1}, "
+            f"the ids of {node_name}"
+        )
+    regions = np.unique(tets[:, 5], return_inverse=True)[1] + 1 if tets.shape[1] > 5 else np.zeros(len(tets), np.int64)
+    whole = _whole(tets[:, 5:6])
+    if tets.shape[1] > 5 and whole is not None:
+        regions = whole.ravel()
+    return TextMesh(nodes[:, 1:4], [("tetra", ids - base)], [regions])
+
+
+def _headed(text: str, name: str, what: str, second: tuple[int, str]) -> np.ndarray:
+    """Rows of a TetGen file with id, coordinates or vertices, attributes and markers."""
+    section = _Section(what, _without_comments(text), 1)
+    first = section.text.split(None, 4)[:4] if what == "points" else section.text.split(None, 3)[:3]
+    try:
+        header = [int(word) for word in first]
+    except ValueError:
+        header = []
+    if len(header) < (4 if what == "points" else 3):
+        raise IoError(f"{name}: does not begin with the number of {what} and what each row holds")
+    if header[1] != second[0]:
+        raise IoError(f"{name}: {second[1]} is {header[1]}; {second[0]} is needed")
+    return _table(section, name, 1 + header[1] + sum(header[2:]), skip=len(header), count=header[0])
+
+
+def _without_comments(text: str) -> str:
+    return re.sub(r"#[^\n]*", "", text) if "#" in text else text
+
+
+def _sections(text: str, name: str) -> list[_Section]:
+    text = _without_comments(text)
+    starts = list(re.finditer(r"^[ \t]*([A-Za-z]\w*)", text, flags=re.MULTILINE))
+    sections, line, at = [], 1, 0
+    for start, following in zip(starts, [*starts[1:], None], strict=True):
+        line, at = line + text.count("\n", at, start.start()), start.start()
+        end = following.start() if following else len(text)
+        sections.append(_Section(start.group(1), text[start.end() : end], line))
+    if not sections or sections[0].name != "MeshVersionFormatted":
+        raise IoError(f"{name}, line 1: a Medit .mesh file begins with MeshVersionFormatted")
+    return sections
+
+
+def _table(section: _Section, name: str, width: int, *, counted=True, whole=False, skip=1, count=None) -> np.ndarray:
+    """The rows of a section: after `skip` numbers, the first of them their count (unless it is given)."""
+    try:
+        numbers = np.fromstring(section.text, sep=" ")
+    except ValueError:
+        numbers = None
+    if numbers is None:
+        raise IoError(_defect(section, name, f"no number in {section.name}"))
+    if not counted:
+        skip, count = 0, 1
+    if count is None:
+        if not len(numbers) or numbers[0] != int(numbers[0]) or numbers[0] < 0:
+            raise IoError(f"{name}, line {section.line}: {section.name} is not followed by a count")
+        count = int(numbers[0])
+    if len(numbers) < skip + count * width:
+        have = max(0, len(numbers) - skip) // width
+        last = section.line + section.text.rstrip().count("\n")
+        raise IoError(f"{name}, line {last}: {section.name} ends after {have} of {count} rows of {width} numbers")
+    rows = numbers[skip : skip + count * width].reshape(count, width)
+    if not whole:
+        return rows
+    ids = _whole(rows)
+    if ids is None:
+        bad = int(np.flatnonzero((rows != np.floor(rows)).any(axis=1))[0])
+        line = _line_of_row(section, bad, width, skip)
+        raise IoError(f"{name}, line {line}: {section.name} holds a number that is no id")
+    return ids
+
+
+def _whole(rows: np.ndarray) -> np.ndarray | None:
+    return rows.astype(np.int64) if np.isfinite(rows).all() and (rows == np.floor(rows)).all() else None
+
+
+def _require_ids(section: _Section, name: str, ids: np.ndarray, low: int, high: int) -> None:
+    outside = np.flatnonzero(((ids < low) | (ids > high)).any(axis=1))
+    if len(outside):
+        line = _line_of_row(section, int(outside[0]), ids.shape[1] + (section.name != "Ridges"))
+        raise IoError(
+            f"{name}, line {line}: row {outside[0] + 1} of {section.name} names a number outside {low} .. {high}"
+        )
+
+
+def _line_of_row(section: _Section, row: int, width: int, skip: int = 1) -> int:
+    """Of the number that begins a row of the table, counted line by line: only for messages."""
+    wanted, seen = skip + row * width, 0
+    for offset, line in enumerate(section.text.split("\n")):
+        seen += len(line.split())
+        if seen > wanted:
+            return section.line + offset
+    return section.line
+
+
+def _defect(section: _Section, name: str, what: str) -> str:
+    """The first word that is no number, and its line."""
+    for offset, line in enumerate(section.text.split("\n")):
+        for word in line.split():
+            try:
+                float(word)
+            except ValueError:
+                return f"{name}, line {section.line + offset}: {what}: {word[:40]!r}"
+    return f"{name}, line {section.line}: {what}"

@@ -1,0 +1,137 @@
+// What is done to a tet mesh before a field is computed on it: regions, locking tets, constraints of the user's own.
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "checks.hpp"
+#include "interruptible.hpp"
+#include "octafield/volume/locking.hpp"
+#include "octafield/volume/regions.hpp"
+#include "octafield/volume/vertex_constraints.hpp"
+#include "record.hpp"
+
+namespace octafield::bindings {
+
+using namespace volume;
+using py::literals::operator""_a;
+using surface::TriangleMesh;
+
+namespace {
+
+void bind_types(py::module_& m) {
+    Record<RegionSurface>(m, "RegionSurface",
+                          "The boundary of a tet mesh and the interfaces between its regions, as one surface.")
+        .field("surface", &RegionSurface::surface,
+               "BoundarySurface: boundary triangles outward, then interfaces, out of the region of the lower id. Edges "
+               "may have three triangles or more.")
+        .field("interface_triangles", &RegionSurface::interface_triangles, "How many of the last triangles lie inside.")
+        .field("sides", &RegionSurface::sides, "(F, 2) int32: tet behind each triangle and tet ahead of it, -1 none.")
+        .finish([](const RegionSurface& r) {
+            return count(r.surface.mesh.triangles.rows(), "triangle") + ", " + std::to_string(r.interface_triangles) +
+                   " between regions";
+        });
+
+    Record<Sheets>(m, "Sheets", "A surface cut open along the edges that do not have exactly two triangles.")
+        .field("mesh", &Sheets::mesh, "TriangleMesh: manifold sheets with rims, triangles in the surface's order.")
+        .field("vertex_map", &Sheets::vertex_map, "(n,) int32: vertex of the surface that each is a copy of.")
+        .field("cuts", &Sheets::cuts, "(c, 2) int32: edges of the surface with three triangles or more.")
+        .finish([](const Sheets& s) {
+            return count(s.mesh.triangles.rows(), "triangle") + ", " + count(s.cuts.rows(), "cut edge");
+        });
+
+    Record<LockingElements>(m, "LockingElements",
+                            "Tets, edges and triangles inside a mesh whose vertices are all on its surface.")
+        .field("tets", &LockingElements::tets, "int32 ids of tets with all four vertices on the surface.")
+        .field("edges", &LockingElements::edges, "(e, 2) int32: both ends on the surface, but not its edges.")
+        .field("triangles", &LockingElements::triangles,
+               "(t, 3) int32: all edges on the surface, but not its triangles.")
+        .finish([](const LockingElements& l) {
+            return count(static_cast<std::ptrdiff_t>(l.tets.size()), "tet") + ", " + count(l.edges.rows(), "edge") +
+                   ", " + count(l.triangles.rows(), "triangle");
+        });
+
+    Record<LockingSplit>(m, "LockingSplit", "A tet mesh whose locking tets were split, and how.")
+        .field("mesh", &LockingSplit::mesh, "TetMesh, old vertices first, with their ids.")
+        .field("parent", &LockingSplit::parent, "(m,) int32: old tet that each tet is part of.")
+        .field("found", &LockingSplit::found, "LockingElements of the old mesh.")
+        .field("added_vertices", &LockingSplit::added_vertices, "Number of new vertices.")
+        .field("left", &LockingSplit::left, "int32 ids of tets that are too flat to split.")
+        .finish([](const LockingSplit& s) {
+            return count(s.mesh.tets.rows(), "tet") + ", " + count(s.added_vertices, "new vertex", "new vertices");
+        });
+
+    Record<VertexConstraints>(m, "VertexConstraints",
+                              "Constraints of the user's own; row i of each array belongs to vertices[i].")
+        .field("vertices", &VertexConstraints::vertices, "(k,) int32 tet-mesh ids, each once.")
+        .field("kinds", &VertexConstraints::kinds, "(k,) uint8: 0 free, 1 one axis held, 2 whole frame held.")
+        .field("axes", &VertexConstraints::axes, "(k, 3) float64, of any length, where the kind is 1; or no rows.")
+        .field("frames", &VertexConstraints::frames,
+               "(k, 4) float64 quaternions w x y z where the kind is 2; or no rows.")
+        .finish([](const VertexConstraints& c) {
+            return count(static_cast<std::ptrdiff_t>(c.vertices.size()), "vertex", "vertices");
+        });
+}
+
+}  // namespace
+
+void bind_volume_input(py::module_& m) {
+    bind_types(m);
+    m.def(
+        "region_surface",
+        [](const TetMesh& mesh, const ArrayLike& regions) {
+            return run_interruptible([mesh = mesh, ids = from_python<std::vector<Index>>(regions, "regions")](Job&) {
+                check(mesh, false);
+                return region_surface(mesh, ids);
+            });
+        },
+        "mesh"_a, "regions"_a,
+        "The triangles of one tet only and those between tets of different regions, as a RegionSurface. regions: (m,) "
+        "an id per tet, or none at all.");
+    m.def(
+        "cut_into_sheets",
+        [](const TriangleMesh& surface) {
+            return run_interruptible([surface = surface](Job&) {
+                check(surface, false);
+                return cut_into_sheets(surface);
+            });
+        },
+        "surface"_a,
+        "The surface cut open along the edges that do not have exactly two triangles, as Sheets: what direction_field "
+        "can work on where interfaces meet the boundary or each other.");
+    m.def(
+        "find_locking",
+        [](const TetMesh& mesh, const BoundarySurface& surface) {
+            return run_interruptible([mesh = mesh, surface = surface](Job&) {
+                check(mesh);
+                check(surface, static_cast<Index>(mesh.vertices.rows()));
+                return find_locking(mesh, surface);
+            });
+        },
+        "mesh"_a, "surface"_a,
+        "Tets, edges and triangles inside the mesh that join its surface (of boundary_surface or region_surface) to "
+        "itself, as LockingElements.");
+    m.def(
+        "split_locking",
+        [](const TetMesh& mesh, const BoundarySurface& surface) {
+            return run_interruptible([mesh = mesh, surface = surface](Job&) {
+                check(mesh);
+                check(surface, static_cast<Index>(mesh.vertices.rows()));
+                return split_locking(mesh, surface);
+            });
+        },
+        "mesh"_a, "surface"_a,
+        "Splits those edges at their midpoints, triangles and tets at their centres, as a LockingSplit. The surface "
+        "keeps its vertices and triangles; every tet of the result has a vertex inside, but for those too flat.");
+    m.def(
+        "with_constraints",
+        [](const BoundaryConstraints& base, const VertexConstraints& given) {
+            return run_interruptible([base = base, given = given](Job&) mutable {
+                check(base, static_cast<Index>(base.kind.size()));
+                check(given);
+                return with_constraints(base, given);
+            });
+        },
+        "base"_a, "given"_a,
+        "BoundaryConstraints with the given VertexConstraints in place of their own at these vertices, inside or on "
+        "the boundary. Raises InvalidInput naming vertices.");
+}
+
+}  // namespace octafield::bindings
