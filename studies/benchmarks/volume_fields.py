@@ -65,9 +65,11 @@ def measure(path: str, seeds: int, repeats: int) -> tuple:
     result, seconds = timed(run, repeats)
     vectors = octafield.sh4_embed(np.array(constraints.frames)[boundary])
     iterations, unit = timed(lambda: linear_solve(tets, boundary, vectors), repeats)
+    undiffused = run(rounds=0)
     other = run(start="cross_field", rounds=1)
     spread = [run(seed=seed).smooth.energy for seed in range(1, seeds + 1)]
-    return (Path(path).name.split(".mesh")[0], f"{len(tets.vertices):,}", f"{len(tets.tets):,}", f"{once.smooth.energy:.4f}", f"{seconds_once:.3f}",
+    return (Path(path).name.split(".mesh")[0], f"{len(tets.vertices):,}", f"{len(tets.tets):,}", f"{undiffused.smooth.energy:.4f}",
+            f"{once.smooth.energy:.4f}", f"{seconds_once:.3f}",
             f"{other.smooth.energy:.4f}", f"{result.smooth.energy:.4f}", f"{seconds:.3f}", f"{unit:.3f} ({iterations})", f"{seconds_once / unit:.1f}", f"{seconds / unit:.1f}",
             f"{min(spread):.4f} to {max(spread):.4f}" if spread else "-")
 
@@ -80,7 +82,7 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=3)
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
-    header = ["mesh", "vertices", "tets", "E, one round", "CPU s", "E, one round from the cross field", "E, default", "CPU s", "linear solve, CPU s (iterations)", "one round over it", "default over it",
+    header = ["mesh", "vertices", "tets", "E, no diffusion", "E, one round", "CPU s", "E, one round from the cross field", "E, default", "CPU s", "linear solve, CPU s (iterations)", "one round over it", "default over it",
               f"E over {arguments.seeds} seeds"]
     rows = []
     for mesh in arguments.mesh:

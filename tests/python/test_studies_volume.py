@@ -1,0 +1,41 @@
+"""The studies of frame fields in volumes run on small meshes and write what they say."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+from pipeline_fixtures import write_cube, write_sphere
+
+STUDIES = Path(__file__).parents[2] / "studies"
+
+
+def run(script: str, output: Path, *options) -> str:
+    done = subprocess.run([sys.executable, STUDIES / script, "-o", output, *options], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in path.read_text().strip().splitlines()]
+    return [dict(zip(lines[0], line)) for line in lines[2:]]
+
+
+def test_the_benchmark_tells_energies_of_every_start(tmp_path):
+    run("benchmarks/volume_fields.py", tmp_path, write_sphere(tmp_path), "--seeds", "2", "--repeats", "1")
+    (row,) = rows(tmp_path / "summary.md")
+    default, low = float(row["E, default"]), float(row["E over 2 seeds"].split(" to ")[0])
+    assert 0 < default <= float(row["E, no diffusion"]) * (1 + 1e-6) and 0.9 * default < low < 1.1 * default
+
+
+def test_growth_measures_balls_and_files(tmp_path):
+    told = run("benchmarks/volume_growth.py", tmp_path, write_cube(tmp_path), "--balls", "4,6")
+    table = rows(tmp_path / "growth.md")
+    assert [row["mesh"] for row in table] == ["ball 4", "ball 6", "cube"]
+    assert float(table[-1]["E"]) < 1e-9 and table[-1]["singular edges"] == "0" and "tets^" in told
+
+
+def test_singular_graphs_make_one_picture(tmp_path):
+    run("singular_graphs.py", tmp_path, write_cube(tmp_path), write_sphere(tmp_path))
+    assert (tmp_path / "singular_graphs.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    cube, sphere = rows(tmp_path / "singular_graphs.md")
+    assert cube["curves"] == "0" and int(sphere["singular edges"]) > 0
