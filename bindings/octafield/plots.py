@@ -12,7 +12,8 @@ _TEXT = "#010203"  # stands for the page's text colour until the SVG is made
 
 def convergence_plot(rows: list[dict]) -> str:
     """Energy against iteration, all runs on common axes."""
-    figure, axes = _figure(6.4, 3.6)
+    columns = 3
+    figure, axes = _figure(6.4, 3.6 + 0.22 * -(-len(rows) // columns))
     for number, row in enumerate(rows):
         energies = row["energy_history"]
         axes.plot(
@@ -27,7 +28,7 @@ def convergence_plot(rows: list[dict]) -> str:
         )
     axes.set_xlabel("iteration")
     axes.set_ylabel("energy E")
-    axes.legend(frameon=False, labelcolor=_TEXT)
+    figure.legend(frameon=False, labelcolor=_TEXT, loc="outside lower center", ncols=columns)
     axes.grid(alpha=0.25, linewidth=0.6)
     axes.xaxis.get_major_locator().set_params(integer=True)
     return _svg(figure, "energy against iteration")
