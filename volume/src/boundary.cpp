@@ -5,10 +5,10 @@
 #include <complex>
 #include <string>
 
+#include "alignment.hpp"
 #include "boundary_star.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/sh4.hpp"
-#include "require_frames.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -16,14 +16,6 @@ namespace {
 using frames::Quaternion;
 using frames::Vector3;
 using Directions = std::vector<Vector3>;
-
-// Angle between d and the nearest of the frame's six axis directions; by atan2, which is accurate at small angles.
-double angle_to_nearest_axis(const Quaternion& frame, const Vector3& d) {
-    const frames::Matrix3 axes = frame.toRotationMatrix();
-    int nearest = 0;
-    (axes.transpose() * d).cwiseAbs().maxCoeff(&nearest);
-    return std::atan2(axes.col(nearest).cross(d).norm(), std::abs(axes.col(nearest).dot(d)));
-}
 
 bool fits(const Quaternion& frame, const Directions& directions, double tolerance) {
     return std::all_of(directions.begin(), directions.end(),
@@ -169,18 +161,8 @@ BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurfa
 
 Eigen::VectorXd alignment_angles(const BoundarySurface& boundary, const surface::FeatureGraph& features,
                                  const Quaternions& frames) {
-    for (const Index v : boundary.vertex_map)
-        if (v < 0 || v >= frames.rows())
-            throw InvalidInput("frames has " + std::to_string(frames.rows()) + " rows, but the boundary uses vertex " +
-                                   std::to_string(v),
-                               "wrong_size", {v});
-    require_frames(frames, frames.rows());
     const SectorNormals normals = sector_normals(boundary.mesh, features);
-    Eigen::VectorXd angles(normals.vertex.size());
-    for (Eigen::Index i = 0; i < angles.size(); ++i)
-        angles[i] = angle_to_nearest_axis(frames::from_wxyz(frames.row(boundary.vertex_map[normals.vertex[i]])),
-                                          normals.normal.row(i).transpose());
-    return angles;
+    return angles_to_nearest_axis(boundary, normals.vertex, normals.normal, frames);
 }
 
 }  // namespace octafield::volume

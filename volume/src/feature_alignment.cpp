@@ -3,24 +3,15 @@
 #include <cmath>
 #include <string>
 
+#include "alignment.hpp"
 #include "boundary_star.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/quaternion.hpp"
-#include "require_frames.hpp"
 
 namespace octafield::volume {
 namespace {
 
 using frames::Vector3;
-
-// By atan2, which is accurate at small angles.
-double angle_to_nearest_axis(const frames::Quaternion& frame, const Vector3& direction) {
-    const Vector3 own = frame.conjugate() * direction;
-    Eigen::Index nearest;
-    own.cwiseAbs().maxCoeff(&nearest);
-    const Vector3 axis = Vector3::Unit(nearest);
-    return std::atan2(axis.cross(own).norm(), std::abs(axis.dot(own)));
-}
 
 // Unit vectors away from the vertex in, tangents out.
 std::vector<Vector3> tangents(const std::vector<Vector3>& edges, bool corner) {
@@ -55,20 +46,8 @@ FeatureTangents feature_tangents(const surface::TriangleMesh& boundary, const su
 
 Eigen::VectorXd feature_alignment_angles(const BoundarySurface& boundary, const surface::FeatureGraph& features,
                                          const Quaternions& frames) {
-    if (static_cast<Eigen::Index>(boundary.vertex_map.size()) != boundary.mesh.vertices.rows())
-        throw InvalidInput("vertex_map must have one entry per boundary vertex", "wrong_size");
-    for (const Index v : boundary.vertex_map)
-        if (v < 0 || v >= frames.rows())
-            throw InvalidInput("frames has " + std::to_string(frames.rows()) + " rows, but the boundary uses vertex " +
-                                   std::to_string(v),
-                               "wrong_size", {v});
-    require_frames(frames, frames.rows());
     const FeatureTangents found = feature_tangents(boundary.mesh, features);
-    Eigen::VectorXd angles(static_cast<Eigen::Index>(found.vertex.size()));
-    for (Eigen::Index i = 0; i < angles.size(); ++i)
-        angles[i] = angle_to_nearest_axis(frames::from_wxyz(frames.row(boundary.vertex_map[found.vertex[i]])),
-                                          found.tangent.row(i).transpose());
-    return angles;
+    return angles_to_nearest_axis(boundary, found.vertex, found.tangent, frames);
 }
 
 }  // namespace octafield::volume
