@@ -28,13 +28,14 @@ def save_figure(figure: Figure, path: Path, dpi: int = 130) -> None:
     print(path)
 
 
-def write_csv(path: Path, header, rows) -> None:
+def write_csv(path: Path, header, rows, quiet: bool = False) -> None:
     """Numbers with 9 significant digits; anything else as it is."""
     with path.open("w", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
         out.writerow(header)
         out.writerows([f"{x:.9g}" if isinstance(x, float) else x for x in row] for row in rows)
-    print(path)
+    if not quiet:
+        print(path)
 
 
 def markdown_table(header, rows) -> str:

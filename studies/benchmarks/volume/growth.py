@@ -1,6 +1,6 @@
 """Seconds and memory of the whole chain against mesh size: balls meshed by TetGen, and files.
 
-    python studies/benchmarks/volume_growth.py -o DIR [--balls 12,20,32,48] [--threads 0] [FILE...]
+    python -m studies.benchmarks.volume.growth -o DIR [--balls 12,20,32,48] [--threads 0] [FILE...]
 
 A ball of number n is an icosphere of 20 n^2 triangles filled by TetGen; files are surfaces or tet meshes. Each runs as `octafield field` in a process of its own. Wall seconds by
 phase, CPU seconds and peak memory are those of its JSON record. The last line: the exponent p of CPU seconds ~ tets^p by least squares over the balls. DIR gets growth.md.
@@ -15,13 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import surface_meshes
+from study_output import markdown_table
 
-import surface_meshes  # noqa: E402
-from study_output import markdown_table  # noqa: E402
-
-import octafield  # noqa: E402
-from octafield.phases import PHASES  # noqa: E402
+import octafield
+from octafield.phases import PHASES
 
 HEADER = ["mesh", "vertices", "tets", *(f"{phase} s" for phase in PHASES), "wall s", "CPU s", "peak MB", "E", "singular edges"]
 

@@ -1,6 +1,6 @@
 """Frame fields in volumes: energy and CPU seconds of the default recipe, its spread over random starts, and the time of one linear solve.
 
-    python studies/benchmarks/volume_fields.py -o DIR [--seeds 10] MESH...
+    python -m studies.benchmarks.volume.energies -o DIR [--seeds 10] MESH...
 
 MESH: tet meshes or closed surfaces. No features; every boundary vertex aligned with its area-weighted normal, twist free (the conventions of Palmer, Bommes,
 Solomon 2020). Energies: sh4, P1 stiffness. "linear solve": nine conjugate-gradient solves of the harmonic extension of the boundary's sh4 vectors with
@@ -9,23 +9,16 @@ DIR gets summary.md.
 """
 
 import argparse
-import os
-import sys
 import time
 from pathlib import Path
 
-os.environ["OPENBLAS_NUM_THREADS"] = "1"  # idle threads of vector sums would be counted
+import numpy as np
+import scipy.sparse.linalg
+from study_output import markdown_table
 
-import numpy as np  # noqa: E402
-import scipy.sparse.linalg  # noqa: E402
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-
-from study_output import markdown_table  # noqa: E402
-
-import octafield  # noqa: E402
-from octafield.options import MeshOptions  # noqa: E402
-from octafield.pipeline import prepare, prepare_mesh  # noqa: E402
+import octafield
+from octafield.options import MeshOptions
+from octafield.pipeline import prepare, prepare_mesh
 
 
 def timed(function, repeats: int):
