@@ -29,18 +29,25 @@ int holonomy(const Quaternion& a, const Quaternion& b, const Quaternion& c) {
     return frames::octahedral_inverse(round_trip);
 }
 
+// Axis, in a's own axes, about which the frame of a turns forward on its way round the triangle. A half turn may go
+// either way: the quaternion of the path, one smallest step after the other, knows which.
+Eigen::Vector3d forward_axis(int element, const Quaternion& a, const Quaternion& b, const Quaternion& c) {
+    const Eigen::Vector3d axis = frames::octahedral_group()[element].vec();
+    if (frames::octahedral_class(element) != OctahedralClass::half_turn) return axis;
+    const Quaternion at_c = frames::closest_representative(c, frames::closest_representative(b, a));
+    const Quaternion back = frames::closest_representative(a, at_c);
+    return (a.conjugate() * back).vec().dot(axis) < 0 ? Eigen::Vector3d(-axis) : axis;
+}
+
 // Quarter turns about a curve that crosses the triangle towards `along`: positive when the frame turns about that
 // direction, the way the loop goes round it. The curve's direction is steadier than the triangle's normal, which a
 // zigzag of triangles tosses about.
-int quarter_turns(int element, const Quaternion& a, const Eigen::Vector3d& along) {
-    switch (frames::octahedral_class(element)) {
-        case OctahedralClass::half_turn:
-            return 2;
-        case OctahedralClass::quarter_turn:
-            return along.dot(a * frames::octahedral_group()[element].vec()) < 0 ? -1 : 1;
-        default:
-            return 0;
-    }
+int quarter_turns(int element, const Eigen::Vector3d& along, const Quaternion& a, const Quaternion& b,
+                  const Quaternion& c) {
+    const OctahedralClass kind = frames::octahedral_class(element);
+    if (kind != OctahedralClass::half_turn && kind != OctahedralClass::quarter_turn) return 0;
+    const int size = kind == OctahedralClass::half_turn ? 2 : 1;
+    return along.dot(a * forward_axis(element, a, b, c)) < 0 ? -size : size;
 }
 
 // Point of the closed segment [p, q] nearest the origin, as a parameter.
@@ -151,7 +158,8 @@ void set_quarter_turns(const Quaternions& frames, const DualGraph& dual, const s
         along[b.singular] += (b.positive ? 1 : -1) * (points[b.point] - points[b.singular]);
     for (std::size_t i = 0; i < along.size(); ++i) {
         SingularTriangle& s = graph.triangles[i];
-        s.quarter_turns = quarter_turns(s.holonomy, frames::from_wxyz(frames.row(s.a)), along[i]);
+        s.quarter_turns = quarter_turns(s.holonomy, along[i], frames::from_wxyz(frames.row(s.a)),
+                                        frames::from_wxyz(frames.row(s.b)), frames::from_wxyz(frames.row(s.c)));
         graph.complex_triangles += s.quarter_turns == 0;
     }
 }
