@@ -111,6 +111,14 @@ std::vector<SingularVertex> make_vertices(const TetMesh& mesh, const Quaternions
     return vertices;
 }
 
+// Direction of a smoothed curve at one end, over three of its segments, but not beyond its middle.
+Vector3 end_direction(const Points& smoothed, const std::vector<Index>& curve, bool backwards) {
+    const std::size_t step = std::clamp<std::size_t>((curve.size() - 1) / 2, 1, 3);
+    const Index from = backwards ? curve.back() : curve.front();
+    const Index to = backwards ? curve[curve.size() - 1 - step] : curve[step];
+    return (smoothed.row(to) - smoothed.row(from)).transpose();
+}
+
 // Where a curve leaves one of its ends: the first triangle of its type, and the axis of the frame of the triangle's
 // vertex a about which the frames turn, in the sense of leaving. -1: none, as for complex curves.
 struct Leaving {
@@ -118,7 +126,8 @@ struct Leaving {
     int axis = -1;
 };
 
-Leaving leave(const SingularGraph& graph, const VertexAxes& axes, std::size_t c, bool backwards) {
+Leaving leave(const SingularGraph& graph, const VertexAxes& axes, const Points& smoothed, std::size_t c,
+              bool backwards) {
     std::vector<Index> curve = graph.curves[c];
     if (backwards) std::reverse(curve.begin(), curve.end());
     const int turns = graph.curve_quarter_turns[c];
@@ -127,7 +136,8 @@ Leaving leave(const SingularGraph& graph, const VertexAxes& axes, std::size_t c,
         if (curve[i] >= triangles || turns == 0 || graph.triangles[curve[i]].quarter_turns != turns) continue;
         const SingularTriangle& t = graph.triangles[curve[i]];
         const Index before = curve[i > 0 ? i - 1 : 0], after = curve[std::min(i + 1, curve.size() - 1)];
-        const Vector3 way = (graph.points.row(after) - graph.points.row(before)).transpose();
+        Vector3 way = (graph.points.row(after) - graph.points.row(before)).transpose();
+        if (way.isZero(0)) way = end_direction(smoothed, graph.curves[c], backwards);
         const int axis = nearest_axis_number(frames::octahedral_group()[t.holonomy].vec());
         return {curve[i], way.dot(axes.direction(t.a, axis)) < 0 ? opposite_axis(axis) : axis};
     }
@@ -135,14 +145,6 @@ Leaving leave(const SingularGraph& graph, const VertexAxes& axes, std::size_t c,
 }
 
 double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
-// Direction of a smoothed curve at one end, over three of its segments.
-Vector3 end_direction(const Points& smoothed, const std::vector<Index>& curve, bool backwards) {
-    const std::size_t step = std::min<std::size_t>(3, curve.size() - 1);
-    const Index from = backwards ? curve.back() : curve.front();
-    const Index to = backwards ? curve[curve.size() - 1 - step] : curve[step];
-    return (smoothed.row(to) - smoothed.row(from)).transpose();
-}
 
 // The axes of the curves at a node, as axes of the lowest vertex of its tet. Two of the triangles have that vertex; the
 // way from others to it matters only where the frames turn about several axes.
@@ -187,7 +189,7 @@ void find_curve_ends(const Quaternions& frames, const SingularGraph& graph, Mesh
         for (const bool backwards : {false, true}) {
             const Index v = result.curve_ends(static_cast<Eigen::Index>(c), backwards);
             if (v < 0) continue;
-            const Leaving l = leave(graph, axes, c, backwards);
+            const Leaving l = leave(graph, axes, smoothed, c, backwards);
             SingularEnd end{v, static_cast<Index>(c), graph.curve_quarter_turns[c], Vector3::Zero(), 0};
             if (l.axis >= 0) {
                 end.axis = axes.direction(graph.triangles[l.triangle].a, l.axis);

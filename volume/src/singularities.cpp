@@ -1,5 +1,6 @@
 #include "octafield/volume/singularities.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -150,14 +151,18 @@ DualGraph join_in_tets(const TetMesh& mesh, const TriangleTable& table, const st
     return dual;
 }
 
-void set_quarter_turns(const Quaternions& frames, const DualGraph& dual, const std::vector<Eigen::Vector3d>& points,
-                       SingularGraph& graph) {
+void set_quarter_turns(const TetMesh& mesh, const Quaternions& frames, const DualGraph& dual,
+                       const std::vector<Eigen::Vector3d>& points, SingularGraph& graph) {
     // From the point before the triangle to the point after it, along its positive normal.
     std::vector<Eigen::Vector3d> along(graph.triangles.size(), Eigen::Vector3d::Zero());
     for (const Branch& b : dual.branches)
         along[b.singular] += (b.positive ? 1 : -1) * (points[b.point] - points[b.singular]);
     for (std::size_t i = 0; i < along.size(); ++i) {
         SingularTriangle& s = graph.triangles[i];
+        if (along[i].isZero(0)) {  // the points lie on one edge: only the triangle has a direction
+            const Eigen::Vector3d a = mesh.vertices.row(s.a), b = mesh.vertices.row(s.b), c = mesh.vertices.row(s.c);
+            along[i] = (b - a).cross(c - a);
+        }
         s.quarter_turns = quarter_turns(s.holonomy, along[i], frames::from_wxyz(frames.row(s.a)),
                                         frames::from_wxyz(frames.row(s.b)), frames::from_wxyz(frames.row(s.c)));
         graph.complex_triangles += s.quarter_turns == 0;
@@ -198,7 +203,7 @@ SingularGraph singular_graph(const TetMesh& mesh, const Quaternions& frames, int
         points.push_back(graph.triangles.back().point);
     }
     const DualGraph dual = join_in_tets(mesh, table, singular_number, graph, points);
-    set_quarter_turns(frames, dual, points, graph);
+    set_quarter_turns(mesh, frames, dual, points, graph);
     const std::vector<Segment> segments = typed_segments(dual, graph);
     CurveSet set = chain_segments(segments, static_cast<Index>(points.size()));
     graph.curves = std::move(set.curves);
