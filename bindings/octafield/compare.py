@@ -123,6 +123,8 @@ def _volume_pictures(result: FieldResult, label: str) -> list[Picture]:
     from . import pictures
 
     drawn = [pictures.singular_curves(result), pictures.frames_on_cut(result)]
+    if result.streamlines:
+        drawn.append(pictures.streamlines(result))
     return [replace(picture, title=f"{picture.title} ({label})") for picture in drawn]
 
 
