@@ -39,7 +39,9 @@ def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0, streamlin
     alignment = np.asarray(_core.alignment_angles(meshed.boundary, meshed.boundary_features, frames))
     feature_alignment = np.asarray(_core.feature_alignment_angles(meshed.boundary, meshed.boundary_features, frames))
     energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
-    lines = _core.frame_streamlines(tets, frames, _core.spread_points(tets, streamlines), threads=threads)
+    size = float(np.linalg.norm(np.ptp(np.asarray(tets.vertices), axis=0)))
+    seeds = _core.spread_points(tets, streamlines)
+    lines = _core.frame_streamlines(tets, frames, seeds, max_length=2 * size, threads=threads) if len(seeds) else []
     record = {
         "energy": energy,
         "energy_unit_speed": _core.unit_speed_factor * energy,

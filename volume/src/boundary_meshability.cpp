@@ -3,164 +3,23 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
-#include "axis_numbers.hpp"
 #include "boundary_star.hpp"
 #include "octafield/error.hpp"
 #include "octafield/parallel.hpp"
 #include "require_frames.hpp"
-#include "surface_wedges.hpp"
+#include "turn_counter.hpp"
 
 namespace octafield::volume {
 namespace {
 
 using frames::Vector3;
 using EdgeKey = std::pair<Index, Index>;
-
-constexpr double quarter = std::numbers::pi / 2;
-
-// Of v about the axis from its part across the axis to that of w, in (-pi, pi].
-double angle_about(const Vector3& axis, const Vector3& v, const Vector3& w) {
-    const Vector3 unit = axis.normalized();
-    return std::atan2(unit.dot(v.cross(w)), v.dot(w) - unit.dot(v) * unit.dot(w));
-}
-
-// Quarter turns about axis `about` from axis `from` to axis `to`, 0 to 3, or none where one lies along `about`.
-std::optional<int> quarter_turns(int about, int from, int to) {
-    if (from % 3 == about % 3 || to % 3 == about % 3) return std::nullopt;
-    if (from == to) return 0;
-    if (from == opposite_axis(to)) return 2;
-    return axis_unit(about).dot(axis_unit(from).cross(axis_unit(to))) > 0 ? 1 : 3;
-}
-
-// Two axes of a frame carried from vertex to vertex, and how far the second has turned about a direction of space.
-class Carried {
-public:
-    Carried(const VertexAxes& axes, Index at, int about, int across, const Vector3& direction)
-        : about(about), across(across), axes_(axes), at_(at), direction_(direction) {}
-    void to(Index next) {
-        const int matching = frames::octahedral_inverse(axes_.matching(at_, next));
-        const Vector3 before = axes_.direction(at_, across);
-        about = turned_axis(matching, about);
-        across = turned_axis(matching, across);
-        turn += angle_about(direction_, before, axes_.direction(next, across));
-        at_ = next;
-    }
-    int about, across;
-    double turn = 0;
-
-private:
-    const VertexAxes& axes_;
-    Index at_;
-    const Vector3 direction_;
-};
-
-// The axis nearest to `direction` among those at right angles to axis `normal`.
-int nearest_across(const VertexAxes& axes, Index v, const Vector3& direction, int normal) {
-    Vector3 in_frame = axes.frame(v).conjugate() * direction;
-    in_frame[normal % 3] = 0;
-    return nearest_axis_number(in_frame);
-}
-
-// The whole number of quarter turns of this residue (mod 4) nearest to the measured one.
-int nearest_of_residue(int residue, double measured) {
-    return residue + 4 * static_cast<int>(std::lround((measured - residue) / 4));
-}
-
-class Counter {
-public:
-    Counter(const TetMesh& mesh, const Quaternions& frames) : mesh_(mesh), axes_(frames) {}
-
-    double angle(const Wedge& wedge) const {
-        double sum = 0;
-        for (std::size_t i = 0; i + 1 < wedge.link.size(); ++i)
-            sum += std::abs(
-                angle_about(p(wedge.b) - p(wedge.a), p(wedge.link[i]) - p(wedge.a), p(wedge.link[i + 1]) - p(wedge.a)));
-        return sum;
-    }
-
-    // Hexahedra in the wedge by the frame of v, one of its ends; carried through the link and back where asked.
-    int hexahedra(const Wedge& wedge, Index v, double angle, bool round_the_link = false) const {
-        const Vector3 edge = p(wedge.b) - p(wedge.a);
-        const Vector3 first = (p(wedge.link.front()) - p(wedge.a)).cross(edge);  // normals out of the wedge
-        const Vector3 last = edge.cross(p(wedge.link.back()) - p(wedge.a));
-        const int normal = axes_.nearest(v, first);
-        Carried carried(axes_, v, nearest_across(axes_, v, edge, normal), normal, edge);
-        const int tangent = carried.about;
-        if (round_the_link) {
-            for (const Index l : wedge.link) carried.to(l);
-            carried.to(v);
-        }
-        const auto turns = quarter_turns(carried.about, carried.across, axes_.nearest(v, last));
-        if (carried.about != tangent || !turns) return no_number;
-        // Normals are half a turn more than the wedge apart.
-        return nearest_of_residue((*turns + 2) % 4, (angle - carried.turn) / quarter);
-    }
-
-    // Quadrilaterals in a sector of the surface round v: the fan of triangles (v, link[i], link[i + 1]),
-    // counter-clockwise from outside.
-    std::optional<int> quadrilaterals(Index v, const std::vector<Index>& link) const {
-        const auto normal_of = [&](std::size_t i) -> Vector3 {
-            return (p(link[i]) - p(v)).cross(p(link[i + 1]) - p(v)).normalized();
-        };
-        double angle = 0;
-        Vector3 mean = Vector3::Zero();
-        for (std::size_t i = 0; i + 1 < link.size(); ++i) {
-            const double part = angle_about(normal_of(i), p(link[i]) - p(v), p(link[i + 1]) - p(v));
-            angle += part;
-            mean += part * normal_of(i);
-        }
-        const int normal = axes_.nearest(link.front(), normal_of(0));
-        Carried carried(axes_, link.front(), normal,
-                        nearest_across(axes_, link.front(), p(link.front()) - p(v), normal), mean);
-        for (std::size_t i = 1; i < link.size(); ++i) carried.to(link[i]);
-        const Index end = link.back();
-        if (carried.about != axes_.nearest(end, normal_of(link.size() - 2))) return std::nullopt;
-        const auto turns =
-            quarter_turns(carried.about, carried.across, nearest_across(axes_, end, p(end) - p(v), carried.about));
-        if (!turns) return std::nullopt;
-        return nearest_of_residue(*turns, (angle - carried.turn) / quarter);
-    }
-
-    FeatureWedge judge(const Wedge& wedge) const {
-        const double size = angle(wedge);
-        FeatureWedge result{wedge.a,
-                            wedge.b,
-                            size,
-                            hexahedra(wedge, wedge.a, size),
-                            hexahedra(wedge, wedge.b, size),
-                            hexahedra(wedge, wedge.a, size, true),
-                            false};
-        const auto fails = [](int number) { return number < 1 && number != no_number; };
-        result.meshable = (result.hexahedra_a != no_number || result.hexahedra_b != no_number) &&
-                          !fails(result.hexahedra_a) && !fails(result.hexahedra_b);
-        return result;
-    }
-
-    // Hexahedra at the singular edge on the surface between v and w, where their normals are given; 2: there is none.
-    int hexahedra(Index v, Index w, const Vector3& normal_v, const Vector3& normal_w) const {
-        const int carried = axes_.carried(v, w, axes_.nearest(v, normal_v)), there = axes_.nearest(w, normal_w);
-        if (carried == there) return 2;
-        const Vector3 about = (normal_v + normal_w).cross(p(w) - p(v));  // normals turn forward about it where convex
-        const Vector3 from = axes_.direction(w, carried), to = axes_.direction(w, there);
-        const bool convex = angle_about(about, normal_v, normal_w) > 0;
-        if (carried == opposite_axis(there)) return convex ? 0 : 4;
-        return about.dot(from.cross(to)) > 0 ? 1 : 3;
-    }
-
-private:
-    Vector3 p(Index v) const { return mesh_.vertices.row(v).transpose(); }
-
-    const TetMesh& mesh_;
-    const VertexAxes axes_;
-};
 
 // Feature edges, by tet-mesh ids.
 std::vector<EdgeKey> feature_keys(const BoundarySurface& surface, const surface::FeatureGraph& features) {
@@ -193,7 +52,7 @@ std::vector<Index> ring(const BoundarySurface& surface, const BoundaryStars& sta
 
 class CornerJudge {
 public:
-    CornerJudge(const BoundarySurface& surface, const Counter& counter, const std::vector<FeatureWedge>& wedges,
+    CornerJudge(const BoundarySurface& surface, const TurnCounter& counter, const std::vector<FeatureWedge>& wedges,
                 std::vector<EdgeKey> keys, const std::vector<std::uint8_t>& corner)
         : surface_(surface), counter_(counter), keys_(std::move(keys)), corner_(corner) {
         for (const FeatureWedge& w : wedges) by_edge_.emplace(EdgeKey{w.a, w.b}, &w);
@@ -240,7 +99,7 @@ private:
     }
 
     const BoundarySurface& surface_;
-    const Counter& counter_;
+    const TurnCounter& counter_;
     const std::vector<EdgeKey> keys_;
     const std::vector<std::uint8_t>& corner_;
     std::multimap<EdgeKey, const FeatureWedge*> by_edge_;
@@ -263,7 +122,7 @@ void require_fitting(const TetMesh& mesh, const BoundarySurface& surface, const 
 
 // Edges of the surface that are no features, once each.
 std::vector<SurfaceCrossing> find_crossings(const BoundarySurface& surface, const BoundaryStars& stars,
-                                            const std::vector<EdgeKey>& keys, const Counter& counter) {
+                                            const std::vector<EdgeKey>& keys, const TurnCounter& counter) {
     const Triangles& triangles = surface.mesh.triangles;
     std::vector<std::array<Vector3, 3>> normals(triangles.rows());  // of the sector, per corner of a triangle
     for (Index v = 0; v < stars.vertex_count(); ++v) {
@@ -294,7 +153,7 @@ std::vector<SurfaceCrossing> find_crossings(const BoundarySurface& surface, cons
 
 std::vector<SurfaceCorner> find_corners(const BoundarySurface& surface, const BoundaryStars& stars,
                                         const surface::FeatureGraph& features, const std::vector<EdgeKey>& keys,
-                                        const Counter& counter, const std::vector<FeatureWedge>& wedges) {
+                                        const TurnCounter& counter, const std::vector<FeatureWedge>& wedges) {
     std::vector<std::uint8_t> is_corner(stars.vertex_count(), 0);
     for (const Index v : features.corners) is_corner[v] = 1;
     const CornerJudge judge(surface, counter, wedges, keys, is_corner);
@@ -319,7 +178,7 @@ BoundaryMeshability boundary_meshability(const TetMesh& mesh, const BoundarySurf
     const BoundaryStars stars(surface.mesh, features);
     const std::vector<EdgeKey> keys = feature_keys(surface, features);
     const std::vector<Wedge> wedges = surface_wedges(mesh, surface, keys, threads);
-    const Counter counter(mesh, frames);
+    const TurnCounter counter(mesh, frames);
     BoundaryMeshability result;
     result.wedges.resize(wedges.size());
     parallel_for(static_cast<std::int64_t>(wedges.size()), threads,
