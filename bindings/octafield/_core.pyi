@@ -848,6 +848,7 @@ class SurfaceCorner:
     sectors: int
     inside: int
     empty_sectors: int
+    unclear_sectors: int
     non_meshable_edges: int
     meshable: bool
     def __init__(
@@ -857,6 +858,7 @@ class SurfaceCorner:
         sectors: int = ...,
         inside: int = ...,
         empty_sectors: int = ...,
+        unclear_sectors: int = ...,
         non_meshable_edges: int = ...,
         meshable: bool = ...,
     ) -> None: ...

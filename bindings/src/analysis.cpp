@@ -138,6 +138,8 @@ void bind_boundary_types(py::module_& m) {
             "6 - sum over edges (3 - hexahedra) - sum over sectors (quadrilaterals - 1): what is left for edges that "
             "go inside; below 0 no hex mesh.")
         .field("empty_sectors", &SurfaceCorner::empty_sectors, "Sectors with fewer than one quadrilateral.")
+        .field("unclear_sectors", &SurfaceCorner::unclear_sectors,
+               "Sectors that a singular edge on the surface crosses: without a number, and left out of the sum.")
         .field("non_meshable_edges", &SurfaceCorner::non_meshable_edges, "Feature edges without a hexahedron.")
         .field("meshable", &SurfaceCorner::meshable, "Whether none of these forbids a hex mesh.")
         .finish([](const SurfaceCorner& c) {

@@ -40,6 +40,7 @@ def test_meshability_is_written_with_the_graph(box, tmp_path):
     found = of.local_meshability(box, frames, graph)
     of.write_singular_graph(tmp_path / "singular.vtp", graph, meshability=found)
     data = pyvista.read(tmp_path / "singular.vtp").point_data
+    np.testing.assert_array_equal(data["smoothed"], of.smoothed_curves(graph).points)
     expected = np.full(len(graph.points), -1)
     expected[[v.point for v in found.vertices]] = [v.meshable for v in found.vertices]
     np.testing.assert_array_equal(data["meshable"], expected)

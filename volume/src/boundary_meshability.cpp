@@ -67,19 +67,21 @@ public:
             if (by_edge_.count(key(b, w)) > 1) return std::nullopt;  // tets on both sides: an interface
         std::rotate(ring.begin(), first, ring.end());
         ring.push_back(ring.front());
-        SurfaceCorner corner{surface_.vertex_map[b], 0, 0, 6, 0, 0, false};
+        SurfaceCorner corner{surface_.vertex_map[b], 0, 0, 6, 0, 0, 0, false};
         std::vector<Index> link{surface_.vertex_map[ring.front()]};
         for (std::size_t i = 1; i < ring.size(); ++i) {
             link.push_back(surface_.vertex_map[ring[i]]);
             if (!is_feature(ring[i])) continue;
             count_edge(b, ring[i], corner);
-            const int quadrilaterals = counter_.quadrilaterals(corner.vertex, link).value_or(0);
+            const std::optional<int> quadrilaterals = counter_.quadrilaterals(corner.vertex, link);
             ++corner.sectors;
-            corner.empty_sectors += quadrilaterals < 1;
-            corner.inside -= quadrilaterals - 1;
+            corner.unclear_sectors += !quadrilaterals;
+            corner.empty_sectors += quadrilaterals && *quadrilaterals < 1;
+            corner.inside -= quadrilaterals.value_or(1) - 1;
             link = {link.back()};
         }
-        corner.meshable = corner.inside >= 0 && corner.empty_sectors == 0 && corner.non_meshable_edges == 0;
+        corner.meshable = corner.empty_sectors == 0 && corner.non_meshable_edges == 0 &&
+                          (corner.inside >= 0 || corner.unclear_sectors > 0);
         return corner;
     }
 

@@ -44,8 +44,9 @@ struct SurfaceCorner {
     int sectors;             // parts of the surface between them
     int inside;              // 6 - sum (3 - k) - sum (n - 1): what is left for edges that go inside
     int empty_sectors;       // with fewer than one quadrilateral
+    int unclear_sectors;     // without a number: a singular edge on the surface crosses them; left out of the sum
     int non_meshable_edges;  // of its feature edges
-    bool meshable;           // inside >= 0 and none of these two
+    bool meshable;           // no empty sectors, no such edges, and inside >= 0 unless sectors are unclear
 };
 
 struct BoundaryMeshability {
