@@ -83,15 +83,15 @@ Vector3d centre(const TetMesh& mesh, Eigen::Index t) {
     return sum / 4;
 }
 
-// Takes the centres in the order given, but none nearer to one taken before than `distance`.
-std::vector<Index> take_apart(const Points& centres, const std::vector<Index>& order, double distance) {
+// Takes the centres in their order, but none nearer to one taken before than `distance`.
+std::vector<Index> take_apart(const Points& centres, double distance) {
     const Vector3d low = centres.colwise().minCoeff().transpose();
     std::unordered_map<std::int64_t, std::vector<Index>> cells;
     const auto key = [](const Eigen::Matrix<std::int64_t, 3, 1>& c) {
         return (c[0] * (std::int64_t{1} << 21) + c[1]) * (std::int64_t{1} << 21) + c[2];
     };
     std::vector<Index> taken;
-    for (const Index i : order) {
+    for (Index i = 0; i < centres.rows(); ++i) {
         const Vector3d p = centres.row(i).transpose();
         const Eigen::Matrix<std::int64_t, 3, 1> cell = ((p - low) / distance).array().floor().cast<std::int64_t>();
         bool free = true;
@@ -144,20 +144,24 @@ Points spread_points(const TetMesh& mesh, int count) {
         throw InvalidInput("the number of points is " + std::to_string(count) + "; give 0 or more",
                            "option_out_of_range");
     if (count == 0) return Points(0, 3);
-    Points centres(mesh.tets.rows(), 3);
-    for (Eigen::Index t = 0; t < centres.rows(); ++t) centres.row(t) = centre(mesh, t).transpose();
-    std::vector<Index> order(centres.rows());
-    std::iota(order.begin(), order.end(), 0);
+    constexpr std::int64_t tried_per_point = 256;  // beyond these hardly any fits
+    const std::int64_t tried = std::min<std::int64_t>(mesh.tets.rows(), tried_per_point * count);
+    std::vector<Index> tets(mesh.tets.rows());
+    std::iota(tets.begin(), tets.end(), 0);
     std::mt19937_64 generator(1);
-    for (std::size_t i = order.size(); i > 1; --i)
-        std::swap(order[i - 1], order[static_cast<std::size_t>(frames::uniform01(generator) * static_cast<double>(i))]);
+    Points centres(tried, 3);
+    for (std::int64_t i = 0; i < tried; ++i) {
+        const auto rest = static_cast<double>(mesh.tets.rows() - i);
+        std::swap(tets[i], tets[i + static_cast<std::int64_t>(frames::uniform01(generator) * rest)]);
+        centres.row(i) = centre(mesh, tets[i]).transpose();
+    }
 
     constexpr double saturation = 0.73;  // points per cube of the distance, where no more fit (Torquato et al. 2006)
     double distance = std::cbrt(saturation * tet_volumes(mesh).sum() / count);
-    std::vector<Index> taken = take_apart(centres, order, distance);
+    std::vector<Index> taken = take_apart(centres, distance);
     while (static_cast<int>(taken.size()) > count) {  // near the surface, and in thin parts, more fit
         distance *= std::max(1.05, std::cbrt(static_cast<double>(taken.size()) / count));
-        taken = take_apart(centres, order, distance);
+        taken = take_apart(centres, distance);
     }
     return centres(taken, Eigen::all);
 }
