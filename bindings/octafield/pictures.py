@@ -16,7 +16,7 @@ CUT = "#f6ecd6"
 TURNS = {
     1: (scene.VERMILLION, "valence 3 (index +1/4)"),
     -1: (scene.BLUE, "valence 5 (index \N{MINUS SIGN}1/4)"),
-    2: (scene.GREEN, "other rotations about an axis of the frame"),
+    2: (scene.GREEN, "valence 2 or 6 (index \N{PLUS-MINUS SIGN}1/2)"),
     0: (scene.PURPLE, "complex: no hex mesh has it"),
 }
 
@@ -46,26 +46,39 @@ def surface_cross_field(problem: Problem) -> Picture:
 
 
 def singular_curves(result: FieldResult) -> Picture:
-    """Tubes along the singular curves, by type, inside the translucent surface."""
+    """Tubes along the singular curves (smoothed), by type, inside the translucent surface; what no hex mesh has."""
     graph, points = result.singular_graph, np.asarray(result.surface.vertices)
     radius = 0.0045 * scene.diagonal(points)
-    shape = scene.plotter()
-    shape.enable_depth_peeling(8)
-    shape.add_mesh(scene.surface_mesh(result.surface), color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
-    scene.add_features(shape, result.surface, result.features, 3)
-    for turns, (colour, _) in TURNS.items():
-        lines = _polylines(graph, turns)
-        if lines is not None:
-            shape.add_mesh(lines.tube(radius=radius, n_sides=12), color=colour, smooth_shading=True, ambient=0.3)
+    shape = _glass(result)
+    _add_curves(shape, graph, radius)
     nodes = np.asarray(graph.points)[np.asarray(graph.nodes, dtype=int)]
     if len(nodes):
         shape.add_mesh(_spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
-    _three_quarter_view(shape, points)
     kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
     legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")]
     if len(nodes):
         legend.append((scene.INK, "node: three or four curves meet"))
+    bad = _bad_features(result)
+    if bad is not None:
+        shape.add_mesh(bad.tube(radius=0.8 * radius, n_sides=8), color=scene.ORANGE, smooth_shading=True, ambient=0.3)
+        legend.append((scene.ORANGE, "feature edge that no hex mesh has"))
+    _three_quarter_view(shape, points)
     return Picture("Singular curves", _curves_caption(result), scene.render(shape), legend)
+
+
+def streamlines(result: FieldResult) -> Picture:
+    """Curves along the axes of the frames, and the singular curves that end them."""
+    points = np.asarray(result.surface.vertices)
+    radius = 0.0025 * scene.diagonal(points)
+    shape = _glass(result)
+    lines = polylines([line.points for line in result.streamlines if len(line.points) > 1])
+    if lines.n_cells:
+        shape.add_mesh(lines.tube(radius=radius, n_sides=6), color=scene.SKY, smooth_shading=True, ambient=0.3)
+    _add_curves(shape, result.singular_graph, 1.5 * radius)
+    _three_quarter_view(shape, points)
+    kinds = {_kind(int(turns)) for turns in result.singular_graph.curve_quarter_turns}
+    legend = [(scene.SKY, "streamline"), *(TURNS[kind] for kind in TURNS if kind in kinds)]
+    return Picture("Streamlines", _streamlines_caption(result), scene.render(shape), legend)
 
 
 def frames_on_cut(result: FieldResult) -> Picture:
@@ -102,6 +115,29 @@ def frames_on_cut(result: FieldResult) -> Picture:
     words = "frames of vertices within half an edge length of the cut, moved onto it, one where several would overlap"
     caption = f"Cut through the centre of the bounding box; {scene.counted(len(near), 'cube')}: {words}."
     return Picture("Frames on a cut", caption, scene.render(shape), [(scene.SKY, "frame"), (CUT, "cut")])
+
+
+def _glass(result: FieldResult) -> pyvista.Plotter:
+    """The translucent surface and its feature curves."""
+    shape = scene.plotter()
+    shape.enable_depth_peeling(8)
+    shape.add_mesh(scene.surface_mesh(result.surface), color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
+    scene.add_features(shape, result.surface, result.features, 3)
+    return shape
+
+
+def _add_curves(shape: pyvista.Plotter, graph, radius: float) -> None:
+    points = np.asarray(_core.smoothed_curves(graph).points)
+    for turns, (colour, _) in TURNS.items():
+        lines = _polylines(graph, points, turns)
+        if lines is not None:
+            shape.add_mesh(lines.tube(radius=radius, n_sides=12), color=colour, smooth_shading=True, ambient=0.3)
+
+
+def _bad_features(result: FieldResult) -> pyvista.PolyData | None:
+    edges = np.array([(w.a, w.b) for w in result.boundary_meshability.wedges if not w.meshable], int).reshape(-1, 2)
+    points = np.asarray(result.tets.vertices)
+    return scene.segments(points[edges[:, 0]], points[edges[:, 1]]) if len(edges) else None
 
 
 def _three_quarter_view(shape: pyvista.Plotter, points: np.ndarray) -> None:
@@ -152,14 +188,14 @@ def _kind(turns: int) -> int:
     return turns if turns in (1, -1, 0) else 2
 
 
-def _polylines(graph, kind: int) -> pyvista.PolyData | None:
+def _polylines(graph, points: np.ndarray, kind: int) -> pyvista.PolyData | None:
     cells = [
         entry
         for curve, turns in zip(graph.curves, graph.curve_quarter_turns)
         if _kind(int(turns)) == kind
         for entry in (len(curve), *map(int, curve))
     ]
-    return pyvista.PolyData(np.asarray(graph.points), lines=np.array(cells)) if cells else None
+    return pyvista.PolyData(points, lines=np.array(cells)) if cells else None
 
 
 def _cubes(centres: np.ndarray, quaternions: np.ndarray, size: float) -> pyvista.PolyData:
@@ -193,7 +229,7 @@ def _surface_caption(problem: Problem) -> str:
 def _curves_caption(result: FieldResult) -> str:
     record = result.record
     kinds = record["singular_edges_by_turns"]
-    names = {"+1": "valence 3", "-1": "valence 5", "complex": "complex"}
+    names = {"+1": "valence 3", "-1": "valence 5", "+2": "valence 2", "-2": "valence 6", "complex": "complex"}
     parts = ", ".join(f"{count} {names.get(kind, f'{kind} quarter turns')}" for kind, count in kinds.items())
     if not parts:
         return "No singular edges."
@@ -201,7 +237,23 @@ def _curves_caption(result: FieldResult) -> str:
     curves = f"{scene.counted(record['singular_curves'], 'curve')} of total length {record['singular_length']:.4g}"
     ends = f"{record['singular_boundary_ends']} ends on the surface"
     bad = f"{record['non_meshable_vertices']} places that no hex mesh has"
-    return f"{what}; {curves}; {scene.counted(record['singular_nodes'], 'node')}; {ends}; {bad}."
+    nodes = scene.counted(record["singular_nodes"], "node")
+    return f"{what}; {curves}; {nodes}; {ends}; {bad}. {_features_caption(record)}".rstrip()
+
+
+def _features_caption(record: dict) -> str:
+    edges, corners = record["non_meshable_feature_edges"], record["non_meshable_corners"]
+    if not edges and not corners:
+        return ""
+    return f"No hex mesh has {scene.counted(edges, 'feature edge')} and {scene.counted(corners, 'corner')} of these."
+
+
+def _streamlines_caption(result: FieldResult) -> str:
+    record = result.record["streamlines"]
+    names = {"singular": "at singular curves", "boundary": "on the surface", "closed": "of closed curves",
+             "length": "at the greatest length", "stuck": "stuck", "seed": "at seeds"}  # fmt: skip
+    ends = ", ".join(f"{count:,} {names[name]}" for name, count in record["ends"].items())
+    return f"{scene.counted(record['curves'], 'curve')} along the axes from evenly spread seeds; ends: {ends}."
 
 
 def _signed(value: Fraction) -> str:
