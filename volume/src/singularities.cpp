@@ -7,6 +7,7 @@
 #include "octafield/frames/octahedral_group.hpp"
 #include "octafield/frames/sh4.hpp"
 #include "octafield/parallel.hpp"
+#include "quarter_turns.hpp"
 #include "require_frames.hpp"
 #include "singular_curves.hpp"
 #include "triangle_table.hpp"
@@ -14,7 +15,6 @@
 namespace octafield::volume {
 namespace {
 
-using frames::OctahedralClass;
 using frames::Quaternion;
 using frames::Sh4;
 
@@ -27,20 +27,6 @@ int holonomy(const Quaternion& a, const Quaternion& b, const Quaternion& c) {
         frames::octahedral_product(frames::octahedral_product(frames::matching(a, b), frames::matching(b, c)),
                                    frames::octahedral_inverse(frames::matching(a, c)));
     return frames::octahedral_inverse(round_trip);
-}
-
-// Quarter turns about a curve that crosses the triangle towards `along`: positive when the frame turns about that
-// direction, the way the loop goes round it. The curve's direction is steadier than the triangle's normal, which a
-// zigzag of triangles tosses about.
-int quarter_turns(int element, const Quaternion& a, const Eigen::Vector3d& along) {
-    switch (frames::octahedral_class(element)) {
-        case OctahedralClass::half_turn:
-            return 2;
-        case OctahedralClass::quarter_turn:
-            return along.dot(a * frames::octahedral_group()[element].vec()) < 0 ? -1 : 1;
-        default:
-            return 0;
-    }
 }
 
 // Point of the closed segment [p, q] nearest the origin, as a parameter.
@@ -145,7 +131,8 @@ DualGraph join_in_tets(const TetMesh& mesh, const TriangleTable& table, const st
 
 void set_quarter_turns(const Quaternions& frames, const DualGraph& dual, const std::vector<Eigen::Vector3d>& points,
                        SingularGraph& graph) {
-    // From the point before the triangle to the point after it, along its positive normal.
+    // From the point before the triangle to the point after it, along its positive normal: steadier than the normal,
+    // which a zigzag of triangles tosses about.
     std::vector<Eigen::Vector3d> along(graph.triangles.size(), Eigen::Vector3d::Zero());
     for (const Branch& b : dual.branches)
         along[b.singular] += (b.positive ? 1 : -1) * (points[b.point] - points[b.singular]);
