@@ -183,6 +183,17 @@ from ._core import (
     write_surface,
     write_surface_field,
 )
+from ._core import (  # sampling
+    Sampling,
+    SingularEdge,
+    SingularEdges,
+    singular_edges,
+    tet_alignment_angles,
+    tet_boundary_constraints,
+    tet_sampling,
+    vertex_frames,
+    vertex_sampling,
+)
 from ._core import (  # volume input
     LockingElements,
     LockingSplit,
@@ -398,4 +409,13 @@ __all__ = [
     "region_surface",
     "split_locking",
     "with_constraints",
+    "Sampling",
+    "SingularEdge",
+    "SingularEdges",
+    "singular_edges",
+    "tet_alignment_angles",
+    "tet_boundary_constraints",
+    "tet_sampling",
+    "vertex_frames",
+    "vertex_sampling",
 ]

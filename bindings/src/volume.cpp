@@ -12,6 +12,7 @@
 #include "octafield/volume/singularities.hpp"
 #include "octafield/volume/tetrahedralize.hpp"
 #include "octafield/volume/write_vtk.hpp"
+#include "sampling.hpp"
 #include "words.hpp"
 
 namespace octafield::bindings {
@@ -87,19 +88,25 @@ void bind_operators(py::module_& m) {
     def_of_mesh(m, "lumped_mass", lumped_mass, "(n,): a quarter of the volume of the tets at each vertex.");
     m.def(
         "dirichlet_energy",
-        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+        [](const MeshOrSampling& mesh, const ArrayLike& frames, int threads) {
             threads_option(threads);
             return run_interruptible(
                 [mesh = mesh, threads, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                    check(mesh, false);
-                    check_unit(rows, mesh.vertices.rows(), "frames");
-                    return dirichlet_energy(mesh, rows, threads);
+                    if (const auto* sampling = std::get_if<std::shared_ptr<Sampling>>(&mesh)) {
+                        check_unit(rows, (*sampling)->count(), "frames");
+                        return dirichlet_energy(**sampling, rows, threads);
+                    }
+                    const TetMesh& tets = std::get<TetMesh>(mesh);
+                    check(tets, false);
+                    check_unit(rows, tets.vertices.rows(), "frames");
+                    return dirichlet_energy(tets, rows, threads);
                 });
         },
         "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "E = 1/2 sum_c a_c^T L a_c of (n, 4) frames, a their sh4 vectors and L the stiffness matrix, in the input's "
         "length unit; times "
-        "unit_speed_factor for frames moving at unit speed. The same bits at any thread count.");
+        "unit_speed_factor for frames moving at unit speed. mesh: a TetMesh or a Sampling. The same bits at any thread "
+        "count.");
 }
 
 void bind_boundary(py::module_& m) {
