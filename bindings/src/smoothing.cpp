@@ -127,10 +127,10 @@ void bind_smoothing(py::module_& m) {
         "midpoint_limit"_a = smoothing.midpoint_limit, "threads"_a = smoothing.threads, "progress"_a = py::none(),
         "Minimise the Dirichlet energy of a frame field from (n, 4) start frames, over one quaternion per vertex, "
         "constraints held exactly, as a SmoothResult. representation: a name of smooth_representations: an embedding, "
-        "or a "
-        "metric on frames (\"geodesic\", \"su2_midpoint\", \"su2_geodesic\", \"su2_symmetric\", and \"su2_frozen\", "
+        "odeco tensors with free axis lengths (\"odeco_lengths\", lengths of held axes are 1 unless constraints.lengths "
+        "tells others), or a metric on frames (\"geodesic\", \"su2_midpoint\", \"su2_geodesic\", \"su2_symmetric\", and \"su2_frozen\", "
         "which is inconsistent), which wants a start near its minimum, as frame_field gives. solver: "
-        "\"trust_region\" (Newton steps with the exact Hessian; embeddings only), \"levenberg_marquardt\" or "
+        "\"trust_region\" (Newton steps with the exact Hessian; embeddings of frames only), \"levenberg_marquardt\" or "
         "\"lbfgs\" (Ceres), or \"automatic\", the first that goes. tolerance: relative energy decrease at which to "
         "stop; "
         "linear_solver (of levenberg_marquardt): \"automatic\", \"cholesky\" or \"conjugate_gradients\"; "

@@ -41,6 +41,12 @@ void require_fitting(const Sampling& sampling, const BoundaryConstraints& constr
             throw InvalidInput("released corner " + std::to_string(v) + " is none of the " + sites,
                                "index_out_of_range", {v});
     require_frames(constraints.frames, sampling.count());
+    if (constraints.lengths.rows() != 0 && rows(constraints.lengths) != n)
+        throw InvalidInput("the constraints have " + std::to_string(constraints.lengths.rows()) + " rows of lengths for " +
+                               std::to_string(n) + " " + sites + "; give one each, or none",
+                           "wrong_size");
+    if (!(constraints.lengths.array() > 0).all() || !constraints.lengths.allFinite())
+        throw InvalidInput("lengths of constraints must be finite and above 0", "bad_length");
     std::vector<Index> bad;
     for (std::size_t v = 0; v < n; ++v)
         if (constraints.kind[v] == VertexConstraint::axis && !(std::abs(constraints.axis.row(v).norm() - 1) < 1e-6))

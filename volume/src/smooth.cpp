@@ -7,7 +7,9 @@
 #include "ceres_smoothing.hpp"
 #include "constraints.hpp"
 #include "dirichlet_costs.hpp"
+#include "embedded_field.hpp"
 #include "metric_smoothing.hpp"
+#include "odeco_smoothing.hpp"
 #include "octafield/frames/registry.hpp"
 #include "octafield/volume/operators.hpp"
 #include "smooth_options.hpp"
@@ -20,25 +22,6 @@ constexpr std::array metric_names = {"geodesic", "su2_midpoint", "su2_geodesic",
 
 bool is_metric(std::string_view name) {
     return std::find(metric_names.begin(), metric_names.end(), name) != metric_names.end();
-}
-
-template <frames::Representation R>
-void add_costs(ceres::Problem& problem, EmbeddedField<R>& field, const DirichletBlocks& blocks, double scale) {
-    using Cost = LinearCombinationCost<R>;
-    for (const auto& edge : blocks.edges) {
-        const double w = std::sqrt(edge.weight * scale);
-        typename Cost::Coefficients coefficients(1, 2);
-        coefficients << w, -w;
-        problem.AddResidualBlock(new Cost(field, {edge.i, edge.j}, coefficients), nullptr, field.parameters(edge.i),
-                                 field.parameters(edge.j));
-    }
-    for (const auto& tet : blocks.tets) {
-        std::vector<double*> parameters;
-        for (const Index v : tet.vertices) parameters.push_back(field.parameters(v));
-        problem.AddResidualBlock(
-            new Cost(field, {tet.vertices.begin(), tet.vertices.end()}, std::sqrt(scale) * tet.gradient), nullptr,
-            parameters);
-    }
 }
 
 // Of an embedding.
@@ -55,7 +38,7 @@ SmoothResult smooth_with_ceres(const Sampling& sampling, const BoundaryConstrain
     EmbeddedField<R> field(start, options.threads);
     Manifolds manifolds;
     ceres::Problem problem(problem_options(field));
-    add_costs(problem, field, dirichlet_blocks(sampling), 1 / length);
+    add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / length);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
     return solve_with_ceres(problem, field.quaternions(), length, options, progress);
 }
@@ -69,14 +52,17 @@ void require_sound(const SmoothOptions& options) {
     const auto names = smooth_representations();
     if (std::find(names.begin(), names.end(), options.representation) == names.end())
         frames::throw_unknown_name("representation", options.representation, names);
-    if (is_metric(options.representation) && options.solver == SmoothSolver::trust_region)
-        throw InvalidInput("the trust region minimises embeddings only; representation '" + options.representation +
-                               "' is a metric: choose solver automatic, levenberg_marquardt or lbfgs",
+    const bool lengths = options.representation == odeco_lengths_name;
+    if ((is_metric(options.representation) || lengths) && options.solver == SmoothSolver::trust_region)
+        throw InvalidInput("the trust region minimises embeddings of frames only; representation '" +
+                               options.representation + "' " + (lengths ? "has lengths too" : "is a metric") +
+                               ": choose solver automatic, levenberg_marquardt or lbfgs",
                            "bad_option");
 }
 
 std::vector<std::string> smooth_representations() {
     std::vector<std::string> names = frames::Representations::names();
+    names.emplace_back(odeco_lengths_name);
     names.insert(names.end(), metric_names.begin(), metric_names.end());
     return names;
 }
@@ -89,6 +75,8 @@ SmoothResult smooth(const Sampling& sampling, const BoundaryConstraints& constra
     SmoothResult result;
     if (is_metric(options.representation)) {
         result = smooth_metric(sampling, constraints, on_constraints, options, progress);
+    } else if (options.representation == odeco_lengths_name) {
+        result = smooth_odeco_lengths(sampling, constraints, on_constraints, options, progress);
     } else {
         frames::with_representation(options.representation, [&]<frames::Representation R>() {
             result = by_trust_region(options)

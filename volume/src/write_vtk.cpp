@@ -97,7 +97,7 @@ std::array<T, 1> one(T value) {
     return {value};
 }
 
-void add_frames(vtkPointData* data, const Quaternions& rows) {
+void add_frames(vtkFieldData* data, const Quaternions& rows) {
     using frames::Sh4;
     const auto q = [&](Eigen::Index i) -> frames::Quaternion { return frames::from_wxyz(rows.row(i)); };
     constexpr const char* axes[3] = {"frame_u", "frame_v", "frame_w"};
@@ -161,9 +161,14 @@ void add_meshability(vtkPointData* data, const Meshability& meshability, Eigen::
 }  // namespace
 
 void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& frames, const Metadata& metadata,
-                 const std::vector<Index>& regions) {
+                 const std::vector<Index>& regions, const FieldArrays& more) {
     const BoundarySurface boundary = boundary_surface(mesh);
     require_frames(frames, mesh.vertices.rows());
+    if (more.tet_frames.rows() > 0) require_frames(more.tet_frames, mesh.tets.rows());
+    if (more.lengths.rows() > 0 && more.lengths.rows() != mesh.vertices.rows())
+        throw InvalidInput("lengths has " + std::to_string(more.lengths.rows()) + " rows; give one per vertex, " +
+                               std::to_string(mesh.vertices.rows()) + ", or none",
+                           "wrong_size");
     if (!regions.empty() && static_cast<Eigen::Index>(regions.size()) != mesh.tets.rows())
         throw InvalidInput("regions has " + std::to_string(regions.size()) + " ids; give one per tet, " +
                                std::to_string(mesh.tets.rows()) + ", or none",
@@ -177,6 +182,11 @@ void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& f
     add_frames(grid->GetPointData(), frames);
     add_array<vtkUnsignedCharArray>(grid->GetPointData(), "boundary", 1, mesh.vertices.rows(),
                                     [&](Eigen::Index i) { return one(on_boundary[i]); });
+    if (more.lengths.rows() > 0)
+        add_array<vtkDoubleArray>(
+            grid->GetPointData(), "frame_lengths", 3, mesh.vertices.rows(),
+            [&](Eigen::Index i) -> Eigen::Vector3d { return more.lengths.row(i).transpose(); });
+    if (more.tet_frames.rows() > 0) add_frames(grid->GetCellData(), more.tet_frames);
     if (!regions.empty())
         add_array<vtkIntArray>(grid->GetCellData(), "region", 1, mesh.tets.rows(),
                                [&](Eigen::Index i) { return one(regions[i]); });

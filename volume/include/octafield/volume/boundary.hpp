@@ -33,6 +33,9 @@ struct BoundaryConstraints {
     Quaternions frames;  // (n, 4): the start on the boundary, the value where fixed; identity inside
     std::vector<std::uint8_t> on_boundary;  // (n)
     std::vector<Index> released_corners;    // sites whose directions fit no frame: corners, or tets
+    // (n, 3) or no rows (all 1), above 0; of odeco_lengths (smooth.hpp) alone: held along the axes of `frames` where
+    // fixed; where an axis is, column 0 along it.
+    Points lengths{};
 };
 
 // One normal per boundary vertex and smooth sector (triangles round the vertex between feature edges), weighted by
