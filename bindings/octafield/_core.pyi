@@ -783,6 +783,7 @@ def write_field(
     *,
     tet_frames: ArrayLike = ...,
     lengths: ArrayLike = ...,
+    tet_lengths: ArrayLike = ...,
 ) -> None: ...
 def write_singular_graph(
     path: Path, graph: SingularGraph, metadata: Mapping[str, str] = ..., meshability: Meshability | None = None

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <utility>
 
 #include "octafield/frames/octahedral_group.hpp"
 #include "octafield/parallel.hpp"
@@ -86,6 +87,27 @@ int holonomy(const Wedge* first, const Wedge* last, const TriangleTable& table,
     return frames::octahedral_inverse(product);
 }
 
+// The curve runs from the vertex before an edge to the one after it where it goes on in one edge alone: steadier than the
+// edge, which may run across a curve that no edges follow.
+void set_quarter_turns(const TetMesh& mesh, const Quaternions& of_tets, const std::vector<Index>& first_tets,
+                       std::vector<SingularEdge>& edges) {
+    std::vector<std::array<Index, 2>> neighbours(mesh.vertices.rows(), {-1, -1});
+    std::vector<Index> degree(mesh.vertices.rows(), 0);
+    for (const SingularEdge& e : edges)
+        for (const auto& [v, other] : {std::pair(e.a, e.b), std::pair(e.b, e.a)})
+            if (degree[v]++ < 2) neighbours[v][degree[v] - 1] = other;
+    const auto beyond = [&](Index v, Index from) {
+        if (degree[v] != 2) return v;
+        return neighbours[v][neighbours[v][0] == from];
+    };
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        SingularEdge& e = edges[i];
+        const Eigen::Vector3d along =
+            (mesh.vertices.row(beyond(e.b, e.a)) - mesh.vertices.row(beyond(e.a, e.b))).transpose();
+        e.quarter_turns = quarter_turns(e.holonomy, frames::from_wxyz(of_tets.row(first_tets[i])), along);
+    }
+}
+
 void add_curves(const TetMesh& mesh, SingularEdges& result) {
     std::vector<Index> number(mesh.vertices.rows(), -1), degree(mesh.vertices.rows(), 0);
     for (const SingularEdge& e : result.edges) ++degree[e.a], ++degree[e.b];
@@ -120,14 +142,15 @@ SingularEdges singular_edges(const TetMesh& mesh, const Quaternions& of_tets, in
     const std::vector<std::uint8_t> matching = matchings(table, of_tets, threads);
     const std::vector<Wedge> wedges = sorted_wedges(mesh, table, threads);
     SingularEdges result;
+    std::vector<Index> first_tets;
     for (std::size_t i = 0, end; i < wedges.size(); i = end) {
         for (end = i + 1; end < wedges.size() && wedges[end].a == wedges[i].a && wedges[end].b == wedges[i].b;) ++end;
         const int h = holonomy(&wedges[i], wedges.data() + end, table, matching);
         if (h == 0) continue;
-        const Wedge& w = wedges[i];
-        const Eigen::Vector3d along = (mesh.vertices.row(w.b) - mesh.vertices.row(w.a)).transpose();
-        result.edges.push_back({w.a, w.b, h, quarter_turns(h, frames::from_wxyz(of_tets.row(w.tet)), along)});
+        result.edges.push_back({wedges[i].a, wedges[i].b, h, 0});
+        first_tets.push_back(wedges[i].tet);
     }
+    set_quarter_turns(mesh, of_tets, first_tets, result.edges);
     add_curves(mesh, result);
     return result;
 }

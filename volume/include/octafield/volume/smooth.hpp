@@ -14,7 +14,7 @@
 namespace octafield::volume {
 
 enum class SmoothSolver {
-    automatic,  // trust_region for embeddings, levenberg_marquardt for metrics
+    automatic,  // trust_region for embeddings, levenberg_marquardt for metrics, lbfgs for odeco_lengths
     // Newton steps with the exact Hessian in a trust region (Palmer, Bommes, Solomon 2020): follows negative curvature,
     // so that it does not stop at saddles.
     trust_region,
