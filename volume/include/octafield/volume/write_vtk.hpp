@@ -23,9 +23,9 @@ using Metadata = std::map<std::string, std::string>;
 
 // What a field may have beside frames at the vertices; each may have no rows.
 struct FieldArrays {
-    Quaternions tet_frames;  // (m, 4): cell data under the names of the point data
-    Points lengths;          // (n, 3): point data frame_lengths, of frame_u, frame_v, frame_w
-    Points tet_lengths;      // (m, 3): cell data frame_lengths
+    Quaternions tet_frames{};  // (m, 4): cell data under the names of the point data
+    Points lengths{};          // (n, 3): point data frame_lengths, of frame_u, frame_v, frame_w
+    Points tet_lengths{};      // (m, 3): cell data frame_lengths
 };
 
 // .vtu with point data: frame_u, frame_v, frame_w (unit axes), quaternion (w x y z, named components), sh4 (9, named
