@@ -102,7 +102,7 @@ def main() -> None:
     cubes += [cube_row(f"TetGen {n}", tetgen_cube(n)) for n in numbers(arguments.cubes)]
     rows, lengths = [], []
     inputs = [(f"ball {n}", surface_meshes.sphere(n)) for n in numbers(arguments.balls)]
-    inputs += [(path.name.split(".")[0], path) for path in arguments.mesh]
+    inputs += [(path.name.split(".mesh")[0].split(".vtk")[0], path) for path in arguments.mesh]
     for name, mesh in inputs:
         row, odeco = field_rows(name, mesh)
         rows.append(row)

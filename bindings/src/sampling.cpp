@@ -116,8 +116,8 @@ void bind_sampling_types(py::module_& m) {
             "body_radius", [](const Sampling& s) { return s.body_radius; },
             "3 volume / boundary area, input unit: the unit of diffuse's first_time.")
         .def_property_readonly(
-            "spacing", [](const Sampling& s) { return s.spacing; },
-            "Of neighbouring sites, input unit: the unit of diffuse's last_time.")
+            "edge_length", [](const Sampling& s) { return s.edge_length; },
+            "Mean edge of the boundary, input unit: the unit of diffuse's last_time.")
         .def("__len__", &Sampling::count)
         .def("__repr__", [](const Sampling& s) {
             return s.sites == Sites::tets ? "Sampling(" + count(s.count(), "tet") + ")"

@@ -31,7 +31,7 @@ def test_a_sampling_is_the_coupling_of_its_sites(box):
     assert abs(vertices.stiffness - of.stiffness(box)).max() == 0
     np.testing.assert_array_equal(vertices.mass, of.lumped_mass(box))
     np.testing.assert_allclose(tets.mass, of.tet_volumes(box))
-    assert tets.body_radius == pytest.approx(0.5) and 0 < tets.spacing < vertices.spacing
+    assert tets.body_radius == pytest.approx(0.5) and tets.edge_length == vertices.edge_length == of.mean_edge_length(of.boundary_surface(box).mesh)
     with pytest.raises(TypeError):
         of.Sampling()
 

@@ -76,7 +76,6 @@ TEST(TetSampling, CouplesTwoTetsByAreaOverDistanceOfTheirCentroids) {
     EXPECT_NEAR(sampling.stiffness.coeff(0, 0), weight, 1e-14);
     EXPECT_NEAR(sampling.mass[0], 1.0 / 3, 1e-14);
     EXPECT_NEAR(sampling.mass[1], 1.0 / 6, 1e-14);
-    EXPECT_NEAR(sampling.spacing, 0.75, 1e-14);
 }
 
 TEST(TetSampling, IsASymmetricSumOverPairsOfNeighbours) {

@@ -32,7 +32,7 @@ struct Schedule {
 
     Schedule(const Sampling& sampling, const DiffuseOptions& options) : exponent(options.time_exponent) {
         first = options.first_time * sampling.body_radius * sampling.body_radius;
-        const double ratio = first / (options.last_time * std::pow(sampling.spacing, 2));
+        const double ratio = first / (options.last_time * std::pow(sampling.edge_length, 2));
         const double wanted = ratio > 1 ? std::ceil(std::pow(ratio, 1 / exponent)) : 1;
         steps = static_cast<int>(std::min<double>(wanted, options.max_steps));
         if (steps < wanted && steps > 1) exponent = std::log(ratio) / std::log(steps);

@@ -15,9 +15,12 @@ namespace octafield::volume {
 namespace {
 
 // All but what depends on the sites.
-Sampling sampling_of(const TetMesh& mesh, const surface::TriangleMesh& boundary) {
+Sampling sampling_of(const TetMesh& mesh) {
+    require_valid(mesh);
+    const surface::TriangleMesh boundary = boundary_surface(mesh).mesh;
     Sampling sampling;
     sampling.body_radius = 3 * tet_volumes(mesh).sum() / surface::triangle_areas(boundary).sum();
+    sampling.edge_length = surface::mean_edge_length(boundary);
     sampling.box_diagonal = surface::bounding_box_diagonal(mesh.vertices);
     return sampling;
 }
@@ -69,35 +72,26 @@ constexpr Eigen::Index vertices_per_block = 256;
 }  // namespace
 
 Sampling vertex_sampling(const TetMesh& mesh) {
-    require_valid(mesh);
-    const surface::TriangleMesh boundary = boundary_surface(mesh).mesh;
-    Sampling sampling = sampling_of(mesh, boundary);
+    Sampling sampling = sampling_of(mesh);
     sampling.stiffness = stiffness(mesh);
     sampling.mass = lumped_mass(mesh);
-    sampling.spacing = surface::mean_edge_length(boundary);
     sampling.elements = std::make_shared<const TetMesh>(mesh);
     return sampling;
 }
 
 Sampling tet_sampling(const TetMesh& mesh) {
-    require_valid(mesh);
-    Sampling sampling = sampling_of(mesh, boundary_surface(mesh).mesh);
+    Sampling sampling = sampling_of(mesh);
     sampling.sites = Sites::tets;
     sampling.mass = tet_volumes(mesh);
     const TriangleTable table = triangle_table(mesh);
     const Points centres = centroids(mesh);
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(table.triangles.rows());
-    double sum = 0;
-    Index interior = 0;
     for (Eigen::Index t = 0; t < weights.size(); ++t) {
         if (table.sides(t, 1) < 0) continue;
         const double distance = (centres.row(table.sides(t, 0) / 4) - centres.row(table.sides(t, 1) / 4)).norm();
         weights[t] = area(mesh, table, t) / distance;
-        sum += distance;
-        ++interior;
     }
     sampling.stiffness = graph_laplacian(table, weights);
-    sampling.spacing = interior > 0 ? sum / interior : sampling.box_diagonal;
     return sampling;
 }
 

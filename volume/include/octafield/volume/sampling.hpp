@@ -17,7 +17,7 @@ struct Sampling {
     SparseMatrix stiffness;   // L (n, n), symmetric, rows sum to 0: E = 1/2 sum_c a_c^T L a_c; row 0: of no tet
     Eigen::VectorXd mass;     // (n) lumped, cubed input unit
     double body_radius = 0;   // 3 volume / boundary area: the radius, for a ball
-    double spacing = 0;       // of neighbouring sites: at vertices the mean boundary edge
+    double edge_length = 0;   // mean, of the boundary
     double box_diagonal = 0;  // of the mesh
     // The mesh whose linear elements L is of. None: L is a sum over pairs of sites alone, no entry off its diagonal is
     // positive.
@@ -32,7 +32,7 @@ Sampling vertex_sampling(const TetMesh& mesh);
 // In the tets: E = 1/2 sum over interior triangles of w |a_s - a_t|^2, w = area / distance between the centroids of the
 // two tets (the orthogonal correction of Jasak 1996, section 3.3.1.3). Such two-point fluxes are not consistent on
 // general tets: energies do not tend to those of the continuous field, but to what docs/tet_meshes.md measures. Mass: the
-// volumes; spacing: the mean distance between centroids. Throws GeometryError (unsound mesh).
+// volumes. Throws GeometryError (unsound mesh).
 Sampling tet_sampling(const TetMesh& mesh);
 
 // (n, 4) unit quaternions w x y z at the vertices: the frame nearest to the mean sh4 vector, weighted by volume, of the
