@@ -103,7 +103,8 @@ void bind_boundary(py::module_& m) {
 
 void bind_sampling_types(py::module_& m) {
     py::class_<Sampling, std::shared_ptr<Sampling>>(
-        m, "Sampling", "Where the frames of a field live and how they are coupled; made by vertex_sampling and tet_sampling.")
+        m, "Sampling",
+        "Where the frames of a field live and how they are coupled; made by vertex_sampling and tet_sampling.")
         .def_property_readonly(
             "sites", [](const Sampling& s) { return to_word(s.sites); }, "\"vertices\" or \"tets\".")
         .def_property_readonly(
@@ -140,12 +141,13 @@ void bind_sampling_types(py::module_& m) {
     Record<SingularEdges>(m, "SingularEdges", "Singular edges of a frame field that lives in the tets.")
         .field("edges", &SingularEdges::edges, "List of SingularEdge in the order of (a, b).")
         .field("complex_edges", &SingularEdges::complex_edges, "Number of edges with a complex singularity.")
-        .field("graph", &SingularEdges::graph,
-               "SingularGraph of their curves: no triangles, points at vertices, nodes where other than two meet inside.")
+        .field(
+            "graph", &SingularEdges::graph,
+            "SingularGraph of their curves: no triangles, points at vertices, nodes where other than two meet inside.")
         .field("vertices", &SingularEdges::vertices, "(p,) int32 tet-mesh vertex of each point of the graph.")
         .finish([](const SingularEdges& s) {
-            return count(static_cast<std::ptrdiff_t>(s.edges.size()), "edge") + ", " +
-                   std::to_string(s.complex_edges) + " complex";
+            return count(static_cast<std::ptrdiff_t>(s.edges.size()), "edge") + ", " + std::to_string(s.complex_edges) +
+                   " complex";
         });
 }
 

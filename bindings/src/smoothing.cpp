@@ -70,7 +70,8 @@ void bind_smoothing(py::module_& m) {
             }));
         },
         "mesh"_a, "constraints"_a, py::kw_only(), "start"_a = to_word(recipe.start), "threads"_a = recipe.threads,
-        "(n, 4) start frames: the sh4 field of least Dirichlet energy, one linear solve, projected. mesh: a TetMesh (frames "
+        "(n, 4) start frames: the sh4 field of least Dirichlet energy, one linear solve, projected. mesh: a TetMesh "
+        "(frames "
         "at its vertices) or a Sampling. start: what it "
         "takes as given, \"constraints\" (a fixed axis leaves the plane of its twist free; Ray et al. 2016) or "
         "\"cross_field\" (every boundary frame, except at released corners). Raises InvalidInput, SolverError.");
@@ -78,9 +79,9 @@ void bind_smoothing(py::module_& m) {
     const DiffuseOptions& diffusion = recipe.diffuse;
     m.def(
         "diffuse",
-        [](const MeshOrSampling& mesh, const BoundaryConstraints& constraints, const ArrayLike& start, double first_time,
-           double last_time, double time_exponent, int max_steps, double linear_tolerance, bool keep_best, int threads,
-           const std::optional<ProgressCallable>& progress) {
+        [](const MeshOrSampling& mesh, const BoundaryConstraints& constraints, const ArrayLike& start,
+           double first_time, double last_time, double time_exponent, int max_steps, double linear_tolerance,
+           bool keep_best, int threads, const std::optional<ProgressCallable>& progress) {
             const DiffuseOptions options =
                 diffuse_options(first_time, last_time, time_exponent, max_steps, linear_tolerance, keep_best, threads);
             return run_on(
@@ -100,7 +101,8 @@ void bind_smoothing(py::module_& m) {
         "2020), from (n, 4) start frames, as a SmoothResult of the lowest energy met (of the last step, without "
         "keep_best): the start for smooth. first_time: of the first step over the squared size of the body; last_time: "
         "of the last over the squared mean boundary edge; step k lasts 1/k^time_exponent of the first, with a larger "
-        "exponent where max_steps would not do; linear_tolerance: of the linear solves. mesh: a TetMesh or a Sampling. Cancelled by progress, the "
+        "exponent where max_steps would not do; linear_tolerance: of the linear solves. mesh: a TetMesh or a Sampling. "
+        "Cancelled by progress, the "
         "best state is returned with converged False. Raises InvalidInput, SolverError.");
 
     const SmoothOptions& smoothing = recipe.smooth;
@@ -127,23 +129,26 @@ void bind_smoothing(py::module_& m) {
         "midpoint_limit"_a = smoothing.midpoint_limit, "threads"_a = smoothing.threads, "progress"_a = py::none(),
         "Minimise the Dirichlet energy of a frame field from (n, 4) start frames, over one quaternion per vertex, "
         "constraints held exactly, as a SmoothResult. representation: a name of smooth_representations: an embedding, "
-        "odeco tensors with free axis lengths (\"odeco_lengths\", lengths of held axes are 1 unless constraints.lengths "
-        "tells others), or a metric on frames (\"geodesic\", \"su2_midpoint\", \"su2_geodesic\", \"su2_symmetric\", and \"su2_frozen\", "
+        "odeco tensors with free axis lengths (\"odeco_lengths\", lengths of held axes are 1 unless "
+        "constraints.lengths "
+        "tells others), or a metric on frames (\"geodesic\", \"su2_midpoint\", \"su2_geodesic\", \"su2_symmetric\", "
+        "and \"su2_frozen\", "
         "which is inconsistent), which wants a start near its minimum, as frame_field gives. solver: "
         "\"trust_region\" (Newton steps with the exact Hessian; embeddings of frames only), \"levenberg_marquardt\" or "
         "\"lbfgs\" (Ceres), or \"automatic\", the first that goes. tolerance: relative energy decrease at which to "
         "stop; "
         "linear_solver (of levenberg_marquardt): \"automatic\", \"cholesky\" or \"conjugate_gradients\"; "
         "midpoint_limit (of su2_midpoint, radians): beyond it edges are measured by the geodesic; the result does not "
-        "depend on threads. Cancelled by progress, the best state is returned with converged False. mesh: a TetMesh or a Sampling. Raises "
+        "depend on threads. Cancelled by progress, the best state is returned with converged False. mesh: a TetMesh or "
+        "a Sampling. Raises "
         "InvalidInput, SolverError.");
     m.attr("smooth_representations") = py::tuple(py::cast(smooth_representations()));
     m.def(
         "frame_field",
-        [](const MeshOrSampling& mesh, const BoundaryConstraints& constraints, const std::string& start, std::uint64_t seed,
-           int rounds, double round_time, double first_time, double last_time, double time_exponent, int max_steps,
-           double linear_tolerance, const std::string& representation, const std::string& solver, int max_iterations,
-           double tolerance, const std::string& linear_solver, double midpoint_limit, int threads,
+        [](const MeshOrSampling& mesh, const BoundaryConstraints& constraints, const std::string& start,
+           std::uint64_t seed, int rounds, double round_time, double first_time, double last_time, double time_exponent,
+           int max_steps, double linear_tolerance, const std::string& representation, const std::string& solver,
+           int max_iterations, double tolerance, const std::string& linear_solver, double midpoint_limit, int threads,
            const std::optional<ProgressCallable>& progress) {
             const FrameFieldOptions options{.start = from_word<Start>(start, "start"),
                                             .seed = seed,
@@ -172,7 +177,8 @@ void bind_smoothing(py::module_& m) {
         "The recipe: initial_frames, then rounds of diffuse and smooth, as a FrameFieldResult of the lowest energy. "
         "seed other than 0: a random start. round_time: first_time of each round over that of the one before. Rounds "
         "polish in sh4 with the trust region; another representation or solver starts from the best of them. The "
-        "other options are those of the parts. mesh: a TetMesh or a Sampling. Cancelled by progress, the best state is returned with converged "
+        "other options are those of the parts. mesh: a TetMesh or a Sampling. Cancelled by progress, the best state is "
+        "returned with converged "
         "False. Raises InvalidInput, SolverError.");
 }
 

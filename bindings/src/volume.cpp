@@ -200,7 +200,8 @@ void bind_files(py::module_& m) {
                 check_unit(rows, mesh.vertices.rows(), "frames");
                 if (more.tet_frames.rows() > 0) check_unit(more.tet_frames, mesh.tets.rows(), "tet_frames");
                 if (more.lengths.rows() > 0) check_vectors(more.lengths, mesh.vertices.rows(), "lengths");
-                if (more.tet_lengths.rows() > 0) check_vectors(more.tet_lengths, mesh.tets.rows(), "tet_lengths", "tet");
+                if (more.tet_lengths.rows() > 0)
+                    check_vectors(more.tet_lengths, mesh.tets.rows(), "tet_lengths", "tet");
                 write_field(path, mesh, rows, metadata, ids, more);
                 return true;
             });

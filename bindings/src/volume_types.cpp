@@ -32,7 +32,8 @@ void bind_meshes(py::module_& m) {
 }
 
 void bind_boundary(py::module_& m) {
-    Record<BoundaryConstraints>(m, "BoundaryConstraints", "What holds the frame at each vertex of a tet mesh, or in each tet.")
+    Record<BoundaryConstraints>(m, "BoundaryConstraints",
+                                "What holds the frame at each vertex of a tet mesh, or in each tet.")
         .field("kind", &BoundaryConstraints::kind,
                "(n,) uint8: 0 free, 1 one axis fixed (the twist is free), 2 frame fixed.")
         .field("axis", &BoundaryConstraints::axis, "(n, 3) float64 unit axis where kind is 1, else 0.")

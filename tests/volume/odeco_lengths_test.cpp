@@ -30,7 +30,9 @@ SmoothOptions with_lengths(SmoothSolver solver = SmoothSolver::levenberg_marquar
     return options;
 }
 
-Quaternion row(const Quaternions& q, Eigen::Index v) { return frames::from_wxyz(frames::Vector4(q.row(v).transpose())); }
+Quaternion row(const Quaternions& q, Eigen::Index v) {
+    return frames::from_wxyz(frames::Vector4(q.row(v).transpose()));
+}
 
 Odeco::Vector tensor(const SmoothResult& result, Eigen::Index v) {
     return Odeco::embed(row(result.frames, v), result.lengths.row(v).transpose());
@@ -50,8 +52,7 @@ TEST(OdecoField, DerivativesAreThoseOfFiniteDifferences) {
             Points longer = logs;
             for (Eigen::Index i = 0; i < n; ++i) {
                 if (k < 3)
-                    turned.row(i) =
-                        frames::to_wxyz(frames::exp(step * Vector3::Unit(k)) * row(q, i)).transpose();
+                    turned.row(i) = frames::to_wxyz(frames::exp(step * Vector3::Unit(k)) * row(q, i)).transpose();
                 else
                     longer(i, k - 3) += step;
             }
@@ -66,8 +67,8 @@ TEST(OdecoField, DerivativesAreThoseOfFiniteDifferences) {
             if (k < 3) {
                 Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
                 FrameManifold().PlusJacobian(q.row(i).data(), plus.data());
-                derivative = Eigen::Map<const Eigen::Matrix<double, 15, 4, Eigen::RowMajor>>(field.jacobian(i, 0)) *
-                             plus.col(k);
+                derivative =
+                    Eigen::Map<const Eigen::Matrix<double, 15, 4, Eigen::RowMajor>>(field.jacobian(i, 0)) * plus.col(k);
             } else {
                 derivative =
                     Eigen::Map<const Eigen::Matrix<double, 15, 3, Eigen::RowMajor>>(field.jacobian(i, 1)).col(k - 3);
@@ -81,10 +82,9 @@ TEST(OdecoField, DerivativesAreThoseOfFiniteDifferences) {
 TEST(OdecoField, GradientOfTheEnergyIsThatOfFiniteDifferences) {
     const TetMesh mesh = jittered_cube(2, 0.2, 2);  // obtuse: tets kept whole
     const Index n = static_cast<Index>(mesh.vertices.rows());
-    OdecoField field(frames::random_rotations(n, 3), Points::NullaryExpr(n, 3, [](Eigen::Index i, Eigen::Index k) {
-                         return 0.3 * std::sin(double(i + 5 * k));
-                     }),
-                     1);
+    OdecoField field(
+        frames::random_rotations(n, 3),
+        Points::NullaryExpr(n, 3, [](Eigen::Index i, Eigen::Index k) { return 0.3 * std::sin(double(i + 5 * k)); }), 1);
     ceres::Problem::Options problem_options;
     problem_options.evaluation_callback = &field;
     ceres::Problem problem(problem_options);
@@ -121,9 +121,12 @@ TEST(OdecoLengths, AreInterpolatedLinearlyBetweenTwoFaces) {
     constraints.lengths = Points::Ones(mesh.vertices.rows(), 3);
     for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
         const double z = mesh.vertices(v, 2);
-        if (z == 0) constraints.lengths.row(v) = low;
-        else if (z == 1) constraints.lengths.row(v) = high;
-        else constraints.kind[v] = VertexConstraint::free;
+        if (z == 0)
+            constraints.lengths.row(v) = low;
+        else if (z == 1)
+            constraints.lengths.row(v) = high;
+        else
+            constraints.kind[v] = VertexConstraint::free;
     }
     Quaternions start = constant;  // in other representatives: lengths follow their axes
     for (Eigen::Index v = 0; v < start.rows(); ++v)
@@ -222,7 +225,8 @@ TEST(OdecoLengths, RefuseWhatHoldsNoneAndWhatIsNoLength) {
     EXPECT_THROW(smooth(mesh, constraints, field, with_lengths()), InvalidInput);
     constraints.lengths = Points::Ones(4, 3);
     EXPECT_THROW(smooth(mesh, constraints, field, with_lengths()), InvalidInput);
-    EXPECT_THROW(smooth(mesh, constraints_on(mesh, VertexConstraint::free, field), field, with_lengths()), InvalidInput);
+    EXPECT_THROW(smooth(mesh, constraints_on(mesh, VertexConstraint::free, field), field, with_lengths()),
+                 InvalidInput);
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ void require_fitting(const Sampling& sampling, const BoundaryConstraints& constr
     for (const std::size_t size :
          {constraints.kind.size(), constraints.on_boundary.size(), rows(constraints.axis), rows(constraints.frames)})
         if (size != n)
-            throw InvalidInput("the constraints have " + std::to_string(size) + " entries for " + std::to_string(n) + " " +
-                                   sites + "; build them with boundary_constraints for this mesh",
+            throw InvalidInput("the constraints have " + std::to_string(size) + " entries for " + std::to_string(n) +
+                                   " " + sites + "; build them with boundary_constraints for this mesh",
                                "wrong_size");
     for (const Index v : constraints.released_corners)
         if (v < 0 || static_cast<std::size_t>(v) >= n)
@@ -42,8 +42,8 @@ void require_fitting(const Sampling& sampling, const BoundaryConstraints& constr
                                "index_out_of_range", {v});
     require_frames(constraints.frames, sampling.count());
     if (constraints.lengths.rows() != 0 && rows(constraints.lengths) != n)
-        throw InvalidInput("the constraints have " + std::to_string(constraints.lengths.rows()) + " rows of lengths for " +
-                               std::to_string(n) + " " + sites + "; give one each, or none",
+        throw InvalidInput("the constraints have " + std::to_string(constraints.lengths.rows()) +
+                               " rows of lengths for " + std::to_string(n) + " " + sites + "; give one each, or none",
                            "wrong_size");
     if (!(constraints.lengths.array() > 0).all() || !constraints.lengths.allFinite())
         throw InvalidInput("lengths of constraints must be finite and above 0", "bad_length");
@@ -52,7 +52,8 @@ void require_fitting(const Sampling& sampling, const BoundaryConstraints& constr
         if (constraints.kind[v] == VertexConstraint::axis && !(std::abs(constraints.axis.row(v).norm() - 1) < 1e-6))
             bad.push_back(static_cast<Index>(v));
     if (!bad.empty())
-        throw InvalidInput("the fixed axes at " + sites + " " + first_few(bad) + " are not unit vectors", "not_unit", bad);
+        throw InvalidInput("the fixed axes at " + sites + " " + first_few(bad) + " are not unit vectors", "not_unit",
+                           bad);
 }
 
 void require_fitting(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start) {

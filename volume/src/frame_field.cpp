@@ -64,7 +64,8 @@ FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints
     bool going = true;
     for (int round = 0; round < options.rounds && going; ++round) {
         const double begin = round / parts, end = (round + 1) / parts, middle = 0.6 * begin + 0.4 * end;
-        const SmoothResult diffused = diffuse(sampling, constraints, best.frames, diffusion, part(progress, begin, middle));
+        const SmoothResult diffused =
+            diffuse(sampling, constraints, best.frames, diffusion, part(progress, begin, middle));
         result.diffusion_steps += diffused.iterations;
         going = keep(diffused);
         if (!going) break;

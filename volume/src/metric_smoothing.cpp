@@ -35,8 +35,8 @@ void add_costs(ceres::Problem& problem, DifferenceField<Scheme>& field, const Di
 template <class Scheme>
 class MetricProblem {
 public:
-    MetricProblem(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start, Scheme scheme,
-                  const SmoothOptions& options)
+    MetricProblem(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
+                  Scheme scheme, const SmoothOptions& options)
         : length_(sampling.box_diagonal),
           field(start, std::move(scheme), options.threads),
           problem_(problem_options(field)) {

@@ -1,5 +1,5 @@
-// A field of odeco tensors as the solver sees it: a quaternion and three logarithms of axis lengths per site, and, computed
-// once per evaluation, the tensors and their derivatives.
+// A field of odeco tensors as the solver sees it: a quaternion and three logarithms of axis lengths per site, and,
+// computed once per evaluation, the tensors and their derivatives.
 #pragma once
 
 #include <ceres/evaluation_callback.h>

@@ -113,14 +113,14 @@ Quaternions vertex_frames(const TetMesh& mesh, const Quaternions& of_tets, int t
     const Eigen::VectorXd size = mean.rowwise().norm();  // lengths to the third power, of any unit
     for (Eigen::Index v = 0; v < count; ++v)
         if (size[v] > 0) mean.row(v) /= size[v];
-    parallel_for(
-        (count + vertices_per_block - 1) / vertices_per_block, threads,
-        [&](std::int64_t block) {
-            const Eigen::Index first = block * vertices_per_block, rows = std::min(vertices_per_block, count - first);
-            frames::sh4_project(mean.row(first).data(), guess.row(first).data(), rows, result.row(first).data(),
-                                distance.data() + first);
-        },
-        1);
+    parallel_for((count + vertices_per_block - 1) / vertices_per_block, threads,
+                 [&](std::int64_t block) {
+                     const Eigen::Index first = block * vertices_per_block,
+                                        rows = std::min(vertices_per_block, count - first);
+                     frames::sh4_project(mean.row(first).data(), guess.row(first).data(), rows,
+                                         result.row(first).data(), distance.data() + first);
+                 },
+                 1);
     return result;
 }
 

@@ -9,9 +9,9 @@
 #include "dirichlet_costs.hpp"
 #include "embedded_field.hpp"
 #include "metric_smoothing.hpp"
-#include "odeco_smoothing.hpp"
 #include "octafield/frames/registry.hpp"
 #include "octafield/volume/operators.hpp"
+#include "odeco_smoothing.hpp"
 #include "smooth_options.hpp"
 #include "trust_region.hpp"
 
@@ -31,8 +31,8 @@ bool by_trust_region(const SmoothOptions& options) {
 
 // `start` is on the constraints.
 template <frames::Representation R>
-SmoothResult smooth_with_ceres(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
-                               const SmoothOptions& options, const Progress& progress) {
+SmoothResult smooth_with_ceres(const Sampling& sampling, const BoundaryConstraints& constraints,
+                               const Quaternions& start, const SmoothOptions& options, const Progress& progress) {
     // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
     const double length = sampling.box_diagonal;
     EmbeddedField<R> field(start, options.threads);

@@ -43,8 +43,10 @@ std::vector<Side> sides_of(const TetMesh& mesh, const BoundarySurface& surface) 
         Eigen::Index low = 0, high = table.triangles.rows();
         while (low < high) {
             const Eigen::Index middle = (low + high) / 2;
-            if (row(middle) < key) low = middle + 1;
-            else high = middle;
+            if (row(middle) < key)
+                low = middle + 1;
+            else
+                high = middle;
         }
         if (low == table.triangles.rows() || row(low) != key)
             throw InvalidInput("triangle " + std::to_string(f) + " of the surface is no triangle of the tet mesh",

@@ -17,8 +17,8 @@ namespace {
 
 using frames::Quaternion;
 
-// Corners (a, b, c, d) of a positively oriented tet for each of its edges ab: an even permutation, so that the way round
-// a -> b (right-handed) enters the tet through the triangle abc and leaves it through abd.
+// Corners (a, b, c, d) of a positively oriented tet for each of its edges ab: an even permutation, so that the way
+// round a -> b (right-handed) enters the tet through the triangle abc and leaves it through abd.
 constexpr std::array<std::array<int, 4>, 6> even{
     {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
 
@@ -87,8 +87,8 @@ int holonomy(const Wedge* first, const Wedge* last, const TriangleTable& table,
     return frames::octahedral_inverse(product);
 }
 
-// The curve runs from the vertex before an edge to the one after it where it goes on in one edge alone: steadier than the
-// edge, which may run across a curve that no edges follow.
+// The curve runs from the vertex before an edge to the one after it where it goes on in one edge alone: steadier than
+// the edge, which may run across a curve that no edges follow.
 void set_quarter_turns(const TetMesh& mesh, const Quaternions& of_tets, const std::vector<Index>& first_tets,
                        std::vector<SingularEdge>& edges) {
     std::vector<std::array<Index, 2>> neighbours(mesh.vertices.rows(), {-1, -1});

@@ -185,7 +185,7 @@ SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& c
     return Solver<R>(sampling, constraints, options, progress).run(start);
 }
 
-#define OCTAFIELD_INSTANTIATE(R)                                                                                  \
+#define OCTAFIELD_INSTANTIATE(R)                                                                                   \
     template SmoothResult trust_region<frames::R>(const Sampling&, const BoundaryConstraints&, const Quaternions&, \
                                                   const SmoothOptions&, const Progress&);
 OCTAFIELD_INSTANTIATE(Sh4)

@@ -31,8 +31,8 @@ Sampling vertex_sampling(const TetMesh& mesh);
 
 // In the tets: E = 1/2 sum over interior triangles of w |a_s - a_t|^2, w = area / distance between the centroids of the
 // two tets (the orthogonal correction of Jasak 1996, section 3.3.1.3). Such two-point fluxes are not consistent on
-// general tets: energies do not tend to those of the continuous field, but to what docs/tet_meshes.md measures. Mass: the
-// volumes. Throws GeometryError (unsound mesh).
+// general tets: energies do not tend to those of the continuous field, but to what docs/tet_meshes.md measures. Mass:
+// the volumes. Throws GeometryError (unsound mesh).
 Sampling tet_sampling(const TetMesh& mesh);
 
 // (n, 4) unit quaternions w x y z at the vertices: the frame nearest to the mean sh4 vector, weighted by volume, of the
@@ -40,8 +40,8 @@ Sampling tet_sampling(const TetMesh& mesh);
 // (m, 4). Throws InvalidInput, GeometryError.
 Quaternions vertex_frames(const TetMesh& mesh, const Quaternions& of_tets, int threads = 0);
 
-// 1/2 sum_c a_c^T L a_c, a the sh4 vectors: at vertices the energy of operators.hpp, but for rounding. frames: (n, 4) unit quaternions w x y z. The same
-// bits at any thread count. Throws InvalidInput.
+// 1/2 sum_c a_c^T L a_c, a the sh4 vectors: at vertices the energy of operators.hpp, but for rounding. frames: (n, 4)
+// unit quaternions w x y z. The same bits at any thread count. Throws InvalidInput.
 double dirichlet_energy(const Sampling& sampling, const Quaternions& frames, int threads = 0);
 
 }  // namespace octafield::volume

@@ -30,8 +30,8 @@ struct SmoothOptions {
     // scheme); or of odeco tensors with axis lengths as further unknowns, odeco_lengths (Palmer, Bommes, Solomon 2020):
     // a fixed axis has length 1, a fixed frame lengths 1, unless BoundaryConstraints::lengths gives others; the
     // unknowns are logarithms, so that lengths stay positive. Held ones keep the rest from shrinking, but near singular
-    // curves the two across them nearly vanish, which is how such a field is continuous there. Or of a metric on frames, whose edges ij have differences d_ij (world axes, radians) in place of
-    // a_j - a_i (docs/su2_smoothing.md):
+    // curves the two across them nearly vanish, which is how such a field is continuous there. Or of a metric on
+    // frames, whose edges ij have differences d_ij (world axes, radians) in place of a_j - a_i (docs/su2_smoothing.md):
     // - geodesic: the rotation vector of the smallest rotation from q_i to q_j, matched anew at every evaluation
     // - su2_geodesic: the same, read from the invariants (h0, h1, h2) through their inverse map
     // - su2_midpoint: 2 J^+ (h_j - h_i) with the pseudo-inverse J^+ of dh/d(u, v) half-way, differentiated by both
@@ -56,7 +56,8 @@ struct SmoothResult {
     Quaternions frames;  // (n, 4) unit quaternions w x y z
     Points lengths;      // (n, 3) of the frames' axes (columns of R) where odeco_lengths was minimised; else no rows
     double energy = 0;   // operators.hpp: dirichlet_energy, of sh4 whatever was minimised
-    // What was minimised: 1/2 sum_c a_c^T L a_c of an embedding or of tensors with lengths, 1/2 of the squared gradient in radians of a metric.
+    // What was minimised: 1/2 sum_c a_c^T L a_c of an embedding or of tensors with lengths, 1/2 of the squared gradient
+    // in radians of a metric.
     double objective = 0;
     int iterations = 0;
     bool converged = false;

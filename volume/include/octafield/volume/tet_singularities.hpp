@@ -10,8 +10,8 @@ namespace octafield::volume {
 // An edge inside the mesh round which the product of the matchings across its triangles is not the identity. Edges of
 // the boundary have no loop of tets round them, so none is singular.
 struct SingularEdge {
-    Index a, b;         // tet-mesh vertex ids, a < b
-    int holonomy;       // of the octahedral group: the frame of the lowest tet comes back as q h, right-handed round a -> b
+    Index a, b;    // tet-mesh vertex ids, a < b
+    int holonomy;  // of the octahedral group: the frame of the lowest tet comes back as q h, right-handed round a -> b
     int quarter_turns;  // as of a SingularTriangle, the curve running along the edge
 };
 
