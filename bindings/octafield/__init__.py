@@ -197,6 +197,17 @@ from ._core import (
     write_surface,
     write_surface_field,
 )
+from ._core import (  # sampling
+    Sampling,
+    SingularEdge,
+    SingularEdges,
+    singular_edges,
+    tet_alignment_angles,
+    tet_boundary_constraints,
+    tet_sampling,
+    vertex_frames,
+    vertex_sampling,
+)
 from ._core import (  # volume input
     LockingElements,
     LockingSplit,
@@ -426,4 +437,13 @@ __all__ = [
     "write_singular_graph",
     "write_surface",
     "write_surface_field",
+    "Sampling",
+    "SingularEdge",
+    "SingularEdges",
+    "singular_edges",
+    "tet_alignment_angles",
+    "tet_boundary_constraints",
+    "tet_sampling",
+    "vertex_frames",
+    "vertex_sampling",
 ]

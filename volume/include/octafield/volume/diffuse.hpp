@@ -25,6 +25,8 @@ struct DiffuseOptions {
 // which is best applied to the result. Vertices with a fixed axis diffuse in the plane of their twist (the constraint
 // is kept by the linear solve, not only by projection), fixed ones hold. energy_history has the energy at the start and
 // after each step; converged is true unless cancelled. Throws InvalidInput, GeometryError (unsound mesh), SolverError.
+SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
+                     const DiffuseOptions& options = {}, const Progress& progress = {});
 SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
                      const DiffuseOptions& options = {}, const Progress& progress = {});
 
