@@ -89,7 +89,7 @@ def _meshability_record(found: Meshability) -> dict:
         "singular_boundary_ends": found.boundary_ends,
         "singular_boundary_ends_about_normal": found.boundary_ends_about_normal,
         "singular_vertex_types": {name: counts[name] for name in sorted(counts)},
-        "singular_axis_deg": _degrees(np.array([end.angle for end in found.ends if end.quarter_turns])),
+        "singular_axis_deg": degrees(np.array([end.angle for end in found.ends if end.quarter_turns])),
     }
 
 

@@ -34,7 +34,7 @@ int holonomy(const Quaternion& a, const Quaternion& b, const Quaternion& c) {
 // either way: the quaternion of the path, one smallest step after the other, knows which.
 Eigen::Vector3d forward_axis(int element, const Quaternion& a, const Quaternion& b, const Quaternion& c) {
     const Eigen::Vector3d axis = frames::octahedral_group()[element].vec();
-    if (frames::octahedral_class(element) != OctahedralClass::half_turn) return axis;
+    if (frames::octahedral_class(element) != frames::OctahedralClass::half_turn) return axis;
     const Quaternion at_c = frames::closest_representative(c, frames::closest_representative(b, a));
     const Quaternion back = frames::closest_representative(a, at_c);
     return (a.conjugate() * back).vec().dot(axis) < 0 ? Eigen::Vector3d(-axis) : axis;
