@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "octafield/parallel.hpp"
-#include "octafield/volume/operators.hpp"
+#include "octafield/volume/sampling.hpp"
 
 namespace octafield::volume {
 
@@ -28,13 +28,13 @@ double block_sum(std::int64_t n, int threads, const Body& body) {
 
 class BlockLaplacian {
 public:
-    explicit BlockLaplacian(const TetMesh& mesh)
-        : matrix_(stiffness(mesh)), diagonal_(matrix_.diagonal()), mass_(lumped_mass(mesh)) {}
+    explicit BlockLaplacian(const Sampling& sampling)
+        : matrix_(sampling.stiffness), diagonal_(matrix_.diagonal()), mass_(sampling.mass) {}
 
     Index rows() const { return static_cast<Index>(matrix_.rows()); }
     const Eigen::VectorXd& diagonal() const { return diagonal_; }
     const Eigen::VectorXd& mass() const { return mass_; }  // lumped
-    // True for vertices of no tet: their row is zero.
+    // True for vertices of no tet and tets of no neighbour: their row is zero.
     bool is_isolated(Index v) const { return !(diagonal_[v] > 0); }
 
     // Row v of L x.

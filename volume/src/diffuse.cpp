@@ -30,11 +30,9 @@ struct Schedule {
     double first, exponent;
     int steps;
 
-    Schedule(const TetMesh& mesh, const DiffuseOptions& options) : exponent(options.time_exponent) {
-        const surface::TriangleMesh boundary = boundary_surface(mesh).mesh;
-        const double size = 3 * tet_volumes(mesh).sum() / surface::triangle_areas(boundary).sum();
-        first = options.first_time * size * size;
-        const double ratio = first / (options.last_time * std::pow(surface::mean_edge_length(boundary), 2));
+    Schedule(const Sampling& sampling, const DiffuseOptions& options) : exponent(options.time_exponent) {
+        first = options.first_time * sampling.body_radius * sampling.body_radius;
+        const double ratio = first / (options.last_time * std::pow(sampling.spacing, 2));
         const double wanted = ratio > 1 ? std::ceil(std::pow(ratio, 1 / exponent)) : 1;
         steps = static_cast<int>(std::min<double>(wanted, options.max_steps));
         if (steps < wanted && steps > 1) exponent = std::log(ratio) / std::log(steps);
@@ -44,13 +42,13 @@ struct Schedule {
 
 }  // namespace
 
-SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                      const DiffuseOptions& options, const Progress& progress) {
-    require_fitting(mesh, constraints, start);
+    require_fitting(sampling, constraints, start);
     require_sound(options);
 
-    const Schedule schedule(mesh, options);
-    const BlockLaplacian laplacian(mesh);
+    const Schedule schedule(sampling, options);
+    const BlockLaplacian laplacian(sampling);
     Quaternions frames = constrained_start(constraints, start);
     const ConstraintSpaces spaces(constraints, frames, laplacian);
     const FieldProjector projector(spaces, options.threads);
@@ -83,6 +81,11 @@ SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints
     }
     projector.twist(best, result.frames);
     return result;
+}
+
+SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+                     const DiffuseOptions& options, const Progress& progress) {
+    return diffuse(vertex_sampling(mesh), constraints, start, options, progress);
 }
 
 }  // namespace octafield::volume

@@ -34,7 +34,7 @@ bool minimises_sh4_to_second_order(const SmoothOptions& options) {
 
 }  // namespace
 
-FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
+FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints& constraints,
                              const FrameFieldOptions& options, const Progress& progress) {
     require_sound(options);
     require_sound(options.smooth);
@@ -47,8 +47,8 @@ FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& con
     const double parts = options.rounds + (second_order ? 0 : 1);
     FrameFieldResult result;
     SmoothResult& best = result.smooth;
-    best.frames = options.seed == 0 ? initial_frames(mesh, constraints, options.start, options.threads)
-                                    : frames::random_rotations(mesh.vertices.rows(), options.seed);
+    best.frames = options.seed == 0 ? initial_frames(sampling, constraints, options.start, options.threads)
+                                    : frames::random_rotations(sampling.count(), options.seed);
     best.energy = std::numeric_limits<double>::infinity();
     std::vector<double> history;
     int iterations = 0;
@@ -64,19 +64,19 @@ FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& con
     bool going = true;
     for (int round = 0; round < options.rounds && going; ++round) {
         const double begin = round / parts, end = (round + 1) / parts, middle = 0.6 * begin + 0.4 * end;
-        const SmoothResult diffused = diffuse(mesh, constraints, best.frames, diffusion, part(progress, begin, middle));
+        const SmoothResult diffused = diffuse(sampling, constraints, best.frames, diffusion, part(progress, begin, middle));
         result.diffusion_steps += diffused.iterations;
         going = keep(diffused);
         if (!going) break;
         const bool is_last = second_order && round + 1 == options.rounds;
         polish.tolerance = is_last ? last.tolerance : std::max(rough_tolerance, last.tolerance);
-        going = keep(smooth(mesh, constraints, diffused.frames, polish, part(progress, middle, end)));
+        going = keep(smooth(sampling, constraints, diffused.frames, polish, part(progress, middle, end)));
         diffusion.first_time *= options.round_time;
         diffusion.keep_best = false;
     }
     if (going && (!second_order || options.rounds == 0)) {
         SmoothResult final =
-            smooth(mesh, constraints, best.frames, last, part(progress, options.rounds / parts, 1));
+            smooth(sampling, constraints, best.frames, last, part(progress, options.rounds / parts, 1));
         if (!history.empty() && final.energy_history.front() > 0) {
             const double scale = best.energy / final.energy_history.front();
             for (double& energy : final.energy_history) energy *= scale;
@@ -90,6 +90,13 @@ FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& con
     best.iterations = iterations;
     best.energy_history = std::move(history);
     return result;
+}
+
+FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
+                             const FrameFieldOptions& options, const Progress& progress) {
+    require_sound(options);
+    require_sound(options.smooth);
+    return frame_field(vertex_sampling(mesh), constraints, options, progress);
 }
 
 }  // namespace octafield::volume

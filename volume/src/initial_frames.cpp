@@ -24,11 +24,11 @@ BoundaryConstraints holding(const BoundaryConstraints& constraints, Start start)
 
 }  // namespace
 
-Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints, Start start, int threads) {
-    require_fitting(mesh, constraints);
+Quaternions initial_frames(const Sampling& sampling, const BoundaryConstraints& constraints, Start start, int threads) {
+    require_fitting(sampling, constraints);
     const BoundaryConstraints held = holding(constraints, start);
     Quaternions frames = constrained_start(held, constraints.frames);
-    const BlockLaplacian laplacian(mesh);
+    const BlockLaplacian laplacian(sampling);
     const ConstraintSpaces spaces(held, frames, laplacian);
     HeatSolver solver(laplacian, spaces, threads);
     Sh4Field field = spaces.given();
@@ -42,6 +42,10 @@ Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& const
     projector.project(field, embedded(frames, threads), frames);
     projector.twist(field, frames);
     return frames;
+}
+
+Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints, Start start, int threads) {
+    return initial_frames(vertex_sampling(mesh), constraints, start, threads);
 }
 
 }  // namespace octafield::volume

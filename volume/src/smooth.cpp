@@ -48,14 +48,14 @@ bool by_trust_region(const SmoothOptions& options) {
 
 // `start` is on the constraints.
 template <frames::Representation R>
-SmoothResult smooth_with_ceres(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+SmoothResult smooth_with_ceres(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                                const SmoothOptions& options, const Progress& progress) {
     // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
-    const double length = surface::bounding_box_diagonal(mesh.vertices);
+    const double length = sampling.box_diagonal;
     EmbeddedField<R> field(start, options.threads);
     Manifolds manifolds;
     ceres::Problem problem(problem_options(field));
-    add_costs(problem, field, dirichlet_blocks(mesh), 1 / length);
+    add_costs(problem, field, dirichlet_blocks(sampling), 1 / length);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
     return solve_with_ceres(problem, field.quaternions(), length, options, progress);
 }
@@ -81,23 +81,29 @@ std::vector<std::string> smooth_representations() {
     return names;
 }
 
-SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+SmoothResult smooth(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                     const SmoothOptions& options, const Progress& progress) {
     require_sound(options);
-    require_fitting(mesh, constraints, start);
+    require_fitting(sampling, constraints, start);
     const Quaternions on_constraints = constrained_start(constraints, start);
     SmoothResult result;
     if (is_metric(options.representation)) {
-        result = smooth_metric(mesh, constraints, on_constraints, options, progress);
+        result = smooth_metric(sampling, constraints, on_constraints, options, progress);
     } else {
         frames::with_representation(options.representation, [&]<frames::Representation R>() {
             result = by_trust_region(options)
-                         ? trust_region<R>(mesh, constraints, on_constraints, options, progress)
-                         : smooth_with_ceres<R>(mesh, constraints, on_constraints, options, progress);
+                         ? trust_region<R>(sampling, constraints, on_constraints, options, progress)
+                         : smooth_with_ceres<R>(sampling, constraints, on_constraints, options, progress);
         });
     }
-    result.energy = dirichlet_energy(mesh, result.frames, options.threads);
+    result.energy = dirichlet_energy(sampling, result.frames, options.threads);
     return result;
+}
+
+SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+                    const SmoothOptions& options, const Progress& progress) {
+    require_sound(options);
+    return smooth(vertex_sampling(mesh), constraints, start, options, progress);
 }
 
 }  // namespace octafield::volume

@@ -27,9 +27,9 @@ struct Step {
 template <frames::Representation R>
 class Solver {
 public:
-    Solver(const TetMesh& mesh, const BoundaryConstraints& constraints, const SmoothOptions& options,
+    Solver(const Sampling& sampling, const BoundaryConstraints& constraints, const SmoothOptions& options,
            const Progress& progress)
-        : laplacian_(mesh),
+        : laplacian_(sampling),
           model_(laplacian_, constraints, options.threads),
           options_(options),
           progress_(progress),
@@ -180,13 +180,13 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
 }  // namespace
 
 template <frames::Representation R>
-SmoothResult trust_region(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                           const SmoothOptions& options, const Progress& progress) {
-    return Solver<R>(mesh, constraints, options, progress).run(start);
+    return Solver<R>(sampling, constraints, options, progress).run(start);
 }
 
 #define OCTAFIELD_INSTANTIATE(R)                                                                                  \
-    template SmoothResult trust_region<frames::R>(const TetMesh&, const BoundaryConstraints&, const Quaternions&, \
+    template SmoothResult trust_region<frames::R>(const Sampling&, const BoundaryConstraints&, const Quaternions&, \
                                                   const SmoothOptions&, const Progress&);
 OCTAFIELD_INSTANTIATE(Sh4)
 OCTAFIELD_INSTANTIATE(Tensor4)

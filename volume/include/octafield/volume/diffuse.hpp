@@ -9,7 +9,7 @@ namespace octafield::volume {
 struct DiffuseOptions {
     // Time of the first step over l^2, l = 3 volume / boundary area (the radius, for a ball).
     double first_time = 5;
-    // Time of the last step over the square of the mean boundary edge.
+    // Time of the last step over the square of the sampling's spacing (the mean boundary edge, at vertices).
     double last_time = 0.25;
     // Step k lasts 1/k^time_exponent of the first, and steps end when last_time is reached. Palmer et al. take 3: fewer
     // steps, higher energies (docs/frame_fields.md).
@@ -25,6 +25,8 @@ struct DiffuseOptions {
 // which is best applied to the result. Vertices with a fixed axis diffuse in the plane of their twist (the constraint
 // is kept by the linear solve, not only by projection), fixed ones hold. energy_history has the energy at the start and
 // after each step; converged is true unless cancelled. Throws InvalidInput, GeometryError (unsound mesh), SolverError.
+SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
+                     const DiffuseOptions& options = {}, const Progress& progress = {});
 SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
                      const DiffuseOptions& options = {}, const Progress& progress = {});
 

@@ -29,6 +29,8 @@ struct FrameFieldResult {
 // Rounds polish in sh4 with the trust region, whatever options.smooth asks for; another representation or solver starts
 // from the best of them, as do the schemes that need a start near their minimum. Cancelling keeps the best field.
 // Throws InvalidInput, GeometryError (unsound mesh), SolverError.
+FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints& constraints,
+                             const FrameFieldOptions& options = {}, const Progress& progress = {});
 FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
                              const FrameFieldOptions& options = {}, const Progress& progress = {});
 

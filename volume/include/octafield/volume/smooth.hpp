@@ -1,5 +1,5 @@
-// Smoothing: minimise the Dirichlet energy of a frame field with one unit quaternion per vertex, in an embedding or in
-// a metric on frames.
+// Smoothing: minimise the Dirichlet energy of a frame field with one unit quaternion per site of a sampling (vertices,
+// unless another is given), in an embedding or in a metric on frames.
 #pragma once
 
 #include <numbers>
@@ -9,7 +9,7 @@
 
 #include "octafield/progress.hpp"
 #include "octafield/volume/boundary.hpp"
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/sampling.hpp"
 
 namespace octafield::volume {
 
@@ -68,6 +68,8 @@ enum class Start {
 
 // The start: the field of sh4 vectors of least Dirichlet energy with what is given, linear in the unknowns, projected
 // onto frames. Without anything given: identities. Throws InvalidInput, GeometryError (unsound mesh), SolverError.
+Quaternions initial_frames(const Sampling& sampling, const BoundaryConstraints& constraints,
+                           Start start = Start::constraints, int threads = 0);
 Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints,
                            Start start = Start::constraints, int threads = 0);
 
@@ -78,6 +80,8 @@ Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& const
 // start is first moved onto them. Cancelling keeps the best state. Ceres' solvers set the process to one OpenBLAS
 // thread and silence glog below fatal: what Ceres would log is in the exception. Throws InvalidInput, GeometryError
 // (unsound mesh), SolverError.
+SmoothResult smooth(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
+                    const SmoothOptions& options = {}, const Progress& progress = {});
 SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
                     const SmoothOptions& options = {}, const Progress& progress = {});
 
