@@ -52,16 +52,11 @@ public:
         turned_.resize(w.rows(), R::dimension);
         parallel_for(w.rows(), threads_,
                      [&](std::int64_t v) { turned_.row(v) = (differentials_[v] * w.row(v).transpose()).transpose(); });
-        return block_sum(w.rows(), threads_, [&](std::int64_t first, std::int64_t last) {
-            double sum = 0;
-            for (std::int64_t v = first; v < last; ++v) {
-                const frames::Vector3 image =
-                    differentials_[v].transpose() * laplacian_.row_times(static_cast<Index>(v), turned_) +
-                    curvatures_[v] * w.row(v).transpose();
-                y.row(v) = allowed(v, image).transpose();
-                sum += y.row(v).dot(w.row(v));
-            }
-            return sum;
+        return laplacian_.for_rows_of_product(turned_, threads_, [&](Index v, const auto& product) {
+            const frames::Vector3 image =
+                differentials_[v].transpose() * product + curvatures_[v] * w.row(v).transpose();
+            y.row(v) = allowed(v, image).transpose();
+            return y.row(v).dot(w.row(v));
         });
     }
 
