@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "block_product.hpp"
@@ -34,29 +35,29 @@ class BlockLaplacian {
 public:
     // Refers to the sampling.
     explicit BlockLaplacian(const Sampling& sampling)
-        : matrix_(sampling.stiffness), diagonal_(matrix_.diagonal()), mass_(sampling.mass) {}
+        : matrix_(sampling.stiffness),
+          diagonal_(matrix_.diagonal()),
+          mass_(sampling.mass),
+          single_(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros()) {}
 
     Index rows() const { return static_cast<Index>(matrix_.rows()); }
+    const SparseMatrix& matrix() const { return matrix_; }
     const Eigen::VectorXd& diagonal() const { return diagonal_; }
     const Eigen::VectorXd& mass() const { return mass_; }  // lumped
     // True for vertices of no tet and tets of no neighbour: their row is zero.
     bool is_isolated(Index v) const { return !(diagonal_[v] > 0); }
-    // L is symmetric: its columns are its rows.
-    SparseRows<double> compressed() const {
-        return {matrix_.outerIndexPtr(), matrix_.innerIndexPtr(), matrix_.valuePtr()};
-    }
 
     // use(v, row v of L x) for all rows; returns the sum of what it returns.
-    template <int K, class Use>
-    double for_rows_of_product(const Rows<double, K>& x, int threads, const Use& use) const {
+    template <class Real, int K, class Use>
+    double for_rows_of_product(const Rows<Real, K>& x, int threads, const Use& use) const {
         return block_sum(x.rows(), threads, [&](std::int64_t begin, std::int64_t end) {
-            std::array<double, product_rows * std::size_t(K)> products;
+            std::array<Real, product_rows * std::size_t(K)> products;
             double sum = 0;
             for (Index first = begin; first < end; first += product_rows) {
                 const Index last = std::min<Index>(end, first + product_rows);
-                multiply_rows(compressed(), first, last, x, products.data());
+                multiply_rows(compressed<Real>(), first, last, x, products.data());
                 for (Index v = first; v < last; ++v)
-                    sum += use(v, Eigen::Map<const Eigen::Matrix<double, K, 1>>(&products[std::size_t(K) * (v - first)]));
+                    sum += use(v, Eigen::Map<const Eigen::Matrix<Real, K, 1>>(&products[std::size_t(K) * (v - first)]));
             }
             return sum;
         });
@@ -68,13 +69,22 @@ public:
     double multiply(const Rows<double, K>& x, Rows<double, K>& y, int threads) const {
         y.resize(x.rows(), K);
         return block_sum(x.rows(), threads, [&](std::int64_t first, std::int64_t last) {
-            return multiply_by_differences(compressed(), first, last, x, y.data() + K * first);
+            return multiply_by_differences(compressed<double>(), first, last, x, y.data() + K * first);
         });
     }
 
 private:
-    static void multiply_rows(const SparseRows<double>& rows, Index first, Index last, const Rows<double, 9>& x,
-                              double* y) {
+    // L is symmetric: its columns are its rows.
+    template <class Real>
+    SparseRows<Real> compressed() const {
+        if constexpr (std::is_same_v<Real, float>)
+            return {matrix_.outerIndexPtr(), matrix_.innerIndexPtr(), single_.data()};
+        else
+            return {matrix_.outerIndexPtr(), matrix_.innerIndexPtr(), matrix_.valuePtr()};
+    }
+
+    template <class Real>
+    static void multiply_rows(const SparseRows<Real>& rows, Index first, Index last, const Rows<Real, 9>& x, Real* y) {
         multiply_nine(rows, first, last, x.data(), y);
     }
     static double multiply_by_differences(const SparseRows<double>& rows, Index first, Index last,
@@ -82,13 +92,12 @@ private:
         return multiply_nine_by_differences(rows, first, last, x.data(), y);
     }
 
-    template <int K>
-    static void multiply_rows(const SparseRows<double>& rows, Index first, Index last, const Rows<double, K>& x,
-                              double* y) {
+    template <class Real, int K>
+    static void multiply_rows(const SparseRows<Real>& rows, Index first, Index last, const Rows<Real, K>& x, Real* y) {
         for (Index v = first; v < last; ++v) {
-            Eigen::Matrix<double, 1, K> sum = Eigen::Matrix<double, 1, K>::Zero();
+            Eigen::Matrix<Real, 1, K> sum = Eigen::Matrix<Real, 1, K>::Zero();
             for (Index k = rows.begin[v]; k < rows.begin[v + 1]; ++k) sum += rows.value[k] * x.row(rows.column[k]);
-            Eigen::Map<Eigen::Matrix<double, 1, K>>(y + std::ptrdiff_t(K) * (v - first)) = sum;
+            Eigen::Map<Eigen::Matrix<Real, 1, K>>(y + std::ptrdiff_t(K) * (v - first)) = sum;
         }
     }
     template <int K>
@@ -110,6 +119,7 @@ private:
     const SparseMatrix& matrix_;
     Eigen::VectorXd diagonal_;
     const Eigen::VectorXd& mass_;
+    std::vector<float> single_;  // the matrix's values
 };
 
 }  // namespace octafield::volume

@@ -7,12 +7,14 @@
 #include "constraints.hpp"
 #include "field_projector.hpp"
 #include "heat_solver.hpp"
+#include "site_descent.hpp"
 
 namespace octafield::volume {
 namespace {
 
 // Of one step; they end far earlier unless the mesh has degenerate tets.
 constexpr int linear_iterations = 1000;
+constexpr int sweeps = 8;  // after the last step, site by site
 
 void require_sound(const DiffuseOptions& options) {
     const auto require_positive = [](double value, const char* name) {
@@ -82,6 +84,10 @@ SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constr
         record(solution.energy, before);
         frames.swap(next);
         result.iterations = k;
+    }
+    if (result.converged) {
+        const SiteDescent descent(laplacian, spaces, projector, options.threads);
+        for (int k = 0; k < sweeps; ++k) descent.sweep(field, frames);
     }
     record(laplacian.multiply(field, before, options.threads) / 2, field);
     projector.twist(best, result.frames);

@@ -1,6 +1,7 @@
 #include "heat_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "octafield/error.hpp"
 
@@ -8,11 +9,17 @@ namespace octafield::volume {
 
 using frames::Sh4;
 
+namespace {
+
+// Of the residual in every step. The right-hand side of short times is far larger: against it alone, nothing would be
+// done where few sites, those of slivers, are far from equilibrium.
+constexpr double least_reduction = 0.5;
+
+}  // namespace
+
 HeatSolver::HeatSolver(const BlockLaplacian& laplacian, const ConstraintSpaces& spaces, int threads)
     : laplacian_(laplacian), spaces_(spaces), threads_(threads) {
     const Index n = laplacian.rows();
-    const SparseRows<double> rows = laplacian.compressed();
-    values_.assign(rows.value, rows.value + rows.begin[n]);
     inverse_.resize(n);
     pull_.resize(n);
     for (Field* field : {&load_, &change_, &residual_, &direction_, &image_}) field->setZero(n, Sh4::dimension);
@@ -45,21 +52,13 @@ double HeatSolver::begin(const Sh4Field& field, double& energy) {
 
 // image = (P L + M / time) direction; returns direction . image.
 double HeatSolver::multiply() {
-    const SparseRows<double> rows = laplacian_.compressed();
-    const SparseRows<float> single{rows.begin, rows.column, values_.data()};
-    return block_sum(laplacian_.rows(), threads_, [&](std::int64_t begin, std::int64_t end) {
-        double total = 0;
-        for (Index first = begin; first < end; first += product_rows) {
-            const Index last = std::min<Index>(end, first + product_rows);
-            multiply_nine(single, first, last, direction_.data(), image_.row(first).data());
-            for (Index v = first; v < last; ++v) {
-                if (spaces_.kind(v) != VertexConstraint::free)
-                    image_.row(v) = spaces_.reached(v, image_.row(v).transpose().cast<double>()).cast<float>();
-                image_.row(v) += pull_[v] * direction_.row(v);
-                total += image_.row(v).dot(direction_.row(v));
-            }
-        }
-        return total;
+    return laplacian_.for_rows_of_product(direction_, threads_, [&](Index v, const Vector& product) {
+        image_.row(v) = pull_[v] * direction_.row(v);
+        if (spaces_.kind(v) == VertexConstraint::free)
+            image_.row(v) += product.transpose();
+        else
+            image_.row(v) += spaces_.reached(v, product.cast<double>()).cast<float>().transpose();
+        return image_.row(v).dot(direction_.row(v));
     });
 }
 
@@ -75,7 +74,8 @@ HeatSolution HeatSolver::step(double time, Sh4Field& field, double tolerance, in
     HeatSolution result;
     // The unknown is the change of `field`: the pull towards it is in the operator only.
     double squared = begin(field, result.energy);
-    const double small = tolerance * tolerance * std::max(right, squared);
+    double small = tolerance * tolerance * std::max(right, squared);
+    if (std::isfinite(time)) small = std::min(small, least_reduction * least_reduction * squared);
     for (; squared > small; ++result.iterations) {
         if (result.iterations == max_iterations) return result;
         const double curvature = multiply();

@@ -20,9 +20,9 @@ public:
     HeatSolver(const BlockLaplacian& laplacian, const ConstraintSpaces& spaces, int threads);
 
     // Minimises 1/2 x . L x + 1/(2 time) |x - field|_M^2 over fields x on the constraints; time: input length squared,
-    // infinity for a harmonic field. `field` is on the constraints and becomes x. tolerance, of 1e-3 or more: of the
-    // residual's preconditioned norm over that of the right-hand side or, if it is larger, at the start. Throws
-    // SolverError.
+    // infinity for a harmonic field. `field` is on the constraints and becomes x. tolerance: of the
+    // residual's preconditioned norm over that of the right-hand side or, if it is larger, at the start; of finite
+    // times it is halved at least. Throws SolverError.
     HeatSolution step(double time, Sh4Field& field, double tolerance, int max_iterations);
 
 private:
@@ -38,7 +38,6 @@ private:
     const BlockLaplacian& laplacian_;
     const ConstraintSpaces& spaces_;
     int threads_;
-    std::vector<float> values_;          // of L
     std::vector<float> inverse_, pull_;  // of the diagonal; M / time
     Field load_;                         // -L given, as far as the unknowns reach
     Field change_, residual_, direction_, image_;
