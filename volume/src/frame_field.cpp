@@ -1,7 +1,6 @@
 #include "octafield/volume/frame_field.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -16,9 +15,9 @@ namespace {
 
 // Of the polish in all rounds but the last: what comes after diffuses again.
 constexpr double rough_tolerance = 1e-3;
-// Of the first diffusion from a random start, over that from the linear one: what is left of the noise's longest waves
-// would choose the curves of thin shapes at random.
-constexpr double random_start_time = 20;
+// Of diffusions from a random start, over those from the linear one: what is left of the noise's longest waves would
+// choose the curves of thin shapes at random.
+constexpr double random_start_time = 5;
 
 void require_sound(const FrameFieldOptions& options) {
     if (options.rounds < 0) throw InvalidInput("rounds is negative; give 0 or more", "bad_option");
@@ -83,7 +82,7 @@ FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints
         const bool is_last = second_order && round + 1 == options.rounds;
         polish.tolerance = is_last ? last.tolerance : std::max(rough_tolerance, last.tolerance);
         going = keep(smooth(near, held, diffused.frames, polish, part(progress, middle, end)));
-        diffusion.first_time = options.diffuse.first_time * std::pow(options.round_time, round + 1);
+        diffusion.first_time *= options.round_time;
         diffusion.keep_best = false;
     }
     best.frames = reordered(best.frames, inverse_order(order));

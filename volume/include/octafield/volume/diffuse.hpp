@@ -8,7 +8,7 @@ namespace octafield::volume {
 
 struct DiffuseOptions {
     // Time of the first step over l^2, l = 3 volume / boundary area (the radius, for a ball).
-    double first_time = 5;
+    double first_time = 20;
     // Time of the last step over the square of the sampling's spacing (the mean boundary edge, at vertices).
     double last_time = 0.25;
     // Step k lasts 1/k^time_exponent of the first, and steps end when last_time is reached. Palmer et al. take 3: fewer
