@@ -103,8 +103,7 @@ TEST(HeatSolver, RefinesToDoublePrecision) {
         const ConstraintSpaces spaces(constraints, constraints.frames, laplacian);
         HeatSolver solver(laplacian, spaces, 1);
         Sh4Field field = spaces.given(), image;
-        for (int k = 0; k < 4; ++k)
-            solver.step(std::numeric_limits<double>::infinity(), field, 1e-11, 200);
+        for (int k = 0; k < 4; ++k) solver.step(std::numeric_limits<double>::infinity(), field, 1e-11, 200);
         laplacian.multiply(field, image, 1);
         for (Index v = 0; v < sampling.count(); ++v)
             EXPECT_LT(spaces.reached(v, image.row(v).transpose()).norm(), 1e-9 * sampling.stiffness.coeff(v, v));

@@ -77,8 +77,7 @@ SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constr
             break;
         }
         before = field;
-        const HeatSolution solution =
-            heat.step(schedule.time(k), field, options.linear_tolerance, linear_iterations);
+        const HeatSolution solution = heat.step(schedule.time(k), field, options.linear_tolerance, linear_iterations);
         next = frames;
         projector.project(field, before, next);
         record(solution.energy, before);

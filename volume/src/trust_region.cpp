@@ -22,7 +22,7 @@ constexpr double least_cut = 1.0 / 64;  // of the radius at once
 constexpr std::size_t slow_steps = 5;   // so many in a row may, on average, gain less than the tolerance
 
 struct Step {
-    double decrease = 0;   // of the quadratic model
+    double decrease = 0;  // of the quadratic model
     double length = 0;
     bool at_edge = false;  // of the trust region
     bool cancelled = false;
@@ -37,8 +37,8 @@ public:
           model_(laplacian_, constraints, options.threads),
           options_(options),
           progress_(progress),
-          root_(std::sqrt(laplacian_.diagonal().sum() *
-                          R::differential(frames::Quaternion::Identity()).squaredNorm() / 3)) {
+          root_(std::sqrt(laplacian_.diagonal().sum() * R::differential(frames::Quaternion::Identity()).squaredNorm() /
+                          3)) {
         const Index n = laplacian_.rows();
         for (Tangents* w : {&step_, &residual_, &direction_, &image_}) w->setZero(n, 3);
     }
@@ -208,7 +208,7 @@ SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& c
     return Solver<R>(sampling, constraints, options, progress).run(start);
 }
 
-#define OCTAFIELD_INSTANTIATE(R)                                                                                  \
+#define OCTAFIELD_INSTANTIATE(R)                                                                                   \
     template SmoothResult trust_region<frames::R>(const Sampling&, const BoundaryConstraints&, const Quaternions&, \
                                                   const SmoothOptions&, const Progress&);
 OCTAFIELD_INSTANTIATE(Sh4)

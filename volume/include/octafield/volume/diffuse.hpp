@@ -1,5 +1,6 @@
 // Diffusion of a frame field: implicit heat flow of the sh4 vectors alternating with projection onto frames
-// (modified MBO of Palmer, Bommes, Solomon 2020, section 5; after Viertel, Osting 2019).
+// (modified MBO of Palmer, Bommes, Solomon 2020, section 5; after Viertel, Osting 2019). At the end some sweeps set
+// each frame in turn to the best for its neighbours.
 #pragma once
 
 #include "octafield/volume/smooth.hpp"
@@ -24,7 +25,8 @@ struct DiffuseOptions {
 // From `start` (unit quaternions, (n, 4)) to frames of lower energy; singular curves move freely, unlike under smooth,
 // which is best applied to the result. Vertices with a fixed axis diffuse in the plane of their twist (the constraint
 // is kept by the linear solve, not only by projection), fixed ones hold. energy_history has the energy at the start and
-// after each step; converged is true unless cancelled. Throws InvalidInput, GeometryError (unsound mesh), SolverError.
+// after each step, the last one's with the sweeps; converged is true unless cancelled. Throws InvalidInput,
+// GeometryError (unsound mesh), SolverError.
 SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                      const DiffuseOptions& options = {}, const Progress& progress = {});
 SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
