@@ -98,8 +98,9 @@ void bind_smoothing(py::module_& m) {
         "max_steps"_a = diffusion.max_steps, "linear_tolerance"_a = diffusion.linear_tolerance,
         "keep_best"_a = diffusion.keep_best, "threads"_a = diffusion.threads, "progress"_a = py::none(),
         "Implicit heat flow of the sh4 vectors alternating with projection onto frames (modified MBO, Palmer et al. "
-        "2020), from (n, 4) start frames, as a SmoothResult of the lowest energy met (of the last step, without "
-        "keep_best): the start for smooth. first_time: of the first step over the squared size of the body; last_time: "
+        "2020) and, after the last step, sweeps that set each frame to the best for its neighbours, from (n, 4) start "
+        "frames, as a SmoothResult of the lowest energy met (of the last step, without keep_best): the start for "
+        "smooth. first_time: of the first step over the squared size of the body; last_time: "
         "of the last over the squared mean boundary edge; step k lasts 1/k^time_exponent of the first, with a larger "
         "exponent where max_steps would not do; linear_tolerance: of the linear solves. mesh: a TetMesh or a Sampling. "
         "Cancelled by progress, the "
@@ -175,8 +176,9 @@ void bind_smoothing(py::module_& m) {
         "linear_solver"_a = to_word(smoothing.linear_solver), "midpoint_limit"_a = smoothing.midpoint_limit,
         "threads"_a = recipe.threads, "progress"_a = py::none(),
         "The recipe: initial_frames, then rounds of diffuse and smooth, as a FrameFieldResult of the lowest energy. "
-        "seed other than 0: a random start. round_time: first_time of each round over that of the one before. Rounds "
-        "polish in sh4 with the trust region; another representation or solver starts from the best of them. The "
+        "seed other than 0: a random start, with five times first_time. round_time: first_time of each round over that "
+        "of the one before. Rounds polish in sh4 with the trust region; another representation or solver starts from "
+        "the best of them. The "
         "other options are those of the parts. mesh: a TetMesh or a Sampling. Cancelled by progress, the best state is "
         "returned with converged "
         "False. Raises InvalidInput, SolverError.");

@@ -4,8 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "constraints.hpp"
 #include "octafield/frames/quaternion.hpp"
 #include "octafield/frames/sh4.hpp"
+#include "reordering.hpp"
 #include "smooth_options.hpp"
 
 namespace octafield::volume {
@@ -13,6 +15,9 @@ namespace {
 
 // Of the polish in all rounds but the last: what comes after diffuses again.
 constexpr double rough_tolerance = 1e-3;
+// Of diffusions from a random start, over those from the linear one: what is left of the noise's longest waves would
+// choose the curves of thin shapes at random.
+constexpr double random_start_time = 5;
 
 void require_sound(const FrameFieldOptions& options) {
     if (options.rounds < 0) throw InvalidInput("rounds is negative; give 0 or more", "bad_option");
@@ -38,6 +43,11 @@ FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints
                              const FrameFieldOptions& options, const Progress& progress) {
     require_sound(options);
     require_sound(options.smooth);
+    require_fitting(sampling, constraints);
+    // Rounds visit neighbours all the time: meshers scatter them over the memory.
+    const std::vector<Index> order = breadth_first_order(sampling.stiffness);
+    const Sampling near = reordered(sampling, order);
+    const BoundaryConstraints held = reordered(constraints, order);
     DiffuseOptions diffusion = options.diffuse;
     SmoothOptions last = options.smooth, polish;
     diffusion.threads = last.threads = polish.threads = options.threads;
@@ -47,9 +57,10 @@ FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints
     const double parts = options.rounds + (second_order ? 0 : 1);
     FrameFieldResult result;
     SmoothResult& best = result.smooth;
-    best.frames = options.seed == 0 ? initial_frames(sampling, constraints, options.start, options.threads)
+    best.frames = options.seed == 0 ? initial_frames(near, held, options.start, options.threads)
                                     : frames::random_rotations(sampling.count(), options.seed);
     best.energy = std::numeric_limits<double>::infinity();
+    if (options.seed != 0) diffusion.first_time *= random_start_time;
     std::vector<double> history;
     int iterations = 0;
     // False when cancelled.
@@ -64,17 +75,17 @@ FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints
     bool going = true;
     for (int round = 0; round < options.rounds && going; ++round) {
         const double begin = round / parts, end = (round + 1) / parts, middle = 0.6 * begin + 0.4 * end;
-        const SmoothResult diffused =
-            diffuse(sampling, constraints, best.frames, diffusion, part(progress, begin, middle));
+        const SmoothResult diffused = diffuse(near, held, best.frames, diffusion, part(progress, begin, middle));
         result.diffusion_steps += diffused.iterations;
         going = keep(diffused);
         if (!going) break;
         const bool is_last = second_order && round + 1 == options.rounds;
         polish.tolerance = is_last ? last.tolerance : std::max(rough_tolerance, last.tolerance);
-        going = keep(smooth(sampling, constraints, diffused.frames, polish, part(progress, middle, end)));
+        going = keep(smooth(near, held, diffused.frames, polish, part(progress, middle, end)));
         diffusion.first_time *= options.round_time;
         diffusion.keep_best = false;
     }
+    best.frames = reordered(best.frames, inverse_order(order));
     if (going && (!second_order || options.rounds == 0)) {
         SmoothResult final =
             smooth(sampling, constraints, best.frames, last, part(progress, options.rounds / parts, 1));

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int linear_iterations = 10000;
 constexpr double linear_tolerance = 1e-6;
+constexpr int refinements = 2;  // of a solve in single precision, with residuals in double
 
 // Vertices that hold the frame of `constraints`: fixed ones, and with `cross_field` the whole boundary except released
 // corners, whose frames are as good as none.
@@ -32,8 +33,9 @@ Quaternions initial_frames(const Sampling& sampling, const BoundaryConstraints& 
     const ConstraintSpaces spaces(held, frames, laplacian);
     HeatSolver solver(laplacian, spaces, threads);
     Sh4Field field = spaces.given();
-    const HeatSolution solution =
-        solver.step(std::numeric_limits<double>::infinity(), field, linear_tolerance, linear_iterations);
+    HeatSolution solution;
+    for (int k = 0; k <= refinements; ++k)
+        solution = solver.step(std::numeric_limits<double>::infinity(), field, linear_tolerance, linear_iterations);
     if (!solution.converged)
         throw SolverError("the start's linear solve did not converge in " + std::to_string(linear_iterations) +
                               " iterations; look for degenerate tets (octafield info)",

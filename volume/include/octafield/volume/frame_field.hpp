@@ -9,7 +9,8 @@ namespace octafield::volume {
 
 struct FrameFieldOptions {
     Start start = Start::constraints;
-    std::uint64_t seed = 0;  // other than 0: a random start in place of `start`
+    // Other than 0: a random start in place of `start`. Diffusions are then five times as long, to forget the noise.
+    std::uint64_t seed = 0;
     DiffuseOptions diffuse{};
     SmoothOptions smooth{};
     // A round diffuses and polishes the best field so far; where singular curves are stuck, the next one's heat frees

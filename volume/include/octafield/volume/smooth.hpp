@@ -41,7 +41,9 @@ struct SmoothOptions {
     std::string representation = "sh4";
     SmoothSolver solver = SmoothSolver::automatic;  // trust_region: embeddings of frames only
     int max_iterations = 200;
-    double tolerance = 1e-6;  // stop when an iteration lowers the energy by less than this fraction of it
+    // Stop when an iteration lowers the energy by less than this fraction of it; of trust_region also when five that
+    // lower it do on average.
+    double tolerance = 1e-6;
     LinearSolver linear_solver = LinearSolver::automatic;  // automatic: sparse Cholesky up to 10,000 vertices
     int threads = 0;                                       // 0: all; the result does not depend on it
     // Of su2_midpoint, radians: edges whose frames differ by more are measured by the geodesic, with a smooth
