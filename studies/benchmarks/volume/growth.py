@@ -70,7 +70,9 @@ def main(arguments=None) -> None:
     for path in arguments.file:
         add(path.name.split(".")[0], record(path, "--threads", arguments.threads))
     if len(sizes) > 1:
-        print(f"CPU seconds of the balls grow like tets^{exponent(sizes, seconds):.2f}, of their smoothing like tets^{exponent(sizes, smoothing):.2f}")
+        told = f"CPU seconds of the balls grow like tets^{exponent(sizes, seconds):.2f}, of their smoothing like tets^{exponent(sizes, smoothing):.2f}."
+        print(told)
+        (arguments.output / "exponent.md").write_text(told + "\n")
 
 
 if __name__ == "__main__":
