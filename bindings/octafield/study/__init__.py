@@ -7,14 +7,16 @@ however often it is interrupted, on one machine or many.
     study.run(described, "out")         # begins, or goes on where an earlier run of the same folder stopped
     for row in study.rows("out"):       # one record per run
         print(row["input"], row["representation"], row["energy"])
+    study.write_report("out")
 
 A folder holds study.json (the description), runs.sqlite (one table), runs/KEY (the files of one run, complete or absent) and, after
-report(), report.html with its tables. KEY is a hash of the input's content, the options and octafield's version.
+write_report(), report.html and tables/. KEY is a hash of the input's content, the options and octafield's version.
 """
 
 from .description import Study, load, parse
 from .engine import Outcome, run
 from .plan import Run, plan
+from .report import write_report
 from .results import Status, rows, status
 
-__all__ = ["Outcome", "Run", "Status", "Study", "load", "parse", "plan", "rows", "run", "status"]
+__all__ = ["Outcome", "Run", "Status", "Study", "load", "parse", "plan", "rows", "run", "status", "write_report"]

@@ -92,7 +92,7 @@ class _Leader:
     def crashed(self, run: Run, message: str) -> None:
         with self.store.new_run(run) as folder:
             (folder / LOG_FILE).write_text(message + "\n", encoding="utf-8")
-            write_record(folder, run, {"input": run.name}, "crashed", message)
+            write_record(folder, run, {}, "crashed", message)
         self.finished([run.key])
 
     def tell(self, what: str) -> None:

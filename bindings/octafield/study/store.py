@@ -11,6 +11,7 @@ import shutil
 import sqlite3
 import tempfile
 from collections.abc import Iterator
+from dataclasses import asdict
 from pathlib import Path
 
 from ..errors import InvalidInput, IoError
@@ -78,7 +79,7 @@ class Store:
     def enter(self, keys: list[str]) -> list[dict]:
         """Puts finished runs into the table, in one transaction; their records."""
         records = [json.loads((self.run_folder(key) / RECORD_FILE).read_text()) for key in keys]
-        lines = [(r["key"], r["input_name"], r["state"], r["message"], json.dumps(r)) for r in records]
+        lines = [(r["key"], r["input"], r["state"], r["message"], json.dumps(r)) for r in records]
         with self._table() as table:
             table.executemany("INSERT OR REPLACE INTO runs VALUES (?, ?, ?, ?, ?)", lines)
         return records
@@ -126,8 +127,9 @@ class Store:
 
 
 def write_record(folder: Path, run: Run, record: dict, state: str, message: str = "") -> None:
-    identity = {"key": run.key, "input_name": run.name, "repeat": run.repeat, "state": state, "message": message}
-    write_json(folder / RECORD_FILE, {**identity, **record})
+    """result.json: the record of `octafield field`, or the options alone, with what makes it this run."""
+    identity = {"key": run.key, "input": run.name, "repeat": run.repeat, "state": state, "message": message}
+    write_json(folder / RECORD_FILE, {"options": asdict(run.options), **record, **identity})
 
 
 def _rename_new(source: Path, target: Path) -> None:

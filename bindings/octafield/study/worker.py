@@ -66,7 +66,7 @@ def _write_run(store: Store, run: Run, result, keep_fields: bool, begin: float) 
         lines = [*notes, f"{result.record['stop_reason']} after {result.record['iterations']} iterations"]
         (folder / LOG_FILE).write_text("\n".join(lines) + "\n", encoding="utf-8")
         times = {"began": begin, "ended": time.time(), "host": os.uname().nodename}
-        write_record(folder, run, {**result.record, **times, "input": run.name}, "done")
+        write_record(folder, run, {**result.record, **times}, "done")
 
 
 def _write_failure(store: Store, run: Run, error: Error, begin: float) -> None:
@@ -74,7 +74,7 @@ def _write_failure(store: Store, run: Run, error: Error, begin: float) -> None:
         (folder / LOG_FILE).write_text("".join(traceback.format_exception(error)), encoding="utf-8")
         times = {"began": begin, "ended": time.time(), "host": os.uname().nodename}
         kind = {"error": type(error).__name__, "error_kind": getattr(error, "kind", "")}
-        write_record(folder, run, {"input": run.name, **kind, **times}, "failed", str(error))
+        write_record(folder, run, {**kind, **times}, "failed", str(error))
 
 
 def main() -> None:
