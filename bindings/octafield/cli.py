@@ -1,8 +1,7 @@
-"""The command line: octafield compare, field, surface-field, info."""
+"""The command line: octafield compare, field, surface-field, info, representations, study."""
 
 import math
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -27,7 +26,7 @@ from .cli_options import (
     Verbose,
     choices,
 )
-from .console import log
+from .console import carry_out, log
 from .errors import InvalidInput
 from .options import (
     ALIGNMENTS,
@@ -40,6 +39,7 @@ from .options import (
     MeshOptions,
     SurfaceFieldOptions,
 )
+from .study_cli import app as studies
 from .supervise import run_supervised
 
 app = typer.Typer(
@@ -49,6 +49,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Frame fields in volumes and on surfaces. Exit code: 0 done, 2 bad input or usage, 130 interrupted, 1 defect.",
 )
+
+app.add_typer(studies, name="study")
 
 _FIELD, _SURFACE = FieldOptions(), SurfaceFieldOptions()
 
@@ -71,18 +73,6 @@ def _options_of_all(
     ] = False,
 ) -> None:
     pass
-
-
-def _carry_out(work: Callable[[], None], quiet: bool, verbose: bool, json: str | None) -> None:
-    """Runs a command; an error becomes one line on stderr and an exit code."""
-    console.set_verbosity(quiet, verbose)
-    try:
-        console.check_json_target(json)
-        work()
-    except typer.Exit:
-        raise
-    except (Exception, KeyboardInterrupt) as error:
-        raise typer.Exit(console.error_code(error)) from None
 
 
 def _mesh_options(
@@ -151,7 +141,7 @@ def field(
             write_field_result(result, folder, progress)
         _finish(result.record, json, quiet, output)
 
-    _carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json)
 
 
 @app.command("surface-field")
@@ -213,7 +203,7 @@ def surface_field(
             write_surface_result(result, folder, progress)
         _finish(result.record, json, quiet, output)
 
-    _carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json)
 
 
 @app.command()
@@ -271,7 +261,7 @@ def compare(
             tables.show_comparison(comparison.rows)
         log.info("wrote %s", output / "report.html")
 
-    _carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json)
 
 
 @app.command()
@@ -300,7 +290,7 @@ def info(
                 f"{input}: {failure}", next(r["kind"] for r in record["requirements"] if r["message"] == failure)
             )
 
-    _carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json)
 
 
 @app.command()
@@ -323,7 +313,7 @@ def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = 
         if json != "-" and not quiet:
             tables.show_registry(record)
 
-    _carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json)
 
 
 def _listed(text: str) -> list[str]:

@@ -19,7 +19,7 @@ def run_on_cluster(leader, scheduler: str) -> None:
     except ImportError as error:
         raise InvalidInput("dask.distributed is not installed; pip install octafield[cluster]", "no_dask") from error
     try:
-        client = Client(scheduler, timeout=20)
+        client = Client(scheduler, timeout=10)
     except (OSError, ValueError) as error:
         raise IoError(f"{scheduler}: no dask scheduler answers there ({error})") from error
     with client:

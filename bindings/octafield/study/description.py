@@ -8,7 +8,17 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationError,
+    field_validator,
+    model_validator,
+)
 
 from ..errors import Error, InvalidInput, IoError
 from ..options import FieldOptions, MeshOptions
@@ -17,6 +27,9 @@ from .generators import GENERATORS
 _DEGREES = ("feature_angle", "feature_tolerance")  # radians in the options, degrees in files and on the command line
 _MESH = tuple(f.name for f in dataclasses.fields(MeshOptions))
 _RUN = tuple(f.name for f in dataclasses.fields(FieldOptions) if f.name not in (*_MESH, "seed", "threads"))
+
+_MOST_SEEDS = 10_000
+_TYPES = ("str", "bool", "int", "float")  # pydantic names the members of a union
 
 Scalar = str | bool | int | float
 
@@ -50,6 +63,20 @@ class FromFile(_Strict):
     mesh: dict[str, Scalar] = Field(default_factory=dict)
 
 
+def _kind(entry: Any) -> str | None:
+    keys = entry if isinstance(entry, dict) else vars(entry) if isinstance(entry, BaseModel) else ()
+    return next((f"#{key}" for key in ("file", "generator") if key in keys), None)
+
+
+_Input = Annotated[
+    Annotated[FromFile, Tag("#file")] | Annotated[Generated, Tag("#generator")],
+    Discriminator(
+        _kind, custom_error_type="input", custom_error_message="an input is a path, or a mapping with file or generator"
+    ),
+    BeforeValidator(lambda entry: {"file": entry} if isinstance(entry, str) else entry),
+]
+
+
 class Study(_Strict):
     """name: shown in reports. inputs: files, globs, generators. mesh: options of octafield.MeshOptions for all of them
     (angles in degrees). runs: options of octafield.FieldOptions, one value or a list; every combination is run, but those
@@ -57,7 +84,7 @@ class Study(_Strict):
     .vtp files of each run. folder: that relative paths begin at; text: of the file."""
 
     name: str
-    inputs: Annotated[list[FromFile | Generated], Field(min_length=1)]
+    inputs: Annotated[list[_Input], Field(min_length=1)]
     mesh: dict[str, Scalar] = Field(default_factory=dict)
     runs: dict[str, Annotated[list[Scalar], Field(min_length=1)]] = Field(default_factory=dict)
     skip: list[dict[str, Scalar]] = Field(default_factory=list)
@@ -66,19 +93,6 @@ class Study(_Strict):
     fields: bool = True
     folder: Path = Field(default=Path(), exclude=True)
     text: str = Field(default="", exclude=True)
-
-    @field_validator("inputs", mode="before")
-    @classmethod
-    def _plain_names_are_files(cls, value: Any) -> Any:
-        if not isinstance(value, list):
-            return value
-        models = {"file": FromFile, "generator": Generated}
-        result = []
-        for entry in value:
-            entry = {"file": entry} if isinstance(entry, str) else entry
-            kind = next((model for key, model in models.items() if isinstance(entry, dict) and key in entry), None)
-            result.append(entry if kind is None else kind.model_validate(entry))
-        return result
 
     @field_validator("runs", mode="before")
     @classmethod
@@ -90,7 +104,11 @@ class Study(_Strict):
     @field_validator("seeds", mode="before")
     @classmethod
     def _a_number_counts(cls, value: Any) -> Any:
-        return list(range(value)) if isinstance(value, int) and not isinstance(value, bool) and value > 0 else value
+        if isinstance(value, bool) or not isinstance(value, int):
+            return value
+        if not 1 <= value <= _MOST_SEEDS:
+            raise ValueError(f"a number of seeds lies in 1 .. {_MOST_SEEDS}; name one seed as a list: [{value}]")
+        return list(range(value))
 
 
 def load(path: str | Path) -> Study:
@@ -106,6 +124,9 @@ def load(path: str | Path) -> Study:
 def parse(text: str, *, folder: str | Path = ".", name: str = "study") -> Study:
     """A description from text; relative paths begin at `folder`, errors at `name`."""
     try:
+        alias = next((event for event in yaml.parse(text) if isinstance(event, yaml.AliasEvent)), None)
+        if alias is not None:
+            raise InvalidInput(f"{name}:{alias.start_mark.line + 1}: write the value again in place of an alias", "bad_study")
         tree = yaml.compose(text, Loader=yaml.SafeLoader)
         content = yaml.safe_load(text)
     except yaml.MarkedYAMLError as error:
@@ -199,7 +220,7 @@ def _line(node: yaml.Node, loc: tuple) -> int:
 
 
 def _told(error: dict) -> str:
-    where = ".".join(str(step) for step in error["loc"] if isinstance(step, str) and step.islower())
+    where = ".".join(str(step) for step in error["loc"] if isinstance(step, str) and step[0] not in "#[" and step not in _TYPES)
     message = error["msg"].removeprefix("Value error, ")
     if error["type"] == "extra_forbidden":
         return f"{where}: no such key"
