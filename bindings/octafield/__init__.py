@@ -200,7 +200,8 @@ from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, Solv
 # Written in Python.
 from .compare import Comparison, compare
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
-from .pipeline import FieldResult, SurfaceFieldResult, compute_field, compute_surface_field
+from .interop import from_meshio, from_pyvista, to_meshio, to_pandas, to_pyvista
+from .pipeline import FieldResult, SurfaceFieldResult, compute_field, compute_surface_field, prepare, prepare_mesh, run
 
 __all__ = [
     "BoundaryConstraints",
@@ -398,4 +399,12 @@ __all__ = [
     "region_surface",
     "split_locking",
     "with_constraints",
+    "from_meshio",
+    "from_pyvista",
+    "to_meshio",
+    "to_pandas",
+    "to_pyvista",
+    "prepare",
+    "prepare_mesh",
+    "run",
 ]

@@ -1,4 +1,4 @@
-"""The command line: octafield compare, field, surface-field, info, representations, study."""
+"""The command line: octafield compare, field, surface-field, study, info, view, doctor, representations."""
 
 import math
 import sys
@@ -44,7 +44,6 @@ from .supervise import run_supervised
 
 app = typer.Typer(
     name="octafield",
-    add_completion=False,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     help="Frame fields in volumes and on surfaces. Exit code: 0 done, 2 bad input or usage, 130 interrupted, 1 defect.",
@@ -314,6 +313,45 @@ def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = 
             tables.show_registry(record)
 
     carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def doctor(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """Versions, cores, memory, and a small run of every part of this installation; exit code 1 when one fails."""
+
+    def work() -> None:
+        from .doctor import examine
+
+        record = examine()
+        if json:
+            console.put_json(json, record)
+        if json != "-" and not quiet:
+            tables.show_doctor(record)
+        if not record["ok"]:
+            raise typer.Exit(console.DEFECT)
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def view(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that `octafield field` wrote.")],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="PNG", help="Write a picture in place of opening a window.")
+    ] = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """The singular curves of a result inside its surface, in a window."""
+
+    def work() -> None:
+        from .display import view_folder
+
+        view_folder(folder, output)
+        if output is not None:
+            log.info("wrote %s", output)
+
+    carry_out(work, quiet, verbose, None)
 
 
 def _listed(text: str) -> list[str]:

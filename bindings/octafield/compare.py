@@ -163,7 +163,7 @@ def _unique(taken: list[str], slug: str) -> str:
 
 def _write_csv(path: Path, rows: list[dict]) -> None:
     """One line per run: every number and word of the record, nested ones as group_name."""
-    flat = [_flatten(row) for row in rows]
+    flat = [flatten(row) for row in rows]
     columns = list(dict.fromkeys(name for row in flat for name in row))
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns, restval="")
@@ -171,10 +171,11 @@ def _write_csv(path: Path, rows: list[dict]) -> None:
         writer.writerows(flat)
 
 
-def _flatten(row: dict) -> dict:
+def flatten(row: dict) -> dict:
+    """The record's numbers and words, nested ones as group_name; lists and versions are left out."""
     flat = {}
     for name, value in row.items():
-        if name in ("alignment_deg", "wall_seconds", "cpu_seconds"):
+        if name in ("alignment_deg", "feature_alignment_deg", "integrability", "wall_seconds", "cpu_seconds"):
             flat |= {f"{name}_{key}": inner for key, inner in value.items()}
         elif not isinstance(value, (dict, list)):
             flat[name] = value

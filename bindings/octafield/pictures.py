@@ -1,6 +1,7 @@
 """Pictures of a report: cross field on the surface, singular curves in the volume, frames on a cut."""
 
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pyvista
@@ -47,25 +48,54 @@ def surface_cross_field(problem: Problem) -> Picture:
 
 def singular_curves(result: FieldResult) -> Picture:
     """Tubes along the singular curves, by type, inside the translucent surface."""
-    graph, points = result.singular_graph, np.asarray(result.surface.vertices)
+    graph = result.singular_graph
+    kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
+    legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")]
+    if len(graph.nodes):
+        legend.append((scene.INK, "node: three or four curves meet"))
+    return Picture("Singular curves", _curves_caption(result), scene.render(singular_scene(result)), legend)
+
+
+def singular_scene(result: FieldResult) -> pyvista.Plotter:
+    graph, surface = result.singular_graph, scene.surface_mesh(result.surface)
+    curves = {kind: _polylines(graph, kind) for kind in TURNS}
+    nodes = np.asarray(graph.points)[np.asarray(graph.nodes, dtype=int)]
+    shape = _curves_in_surface(surface, curves, nodes)
+    scene.add_features(shape, result.surface, result.features, 3)
+    return shape
+
+
+def scene_from_files(surface_file: Path, singular_file: Path) -> pyvista.Plotter:
+    """The same from surface.vtp and singular.vtp of a result; sharp edges in place of feature curves."""
+    surface, found = pyvista.read(surface_file), pyvista.read(singular_file)
+    curves: dict[int, pyvista.PolyData | None] = dict.fromkeys(TURNS)
+    if found.n_lines:
+        turns = np.asarray(found.cell_data["quarter_turns"])[found.n_verts :]
+        of = np.array([_kind(int(t)) for t in turns])
+        for kind in TURNS:
+            chosen = found.extract_cells(found.n_verts + np.flatnonzero(of == kind))
+            curves[kind] = chosen.extract_surface(algorithm=None) if chosen.n_cells else None
+    nodes = found.points[np.asarray(found.point_data["node"], bool)] if found.n_points else np.empty((0, 3))
+    shape = _curves_in_surface(surface, curves, nodes)
+    sharp = surface.extract_feature_edges(35, boundary_edges=False, non_manifold_edges=False)
+    if sharp.n_cells:
+        shape.add_mesh(sharp, color=scene.CURVE, line_width=3, lighting=False)
+    return shape
+
+
+def _curves_in_surface(surface: pyvista.PolyData, curves: dict, nodes: np.ndarray) -> pyvista.Plotter:
+    points = np.asarray(surface.points)
     radius = 0.0045 * scene.diagonal(points)
     shape = scene.plotter()
     shape.enable_depth_peeling(8)
-    shape.add_mesh(scene.surface_mesh(result.surface), color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
-    scene.add_features(shape, result.surface, result.features, 3)
-    for turns, (colour, _) in TURNS.items():
-        lines = _polylines(graph, turns)
+    shape.add_mesh(surface, color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
+    for kind, lines in curves.items():
         if lines is not None:
-            shape.add_mesh(lines.tube(radius=radius, n_sides=12), color=colour, smooth_shading=True, ambient=0.3)
-    nodes = np.asarray(graph.points)[np.asarray(graph.nodes, dtype=int)]
+            shape.add_mesh(lines.tube(radius=radius, n_sides=12), color=TURNS[kind][0], smooth_shading=True, ambient=0.3)
     if len(nodes):
         shape.add_mesh(_spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
     _three_quarter_view(shape, points)
-    kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
-    legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")]
-    if len(nodes):
-        legend.append((scene.INK, "node: three or four curves meet"))
-    return Picture("Singular curves", _curves_caption(result), scene.render(shape), legend)
+    return shape
 
 
 def frames_on_cut(result: FieldResult) -> Picture:
