@@ -114,14 +114,19 @@ def _run_all(
 
 
 def _surface_pictures(problem: Problem) -> list[Picture]:
-    from . import pictures  # brings VTK, which nothing else in the package needs when it is imported
+    from . import pictures, scene  # brings VTK, which nothing else in the package needs when it is imported
 
+    if not scene.can_draw():
+        problem.meshed.notes.append(f"no pictures: {scene.NO_OPENGL}")
+        return []
     return [pictures.surface_cross_field(problem)]
 
 
 def _volume_pictures(result: FieldResult, label: str) -> list[Picture]:
-    from . import pictures
+    from . import pictures, scene
 
+    if not scene.can_draw():
+        return []
     drawn = [pictures.singular_curves(result), pictures.frames_on_cut(result)]
     return [replace(picture, title=f"{picture.title} ({label})") for picture in drawn]
 

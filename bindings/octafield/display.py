@@ -27,17 +27,18 @@ def one_line(result: FieldResult) -> str:
 
 def as_html(result: FieldResult) -> str:
     """For Jupyter: the singular curves and the main figures."""
-    from .pictures import singular_curves
+    from . import pictures, scene
 
-    picture = singular_curves(result)
     r = result.record
     shown = {name: f"{r[name]:.6g}" if isinstance(r[name], float) else str(r[name]) for name in _FACTS}
     lines = "".join(f"<tr><td>{html.escape(name)}</td><td>{value}</td></tr>" for name, value in shown.items())
-    image = base64.b64encode(picture.png).decode()
+    image = ""
+    if scene.can_draw():
+        data = base64.b64encode(pictures.singular_curves(result).png).decode()
+        image = f'<img style="max-width:420px" alt="singular curves" src="data:image/png;base64,{data}">'
     return (
         f"<div><b>{html.escape(str(r['input']))}</b>, {html.escape(r['representation'])}, {html.escape(r['boundary'])}"
-        f'<div style="display:flex;gap:1em;align-items:center"><img style="max-width:420px" alt="singular curves" '
-        f'src="data:image/png;base64,{image}"><table>{lines}</table></div></div>'
+        f'<div style="display:flex;gap:1em;align-items:center">{image}<table>{lines}</table></div></div>'
     )
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .errors import Error
 from .info import FAIL, PASS
 from .phases import versions
 
@@ -39,6 +40,8 @@ def _tried(name: str, check: Callable[[], str]) -> dict:
     begin = time.perf_counter()
     try:
         state, message = PASS, check()
+    except Error as error:
+        state, message = MISSING if error.kind == "no_opengl" else FAIL, str(error)
     except Exception as error:  # whatever is wrong is what a doctor is asked for
         state, message = FAIL, f"{type(error).__name__}: {error}"
     return {"name": name, "state": state, "message": message, "seconds": round(time.perf_counter() - begin, 2)}

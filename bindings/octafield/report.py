@@ -113,7 +113,7 @@ def _section(section: InputSection) -> str:
     )
     return f"""<h2 id="{html.escape(section.slug)}">{html.escape(section.name)}</h2>
 <p class="note">{facts}</p>{f"<ul>{notes}</ul>" if notes else ""}
-<div class="figures">{pictures[0]}<div>{plots}</div>{"".join(pictures[1:])}</div>
+<div class="figures">{"".join(pictures[:1])}<div>{plots}</div>{"".join(pictures[1:])}</div>
 {_seconds_table(section.rows)}
 <h3>Files</h3>
 {_file_links(section.rows)}"""
