@@ -41,15 +41,16 @@ def main() -> None:
         result = octafield.compute_field(path)
         tiles.append(tile(name, singular_curves(result).png))
         r = result.record
-        rows.append((name, f"{r['vertices']:,}", f"{r['energy']:.6g}", r["singular_edges"], r["singular_curves"], r["singular_nodes"], r["complex_edges"],
-                     r["non_meshable_vertices"], r["non_meshable_junctions"]))
+        rows.append((name, f"{r['vertices']:,}", f"{r['energy']:.6g}", r["singular_edges"], f"{r['singular_length']:.4g} ({r['singular_length_smoothed']:.4g})",
+                     r["singular_curves"], r["singular_nodes"], r["complex_edges"], r["non_meshable_vertices"], r["non_meshable_junctions"],
+                     f"{r['non_meshable_feature_edges']}, {r['non_meshable_corners']}"))
         print(*rows[-1], flush=True)
     columns = min(arguments.columns, len(tiles))
     sheet = Image.new("RGB", (columns * TILE, -(-len(tiles) // columns) * (TILE + 24)), "white")
     for k, picture in enumerate(tiles):
         sheet.paste(picture, (k % columns * TILE, k // columns * (TILE + 24)))
     save_with_few_colours(sheet, arguments.output / "singular_graphs.png", 64)
-    header = ["mesh", "vertices", "E", "singular edges", "curves", "nodes", "complex edges", "non-meshable vertices", "non-meshable junctions"]
+    header = ["mesh", "vertices", "E", "singular edges", "length (smoothed)", "curves", "nodes", "complex edges", "non-meshable vertices", "non-meshable junctions", "feature edges, corners"]
     (arguments.output / "singular_graphs.md").write_text(markdown_table(header, rows))
 
 

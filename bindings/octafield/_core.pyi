@@ -723,28 +723,51 @@ def write_surface_field(path: Path, mesh: TriangleMesh, directions: ArrayLike, m
 class SingularVertex:
     point: int
     kind: str
+    valence2: int
     valence3: int
     valence5: int
     valence6: int
     complex: int
     about_normal: bool
+    one_axis: bool
     meshable: bool
     junction: int
     def __init__(
         self,
         point: int = ...,
         kind: str = ...,
+        valence2: int = ...,
         valence3: int = ...,
         valence5: int = ...,
         valence6: int = ...,
         complex: int = ...,
         about_normal: bool = ...,
+        one_axis: bool = ...,
         meshable: bool = ...,
         junction: int = ...,
     ) -> None: ...
 
+class SingularEnd:
+    vertex: int
+    curve: int
+    quarter_turns: int
+    angle: float
+    def __init__(
+        self,
+        vertex: int = ...,
+        curve: int = ...,
+        quarter_turns: int = ...,
+        axis: ArrayLike = ...,
+        angle: float = ...,
+    ) -> None: ...
+    @property
+    def axis(self) -> Float64s: ...
+    @axis.setter
+    def axis(self, value: ArrayLike) -> None: ...
+
 class SingularJunction:
     vertices: int
+    valence2: int
     valence3: int
     valence5: int
     valence6: int
@@ -753,6 +776,7 @@ class SingularJunction:
     def __init__(
         self,
         vertices: int = ...,
+        valence2: int = ...,
         valence3: int = ...,
         valence5: int = ...,
         valence6: int = ...,
@@ -763,6 +787,7 @@ class SingularJunction:
 class Meshability:
     non_meshable_vertices: int
     non_meshable_junctions: int
+    non_meshable_curves: int
     closed_curves: int
     boundary_ends: int
     boundary_ends_about_normal: int
@@ -770,9 +795,11 @@ class Meshability:
         self,
         vertices: Sequence[SingularVertex] = ...,
         junctions: Sequence[SingularJunction] = ...,
+        ends: Sequence[SingularEnd] = ...,
         curve_ends: ArrayLike = ...,
         non_meshable_vertices: int = ...,
         non_meshable_junctions: int = ...,
+        non_meshable_curves: int = ...,
         closed_curves: int = ...,
         boundary_ends: int = ...,
         boundary_ends_about_normal: int = ...,
@@ -782,9 +809,91 @@ class Meshability:
     @property
     def junctions(self) -> list[SingularJunction]: ...
     @property
+    def ends(self) -> list[SingularEnd]: ...
+    @property
     def curve_ends(self) -> Int32s: ...
     @curve_ends.setter
     def curve_ends(self, value: ArrayLike) -> None: ...
+
+no_number: int
+
+class FeatureWedge:
+    a: int
+    b: int
+    angle: float
+    hexahedra_a: int
+    hexahedra_b: int
+    around: int
+    meshable: bool
+    def __init__(
+        self,
+        a: int = ...,
+        b: int = ...,
+        angle: float = ...,
+        hexahedra_a: int = ...,
+        hexahedra_b: int = ...,
+        around: int = ...,
+        meshable: bool = ...,
+    ) -> None: ...
+
+class SurfaceCrossing:
+    a: int
+    b: int
+    hexahedra: int
+    def __init__(self, a: int = ..., b: int = ..., hexahedra: int = ...) -> None: ...
+
+class SurfaceCorner:
+    vertex: int
+    feature_edges: int
+    sectors: int
+    inside: int
+    empty_sectors: int
+    unclear_sectors: int
+    non_meshable_edges: int
+    meshable: bool
+    def __init__(
+        self,
+        vertex: int = ...,
+        feature_edges: int = ...,
+        sectors: int = ...,
+        inside: int = ...,
+        empty_sectors: int = ...,
+        unclear_sectors: int = ...,
+        non_meshable_edges: int = ...,
+        meshable: bool = ...,
+    ) -> None: ...
+
+class BoundaryMeshability:
+    non_meshable_wedges: int
+    non_meshable_crossings: int
+    non_meshable_corners: int
+    def __init__(
+        self,
+        wedges: Sequence[FeatureWedge] = ...,
+        crossings: Sequence[SurfaceCrossing] = ...,
+        corners: Sequence[SurfaceCorner] = ...,
+        non_meshable_wedges: int = ...,
+        non_meshable_crossings: int = ...,
+        non_meshable_corners: int = ...,
+    ) -> None: ...
+    @property
+    def wedges(self) -> list[FeatureWedge]: ...
+    @property
+    def crossings(self) -> list[SurfaceCrossing]: ...
+    @property
+    def corners(self) -> list[SurfaceCorner]: ...
+
+class SmoothedCurves:
+    length: float
+    def __init__(self, points: ArrayLike = ..., lengths: ArrayLike = ..., length: float = ...) -> None: ...
+    @property
+    def points(self) -> Float64s: ...
+    @points.setter
+    def points(self, value: ArrayLike) -> None: ...
+    @property
+    def lengths(self) -> Float64s: ...
+    @lengths.setter
+    def lengths(self, value: ArrayLike) -> None: ...
 
 class Integrability:
     jump_rms: float
@@ -817,10 +926,62 @@ class FeatureTangents:
 
 def hex_vertex_exists(valence3: int, valence5: int, valence6: int = ...) -> bool: ...
 def local_meshability(mesh: TetMesh, frames: ArrayLike, graph: SingularGraph) -> Meshability: ...
+def boundary_meshability(
+    mesh: TetMesh, boundary: BoundarySurface, features: FeatureGraph, frames: ArrayLike, *, threads: int = 0
+) -> BoundaryMeshability: ...
+def smoothed_curves(graph: SingularGraph, *, steps: int = ...) -> SmoothedCurves: ...
 def integrability(mesh: TetMesh, frames: ArrayLike, *, threads: int = 0) -> Integrability: ...
 def tet_frames(mesh: TetMesh, frames: ArrayLike, *, threads: int = 0) -> Float64s: ...
 def feature_tangents(boundary: TriangleMesh, features: FeatureGraph) -> FeatureTangents: ...
 def feature_alignment_angles(boundary: BoundarySurface, features: FeatureGraph, frames: ArrayLike) -> Float64s: ...
+
+# ---- volume: streamlines
+
+class FrameStreamline:
+    length: float
+    first_end: str
+    last_end: str
+    def __init__(
+        self,
+        points: ArrayLike = ...,
+        tets: ArrayLike = ...,
+        length: float = ...,
+        first_end: str = ...,
+        last_end: str = ...,
+    ) -> None: ...
+    @property
+    def points(self) -> Float64s: ...
+    @points.setter
+    def points(self, value: ArrayLike) -> None: ...
+    @property
+    def tets(self) -> Int32s: ...
+    @tets.setter
+    def tets(self, value: ArrayLike) -> None: ...
+
+class LocatedPoints:
+    def __init__(self, tet: ArrayLike = ..., weights: ArrayLike = ...) -> None: ...
+    @property
+    def tet(self) -> Int32s: ...
+    @tet.setter
+    def tet(self, value: ArrayLike) -> None: ...
+    @property
+    def weights(self) -> Float64s: ...
+    @weights.setter
+    def weights(self, value: ArrayLike) -> None: ...
+
+def locate_points(mesh: TetMesh, points: ArrayLike) -> LocatedPoints: ...
+def spread_points(mesh: TetMesh, count: int) -> Float64s: ...
+def frame_streamlines(
+    mesh: TetMesh,
+    frames: ArrayLike,
+    points: ArrayLike,
+    directions: ArrayLike | None = None,
+    *,
+    max_length: float = ...,
+    both_ways: bool = ...,
+    closing_distance: float = ...,
+    threads: int = 0,
+) -> list[FrameStreamline]: ...
 
 # ---- volume: input
 

@@ -1,5 +1,5 @@
 """What a finished frame field is judged by: its singular graph, whether a hex mesh could follow it, how well it is
-aligned, how far it is from the gradients of a map."""
+aligned, how far it is from the gradients of a map; and streamlines to look at it."""
 
 import math
 from collections import Counter
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _core
-from ._core import Integrability, Meshability, SingularGraph
+from ._core import BoundaryMeshability, FrameStreamline, Integrability, Meshability, SingularGraph
 from .meshing import MeshedInput
 
 
@@ -18,33 +18,50 @@ class FieldAnalysis:
 
     singular_graph: SingularGraph
     meshability: Meshability
+    boundary_meshability: BoundaryMeshability
     integrability: Integrability
     alignment: np.ndarray
     feature_alignment: np.ndarray
     energy: float
+    streamlines: list[FrameStreamline]
     record: dict
 
 
-def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0) -> FieldAnalysis:
+def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0, streamlines: int = 0) -> FieldAnalysis:
+    """streamlines: number of seeds, three curves each."""
     tets = meshed.tets
     graph = _core.singular_graph(tets, frames, threads=threads)
     meshability = _core.local_meshability(tets, frames, graph)
+    at_boundary = _core.boundary_meshability(
+        tets, meshed.boundary, meshed.boundary_features, frames, threads=threads
+    )
     integrability = _core.integrability(tets, frames, threads=threads)
     alignment = np.asarray(_core.alignment_angles(meshed.boundary, meshed.boundary_features, frames))
     feature_alignment = np.asarray(_core.feature_alignment_angles(meshed.boundary, meshed.boundary_features, frames))
     energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
+    size = float(np.linalg.norm(np.ptp(np.asarray(tets.vertices), axis=0)))
+    seeds = _core.spread_points(tets, streamlines)
+    lines = _core.frame_streamlines(tets, frames, seeds, max_length=2 * size, threads=threads) if len(seeds) else []
     record = {
         "energy": energy,
         "energy_unit_speed": _core.unit_speed_factor * energy,
         **_singular_record(graph),
         **_meshability_record(meshability),
+        **_boundary_record(at_boundary),
         "alignment_deg": _degrees(alignment),
         "feature_alignment_deg": _degrees(feature_alignment),
         "integrability": {
             name: getattr(integrability, name) for name in ("jump_rms", "jump_max", "twist_rms", "twist_max")
         },
+        "streamlines": {
+            "curves": len(lines),
+            "length": float(sum(line.length for line in lines)),
+            "ends": dict(sorted(Counter(end for line in lines for end in (line.first_end, line.last_end)).items())),
+        },
     }
-    return FieldAnalysis(graph, meshability, integrability, alignment, feature_alignment, energy, record)
+    return FieldAnalysis(
+        graph, meshability, at_boundary, integrability, alignment, feature_alignment, energy, lines, record
+    )
 
 
 def _singular_record(graph: SingularGraph) -> dict:
@@ -52,6 +69,7 @@ def _singular_record(graph: SingularGraph) -> dict:
     return {
         "singular_edges": len(turns),
         "singular_length": float(graph.length),
+        "singular_length_smoothed": float(_core.smoothed_curves(graph).length),
         "singular_curves": len(graph.curves),
         "singular_nodes": len(graph.nodes),
         "complex_edges": int(graph.complex_triangles),
@@ -66,17 +84,38 @@ def _meshability_record(found: Meshability) -> dict:
     return {
         "non_meshable_vertices": found.non_meshable_vertices,
         "non_meshable_junctions": found.non_meshable_junctions,
+        "non_meshable_curves": found.non_meshable_curves,
         "singular_closed_curves": found.closed_curves,
         "singular_boundary_ends": found.boundary_ends,
         "singular_boundary_ends_about_normal": found.boundary_ends_about_normal,
         "singular_vertex_types": {name: counts[name] for name in sorted(counts)},
+        "singular_axis_deg": _degrees(np.array([end.angle for end in found.ends if end.quarter_turns])),
     }
+
+
+def _boundary_record(found: BoundaryMeshability) -> dict:
+    """hexahedra_at_features: how many feature edges have how many, by the frames of their ends where these agree."""
+    numbers = Counter(_hexahedra(wedge) for wedge in found.wedges)
+    return {
+        "hexahedra_at_features": {name: numbers[name] for name in sorted(numbers)},
+        "non_meshable_feature_edges": found.non_meshable_wedges,
+        "non_meshable_feature_edge_vertices": [[w.a, w.b] for w in found.wedges if not w.meshable],
+        "non_meshable_corners": found.non_meshable_corners,
+        "non_meshable_corner_vertices": [corner.vertex for corner in found.corners if not corner.meshable],
+        "surface_crossings": len(found.crossings),
+        "non_meshable_crossings": found.non_meshable_crossings,
+    }
+
+
+def _hexahedra(wedge) -> str:
+    numbers = {number for number in (wedge.hexahedra_a, wedge.hexahedra_b) if number != _core.no_number}
+    return "none" if not numbers else str(numbers.pop()) if len(numbers) == 1 else "changing"
 
 
 def _type(vertex) -> str:
     """The valences of the singular edges at a vertex: "3 3 5 5"."""
     return " ".join(
-        ["3"] * vertex.valence3 + ["5"] * vertex.valence5 + ["6"] * vertex.valence6 + ["complex"] * vertex.complex
+        ["2"] * vertex.valence2 + ["3"] * vertex.valence3 + ["5"] * vertex.valence5 + ["6"] * vertex.valence6 + ["complex"] * vertex.complex
     )
 
 

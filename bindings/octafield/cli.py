@@ -112,13 +112,17 @@ def field(
     interfaces: Interfaces = _FIELD.interfaces,
     split: Split = _FIELD.split,
     rounds: Annotated[int, typer.Option(metavar="K", help="Rounds of diffusion and polish.")] = _FIELD.rounds,
+    streamlines: Annotated[
+        int, typer.Option(metavar="N", help="Seeds of streamlines.vtp, three curves each; 0: none.")
+    ] = _FIELD.streamlines,
     seed: Seed = _FIELD.seed,
     threads: Threads = _FIELD.threads,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Frame field inside a closed surface or on a tet mesh. DIR gets field.vtu, singular.vtp, result.json."""
+    """Frame field inside a closed surface or on a tet mesh. DIR gets field.vtu, singular.vtp, features.vtp,
+    streamlines.vtp, result.json."""
 
     def work() -> None:
         from .output import staged_folder
@@ -131,6 +135,7 @@ def field(
             boundary=boundary,
             feature_tolerance=math.radians(feature_tolerance),
             rounds=rounds,
+            streamlines=streamlines,
             seed=seed,
             threads=threads,
             **_mesh_options(features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split),

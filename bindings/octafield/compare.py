@@ -110,7 +110,8 @@ def _run_all(
                     {**result.record, "folder": name, "files": [f"{name}/{file}" for file in result.record["files"]]}
                 )
                 if first:
-                    section.pictures += _volume_pictures(result, label)
+                    lines = len(section.rows) == 1  # one picture of streamlines per input: they differ little
+                    section.pictures += _volume_pictures(result, label, lines)
 
 
 def _surface_pictures(problem: Problem) -> list[Picture]:
@@ -122,12 +123,14 @@ def _surface_pictures(problem: Problem) -> list[Picture]:
     return [pictures.surface_cross_field(problem)]
 
 
-def _volume_pictures(result: FieldResult, label: str) -> list[Picture]:
+def _volume_pictures(result: FieldResult, label: str, lines: bool) -> list[Picture]:
     from . import pictures, scene
 
     if not scene.can_draw():
         return []
     drawn = [pictures.singular_curves(result), pictures.frames_on_cut(result)]
+    if lines and result.streamlines:
+        drawn.append(pictures.streamlines(result))
     return [replace(picture, title=f"{picture.title} ({label})") for picture in drawn]
 
 

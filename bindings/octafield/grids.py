@@ -35,8 +35,8 @@ def read_grid(path: Path, suffix: str) -> Grid:
         if suffix == ".mesh":
             return _grid_of_text(read_medit(_text(path), str(path)))
         if suffix in (".node", ".ele"):
-            node, ele = _tetgen_pair(path, suffix)
-            return _grid_of_text(read_tetgen(_text(node), _text(ele), str(node), str(ele)))
+            files = _tetgen_files(path, suffix)
+            return _grid_of_text(read_tetgen({kind: (_text(file), str(file)) for kind, file in files.items()}))
         if not path.is_file():
             raise IoError(f"{path}: no such file")
         return _meshio_grid(path, suffix)
@@ -56,15 +56,18 @@ def _text(path: Path) -> str:
     return (gzip.decompress(data) if path.name.lower().endswith(".gz") else data).decode("utf-8")
 
 
-def _tetgen_pair(path: Path, suffix: str) -> tuple[Path, Path]:
-    """The .node and the .ele file, of which one was given; the other may be packed or not."""
-    other = ".ele" if suffix == ".node" else ".node"
+def _tetgen_files(path: Path, suffix: str) -> dict[str, Path]:
+    """The .node and the .ele file, of which one was given, and .face and .edge where they lie beside it; packed or not."""
     stem = path.name[: path.name.lower().rindex(suffix)]
-    partners = [path.with_name(stem + other + packed) for packed in ("", ".gz")]
-    partner = next((p for p in partners if p.is_file()), None)
-    if partner is None:
-        raise IoError(f"{path}: needs {partners[0].name} (or .gz) beside it, which is not there")
-    return (path, partner) if suffix == ".node" else (partner, path)
+    files = {suffix: path}
+    for other in (".node", ".ele", ".face", ".edge"):
+        beside = [path.with_name(stem + other + packed) for packed in ("", ".gz")]
+        found = next((p for p in beside if p.is_file()), None)
+        if found is not None:
+            files.setdefault(other, found)
+        elif other in (".node", ".ele") and other != suffix:
+            raise IoError(f"{path}: needs {beside[0].name} (or .gz) beside it, which is not there")
+    return files
 
 
 def _grid_of_text(mesh: TextMesh) -> Grid:

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _core
 from .inputs import Input, read_input
-from .meshing import possible_remedy
+from .meshing import TOUCHING, possible_remedy
 from .options import MeshOptions
 from .phases import octafield_version
 
@@ -87,6 +87,11 @@ def _requirements(found: Input, options: MeshOptions) -> list[dict]:
     # Tets of positive volume rarely make a crossing boundary, and the pipeline does not ask for this test there.
     test_crossings = found.tets is None
     defects = {d.kind: d for d in _core.find_defects(found.surface, self_intersection=test_crossings)}
+    if found.tets is not None:  # whose boundary may touch itself
+        for kind in TOUCHING:
+            if defects.pop(kind, None):
+                found.touches = True
+                found.notes.append(f"the boundary touches itself ({kind}); the field is computed all the same")
     listed = []
     for requirement in REQUIREMENTS:
         if requirement.kinds == ("self_intersection",) and not test_crossings:
@@ -136,7 +141,7 @@ def _topology(found: Input, options: MeshOptions, failed: set[str], lines_are_fe
     if not failed & {"closed", "triangles oriented alike"}:
         facts["volume"] = float(_core.signed_volume(found.surface))
     sound = {"no triangle of zero area", "triangles share vertices", "at most two triangles at an edge"}
-    if not failed & (sound | {"triangles oriented alike"}):
+    if not failed & (sound | {"triangles oriented alike"}) and not found.touches:
         facts["euler_characteristic"] = int(_core.euler_characteristic(found.surface))
         features = _core.detect_features(found.surface, angle=options.feature_angle)
         facts["features"] = {

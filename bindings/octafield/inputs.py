@@ -23,7 +23,7 @@ class Input:
 
     surface: the triangles, or the boundary of the tets. boundary: the same with the map to tet vertices. regions: (m,)
     region of each tet, where there are several; surface and boundary then hold the interfaces between them too, as the
-    last `interface_triangles`. lines: (n, 2) feature edges given by the file, vertex ids of `surface`; None when it has
+    last `interface_triangles`. touches: the boundary of the tets touches itself at edges or vertices. lines: (n, 2) feature edges given by the file, vertex ids of `surface`; None when it has
     no line cells. creases: the file tells that they are. notes: what was changed in reading (tets turned over, unused
     points dropped), one sentence each.
     """
@@ -37,6 +37,7 @@ class Input:
     creases: bool = False
     regions: np.ndarray | None = None
     interface_triangles: int = 0
+    touches: bool = False
     notes: list[str] = field(default_factory=list)
 
     @property
@@ -53,7 +54,7 @@ class Input:
 
 def read_input(path: str | Path, *, interfaces: bool = True) -> Input:
     """Reads a surface (STL, OBJ, OFF, PLY) or a tet mesh (.vtk, .vtu, Gmsh .msh, Medit .mesh and .meshb, TetGen .node
-    or .ele with the other beside it; triangles alone are a surface), each also as .gz. Raises IoError naming the file,
+    or .ele with the other beside it, and .face and .edge where there; triangles alone are a surface), each also as .gz. Raises IoError naming the file,
     and the line in Medit and TetGen text, InvalidInput where it holds neither tets nor triangles.
     interfaces: see MeshOptions."""
     path = Path(path)

@@ -15,14 +15,15 @@ from .options import MeshOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
 
 Source = str | Path | TriangleMesh | TetMesh
+TOUCHING = ("non_manifold_edge", "non_manifold_vertex")  # kinds of defects that the boundary of tets may have
 
 
 @dataclass
 class MeshedInput:
     """A sound input, ready for fields: `surface` is the boundary of `tets` (None where only a surface was wanted).
 
-    Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too and
-    `surface` is it cut into sheets: manifold, each vertex a copy of vertex `sheet_map` of the boundary. features are
+    Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too. There,
+    and where the boundary touches itself, `surface` is `boundary` cut into sheets: manifold, each vertex a copy of vertex `sheet_map` of the boundary. features are
     those of `surface`, boundary_features those of `boundary`. locking: counts of what split_locking is for.
     """
 
@@ -90,7 +91,7 @@ def read_sound(
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):
         locking = {} if found.tets is None else _treat_locking(found, options)
-        sheets = _core.cut_into_sheets(found.surface) if found.interface_triangles else None
+        sheets = _core.cut_into_sheets(found.surface) if found.interface_triangles or found.touches else None
         features, feature_source = _features(found, options, sheets)
         of_surface = features if sheets is None else _lifted(features, sheets)
     return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), features, sheets, locking)
@@ -170,9 +171,29 @@ def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
 def _require_valid(found: Input, options: MeshOptions, **tests: bool) -> None:
     surface = found.surface if not found.interface_triangles else _core.boundary_surface(found.tets).mesh
     try:
-        _core.require_valid(surface, **tests)
+        try:
+            _core.require_valid(surface, **tests)
+        except GeometryError as error:
+            if found.tets is None or error.kind not in TOUCHING:
+                raise
+            _accept_touching(found, surface)
     except GeometryError as error:
         raise GeometryError(possible_remedy(str(error), found, options), error.kind, error.elements) from error
+
+
+def _accept_touching(found: Input, surface: TriangleMesh) -> None:
+    """Parts of a tet mesh may touch at edges and vertices: the cross field lives on the boundary cut open there."""
+    for defect in _core.find_defects(surface, self_intersection=False):
+        if defect.kind not in TOUCHING:
+            raise GeometryError(defect.message, defect.kind, defect.elements)
+    sheets = _core.cut_into_sheets(surface)
+    found.touches = True
+    copies = np.bincount(np.asarray(sheets.vertex_map))
+    alone = np.setdiff1d(np.flatnonzero(copies > 1), np.asarray(sheets.cuts))
+    found.notes.append(
+        f"the boundary touches itself at {len(sheets.cuts)} edges and {len(alone)} other vertices; these edges are "
+        "features, the vertices corners"
+    )
 
 
 def possible_remedy(message: str, found: Input, options: MeshOptions) -> str:

@@ -126,7 +126,8 @@ class FieldOptions(MeshOptions):
         tangents so well (octafield.boundary_constraints).
     seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
     not depend on it. representation, solver: what the last smoothing minimises and how; rounds, max_iterations,
-    tolerance: see octafield.frame_field.
+    tolerance: see octafield.frame_field. streamlines: so many seeds of curves along the three axes, spread over the
+    volume (octafield.spread_points), go into streamlines.vtp; 0: none.
     """
 
     representation: str = "sh4"
@@ -138,6 +139,7 @@ class FieldOptions(MeshOptions):
     rounds: int = default_of("frame_field", "rounds")
     max_iterations: int = default_of("smooth", "max_iterations")
     tolerance: float = default_of("smooth", "tolerance")
+    streamlines: int = 30
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -149,4 +151,5 @@ class FieldOptions(MeshOptions):
         _make_integer(self, "threads", 0, LARGEST_INT, " (0: all)")
         _make_integer(self, "rounds", 0, LARGEST_INT)
         _make_integer(self, "max_iterations", 0, LARGEST_INT)
+        _make_integer(self, "streamlines", 0, LARGEST_INT)
         _require(math.isfinite(self.tolerance) and self.tolerance >= 0, "the tolerance must not be negative")

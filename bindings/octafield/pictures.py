@@ -17,7 +17,7 @@ CUT = "#f6ecd6"
 TURNS = {
     1: (scene.VERMILLION, "valence 3 (index +1/4)"),
     -1: (scene.BLUE, "valence 5 (index \N{MINUS SIGN}1/4)"),
-    2: (scene.GREEN, "other rotations about an axis of the frame"),
+    2: (scene.GREEN, "valence 2 or 6 (index \N{PLUS-MINUS SIGN}1/2)"),
     0: (scene.PURPLE, "complex: no hex mesh has it"),
 }
 
@@ -47,55 +47,67 @@ def surface_cross_field(problem: Problem) -> Picture:
 
 
 def singular_curves(result: FieldResult) -> Picture:
-    """Tubes along the singular curves, by type, inside the translucent surface."""
+    """Tubes along the singular curves (smoothed), by type, inside the translucent surface; what no hex mesh has."""
     graph = result.singular_graph
     kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
     legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")]
     if len(graph.nodes):
         legend.append((scene.INK, "node: three or four curves meet"))
+    if _bad_features(result) is not None:
+        legend.append((scene.ORANGE, "feature edge that no hex mesh has"))
     return Picture("Singular curves", _curves_caption(result), scene.render(singular_scene(result)), legend)
 
 
 def singular_scene(result: FieldResult) -> pyvista.Plotter:
-    graph, surface = result.singular_graph, scene.surface_mesh(result.surface)
-    curves = {kind: _polylines(graph, kind) for kind in TURNS}
-    nodes = np.asarray(graph.points)[np.asarray(graph.nodes, dtype=int)]
-    shape = _curves_in_surface(surface, curves, nodes)
+    graph, points = result.singular_graph, np.asarray(result.surface.vertices)
+    radius = 0.0045 * scene.diagonal(points)
+    shape = _glass(scene.surface_mesh(result.surface))
     scene.add_features(shape, result.surface, result.features, 3)
+    _add_curves(shape, _curves(graph), radius)
+    _add_nodes(shape, np.asarray(graph.points)[np.asarray(graph.nodes, dtype=int)], radius)
+    bad = _bad_features(result)
+    if bad is not None:
+        shape.add_mesh(bad.tube(radius=0.8 * radius, n_sides=8), color=scene.ORANGE, smooth_shading=True, ambient=0.3)
+    _three_quarter_view(shape, points)
     return shape
 
 
 def scene_from_files(surface_file: Path, singular_file: Path) -> pyvista.Plotter:
     """The same from surface.vtp and singular.vtp of a result; sharp edges in place of feature curves."""
     surface, found = pyvista.read(surface_file), pyvista.read(singular_file)
-    curves: dict[int, pyvista.PolyData | None] = dict.fromkeys(TURNS)
+    points, curves = np.asarray(surface.points), {}
+    radius = 0.0045 * scene.diagonal(points)
     if found.n_lines:
-        turns = np.asarray(found.cell_data["quarter_turns"])[found.n_verts :]
-        of = np.array([_kind(int(t)) for t in turns])
-        for kind in TURNS:
-            chosen = found.extract_cells(found.n_verts + np.flatnonzero(of == kind))
-            curves[kind] = chosen.extract_surface(algorithm=None) if chosen.n_cells else None
-    nodes = found.points[np.asarray(found.point_data["node"], bool)] if found.n_points else np.empty((0, 3))
-    shape = _curves_in_surface(surface, curves, nodes)
+        of = np.array([_kind(int(t)) for t in np.asarray(found.cell_data["quarter_turns"])[found.n_verts :]])
+        nodes = np.asarray(found.points)[np.asarray(found.point_data["node"], bool)]
+        found.points = np.asarray(found.point_data["smoothed"])
+        for kind in set(of):
+            curves[kind] = found.extract_cells(found.n_verts + np.flatnonzero(of == kind)).extract_surface(algorithm=None)
+    shape = _glass(surface)
     sharp = surface.extract_feature_edges(35, boundary_edges=False, non_manifold_edges=False)
     if sharp.n_cells:
         shape.add_mesh(sharp, color=scene.CURVE, line_width=3, lighting=False)
-    return shape
-
-
-def _curves_in_surface(surface: pyvista.PolyData, curves: dict, nodes: np.ndarray) -> pyvista.Plotter:
-    points = np.asarray(surface.points)
-    radius = 0.0045 * scene.diagonal(points)
-    shape = scene.plotter()
-    shape.enable_depth_peeling(8)
-    shape.add_mesh(surface, color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
-    for kind, lines in curves.items():
-        if lines is not None:
-            shape.add_mesh(lines.tube(radius=radius, n_sides=12), color=TURNS[kind][0], smooth_shading=True, ambient=0.3)
-    if len(nodes):
-        shape.add_mesh(_spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
+    if curves:
+        _add_curves(shape, curves, radius)
+        _add_nodes(shape, nodes, radius)
     _three_quarter_view(shape, points)
     return shape
+
+
+def streamlines(result: FieldResult) -> Picture:
+    """Curves along the axes of the frames, and the singular curves that end them."""
+    points = np.asarray(result.surface.vertices)
+    radius = 0.0025 * scene.diagonal(points)
+    shape = _glass(scene.surface_mesh(result.surface))
+    scene.add_features(shape, result.surface, result.features, 3)
+    lines = polylines([line.points for line in result.streamlines if len(line.points) > 1])
+    if lines.n_cells:
+        shape.add_mesh(lines.tube(radius=radius, n_sides=6), color=scene.SKY, smooth_shading=True, ambient=0.3)
+    _add_curves(shape, _curves(result.singular_graph), 1.5 * radius)
+    _three_quarter_view(shape, points)
+    kinds = {_kind(int(turns)) for turns in result.singular_graph.curve_quarter_turns}
+    legend = [(scene.SKY, "streamline"), *(TURNS[kind] for kind in TURNS if kind in kinds)]
+    return Picture("Streamlines", _streamlines_caption(result), scene.render(shape), legend)
 
 
 def frames_on_cut(result: FieldResult) -> Picture:
@@ -132,6 +144,36 @@ def frames_on_cut(result: FieldResult) -> Picture:
     words = "frames of vertices within half an edge length of the cut, moved onto it, one where several would overlap"
     caption = f"Cut through the centre of the bounding box; {scene.counted(len(near), 'cube')}: {words}."
     return Picture("Frames on a cut", caption, scene.render(shape), [(scene.SKY, "frame"), (CUT, "cut")])
+
+
+def _glass(surface: pyvista.PolyData) -> pyvista.Plotter:
+    """The translucent surface."""
+    shape = scene.plotter()
+    shape.enable_depth_peeling(8)
+    shape.add_mesh(surface, color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
+    return shape
+
+
+def _curves(graph) -> dict[int, pyvista.PolyData | None]:
+    points = np.asarray(_core.smoothed_curves(graph).points)
+    return {kind: _polylines(graph, points, kind) for kind in TURNS}
+
+
+def _add_curves(shape: pyvista.Plotter, curves: dict[int, pyvista.PolyData | None], radius: float) -> None:
+    for kind, lines in curves.items():
+        if lines is not None:
+            shape.add_mesh(lines.tube(radius=radius, n_sides=12), color=TURNS[kind][0], smooth_shading=True, ambient=0.3)
+
+
+def _add_nodes(shape: pyvista.Plotter, nodes: np.ndarray, radius: float) -> None:
+    if len(nodes):
+        shape.add_mesh(_spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
+
+
+def _bad_features(result: FieldResult) -> pyvista.PolyData | None:
+    edges = np.array([(w.a, w.b) for w in result.boundary_meshability.wedges if not w.meshable], int).reshape(-1, 2)
+    points = np.asarray(result.tets.vertices)
+    return scene.segments(points[edges[:, 0]], points[edges[:, 1]]) if len(edges) else None
 
 
 def _three_quarter_view(shape: pyvista.Plotter, points: np.ndarray) -> None:
@@ -182,14 +224,14 @@ def _kind(turns: int) -> int:
     return turns if turns in (1, -1, 0) else 2
 
 
-def _polylines(graph, kind: int) -> pyvista.PolyData | None:
+def _polylines(graph, points: np.ndarray, kind: int) -> pyvista.PolyData | None:
     cells = [
         entry
         for curve, turns in zip(graph.curves, graph.curve_quarter_turns)
         if _kind(int(turns)) == kind
         for entry in (len(curve), *map(int, curve))
     ]
-    return pyvista.PolyData(np.asarray(graph.points), lines=np.array(cells)) if cells else None
+    return pyvista.PolyData(points, lines=np.array(cells)) if cells else None
 
 
 def _cubes(centres: np.ndarray, quaternions: np.ndarray, size: float) -> pyvista.PolyData:
@@ -223,7 +265,7 @@ def _surface_caption(problem: Problem) -> str:
 def _curves_caption(result: FieldResult) -> str:
     record = result.record
     kinds = record["singular_edges_by_turns"]
-    names = {"+1": "valence 3", "-1": "valence 5", "complex": "complex"}
+    names = {"+1": "valence 3", "-1": "valence 5", "+2": "valence 2", "-2": "valence 6", "complex": "complex"}
     parts = ", ".join(f"{count} {names.get(kind, f'{kind} quarter turns')}" for kind, count in kinds.items())
     if not parts:
         return "No singular edges."
@@ -231,7 +273,23 @@ def _curves_caption(result: FieldResult) -> str:
     curves = f"{scene.counted(record['singular_curves'], 'curve')} of total length {record['singular_length']:.4g}"
     ends = f"{record['singular_boundary_ends']} ends on the surface"
     bad = f"{record['non_meshable_vertices']} places that no hex mesh has"
-    return f"{what}; {curves}; {scene.counted(record['singular_nodes'], 'node')}; {ends}; {bad}."
+    nodes = scene.counted(record["singular_nodes"], "node")
+    return f"{what}; {curves}; {nodes}; {ends}; {bad}. {_features_caption(record)}".rstrip()
+
+
+def _features_caption(record: dict) -> str:
+    edges, corners = record["non_meshable_feature_edges"], record["non_meshable_corners"]
+    if not edges and not corners:
+        return ""
+    return f"No hex mesh has {scene.counted(edges, 'feature edge')} and {scene.counted(corners, 'corner')} of these."
+
+
+def _streamlines_caption(result: FieldResult) -> str:
+    record = result.record["streamlines"]
+    names = {"singular": "at singular curves", "boundary": "on the surface", "closed": "of closed curves",
+             "length": "at the greatest length", "stuck": "stuck", "seed": "at seeds"}  # fmt: skip
+    ends = ", ".join(f"{count:,} {names[name]}" for name, count in record["ends"].items())
+    return f"{scene.counted(record['curves'], 'curve')} along the axes from evenly spread seeds; ends: {ends}."
 
 
 def _signed(value: Fraction) -> str:

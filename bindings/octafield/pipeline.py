@@ -20,8 +20,10 @@ import numpy as np
 from . import _core, display
 from ._core import (
     BoundaryConstraints,
+    BoundaryMeshability,
     DirectionField,
     FeatureGraph,
+    FrameStreamline,
     Integrability,
     Meshability,
     SingularGraph,
@@ -91,7 +93,9 @@ class FieldResult:
     alignment: np.ndarray
     feature_alignment: np.ndarray
     meshability: Meshability
+    boundary_meshability: BoundaryMeshability
     integrability: Integrability
+    streamlines: list[FrameStreamline]
     record: dict
     regions: np.ndarray | None = None
 
@@ -187,7 +191,7 @@ def run(
     with clock.phase("analyse"):
         announce(progress, "analyse")
         frames = np.asarray(smoothed.frames)
-        analysis = analyse(meshed, frames, threads)
+        analysis = analyse(meshed, frames, threads, options.streamlines)
     record = {
         **common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
         "vertices": len(tets.vertices),
@@ -234,7 +238,9 @@ def run(
         analysis.alignment,
         analysis.feature_alignment,
         analysis.meshability,
+        analysis.boundary_meshability,
         analysis.integrability,
+        analysis.streamlines,
         record,
         meshed.regions,
     )

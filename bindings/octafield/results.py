@@ -1,4 +1,4 @@
-"""The files of one run: field, singular curves, surface field, its singular points and separatrices, record."""
+"""The files of one run: field, singular curves, features and corners, streamlines, surface field, its singular points and separatrices, record."""
 
 import json
 from collections.abc import Sequence
@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from . import _core
-from ._core import Streamline
+from ._core import BoundaryMeshability, FrameStreamline, Streamline
 from .output import write_json
 from .phases import PhaseClock, Progress, announce
 from .pipeline import FieldResult, SurfaceFieldResult
 
 SURFACE_FILES = ("surface.vtp", "surface_singularities.vtp", "surface_separatrices.vtp")
-FIELD_FILES = ("field.vtu", "singular.vtp", *SURFACE_FILES)
+FIELD_FILES = ("field.vtu", "singular.vtp", "features.vtp", "streamlines.vtp", *SURFACE_FILES)
 RECORD_FILE = "result.json"
 
 
@@ -26,8 +26,12 @@ def write_field_result(result: FieldResult, folder: Path, progress: Progress | N
         regions = [] if result.regions is None else result.regions
         _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions)
         _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
+        write_features(folder / "features.vtp", result.tets, result.boundary_meshability, metadata)
+        files = [name for name in FIELD_FILES if name != "streamlines.vtp" or result.streamlines]
+        if result.streamlines:
+            write_streamlines(folder / "streamlines.vtp", result.streamlines, metadata)
         _write_surface_files(result, folder, metadata)
-    result.record["files"] = [*FIELD_FILES, RECORD_FILE]
+    result.record["files"] = [*files, RECORD_FILE]
     write_json(folder / RECORD_FILE, result.record)
 
 
@@ -62,15 +66,54 @@ def write_singular_points(path: Path, singularities, metadata: dict[str, str]) -
     _save(poly, path, metadata)
 
 
-def write_streamlines(path: Path, lines: Sequence[Streamline], metadata: dict[str, str]) -> None:
-    """.vtp polylines with cell data length, first_end and last_end (words, see octafield.Streamline),
-    first_singularity and last_singularity (places in the file of singular points, -1: none)."""
+def write_streamlines(
+    path: Path, lines: Sequence[Streamline] | Sequence[FrameStreamline], metadata: dict[str, str]
+) -> None:
+    """.vtp polylines with cell data length, first_end and last_end (words, see octafield.Streamline and
+    octafield.FrameStreamline); for curves on surfaces first_singularity and last_singularity (places in the file of
+    singular points, -1: none). Curves of a single point are left out, but for those on surfaces."""
+    if lines and isinstance(lines[0], FrameStreamline):
+        lines = [line for line in lines if len(line.points) > 1]
     poly = polylines([line.points for line in lines])
     poly.cell_data["length"] = np.array([line.length for line in lines], float)
     for name in ("first_singularity", "last_singularity"):
-        poly.cell_data[name] = np.array([getattr(line, name) for line in lines], np.int32)
+        if lines and hasattr(lines[0], name):
+            poly.cell_data[name] = np.array([getattr(line, name) for line in lines], np.int32)
     for name in ("first_end", "last_end"):
         poly.GetCellData().AddArray(_text_array(name, [getattr(line, name) for line in lines]))
+    _save(poly, path, metadata)
+
+
+def write_features(path: Path, tets, found: BoundaryMeshability, metadata: dict[str, str]) -> None:
+    """.vtp: corners as vertex cells, then feature edges (one line per wedge), then edges of the surface that a singular
+    edge crosses. Cell data kind (0, 1, 2 in this order), meshable (0/1) and hexahedra (lines: the lower number of the
+    two ends; corners: what is left for edges inside; octafield.no_number: none), angle (of the wedge, degrees; else 0),
+    vertex (of the tet mesh; lines: the first of their two)."""
+    import pyvista
+
+    corners, wedges, crossings = found.corners, found.wedges, found.crossings
+    edges = np.array([(e.a, e.b) for e in [*wedges, *crossings]], np.int64).reshape(-1, 2)
+    ids = np.array([c.vertex for c in corners], np.int64)
+    used, place = np.unique(np.concatenate([ids, edges.ravel()]), return_inverse=True)
+    lines = place.ravel()[len(ids) :].reshape(-1, 2)
+    poly = pyvista.PolyData()
+    if len(used):
+        poly.points = np.asarray(tets.vertices)[used]
+        poly.verts = np.column_stack([np.full(len(ids), 1), place.ravel()[: len(ids)]]).ravel()
+        poly.lines = np.column_stack([np.full(len(lines), 2), lines]).ravel()
+    wedge_numbers = [min((n for n in (w.hexahedra_a, w.hexahedra_b) if n != _core.no_number), default=_core.no_number)
+                     for w in wedges]  # fmt: skip
+    crossing_numbers = [c.hexahedra for c in crossings]
+    columns = {
+        "kind": [0] * len(corners) + [1] * len(wedges) + [2] * len(crossings),
+        "meshable": [e.meshable for e in [*corners, *wedges]] + [n >= 1 for n in crossing_numbers],
+        "hexahedra": [c.inside for c in corners] + wedge_numbers + crossing_numbers,
+        "vertex": [*ids, *edges[:, 0]],
+    }
+    for name, values in columns.items():
+        poly.cell_data[name] = np.array(values, np.int32)
+    angles = [0.0] * len(corners) + [np.degrees(w.angle) for w in wedges] + [0.0] * len(crossings)
+    poly.cell_data["angle"] = np.array(angles, float)
     _save(poly, path, metadata)
 
 

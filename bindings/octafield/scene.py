@@ -168,4 +168,11 @@ def _fewer_colours(image, colours: int):
     from PIL import Image
 
     sample = image.resize((-(-image.width // 3), -(-image.height // 3)), Image.Resampling.NEAREST)
-    return image.quantize(palette=sample.quantize(colours, kmeans=1), dither=Image.Dither.NONE)
+    reduced = image.quantize(palette=sample.quantize(colours, kmeans=1), dither=Image.Dither.NONE)
+    background = np.array(reduced)[(np.array(image) == 255).all(axis=2)]
+    if len(background):  # the mean of almost white colours would make it grey
+        values = reduced.getpalette()
+        start = 3 * int(np.bincount(background).argmax())
+        values[start : start + 3] = [255, 255, 255]
+        reduced.putpalette(values)
+    return reduced

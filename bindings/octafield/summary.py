@@ -35,7 +35,7 @@ _PHASE_MEANINGS = {
     "mesh": "features, remeshing, tetrahedra (shared)",
     "surface": "cross field on the surface, its singular points and separatrices (shared by the runs with one seed)",
     "smooth": "boundary constraints, start and smoothing",
-    "analyse": "singular curves, alignment, energy",
+    "analyse": "singular curves, alignment, energy, streamlines",
     "write": "the files of the run",
 }
 
@@ -95,6 +95,22 @@ COLUMNS: tuple[Column, ...] = (
         "places where singular curves meet, change or reach the surface in a way no hex mesh has (a necessary "
         "condition: the others may still have none); nodes that complex edges join count one by one",
         "singular",
+    ),
+    Column(
+        "edges",
+        lambda _, r: r["non_meshable_feature_edges"],
+        ",d",
+        "feature edges at which the turn of the field leaves no hexahedron (a necessary condition)",
+        "non-meshable features",
+        report_only=True,
+    ),
+    Column(
+        "corners",
+        lambda _, r: r["non_meshable_corners"],
+        ",d",
+        "corners at which the numbers of hexahedra and quadrilaterals round them fit no hex mesh (a necessary condition)",
+        "non-meshable features",
+        report_only=True,
     ),
     Column(
         "median",

@@ -1,4 +1,4 @@
-"""Readers of Medit .mesh and TetGen .node/.ele text: all sections, double precision, errors with their line.
+"""Readers of Medit .mesh and TetGen .node/.ele/.face/.edge text: all sections, double precision, errors with their line.
 
 meshio reads these too, but rounds Medit files of version 1 to single precision, stops at sections it does not know, at
 comments inside tables and at TetGen ids that begin elsewhere, and does not say where.
@@ -69,8 +69,13 @@ def read_medit(text: str, name: str) -> TextMesh:
     return mesh
 
 
-def read_tetgen(node_text: str, ele_text: str, node_name: str, ele_name: str) -> TextMesh:
-    """The first attribute of a tet is its region."""
+def read_tetgen(files: dict[str, tuple[str, str]]) -> TextMesh:
+    """files: text and name by suffix, ".node" and ".ele", with ".face" and ".edge" where there are such files.
+
+    The first attribute of a tet is its region. Markers of faces are CAD faces where there are several. Edges are feature
+    edges: all, or those of a marker other than 0 where both kinds occur.
+    """
+    (node_text, node_name), (ele_text, ele_name) = files[".node"], files[".ele"]
     nodes = _headed(node_text, node_name, "points", (3, "dimension"))
     base = int(nodes[0, 0]) if len(nodes) else 0
     wrong = np.flatnonzero(nodes[:, 0] != np.arange(base, base + len(nodes)))
@@ -92,7 +97,38 @@ def read_tetgen(node_text: str, ele_text: str, node_name: str, ele_name: str) ->
     whole = _whole(tets[:, 5:6])
     if tets.shape[1] > 5 and whole is not None:
         regions = whole.ravel()
-    return TextMesh(nodes[:, 1:4], [("tetra", ids - base)], [regions])
+    mesh = TextMesh(nodes[:, 1:4], [("tetra", ids - base)], [regions])
+    for suffix, kind, corners in ((".face", "triangle", 3), (".edge", "line", 2)):
+        if suffix in files:
+            cells, markers = _marked(*files[suffix], corners, base, len(nodes))
+            if kind == "line" and (markers != 0).any():
+                cells, markers = cells[markers != 0], markers[markers != 0]
+            elif len(np.unique(markers[markers > 0])) < 2:
+                markers = np.zeros_like(markers)  # one marker for the whole boundary tells no faces apart
+            mesh.cells.append((kind, cells - base))
+            mesh.references.append(markers)
+    return mesh
+
+
+def _marked(text: str, name: str, corners: int, base: int, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Vertex ids and markers (0: none) of a .face or .edge file. Rows may end with more than the header tells."""
+    section = _Section("faces" if corners == 3 else "edges", _without_comments(text), 1)
+    try:
+        rows, marked = (int(word) for word in section.text.split(None, 2)[:2])
+    except ValueError:
+        raise IoError(f"{name}: does not begin with the number of {section.name} and whether they have markers") from None
+    first = next((line.split() for line in section.text.strip().split("\n")[1:] if line.strip()), [])
+    width = max(len(first), 1 + corners + marked)
+    table = _table(section, name, width, skip=2, count=rows)[:, : 1 + corners + marked]
+    whole = _whole(table)
+    outside = np.ones(1, bool) if whole is None else ((whole[:, 1 : 1 + corners] < base)
+                                                     | (whole[:, 1 : 1 + corners] >= base + count)).any(axis=1)  # fmt: skip
+    if outside.any():
+        bad = int((table != np.floor(table)).any(axis=1).argmax()) if whole is None else int(outside.argmax())
+        line = _line_of_row(section, bad, width, skip=2)
+        raise IoError(f"{name}, line {line}: row {bad + 1} of the {section.name} names a point outside {base} .. {base + count - 1}")
+    ids = whole[:, 1 : 1 + corners]
+    return ids, whole[:, 1 + corners] if marked else np.zeros(rows, np.int64)
 
 
 def _headed(text: str, name: str, what: str, second: tuple[int, str]) -> np.ndarray:

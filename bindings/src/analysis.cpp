@@ -3,9 +3,11 @@
 #include "bind.hpp"
 #include "checks.hpp"
 #include "interruptible.hpp"
+#include "octafield/volume/boundary_meshability.hpp"
 #include "octafield/volume/feature_alignment.hpp"
 #include "octafield/volume/integrability.hpp"
 #include "octafield/volume/meshability.hpp"
+#include "octafield/volume/smoothed_curves.hpp"
 #include "record.hpp"
 
 namespace octafield::bindings {
@@ -29,13 +31,17 @@ void bind_meshability_types(py::module_& m) {
         .field("point", &SingularVertex::point, "Place in SingularGraph.points.")
         .field("kind", &SingularVertex::kind,
                "\"node\" (in a tet), \"change\" (the curve goes on with another type) or \"boundary_end\".")
+        .field("valence2", &SingularVertex::valence2, "Ends here of curves of +2 quarter turns, which no hex mesh has.")
         .field("valence3", &SingularVertex::valence3, "Ends here of curves of +1 quarter turn.")
         .field("valence5", &SingularVertex::valence5, "Ends here of curves of -1 quarter turn.")
-        .field("valence6", &SingularVertex::valence6, "Ends here of curves of a half turn.")
+        .field("valence6", &SingularVertex::valence6, "Ends here of curves of -2 quarter turns.")
         .field("complex", &SingularVertex::complex, "Ends here of complex curves, which no hex mesh has.")
         .field("about_normal", &SingularVertex::about_normal,
                "At a boundary end: whether the frames turn about their axis nearest to the normal, so that the surface "
                "cross field is singular there.")
+        .field(
+            "one_axis", &SingularVertex::one_axis,
+            "At a node: whether all its curves turn about one axis of the frame; then they can only pass each other.")
         .field("meshable", &SingularVertex::meshable,
                "Whether the necessary conditions hold: a hex mesh has a vertex with these edges.")
         .field("junction", &SingularVertex::junction, "Place in Meshability.junctions.")
@@ -45,12 +51,26 @@ void bind_meshability_types(py::module_& m) {
                    std::to_string(v.valence6) + ", complex " + std::to_string(v.complex);
         });
 
+    Record<SingularEnd>(m, "SingularEnd", "One end of a curve of a singular graph.")
+        .field("vertex", &SingularEnd::vertex, "Place in Meshability.vertices.")
+        .field("curve", &SingularEnd::curve, "Place in SingularGraph.curves.")
+        .field("quarter_turns", &SingularEnd::quarter_turns, "Of the curve: 1 valence 3, -1 5, 2 2, -2 6, 0 complex.")
+        .field("axis", &SingularEnd::axis,
+               "(3,) float64: unit axis of the frames about which they turn, away from the vertex; 0 where complex.")
+        .field("angle", &SingularEnd::angle,
+               "Radians between that axis and the smoothed curve: small where a hex mesh could follow.")
+        .finish([](const SingularEnd& e) {
+            return "curve " + std::to_string(e.curve) + " at vertex " + std::to_string(e.vertex) + ", " +
+                   count(e.quarter_turns, "quarter turn");
+        });
+
     Record<SingularJunction>(m, "SingularJunction",
                              "Singular vertices that complex curves join, as if these were shrunk to a point.")
         .field("vertices", &SingularJunction::vertices, "Number of singular vertices in it.")
+        .field("valence2", &SingularJunction::valence2, "Ends of curves of +2 quarter turns that leave it.")
         .field("valence3", &SingularJunction::valence3, "Ends of curves of +1 quarter turn that leave it.")
         .field("valence5", &SingularJunction::valence5, "Ends of curves of -1 quarter turn that leave it.")
-        .field("valence6", &SingularJunction::valence6, "Ends of curves of a half turn that leave it.")
+        .field("valence6", &SingularJunction::valence6, "Ends of curves of -2 quarter turns that leave it.")
         .field("complex", &SingularJunction::complex, "Complex curves inside it; none leaves it.")
         .field("meshable", &SingularJunction::meshable,
                "Whether a hex mesh has a vertex with these edges, once the complex curves are shrunk.")
@@ -61,10 +81,12 @@ void bind_meshability_types(py::module_& m) {
     Record<Meshability>(m, "Meshability", "Necessary conditions for a hex mesh round the singular graph of a field.")
         .field("vertices", &Meshability::vertices, "List of SingularVertex, ascending points.")
         .field("junctions", &Meshability::junctions, "List of SingularJunction.")
+        .field("ends", &Meshability::ends, "List of SingularEnd, by vertex, then by curve.")
         .field("curve_ends", &Meshability::curve_ends,
                "(curves, 2) int32: vertices at the first and last point of each curve; -1, -1: closed without one.")
         .field("non_meshable_vertices", &Meshability::non_meshable_vertices, "Vertices that no hex mesh has.")
         .field("non_meshable_junctions", &Meshability::non_meshable_junctions, "Junctions that no hex mesh has.")
+        .field("non_meshable_curves", &Meshability::non_meshable_curves, "Curves that are complex or of valence 2.")
         .field("closed_curves", &Meshability::closed_curves, "Closed curves without a vertex.")
         .field("boundary_ends", &Meshability::boundary_ends, "Ends of curves on the boundary.")
         .field("boundary_ends_about_normal", &Meshability::boundary_ends_about_normal,
@@ -77,7 +99,82 @@ void bind_meshability_types(py::module_& m) {
         });
 }
 
+void bind_boundary_types(py::module_& m) {
+    Record<FeatureWedge>(m, "FeatureWedge", "A wedge of tets at a feature edge, between two triangles of the surface.")
+        .field("a", &FeatureWedge::a, "Tet-mesh vertex id, a < b.")
+        .field("b", &FeatureWedge::b, "Tet-mesh vertex id.")
+        .field("angle", &FeatureWedge::angle, "Of the wedge, radians.")
+        .field(
+            "hexahedra_a", &FeatureWedge::hexahedra_a,
+            "Hexahedra that fill it by the frame of a; below 1 no hex mesh; octafield.no_number where the frame does "
+            "not follow the edge.")
+        .field("hexahedra_b", &FeatureWedge::hexahedra_b, "The same by the frame of b.")
+        .field(
+            "around", &FeatureWedge::around,
+            "By the frame of a carried through the tets of the wedge and back: another number where a singular curve "
+            "runs through them; octafield.no_number where the frames come back turned about another axis.")
+        .field("meshable", &FeatureWedge::meshable, "Whether there is a number and none below 1, at the ends.")
+        .finish([](const FeatureWedge& w) {
+            return std::to_string(w.a) + ", " + std::to_string(w.b) + ", hexahedra " + std::to_string(w.hexahedra_a) +
+                   ", " + std::to_string(w.hexahedra_b) + (w.meshable ? ", meshable" : ", not meshable");
+        });
+
+    Record<SurfaceCrossing>(m, "SurfaceCrossing",
+                            "An edge of the surface, no feature, that a singular edge on the surface crosses: another "
+                            "axis takes the place of the normal along it.")
+        .field("a", &SurfaceCrossing::a, "Tet-mesh vertex id, a < b.")
+        .field("b", &SurfaceCrossing::b, "Tet-mesh vertex id.")
+        .field("hexahedra", &SurfaceCrossing::hexahedra, "At the singular edge, instead of 2.")
+        .finish([](const SurfaceCrossing& c) {
+            return std::to_string(c.a) + ", " + std::to_string(c.b) + ", hexahedra " + std::to_string(c.hexahedra);
+        });
+
+    Record<SurfaceCorner>(m, "SurfaceCorner", "A corner of the surface and the edges of a hex mesh there.")
+        .field("vertex", &SurfaceCorner::vertex, "Tet-mesh vertex id.")
+        .field("feature_edges", &SurfaceCorner::feature_edges, "Feature edges there.")
+        .field("sectors", &SurfaceCorner::sectors, "Parts of the surface between them.")
+        .field(
+            "inside", &SurfaceCorner::inside,
+            "6 - sum over edges (3 - hexahedra) - sum over sectors (quadrilaterals - 1): what is left for edges that "
+            "go inside; below 0 no hex mesh.")
+        .field("empty_sectors", &SurfaceCorner::empty_sectors, "Sectors with fewer than one quadrilateral.")
+        .field("unclear_sectors", &SurfaceCorner::unclear_sectors,
+               "Sectors that a singular edge on the surface crosses: without a number, and left out of the sum.")
+        .field("non_meshable_edges", &SurfaceCorner::non_meshable_edges, "Feature edges without a hexahedron.")
+        .field("meshable", &SurfaceCorner::meshable, "Whether none of these forbids a hex mesh.")
+        .finish([](const SurfaceCorner& c) {
+            return "vertex " + std::to_string(c.vertex) + ", " + count(c.feature_edges, "feature edge") +
+                   (c.meshable ? ", meshable" : ", not meshable");
+        });
+
+    Record<BoundaryMeshability>(m, "BoundaryMeshability",
+                                "Necessary conditions for a hex mesh at the features and corners of a field's surface.")
+        .field("wedges", &BoundaryMeshability::wedges, "List of FeatureWedge, in the order of the edges.")
+        .field("crossings", &BoundaryMeshability::crossings, "List of SurfaceCrossing, in the order of the edges.")
+        .field("corners", &BoundaryMeshability::corners,
+               "List of SurfaceCorner, ascending; not those that interfaces or several sheets meet in.")
+        .field("non_meshable_wedges", &BoundaryMeshability::non_meshable_wedges, "Wedges that no hex mesh fills.")
+        .field("non_meshable_crossings", &BoundaryMeshability::non_meshable_crossings,
+               "Crossings with fewer than one hexahedron.")
+        .field("non_meshable_corners", &BoundaryMeshability::non_meshable_corners, "Corners that no hex mesh has.")
+        .finish([](const BoundaryMeshability& found) {
+            return count(static_cast<std::ptrdiff_t>(found.wedges.size()), "wedge") + ", " +
+                   std::to_string(found.non_meshable_wedges) + " not meshable, " +
+                   count(static_cast<std::ptrdiff_t>(found.corners.size()), "corner") + ", " +
+                   std::to_string(found.non_meshable_corners) + " not meshable, " +
+                   count(static_cast<std::ptrdiff_t>(found.crossings.size()), "crossing");
+        });
+}
+
 void bind_measure_types(py::module_& m) {
+    Record<SmoothedCurves>(m, "SmoothedCurves", "Singular curves without the zigzag of the triangles they cross.")
+        .field("points", &SmoothedCurves::points, "(p, 3) float64, in the place of SingularGraph.points.")
+        .field("lengths", &SmoothedCurves::lengths, "float64 per curve, input unit.")
+        .field("length", &SmoothedCurves::length, "Their sum.")
+        .finish([](const SmoothedCurves& c) {
+            return count(c.lengths.size(), "curve") + ", length " + py::str(py::float_(c.length)).cast<std::string>();
+        });
+
     Record<Integrability>(m, "Integrability", "How far a frame field is from the gradients of a map.")
         .field("jump_rms", &Integrability::jump_rms,
                "Tangential jump of the axes of neighbouring tets' frames over their face, root of the sum over the "
@@ -119,6 +216,40 @@ void bind_meshability(py::module_& m) {
         "mesh"_a, "frames"_a, "graph"_a,
         "Necessary conditions for a hex mesh where the curves of singular_graph(mesh, frames) end (Liu et al. 2018; "
         "Liu, Bommes 2023), as a Meshability. A field that meets them all may still have no hex mesh.");
+}
+
+void bind_boundary_meshability(py::module_& m) {
+    m.attr("no_number") = no_number;
+    m.def(
+        "boundary_meshability",
+        [](const TetMesh& mesh, const BoundarySurface& boundary, const FeatureGraph& features, const ArrayLike& frames,
+           int threads) {
+            threads_option(threads);
+            return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+                check(mesh, false);
+                check_unit(rows, mesh.vertices.rows(), "frames");
+                check(boundary, static_cast<Index>(mesh.vertices.rows()));
+                FeatureGraph checked = features;
+                check(checked, boundary.mesh);
+                return boundary_meshability(mesh, boundary, checked, rows, threads);
+            });
+        },
+        "mesh"_a, "boundary"_a, "features"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "Necessary conditions for a hex mesh at feature edges and corners (after Liu et al. 2018; Liu, Bommes 2023), "
+        "as "
+        "a BoundaryMeshability: how many hexahedra the turn of the field leaves at each, 1 or more; edges of the "
+        "surface on which the field is singular. boundary: boundary_surface(mesh), or that of region_surface.");
+    m.def(
+        "smoothed_curves",
+        [](const SingularGraph& graph, int steps) {
+            return run_interruptible([graph = graph, steps](Job&) {
+                check(graph);
+                return smoothed_curves(graph, steps);
+            });
+        },
+        "graph"_a, py::kw_only(), "steps"_a = 20,
+        "The curves of a singular graph with their zigzag damped by `steps` pairs of averaging steps (Taubin 1995), "
+        "ends held, as SmoothedCurves: for pictures and lengths.");
 }
 
 void bind_integrability(py::module_& m) {
@@ -180,11 +311,13 @@ void bind_feature_alignment(py::module_& m) {
 
 void bind_field_analysis_types(py::module_& m) {
     bind_meshability_types(m);
+    bind_boundary_types(m);
     bind_measure_types(m);
 }
 
 void bind_field_analysis(py::module_& m) {
     bind_meshability(m);
+    bind_boundary_meshability(m);
     bind_integrability(m);
     bind_feature_alignment(m);
 }

@@ -12,6 +12,7 @@
 #include "octafield/surface/streamlines.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/smooth.hpp"
+#include "octafield/volume/streamlines.hpp"
 
 namespace octafield::bindings {
 
@@ -41,6 +42,17 @@ struct Words<surface::StreamlineEnd> {
                                                                     {"closed", E::closed},
                                                                     {"length", E::length},
                                                                     {"near_line", E::near_line},
+                                                                    {"seed", E::seed},
+                                                                    {"stuck", E::stuck}}};
+};
+
+template <>
+struct Words<volume::FrameStreamlineEnd> {
+    using E = volume::FrameStreamlineEnd;
+    static constexpr std::array<std::pair<const char*, E>, 6> list{{{"boundary", E::boundary},
+                                                                    {"singular", E::singular},
+                                                                    {"closed", E::closed},
+                                                                    {"length", E::length},
                                                                     {"seed", E::seed},
                                                                     {"stuck", E::stuck}}};
 };

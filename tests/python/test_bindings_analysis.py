@@ -40,6 +40,7 @@ def test_meshability_is_written_with_the_graph(box, tmp_path):
     found = of.local_meshability(box, frames, graph)
     of.write_singular_graph(tmp_path / "singular.vtp", graph, meshability=found)
     data = pyvista.read(tmp_path / "singular.vtp").point_data
+    np.testing.assert_array_equal(data["smoothed"], of.smoothed_curves(graph).points)
     expected = np.full(len(graph.points), -1)
     expected[[v.point for v in found.vertices]] = [v.meshable for v in found.vertices]
     np.testing.assert_array_equal(data["meshable"], expected)
@@ -47,6 +48,41 @@ def test_meshability_is_written_with_the_graph(box, tmp_path):
     other = of.Meshability(vertices=[of.SingularVertex(point=10**6)])
     with pytest.raises(of.InvalidInput):
         of.write_singular_graph(tmp_path / "other.vtp", graph, meshability=other)
+
+
+def test_ends_of_curves_tell_axis_and_angle(box):
+    frames = turning(np.asarray(box.vertices))
+    graph = of.singular_graph(box, frames)
+    found = of.local_meshability(box, frames, graph)
+    assert [(end.vertex, end.curve, end.quarter_turns) for end in found.ends] == [(0, 0, 1), (1, 0, 1)]
+    np.testing.assert_allclose([abs(end.axis) for end in found.ends], [[0, 0, 1]] * 2, atol=1e-12)
+    assert all(end.angle < 0.6 for end in found.ends) and found.non_meshable_curves == 0
+
+
+def test_smoothed_curves_are_shorter_and_keep_their_ends(box):
+    graph = of.singular_graph(box, turning(np.asarray(box.vertices)))
+    found = of.smoothed_curves(graph)
+    ends = [graph.curves[0][0], graph.curves[0][-1]]
+    np.testing.assert_array_equal(found.points[ends], np.asarray(graph.points)[ends])
+    assert found.length <= graph.length * (1 + 1e-12) and found.lengths.sum() == pytest.approx(found.length)
+    assert of.smoothed_curves(graph, steps=0).length == pytest.approx(graph.length)
+    with pytest.raises(of.InvalidInput):
+        of.smoothed_curves(graph, steps=-1)
+
+
+def test_a_cube_has_one_hexahedron_at_every_edge(box):
+    boundary = of.boundary_surface(box)
+    features = of.detect_features(boundary.mesh)
+    frames = np.tile([1.0, 0, 0, 0], (len(box.vertices), 1))
+    found = of.boundary_meshability(box, boundary, features, frames)
+    assert {(w.hexahedra_a, w.hexahedra_b, w.around) for w in found.wedges} == {(1, 1, 1)}
+    assert len(found.wedges) == len(features.edges) and len(found.corners) == 8 and not found.crossings
+    assert found.non_meshable_wedges == found.non_meshable_corners == 0
+    assert all(c.meshable and c.inside == 0 and c.feature_edges == c.sectors == 3 for c in found.corners)
+    with pytest.raises(of.InvalidInput):
+        of.boundary_meshability(box, boundary, features, frames[:3])
+    with pytest.raises(of.InvalidInput):
+        of.boundary_meshability(of.TetMesh(np.eye(4)[:, :3], [[0, 1, 2, 3]]), boundary, features, frames[:4])
 
 
 def test_integrability_of_a_screw_field_is_its_twist(box):

@@ -106,7 +106,7 @@ def test_links_lead_to_files_beside_the_page(comparison, page):
 
 def test_pictures_are_png_below_the_bound(page):
     pictures = [a["src"] for tag, a in elements(page) if tag == "img"]
-    assert len(pictures) == 2 * (1 + 2 * 4)  # per input: the surface, then curves and cut per run
+    assert len(pictures) == 2 * (2 + 2 * 4)  # per input: the surface, streamlines, then curves and cut per run
     for source in pictures:
         data = base64.b64decode(source.removeprefix("data:image/png;base64,"), validate=True)
         assert data.startswith(PNG) and len(data) < 400_000

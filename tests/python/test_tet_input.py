@@ -188,6 +188,90 @@ def test_a_broken_tetgen_pair_gives_the_line(tmp_path, node, ele, words):
     assert words in str(caught.value)
 
 
+def write_tetgen_boundary(stem, tets: of.TetMesh, base: int, extra: bool = False) -> np.ndarray:
+    """.node, .ele, .face with a marker per side of the cube, .edge with marker 0 off the cube's edges. Returns the markers."""
+    points, boundary = np.asarray(tets.vertices), of.boundary_surface(tets)
+    triangles = np.asarray(boundary.vertex_map)[np.asarray(boundary.mesh.triangles)]
+    corners = points[triangles]
+    flat = np.array([[(corners[:, :, c] == side).all(axis=1) for side in (0.0, 1.0)] for c in range(3)])
+    markers = flat.reshape(6, -1).argmax(axis=0) + 10
+    lines = cube_edges(tets)
+    tables = {
+        ".node": (f"{len(points)} 3 0 0", points.tolist()),
+        ".ele": (f"{len(tets.tets)} 4 0", (np.asarray(tets.tets) + base).tolist()),
+        ".face": (f"{len(triangles)} 1", np.column_stack([triangles + base, markers, *([markers] if extra else [])]).tolist()),
+        ".edge": (f"{len(lines) + 1} 1", [*np.column_stack([lines + base, lines[:, 0] * 0 + 3]).tolist(), [base, base + 1, 0]]),
+    }
+    for suffix, (head, rows) in tables.items():
+        text = "\n".join([f"# made by rule\n{head}", *(" ".join(map(repr, [n + base, *row])) for n, row in enumerate(rows))])
+        stem.with_suffix(suffix).write_text(text + "\n# end\n")
+    return markers
+
+
+@pytest.mark.parametrize("base", [0, 1])
+def test_tetgen_edges_are_features_and_markers_of_faces_are_faces(tmp_path, base):
+    tets = box_tets(3)
+    write_tetgen_boundary(tmp_path / "a", tets, base, extra=base == 1)  # with a column that the header does not tell
+    found = read_input(tmp_path / "a.node")
+    ends = np.asarray(found.boundary.vertex_map)[found.lines]
+    assert np.array_equal(np.unique(np.sort(ends, axis=1), axis=0), cube_edges(tets))
+    assert prepare_mesh(tmp_path / "a.ele").feature_source == "file"
+    (tmp_path / "a.edge").unlink()
+    assert read_input(tmp_path / "a.node").lines is None
+
+
+def test_a_tetgen_edge_with_one_face_on_both_sides_is_a_seam(tmp_path):
+    tets = box_tets(3)
+    write_tetgen_boundary(tmp_path / "a", tets, 1)
+    lines = (tmp_path / "a.face").read_text().splitlines()
+    merged = [" ".join([*line.split()[:-1], "10" if line.split()[-1] == "12" else line.split()[-1]])
+              if len(line.split()) == 5 else line for line in lines]  # fmt: skip
+    (tmp_path / "a.face").write_text("\n".join(merged))
+    found = read_input(tmp_path / "a.node")
+    assert len(found.lines) == 36 - 3 and "3 seam edges" in " ".join(found.notes)  # x = 0 and y = 0 are one face
+
+
+@pytest.mark.parametrize("suffix, text, words", [
+    (".face", "1 1\n1 1 2 99 5\n", "broken.face, line 2: row 1 of the faces names a point outside 1 .. 4"),
+    (".face", "2 1\n1 1 2 3 5\n", "broken.face, line 2: faces ends after 1 of 2 rows"),
+    (".edge", "1 0\n1 1 x\n", "broken.edge, line 2: no number in edges: 'x'"),
+    (".edge", "some words\n", "broken.edge: does not begin with the number of edges"),
+    (".edge", "1 0\n1 1 2.5\n", "broken.edge, line 2: row 1 of the edges"),
+])  # fmt: skip
+def test_a_broken_face_or_edge_file_gives_the_line(tmp_path, suffix, text, words):
+    (tmp_path / "broken.node").write_text("4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n")
+    (tmp_path / "broken.ele").write_text("1 4 0\n1 1 2 3 4\n")
+    (tmp_path / f"broken{suffix}").write_text(text)
+    with pytest.raises(of.IoError) as error:
+        read_input(tmp_path / "broken.node")
+    assert words in str(error.value)
+
+
+def touching_blocks(dimensions: int) -> of.TetMesh:
+    """Blocks of a 2 x 2 x 2 box that meet at an edge (2) or a vertex (3) only."""
+    tets = box_tets(4)
+    centres = np.asarray(tets.vertices)[np.asarray(tets.tets)].mean(axis=1)[:, :dimensions] < 0.5
+    kept = np.asarray(tets.tets)[(centres == centres[:, :1]).all(axis=1)]
+    used, ids = np.unique(kept, return_inverse=True)
+    return of.TetMesh(np.asarray(tets.vertices)[used], ids.reshape(-1, 4))
+
+
+@pytest.mark.parametrize("dimensions, words", [(2, "at 4 edges and 0 other"), (3, "at 0 edges and 1 other")])
+def test_blocks_that_touch_have_the_constant_field(tmp_path, dimensions, words):
+    tets = touching_blocks(dimensions)
+    result = compute_field(tets)
+    assert result.record["energy"] < 1e-20 and result.record["alignment_deg"]["max"] < 1e-6
+    assert any(words in note for note in result.record["notes"])
+    assert set(result.record["hexahedra_at_features"]) == {"1"} and result.record["non_meshable_corners"] == 0
+    write_field_result(result, tmp_path)
+    without = compute_field(tets, FieldOptions(features="none", boundary="none"))  # edges of contact are features all the same
+    assert (without.record["feature_edges"] > 0) == (dimensions == 2)
+    # The doctor says the same.
+    of.write_field(tmp_path / "a.vtu", tets, result.frames)
+    info = json.loads(octafield("info", tmp_path / "a.vtu", "--json", "-", check=0).stdout)
+    assert info["ok"] and "touches itself" in " ".join(info["notes"])
+
+
 def test_ids_of_points_that_are_not_there_name_their_cells(tmp_path):
     points = np.eye(4, 3)
     for kind, width in (("tetra", 4), ("triangle", 3), ("line", 2)):

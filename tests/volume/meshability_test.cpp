@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "field_fixtures.hpp"
 #include "octafield/error.hpp"
 #include "sphere_triangulations.hpp"
 #include "tet_fixtures.hpp"
@@ -79,6 +80,14 @@ TEST(Meshability, OfAnExtrudedFieldEveryLineEndsTwiceAtASingularPointOfTheSurfac
     EXPECT_EQ(found.non_meshable_vertices, 0);
     EXPECT_EQ(found.non_meshable_junctions, 0);
     EXPECT_EQ(found.closed_curves, 0);
+    ASSERT_EQ(found.ends.size(), 8u);
+    for (std::size_t e = 0; e < found.ends.size(); ++e) {
+        const SingularEnd& end = found.ends[e];
+        EXPECT_EQ(end.vertex, static_cast<Index>(e));
+        EXPECT_NEAR(std::abs(end.axis.z()), 1, 1e-12);
+        EXPECT_LT(end.angle, 0.5);
+    }
+    EXPECT_EQ(found.non_meshable_curves, 0);
     int valence3 = 0, valence5 = 0;
     for (const SingularVertex& v : found.vertices) {
         EXPECT_EQ(v.kind, SingularVertexKind::boundary_end);
@@ -229,7 +238,7 @@ TEST(Meshability, CountsOfRandomFieldsAgreeWithTheirLists) {
     const Meshability found = local_meshability(mesh, field, graph);
     std::size_t ends = 0, inside = 0;
     for (const SingularVertex& v : found.vertices) {
-        const int here = v.valence3 + v.valence5 + v.valence6 + v.complex;
+        const int here = v.valence2 + v.valence3 + v.valence5 + v.valence6 + v.complex;
         ends += here;
         EXPECT_EQ(here, v.kind == SingularVertexKind::boundary_end ? 1
                         : v.kind == SingularVertexKind::change     ? 2
@@ -242,7 +251,67 @@ TEST(Meshability, CountsOfRandomFieldsAgreeWithTheirLists) {
     for (const SingularJunction& j : found.junctions) inside += j.vertices;
     EXPECT_EQ(inside, found.vertices.size());
     EXPECT_EQ(ends, 2 * (graph.curves.size() - found.closed_curves));
+    ASSERT_EQ(ends, found.ends.size());
+    for (const SingularEnd& end : found.ends) {
+        EXPECT_EQ(end.quarter_turns, graph.curve_quarter_turns[end.curve]);
+        EXPECT_NEAR(end.axis.norm(), end.quarter_turns == 0 ? 0 : 1, 1e-12);
+        EXPECT_EQ(found.curve_ends(end.curve, 0) == end.vertex || found.curve_ends(end.curve, 1) == end.vertex, true);
+    }
+    int bad_curves = 0;
+    for (const int turns : graph.curve_quarter_turns) bad_curves += turns == 0 || turns == 2;
+    EXPECT_EQ(found.non_meshable_curves, bad_curves);
     EXPECT_GT(found.non_meshable_vertices, found.non_meshable_junctions);
+}
+
+// Four curves that all turn about one axis are two that pass; one of valence 3 with three of valence 5 cannot be,
+// though a hex-mesh vertex has such edges.
+TEST(Meshability, NodesAboutOneAxisAreCurvesThatPassEachOther) {
+    int seen = 0, seen_odd = 0;
+    for (int seed = 0; seed < 6; ++seed) {
+        const TetMesh mesh = testing::kuhn_cube(14);
+        const Meshability found = check_field(mesh, frames::random_rotations(mesh.vertices.rows(), seed));
+        for (const SingularVertex& v : found.vertices) {
+            if (v.kind != SingularVertexKind::node || v.complex > 0) {
+                EXPECT_FALSE(v.one_axis && v.complex > 0);
+                continue;
+            }
+            if (!v.one_axis) {
+                EXPECT_EQ(v.meshable, v.valence2 == 0 && hex_vertex_exists(v.valence3, v.valence5, v.valence6));
+            } else if (v.valence3 % 2 == 1) {
+                EXPECT_FALSE(v.meshable);
+                ++seen_odd;
+            }
+            seen += v.one_axis && v.meshable;
+        }
+    }
+    EXPECT_GT(seen, 0);
+    EXPECT_GT(seen_odd, 0);
+}
+
+// The mirror keeps the valences: the turn and the way round the curve change their sense together.
+TEST(Meshability, OfTheMirroredFieldIsTheSame) {
+    const TetMesh mesh = testing::jittered_cube(6, 0.2, 7);
+    const Quaternions field = frames::random_rotations(mesh.vertices.rows(), 3);
+    TetMesh mirrored = mesh;
+    mirrored.vertices.col(0) *= -1;
+    mirrored.tets.col(0).swap(mirrored.tets.col(1));
+    Quaternions other = field;
+    other.rightCols(2) *= -1;
+    const SingularGraph graph = singular_graph(mesh, field), graph_m = singular_graph(mirrored, other);
+    for (std::size_t i = 0; i < graph.triangles.size(); ++i)
+        EXPECT_EQ(graph.triangles[i].quarter_turns, graph_m.triangles[i].quarter_turns);
+    const Meshability found = local_meshability(mesh, field, graph);
+    const Meshability mirror = local_meshability(mirrored, other, graph_m);
+    EXPECT_EQ(found.non_meshable_vertices, mirror.non_meshable_vertices);
+    ASSERT_EQ(found.ends.size(), mirror.ends.size());
+    const auto sorted_angles = [](const Meshability& of) {
+        std::vector<double> angles;
+        for (const SingularEnd& end : of.ends) angles.push_back(end.angle);
+        std::sort(angles.begin(), angles.end());
+        return angles;
+    };
+    const auto angles = sorted_angles(found), mirrored_angles = sorted_angles(mirror);
+    for (std::size_t e = 0; e < angles.size(); ++e) EXPECT_NEAR(angles[e], mirrored_angles[e], 1e-9);
 }
 
 TEST(Meshability, GraphsOfOtherMeshesAreRefused) {

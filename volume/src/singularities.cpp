@@ -1,5 +1,6 @@
 #include "octafield/volume/singularities.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -29,18 +30,25 @@ int holonomy(const Quaternion& a, const Quaternion& b, const Quaternion& c) {
     return frames::octahedral_inverse(round_trip);
 }
 
+// Axis, in a's own axes, about which the frame of a turns forward on its way round the triangle. A half turn may go
+// either way: the quaternion of the path, one smallest step after the other, knows which.
+Eigen::Vector3d forward_axis(int element, const Quaternion& a, const Quaternion& b, const Quaternion& c) {
+    const Eigen::Vector3d axis = frames::octahedral_group()[element].vec();
+    if (frames::octahedral_class(element) != OctahedralClass::half_turn) return axis;
+    const Quaternion at_c = frames::closest_representative(c, frames::closest_representative(b, a));
+    const Quaternion back = frames::closest_representative(a, at_c);
+    return (a.conjugate() * back).vec().dot(axis) < 0 ? Eigen::Vector3d(-axis) : axis;
+}
+
 // Quarter turns about a curve that crosses the triangle towards `along`: positive when the frame turns about that
 // direction, the way the loop goes round it. The curve's direction is steadier than the triangle's normal, which a
 // zigzag of triangles tosses about.
-int quarter_turns(int element, const Quaternion& a, const Eigen::Vector3d& along) {
-    switch (frames::octahedral_class(element)) {
-        case OctahedralClass::half_turn:
-            return 2;
-        case OctahedralClass::quarter_turn:
-            return along.dot(a * frames::octahedral_group()[element].vec()) < 0 ? -1 : 1;
-        default:
-            return 0;
-    }
+int quarter_turns(int element, const Eigen::Vector3d& along, const Quaternion& a, const Quaternion& b,
+                  const Quaternion& c) {
+    const OctahedralClass kind = frames::octahedral_class(element);
+    if (kind != OctahedralClass::half_turn && kind != OctahedralClass::quarter_turn) return 0;
+    const int size = kind == OctahedralClass::half_turn ? 2 : 1;
+    return along.dot(a * forward_axis(element, a, b, c)) < 0 ? -size : size;
 }
 
 // Point of the closed segment [p, q] nearest the origin, as a parameter.
@@ -143,15 +151,20 @@ DualGraph join_in_tets(const TetMesh& mesh, const TriangleTable& table, const st
     return dual;
 }
 
-void set_quarter_turns(const Quaternions& frames, const DualGraph& dual, const std::vector<Eigen::Vector3d>& points,
-                       SingularGraph& graph) {
+void set_quarter_turns(const TetMesh& mesh, const Quaternions& frames, const DualGraph& dual,
+                       const std::vector<Eigen::Vector3d>& points, SingularGraph& graph) {
     // From the point before the triangle to the point after it, along its positive normal.
     std::vector<Eigen::Vector3d> along(graph.triangles.size(), Eigen::Vector3d::Zero());
     for (const Branch& b : dual.branches)
         along[b.singular] += (b.positive ? 1 : -1) * (points[b.point] - points[b.singular]);
     for (std::size_t i = 0; i < along.size(); ++i) {
         SingularTriangle& s = graph.triangles[i];
-        s.quarter_turns = quarter_turns(s.holonomy, frames::from_wxyz(frames.row(s.a)), along[i]);
+        if (along[i].isZero(0)) {  // the points lie on one edge: only the triangle has a direction
+            const Eigen::Vector3d a = mesh.vertices.row(s.a), b = mesh.vertices.row(s.b), c = mesh.vertices.row(s.c);
+            along[i] = (b - a).cross(c - a);
+        }
+        s.quarter_turns = quarter_turns(s.holonomy, along[i], frames::from_wxyz(frames.row(s.a)),
+                                        frames::from_wxyz(frames.row(s.b)), frames::from_wxyz(frames.row(s.c)));
         graph.complex_triangles += s.quarter_turns == 0;
     }
 }
@@ -190,7 +203,7 @@ SingularGraph singular_graph(const TetMesh& mesh, const Quaternions& frames, int
         points.push_back(graph.triangles.back().point);
     }
     const DualGraph dual = join_in_tets(mesh, table, singular_number, graph, points);
-    set_quarter_turns(frames, dual, points, graph);
+    set_quarter_turns(mesh, frames, dual, points, graph);
     const std::vector<Segment> segments = typed_segments(dual, graph);
     CurveSet set = chain_segments(segments, static_cast<Index>(points.size()));
     graph.curves = std::move(set.curves);

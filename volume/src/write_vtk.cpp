@@ -23,6 +23,7 @@
 
 #include "octafield/frames/sh4.hpp"
 #include "octafield/temporary_file.hpp"
+#include "octafield/volume/smoothed_curves.hpp"
 #include "require_frames.hpp"
 
 namespace octafield::volume {
@@ -210,6 +211,9 @@ void write_singular_graph(const fs::path& path, const SingularGraph& graph, cons
     for (const Index p : graph.nodes) is_node[p] = 1;
     add_array<vtkUnsignedCharArray>(data->GetPointData(), "node", 1, graph.points.rows(),
                                     [&](Eigen::Index i) { return one(is_node[i]); });
+    const Points smoothed = smoothed_curves(graph).points;
+    add_array<vtkDoubleArray>(data->GetPointData(), "smoothed", 3, smoothed.rows(),
+                              [&](Eigen::Index i) -> Eigen::Vector3d { return smoothed.row(i).transpose(); });
     if (meshability) add_meshability(data->GetPointData(), *meshability, graph.points.rows());
     add_metadata(data, metadata);
     write<vtkXMLPolyDataWriter>(path, data.Get());

@@ -25,6 +25,7 @@ def scene_json(folder: Path) -> str | None:
     lines: dict[str, list] = {kind: [] for kind in KINDS}
     lines["surface"] = [whole(line) for line in _outline(surface)]
     if singular.n_cells:
+        singular.points = np.asarray(singular.point_data["smoothed"])
         for cell, kind in zip(_polylines(singular), _kinds(singular), strict=True):
             lines[kind].append(whole(cell))
     size = np.rint((high - low) * scale).astype(int).tolist()

@@ -8,6 +8,7 @@
 // valence d is a corner of degree d. Euler's formula says sum (6 - d) = 12, where regular corners (d = 4) count 2.
 // Round a vertex of the boundary the triangles form a disk; where the boundary is smooth, each of its boundary edges
 // has two hexahedra, so all triangles share one corner: a single edge leaves inwards, along the normal.
+// boundary_meshability.hpp has what concerns feature edges and corners.
 #pragma once
 
 #include <cstdint>
@@ -34,35 +35,52 @@ enum class SingularVertexKind : std::uint8_t {
 struct SingularVertex {
     Index point;  // into SingularGraph::points
     SingularVertexKind kind;
-    // Curves that end here, by type; a curve with both ends here counts twice. A half turn counts as valence 6: valence
-    // 2 would have two hexahedra share two faces.
-    int valence3, valence5, valence6, complex;
+    // Curves that end here, by type; a curve with both ends here counts twice.
+    int valence2, valence3, valence5, valence6, complex;
     // At a boundary end: the frames turn round the triangle about the axis nearest to its normal, so that the surface
     // cross field has a singular point of the same index there. False at other kinds.
     bool about_normal;
-    // node, change: not complex, and hex_vertex_exists(valence3, valence5, valence6). boundary_end: not complex, and
-    // about_normal.
+    // At a node: all its curves turn about one and the same axis of the frame. Only two curves that pass each other in
+    // a tet can be meshed then: a hex vertex where all edges turn about one axis has two singular edges, one each way.
+    bool one_axis;
+    // Neither complex nor of valence 2 (two hexahedra would share two faces), and
+    // node: hex_vertex_exists(valence3, valence5, valence6); with one_axis: as many curves of each type along the axis
+    // as against it. change: false. boundary_end: about_normal.
     bool meshable;
     Index junction;  // into Meshability::junctions
+};
+
+// One end of a curve of the singular graph.
+struct SingularEnd {
+    Index vertex;       // into Meshability::vertices
+    Index curve;        // into SingularGraph::curves
+    int quarter_turns;  // type of the curve
+    // The axis of the frames about which they turn, unit, pointing away from the vertex; 0 where the curve is complex.
+    Eigen::Vector3d axis;
+    // Radians in [0, pi] between that axis and the smoothed curve, away from the vertex; 0 where it is complex. A hex
+    // mesh has its singular edges along the axis: small angles are good, and nothing is concluded from large ones.
+    double angle;
 };
 
 // Vertices that complex curves join, as if these curves were shrunk to a point: a sampled node of a hex mesh often
 // appears as two nodes a triangle apart, joined by one complex segment.
 struct SingularJunction {
-    int vertices;                      // in it
-    int valence3, valence5, valence6;  // ends of curves that leave it
-    int complex;                       // complex curves inside it; none leaves it
+    int vertices;                                // in it
+    int valence2, valence3, valence5, valence6;  // ends of curves that leave it
+    int complex;                                 // complex curves inside it; none leaves it
     // One vertex: that vertex's. More: the complex curves form a tree (shrinking keeps a ball), no end on the boundary
-    // is among its vertices, and hex_vertex_exists(valence3, valence5, valence6).
+    // is among its vertices, no curve has valence 2, and hex_vertex_exists(valence3, valence5, valence6).
     bool meshable;
 };
 
 struct Meshability {
     std::vector<SingularVertex> vertices;  // ascending points
     std::vector<SingularJunction> junctions;
+    std::vector<SingularEnd> ends;  // by vertex, then in the order of the curves
     Edges curve_ends;  // (curves, 2): vertices at the first and last point of each curve; -1, -1: closed without one
     int non_meshable_vertices = 0;
     int non_meshable_junctions = 0;
+    int non_meshable_curves = 0;  // complex, or of valence 2
     int closed_curves = 0;
     int boundary_ends = 0;               // ends of curves on the boundary
     int boundary_ends_about_normal = 0;  // of those, the ones at singular points of the surface cross field

@@ -15,8 +15,9 @@ struct SingularTriangle {
     // comes back as q_a h.
     int holonomy;
     // Quarter turns of the frames about the curve, in the sense of going round it: +1 valence 3 (index +1/4), -1
-    // valence 5, 2 a half turn. The sign is that of (axis of the turn) . (direction of the curve, from the point before
-    // to the point after). 0: not a rotation about one of its own axes (a complex singularity: third turn or half turn
+    // valence 5, +2 valence 2, -2 valence 6. The sign is that of (axis of the turn) . (direction of the curve, from the
+    // point before to the point after); which way a half turn goes is told by the steps from vertex to vertex, each the
+    // smallest possible. 0: not a rotation about one of its own axes (a complex singularity: third turn or half turn
     // about a face diagonal), which no hex mesh has.
     int quarter_turns;
     bool boundary;          // lies on the boundary of the mesh

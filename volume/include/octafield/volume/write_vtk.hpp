@@ -28,7 +28,8 @@ void write_field(const std::filesystem::path& path, const TetMesh& mesh, const Q
                  const Metadata& metadata = {}, const std::vector<Index>& regions = {});
 
 // .vtp polylines with cell data quarter_turns, index (quarter_turns / 4), curve (0-based); nodes as vertex cells with
-// point data node (0/1), their cell data 0, 0, -1. Vertex cells come first. With the graph's meshability, point data
+// point data node (0/1) and smoothed (3: the point's place in smoothed_curves), their cell data 0, 0, -1. Vertex cells
+// come first. With the graph's meshability, point data
 // meshable (1 or 0 where curves end, -1 elsewhere) and junction (-1 elsewhere).
 void write_singular_graph(const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata = {},
                           const Meshability* meshability = nullptr);

@@ -1,0 +1,107 @@
+// Curves along the axes of frame fields in tet meshes, and where they begin.
+#include "octafield/volume/streamlines.hpp"
+
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "checks.hpp"
+#include "interruptible.hpp"
+#include "record.hpp"
+
+namespace octafield::bindings {
+
+using namespace volume;
+using py::literals::operator""_a;
+
+namespace {
+
+void bind_points(py::module_& m) {
+    m.def(
+        "locate_points",
+        [](const TetMesh& mesh, const ArrayLike& points) {
+            return run_interruptible([=, rows = from_python<Points>(points, "points")](Job&) {
+                check(mesh, false);
+                check_vectors(rows, rows.rows(), "points", "point");
+                return locate_points(mesh, rows);
+            });
+        },
+        "mesh"_a, "points"_a,
+        "The tet that holds each of (n, 3) points and its barycentric coordinates there, as "
+        "LocatedPoints. Of several tets the one it lies deepest in.");
+    m.def(
+        "spread_points",
+        [](const TetMesh& mesh, int count) {
+            return own(run_interruptible([=](Job&) {
+                check(mesh, false);
+                return spread_points(mesh, count);
+            }));
+        },
+        "mesh"_a, "count"_a,
+        "(n, 3): centres of at most `count` tets that fill the mesh evenly, the same at every call "
+        "(Poisson disk sampling).");
+}
+
+void bind_lines(py::module_& m) {
+    const FrameStreamlineOptions defaults;
+    m.def(
+        "frame_streamlines",
+        [](const TetMesh& mesh, const ArrayLike& frames, const ArrayLike& points,
+           const std::optional<ArrayLike>& directions, double max_length, bool both_ways, double closing_distance,
+           int threads) {
+            threads_option(threads);
+            const FrameStreamlineOptions options{.max_length = finite(max_length, "max_length"),
+                                                 .both_ways = both_ways,
+                                                 .closing_distance = finite(closing_distance, "closing_distance")};
+            std::optional<Points> along;
+            if (directions) along = from_python<Points>(*directions, "directions");
+            return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
+                                      seeds = from_python<Points>(points, "points")](Job&) mutable {
+                check(mesh, false);
+                check_unit(rows, mesh.vertices.rows(), "frames");
+                check_vectors(seeds, seeds.rows(), "points", "point");
+                if (along) check_vectors(*along, seeds.rows(), "directions", "point");
+                return frame_streamlines(mesh, rows,
+                                         along ? seeds_at(mesh, seeds, *along) : axis_seeds_at(mesh, rows, seeds),
+                                         options, threads);
+            });
+        },
+        "mesh"_a, "frames"_a, "points"_a, "directions"_a = py::none(), py::kw_only(),
+        "max_length"_a = defaults.max_length, "both_ways"_a = defaults.both_ways,
+        "closing_distance"_a = defaults.closing_distance, "threads"_a = 0,
+        "Curves along the axes of (n, 4) frames at the vertices of a tet mesh, as a list of FrameStreamline: one per "
+        "point along the axis nearest to its direction, or three, one per axis, where no directions are given. "
+        "max_length: input unit, from the seed each way, 0 means 4 diagonals of the bounding box; both_ways: against "
+        "the direction as well; closing_distance: a curve that comes back to its seed so near is closed, 0 means a "
+        "tenth of an edge. A curve ends at the boundary and a tet before a singular curve that turns its axis. The "
+        "same bits at any thread count. Raises InvalidInput naming the points outside the mesh.");
+}
+
+}  // namespace
+
+void bind_frame_streamline_types(py::module_& m) {
+    Record<FrameStreamline>(m, "FrameStreamline", "A curve along an axis of a frame field in its tet mesh.")
+        .field("points", &FrameStreamline::points, "(n, 3) float64 points of the polyline.")
+        .field("tets", &FrameStreamline::tets,
+               "(n - 1,) int32: the tet that the segment from point i to point i + 1 lies in.")
+        .field("length", &FrameStreamline::length, "Input unit.")
+        .field("first_end", &FrameStreamline::first_end,
+               "Why it begins there, a word as last_end; \"seed\": that is its seed.")
+        .field("last_end", &FrameStreamline::last_end,
+               "Why it ends there: \"boundary\", \"singular\" (the tet ahead is singular for this axis), \"closed\" "
+               "(first and last point are the same), \"length\" (max_length reached) or \"stuck\".")
+        .finish([](const FrameStreamline& s) {
+            return count(s.points.rows(), "point") + ", length " + py::str(py::float_(s.length)).cast<std::string>() +
+                   ", " + to_word(s.first_end) + " to " + to_word(s.last_end);
+        });
+
+    Record<LocatedPoints>(m, "LocatedPoints", "Points and the tets of a mesh that hold them.")
+        .field("tet", &LocatedPoints::tet, "(n,) int32; -1: outside the mesh.")
+        .field("weights", &LocatedPoints::weights, "(n, 4) float64 barycentric coordinates in the tet; 0 outside.")
+        .finish([](const LocatedPoints& p) { return count(p.weights.rows(), "point"); });
+}
+
+void bind_frame_streamlines(py::module_& m) {
+    bind_points(m);
+    bind_lines(m);
+}
+
+}  // namespace octafield::bindings

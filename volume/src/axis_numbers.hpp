@@ -1,0 +1,61 @@
+// The six directions of a frame's axes by number, and how matchings carry them from vertex to vertex.
+#pragma once
+
+#include <array>
+
+#include "octafield/arrays.hpp"
+#include "octafield/frames/octahedral_group.hpp"
+
+namespace octafield::volume {
+
+// 0, 1, 2: +x, +y, +z of the frame; 3, 4, 5: their negatives.
+inline constexpr int axis_count = 6;
+inline int opposite_axis(int axis) { return (axis + 3) % axis_count; }
+
+inline frames::Vector3 axis_unit(int axis) { return (axis < 3 ? 1 : -1) * frames::Vector3::Unit(axis % 3); }
+
+inline int nearest_axis_number(const frames::Vector3& in_frame) {
+    Eigen::Index largest;
+    in_frame.cwiseAbs().maxCoeff(&largest);
+    return static_cast<int>(largest) + (in_frame[largest] < 0 ? 3 : 0);
+}
+
+// Number of o a, for the element o of the octahedral group and the axis a.
+inline int turned_axis(int element, int axis) {
+    static const auto table = [] {
+        std::array<std::array<int, axis_count>, frames::octahedral_order> t;
+        for (int o = 0; o < frames::octahedral_order; ++o)
+            for (int a = 0; a < axis_count; ++a)
+                t[o][a] = nearest_axis_number(frames::octahedral_group()[o] * axis_unit(a));
+        return t;
+    }();
+    return table[element][axis];
+}
+
+// Axes of a field with one frame per vertex.
+class VertexAxes {
+public:
+    explicit VertexAxes(const Quaternions& frames) : frames_(frames) {}
+
+    frames::Quaternion frame(Index v) const { return frames::from_wxyz(frames_.row(v)); }
+    frames::Vector3 direction(Index v, int axis) const { return frame(v) * axis_unit(axis); }
+    int nearest(Index v, const frames::Vector3& direction) const {
+        return nearest_axis_number(frame(v).conjugate() * direction);
+    }
+
+    // The element o for which q_v o is near q_w. Edges are matched from their lower to their higher vertex, as in
+    // singular_graph, so that all agree also in a tie.
+    int matching(Index v, Index w) const {
+        return v < w ? frames::matching(frame(v), frame(w))
+                     : frames::octahedral_inverse(frames::matching(frame(w), frame(v)));
+    }
+    // The axis of w that continues the axis of v.
+    int carried(Index v, Index w, int axis) const {
+        return turned_axis(frames::octahedral_inverse(matching(v, w)), axis);
+    }
+
+private:
+    const Quaternions& frames_;
+};
+
+}  // namespace octafield::volume
