@@ -1,10 +1,15 @@
 """octafield: hexahedral frame fields on surfaces and in volumes.
 
-    import octafield
-    mesh = octafield.read_surface("part.stl")
-    result = octafield.compute_field(mesh)           # the whole way, see octafield.pipeline
-    frames = octafield.random_rotations(10)          # or one step at a time
-    vectors = octafield.sh4_embed(frames)
+    >>> import octafield
+    >>> from octafield.study.generators import generate
+    >>> surface = generate("box")                     # or octafield.read_surface("part.stl")
+    >>> octafield.require_valid(surface)
+    >>> result = octafield.compute_field(surface)     # the whole way, see octafield.pipeline
+    >>> result.record["singular_edges"]
+    0
+    >>> frames = octafield.random_rotations(10)       # or one step at a time
+    >>> octafield.sh4_embed(frames).shape
+    (10, 9)
 
 Quaternions are (w, x, y, z), angles radians, lengths the input's unit, ids 0-based and -1 for none. Array properties
 are numpy views of the C++ memory. Long calls run without the GIL, take progress(phase, fraction, merit) -> bool | None, and stop

@@ -1,7 +1,7 @@
 """Representations and boundary treatments side by side, on one mesh per input.
 
-comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, one folder per run
-comparison.rows[0]["energy"]
+    comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, one folder per run
+    comparison.rows[0]["energy"]
 """
 
 import csv

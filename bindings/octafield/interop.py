@@ -1,9 +1,17 @@
 """Meshes and results to and from the objects of other libraries: pyvista, meshio, pandas.
 
-    grid = octafield.to_pyvista(result)           # tets with frame_u, frame_v, frame_w, quaternion
-    tets = octafield.from_pyvista(grid)           # back: a TetMesh (or TriangleMesh)
-    octafield.to_meshio(result.tets).write("part.msh")
-    octafield.to_pandas([result.record])          # one line per record
+    >>> import octafield
+    >>> from octafield.study.generators import generate
+    >>> result = octafield.compute_field(generate("box"))
+    >>> grid = octafield.to_pyvista(result)  # tets with the axes of the frames
+    >>> sorted(grid.point_data)
+    ['frame_u', 'frame_v', 'frame_w', 'quaternion']
+    >>> tets = octafield.from_pyvista(grid)  # back: a TetMesh (or TriangleMesh)
+    >>> len(tets.tets) == len(result.tets.tets)
+    True
+    >>> octafield.to_meshio(result.tets).write("part.vtu")
+
+    octafield.to_pandas([result.record])  # one line per record; needs pandas
 
 Matrices (`octafield.stiffness`, `octafield.mass`) are scipy.sparse already; arrays of every object are numpy's.
 """
