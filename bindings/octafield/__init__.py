@@ -202,6 +202,17 @@ from ._core import (
     write_surface,
     write_surface_field,
 )
+from ._core import (  # sampling
+    Sampling,
+    SingularEdge,
+    SingularEdges,
+    singular_edges,
+    tet_alignment_angles,
+    tet_boundary_constraints,
+    tet_sampling,
+    vertex_frames,
+    vertex_sampling,
+)
 from ._core import (  # volume input
     LockingElements,
     LockingSplit,
@@ -440,4 +451,13 @@ __all__ = [
     "to_meshio",
     "to_pandas",
     "to_pyvista",
+    "Sampling",
+    "SingularEdge",
+    "SingularEdges",
+    "singular_edges",
+    "tet_alignment_angles",
+    "tet_boundary_constraints",
+    "tet_sampling",
+    "vertex_frames",
+    "vertex_sampling",
 ]

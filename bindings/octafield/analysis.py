@@ -48,8 +48,8 @@ def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0, streamlin
         **_singular_record(graph),
         **_meshability_record(meshability),
         **_boundary_record(at_boundary),
-        "alignment_deg": _degrees(alignment),
-        "feature_alignment_deg": _degrees(feature_alignment),
+        "alignment_deg": degrees(alignment),
+        "feature_alignment_deg": degrees(feature_alignment),
         "integrability": {
             name: getattr(integrability, name) for name in ("jump_rms", "jump_max", "twist_rms", "twist_max")
         },
@@ -89,7 +89,7 @@ def _meshability_record(found: Meshability) -> dict:
         "singular_boundary_ends": found.boundary_ends,
         "singular_boundary_ends_about_normal": found.boundary_ends_about_normal,
         "singular_vertex_types": {name: counts[name] for name in sorted(counts)},
-        "singular_axis_deg": _degrees(np.array([end.angle for end in found.ends if end.quarter_turns])),
+        "singular_axis_deg": degrees(np.array([end.angle for end in found.ends if end.quarter_turns])),
     }
 
 
@@ -119,7 +119,7 @@ def _type(vertex) -> str:
     )
 
 
-def _degrees(angles: np.ndarray) -> dict[str, float]:
+def degrees(angles: np.ndarray) -> dict[str, float]:
     if len(angles) == 0:
         return {"median": 0.0, "max": 0.0}
     return {"median": math.degrees(float(np.median(angles))), "max": math.degrees(float(angles.max()))}

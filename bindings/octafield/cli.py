@@ -34,6 +34,7 @@ from .options import (
     COMPARED,
     METHODS,
     REPRESENTATIONS,
+    SAMPLINGS,
     SOLVERS,
     FieldOptions,
     MeshOptions,
@@ -96,6 +97,7 @@ def _report_notes(record: dict) -> None:
 def field(
     input: InputFile,
     output: Output,
+    sampling: Annotated[str, typer.Option(metavar=choices(SAMPLINGS), help="Where the frames live.")] = _FIELD.sampling,
     representation: Annotated[str, typer.Option(metavar=choices(REPRESENTATIONS))] = _FIELD.representation,
     solver: Annotated[str, typer.Option(metavar="|".join(SOLVERS))] = _FIELD.solver,
     boundary: Annotated[
@@ -130,6 +132,7 @@ def field(
         from .results import RECORD_FILE, write_field_result
 
         options = FieldOptions(
+            sampling=sampling,
             representation=representation,
             solver=solver,
             boundary=boundary,

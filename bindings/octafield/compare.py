@@ -58,7 +58,7 @@ def compare(
     earlier comparison in it is replaced, a folder with anything else is refused (InvalidInput).
     """
     inputs = [inputs] if isinstance(inputs, Source) else list(inputs)
-    _check(inputs, representations, boundaries)
+    _check(inputs, representations, boundaries, options)
     seeds = integer_in("seeds", seeds, 1, LARGEST_SEED - options.seed + 1)
     with staged_folder(output, ROWS_FILE) as folder:
         rows: list[dict] = []
@@ -134,11 +134,13 @@ def _volume_pictures(result: FieldResult, label: str, lines: bool) -> list[Pictu
     return [replace(picture, title=f"{picture.title} ({label})") for picture in drawn]
 
 
-def _check(inputs: Sequence, representations: Sequence[str], boundaries: Sequence[str]) -> None:
+def _check(inputs: Sequence, representations: Sequence[str], boundaries: Sequence[str], options: FieldOptions) -> None:
     if not inputs or not representations or not boundaries:
         raise InvalidInput(
             "a comparison needs at least one input, representation and boundary treatment", "nothing_to_compare"
         )
+    if options.sampling != "vertices":
+        raise InvalidInput("a comparison is of frames at vertices; leave sampling as it is", "wrong_sampling")
     for representation in representations:
         require_one_of("representation", representation, REPRESENTATIONS)
     for boundary in boundaries:

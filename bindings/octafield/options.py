@@ -14,6 +14,7 @@ REPRESENTATIONS = _core.smooth_representations
 COMPARED = (*_core.representations, "geodesic", "su2_midpoint")  # what a comparison takes when not told
 SOLVERS = ("default", "trust_region", "levenberg_marquardt", "lbfgs")  # default: what goes with the representation
 BOUNDARIES = ("aligned", "fixed", "none")
+SAMPLINGS = ("vertices", "tets")
 FEATURES = ("default", "file", "angle", "none")
 LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
 LARGEST_SYMMETRY = 1000  # largest_symmetry of direction_field.hpp
@@ -121,6 +122,8 @@ class SurfaceFieldOptions(MeshOptions):
 class FieldOptions(MeshOptions):
     """Of a frame field in a volume.
 
+    sampling: where the frames live, "vertices" or "tets" (octafield.tet_sampling; constraints, energy, singular edges
+        and alignment are those of the tets then, and meshability and integrability are left out).
     boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none".
     feature_tolerance: radians; a vertex on a feature keeps its whole frame when one frame fits all its normals and
         tangents so well (octafield.boundary_constraints).
@@ -130,6 +133,7 @@ class FieldOptions(MeshOptions):
     volume (octafield.spread_points), go into streamlines.vtp; 0: none.
     """
 
+    sampling: str = "vertices"
     representation: str = "sh4"
     solver: str = "default"
     boundary: str = "aligned"
@@ -143,6 +147,7 @@ class FieldOptions(MeshOptions):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        require_one_of("sampling", self.sampling, SAMPLINGS)
         require_one_of("representation", self.representation, REPRESENTATIONS)
         require_one_of("solver", self.solver, SOLVERS)
         require_one_of("boundary", self.boundary, BOUNDARIES)

@@ -171,6 +171,8 @@ def _add_nodes(shape: pyvista.Plotter, nodes: np.ndarray, radius: float) -> None
 
 
 def _bad_features(result: FieldResult) -> pyvista.PolyData | None:
+    if result.boundary_meshability is None:
+        return None
     edges = np.array([(w.a, w.b) for w in result.boundary_meshability.wedges if not w.meshable], int).reshape(-1, 2)
     points = np.asarray(result.tets.vertices)
     return scene.segments(points[edges[:, 0]], points[edges[:, 1]]) if len(edges) else None

@@ -38,6 +38,7 @@ from .errors import InvalidInput
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
+from .tet_analysis import analyse_tets
 from .surface_pipeline import SurfaceFieldResult, common_record, compute_surface_field, index_summary, structure
 
 if TYPE_CHECKING:
@@ -78,7 +79,12 @@ class Problem:
 class FieldResult:
     """A frame field and what led to it. frames: (n, 4) unit quaternions w x y z, per tet vertex. alignment: radians,
     per boundary vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record:
-    the JSON object of the command line. regions: (m,) ids of the tets where the mesh has several."""
+    the JSON object of the command line. regions: (m,) ids of the tets where the mesh has several. lengths: (n, 3) of the
+    frames' axes, of the representation odeco_lengths.
+
+    With sampling "tets" the field is tet_frames, (m, 4), and so are constraints, singular_graph (of singular_edges),
+    alignment (per triangle and tet beside it) and lengths; frames is the field taken to the vertices, meshability and
+    integrability are None."""
 
     surface: TriangleMesh
     features: FeatureGraph
@@ -92,12 +98,14 @@ class FieldResult:
     singular_graph: SingularGraph
     alignment: np.ndarray
     feature_alignment: np.ndarray
-    meshability: Meshability
-    boundary_meshability: BoundaryMeshability
-    integrability: Integrability
+    meshability: Meshability | None
+    boundary_meshability: BoundaryMeshability | None
+    integrability: Integrability | None
     streamlines: list[FrameStreamline]
     record: dict
     regions: np.ndarray | None = None
+    tet_frames: np.ndarray | None = None
+    lengths: np.ndarray | None = None
 
     def __repr__(self) -> str:
         return display.one_line(self)
@@ -119,7 +127,7 @@ def compute_field(
 ) -> FieldResult:
     """Frame field inside a closed surface or on a tet mesh (paths or meshes in memory).
 
-    constraints: the user's own, on vertices of the tet mesh that the field is computed on. Meshing and splitting make
+    constraints: the user's own, on vertices (or, with sampling "tets", tets) of the mesh the field is computed on. Meshing and splitting make
     another mesh of the input, so prepare it first:
 
         meshed = prepare_mesh("part.stl", options)
@@ -164,18 +172,12 @@ def run(
     tets, threads = meshed.tets, options.threads
     with clock.phase("smooth"):
         announce(progress, "smooth")
-        held = _core.boundary_constraints(
-            len(tets.vertices),
-            meshed.boundary,
-            meshed.boundary_features,
-            meshed.at_boundary_vertices(problem.directions),
-            mode=options.boundary,
-            feature_tolerance=options.feature_tolerance,
-        )
+        where = _core.tet_sampling(tets) if options.sampling == "tets" else tets
+        held = _boundary_constraints(problem, options)
         if constraints is not None:
             held = _core.with_constraints(held, constraints)
         found = _core.frame_field(
-            tets,
+            where,
             held,
             start="cross_field" if options.boundary == "none" else "constraints",
             seed=problem.seed,
@@ -190,8 +192,14 @@ def run(
         smoothed = found.smooth
     with clock.phase("analyse"):
         announce(progress, "analyse")
-        frames = np.asarray(smoothed.frames)
-        analysis = analyse(meshed, frames, threads, options.streamlines)
+        frames, of_tets = np.asarray(smoothed.frames), None
+        if options.sampling == "tets":
+            of_tets = frames
+            analysis = analyse_tets(meshed, where, of_tets, threads)
+            frames = analysis.frames
+        else:
+            analysis = analyse(meshed, frames, threads, options.streamlines)
+        lengths = np.asarray(smoothed.lengths) if len(smoothed.lengths) else None
     record = {
         **common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
         "vertices": len(tets.vertices),
@@ -200,12 +208,14 @@ def run(
         "regions": 1 if meshed.regions is None else len(np.unique(meshed.regions)),
         "interface_triangles": meshed.interface_triangles,
         "locking": meshed.locking,
+        "sampling": options.sampling,
         "representation": options.representation,
         "solver": options.solver,
         "boundary": options.boundary,
         "seed": problem.seed,
         "threads": threads,
         **analysis.record,
+        **({} if lengths is None else {"lengths": _spread(lengths)}),
         "objective": float(smoothed.objective),
         "iterations": smoothed.iterations,
         "diffusion_steps": found.diffusion_steps,
@@ -234,16 +244,34 @@ def run(
         tets,
         held,
         frames,
-        analysis.singular_graph,
+        analysis.singular_graph if of_tets is None else analysis.singular.graph,
         analysis.alignment,
         analysis.feature_alignment,
-        analysis.meshability,
-        analysis.boundary_meshability,
-        analysis.integrability,
-        analysis.streamlines,
+        analysis.meshability if of_tets is None else None,
+        analysis.boundary_meshability if of_tets is None else None,
+        analysis.integrability if of_tets is None else None,
+        analysis.streamlines if of_tets is None else [],
         record,
         meshed.regions,
+        of_tets,
+        lengths,
     )
+
+
+def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryConstraints:
+    meshed = problem.meshed
+    how = {"mode": options.boundary, "feature_tolerance": options.feature_tolerance}
+    if options.sampling == "tets":  # triangles of the surface are those of the boundary, sheets or not
+        directions = _core.triangle_directions(meshed.surface, problem.direction_field)
+        return _core.tet_boundary_constraints(meshed.tets, meshed.boundary, directions, **how)
+    directions = meshed.at_boundary_vertices(problem.directions)
+    return _core.boundary_constraints(
+        len(meshed.tets.vertices), meshed.boundary, meshed.boundary_features, directions, **how
+    )
+
+
+def _spread(lengths: np.ndarray) -> dict[str, float]:
+    return {"min": float(lengths.min()), "median": float(np.median(lengths)), "max": float(lengths.max())}
 
 
 def _constraint_counts(held: BoundaryConstraints, given: VertexConstraints | None) -> dict[str, int]:

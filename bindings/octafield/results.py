@@ -24,14 +24,19 @@ def write_field_result(result: FieldResult, folder: Path, progress: Progress | N
     clock = _clock(result.record)
     with clock.phase("write"):
         regions = [] if result.regions is None else result.regions
-        _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions)
+        more = {}
+        if result.tet_frames is not None:
+            more["tet_frames"] = result.tet_frames
+        if result.lengths is not None:
+            more["lengths" if result.tet_frames is None else "tet_lengths"] = result.lengths
+        _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions, **more)
         _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
-        write_features(folder / "features.vtp", result.tets, result.boundary_meshability, metadata)
-        files = [name for name in FIELD_FILES if name != "streamlines.vtp" or result.streamlines]
+        if result.boundary_meshability is not None:
+            write_features(folder / "features.vtp", result.tets, result.boundary_meshability, metadata)
         if result.streamlines:
             write_streamlines(folder / "streamlines.vtp", result.streamlines, metadata)
         _write_surface_files(result, folder, metadata)
-    result.record["files"] = [*files, RECORD_FILE]
+    result.record["files"] = [*(name for name in FIELD_FILES if (folder / name).exists()), RECORD_FILE]
     write_json(folder / RECORD_FILE, result.record)
 
 

@@ -13,7 +13,7 @@ from .summary import COLUMNS
 def show_record(record: dict) -> None:
     facts = []
     for name, value in record.items():
-        if name in ("alignment_deg", "feature_alignment_deg", "integrability", "wall_seconds"):
+        if name in ("alignment_deg", "feature_alignment_deg", "integrability", "lengths", "wall_seconds"):
             facts.append((name, "  ".join(f"{key} {number:.3g}" for key, number in value.items())))
         elif isinstance(value, (str, int, float)) and name != "input":
             facts.append((name, f"{value:.8g}" if isinstance(value, float) else str(value)))

@@ -19,6 +19,8 @@ void bind_streamlines(pybind11::module_& module);
 void bind_renormalised_energy(pybind11::module_& module);
 void bind_volume_types(pybind11::module_& module);
 void bind_volume(pybind11::module_& module);
+void bind_sampling_types(pybind11::module_& module);
+void bind_sampling(pybind11::module_& module);
 void bind_smoothing(pybind11::module_& module);
 void bind_field_analysis_types(pybind11::module_& module);
 void bind_field_analysis(pybind11::module_& module);

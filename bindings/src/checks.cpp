@@ -205,6 +205,7 @@ void check(volume::BoundaryConstraints& constraints, Index vertex_count) {
     require_none(vertex_count, no_axis, "constraints.axis", "not of unit length where kind is 1", "not_unit");
     check_unit(constraints.frames, vertex_count, "constraints.frames");
     require_ids(constraints.released_corners, vertex_count, "constraints.released_corners");
+    if (constraints.lengths.rows() > 0) check_vectors(constraints.lengths, vertex_count, "constraints.lengths");
 }
 
 void check(const volume::VertexConstraints& constraints) {

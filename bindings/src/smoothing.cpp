@@ -9,6 +9,7 @@
 #include "bind.hpp"
 #include "checks.hpp"
 #include "interruptible.hpp"
+#include "sampling.hpp"
 #include "words.hpp"
 
 namespace octafield::bindings {
@@ -42,15 +43,15 @@ SmoothOptions smooth_options(std::string representation, const std::string& solv
             .midpoint_limit = midpoint_limit};
 }
 
-// body(mesh, constraints, job) on checked copies, away from Python's lock.
+// body(sampling, constraints, job) on checked copies, away from Python's lock.
 template <class Body>
-auto run_on(const TetMesh& mesh, const BoundaryConstraints& constraints, Body body,
+auto run_on(const MeshOrSampling& mesh, const BoundaryConstraints& constraints, Body body,
             const std::optional<ProgressCallable>& progress = {}) {
     return run_interruptible(
         [mesh = mesh, constraints = constraints, body = std::move(body)](Job& job) mutable {
-            check(mesh);
-            check(constraints, static_cast<Index>(mesh.vertices.rows()));
-            return body(mesh, constraints, job);
+            const std::shared_ptr<const Sampling> sampling = sampling_of(mesh);
+            check(constraints, sampling->count());
+            return body(*sampling, constraints, job);
         },
         progress);
 }
@@ -61,32 +62,34 @@ void bind_smoothing(py::module_& m) {
     const FrameFieldOptions recipe;
     m.def(
         "initial_frames",
-        [](const TetMesh& mesh, const BoundaryConstraints& constraints, const std::string& start, int threads) {
+        [](const MeshOrSampling& mesh, const BoundaryConstraints& constraints, const std::string& start, int threads) {
             const Start given = from_word<Start>(start, "start");
             threads_option(threads);
-            return own(run_on(mesh, constraints, [given, threads](const auto& tets, const auto& held, Job&) {
-                return initial_frames(tets, held, given, threads);
+            return own(run_on(mesh, constraints, [given, threads](const auto& where, const auto& held, Job&) {
+                return initial_frames(where, held, given, threads);
             }));
         },
         "mesh"_a, "constraints"_a, py::kw_only(), "start"_a = to_word(recipe.start), "threads"_a = recipe.threads,
-        "(n, 4) start frames: the sh4 field of least Dirichlet energy, one linear solve, projected. start: what it "
+        "(n, 4) start frames: the sh4 field of least Dirichlet energy, one linear solve, projected. mesh: a TetMesh "
+        "(frames "
+        "at its vertices) or a Sampling. start: what it "
         "takes as given, \"constraints\" (a fixed axis leaves the plane of its twist free; Ray et al. 2016) or "
         "\"cross_field\" (every boundary frame, except at released corners). Raises InvalidInput, SolverError.");
 
     const DiffuseOptions& diffusion = recipe.diffuse;
     m.def(
         "diffuse",
-        [](const TetMesh& mesh, const BoundaryConstraints& constraints, const ArrayLike& start, double first_time,
-           double last_time, double time_exponent, int max_steps, double linear_tolerance, bool keep_best, int threads,
-           const std::optional<ProgressCallable>& progress) {
+        [](const MeshOrSampling& mesh, const BoundaryConstraints& constraints, const ArrayLike& start,
+           double first_time, double last_time, double time_exponent, int max_steps, double linear_tolerance,
+           bool keep_best, int threads, const std::optional<ProgressCallable>& progress) {
             const DiffuseOptions options =
                 diffuse_options(first_time, last_time, time_exponent, max_steps, linear_tolerance, keep_best, threads);
             return run_on(
                 mesh, constraints,
-                [options, rows = from_python<Quaternions>(start, "start")](const auto& tets, const auto& held,
+                [options, rows = from_python<Quaternions>(start, "start")](const auto& where, const auto& held,
                                                                            Job& job) mutable {
-                    check_unit(rows, tets.vertices.rows(), "start");
-                    return diffuse(tets, held, rows, options, job.progress());
+                    check_unit(rows, where.count(), "start");
+                    return diffuse(where, held, rows, options, job.progress());
                 },
                 progress);
         },
@@ -95,16 +98,18 @@ void bind_smoothing(py::module_& m) {
         "max_steps"_a = diffusion.max_steps, "linear_tolerance"_a = diffusion.linear_tolerance,
         "keep_best"_a = diffusion.keep_best, "threads"_a = diffusion.threads, "progress"_a = py::none(),
         "Implicit heat flow of the sh4 vectors alternating with projection onto frames (modified MBO, Palmer et al. "
-        "2020), from (n, 4) start frames, as a SmoothResult of the lowest energy met (of the last step, without "
-        "keep_best): the start for smooth. first_time: of the first step over the squared size of the body; last_time: "
+        "2020) and, after the last step, sweeps that set each frame to the best for its neighbours, from (n, 4) start "
+        "frames, as a SmoothResult of the lowest energy met (of the last step, without keep_best): the start for "
+        "smooth. first_time: of the first step over the squared size of the body; last_time: "
         "of the last over the squared mean boundary edge; step k lasts 1/k^time_exponent of the first, with a larger "
-        "exponent where max_steps would not do; linear_tolerance: of the linear solves. Cancelled by progress, the "
+        "exponent where max_steps would not do; linear_tolerance: of the linear solves. mesh: a TetMesh or a Sampling. "
+        "Cancelled by progress, the "
         "best state is returned with converged False. Raises InvalidInput, SolverError.");
 
     const SmoothOptions& smoothing = recipe.smooth;
     m.def(
         "smooth",
-        [](const TetMesh& mesh, const BoundaryConstraints& constraints, const ArrayLike& start,
+        [](const MeshOrSampling& mesh, const BoundaryConstraints& constraints, const ArrayLike& start,
            const std::string& representation, const std::string& solver, int max_iterations, double tolerance,
            const std::string& linear_solver, double midpoint_limit, int threads,
            const std::optional<ProgressCallable>& progress) {
@@ -112,10 +117,10 @@ void bind_smoothing(py::module_& m) {
                                                          linear_solver, midpoint_limit, threads);
             return run_on(
                 mesh, constraints,
-                [options, rows = from_python<Quaternions>(start, "start")](const auto& tets, const auto& held,
+                [options, rows = from_python<Quaternions>(start, "start")](const auto& where, const auto& held,
                                                                            Job& job) mutable {
-                    check_unit(rows, tets.vertices.rows(), "start");
-                    return smooth(tets, held, rows, options, job.progress());
+                    check_unit(rows, where.count(), "start");
+                    return smooth(where, held, rows, options, job.progress());
                 },
                 progress);
         },
@@ -125,23 +130,26 @@ void bind_smoothing(py::module_& m) {
         "midpoint_limit"_a = smoothing.midpoint_limit, "threads"_a = smoothing.threads, "progress"_a = py::none(),
         "Minimise the Dirichlet energy of a frame field from (n, 4) start frames, over one quaternion per vertex, "
         "constraints held exactly, as a SmoothResult. representation: a name of smooth_representations: an embedding, "
-        "or a "
-        "metric on frames (\"geodesic\", \"su2_midpoint\", \"su2_geodesic\", \"su2_symmetric\", and \"su2_frozen\", "
+        "odeco tensors with free axis lengths (\"odeco_lengths\", lengths of held axes are 1 unless "
+        "constraints.lengths "
+        "tells others), or a metric on frames (\"geodesic\", \"su2_midpoint\", \"su2_geodesic\", \"su2_symmetric\", "
+        "and \"su2_frozen\", "
         "which is inconsistent), which wants a start near its minimum, as frame_field gives. solver: "
-        "\"trust_region\" (Newton steps with the exact Hessian; embeddings only), \"levenberg_marquardt\" or "
+        "\"trust_region\" (Newton steps with the exact Hessian; embeddings of frames only), \"levenberg_marquardt\" or "
         "\"lbfgs\" (Ceres), or \"automatic\", the first that goes. tolerance: relative energy decrease at which to "
         "stop; "
         "linear_solver (of levenberg_marquardt): \"automatic\", \"cholesky\" or \"conjugate_gradients\"; "
         "midpoint_limit (of su2_midpoint, radians): beyond it edges are measured by the geodesic; the result does not "
-        "depend on threads. Cancelled by progress, the best state is returned with converged False. Raises "
+        "depend on threads. Cancelled by progress, the best state is returned with converged False. mesh: a TetMesh or "
+        "a Sampling. Raises "
         "InvalidInput, SolverError.");
     m.attr("smooth_representations") = py::tuple(py::cast(smooth_representations()));
     m.def(
         "frame_field",
-        [](const TetMesh& mesh, const BoundaryConstraints& constraints, const std::string& start, std::uint64_t seed,
-           int rounds, double round_time, double first_time, double last_time, double time_exponent, int max_steps,
-           double linear_tolerance, const std::string& representation, const std::string& solver, int max_iterations,
-           double tolerance, const std::string& linear_solver, double midpoint_limit, int threads,
+        [](const MeshOrSampling& mesh, const BoundaryConstraints& constraints, const std::string& start,
+           std::uint64_t seed, int rounds, double round_time, double first_time, double last_time, double time_exponent,
+           int max_steps, double linear_tolerance, const std::string& representation, const std::string& solver,
+           int max_iterations, double tolerance, const std::string& linear_solver, double midpoint_limit, int threads,
            const std::optional<ProgressCallable>& progress) {
             const FrameFieldOptions options{.start = from_word<Start>(start, "start"),
                                             .seed = seed,
@@ -154,8 +162,8 @@ void bind_smoothing(py::module_& m) {
                                             .threads = threads_option(threads)};
             return run_on(
                 mesh, constraints,
-                [options](const auto& tets, const auto& held, Job& job) {
-                    return frame_field(tets, held, options, job.progress());
+                [options](const auto& where, const auto& held, Job& job) {
+                    return frame_field(where, held, options, job.progress());
                 },
                 progress);
         },
@@ -168,9 +176,11 @@ void bind_smoothing(py::module_& m) {
         "linear_solver"_a = to_word(smoothing.linear_solver), "midpoint_limit"_a = smoothing.midpoint_limit,
         "threads"_a = recipe.threads, "progress"_a = py::none(),
         "The recipe: initial_frames, then rounds of diffuse and smooth, as a FrameFieldResult of the lowest energy. "
-        "seed other than 0: a random start. round_time: first_time of each round over that of the one before. Rounds "
-        "polish in sh4 with the trust region; another representation or solver starts from the best of them. The "
-        "other options are those of the parts. Cancelled by progress, the best state is returned with converged "
+        "seed other than 0: a random start, with five times first_time. round_time: first_time of each round over that "
+        "of the one before. Rounds polish in sh4 with the trust region; another representation or solver starts from "
+        "the best of them. The "
+        "other options are those of the parts. mesh: a TetMesh or a Sampling. Cancelled by progress, the best state is "
+        "returned with converged "
         "False. Raises InvalidInput, SolverError.");
 }
 

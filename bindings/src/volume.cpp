@@ -12,6 +12,7 @@
 #include "octafield/volume/singularities.hpp"
 #include "octafield/volume/tetrahedralize.hpp"
 #include "octafield/volume/write_vtk.hpp"
+#include "sampling.hpp"
 #include "words.hpp"
 
 namespace octafield::bindings {
@@ -87,19 +88,25 @@ void bind_operators(py::module_& m) {
     def_of_mesh(m, "lumped_mass", lumped_mass, "(n,): a quarter of the volume of the tets at each vertex.");
     m.def(
         "dirichlet_energy",
-        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+        [](const MeshOrSampling& mesh, const ArrayLike& frames, int threads) {
             threads_option(threads);
             return run_interruptible(
                 [mesh = mesh, threads, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                    check(mesh, false);
-                    check_unit(rows, mesh.vertices.rows(), "frames");
-                    return dirichlet_energy(mesh, rows, threads);
+                    if (const auto* sampling = std::get_if<std::shared_ptr<Sampling>>(&mesh)) {
+                        check_unit(rows, (*sampling)->count(), "frames");
+                        return dirichlet_energy(**sampling, rows, threads);
+                    }
+                    const TetMesh& tets = std::get<TetMesh>(mesh);
+                    check(tets, false);
+                    check_unit(rows, tets.vertices.rows(), "frames");
+                    return dirichlet_energy(tets, rows, threads);
                 });
         },
         "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "E = 1/2 sum_c a_c^T L a_c of (n, 4) frames, a their sh4 vectors and L the stiffness matrix, in the input's "
         "length unit; times "
-        "unit_speed_factor for frames moving at unit speed. The same bits at any thread count.");
+        "unit_speed_factor for frames moving at unit speed. mesh: a TetMesh or a Sampling. The same bits at any thread "
+        "count.");
 }
 
 void bind_boundary(py::module_& m) {
@@ -182,20 +189,30 @@ void bind_files(py::module_& m) {
     m.def(
         "write_field",
         [](const std::filesystem::path& path, const TetMesh& mesh, const ArrayLike& frames, const Metadata& metadata,
-           const ArrayLike& regions) {
+           const ArrayLike& regions, const ArrayLike& tet_frames, const ArrayLike& lengths,
+           const ArrayLike& tet_lengths) {
             run_interruptible([path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames"),
-                               ids = from_python<std::vector<Index>>(regions, "regions")](Job&) mutable {
+                               ids = from_python<std::vector<Index>>(regions, "regions"),
+                               more = FieldArrays{from_python<Quaternions>(tet_frames, "tet_frames"),
+                                                  from_python<Points>(lengths, "lengths"),
+                                                  from_python<Points>(tet_lengths, "tet_lengths")}](Job&) mutable {
                 check(mesh, false);
                 check_unit(rows, mesh.vertices.rows(), "frames");
-                write_field(path, mesh, rows, metadata, ids);
+                if (more.tet_frames.rows() > 0) check_unit(more.tet_frames, mesh.tets.rows(), "tet_frames");
+                if (more.lengths.rows() > 0) check_vectors(more.lengths, mesh.vertices.rows(), "lengths");
+                if (more.tet_lengths.rows() > 0)
+                    check_vectors(more.tet_lengths, mesh.tets.rows(), "tet_lengths", "tet");
+                write_field(path, mesh, rows, metadata, ids, more);
                 return true;
             });
         },
-        "path"_a, "mesh"_a, "frames"_a, "metadata"_a = Metadata{}, "regions"_a = py::tuple(),
+        "path"_a, "mesh"_a, "frames"_a, "metadata"_a = Metadata{}, "regions"_a = py::tuple(), py::kw_only(),
+        "tet_frames"_a = py::tuple(), "lengths"_a = py::tuple(), "tet_lengths"_a = py::tuple(),
         "Write a .vtu file with point data frame_u, frame_v, frame_w (unit axes), quaternion (w x y z), sh4 (9) and "
         "boundary (0/1). frames: (n, 4); "
-        "metadata: words written as field data; regions: (m,) ids written as cell data region, or none. Raises "
-        "IoError.");
+        "metadata: words written as field data; regions: (m,) ids written as cell data region, or none; "
+        "tet_frames: (m, 4) frames written as cell data under the same names, or none; lengths: (n, 3) point data "
+        "frame_lengths, or none, and tet_lengths: (m, 3) cell data. Raises IoError.");
     m.def(
         "write_singular_graph",
         [](const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata,

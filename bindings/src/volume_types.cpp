@@ -32,7 +32,8 @@ void bind_meshes(py::module_& m) {
 }
 
 void bind_boundary(py::module_& m) {
-    Record<BoundaryConstraints>(m, "BoundaryConstraints", "What holds the frame at each vertex of a tet mesh.")
+    Record<BoundaryConstraints>(m, "BoundaryConstraints",
+                                "What holds the frame at each vertex of a tet mesh, or in each tet.")
         .field("kind", &BoundaryConstraints::kind,
                "(n,) uint8: 0 free, 1 one axis fixed (the twist is free), 2 frame fixed.")
         .field("axis", &BoundaryConstraints::axis, "(n, 3) float64 unit axis where kind is 1, else 0.")
@@ -41,7 +42,10 @@ void bind_boundary(py::module_& m) {
                "inside.")
         .field("on_boundary", &BoundaryConstraints::on_boundary, "(n,) uint8, 1 on the boundary.")
         .field("released_corners", &BoundaryConstraints::released_corners,
-               "int32 tet-mesh ids of corners whose directions fit no frame.")
+               "int32 ids of corners, or of tets, whose directions fit no frame.")
+        .field("lengths", &BoundaryConstraints::lengths,
+               "(n, 3) float64 axis lengths held by odeco_lengths, or no rows (all 1): along the axes of frames where "
+               "kind is 2; along axis, column 0, where it is 1.")
         .finish([](const BoundaryConstraints& c) {
             const auto total = [&](VertexConstraint kind) {
                 return std::to_string(std::count(c.kind.begin(), c.kind.end(), kind));
@@ -70,6 +74,8 @@ void bind_results(py::module_& m) {
         .field("message", &SmoothResult::message, "Why the solver stopped.")
         .field("energy_history", &SmoothResult::energy_history,
                "float64 objectives at the start and after each accepted or rejected step.")
+        .field("lengths", &SmoothResult::lengths,
+               "(n, 3) float64 lengths of the frames' axes where odeco_lengths was minimised; else no rows.")
         .finish([](const SmoothResult& r) {
             return count(r.frames.rows(), "frame") + ", energy " + py::str(py::float_(r.energy)).cast<std::string>() +
                    ", " + count(r.iterations, "iteration") + ", " + (r.converged ? "converged" : "not converged");

@@ -11,6 +11,7 @@
 #include "octafield/surface/direction_field.hpp"
 #include "octafield/surface/streamlines.hpp"
 #include "octafield/volume/boundary.hpp"
+#include "octafield/volume/sampling.hpp"
 #include "octafield/volume/smooth.hpp"
 #include "octafield/volume/streamlines.hpp"
 
@@ -62,6 +63,12 @@ struct Words<volume::BoundaryMode> {
     using E = volume::BoundaryMode;
     static constexpr std::array<std::pair<const char*, E>, 3> list{
         {{"aligned", E::aligned}, {"fixed", E::fixed}, {"none", E::none}}};
+};
+
+template <>
+struct Words<volume::Sites> {
+    using E = volume::Sites;
+    static constexpr std::array<std::pair<const char*, E>, 2> list{{{"vertices", E::vertices}, {"tets", E::tets}}};
 };
 
 template <>

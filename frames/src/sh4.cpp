@@ -1,6 +1,8 @@
 #include "octafield/frames/sh4.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "nearest_frame.hpp"
@@ -55,44 +57,41 @@ const Basis& axis_basis() {
 
 Sh4::Vector Sh4::axis(const Vector3& direction) { return axis_basis() * quartic_monomials(direction); }
 
+// The basis above, summed over the axes.
 Sh4::Vector Sh4::embed(const Quaternion& q) {
     require_unit(q);
+    static const std::array<double, 5> norm = [] {
+        std::array<double, 5> n;
+        const Basis& b = axis_basis();
+        n = {b(4, 14) / 8, b(3, 13) / 4, b(6, 5) / 6, b(7, 2), b(8, 0)};
+        return n;
+    }();
     const Matrix3 axes = q.toRotationMatrix();
-    Vector15 sum = quartic_monomials(axes.col(0));
-    for (int k = 1; k < 3; ++k) sum += quartic_monomials(axes.col(k));
-    return axis_basis() * sum;
-}
-
-Sh4::Differential Sh4::differential(const Quaternion& q) {
-    require_unit(q);
-    const Matrix3 axes = q.toRotationMatrix();
-    Eigen::Matrix<double, 15, 3> sum = Eigen::Matrix<double, 15, 3>::Zero();
+    Vector sum = Vector::Zero();
     for (int k = 0; k < 3; ++k) {
-        // Under exp(t w) the axis r moves by w x r, so column w of the derivative is grad . (w x r) = (r x grad) . w.
-        const Eigen::Matrix<double, 15, 3> gradients = quartic_monomial_gradients(axes.col(k));
-        for (int row = 0; row < 15; ++row)
-            sum.row(row) += axes.col(k).cross(gradients.row(row).transpose()).transpose();
+        const double x = axes(0, k), y = axes(1, k), z = axes(2, k);
+        const double xx = x * x, yy = y * y, zz = z * z, rr = xx + yy + zz;
+        const double seven = 7 * zz - rr, six = 7 * zz - 3 * rr;
+        sum[0] += 4 * x * y * (xx - yy);
+        sum[1] += y * z * (3 * xx - yy);
+        sum[2] += 2 * x * y * seven;
+        sum[3] += y * z * six;
+        sum[4] += 35 * zz * zz - 30 * zz * rr + 3 * rr * rr;
+        sum[5] += x * z * six;
+        sum[6] += (xx - yy) * seven;
+        sum[7] += x * z * (xx - 3 * yy);
+        sum[8] += xx * xx - 6 * xx * yy + yy * yy;
     }
-    return axis_basis() * sum;
+    for (int m = -4; m <= 4; ++m) sum[4 + m] *= norm[std::abs(m)];
+    return sum;
 }
 
-// With p = v . axis(x), M = p contracted twice with the axis r and X = [r]_x: under exp(w) the axis moves by
-// w x r + 1/2 w x (w x r), so p(r) gains the second-order part 1/2 w.(12 X^T M X + 2 (Mr r^T + r Mr^T) - 4 r.Mr I) w.
+Sh4::Differential Sh4::differential(const Quaternion& q) { return Harmonics<4>::derivatives(embed(q)); }
+
+// exp(w) turns the vector a by I + G(w) + G(w)^2 / 2 + ..., and the generators G are skew.
 Matrix3 Sh4::hessian(const Quaternion& q, const Vector& v) {
-    require_unit(q);
-    const Quartic p(axis_basis().transpose() * v);
-    const Matrix3 axes = q.toRotationMatrix();
-    Matrix3 hessian = Matrix3::Zero();
-    for (int k = 0; k < 3; ++k) {
-        const Vector3 r = axes.col(k);
-        const Matrix3 m = p.contract(r);
-        const Vector3 mr = m * r;
-        Matrix3 x;
-        x << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-        hessian += 12 * x.transpose() * m * x + 2 * (mr * r.transpose() + r * mr.transpose()) -
-                   4 * r.dot(mr) * Matrix3::Identity();
-    }
-    return hessian;
+    const Matrix3 products = Harmonics<4>::derivatives(v).transpose().lazyProduct(differential(q));
+    return -(products + products.transpose()) / 2;
 }
 
 Sh4::Vector Sh4::rotate(const Quaternion& g, const Vector& v) { return Harmonics<4>::rotate(g, v); }

@@ -13,7 +13,7 @@ POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
 CLASSES = [of.TriangleMesh, of.EdgeTopology, of.FeatureGraph, of.Defect, of.RepairResult, of.RemeshResult, of.DirectionField,
            of.DirectionConstraints, of.DirectionGuide, of.SurfaceSingularity, of.SurfaceSingularities, of.Streamline,
            of.PrincipalDirections, of.TetMesh, of.BoundarySurface, of.BoundaryConstraints, of.SectorNormals, of.SmoothResult,
-           of.SingularTriangle, of.SingularGraph]
+           of.SingularTriangle, of.SingularGraph, of.SingularEdge, of.SingularEdges]
 
 
 def fields(cls):

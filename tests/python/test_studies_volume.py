@@ -62,3 +62,13 @@ def test_parts_compares_representations_on_a_folder(tmp_path):
     assert float(summary[0]["energy over the default's"]) == 1 < float(summary[1]["energy over the default's"])
     (field,) = rows(tmp_path / "out" / "fields.md")
     assert field["energy"] == lines[0]["energy"]
+
+
+def test_samplings_are_compared_on_cubes_and_fields(tmp_path):
+    run("sampling_tets.py", tmp_path, write_cube(tmp_path), "--cubes", "4,6", "--balls", "3")
+    cubes, fields, lengths = (rows(tmp_path / f"{name}.md") for name in ("cubes", "fields", "lengths"))
+    assert [row["mesh"] for row in cubes] == ["cells 4", "cells 6", "TetGen 4", "TetGen 6"]
+    assert all(0.85 < float(row["E / exact, tets"]) < 1.05 for row in cubes)
+    ball, cube = fields
+    assert int(ball["singular edges, vertices"]) > 0 and float(cube["E, tets"]) < 1e-9
+    assert float(lengths[0]["objective, free lengths"]) < float(lengths[0]["E, unit lengths"])

@@ -49,6 +49,18 @@ inline Quaternions smooth_field(const TetMesh& mesh) {
     });
 }
 
+inline frames::Vector3 centroid(const TetMesh& mesh, Eigen::Index t) {
+    return mesh.vertices(mesh.tets.row(t), Eigen::all).colwise().mean().transpose();
+}
+
+// The frames q(x) at the centroids of the tets.
+template <class Field>
+Quaternions sample_in_tets(const TetMesh& mesh, const Field& q) {
+    Quaternions frames(mesh.tets.rows(), 4);
+    for (Eigen::Index t = 0; t < frames.rows(); ++t) frames.row(t) = frames::to_wxyz(q(centroid(mesh, t))).transpose();
+    return frames;
+}
+
 inline double largest_distance(const Quaternions& a, const Quaternions& b) {
     double largest = 0;
     for (Eigen::Index v = 0; v < a.rows(); ++v)

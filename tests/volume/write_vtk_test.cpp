@@ -96,6 +96,30 @@ TEST_F(WriteVtk, FieldsComeBackWithTheSameBits) {
     EXPECT_EQ(bytes("note"), "a < b & \"c\"");
 }
 
+TEST_F(WriteVtk, FramesInTetsAndLengthsAreDataOfTheirOwn) {
+    const TetMesh mesh = testing::kuhn_cube(2);
+    const Quaternions field = frames::random_rotations(mesh.vertices.rows(), 4);
+    const FieldArrays more{.tet_frames = frames::random_rotations(mesh.tets.rows(), 5),
+                           .lengths = Points::Random(mesh.vertices.rows(), 3),
+                           .tet_lengths = Points::Random(mesh.tets.rows(), 3)};
+    write_field(folder / "field.vtu", mesh, field, {}, {}, more);
+    const auto reader = read_back<vtkXMLUnstructuredGridReader>(folder / "field.vtu");
+    vtkCellData* cells = reader->GetOutput()->GetCellData();
+    vtkDataArray* lengths = reader->GetOutput()->GetPointData()->GetArray("frame_lengths");
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const Eigen::Matrix3d axes = frames::from_wxyz(more.tet_frames.row(t)).toRotationMatrix();
+        for (int c = 0; c < 4; ++c) EXPECT_EQ(cells->GetArray("quaternion")->GetComponent(t, c), more.tet_frames(t, c));
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_EQ(cells->GetArray("frame_v")->GetComponent(t, c), axes(c, 1));
+            EXPECT_EQ(cells->GetArray("frame_lengths")->GetComponent(t, c), more.tet_lengths(t, c));
+        }
+    }
+    for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
+        for (int c = 0; c < 3; ++c) EXPECT_EQ(lengths->GetComponent(v, c), more.lengths(v, c));
+    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {}, {.tet_frames = field}), InvalidInput);
+    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {}, {.lengths = Points::Ones(2, 3)}), InvalidInput);
+}
+
 TEST_F(WriteVtk, SingularGraphsComeBack) {
     const TetMesh mesh = testing::kuhn_cube(3);
     const SingularGraph graph = singular_graph(mesh, frames::random_rotations(mesh.vertices.rows(), 4));

@@ -6,28 +6,28 @@
 #include <string>
 
 #include "alignment.hpp"
+#include "boundary_rules.hpp"
 #include "boundary_star.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/sh4.hpp"
 
 namespace octafield::volume {
-namespace {
 
 using frames::Quaternion;
 using frames::Vector3;
-using Directions = std::vector<Vector3>;
 
 bool fits(const Quaternion& frame, const Directions& directions, double tolerance) {
     return std::all_of(directions.begin(), directions.end(),
                        [&](const Vector3& d) { return angle_to_nearest_axis(frame, d) <= tolerance; });
 }
 
-// The frame whose axes best follow all the directions: it maximises the sum over them of the frame's quartic.
 Quaternion best_frame(const Directions& directions) {
     frames::Sh4::Vector sum = frames::Sh4::Vector::Zero();
     for (const Vector3& d : directions) sum += frames::Sh4::axis(d);
     return frames::Sh4::project(sum).frame;
 }
+
+namespace {
 
 // The same among the frames with an axis on `tangent`. A direction d then counts with |d'|^4 cos 4(angle of d' -
 // twist), d' its part orthogonal to the tangent, so the best twist is a quarter of the argument of the sum of (d')^4.

@@ -104,6 +104,8 @@ SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quater
                               "; look for degenerate tets (octafield info), or try linear_solver=conjugate_gradients",
                           "smoothing");
 
+    // A line search that starts at a minimum makes no report.
+    if (result.energy_history.empty()) result.energy_history.push_back(energy_scale * summary.final_cost);
     result.frames = quaternions;
     result.objective = energy_scale * summary.final_cost;
     result.iterations = std::max<int>(0, static_cast<int>(summary.iterations.size()) - 1);

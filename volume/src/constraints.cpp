@@ -26,32 +26,39 @@ Quaternion aligned_to(const Quaternion& q, const Vector3& axis) {
 
 }  // namespace
 
-void require_fitting(const TetMesh& mesh, const BoundaryConstraints& constraints) {
-    require_valid(mesh);
-    const std::size_t n = mesh.vertices.rows();
+void require_fitting(const Sampling& sampling, const BoundaryConstraints& constraints) {
+    const std::size_t n = sampling.count();
+    const std::string sites = sampling.sites == Sites::vertices ? "vertices" : "tets";
     const auto rows = [](const auto& array) { return static_cast<std::size_t>(array.rows()); };
     for (const std::size_t size :
          {constraints.kind.size(), constraints.on_boundary.size(), rows(constraints.axis), rows(constraints.frames)})
         if (size != n)
             throw InvalidInput("the constraints have " + std::to_string(size) + " entries for " + std::to_string(n) +
-                                   " vertices; build them with boundary_constraints for this mesh",
+                                   " " + sites + "; build them with boundary_constraints for this mesh",
                                "wrong_size");
     for (const Index v : constraints.released_corners)
         if (v < 0 || static_cast<std::size_t>(v) >= n)
-            throw InvalidInput("released corner " + std::to_string(v) + " is no vertex of the mesh",
+            throw InvalidInput("released corner " + std::to_string(v) + " is none of the " + sites,
                                "index_out_of_range", {v});
-    require_frames(constraints.frames, mesh.vertices.rows());
+    require_frames(constraints.frames, sampling.count());
+    if (constraints.lengths.rows() != 0 && rows(constraints.lengths) != n)
+        throw InvalidInput("the constraints have " + std::to_string(constraints.lengths.rows()) +
+                               " rows of lengths for " + std::to_string(n) + " " + sites + "; give one each, or none",
+                           "wrong_size");
+    if (!(constraints.lengths.array() > 0).all() || !constraints.lengths.allFinite())
+        throw InvalidInput("lengths of constraints must be finite and above 0", "bad_length");
     std::vector<Index> bad;
     for (std::size_t v = 0; v < n; ++v)
         if (constraints.kind[v] == VertexConstraint::axis && !(std::abs(constraints.axis.row(v).norm() - 1) < 1e-6))
             bad.push_back(static_cast<Index>(v));
     if (!bad.empty())
-        throw InvalidInput("the fixed axes at vertices " + first_few(bad) + " are not unit vectors", "not_unit", bad);
+        throw InvalidInput("the fixed axes at " + sites + " " + first_few(bad) + " are not unit vectors", "not_unit",
+                           bad);
 }
 
-void require_fitting(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start) {
-    require_fitting(mesh, constraints);
-    require_frames(start, mesh.vertices.rows());
+void require_fitting(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start) {
+    require_fitting(sampling, constraints);
+    require_frames(start, sampling.count());
 }
 
 Quaternions constrained_start(const BoundaryConstraints& constraints, const Quaternions& start) {

@@ -7,12 +7,14 @@
 #include "constraints.hpp"
 #include "field_projector.hpp"
 #include "heat_solver.hpp"
+#include "site_descent.hpp"
 
 namespace octafield::volume {
 namespace {
 
 // Of one step; they end far earlier unless the mesh has degenerate tets.
 constexpr int linear_iterations = 1000;
+constexpr int sweeps = 8;  // after the last step, site by site
 
 void require_sound(const DiffuseOptions& options) {
     const auto require_positive = [](double value, const char* name) {
@@ -30,11 +32,9 @@ struct Schedule {
     double first, exponent;
     int steps;
 
-    Schedule(const TetMesh& mesh, const DiffuseOptions& options) : exponent(options.time_exponent) {
-        const surface::TriangleMesh boundary = boundary_surface(mesh).mesh;
-        const double size = 3 * tet_volumes(mesh).sum() / surface::triangle_areas(boundary).sum();
-        first = options.first_time * size * size;
-        const double ratio = first / (options.last_time * std::pow(surface::mean_edge_length(boundary), 2));
+    Schedule(const Sampling& sampling, const DiffuseOptions& options) : exponent(options.time_exponent) {
+        first = options.first_time * sampling.body_radius * sampling.body_radius;
+        const double ratio = first / (options.last_time * std::pow(sampling.edge_length, 2));
         const double wanted = ratio > 1 ? std::ceil(std::pow(ratio, 1 / exponent)) : 1;
         steps = static_cast<int>(std::min<double>(wanted, options.max_steps));
         if (steps < wanted && steps > 1) exponent = std::log(ratio) / std::log(steps);
@@ -44,25 +44,32 @@ struct Schedule {
 
 }  // namespace
 
-SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                      const DiffuseOptions& options, const Progress& progress) {
-    require_fitting(mesh, constraints, start);
+    require_fitting(sampling, constraints, start);
     require_sound(options);
 
-    const Schedule schedule(mesh, options);
-    const BlockLaplacian laplacian(mesh);
+    const Schedule schedule(sampling, options);
+    const BlockLaplacian laplacian(sampling);
     Quaternions frames = constrained_start(constraints, start);
     const ConstraintSpaces spaces(constraints, frames, laplacian);
     const FieldProjector projector(spaces, options.threads);
     HeatSolver heat(laplacian, spaces, options.threads);
-    Sh4Field field = embedded(frames, options.threads), best = field, before, image;
+    Sh4Field field = embedded(frames, options.threads), best = field, before;
+    Quaternions next;
 
     SmoothResult result;
-    result.energy = laplacian.multiply(field, image, options.threads) / 2;
-    result.energy_history.push_back(result.energy);
+    result.energy = laplacian.multiply(field, before, options.threads) / 2;
     result.frames = frames;
     result.converged = true;
     result.message = "the step's time reached the mesh size";
+    const auto record = [&](double energy, Sh4Field& state) {
+        result.energy_history.push_back(energy);
+        if (energy >= result.energy && options.keep_best) return;
+        result.energy = energy;
+        result.frames = frames;
+        best.swap(state);
+    };
     for (int k = 1; k <= schedule.steps; ++k) {
         if (!report(progress, "diffuse", double(k - 1) / schedule.steps, result.energy)) {
             result.converged = false;
@@ -70,19 +77,25 @@ SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints
             break;
         }
         before = field;
-        heat.step(schedule.time(k), field, options.linear_tolerance, linear_iterations);
-        projector.project(field, before, frames);
-        const double energy = laplacian.multiply(field, image, options.threads) / 2;
-        result.energy_history.push_back(energy);
+        const HeatSolution solution = heat.step(schedule.time(k), field, options.linear_tolerance, linear_iterations);
+        next = frames;
+        projector.project(field, before, next);
+        record(solution.energy, before);
+        frames.swap(next);
         result.iterations = k;
-        if (energy < result.energy || !options.keep_best) {
-            result.energy = energy;
-            result.frames = frames;
-            best = field;
-        }
     }
+    if (result.converged) {
+        const SiteDescent descent(laplacian, spaces, projector, options.threads);
+        for (int k = 0; k < sweeps; ++k) descent.sweep(field, frames);
+    }
+    record(laplacian.multiply(field, before, options.threads) / 2, field);
     projector.twist(best, result.frames);
     return result;
+}
+
+SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+                     const DiffuseOptions& options, const Progress& progress) {
+    return diffuse(vertex_sampling(mesh), constraints, start, options, progress);
 }
 
 }  // namespace octafield::volume

@@ -112,4 +112,14 @@ DirichletBlocks dirichlet_blocks(const TetMesh& mesh) {
     return blocks;
 }
 
+DirichletBlocks dirichlet_blocks(const Sampling& sampling) {
+    if (sampling.elements) return dirichlet_blocks(*sampling.elements);
+    DirichletBlocks blocks;
+    for (Index i = 0; i < sampling.count(); ++i)
+        for (SparseMatrix::InnerIterator entry(sampling.stiffness, i); entry; ++entry)
+            if (entry.row() > i && entry.value() < 0)
+                blocks.edges.push_back({i, static_cast<Index>(entry.row()), -entry.value()});
+    return blocks;
+}
+
 }  // namespace octafield::volume

@@ -1,10 +1,10 @@
-// The Dirichlet energy of a P1 field as a sum of squares, for least-squares solvers.
+// The Dirichlet energy of a field as a sum of squares, for least-squares solvers.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/sampling.hpp"
 
 namespace octafield::volume {
 
@@ -26,6 +26,7 @@ struct DirichletBlocks {
     std::vector<Tet> tets;
 };
 
-DirichletBlocks dirichlet_blocks(const TetMesh& mesh);
+DirichletBlocks dirichlet_blocks(const TetMesh& mesh);  // of linear elements
+DirichletBlocks dirichlet_blocks(const Sampling& sampling);
 
 }  // namespace octafield::volume

@@ -4,6 +4,7 @@
 
 #include <ceres/evaluation_callback.h>
 
+#include <array>
 #include <vector>
 
 #include "frame_manifolds.hpp"
@@ -16,6 +17,8 @@ template <frames::Representation R>
 class EmbeddedField final : public ceres::EvaluationCallback {
 public:
     using Vector = typename R::Vector;
+    static constexpr int dimension = R::dimension;
+    static constexpr std::array block_sizes = {4};  // of the parameters of a site
     // d embed / d (w, x, y, z): the differential under world rotations times the left inverse of the manifolds'
     // PlusJacobian, so that the product Ceres forms is the differential again.
     using Jacobian = Eigen::Matrix<double, R::dimension, 4, Eigen::RowMajor>;
@@ -26,10 +29,11 @@ public:
           values_(quaternions_.rows()),
           jacobians_(quaternions_.rows()) {}
 
-    double* parameters(Index vertex) { return quaternions_.row(vertex).data(); }
+    double* parameters(Index vertex, int = 0) { return quaternions_.row(vertex).data(); }
     Quaternions& quaternions() { return quaternions_; }
     const Vector& value(Index vertex) const { return values_[vertex]; }
-    const Jacobian& jacobian(Index vertex) const { return jacobians_[vertex]; }
+    // (dimension, block_sizes[block]), row-major
+    const double* jacobian(Index vertex, int) const { return jacobians_[vertex].data(); }
 
     void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override {
         if (new_evaluation_point) jacobians_current_ = false;

@@ -1,16 +1,22 @@
-// The Dirichlet energy of an embedded field and its quadratic model by rotation vectors (world axes), one per vertex.
+// The Dirichlet energy of an embedded field and its quadratic model by rotation vectors (world axes), one per site. The
+// Hessian and its preconditioner are in single precision: they tell directions, energy and gradient tell where to stop.
 #pragma once
 
 #include <Eigen/Eigenvalues>
+#include <type_traits>
 #include <vector>
 
 #include "block_laplacian.hpp"
+#include "octafield/frames/harmonics.hpp"
 #include "octafield/frames/representation.hpp"
+#include "octafield/frames/sh4.hpp"
 #include "octafield/volume/boundary.hpp"
 
 namespace octafield::volume {
 
-using Tangents = Rows<double, 3>;  // rotation vectors; 0 where fixed, along the axis where one is fixed
+// Rotation vectors; 0 where fixed, along the axis where one is fixed.
+using Tangent = Eigen::Vector3f;
+using Tangents = Rows<float, 3>;
 
 template <frames::Representation R>
 class FieldModel {
@@ -19,6 +25,7 @@ public:
         : laplacian_(laplacian), constraints_(constraints), threads_(threads) {
         const Index n = laplacian.rows();
         values_.resize(n, R::dimension);
+        turned_.resize(n, R::dimension);
         differentials_.resize(n);
         curvatures_.resize(n);
         inverses_.resize(n);
@@ -35,45 +42,41 @@ public:
     // Gradient, Hessian and preconditioner at the field last evaluated.
     void linearise(const Quaternions& frames) {
         parallel_for(frames.rows(), threads_, [&](std::int64_t v) {
-            const frames::Quaternion q = frame(frames, v);
             const typename R::Vector image = images_.row(v).transpose();
-            differentials_[v] = R::differential(q);
-            curvatures_[v] = R::hessian(q, image);
-            gradient_.row(v) = allowed(v, differentials_[v].transpose() * image).transpose();
-            inverses_[v] = inverse_of_block(v);
+            const auto [differential, curvature] = derivatives(frame(frames, v), values_.row(v).transpose(), image);
+            gradient_.row(v) = allowed<double>(v, differential.transpose() * image).transpose();
+            inverses_[v] = inverse_of_block(v, differential, curvature).template cast<float>();
+            differentials_[v] = differential.template cast<float>();
+            curvatures_[v] = curvature.template cast<float>();
         });
     }
 
-    const Tangents& gradient() const { return gradient_; }
-    frames::Vector3 precondition(Index v, const frames::Vector3& w) const { return inverses_[v] * w; }
+    const Rows<double, 3>& gradient() const { return gradient_; }
+    Tangent precondition(Index v, const Tangent& w) const { return inverses_[v] * w; }
 
-    // y = H w; returns w . y.
-    double hessian_times(const Tangents& w, Tangents& y) {
-        turned_.resize(w.rows(), R::dimension);
-        parallel_for(w.rows(), threads_,
-                     [&](std::int64_t v) { turned_.row(v) = (differentials_[v] * w.row(v).transpose()).transpose(); });
-        return block_sum(w.rows(), threads_, [&](std::int64_t first, std::int64_t last) {
-            double sum = 0;
-            for (std::int64_t v = first; v < last; ++v) {
-                const frames::Vector3 image =
-                    differentials_[v].transpose() * laplacian_.row_times(static_cast<Index>(v), turned_) +
-                    curvatures_[v] * w.row(v).transpose();
-                y.row(v) = allowed(v, image).transpose();
-                sum += y.row(v).dot(w.row(v));
-            }
-            return sum;
+    // y = H w; returns w . y. Before, turn(v, w_v) for every v.
+    double hessian_times(const Tangents& w, Tangents& y) const {
+        return laplacian_.for_rows_of_product(turned_, threads_, [&](Index v, const auto& product) {
+            const Tangent own = w.row(v).transpose();
+            const Tangent image = allowed<float>(v, differentials_[v].transpose() * product + curvatures_[v] * own);
+            y.row(v) = image.transpose();
+            return image.dot(own);
         });
     }
+    void turn(Index v, const Tangent& w) { turned_.row(v) = (differentials_[v] * w).transpose(); }
 
     // The part of a rotation vector that the constraints of a vertex allow.
-    frames::Vector3 allowed(std::int64_t v, const frames::Vector3& w) const {
+    template <class Real>
+    Eigen::Matrix<Real, 3, 1> allowed(std::int64_t v, const Eigen::Matrix<Real, 3, 1>& w) const {
         switch (constraints_.kind[v]) {
             case VertexConstraint::free:
                 return w;
-            case VertexConstraint::axis:
-                return constraints_.axis.row(v).transpose() * constraints_.axis.row(v).dot(w);
+            case VertexConstraint::axis: {
+                const Eigen::Matrix<Real, 3, 1> axis = constraints_.axis.row(v).transpose().cast<Real>();
+                return axis * axis.dot(w);
+            }
             default:
-                return frames::Vector3::Zero();
+                return Eigen::Matrix<Real, 3, 1>::Zero();
         }
     }
 
@@ -82,17 +85,37 @@ private:
         return frames::from_wxyz(frames::Vector4(frames.row(v).transpose()));
     }
 
+    struct Derivatives {
+        typename R::Differential differential;
+        frames::Matrix3 curvature;  // Hessian of image . embed
+    };
+    static Derivatives derivatives(const frames::Quaternion& q, const typename R::Vector& value,
+                                   const typename R::Vector& image) {
+        if constexpr (std::is_same_v<R, frames::Sh4>) {
+            // What Sh4 would compute from the embedding once more.
+            const typename R::Differential d = frames::Harmonics<4>::derivatives(value);
+            const frames::Matrix3 products = frames::Harmonics<4>::derivatives(image).transpose().lazyProduct(d);
+            return {d, -(products + products.transpose()) / 2};
+        } else {
+            return {R::differential(q), R::hessian(q, image)};
+        }
+    }
+
     // Of the diagonal block, its eigenvalues made positive and kept from 0, within what is allowed.
-    frames::Matrix3 inverse_of_block(std::int64_t v) const {
+    frames::Matrix3 inverse_of_block(std::int64_t v, const typename R::Differential& differential,
+                                     const frames::Matrix3& curvature) const {
         constexpr double least = 1e-3;  // of the stiffness part
-        const frames::Matrix3 stiff = laplacian_.diagonal()[v] * differentials_[v].transpose() * differentials_[v];
+        const frames::Matrix3 stiff = laplacian_.diagonal()[v] * differential.transpose().lazyProduct(differential);
         const double floor = least * stiff.trace() / 3;
         if (!(floor > 0) || constraints_.kind[v] == VertexConstraint::fixed) return frames::Matrix3::Zero();
-        const frames::Matrix3 block = stiff + curvatures_[v];
+        const frames::Matrix3 block = stiff + curvature;
         if (constraints_.kind[v] == VertexConstraint::axis) {
             const frames::Vector3 axis = constraints_.axis.row(v).transpose();
             return axis * axis.transpose() / std::max(std::abs(axis.dot(block * axis)), floor);
         }
+        const frames::Matrix3 above = block - floor * frames::Matrix3::Identity();
+        if (above(0, 0) > 0 && above.topLeftCorner<2, 2>().determinant() > 0 && above.determinant() > 0)
+            return block.inverse();
         Eigen::SelfAdjointEigenSolver<frames::Matrix3> solver;
         solver.computeDirect(block);
         const frames::Vector3 values = solver.eigenvalues().cwiseAbs().cwiseMax(floor);
@@ -102,10 +125,11 @@ private:
     const BlockLaplacian& laplacian_;
     const BoundaryConstraints& constraints_;
     int threads_;
-    Rows<double, R::dimension> values_, images_, turned_;
-    std::vector<typename R::Differential> differentials_;
-    std::vector<frames::Matrix3> curvatures_, inverses_;
-    Tangents gradient_;
+    Rows<double, R::dimension> values_, images_;
+    Rows<double, 3> gradient_;
+    Rows<float, R::dimension> turned_;
+    std::vector<Eigen::Matrix<float, R::dimension, 3>> differentials_;
+    std::vector<Eigen::Matrix3f> curvatures_, inverses_;
 };
 
 }  // namespace octafield::volume

@@ -11,38 +11,58 @@ using frames::Vector4;
 
 FieldProjector::FieldProjector(const ConstraintSpaces& spaces, int threads) : spaces_(spaces), threads_(threads) {
     for (Index v = 0; v < spaces.given().rows(); ++v)
-        if (spaces.kind(v) == VertexConstraint::free) free_.push_back(v);
+        if (spaces.kind(v) != VertexConstraint::fixed) moving_.push_back(v);
+}
+
+template <class Row>
+void FieldProjector::project_list(const std::vector<Index>& sites, const Row& row, const Sh4Field& before,
+                                  Sh4Field& field, Quaternions& frames) const {
+    constexpr std::size_t together = 256;
+    const std::size_t blocks = (sites.size() + together - 1) / together;
+    parallel_for(
+        static_cast<std::int64_t>(blocks), threads_,
+        [&](std::int64_t block) {
+            std::vector<Index> free;
+            std::vector<double> values;
+            const std::size_t end = std::min<std::size_t>((block + 1) * together, sites.size());
+            for (std::size_t k = block * together; k < end; ++k) {
+                const Index v = sites[k];
+                const Sh4::Vector wanted = row(k);
+                if (spaces_.kind(v) == VertexConstraint::free) {
+                    free.push_back(v);
+                    values.insert(values.end(), wanted.data(), wanted.data() + Sh4::dimension);
+                } else {
+                    field.row(v) = spaces_.circle(v).nearest(wanted, before.row(v).transpose()).transpose();
+                }
+            }
+            project_free(free, values, field, frames);
+        },
+        4);
 }
 
 void FieldProjector::project(Sh4Field& field, const Sh4Field& before, Quaternions& frames) const {
-    const std::size_t blocks = (free_.size() + sum_block - 1) / sum_block;
-    parallel_for(
-        static_cast<std::int64_t>(blocks), threads_,
-        [&](std::int64_t k) {
-            project_block(k * sum_block, std::min<std::size_t>((k + 1) * sum_block, free_.size()), field, frames);
-        },
-        1);
-    parallel_for(field.rows(), threads_, [&](std::int64_t row) {
-        const Index v = static_cast<Index>(row);
-        if (spaces_.kind(v) == VertexConstraint::axis)
-            field.row(v) = spaces_.circle(v).nearest(field.row(v).transpose(), before.row(v).transpose()).transpose();
-    });
+    project_list(
+        moving_, [&](std::size_t k) -> Sh4::Vector { return field.row(moving_[k]).transpose(); }, before, field,
+        frames);
 }
 
-void FieldProjector::project_block(std::size_t first, std::size_t last, Sh4Field& field, Quaternions& frames) const {
-    const auto rows = static_cast<Eigen::Index>(last - first);
-    Sh4Field values(rows, Sh4::dimension);
+void FieldProjector::project_sites(const std::vector<Index>& sites, const Sh4Field& wanted, Sh4Field& field,
+                                   Quaternions& frames) const {
+    project_list(
+        sites, [&](std::size_t k) -> Sh4::Vector { return wanted.row(k).transpose(); }, field, field, frames);
+}
+
+void FieldProjector::project_free(const std::vector<Index>& sites, const std::vector<double>& values, Sh4Field& field,
+                                  Quaternions& frames) const {
+    const auto rows = static_cast<Eigen::Index>(sites.size());
     Quaternions guesses(rows, 4), nearest(rows, 4);
     Eigen::VectorXd distances(rows);
-    for (Eigen::Index k = 0; k < rows; ++k) {
-        values.row(k) = field.row(free_[first + k]);
-        guesses.row(k) = frames.row(free_[first + k]);
-    }
+    for (Eigen::Index k = 0; k < rows; ++k) guesses.row(k) = frames.row(sites[k]);
     frames::sh4_project(values.data(), guesses.data(), rows, nearest.data(), distances.data());
     for (Eigen::Index k = 0; k < rows; ++k) {
         const Vector4 q = nearest.row(k).transpose();
-        frames.row(free_[first + k]) = q.transpose();
-        field.row(free_[first + k]) = Sh4::embed(frames::from_wxyz(q)).transpose();
+        frames.row(sites[k]) = q.transpose();
+        field.row(sites[k]) = Sh4::embed(frames::from_wxyz(q)).transpose();
     }
 }
 

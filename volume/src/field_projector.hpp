@@ -11,20 +11,28 @@ class FieldProjector {
 public:
     FieldProjector(const ConstraintSpaces& spaces, int threads);
 
-    // `frames` of free vertices: in, guesses for the projection; out, the frames of the projected field. Where a
-    // vertex turns about an axis only its vector moves, to the circle (twist() tells the frame); where all its points
-    // are equally near it stays as `before`.
+    // The field's rows become the allowed vectors nearest to them. `frames` of free sites: in, guesses for the
+    // projection; out, the frames of the projected field. Where a site turns about an axis only its vector moves, to
+    // the circle (twist() tells the frame); where all its points are equally near it stays as `before`.
     void project(Sh4Field& field, const Sh4Field& before, Quaternions& frames) const;
+    // The same at some sites, which are not fixed: towards row k of `wanted` at site k of the list.
+    void project_sites(const std::vector<Index>& sites, const Sh4Field& wanted, Sh4Field& field,
+                       Quaternions& frames) const;
 
     // Writes the frames of vertices that turn about an axis, from a projected field.
     void twist(const Sh4Field& field, Quaternions& frames) const;
 
 private:
-    void project_block(std::size_t first, std::size_t last, Sh4Field& field, Quaternions& frames) const;
+    // row(k): what site k of the list is projected from.
+    template <class Row>
+    void project_list(const std::vector<Index>& sites, const Row& row, const Sh4Field& before, Sh4Field& field,
+                      Quaternions& frames) const;
+    void project_free(const std::vector<Index>& sites, const std::vector<double>& values, Sh4Field& field,
+                      Quaternions& frames) const;
 
     const ConstraintSpaces& spaces_;
     int threads_;
-    std::vector<Index> free_;
+    std::vector<Index> moving_;  // sites that are not fixed
 };
 
 }  // namespace octafield::volume

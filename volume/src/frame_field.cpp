@@ -4,8 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "constraints.hpp"
 #include "octafield/frames/quaternion.hpp"
 #include "octafield/frames/sh4.hpp"
+#include "reordering.hpp"
 #include "smooth_options.hpp"
 
 namespace octafield::volume {
@@ -13,6 +15,9 @@ namespace {
 
 // Of the polish in all rounds but the last: what comes after diffuses again.
 constexpr double rough_tolerance = 1e-3;
+// Of diffusions from a random start, over those from the linear one: what is left of the noise's longest waves would
+// choose the curves of thin shapes at random.
+constexpr double random_start_time = 5;
 
 void require_sound(const FrameFieldOptions& options) {
     if (options.rounds < 0) throw InvalidInput("rounds is negative; give 0 or more", "bad_option");
@@ -34,10 +39,15 @@ bool minimises_sh4_to_second_order(const SmoothOptions& options) {
 
 }  // namespace
 
-FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
+FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints& constraints,
                              const FrameFieldOptions& options, const Progress& progress) {
     require_sound(options);
     require_sound(options.smooth);
+    require_fitting(sampling, constraints);
+    // Rounds visit neighbours all the time: meshers scatter them over the memory.
+    const std::vector<Index> order = breadth_first_order(sampling.stiffness);
+    const Sampling near = reordered(sampling, order);
+    const BoundaryConstraints held = reordered(constraints, order);
     DiffuseOptions diffusion = options.diffuse;
     SmoothOptions last = options.smooth, polish;
     diffusion.threads = last.threads = polish.threads = options.threads;
@@ -47,9 +57,10 @@ FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& con
     const double parts = options.rounds + (second_order ? 0 : 1);
     FrameFieldResult result;
     SmoothResult& best = result.smooth;
-    best.frames = options.seed == 0 ? initial_frames(mesh, constraints, options.start, options.threads)
-                                    : frames::random_rotations(mesh.vertices.rows(), options.seed);
+    best.frames = options.seed == 0 ? initial_frames(near, held, options.start, options.threads)
+                                    : frames::random_rotations(sampling.count(), options.seed);
     best.energy = std::numeric_limits<double>::infinity();
+    if (options.seed != 0) diffusion.first_time *= random_start_time;
     std::vector<double> history;
     int iterations = 0;
     // False when cancelled.
@@ -64,19 +75,20 @@ FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& con
     bool going = true;
     for (int round = 0; round < options.rounds && going; ++round) {
         const double begin = round / parts, end = (round + 1) / parts, middle = 0.6 * begin + 0.4 * end;
-        const SmoothResult diffused = diffuse(mesh, constraints, best.frames, diffusion, part(progress, begin, middle));
+        const SmoothResult diffused = diffuse(near, held, best.frames, diffusion, part(progress, begin, middle));
         result.diffusion_steps += diffused.iterations;
         going = keep(diffused);
         if (!going) break;
         const bool is_last = second_order && round + 1 == options.rounds;
         polish.tolerance = is_last ? last.tolerance : std::max(rough_tolerance, last.tolerance);
-        going = keep(smooth(mesh, constraints, diffused.frames, polish, part(progress, middle, end)));
+        going = keep(smooth(near, held, diffused.frames, polish, part(progress, middle, end)));
         diffusion.first_time *= options.round_time;
         diffusion.keep_best = false;
     }
+    best.frames = reordered(best.frames, inverse_order(order));
     if (going && (!second_order || options.rounds == 0)) {
         SmoothResult final =
-            smooth(mesh, constraints, best.frames, last, part(progress, options.rounds / parts, 1));
+            smooth(sampling, constraints, best.frames, last, part(progress, options.rounds / parts, 1));
         if (!history.empty() && final.energy_history.front() > 0) {
             const double scale = best.energy / final.energy_history.front();
             for (double& energy : final.energy_history) energy *= scale;
@@ -90,6 +102,13 @@ FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& con
     best.iterations = iterations;
     best.energy_history = std::move(history);
     return result;
+}
+
+FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
+                             const FrameFieldOptions& options, const Progress& progress) {
+    require_sound(options);
+    require_sound(options.smooth);
+    return frame_field(vertex_sampling(mesh), constraints, options, progress);
 }
 
 }  // namespace octafield::volume

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int linear_iterations = 10000;
 constexpr double linear_tolerance = 1e-6;
+constexpr int refinements = 2;  // of a solve in single precision, with residuals in double
 
 // Vertices that hold the frame of `constraints`: fixed ones, and with `cross_field` the whole boundary except released
 // corners, whose frames are as good as none.
@@ -24,16 +25,17 @@ BoundaryConstraints holding(const BoundaryConstraints& constraints, Start start)
 
 }  // namespace
 
-Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints, Start start, int threads) {
-    require_fitting(mesh, constraints);
+Quaternions initial_frames(const Sampling& sampling, const BoundaryConstraints& constraints, Start start, int threads) {
+    require_fitting(sampling, constraints);
     const BoundaryConstraints held = holding(constraints, start);
     Quaternions frames = constrained_start(held, constraints.frames);
-    const BlockLaplacian laplacian(mesh);
+    const BlockLaplacian laplacian(sampling);
     const ConstraintSpaces spaces(held, frames, laplacian);
     HeatSolver solver(laplacian, spaces, threads);
     Sh4Field field = spaces.given();
-    const HeatSolution solution =
-        solver.step(std::numeric_limits<double>::infinity(), field, linear_tolerance, linear_iterations);
+    HeatSolution solution;
+    for (int k = 0; k <= refinements; ++k)
+        solution = solver.step(std::numeric_limits<double>::infinity(), field, linear_tolerance, linear_iterations);
     if (!solution.converged)
         throw SolverError("the start's linear solve did not converge in " + std::to_string(linear_iterations) +
                               " iterations; look for degenerate tets (octafield info)",
@@ -42,6 +44,10 @@ Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& const
     projector.project(field, embedded(frames, threads), frames);
     projector.twist(field, frames);
     return frames;
+}
+
+Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints, Start start, int threads) {
+    return initial_frames(vertex_sampling(mesh), constraints, start, threads);
 }
 
 }  // namespace octafield::volume

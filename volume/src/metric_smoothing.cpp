@@ -35,13 +35,13 @@ void add_costs(ceres::Problem& problem, DifferenceField<Scheme>& field, const Di
 template <class Scheme>
 class MetricProblem {
 public:
-    MetricProblem(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start, Scheme scheme,
-                  const SmoothOptions& options)
-        : length_(surface::bounding_box_diagonal(mesh.vertices)),
+    MetricProblem(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
+                  Scheme scheme, const SmoothOptions& options)
+        : length_(sampling.box_diagonal),
           field(start, std::move(scheme), options.threads),
           problem_(problem_options(field)) {
         // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
-        add_costs(problem_, field, dirichlet_blocks(mesh), 1 / length_);
+        add_costs(problem_, field, dirichlet_blocks(sampling), 1 / length_);
         set_manifolds(problem_, field.quaternions(), constraints, manifolds_);
     }
 
@@ -62,10 +62,10 @@ private:
 
 // The metric is taken at the field that each round starts from. Its fixed points are not stationary in any energy: what
 // ends the rounds is that one lowers its own energy by less than the tolerance.
-SmoothResult smooth_frozen(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+SmoothResult smooth_frozen(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                            const SmoothOptions& options, const Progress& progress) {
     constexpr int steps_per_round = 4;
-    MetricProblem<FrozenScheme> problem(mesh, constraints, start, {}, options);
+    MetricProblem<FrozenScheme> problem(sampling, constraints, start, {}, options);
     auto& field = problem.field;
     SmoothResult result;
     result.frames = start;
@@ -93,13 +93,13 @@ SmoothResult smooth_frozen(const TetMesh& mesh, const BoundaryConstraints& const
 
 }  // namespace
 
-SmoothResult smooth_metric(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+SmoothResult smooth_metric(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                            const SmoothOptions& options, const Progress& progress) {
     const auto solve = [&]<class Scheme>(Scheme scheme) {
-        return MetricProblem<Scheme>(mesh, constraints, start, std::move(scheme), options).solve(options, progress);
+        return MetricProblem<Scheme>(sampling, constraints, start, std::move(scheme), options).solve(options, progress);
     };
     const std::string& name = options.representation;
-    if (name == "su2_frozen") return smooth_frozen(mesh, constraints, start, options, progress);
+    if (name == "su2_frozen") return smooth_frozen(sampling, constraints, start, options, progress);
     if (name == "su2_midpoint") return solve(MidpointScheme{options.midpoint_limit});
     if (name == "su2_symmetric") return solve(SymmetricScheme{});
     if (name == "su2_geodesic") return solve(Su2GeodesicScheme{});

@@ -8,7 +8,7 @@ namespace octafield::volume {
 
 // `options.representation` is a metric of smooth.hpp, `start` is on the constraints. All of the result but the sh4
 // energy.
-SmoothResult smooth_metric(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+SmoothResult smooth_metric(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                            const SmoothOptions& options, const Progress& progress);
 
 }  // namespace octafield::volume

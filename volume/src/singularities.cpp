@@ -8,6 +8,7 @@
 #include "octafield/frames/octahedral_group.hpp"
 #include "octafield/frames/sh4.hpp"
 #include "octafield/parallel.hpp"
+#include "quarter_turns.hpp"
 #include "require_frames.hpp"
 #include "singular_curves.hpp"
 #include "triangle_table.hpp"
@@ -15,7 +16,6 @@
 namespace octafield::volume {
 namespace {
 
-using frames::OctahedralClass;
 using frames::Quaternion;
 using frames::Sh4;
 
@@ -34,21 +34,10 @@ int holonomy(const Quaternion& a, const Quaternion& b, const Quaternion& c) {
 // either way: the quaternion of the path, one smallest step after the other, knows which.
 Eigen::Vector3d forward_axis(int element, const Quaternion& a, const Quaternion& b, const Quaternion& c) {
     const Eigen::Vector3d axis = frames::octahedral_group()[element].vec();
-    if (frames::octahedral_class(element) != OctahedralClass::half_turn) return axis;
+    if (frames::octahedral_class(element) != frames::OctahedralClass::half_turn) return axis;
     const Quaternion at_c = frames::closest_representative(c, frames::closest_representative(b, a));
     const Quaternion back = frames::closest_representative(a, at_c);
     return (a.conjugate() * back).vec().dot(axis) < 0 ? Eigen::Vector3d(-axis) : axis;
-}
-
-// Quarter turns about a curve that crosses the triangle towards `along`: positive when the frame turns about that
-// direction, the way the loop goes round it. The curve's direction is steadier than the triangle's normal, which a
-// zigzag of triangles tosses about.
-int quarter_turns(int element, const Eigen::Vector3d& along, const Quaternion& a, const Quaternion& b,
-                  const Quaternion& c) {
-    const OctahedralClass kind = frames::octahedral_class(element);
-    if (kind != OctahedralClass::half_turn && kind != OctahedralClass::quarter_turn) return 0;
-    const int size = kind == OctahedralClass::half_turn ? 2 : 1;
-    return along.dot(a * forward_axis(element, a, b, c)) < 0 ? -size : size;
 }
 
 // Point of the closed segment [p, q] nearest the origin, as a parameter.
@@ -153,7 +142,8 @@ DualGraph join_in_tets(const TetMesh& mesh, const TriangleTable& table, const st
 
 void set_quarter_turns(const TetMesh& mesh, const Quaternions& frames, const DualGraph& dual,
                        const std::vector<Eigen::Vector3d>& points, SingularGraph& graph) {
-    // From the point before the triangle to the point after it, along its positive normal.
+    // From the point before the triangle to the point after it, along its positive normal: steadier than the normal, which a zigzag of
+    // triangles tosses about.
     std::vector<Eigen::Vector3d> along(graph.triangles.size(), Eigen::Vector3d::Zero());
     for (const Branch& b : dual.branches)
         along[b.singular] += (b.positive ? 1 : -1) * (points[b.point] - points[b.singular]);
@@ -163,8 +153,9 @@ void set_quarter_turns(const TetMesh& mesh, const Quaternions& frames, const Dua
             const Eigen::Vector3d a = mesh.vertices.row(s.a), b = mesh.vertices.row(s.b), c = mesh.vertices.row(s.c);
             along[i] = (b - a).cross(c - a);
         }
-        s.quarter_turns = quarter_turns(s.holonomy, along[i], frames::from_wxyz(frames.row(s.a)),
-                                        frames::from_wxyz(frames.row(s.b)), frames::from_wxyz(frames.row(s.c)));
+        const Quaternion a = frames::from_wxyz(frames.row(s.a)), b = frames::from_wxyz(frames.row(s.b)),
+                         c = frames::from_wxyz(frames.row(s.c));
+        s.quarter_turns = quarter_turns(s.holonomy, a * forward_axis(s.holonomy, a, b, c), along[i]);
         graph.complex_triangles += s.quarter_turns == 0;
     }
 }

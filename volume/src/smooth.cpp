@@ -7,9 +7,11 @@
 #include "ceres_smoothing.hpp"
 #include "constraints.hpp"
 #include "dirichlet_costs.hpp"
+#include "embedded_field.hpp"
 #include "metric_smoothing.hpp"
 #include "octafield/frames/registry.hpp"
 #include "octafield/volume/operators.hpp"
+#include "odeco_smoothing.hpp"
 #include "smooth_options.hpp"
 #include "trust_region.hpp"
 
@@ -22,25 +24,6 @@ bool is_metric(std::string_view name) {
     return std::find(metric_names.begin(), metric_names.end(), name) != metric_names.end();
 }
 
-template <frames::Representation R>
-void add_costs(ceres::Problem& problem, EmbeddedField<R>& field, const DirichletBlocks& blocks, double scale) {
-    using Cost = LinearCombinationCost<R>;
-    for (const auto& edge : blocks.edges) {
-        const double w = std::sqrt(edge.weight * scale);
-        typename Cost::Coefficients coefficients(1, 2);
-        coefficients << w, -w;
-        problem.AddResidualBlock(new Cost(field, {edge.i, edge.j}, coefficients), nullptr, field.parameters(edge.i),
-                                 field.parameters(edge.j));
-    }
-    for (const auto& tet : blocks.tets) {
-        std::vector<double*> parameters;
-        for (const Index v : tet.vertices) parameters.push_back(field.parameters(v));
-        problem.AddResidualBlock(
-            new Cost(field, {tet.vertices.begin(), tet.vertices.end()}, std::sqrt(scale) * tet.gradient), nullptr,
-            parameters);
-    }
-}
-
 // Of an embedding.
 bool by_trust_region(const SmoothOptions& options) {
     return options.solver == SmoothSolver::automatic || options.solver == SmoothSolver::trust_region;
@@ -48,14 +31,14 @@ bool by_trust_region(const SmoothOptions& options) {
 
 // `start` is on the constraints.
 template <frames::Representation R>
-SmoothResult smooth_with_ceres(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
-                               const SmoothOptions& options, const Progress& progress) {
+SmoothResult smooth_with_ceres(const Sampling& sampling, const BoundaryConstraints& constraints,
+                               const Quaternions& start, const SmoothOptions& options, const Progress& progress) {
     // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
-    const double length = surface::bounding_box_diagonal(mesh.vertices);
+    const double length = sampling.box_diagonal;
     EmbeddedField<R> field(start, options.threads);
     Manifolds manifolds;
     ceres::Problem problem(problem_options(field));
-    add_costs(problem, field, dirichlet_blocks(mesh), 1 / length);
+    add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / length);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
     return solve_with_ceres(problem, field.quaternions(), length, options, progress);
 }
@@ -69,35 +52,46 @@ void require_sound(const SmoothOptions& options) {
     const auto names = smooth_representations();
     if (std::find(names.begin(), names.end(), options.representation) == names.end())
         frames::throw_unknown_name("representation", options.representation, names);
-    if (is_metric(options.representation) && options.solver == SmoothSolver::trust_region)
-        throw InvalidInput("the trust region minimises embeddings only; representation '" + options.representation +
-                               "' is a metric: choose solver automatic, levenberg_marquardt or lbfgs",
+    const bool lengths = options.representation == odeco_lengths_name;
+    if ((is_metric(options.representation) || lengths) && options.solver == SmoothSolver::trust_region)
+        throw InvalidInput("the trust region minimises embeddings of frames only; representation '" +
+                               options.representation + "' " + (lengths ? "has lengths too" : "is a metric") +
+                               ": choose solver automatic, levenberg_marquardt or lbfgs",
                            "bad_option");
 }
 
 std::vector<std::string> smooth_representations() {
     std::vector<std::string> names = frames::Representations::names();
+    names.emplace_back(odeco_lengths_name);
     names.insert(names.end(), metric_names.begin(), metric_names.end());
     return names;
+}
+
+SmoothResult smooth(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
+                    const SmoothOptions& options, const Progress& progress) {
+    require_sound(options);
+    require_fitting(sampling, constraints, start);
+    const Quaternions on_constraints = constrained_start(constraints, start);
+    SmoothResult result;
+    if (is_metric(options.representation)) {
+        result = smooth_metric(sampling, constraints, on_constraints, options, progress);
+    } else if (options.representation == odeco_lengths_name) {
+        result = smooth_odeco_lengths(sampling, constraints, on_constraints, options, progress);
+    } else {
+        frames::with_representation(options.representation, [&]<frames::Representation R>() {
+            result = by_trust_region(options)
+                         ? trust_region<R>(sampling, constraints, on_constraints, options, progress)
+                         : smooth_with_ceres<R>(sampling, constraints, on_constraints, options, progress);
+        });
+    }
+    result.energy = dirichlet_energy(sampling, result.frames, options.threads);
+    return result;
 }
 
 SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
                     const SmoothOptions& options, const Progress& progress) {
     require_sound(options);
-    require_fitting(mesh, constraints, start);
-    const Quaternions on_constraints = constrained_start(constraints, start);
-    SmoothResult result;
-    if (is_metric(options.representation)) {
-        result = smooth_metric(mesh, constraints, on_constraints, options, progress);
-    } else {
-        frames::with_representation(options.representation, [&]<frames::Representation R>() {
-            result = by_trust_region(options)
-                         ? trust_region<R>(mesh, constraints, on_constraints, options, progress)
-                         : smooth_with_ceres<R>(mesh, constraints, on_constraints, options, progress);
-        });
-    }
-    result.energy = dirichlet_energy(mesh, result.frames, options.threads);
-    return result;
+    return smooth(vertex_sampling(mesh), constraints, start, options, progress);
 }
 
 }  // namespace octafield::volume

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "field_model.hpp"
 #include "octafield/frames/registry.hpp"
@@ -14,12 +15,15 @@ using frames::Vector4;
 
 constexpr int inner_iterations = 200;  // of the conjugate gradients of one step
 constexpr int inner_between_reports = 16;
-constexpr double first_radius = 0.5;  // radians, root mean square over the vertices
+constexpr double first_radius = 0.05;  // radians, root mean square over the sites
 constexpr double largest_radius = 3;
 constexpr double least_radius = 1e-12;
+constexpr double least_cut = 1.0 / 64;  // of the radius at once
+constexpr std::size_t slow_steps = 5;   // so many in a row may, on average, gain less than the tolerance
 
 struct Step {
-    double decrease = 0;   // of the quadratic model
+    double decrease = 0;  // of the quadratic model
+    double length = 0;
     bool at_edge = false;  // of the trust region
     bool cancelled = false;
 };
@@ -27,13 +31,14 @@ struct Step {
 template <frames::Representation R>
 class Solver {
 public:
-    Solver(const TetMesh& mesh, const BoundaryConstraints& constraints, const SmoothOptions& options,
+    Solver(const Sampling& sampling, const BoundaryConstraints& constraints, const SmoothOptions& options,
            const Progress& progress)
-        : laplacian_(mesh),
+        : laplacian_(sampling),
           model_(laplacian_, constraints, options.threads),
           options_(options),
           progress_(progress),
-          root_(std::sqrt(double(laplacian_.rows()))) {
+          root_(std::sqrt(laplacian_.diagonal().sum() * R::differential(frames::Quaternion::Identity()).squaredNorm() /
+                          3)) {
         const Index n = laplacian_.rows();
         for (Tangents* w : {&step_, &residual_, &direction_, &image_}) w->setZero(n, 3);
     }
@@ -44,9 +49,14 @@ private:
     bool go_on() { return report(progress_, "smooth", fraction_, energy_); }
     Step conjugate_gradients(double radius, double forcing);
     Quaternions turned(const Quaternions& frames) const;
-    double norm(const Tangents& w) const { return std::sqrt(dot(w, w)); }
-    double dot(const Tangents& a, const Tangents& b) const {
-        return sum([&](Index v) { return a.row(v).dot(b.row(v)); });
+    double gradient_norm() const {
+        return std::sqrt(sum([&](Index v) { return model_.gradient().row(v).squaredNorm(); }));
+    }
+    // Along the step, from both energies and the slope at the start: where a parabola through them is lowest.
+    double lowest_along_step(double change) const {
+        const double slope =
+            sum([&](Index v) { return model_.gradient().row(v).dot(step_.row(v).template cast<double>()); });
+        return -slope / (2 * (change - slope));
     }
     template <class Body>
     double sum(const Body& body) const {
@@ -61,25 +71,27 @@ private:
     FieldModel<R> model_;
     const SmoothOptions& options_;
     const Progress& progress_;
-    const double root_;  // of the number of vertices: norms per vertex are norms of fields over it
+    const double root_;  // length of a step that turns every frame by a radian, about
     double energy_ = 0, fraction_ = 0;
     Tangents step_, residual_, direction_, image_;
 };
 
 // Minimises the model within `radius` until the preconditioned residual falls to `forcing` of its start. The first
-// direction of negative curvature is followed to the edge.
+// direction of negative curvature is followed to the edge. Lengths are those of the preconditioner's metric, which its
+// recurrences give (Conn, Gould, Toint 2000, section 7.5.1).
 template <frames::Representation R>
 Step Solver<R>::conjugate_gradients(double radius, double forcing) {
     double squared = sum([&](Index v) {
-        const Vector3 g = model_.gradient().row(v).transpose(), z = model_.precondition(v, -g);
+        const Tangent r = -model_.gradient().row(v).transpose().template cast<float>(), z = model_.precondition(v, r);
         step_.row(v).setZero();
-        residual_.row(v) = -g.transpose();
+        residual_.row(v) = r.transpose();
         direction_.row(v) = z.transpose();
-        return -g.dot(z);
+        model_.turn(v, z);
+        return r.dot(z);
     });
     const double wanted = forcing * forcing * squared;
     Step result;
-    double length = 0, along = 0, reach = squared > 0 ? dot(direction_, direction_) : 0;  // |s|^2, s.d, |d|^2
+    double length = 0, along = 0, reach = squared;  // |s|^2, s.d, |d|^2
     for (int k = 1; k <= inner_iterations && squared > wanted; ++k) {
         if (k % inner_between_reports == 0 && !go_on()) {
             result.cancelled = true;
@@ -91,24 +103,29 @@ Step Solver<R>::conjugate_gradients(double radius, double forcing) {
             t = (-along + std::sqrt(along * along + reach * (radius * radius - length))) / reach;
             result.at_edge = true;
         }
+        const float factor = static_cast<float>(t);
         const double next = sum([&](Index v) {
-            step_.row(v) += t * direction_.row(v);
-            residual_.row(v) -= t * image_.row(v);
-            const Vector3 r = residual_.row(v).transpose();
+            step_.row(v) += factor * direction_.row(v);
+            residual_.row(v) -= factor * image_.row(v);
+            const Tangent r = residual_.row(v).transpose();
             return r.dot(model_.precondition(v, r));
         });
         result.decrease += t * squared - t * t * curvature / 2;
+        length += 2 * t * along + t * t * reach;
         if (result.at_edge) break;
-        length = dot(step_, step_);
+        const double ratio = next / squared;
         sum([&](Index v) {
-            const Vector3 z = model_.precondition(v, residual_.row(v).transpose());
-            direction_.row(v) = z.transpose() + next / squared * direction_.row(v);
+            const Tangent d = model_.precondition(v, residual_.row(v).transpose()) +
+                              static_cast<float>(ratio) * direction_.row(v).transpose();
+            direction_.row(v) = d.transpose();
+            model_.turn(v, d);
             return 0.0;
         });
-        along = dot(step_, direction_);
-        reach = dot(direction_, direction_);
+        along = ratio * (along + t * reach);
+        reach = next + ratio * ratio * reach;
         squared = next;
     }
+    result.length = std::sqrt(length);
     return result;
 }
 
@@ -116,7 +133,7 @@ template <frames::Representation R>
 Quaternions Solver<R>::turned(const Quaternions& frames) const {
     Quaternions result(frames.rows(), 4);
     parallel_for(frames.rows(), options_.threads, [&](std::int64_t v) {
-        const Vector3 w = step_.row(v).transpose();
+        const Vector3 w = step_.row(v).transpose().template cast<double>();
         // An unmoved frame keeps its bits.
         if (w.isZero(0)) {
             result.row(v) = frames.row(v);
@@ -137,16 +154,22 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
     result.energy_history.push_back(energy_);
     result.message = "max_iterations reached";
 
-    const double first_gradient = norm(model_.gradient());
+    const double first_gradient = gradient_norm();
     // What rounding leaves of the gradient of a field without energy.
     const double no_gradient =
         1e-14 * laplacian_.diagonal().norm() * R::differential(frames::Quaternion::Identity()).squaredNorm();
     double radius = first_radius * root_;
+    std::vector<double> accepted{energy_};
+    const auto are_slow = [&](const std::vector<double>& energies) {
+        if (energies.size() <= slow_steps) return false;
+        const double before = energies[energies.size() - 1 - slow_steps];
+        return before - energies.back() < slow_steps * options_.tolerance * energies.back();
+    };
     bool at_minimum = false, cancelled = false;
     while (result.iterations < options_.max_iterations) {
         fraction_ = double(result.iterations) / options_.max_iterations;
         cancelled = !go_on();
-        const double gradient = norm(model_.gradient());
+        const double gradient = gradient_norm();
         at_minimum = gradient <= no_gradient || radius < least_radius * root_;
         if (at_minimum || cancelled) break;
         // Superlinear convergence (Dembo, Eisenstat, Steihaug 1982).
@@ -157,20 +180,20 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
         const Quaternions next = turned(result.frames);
         const double energy = model_.evaluate(next);
         const double ratio = (energy_ - energy) / step.decrease;
-        const double length = norm(step_);
-        if (ratio < 0.25) radius = length / 4;
+        if (ratio < 0.25) radius = step.length * std::clamp(lowest_along_step(energy - energy_), least_cut, 0.25);
         if (ratio > 0.75 && step.at_edge) radius = std::min(2 * radius, largest_radius * root_);
         const bool small = !step.at_edge && step.decrease < options_.tolerance * energy_;
         if (energy < energy_ && ratio > 0.05) {
             result.frames = next;
             energy_ = energy;
             model_.linearise(result.frames);
+            accepted.push_back(energy);
         }
         result.energy_history.push_back(energy_);
-        at_minimum = small;
+        at_minimum = small || are_slow(accepted);
         if (at_minimum) break;
     }
-    if (at_minimum) result.message = "the next step would lower the energy by less than the tolerance";
+    if (at_minimum) result.message = "steps lower the energy by less than the tolerance";
     if (cancelled) result.message = "cancelled";
     result.converged = at_minimum && !cancelled;
     result.objective = energy_;
@@ -180,13 +203,13 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
 }  // namespace
 
 template <frames::Representation R>
-SmoothResult trust_region(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                           const SmoothOptions& options, const Progress& progress) {
-    return Solver<R>(mesh, constraints, options, progress).run(start);
+    return Solver<R>(sampling, constraints, options, progress).run(start);
 }
 
-#define OCTAFIELD_INSTANTIATE(R)                                                                                  \
-    template SmoothResult trust_region<frames::R>(const TetMesh&, const BoundaryConstraints&, const Quaternions&, \
+#define OCTAFIELD_INSTANTIATE(R)                                                                                   \
+    template SmoothResult trust_region<frames::R>(const Sampling&, const BoundaryConstraints&, const Quaternions&, \
                                                   const SmoothOptions&, const Progress&);
 OCTAFIELD_INSTANTIATE(Sh4)
 OCTAFIELD_INSTANTIATE(Tensor4)

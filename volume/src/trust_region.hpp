@@ -9,7 +9,7 @@ namespace octafield::volume {
 
 // `start` is on the constraints. Instantiated for the representations of frames/registry.hpp.
 template <frames::Representation R>
-SmoothResult trust_region(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
+SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                           const SmoothOptions& options, const Progress& progress);
 
 }  // namespace octafield::volume

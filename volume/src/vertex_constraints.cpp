@@ -71,6 +71,7 @@ BoundaryConstraints with_constraints(const BoundaryConstraints& base, const Vert
         const Index v = given.vertices[i];
         result.kind[v] = given.kinds[i];
         result.axis.row(v).setZero();
+        if (result.lengths.rows() > 0) result.lengths.row(v).setOnes();
         if (given.kinds[i] == VertexConstraint::axis)
             result.axis.row(v) = given.axes.row(i).stableNormalized();
         else if (given.kinds[i] == VertexConstraint::fixed)

@@ -98,7 +98,7 @@ std::array<T, 1> one(T value) {
     return {value};
 }
 
-void add_frames(vtkPointData* data, const Quaternions& rows) {
+void add_frames(vtkFieldData* data, const Quaternions& rows) {
     using frames::Sh4;
     const auto q = [&](Eigen::Index i) -> frames::Quaternion { return frames::from_wxyz(rows.row(i)); };
     constexpr const char* axes[3] = {"frame_u", "frame_v", "frame_w"};
@@ -112,6 +112,19 @@ void add_frames(vtkPointData* data, const Quaternions& rows) {
     const auto sh4 = add_array<vtkDoubleArray>(data, "sh4", Sh4::dimension, rows.rows(),
                                                [&](Eigen::Index i) { return Sh4::embed(q(i)); });
     for (int m = -4; m <= 4; ++m) sh4->SetComponentName(m + 4, std::to_string(m).c_str());
+}
+
+void require_lengths(const Points& lengths, Eigen::Index count, const char* per) {
+    if (lengths.rows() > 0 && lengths.rows() != count)
+        throw InvalidInput("lengths has " + std::to_string(lengths.rows()) + " rows; give one per " + per + ", " +
+                               std::to_string(count) + ", or none",
+                           "wrong_size");
+}
+
+void add_lengths(vtkFieldData* data, const Points& lengths) {
+    if (lengths.rows() == 0) return;
+    add_array<vtkDoubleArray>(data, "frame_lengths", 3, lengths.rows(),
+                              [&](Eigen::Index i) -> Eigen::Vector3d { return lengths.row(i).transpose(); });
 }
 
 template <class Table>
@@ -162,9 +175,12 @@ void add_meshability(vtkPointData* data, const Meshability& meshability, Eigen::
 }  // namespace
 
 void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& frames, const Metadata& metadata,
-                 const std::vector<Index>& regions) {
+                 const std::vector<Index>& regions, const FieldArrays& more) {
     const BoundarySurface boundary = boundary_surface(mesh);
     require_frames(frames, mesh.vertices.rows());
+    if (more.tet_frames.rows() > 0) require_frames(more.tet_frames, mesh.tets.rows());
+    require_lengths(more.lengths, mesh.vertices.rows(), "vertex");
+    require_lengths(more.tet_lengths, mesh.tets.rows(), "tet");
     if (!regions.empty() && static_cast<Eigen::Index>(regions.size()) != mesh.tets.rows())
         throw InvalidInput("regions has " + std::to_string(regions.size()) + " ids; give one per tet, " +
                                std::to_string(mesh.tets.rows()) + ", or none",
@@ -178,6 +194,9 @@ void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& f
     add_frames(grid->GetPointData(), frames);
     add_array<vtkUnsignedCharArray>(grid->GetPointData(), "boundary", 1, mesh.vertices.rows(),
                                     [&](Eigen::Index i) { return one(on_boundary[i]); });
+    add_lengths(grid->GetPointData(), more.lengths);
+    add_lengths(grid->GetCellData(), more.tet_lengths);
+    if (more.tet_frames.rows() > 0) add_frames(grid->GetCellData(), more.tet_frames);
     if (!regions.empty())
         add_array<vtkIntArray>(grid->GetCellData(), "region", 1, mesh.tets.rows(),
                                [&](Eigen::Index i) { return one(regions[i]); });

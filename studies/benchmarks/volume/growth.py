@@ -3,7 +3,7 @@
     python -m studies.benchmarks.volume.growth -o DIR [--balls 12,20,32,48] [--threads 0] [FILE...]
 
 A ball of number n is an icosphere of 20 n^2 triangles filled by TetGen; files are surfaces or tet meshes. Each runs as `octafield field` in a process of its own. Wall seconds by
-phase, CPU seconds and peak memory are those of its JSON record. The last line: the exponent p of CPU seconds ~ tets^p by least squares over the balls. DIR gets growth.md.
+phase, CPU seconds and peak memory are those of its JSON record. The last line: the exponents p of CPU seconds ~ tets^p by least squares over the balls. DIR gets growth.md.
 """
 
 import argparse
@@ -21,7 +21,7 @@ from study_output import markdown_table
 import octafield
 from octafield.phases import PHASES
 
-HEADER = ["mesh", "vertices", "tets", *(f"{phase} s" for phase in PHASES), "wall s", "CPU s", "peak MB", "E", "singular edges"]
+HEADER = ["mesh", "vertices", "tets", *(f"{phase} s" for phase in PHASES), "wall s", "CPU s", "CPU s, smoothing", "peak MB", "E", "singular edges"]
 
 
 def record(path: Path, *options: str) -> dict:
@@ -34,19 +34,24 @@ def record(path: Path, *options: str) -> dict:
 
 def row(name: str, r: dict) -> tuple:
     wall, cpu = r["wall_seconds"], r["cpu_seconds"]
-    return (name, f"{r['vertices']:,}", f"{r['tets']:,}", *(f"{wall[phase]:.2f}" for phase in PHASES), f"{sum(wall.values()):.1f}", f"{sum(cpu.values()):.1f}",
+    return (name, f"{r['vertices']:,}", f"{r['tets']:,}", *(f"{wall[phase]:.2f}" for phase in PHASES), f"{sum(wall.values()):.1f}", f"{sum(cpu.values()):.1f}", f"{cpu['smooth']:.1f}",
             f"{r['peak_mb']:.0f}", f"{r['energy']:.6g}", f"{r['singular_edges']:,}")
 
 
-def main() -> None:
+def exponent(sizes, seconds) -> float:
+    """p of seconds ~ sizes^p by least squares."""
+    return np.polyfit(np.log(sizes), np.log(seconds), 1)[0]
+
+
+def main(arguments=None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", nargs="*", type=Path)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--balls", default="12,20,32,48")
     parser.add_argument("--threads", default="0")
-    arguments = parser.parse_args()
+    arguments = parser.parse_args(arguments)
     arguments.output.mkdir(parents=True, exist_ok=True)
-    rows, sizes, seconds = [], [], []
+    rows, sizes, seconds, smoothing = [], [], [], []
 
     def add(name: str, r: dict) -> None:
         rows.append(row(name, r))
@@ -61,11 +66,13 @@ def main() -> None:
             add(f"ball {n}", r)
             sizes.append(r["tets"])
             seconds.append(sum(r["cpu_seconds"].values()))
+            smoothing.append(r["cpu_seconds"]["smooth"])
     for path in arguments.file:
         add(path.name.split(".")[0], record(path, "--threads", arguments.threads))
     if len(sizes) > 1:
-        exponent = np.polyfit(np.log(sizes), np.log(seconds), 1)[0]
-        print(f"CPU seconds of the balls grow like tets^{exponent:.2f}")
+        told = f"CPU seconds of the balls grow like tets^{exponent(sizes, seconds):.2f}, of their smoothing like tets^{exponent(sizes, smoothing):.2f}."
+        print(told)
+        (arguments.output / "exponent.md").write_text(told + "\n")
 
 
 if __name__ == "__main__":

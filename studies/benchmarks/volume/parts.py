@@ -166,7 +166,7 @@ def names(text: str) -> tuple[str, ...]:
     return tuple(filter(None, text.split(",")))
 
 
-def main() -> None:
+def main(arguments=None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
     parser.add_argument("-o", "--output", type=Path, required=True)
@@ -176,7 +176,7 @@ def main() -> None:
     parser.add_argument("--only", default="", help="beginnings of file names, with commas")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--feature-tolerance", type=float, default=np.degrees(FieldOptions().feature_tolerance))
-    a = parser.parse_args()
+    a = parser.parse_args(arguments)
     options = FieldOptions(split=a.split, feature_tolerance=np.radians(a.feature_tolerance), threads=a.threads)
     representations = COMPARED if a.representations == "all" else names(a.representations)
     measure_folder(a.folder, a.output, options, representations, names(a.skip), names(a.only))

@@ -28,11 +28,14 @@ struct BoundaryOptions {
 };
 
 struct BoundaryConstraints {
-    std::vector<VertexConstraint> kind;  // (n) per tet-mesh vertex
-    Points axis;                         // (n, 3) unit; the fixed axis where kind is axis, else 0
-    Quaternions frames;  // (n, 4): the start on boundary vertices, the value where fixed; identity inside
+    std::vector<VertexConstraint> kind;     // (n) per site: tet-mesh vertex, or tet (tet_boundary_constraints)
+    Points axis;                            // (n, 3) unit; the fixed axis where kind is axis, else 0
+    Quaternions frames;                     // (n, 4): the start on the boundary, the value where fixed; identity inside
     std::vector<std::uint8_t> on_boundary;  // (n)
-    std::vector<Index> released_corners;    // tet-mesh ids of corners whose directions fit no frame
+    std::vector<Index> released_corners;    // sites whose directions fit no frame: corners, or tets
+    // (n, 3) or no rows (all 1), above 0; of odeco_lengths (smooth.hpp) alone: held along the axes of `frames` where
+    // fixed; where an axis is, column 0 along it.
+    Points lengths{};
 };
 
 // One normal per boundary vertex and smooth sector (triangles round the vertex between feature edges), weighted by
@@ -47,6 +50,20 @@ SectorNormals sector_normals(const surface::TriangleMesh& boundary, const surfac
 BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurface& boundary,
                                          const surface::FeatureGraph& features, const Points& directions,
                                          const BoundaryOptions& options = {});
+
+// For frames in the tets (tet_sampling). A tet with one triangle of the surface has an axis on that triangle's normal,
+// exactly. With several it has an axis on their mean normal, weighted by area, where all are within feature_tolerance
+// of that; else the frame that fits the normals best, held whole, if each is within the tolerance; else nothing: such
+// tets are in released_corners, and split_locking leaves none where all triangles that join the surface to itself can
+// be split. Tangents of feature curves are not held, only the normals beside them. Interfaces hold the tets on both
+// sides. surface: of the mesh, boundary_surface or that of region_surface; directions: (F, 3) unit tangents in its
+// triangles (surface::triangle_directions). Throws InvalidInput, GeometryError.
+BoundaryConstraints tet_boundary_constraints(const TetMesh& mesh, const BoundarySurface& surface,
+                                             const Points& directions, const BoundaryOptions& options = {});
+
+// Angle (radians) between the normal of each triangle of the surface and the nearest axis of the frame in the tet
+// behind it, then of an interface's tet ahead of it. frames: (m, 4), one per tet. Throws InvalidInput, GeometryError.
+Eigen::VectorXd tet_alignment_angles(const TetMesh& mesh, const BoundarySurface& surface, const Quaternions& frames);
 
 // Angle (radians) between each sector normal and the nearest axis of the vertex's frame, in the order of
 // sector_normals.

@@ -9,7 +9,8 @@ namespace octafield::volume {
 
 struct FrameFieldOptions {
     Start start = Start::constraints;
-    std::uint64_t seed = 0;  // other than 0: a random start in place of `start`
+    // Other than 0: a random start in place of `start`. Diffusions are then five times as long, to forget the noise.
+    std::uint64_t seed = 0;
     DiffuseOptions diffuse{};
     SmoothOptions smooth{};
     // A round diffuses and polishes the best field so far; where singular curves are stuck, the next one's heat frees
@@ -29,6 +30,8 @@ struct FrameFieldResult {
 // Rounds polish in sh4 with the trust region, whatever options.smooth asks for; another representation or solver starts
 // from the best of them, as do the schemes that need a start near their minimum. Cancelling keeps the best field.
 // Throws InvalidInput, GeometryError (unsound mesh), SolverError.
+FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints& constraints,
+                             const FrameFieldOptions& options = {}, const Progress& progress = {});
 FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
                              const FrameFieldOptions& options = {}, const Progress& progress = {});
 

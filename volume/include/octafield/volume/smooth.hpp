@@ -1,5 +1,5 @@
-// Smoothing: minimise the Dirichlet energy of a frame field with one unit quaternion per vertex, in an embedding or in
-// a metric on frames.
+// Smoothing: minimise the Dirichlet energy of a frame field with one unit quaternion per site of a sampling (vertices,
+// unless another is given), in an embedding or in a metric on frames.
 #pragma once
 
 #include <numbers>
@@ -9,12 +9,12 @@
 
 #include "octafield/progress.hpp"
 #include "octafield/volume/boundary.hpp"
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/sampling.hpp"
 
 namespace octafield::volume {
 
 enum class SmoothSolver {
-    automatic,  // trust_region for embeddings, levenberg_marquardt for metrics
+    automatic,  // trust_region for embeddings, levenberg_marquardt for metrics, lbfgs for odeco_lengths
     // Newton steps with the exact Hessian in a trust region (Palmer, Bommes, Solomon 2020): follows negative curvature,
     // so that it does not stop at saddles.
     trust_region,
@@ -27,8 +27,11 @@ enum class LinearSolver { automatic, cholesky, conjugate_gradients };
 
 struct SmoothOptions {
     // What is minimised: the Dirichlet energy of an embedding (sh4, tensor4, odeco, sh469, and su2, which is the naive
-    // scheme), or of a metric on frames, whose edges ij have differences d_ij (world axes, radians) in place of
-    // a_j - a_i (docs/su2_smoothing.md):
+    // scheme); or of odeco tensors with axis lengths as further unknowns, odeco_lengths (Palmer, Bommes, Solomon 2020):
+    // a fixed axis has length 1, a fixed frame lengths 1, unless BoundaryConstraints::lengths gives others; the
+    // unknowns are logarithms, so that lengths stay positive. Held ones keep the rest from shrinking, but near singular
+    // curves the two across them nearly vanish, which is how such a field is continuous there. Or of a metric on
+    // frames, whose edges ij have differences d_ij (world axes, radians) in place of a_j - a_i (docs/su2_smoothing.md):
     // - geodesic: the rotation vector of the smallest rotation from q_i to q_j, matched anew at every evaluation
     // - su2_geodesic: the same, read from the invariants (h0, h1, h2) through their inverse map
     // - su2_midpoint: 2 J^+ (h_j - h_i) with the pseudo-inverse J^+ of dh/d(u, v) half-way, differentiated by both
@@ -36,9 +39,11 @@ struct SmoothOptions {
     // - su2_symmetric: the same with J^+ at either end, root mean square
     // - su2_frozen: su2_midpoint with J^+ held during each step: inconsistent, kept to show how it fails
     std::string representation = "sh4";
-    SmoothSolver solver = SmoothSolver::automatic;  // trust_region: embeddings only
+    SmoothSolver solver = SmoothSolver::automatic;  // trust_region: embeddings of frames only
     int max_iterations = 200;
-    double tolerance = 1e-6;  // stop when an iteration lowers the energy by less than this fraction of it
+    // Stop when an iteration lowers the energy by less than this fraction of it; of trust_region also when five that
+    // lower it do on average.
+    double tolerance = 1e-6;
     LinearSolver linear_solver = LinearSolver::automatic;  // automatic: sparse Cholesky up to 10,000 vertices
     int threads = 0;                                       // 0: all; the result does not depend on it
     // Of su2_midpoint, radians: edges whose frames differ by more are measured by the geodesic, with a smooth
@@ -46,13 +51,15 @@ struct SmoothOptions {
     double midpoint_limit = 20 * std::numbers::pi / 180;
 };
 
-// The embeddings of frames/registry.hpp, then the metrics above.
+// The embeddings of frames/registry.hpp, odeco_lengths, then the metrics above.
 std::vector<std::string> smooth_representations();
 
 struct SmoothResult {
     Quaternions frames;  // (n, 4) unit quaternions w x y z
+    Points lengths;      // (n, 3) of the frames' axes (columns of R) where odeco_lengths was minimised; else no rows
     double energy = 0;   // operators.hpp: dirichlet_energy, of sh4 whatever was minimised
-    // What was minimised: 1/2 sum_c a_c^T L a_c of an embedding, 1/2 of the squared gradient in radians of a metric.
+    // What was minimised: 1/2 sum_c a_c^T L a_c of an embedding or of tensors with lengths, 1/2 of the squared gradient
+    // in radians of a metric.
     double objective = 0;
     int iterations = 0;
     bool converged = false;
@@ -68,6 +75,8 @@ enum class Start {
 
 // The start: the field of sh4 vectors of least Dirichlet energy with what is given, linear in the unknowns, projected
 // onto frames. Without anything given: identities. Throws InvalidInput, GeometryError (unsound mesh), SolverError.
+Quaternions initial_frames(const Sampling& sampling, const BoundaryConstraints& constraints,
+                           Start start = Start::constraints, int threads = 0);
 Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints,
                            Start start = Start::constraints, int threads = 0);
 
@@ -78,6 +87,8 @@ Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& const
 // start is first moved onto them. Cancelling keeps the best state. Ceres' solvers set the process to one OpenBLAS
 // thread and silence glog below fatal: what Ceres would log is in the exception. Throws InvalidInput, GeometryError
 // (unsound mesh), SolverError.
+SmoothResult smooth(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
+                    const SmoothOptions& options = {}, const Progress& progress = {});
 SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
                     const SmoothOptions& options = {}, const Progress& progress = {});
 

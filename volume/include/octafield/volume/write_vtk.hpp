@@ -21,11 +21,18 @@ using Metadata = std::map<std::string, std::string>;
 // All throw IoError, naming the file and the reason, and InvalidInput where array sizes do not match. Binary,
 // compressed.
 
+// What a field may have beside frames at the vertices; each may have no rows.
+struct FieldArrays {
+    Quaternions tet_frames{};  // (m, 4): cell data under the names of the point data
+    Points lengths{};          // (n, 3): point data frame_lengths, of frame_u, frame_v, frame_w
+    Points tet_lengths{};      // (m, 3): cell data frame_lengths
+};
+
 // .vtu with point data: frame_u, frame_v, frame_w (unit axes), quaternion (w x y z, named components), sh4 (9, named
 // -4..4), boundary (0/1), and cell data region where `regions` holds an id per tet. frames: (n, 4) unit quaternions
 // w x y z.
 void write_field(const std::filesystem::path& path, const TetMesh& mesh, const Quaternions& frames,
-                 const Metadata& metadata = {}, const std::vector<Index>& regions = {});
+                 const Metadata& metadata = {}, const std::vector<Index>& regions = {}, const FieldArrays& more = {});
 
 // .vtp polylines with cell data quarter_turns, index (quarter_turns / 4), curve (0-based); nodes as vertex cells with
 // point data node (0/1) and smoothed (3: the point's place in smoothed_curves), their cell data 0, 0, -1. Vertex cells

@@ -1,0 +1,49 @@
+"""What a field whose frames live in the tets is judged by. Meshability and integrability are defined for frames at
+vertices and left out."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _core
+from ._core import Sampling, SingularEdges
+from .analysis import degrees
+from .meshing import MeshedInput
+
+
+@dataclass
+class TetFieldAnalysis:
+    """frames: (n, 4), those of the tets taken to the vertices. alignment: radians, per triangle of the surface and tet
+    beside it. feature_alignment: of `frames`. record: for the JSON object."""
+
+    frames: np.ndarray
+    singular: SingularEdges
+    alignment: np.ndarray
+    feature_alignment: np.ndarray
+    record: dict
+
+
+def analyse_tets(meshed: MeshedInput, sampling: Sampling, of_tets: np.ndarray, threads: int = 0) -> TetFieldAnalysis:
+    tets = meshed.tets
+    frames = np.asarray(_core.vertex_frames(tets, of_tets, threads=threads))
+    found = _core.singular_edges(tets, of_tets, threads=threads)
+    alignment = np.asarray(_core.tet_alignment_angles(tets, meshed.boundary, of_tets))
+    feature_alignment = np.asarray(_core.feature_alignment_angles(meshed.boundary, meshed.boundary_features, frames))
+    energy = float(_core.dirichlet_energy(sampling, of_tets, threads=threads))
+    turns = [int(edge.quarter_turns) for edge in found.edges]
+    record = {
+        "energy": energy,
+        "energy_unit_speed": _core.unit_speed_factor * energy,
+        "energy_at_vertices": float(_core.dirichlet_energy(tets, frames, threads=threads)),
+        "singular_edges": len(turns),
+        "singular_length": float(found.graph.length),
+        "singular_curves": len(found.graph.curves),
+        "singular_nodes": len(found.graph.nodes),
+        "complex_edges": int(found.complex_edges),
+        "singular_edges_by_turns": {
+            f"{t:+d}" if t else "complex": turns.count(t) for t in sorted(set(turns), reverse=True)
+        },
+        "alignment_deg": degrees(alignment),
+        "feature_alignment_deg": degrees(feature_alignment),
+    }
+    return TetFieldAnalysis(frames, found, alignment, feature_alignment, record)

@@ -1,0 +1,76 @@
+"""All benchmarks of frame fields in volumes, and the page of their tables.
+
+    python -m studies.benchmarks.volume -o DIR [--data ../shared/data] [--balls 12,20,32,44] [--seeds 10] [--part energies] ...
+
+DIR gets benchmarks.md, representations.md (every file in every representation) and a folder per part. Without --part: all of energies,
+growth, parts, split; a part that was not run keeps the tables it left in DIR.
+"""
+
+import argparse
+import datetime
+import os
+import platform
+import subprocess
+from pathlib import Path
+
+from octafield.phases import octafield_version
+
+from . import energies, growth, parts
+
+MESHES = ("sphere_r0.17", "sphere_r0.10", "78322_gear.2", "genus3", "sphere_r0.06")
+TEXTS = Path(__file__).with_name("texts")
+
+
+def run_part(part: str, a) -> None:
+    folder = a.output / part
+    folder.mkdir(parents=True, exist_ok=True)
+    hexme = a.data / "hexme"
+    if part == "energies":
+        energies.main([*(str(a.data / "arff" / f"{m}.mesh.gz") for m in MESHES), "-o", str(folder), "--seeds", str(a.seeds)])
+    elif part == "growth":
+        growth.main([str(hexme / "i16c.vtk.gz"), "-o", str(folder), "--balls", a.balls])
+    elif part == "parts":
+        parts.main([str(hexme), "-o", str(folder), "--representations", "all", "--skip", "i16c"])
+    else:
+        parts.main([str(hexme), "-o", str(folder), "--split", "--skip", "i16c"])
+    (folder / "when.md").write_text(f"{datetime.date.today()}, {machine()}, octafield {octafield_version()}, commit {commit()}.\n")
+
+
+def machine() -> str:
+    model = next((line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")), platform.machine())
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    return f"{len(os.sched_getaffinity(0))} cores of {model}, {memory:.0f} GiB"
+
+
+def commit() -> str:
+    found = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=Path(__file__).parent, capture_output=True, text=True)
+    return found.stdout.strip() or "unknown"
+
+
+def page(template: str, folder: Path) -> str:
+    """The text with every line "<< PATH" replaced by that file of the folder."""
+    lines = []
+    for line in template.splitlines():
+        path = folder / line.removeprefix("<< ")
+        lines.append(line if not line.startswith("<< ") else path.read_text().rstrip("\n") if path.is_file() else "(not run)")
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    known = ("energies", "growth", "parts", "split")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--output", type=Path, required=True)
+    parser.add_argument("--data", type=Path, default=Path(__file__).resolve().parents[4] / "shared" / "data")
+    parser.add_argument("--balls", default="12,20,32,44")
+    parser.add_argument("--seeds", type=int, default=10)
+    parser.add_argument("--part", choices=known, action="append")
+    a = parser.parse_args()
+    for part in a.part or known:
+        run_part(part, a)
+    for text in sorted(TEXTS.glob("*.md")):
+        (a.output / text.name).write_text(page(text.read_text(), a.output))
+        print(a.output / text.name)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,136 @@
+"""Frames in the tets, and odeco tensors with free axis lengths."""
+
+import copy
+
+import numpy as np
+import pytest
+from pipeline_fixtures import octafield as command
+from pipeline_fixtures import write_cube, write_sphere
+
+import octafield as of
+from octafield.options import FieldOptions
+from octafield.pipeline import compute_field
+from octafield.results import write_field_result
+
+
+def tangents(surface):
+    normals = of.triangle_normals(surface.mesh)
+    return np.cross(normals, np.roll(normals, 1, axis=1) + [0.1, 0.2, 0.3])
+
+
+@pytest.fixture(scope="module")
+def held(box):
+    surface = of.boundary_surface(box)
+    return of.tet_boundary_constraints(box, surface, tangents(surface))
+
+
+def test_a_sampling_is_the_coupling_of_its_sites(box):
+    vertices, tets = of.vertex_sampling(box), of.tet_sampling(box)
+    assert (vertices.sites, len(vertices)) == ("vertices", len(box.vertices))
+    assert (tets.sites, len(tets)) == ("tets", len(box.tets)) and repr(tets) == f"Sampling({len(box.tets)} tets)"
+    assert abs(vertices.stiffness - of.stiffness(box)).max() == 0
+    np.testing.assert_array_equal(vertices.mass, of.lumped_mass(box))
+    np.testing.assert_allclose(tets.mass, of.tet_volumes(box))
+    assert tets.body_radius == pytest.approx(0.5) and tets.edge_length == vertices.edge_length == of.mean_edge_length(of.boundary_surface(box).mesh)
+    with pytest.raises(TypeError):
+        of.Sampling()
+
+
+def test_weights_are_area_over_distance_of_centroids(box):
+    points, tets, stiffness = np.asarray(box.vertices), np.asarray(box.tets), of.tet_sampling(box).stiffness.tocoo()
+    centroids = points[tets].mean(axis=1)
+    for s, t, value in list(zip(stiffness.row, stiffness.col, stiffness.data))[::50]:
+        if s != t:
+            a, b, c = points[list(set(tets[s]) & set(tets[t]))]
+            area = np.linalg.norm(np.cross(b - a, c - a)) / 2
+            assert -value == pytest.approx(area / np.linalg.norm(centroids[s] - centroids[t]))
+
+
+def test_every_solver_takes_a_sampling(box, held):
+    sampling = of.tet_sampling(box)
+    start = of.initial_frames(sampling, held)
+    assert start.shape == (len(box.tets), 4)
+    for result in (of.diffuse(sampling, held, start), of.smooth(sampling, held, start), of.frame_field(sampling, held).smooth):
+        assert result.energy == pytest.approx(0, abs=1e-9)
+        assert of.dirichlet_energy(sampling, result.frames) == pytest.approx(0, abs=1e-9)
+    surface = of.boundary_surface(box)
+    assert of.tet_alignment_angles(box, surface, result.frames).max() < 1e-6
+    assert of.distance(of.vertex_frames(box, result.frames), [1, 0, 0, 0]).max() < 1e-3
+    assert of.singular_edges(box, result.frames).edges == []
+    random = of.random_rotations(len(box.tets), 3)
+    assert of.dirichlet_energy(of.vertex_sampling(box), of.vertex_frames(box, random)) == pytest.approx(
+        of.dirichlet_energy(box, of.vertex_frames(box, random)))
+
+
+def test_a_straight_line_is_one_curve_of_singular_edges(box):
+    centroids = np.asarray(box.vertices)[np.asarray(box.tets)].mean(axis=1)
+    x, y, _ = (centroids - [0.53, 0.51, 0]).T
+    angle = np.arctan2(y, x) / 4
+    found = of.singular_edges(box, of.quaternion_exp(np.column_stack([0 * angle, 0 * angle, angle])))
+    assert len(found.graph.curves) == 1 and list(found.graph.curve_quarter_turns) == [1]
+    assert {edge.quarter_turns for edge in found.edges} == {1} and found.complex_edges == 0
+    np.testing.assert_array_equal(found.graph.points, np.asarray(box.vertices)[found.vertices])
+    again = copy.deepcopy(found)
+    assert repr(again) == repr(found) and again.edges[0].a == found.edges[0].a
+
+
+def test_what_does_not_fit_is_refused(box, held, box_problem):
+    boundary, _, of_vertices, start = box_problem
+    with pytest.raises(of.InvalidInput):
+        of.smooth(of.tet_sampling(box), of_vertices, start)
+    with pytest.raises(of.InvalidInput):
+        of.tet_boundary_constraints(box, boundary, [[1, 0, 0]])
+    with pytest.raises(of.InvalidInput, match="one per vertex|row"):
+        of.dirichlet_energy(of.tet_sampling(box), start)
+    with pytest.raises(of.InvalidInput, match="sampling"):
+        FieldOptions(sampling="edges")
+
+
+def test_lengths_are_interpolated_between_two_faces(box):
+    z = np.asarray(box.vertices)[:, 2]
+    kind = np.where((z == 0) | (z == 1), 2, 0).astype(np.uint8)
+    frames = np.tile([1.0, 0, 0, 0], (len(z), 1))
+    lengths = np.where(z[:, None] == 1, [3, 1, 0.5], [1, 2, 1.5])
+    constraints = of.BoundaryConstraints(kind, np.zeros((len(z), 3)), frames, kind > 0, [], lengths)
+    assert "odeco_lengths" in of.smooth_representations
+    result = of.smooth(box, constraints, frames, representation="odeco_lengths", tolerance=1e-10)
+    expected = (1 - z)[:, None] * [1, 2, 1.5] + z[:, None] * [3, 1, 0.5]
+    assert abs(np.asarray(result.lengths) - expected).max() < 5e-3
+    assert len(of.smooth(box, constraints, frames, representation="odeco").lengths) == 0
+    constraints.lengths = np.zeros((len(z), 3))
+    with pytest.raises(of.InvalidInput, match="above 0"):
+        of.smooth(box, constraints, frames, representation="odeco_lengths")
+    with pytest.raises(of.InvalidInput, match="shrink"):
+        free = of.BoundaryConstraints(0 * kind, np.zeros((len(z), 3)), frames, kind > 0, [])
+        of.smooth(box, free, frames, representation="odeco_lengths")
+
+
+def test_the_pipeline_runs_in_the_tets(tmp_path):
+    import pyvista
+
+    result = compute_field(write_sphere(tmp_path), FieldOptions(edge_length=0.4, sampling="tets"))
+    record = result.record
+    assert record["sampling"] == "tets" and record["options"]["sampling"] == "tets"
+    assert result.tet_frames.shape == (len(result.tets.tets), 4) and result.frames.shape == (len(result.tets.vertices), 4)
+    assert record["energy"] == of.dirichlet_energy(of.tet_sampling(result.tets), result.tet_frames)
+    assert record["alignment_deg"]["max"] < 25 and record["singular_edges"] > 0
+    assert sum(record["singular_edges_by_turns"].values()) == record["singular_edges"]
+    assert result.meshability is None and "non_meshable_vertices" not in record
+    write_field_result(result, tmp_path)
+    grid = pyvista.read(tmp_path / "field.vtu")
+    np.testing.assert_allclose(grid.cell_data["quaternion"], result.tet_frames, atol=1e-15)
+    np.testing.assert_allclose(grid.cell_data["frame_w"], of.rotation_matrices(result.tet_frames)[:, :, 2], atol=1e-12)
+    with pytest.raises(of.InvalidInput, match="sampling"):
+        of.compare([write_cube(tmp_path)], tmp_path / "out", options=FieldOptions(sampling="tets"))
+
+
+def test_the_command_line_writes_tets_and_lengths(tmp_path):
+    import pyvista
+
+    cube = write_cube(tmp_path)
+    command("field", cube, "-o", tmp_path / "tets", "--edge-length", 0.3, "--sampling", "tets", check=0)
+    assert "quaternion" in pyvista.read(tmp_path / "tets" / "field.vtu").cell_data
+    command("field", cube, "-o", tmp_path / "odeco", "--edge-length", 0.3, "--representation", "odeco_lengths", check=0)
+    lengths = pyvista.read(tmp_path / "odeco" / "field.vtu").point_data["frame_lengths"]
+    np.testing.assert_allclose(lengths, 1, atol=1e-6)  # of the constant field
+    assert command("field", cube, "-o", tmp_path / "bad", "--sampling", "edges", check=2).stderr
