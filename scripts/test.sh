@@ -14,7 +14,7 @@ if [ "${1:-}" = --sanitize ]; then
     exit
 fi
 
-make_venv requirements-test.txt
+make_venv requirements-test.txt requirements-docs.txt
 install_octafield
 say "building the C++ tests and benchmarks"
 cmake -S . -B "$BUILD_DIR" -DOCTAFIELD_TESTS=ON -DOCTAFIELD_BENCHMARKS=ON >/dev/null

@@ -1,10 +1,15 @@
 """octafield: hexahedral frame fields on surfaces and in volumes.
 
-    import octafield
-    mesh = octafield.read_surface("part.stl")
-    result = octafield.compute_field(mesh)           # the whole way, see octafield.pipeline
-    frames = octafield.random_rotations(10)          # or one step at a time
-    vectors = octafield.sh4_embed(frames)
+    >>> import octafield
+    >>> from octafield.study.generators import generate
+    >>> surface = generate("box")                     # or octafield.read_surface("part.stl")
+    >>> octafield.require_valid(surface)
+    >>> result = octafield.compute_field(surface)     # the whole way, see octafield.pipeline
+    >>> result.record["singular_edges"]
+    0
+    >>> frames = octafield.random_rotations(10)       # or one step at a time
+    >>> octafield.sh4_embed(frames).shape
+    (10, 9)
 
 Quaternions are (w, x, y, z), angles radians, lengths the input's unit, ids 0-based and -1 for none. Array properties
 are numpy views of the C++ memory. Long calls run without the GIL, take progress(phase, fraction, merit) -> bool | None, and stop
@@ -225,7 +230,8 @@ from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, Solv
 # Written in Python.
 from .compare import Comparison, compare
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
-from .pipeline import FieldResult, SurfaceFieldResult, compute_field, compute_surface_field
+from .interop import from_meshio, from_pyvista, to_meshio, to_pandas, to_pyvista
+from .pipeline import FieldResult, SurfaceFieldResult, compute_field, compute_surface_field, prepare, prepare_mesh, run
 
 __all__ = [
     "BoundaryConstraints",
@@ -437,6 +443,14 @@ __all__ = [
     "write_singular_graph",
     "write_surface",
     "write_surface_field",
+    "from_meshio",
+    "from_pyvista",
+    "prepare",
+    "prepare_mesh",
+    "run",
+    "to_meshio",
+    "to_pandas",
+    "to_pyvista",
     "Sampling",
     "SingularEdge",
     "SingularEdges",

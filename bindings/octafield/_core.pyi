@@ -17,7 +17,9 @@ Progress: TypeAlias = Callable[[str, float, float], bool | None]
 
 __version__: str
 unit_speed_factor: float
+"""3/20: times an energy of sh4 vectors gives that of a representation that moves at speed 1 per radian."""
 core_energy: float
+"""Energy of the core of one simple zero, 1.1966: the constant term of the asymptotic energy, per point."""
 
 # ---- frames
 
@@ -49,7 +51,9 @@ class Metric:
     def distance(self, q1: ArrayLike, q2: ArrayLike, *, threads: int = 0) -> Any: ...
 
 representations: dict[str, Representation]
+"""Every representation of a frame by its name, in the order of tables."""
 metrics: dict[str, Metric]
+"""Every distance of frames by its name."""
 
 def quaternion_exp(rotation_vectors: ArrayLike, *, threads: int = 0) -> Float64s: ...
 def quaternion_log(q: ArrayLike, *, threads: int = 0) -> Float64s: ...

@@ -1,8 +1,7 @@
-"""The command line: octafield compare, field, surface-field, info."""
+"""The command line: octafield compare, field, surface-field, study, info, view, doctor, representations."""
 
 import math
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -27,7 +26,7 @@ from .cli_options import (
     Verbose,
     choices,
 )
-from .console import log
+from .console import carry_out, log
 from .errors import InvalidInput
 from .options import (
     ALIGNMENTS,
@@ -41,15 +40,17 @@ from .options import (
     MeshOptions,
     SurfaceFieldOptions,
 )
+from .study_cli import app as studies
 from .supervise import run_supervised
 
 app = typer.Typer(
     name="octafield",
-    add_completion=False,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     help="Frame fields in volumes and on surfaces. Exit code: 0 done, 2 bad input or usage, 130 interrupted, 1 defect.",
 )
+
+app.add_typer(studies, name="study")
 
 _FIELD, _SURFACE = FieldOptions(), SurfaceFieldOptions()
 
@@ -72,18 +73,6 @@ def _options_of_all(
     ] = False,
 ) -> None:
     pass
-
-
-def _carry_out(work: Callable[[], None], quiet: bool, verbose: bool, json: str | None) -> None:
-    """Runs a command; an error becomes one line on stderr and an exit code."""
-    console.set_verbosity(quiet, verbose)
-    try:
-        console.check_json_target(json)
-        work()
-    except typer.Exit:
-        raise
-    except (Exception, KeyboardInterrupt) as error:
-        raise typer.Exit(console.error_code(error)) from None
 
 
 def _mesh_options(
@@ -159,7 +148,7 @@ def field(
             write_field_result(result, folder, progress)
         _finish(result.record, json, quiet, output)
 
-    _carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json)
 
 
 @app.command("surface-field")
@@ -221,7 +210,7 @@ def surface_field(
             write_surface_result(result, folder, progress)
         _finish(result.record, json, quiet, output)
 
-    _carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json)
 
 
 @app.command()
@@ -279,7 +268,7 @@ def compare(
             tables.show_comparison(comparison.rows)
         log.info("wrote %s", output / "report.html")
 
-    _carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json)
 
 
 @app.command()
@@ -308,7 +297,7 @@ def info(
                 f"{input}: {failure}", next(r["kind"] for r in record["requirements"] if r["message"] == failure)
             )
 
-    _carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json)
 
 
 @app.command()
@@ -331,7 +320,46 @@ def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = 
         if json != "-" and not quiet:
             tables.show_registry(record)
 
-    _carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def doctor(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """Versions, cores, memory, and a small run of every part of this installation; exit code 1 when one fails."""
+
+    def work() -> None:
+        from .doctor import examine
+
+        record = examine()
+        if json:
+            console.put_json(json, record)
+        if json != "-" and not quiet:
+            tables.show_doctor(record)
+        if not record["ok"]:
+            raise typer.Exit(console.DEFECT)
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def view(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that `octafield field` wrote.")],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="PNG", help="Write a picture in place of opening a window.")
+    ] = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """The singular curves of a result inside its surface, in a window."""
+
+    def work() -> None:
+        from .display import view_folder
+
+        view_folder(folder, output)
+        if output is not None:
+            log.info("wrote %s", output)
+
+    carry_out(work, quiet, verbose, None)
 
 
 def _listed(text: str) -> list[str]:

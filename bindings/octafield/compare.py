@@ -1,7 +1,7 @@
 """Representations and boundary treatments side by side, on one mesh per input.
 
-comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, one folder per run
-comparison.rows[0]["energy"]
+    comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, one folder per run
+    comparison.rows[0]["energy"]
 """
 
 import csv
@@ -115,14 +115,19 @@ def _run_all(
 
 
 def _surface_pictures(problem: Problem) -> list[Picture]:
-    from . import pictures  # brings VTK, which nothing else in the package needs when it is imported
+    from . import pictures, scene  # brings VTK, which nothing else in the package needs when it is imported
 
+    if not scene.can_draw():
+        problem.meshed.notes.append(f"no pictures: {scene.NO_OPENGL}")
+        return []
     return [pictures.surface_cross_field(problem)]
 
 
 def _volume_pictures(result: FieldResult, label: str, lines: bool) -> list[Picture]:
-    from . import pictures
+    from . import pictures, scene
 
+    if not scene.can_draw():
+        return []
     drawn = [pictures.singular_curves(result), pictures.frames_on_cut(result)]
     if lines and result.streamlines:
         drawn.append(pictures.streamlines(result))
@@ -168,7 +173,7 @@ def _unique(taken: list[str], slug: str) -> str:
 
 def _write_csv(path: Path, rows: list[dict]) -> None:
     """One line per run: every number and word of the record, nested ones as group_name."""
-    flat = [_flatten(row) for row in rows]
+    flat = [flatten(row) for row in rows]
     columns = list(dict.fromkeys(name for row in flat for name in row))
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, columns, restval="")
@@ -176,10 +181,11 @@ def _write_csv(path: Path, rows: list[dict]) -> None:
         writer.writerows(flat)
 
 
-def _flatten(row: dict) -> dict:
+def flatten(row: dict) -> dict:
+    """The record's numbers and words, nested ones as group_name; lists and versions are left out."""
     flat = {}
     for name, value in row.items():
-        if name in ("alignment_deg", "wall_seconds", "cpu_seconds"):
+        if name in ("alignment_deg", "feature_alignment_deg", "integrability", "wall_seconds", "cpu_seconds"):
             flat |= {f"{name}_{key}": inner for key, inner in value.items()}
         elif not isinstance(value, (dict, list)):
             flat[name] = value

@@ -7,9 +7,10 @@ import math
 import os
 import sys
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
@@ -61,6 +62,18 @@ def error_code(error: BaseException) -> int:
     what = str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}"
     _say(f"defect: {what}; please report this (run again with -v for details)")
     return DEFECT
+
+
+def carry_out(work: Callable[[], None], quiet: bool, verbose: bool, json: str | None) -> None:
+    """Runs a command; an error becomes one line on stderr and an exit code."""
+    set_verbosity(quiet, verbose)
+    try:
+        check_json_target(json)
+        work()
+    except typer.Exit:
+        raise
+    except (Exception, KeyboardInterrupt) as error:
+        raise typer.Exit(error_code(error)) from None
 
 
 def _say(message: str) -> None:

@@ -4,6 +4,8 @@ import math
 import numbers
 from dataclasses import dataclass
 
+import numpy as np
+
 from . import _core
 from .defaults import default_of
 from .errors import InvalidInput
@@ -65,6 +67,10 @@ class MeshOptions:
 
     def __post_init__(self) -> None:
         require_one_of("features", self.features, FEATURES)
+        for name in ("remesh", "repair", "interfaces", "split"):
+            value = getattr(self, name)
+            _require(isinstance(value, (bool, np.bool_)), f"{name} must be true or false, not {value!r}")
+            object.__setattr__(self, name, bool(value))
         _require(0 < self.feature_angle < math.pi, "the feature angle must lie between 0 and 180 degrees")
         _require(
             math.isfinite(self.edge_length) and self.edge_length >= 0, "the edge length must be positive (0: default)"

@@ -1,6 +1,7 @@
 """Pictures of a report: cross field on the surface, singular curves in the volume, frames on a cut."""
 
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pyvista
@@ -47,34 +48,62 @@ def surface_cross_field(problem: Problem) -> Picture:
 
 def singular_curves(result: FieldResult) -> Picture:
     """Tubes along the singular curves (smoothed), by type, inside the translucent surface; what no hex mesh has."""
-    graph, points = result.singular_graph, np.asarray(result.surface.vertices)
-    radius = 0.0045 * scene.diagonal(points)
-    shape = _glass(result)
-    _add_curves(shape, graph, radius)
-    nodes = np.asarray(graph.points)[np.asarray(graph.nodes, dtype=int)]
-    if len(nodes):
-        shape.add_mesh(_spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
+    graph = result.singular_graph
     kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
     legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")]
-    if len(nodes):
+    if len(graph.nodes):
         legend.append((scene.INK, "node: three or four curves meet"))
+    if _bad_features(result) is not None:
+        legend.append((scene.ORANGE, "feature edge that no hex mesh has"))
+    return Picture("Singular curves", _curves_caption(result), scene.render(singular_scene(result)), legend)
+
+
+def singular_scene(result: FieldResult) -> pyvista.Plotter:
+    graph, points = result.singular_graph, np.asarray(result.surface.vertices)
+    radius = 0.0045 * scene.diagonal(points)
+    shape = _glass(scene.surface_mesh(result.surface))
+    scene.add_features(shape, result.surface, result.features, 3)
+    _add_curves(shape, _curves(graph), radius)
+    _add_nodes(shape, np.asarray(graph.points)[np.asarray(graph.nodes, dtype=int)], radius)
     bad = _bad_features(result)
     if bad is not None:
         shape.add_mesh(bad.tube(radius=0.8 * radius, n_sides=8), color=scene.ORANGE, smooth_shading=True, ambient=0.3)
-        legend.append((scene.ORANGE, "feature edge that no hex mesh has"))
     _three_quarter_view(shape, points)
-    return Picture("Singular curves", _curves_caption(result), scene.render(shape), legend)
+    return shape
+
+
+def scene_from_files(surface_file: Path, singular_file: Path) -> pyvista.Plotter:
+    """The same from surface.vtp and singular.vtp of a result; sharp edges in place of feature curves."""
+    surface, found = pyvista.read(surface_file), pyvista.read(singular_file)
+    points, curves = np.asarray(surface.points), {}
+    radius = 0.0045 * scene.diagonal(points)
+    if found.n_lines:
+        of = np.array([_kind(int(t)) for t in np.asarray(found.cell_data["quarter_turns"])[found.n_verts :]])
+        nodes = np.asarray(found.points)[np.asarray(found.point_data["node"], bool)]
+        found.points = np.asarray(found.point_data["smoothed"])
+        for kind in set(of):
+            curves[kind] = found.extract_cells(found.n_verts + np.flatnonzero(of == kind)).extract_surface(algorithm=None)
+    shape = _glass(surface)
+    sharp = surface.extract_feature_edges(35, boundary_edges=False, non_manifold_edges=False)
+    if sharp.n_cells:
+        shape.add_mesh(sharp, color=scene.CURVE, line_width=3, lighting=False)
+    if curves:
+        _add_curves(shape, curves, radius)
+        _add_nodes(shape, nodes, radius)
+    _three_quarter_view(shape, points)
+    return shape
 
 
 def streamlines(result: FieldResult) -> Picture:
     """Curves along the axes of the frames, and the singular curves that end them."""
     points = np.asarray(result.surface.vertices)
     radius = 0.0025 * scene.diagonal(points)
-    shape = _glass(result)
+    shape = _glass(scene.surface_mesh(result.surface))
+    scene.add_features(shape, result.surface, result.features, 3)
     lines = polylines([line.points for line in result.streamlines if len(line.points) > 1])
     if lines.n_cells:
         shape.add_mesh(lines.tube(radius=radius, n_sides=6), color=scene.SKY, smooth_shading=True, ambient=0.3)
-    _add_curves(shape, result.singular_graph, 1.5 * radius)
+    _add_curves(shape, _curves(result.singular_graph), 1.5 * radius)
     _three_quarter_view(shape, points)
     kinds = {_kind(int(turns)) for turns in result.singular_graph.curve_quarter_turns}
     legend = [(scene.SKY, "streamline"), *(TURNS[kind] for kind in TURNS if kind in kinds)]
@@ -117,21 +146,28 @@ def frames_on_cut(result: FieldResult) -> Picture:
     return Picture("Frames on a cut", caption, scene.render(shape), [(scene.SKY, "frame"), (CUT, "cut")])
 
 
-def _glass(result: FieldResult) -> pyvista.Plotter:
-    """The translucent surface and its feature curves."""
+def _glass(surface: pyvista.PolyData) -> pyvista.Plotter:
+    """The translucent surface."""
     shape = scene.plotter()
     shape.enable_depth_peeling(8)
-    shape.add_mesh(scene.surface_mesh(result.surface), color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
-    scene.add_features(shape, result.surface, result.features, 3)
+    shape.add_mesh(surface, color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
     return shape
 
 
-def _add_curves(shape: pyvista.Plotter, graph, radius: float) -> None:
+def _curves(graph) -> dict[int, pyvista.PolyData | None]:
     points = np.asarray(_core.smoothed_curves(graph).points)
-    for turns, (colour, _) in TURNS.items():
-        lines = _polylines(graph, points, turns)
+    return {kind: _polylines(graph, points, kind) for kind in TURNS}
+
+
+def _add_curves(shape: pyvista.Plotter, curves: dict[int, pyvista.PolyData | None], radius: float) -> None:
+    for kind, lines in curves.items():
         if lines is not None:
-            shape.add_mesh(lines.tube(radius=radius, n_sides=12), color=colour, smooth_shading=True, ambient=0.3)
+            shape.add_mesh(lines.tube(radius=radius, n_sides=12), color=TURNS[kind][0], smooth_shading=True, ambient=0.3)
+
+
+def _add_nodes(shape: pyvista.Plotter, nodes: np.ndarray, radius: float) -> None:
+    if len(nodes):
+        shape.add_mesh(_spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
 
 
 def _bad_features(result: FieldResult) -> pyvista.PolyData | None:

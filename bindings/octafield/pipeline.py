@@ -13,10 +13,11 @@ A comparison prepares a Problem once and runs it with several options:
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import _core
+from . import _core, display
 from ._core import (
     BoundaryConstraints,
     BoundaryMeshability,
@@ -39,6 +40,9 @@ from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
 from .tet_analysis import analyse_tets
 from .surface_pipeline import SurfaceFieldResult, common_record, compute_surface_field, index_summary, structure
+
+if TYPE_CHECKING:
+    import pyvista
 
 __all__ = [
     "FieldOptions",
@@ -71,7 +75,7 @@ class Problem:
     peak_mb: float
 
 
-@dataclass
+@dataclass(repr=False)
 class FieldResult:
     """A frame field and what led to it. frames: (n, 4) unit quaternions w x y z, per tet vertex. alignment: radians,
     per boundary vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record:
@@ -102,6 +106,16 @@ class FieldResult:
     regions: np.ndarray | None = None
     tet_frames: np.ndarray | None = None
     lengths: np.ndarray | None = None
+
+    def __repr__(self) -> str:
+        return display.one_line(self)
+
+    def _repr_html_(self) -> str:
+        return display.as_html(self)
+
+    def scene(self) -> "pyvista.Plotter":
+        """The singular curves inside the translucent surface, to show() in a window or Jupyter."""
+        return display.scene_of(self)
 
 
 def compute_field(

@@ -7,13 +7,13 @@ from .phases import PHASES
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7b8794")
 DASHES = ("-", "--", "-.", ":")
-_TEXT = "#010203"  # stands for the page's text colour until the SVG is made
+TEXT = "#010203"  # stands for the page's text colour until the SVG is made
 
 
 def convergence_plot(rows: list[dict]) -> str:
     """Energy against iteration, all runs on common axes."""
     columns = 3
-    figure, axes = _figure(6.4, 3.6 + 0.22 * -(-len(rows) // columns))
+    figure, axes = new_figure(6.4, 3.6 + 0.22 * -(-len(rows) // columns))
     for number, row in enumerate(rows):
         energies = row["energy_history"]
         axes.plot(
@@ -28,15 +28,15 @@ def convergence_plot(rows: list[dict]) -> str:
         )
     axes.set_xlabel("iteration")
     axes.set_ylabel("energy E")
-    figure.legend(frameon=False, labelcolor=_TEXT, loc="outside lower center", ncols=columns)
+    figure.legend(frameon=False, labelcolor=TEXT, loc="outside lower center", ncols=columns)
     axes.grid(alpha=0.25, linewidth=0.6)
     axes.xaxis.get_major_locator().set_params(integer=True)
-    return _svg(figure, "energy against iteration")
+    return to_svg(figure, "energy against iteration")
 
 
 def seconds_plot(rows: list[dict]) -> str:
     """Wall seconds per phase, one stacked bar per run."""
-    figure, axes = _figure(6.4, 0.8 + 0.38 * len(rows))
+    figure, axes = new_figure(6.4, 0.8 + 0.38 * len(rows))
     left = [0.0] * len(rows)
     places = range(len(rows))
     for number, phase in enumerate(PHASES):
@@ -51,15 +51,15 @@ def seconds_plot(rows: list[dict]) -> str:
         ncols=len(PHASES),
         loc="lower center",
         bbox_to_anchor=(0.5, 1.0),
-        labelcolor=_TEXT,
+        labelcolor=TEXT,
         columnspacing=1.2,
         handlelength=1.0,
     )
     axes.grid(axis="x", alpha=0.25, linewidth=0.6)
-    return _svg(figure, "wall seconds per phase")
+    return to_svg(figure, "wall seconds per phase")
 
 
-def _figure(width: float, height: float):
+def new_figure(width: float, height: float):
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width, height), layout="constrained")
@@ -67,15 +67,15 @@ def _figure(width: float, height: float):
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     for side in ("left", "bottom"):
-        axes.spines[side].set_color(_TEXT)
-    axes.tick_params(colors=_TEXT)
-    axes.xaxis.label.set_color(_TEXT)
-    axes.yaxis.label.set_color(_TEXT)
+        axes.spines[side].set_color(TEXT)
+    axes.tick_params(colors=TEXT)
+    axes.xaxis.label.set_color(TEXT)
+    axes.yaxis.label.set_color(TEXT)
     axes.patch.set_visible(False)
     return figure, axes
 
 
-def _svg(figure, label: str) -> str:
+def to_svg(figure, label: str) -> str:
     """An <svg> element for HTML: no prolog, no namespaces (HTML has them built in), no metadata."""
     import matplotlib
 
@@ -92,7 +92,7 @@ def _svg(figure, label: str) -> str:
     svg = re.sub(r'(<svg) height="[^"]*"', r"\1", svg)
     svg = re.sub(r'(<svg[^>]*) width="[^"]*"', rf'\1 role="img" aria-label="{label}"', svg, count=1)
     svg = re.sub(r"font-family: [^;\"]*|font: ([\d.]+px) [^;\"]*", _page_font, svg)
-    return svg.replace(_TEXT, "currentColor")
+    return svg.replace(TEXT, "currentColor")
 
 
 def _page_font(match: re.Match) -> str:

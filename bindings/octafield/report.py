@@ -42,17 +42,22 @@ def render_report(sections: list[InputSection]) -> str:
     """The page. Links to files are relative to the folder it lies in."""
     rows = [row for section in sections for row in section.rows]
     names = ", ".join(section.name for section in sections)
-    template = Template(resources.files(__package__).joinpath("report_template.html").read_text(encoding="utf-8"))
     runs = "1 run" if len(rows) == 1 else f"{len(rows)} runs"
     links = "; ".join(f'<a href="{name}">{name}</a>' for name in ("results.json", "results.csv"))
-    return template.substitute(
-        title=f"Frame fields on {html.escape(names)}",
-        subtitle=f"{runs}, octafield {html.escape(rows[0]['version'])}. Runs on an input share its mesh. {links}.",
-        summary=_summary_table(sections),
-        columns=_column_notes(),
-        sections="\n".join(_section(section) for section in sections),
-        options=_options(rows),
-    )
+    subtitle = f"{runs}, octafield {html.escape(rows[0]['version'])}. Runs on an input share its mesh. {links}."
+    body = f"""<h2 class="first">Summary</h2>
+<div class="scroll">{_summary_table(sections)}</div>
+<details><summary>What the columns mean</summary>{_column_notes()}</details>
+{"".join(map(_section, sections))}
+<h2>Options and versions</h2>
+{_options(rows)}"""
+    return page(f"Frame fields on {html.escape(names)}", subtitle, body)
+
+
+def page(title: str, subtitle: str, body: str) -> str:
+    """A page of HTML parts in the style of all reports; tables of class main sort by a click on a head."""
+    template = Template(resources.files(__package__).joinpath("report_template.html").read_text(encoding="utf-8"))
+    return template.substitute(title=title, subtitle=subtitle, body=body)
 
 
 def _summary_table(sections: list[InputSection]) -> str:
@@ -108,7 +113,7 @@ def _section(section: InputSection) -> str:
     )
     return f"""<h2 id="{html.escape(section.slug)}">{html.escape(section.name)}</h2>
 <p class="note">{facts}</p>{f"<ul>{notes}</ul>" if notes else ""}
-<div class="figures">{pictures[0]}<div>{plots}</div>{"".join(pictures[1:])}</div>
+<div class="figures">{"".join(pictures[:1])}<div>{plots}</div>{"".join(pictures[1:])}</div>
 {_seconds_table(section.rows)}
 <h3>Files</h3>
 {_file_links(section.rows)}"""

@@ -1,9 +1,12 @@
 """What all pictures share: colours, camera, rendering without a display, PNG bytes of bounded size."""
 
+import ctypes
 import io
 import os
 
 import numpy as np
+
+from .errors import IoError
 
 if not os.environ.get("DISPLAY"):  # before VTK picks a window: no attempt to reach an X server, no warning about it
     os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
@@ -18,7 +21,27 @@ SIZE = (1200, 900)
 MOST_BYTES = 400_000
 
 
+NO_OPENGL = "pictures need the library EGL or OSMesa (Debian: apt-get install libegl1 libosmesa6)"
+
+
+def can_draw() -> bool:
+    """Whether VTK finds what it draws with; without, it ends the process."""
+    if os.environ.get("DISPLAY") and _loads("libX11.so.6") and _loads("libGL.so.1"):
+        return True
+    return any(map(_loads, ("libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so")))
+
+
+def _loads(library: str) -> bool:
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
+
+
 def plotter() -> pyvista.Plotter:
+    if not can_draw():
+        raise IoError(NO_OPENGL, "no_opengl")
     pyvista.OFF_SCREEN = True
     scene = pyvista.Plotter(off_screen=True, window_size=SIZE, lighting="none")
     for place, strength in (

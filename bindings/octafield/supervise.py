@@ -64,7 +64,7 @@ def _be_the_child(work: Callable[[], int], reading: int, writing: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal sends Ctrl-C to both; the parent decides
     for number in _ENDINGS:
         signal.signal(number, signal.SIG_DFL)
-    _die_with_parent()
+    die_with_parent()
     os.close(reading)
     on_staging(lambda path, alive: os.write(writing, os.fsencode(f"{'+' if alive else '-'}{path}\0")))
     code = DEFECT
@@ -76,7 +76,7 @@ def _be_the_child(work: Callable[[], int], reading: int, writing: int) -> None:
         os._exit(code)
 
 
-def _die_with_parent() -> None:
+def die_with_parent() -> None:
     try:
         ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
     except (OSError, AttributeError):

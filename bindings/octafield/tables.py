@@ -46,6 +46,13 @@ def show_info(record: dict) -> None:
     )
 
 
+def show_doctor(record: dict) -> None:
+    facts = [(name, str(value)) for name, value in record["versions"].items()]
+    facts += [("cores", str(record["cores"])), ("memory", f"{record['memory_gb']:g} GB")]
+    _facts("octafield doctor", facts)
+    _table(["", "part", "what was found"], [[c["state"], c["name"], c["message"]] for c in record["checks"]], left=3)
+
+
 def show_registry(record: dict) -> None:
     speed = lambda entry: "varies" if entry["speed"] is None else f"{entry['speed']:.6g}"
     rows = [[r["name"], "yes" if r["rotates_linearly"] else "no", str(r["dimension"]), speed(r)] for r in record["representations"]]

@@ -289,3 +289,18 @@ def test_unpacked_input_goes_after_an_interrupt(tmp_path):
     os.kill(process.pid, signal.SIGINT)
     process.communicate(timeout=30)
     assert process.returncode == 130 and list(scratch.iterdir()) == []
+
+
+def test_doctor_finds_this_installation_sound(tmp_path):
+    octafield("doctor", "--json", tmp_path / "d.json", "-q", check=0)
+    record = json.loads((tmp_path / "d.json").read_text())
+    assert record["ok"] and {c["state"] for c in record["checks"]} <= {"pass", "not installed"}
+    assert "smoothing (Ceres)" in {c["name"] for c in record["checks"] if c["state"] == "pass"}
+
+
+def test_view_draws_the_folder_of_a_field_and_refuses_others(tmp_path):
+    octafield("field", write_sphere(tmp_path), "-o", tmp_path / "out", "-q", check=0)
+    octafield("view", tmp_path / "out", "-o", tmp_path / "curves.png", check=0)
+    assert (tmp_path / "curves.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    assert "surface.vtp: no such file" in octafield("view", tmp_path, "-o", tmp_path / "x.png", check=2).stderr
+    assert not (tmp_path / "x.png").exists()

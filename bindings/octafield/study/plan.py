@@ -1,0 +1,122 @@
+"""From a description to the list of runs, each with its key."""
+
+import dataclasses
+import glob
+import hashlib
+import itertools
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..errors import InvalidInput
+from ..options import FieldOptions
+from ..phases import octafield_version
+from .description import FromFile, Generated, Study, field_options, mesh_options
+
+
+@dataclass(frozen=True)
+class Run:
+    """One field to compute. source: a path, or {"generator": name, "with": {...}}. name: of the input, unique in the study.
+    key: 20 hexadecimal digits of the SHA-256 of the input's content, the options but threads, the repeat and octafield's version."""
+
+    key: str
+    name: str
+    source: str | dict
+    options: FieldOptions
+    repeat: int
+
+    @property
+    def group(self) -> tuple:
+        """Runs of equal group share their mesh and cross field."""
+        mesh = {f.name: getattr(self.options, f.name) for f in dataclasses.fields(FieldOptions) if f.name in _SHARED}
+        return (self.name, json.dumps(mesh, sort_keys=True))
+
+    def to_json(self) -> dict:
+        return {**dataclasses.asdict(self), "options": dataclasses.asdict(self.options)}
+
+    @classmethod
+    def from_json(cls, content: dict) -> "Run":
+        return cls(**{**content, "options": FieldOptions(**content["options"])})
+
+
+_SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))
+
+
+def plan(study: Study, *, threads: int = 1) -> list[Run]:
+    """Every combination, inputs outermost, in the order of the file. Raises InvalidInput where a file or glob is not there."""
+    runs: list[Run] = []
+    taken: set[str] = set()
+    for entry in study.inputs:
+        for source, stem, digest in _sources(study, entry):
+            name = _unique(stem, taken)
+            runs += _runs_on(study, entry, source, name, digest, threads)
+    runs = list({run.key: run for run in reversed(runs)}.values())[::-1]  # an input that two globs name runs once
+    if not runs:
+        raise InvalidInput("skip leaves nothing to run; remove a rule", "bad_study")
+    return runs
+
+
+def groups(runs: list[Run]) -> list[list[Run]]:
+    """Runs that share a mesh and cross field, in their order."""
+    found: dict[tuple, list[Run]] = {}
+    for run in runs:
+        found.setdefault(run.group, []).append(run)
+    return list(found.values())
+
+
+def _runs_on(study: Study, entry, source, name: str, digest: str, threads: int) -> list[Run]:
+    mesh = mesh_options(study, entry)
+    result = []
+    for seed in study.seeds:
+        for values in itertools.product(*study.runs.values()):
+            chosen = dict(zip(study.runs, values, strict=True))
+            if any(all(chosen[key] == value for key, value in rule.items()) for rule in study.skip):
+                continue
+            options = field_options(mesh, chosen, seed, threads)
+            for repeat in range(study.repeats):
+                result.append(Run(_key(digest, options, repeat), name, source, options, repeat))
+    return result
+
+
+def _key(digest: str, options: FieldOptions, repeat: int) -> str:
+    content = {k: v for k, v in dataclasses.asdict(options).items() if k != "threads"}
+    text = json.dumps([digest, content, repeat, octafield_version()], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:20]
+
+
+def _sources(study: Study, entry: FromFile | Generated):
+    """(source, stem of a name, digest of the content) of each input that an entry stands for."""
+    if isinstance(entry, Generated):
+        spec = {"generator": entry.generator, "with": dict(sorted(entry.with_.items()))}
+        numbers = "".join(f" {name} {value:g}" for name, value in spec["with"].items())
+        yield spec, entry.generator + numbers, json.dumps(spec)
+        return
+    pattern = str(study.folder / entry.file)
+    paths = [pattern] if Path(pattern).is_file() else sorted(glob.glob(pattern, recursive=True))
+    paths = [path for path in paths if Path(path).is_file()]
+    if not paths:
+        raise InvalidInput(f"{entry.file}: no such file under {study.folder}", "no_such_input")
+    for path in paths:
+        yield path, _stem(path), _digest(Path(path))
+
+
+def _stem(path: str) -> str:
+    return Path(path).name.removesuffix(".gz").rsplit(".", 1)[0]
+
+
+def _digest(path: Path) -> str:
+    """Of the content and of the companion file of TetGen's pairs."""
+    with path.open("rb") as file:
+        sha = hashlib.file_digest(file, "sha256")
+    for one, other in ((".node", ".ele"), (".ele", ".node")):
+        if one in path.suffixes and (twin := path.with_name(path.name.replace(one, other))).is_file():
+            sha.update(twin.read_bytes())
+    return sha.hexdigest()
+
+
+def _unique(stem: str, taken: set[str]) -> str:
+    number, name = 2, stem
+    while name in taken:
+        number, name = number + 1, f"{stem} {number}"
+    taken.add(name)
+    return name

@@ -1,0 +1,36 @@
+"""What the folder of a study holds."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from .plan import plan
+from .store import Store
+
+
+@dataclass(frozen=True)
+class Status:
+    """How many runs of a study are done, failed (the input or an option is at fault; the record's message says how),
+    crashed (their process died) and open."""
+
+    done: int
+    failed: int
+    crashed: int
+    open: int
+
+    @property
+    def total(self) -> int:
+        return self.done + self.failed + self.crashed + self.open
+
+
+def rows(folder: str | Path) -> list[dict]:
+    """Records of the finished runs of the study, in the order of its description; state: done, failed or crashed."""
+    store = Store(folder)
+    known = store.entered()
+    return [known[run.key] for run in plan(store.study()) if run.key in known]
+
+
+def status(folder: str | Path) -> Status:
+    store = Store(folder)
+    known = store.entered()
+    states = [known[run.key]["state"] if run.key in known else "open" for run in plan(store.study())]
+    return Status(*(states.count(state) for state in ("done", "failed", "crashed", "open")))

@@ -1,0 +1,118 @@
+"""The command line of studies: octafield study run, resume, status, report."""
+
+import dataclasses
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import console
+from .cli_options import Json, Quiet, Verbose
+from .console import carry_out, log
+
+app = typer.Typer(no_args_is_help=True, help="Comparisons described by a file: run, resume after any interruption, report.")
+
+Folder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a study.")]
+Jobs = Annotated[int, typer.Option(metavar="N", help="Processes at once; 0: one per core.")]
+RunThreads = Annotated[int, typer.Option("--threads", metavar="N", help="Threads of each run; 0: all. Results do not depend on it.")]
+Memory = Annotated[float, typer.Option(metavar="GB", help="That all processes may be expected to need; 0: four fifths of the machine's.")]
+Scheduler = Annotated[str, typer.Option(metavar="ADDRESS", help="Dask scheduler whose workers do the runs; they must see DIR and the inputs.")]
+Retry = Annotated[bool, typer.Option("--retry", help="Try runs that failed again.")]
+
+
+@app.command()
+def run(
+    description: Annotated[Path, typer.Argument(metavar="FILE", help="Description of the study (.yaml).")],
+    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of the study; an earlier one is continued.")],
+    jobs: Jobs = 0,
+    threads: RunThreads = 1,
+    memory: Memory = 0,
+    scheduler: Scheduler = "",
+    retry: Retry = False,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Carries out what DIR does not hold yet, then writes report.html there."""
+
+    def work() -> None:
+        from .study.description import load
+
+        _run(load(description), output, jobs, threads, memory, scheduler, retry, json, quiet)
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def resume(
+    folder: Folder,
+    jobs: Jobs = 0,
+    threads: RunThreads = 1,
+    memory: Memory = 0,
+    scheduler: Scheduler = "",
+    retry: Retry = False,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """As run, with the description kept in DIR."""
+
+    def work() -> None:
+        from .study.store import Store
+
+        _run(Store(folder).study(), folder, jobs, threads, memory, scheduler, retry, json, quiet)
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def status(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """How many runs are done, failed, crashed and open; with --json also the records of the finished ones."""
+
+    def work() -> None:
+        from .study import results
+
+        _tell(results.status(folder), folder, json, quiet)
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def report(folder: Folder, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """Writes report.html and tables/ from the runs finished so far."""
+
+    def work() -> None:
+        from .study.report import write_report
+
+        log.info("wrote %s", write_report(folder))
+
+    carry_out(work, quiet, verbose, None)
+
+
+def _run(study, folder, jobs, threads, memory, scheduler, retry, json, quiet) -> None:
+    from .study.engine import run as run_study
+    from .study.report import write_report
+
+    with console.progress_bar(quiet) as progress:
+        outcome = run_study(
+            study, folder, jobs=jobs, threads=threads, memory_mb=1000 * memory, scheduler=scheduler, retry=retry, progress=progress
+        )
+        if progress:
+            progress("report", -1.0, float("nan"))
+        page = write_report(folder)
+    log.info("%d runs now, %d before", len(outcome.computed), outcome.status.total - len(outcome.computed))
+    _tell(outcome.status, folder, json, quiet)
+    log.info("wrote %s", page)
+
+
+def _tell(status, folder, json, quiet) -> None:
+    from .study.results import rows
+
+    known = rows(folder)
+    if json:
+        console.put_json(json, {**dataclasses.asdict(status), "runs": known})
+    if json != "-" and not quiet:
+        typer.echo(f"{status.done} done, {status.failed} failed, {status.crashed} crashed, {status.open} open")
+    for row in known:
+        if row["state"] != "done":
+            log.info("%s, %s: %s", row["input"], row["options"]["representation"], row["message"])

@@ -1,0 +1,109 @@
+"""The documentation builds without a warning, and what it shows runs."""
+
+import doctest
+import importlib
+import os
+import pkgutil
+import re
+import subprocess
+import sys
+
+import pytest
+import yaml
+from docs_blocks import ROOT, blocks, python_of, run_page
+
+import octafield
+
+DOCS = ROOT / "docs"
+PAGES = {str(page.relative_to(ROOT)): page for page in [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]}
+RUN = [name for name, page in PAGES.items() if any(b.is_command or b.language == "python" for b in blocks(page)) and name != "README.md"]
+MODULES = [m.name for m in pkgutil.walk_packages(octafield.__path__, "octafield.") if not m.name.endswith(("__main__", "_core"))]
+
+
+def test_the_pages_meant_to_run_do_have_blocks():
+    assert {"docs/first_steps.md", "docs/concepts.md", "docs/studies.md", "docs/reproducibility.md", "docs/install.md"} <= set(RUN)
+
+
+@pytest.mark.parametrize("name", RUN)  # README.md: test_readme.py
+def test_the_blocks_of_a_page_run_as_printed(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert run_page(PAGES[name]) > 0
+
+
+def test_a_page_that_says_something_else_than_its_code_prints_is_found(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    page = tmp_path / "page.md"
+    page.write_text('```python\nprint(1 + 1)\n```\n\n```text title="output"\n2\n```\n')
+    assert run_page(page) == 1
+    page.write_text(page.read_text().replace("\n2\n", "\n3\n"))
+    with pytest.raises(AssertionError, match="page.md:6"):
+        run_page(page)
+    page.write_text("```sh\noctafield info nowhere.stl\n```\n")
+    with pytest.raises(AssertionError, match="page.md:2.*nowhere.stl"):
+        run_page(page)
+
+
+def test_the_python_of_the_pages_passes_mypy_strict(tmp_path):
+    for name, page in PAGES.items():
+        if text := python_of(page):
+            (tmp_path / (re.sub(r"\W", "_", name) + ".py")).write_text(text)
+    command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", f"--cache-dir={ROOT / '.mypy_cache'}", "."]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize("name", ["octafield", *MODULES])
+def test_examples_in_docstrings_run(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = doctest.testmod(importlib.import_module(name))
+    assert found.failed == 0
+    if name in ("octafield", "octafield.study", "octafield.interop"):
+        assert found.attempted > 2
+
+
+def test_every_public_name_is_on_one_page_of_the_api():
+    pages = (DOCS / "api" / "python").glob("*.md")
+    shown = [name for page in pages for name in re.findall(r"^::: octafield\.(?:compare\.)?(\w+)$", page.read_text(), flags=re.MULTILINE)]
+    public = set(octafield.__all__) - {"__version__"}
+    assert {"missing": public - set(shown), "unknown": set(shown) - public} == {"missing": set(), "unknown": set()}
+    assert len(shown) == len(set(shown))
+
+
+def test_the_citation_names_this_version():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text())
+    assert citation["version"] == octafield.__version__
+    assert citation["license"] in (ROOT / "pyproject.toml").read_text()
+    assert f"version = {{{octafield.__version__}}}" in (DOCS / "cite.md").read_text()
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    for module in ("mkdocs", "material", "mkdocstrings", "black"):
+        pytest.importorskip(module, reason="pip install -r requirements-docs.txt")
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "-d", str(folder)]
+    quiet = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}  # a notice about the theme's future, not about these pages
+    done = subprocess.run(command, cwd=ROOT, env=quiet, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert "WARNING" not in done.stderr and "ERROR" not in done.stderr, done.stderr
+    return folder
+
+
+def test_the_site_builds_without_warnings_and_needs_no_network(site):
+    pages = {page.relative_to(site).as_posix(): page.read_text() for page in site.rglob("*.html")}
+    assert len(pages) > 70
+    loaded = r'<(?:script|img|iframe|source)\b[^>]*\bsrc="(https?:)?//|<link\b[^>]*\brel="(?:stylesheet|preconnect|preload)"[^>]*\bhref="(https?:)?//'
+    assert [name for name, text in pages.items() if re.search(loaded, text)] == []
+    assert not re.search(r"url\((https?:)?//|@import", "".join(sheet.read_text() for sheet in site.rglob("*.css")))
+
+
+def test_the_api_pages_show_docstrings_of_the_compiled_module(site):
+    def words(page):
+        return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", (site / page).read_text()))
+
+    assert "(n, 9) sh4 vectors of (n, 4) unit quaternions w x y z" in words("api/python/frames.html")
+    assert "The same, (n, 15), with (n, 3) axis lengths." in words("api/python/frames.html")  # an overload
+    assert "int32 vertex ids, 0-based, counter-clockwise seen from outside" in words("api/python/meshes.html")  # a field
+    assert "max_iterations: int = 200" in words("api/python/volume_fields.html")  # a default read from C++
+    assert "What every embedding of frames into R^d offers" in words("api/cpp.html")
+    assert "static_assert(frames::Equivariant&lt;Sh6&gt;)" in words("add_representation.html")
