@@ -133,7 +133,8 @@ template <frames::Representation R>
 Quaternions Solver<R>::turned(const Quaternions& frames) const {
     Quaternions result(frames.rows(), 4);
     parallel_for(frames.rows(), options_.threads, [&](std::int64_t v) {
-        const Vector3 w = step_.row(v).transpose().template cast<double>();
+        // A step in single precision is beside its axis by its rounding.
+        const Vector3 w = model_.template allowed<double>(v, step_.row(v).transpose().template cast<double>());
         // An unmoved frame keeps its bits.
         if (w.isZero(0)) {
             result.row(v) = frames.row(v);
