@@ -104,7 +104,8 @@ def _summary_row(results: _Results, method: str, angles: dict[str, np.ndarray]) 
     own = np.array(results.values(lambda r: r["energy"])[method])
     counted = np.isfinite(own) & (best > _NO_ENERGY)
     ratio = float(np.exp(np.mean(np.log(own[counted] / best[counted])))) if counted.any() else None
-    total = lambda key: sum(row[key] for row in of)  # noqa: E731
+    # Frames in tets have no meshability.
+    total = lambda key: sum(row[key] for row in of) if all(key in row for row in of) else None  # noqa: E731
     failed = sum(row["method"] == method and row["state"] != "done" for row in results.rows)
     return (
         method, len(of), failed, ratio, int(np.sum(np.isfinite(own) & (own <= best * 1.0001 + _NO_ENERGY))), total("singular_edges"),
@@ -119,7 +120,7 @@ def _run_row(row: dict) -> tuple:
         return (*head, *[None] * (len(_RUN_COLUMNS) - len(head)))
     names = ("vertices", "tets", "energy", "singular_edges", "complex_edges", "non_meshable_vertices")
     return (
-        *head, *(row[name] for name in names), row["alignment_deg"]["max"], row["iterations"], row["cpu_seconds"]["smooth"],
+        *head, *(row.get(name) for name in names), row["alignment_deg"]["max"], row["iterations"], row["cpu_seconds"]["smooth"],
         total_seconds(row, "cpu_seconds"), row["peak_mb"],
     )  # fmt: skip
 
