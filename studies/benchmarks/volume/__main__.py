@@ -3,7 +3,7 @@
     python -m studies.benchmarks.volume -o DIR [--data ../shared/data] [--balls 12,20,32,44] [--seeds 10] [--part energies] ...
 
 DIR gets benchmarks.md, representations.md (every file in every representation) and a folder per part. Without --part: all of energies,
-growth, parts, split; a part that was not run keeps the tables it left in DIR.
+growth, parts, large, split; a part that was not run keeps the tables it left in DIR.
 """
 
 import argparse
@@ -31,6 +31,8 @@ def run_part(part: str, a) -> None:
         growth.main([str(hexme / "i16c.vtk.gz"), "-o", str(folder), "--balls", a.balls])
     elif part == "parts":
         parts.main([str(hexme), "-o", str(folder), "--representations", "all", "--skip", "i16c"])
+    elif part == "large":
+        parts.main([str(hexme), "-o", str(folder), "--representations", "all", "--recipe-only", "--only", "i16c"])
     else:
         parts.main([str(hexme), "-o", str(folder), "--split", "--skip", "i16c"])
     (folder / "when.md").write_text(f"{datetime.date.today()}, {machine()}, octafield {octafield_version()}, commit {commit()}.\n")
@@ -57,7 +59,7 @@ def page(template: str, folder: Path) -> str:
 
 
 def main() -> None:
-    known = ("energies", "growth", "parts", "split")
+    known = ("energies", "growth", "parts", "large", "split")
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--data", type=Path, default=Path(__file__).resolve().parents[4] / "shared" / "data")

@@ -119,20 +119,20 @@ def summary_rows(rows: list[list]) -> list[tuple]:
     return result
 
 
-def measure(path: Path, options: FieldOptions, representations: list[str]) -> tuple[list, list[list]]:
+def measure(path: Path, options: FieldOptions, representations: list[str], alone: bool = True) -> tuple[list, list[list]]:
     """The line of fields.md and those of representations.md."""
     meshed = prepare_mesh(path, options)
     problem = prepare(meshed)
     reference = run(problem, options)
     lines = []
-    for rounds in (options.rounds, 0) if representations else ():
+    for rounds in (options.rounds, 0) if alone else (options.rounds,):
         for name in representations:
             chosen = replace(options, representation=name, rounds=rounds)
             lines.append(representation_row(path, meshed, run(problem, chosen), reference))
     return row_of(path, meshed, reference), lines
 
 
-def measure_folder(folder: Path, output: Path, options: FieldOptions, representations=(), skip=(), only=()) -> None:
+def measure_folder(folder: Path, output: Path, options: FieldOptions, representations=(), skip=(), only=(), alone=True) -> None:
     """Writes the tables after every file, so that an interrupted run leaves those of the files before."""
     output.mkdir(parents=True, exist_ok=True)
     rows, lines = [], []
@@ -140,7 +140,7 @@ def measure_folder(folder: Path, output: Path, options: FieldOptions, representa
         if (skip and path.name.startswith(skip)) or (only and not path.name.startswith(only)):
             continue
         try:
-            row, more = measure(path, options, list(representations))
+            row, more = measure(path, options, list(representations), alone)
             lines.extend(more)
         except octafield.Error as error:
             row = [name_of(path), f"{type(error).__name__}: {error}"]
@@ -171,6 +171,7 @@ def main(arguments=None) -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--representations", default="", help="names with commas, or all")
+    parser.add_argument("--recipe-only", action="store_true", help="no runs from the linear start")
     parser.add_argument("--split", action="store_true", help="split locking tets first")
     parser.add_argument("--skip", default="", help="beginnings of file names, with commas")
     parser.add_argument("--only", default="", help="beginnings of file names, with commas")
@@ -179,7 +180,7 @@ def main(arguments=None) -> None:
     a = parser.parse_args(arguments)
     options = FieldOptions(split=a.split, feature_tolerance=np.radians(a.feature_tolerance), threads=a.threads)
     representations = COMPARED if a.representations == "all" else names(a.representations)
-    measure_folder(a.folder, a.output, options, representations, names(a.skip), names(a.only))
+    measure_folder(a.folder, a.output, options, representations, names(a.skip), names(a.only), not a.recipe_only)
 
 
 if __name__ == "__main__":
