@@ -78,8 +78,6 @@ def test_the_citation_names_this_version():
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    for module in ("mkdocs", "material", "mkdocstrings", "black"):
-        pytest.importorskip(module, reason="pip install -r requirements-docs.txt")
     folder = tmp_path_factory.mktemp("site")
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "-d", str(folder)]
     quiet = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}  # a notice about the theme's future, not about these pages

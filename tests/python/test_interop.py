@@ -71,7 +71,8 @@ def test_results_have_a_short_repr_a_picture_for_notebooks_and_pickle(result):
 
 
 def test_records_become_a_data_frame(result):
-    pandas = pytest.importorskip("pandas")
+    import pandas
+
     frame = octafield.to_pandas([result.record, result.record])
     assert isinstance(frame, pandas.DataFrame) and list(frame["energy"]) == [result.record["energy"]] * 2
     assert "cpu_seconds_smooth" in frame.columns

@@ -190,7 +190,6 @@ def test_cancelling_keeps_what_is_finished(described, tmp_path):
 
 
 def test_two_dask_workers_one_killed_lose_and_double_nothing(undisturbed, described, tmp_path):
-    pytest.importorskip("distributed")
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     dask = [sys.executable, "-m", "dask"]
     address = tmp_path / "scheduler.json"
