@@ -1,5 +1,7 @@
 """Pictures of a report: cross field on the surface, singular curves in the volume, frames on a cut."""
 
+import io
+from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 
@@ -8,11 +10,11 @@ import pyvista
 
 from . import _core, scene
 from .pipeline import FieldResult, Problem
-from .report import Picture
 from .results import polylines
 
 MOST_CROSSES = 4000
 MOST_CUBES = 1500
+PAGE_SIZE = (960, 720)
 CUT = "#f6ecd6"
 TURNS = {
     1: (scene.VERMILLION, "valence 3 (index +1/4)"),
@@ -20,6 +22,28 @@ TURNS = {
     2: (scene.GREEN, "valence 2 or 6 (index \N{PLUS-MINUS SIGN}1/2)"),
     0: (scene.PURPLE, "complex: no hex mesh has it"),
 }
+
+
+@dataclass
+class Picture:
+    """A rendered picture with a caption stating facts from the data and a legend of (colour, meaning)."""
+
+    title: str
+    caption: str
+    png: bytes
+    legend: list[tuple[str, str]] = field(default_factory=list)
+
+    @property
+    def small(self) -> bytes:
+        """PNG for a page: half as wide as the page is, in fewer colours."""
+        from PIL import Image
+
+        with Image.open(io.BytesIO(self.png)) as image:
+            image = image.convert("RGB")
+        image.thumbnail(PAGE_SIZE, Image.Resampling.LANCZOS)
+        data = io.BytesIO()
+        scene.fewer_colours(image, 96).save(data, "PNG", optimize=True)
+        return data.getvalue()
 
 
 def surface_cross_field(problem: Problem) -> Picture:

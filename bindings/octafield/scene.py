@@ -157,13 +157,13 @@ def render(scene: pyvista.Plotter) -> bytes:
         )
     for colours in (0, 256, 64):
         data = io.BytesIO()
-        (_fewer_colours(image, colours) if colours else image).save(data, "PNG", optimize=True)
+        (fewer_colours(image, colours) if colours else image).save(data, "PNG", optimize=True)
         if data.tell() <= MOST_BYTES:
             break
     return data.getvalue()
 
 
-def _fewer_colours(image, colours: int):
+def fewer_colours(image, colours: int):
     """`colours` that fit the picture best, found on every ninth pixel: the time is mostly theirs."""
     from PIL import Image
 
