@@ -14,7 +14,7 @@ from .results import polylines
 
 MOST_CROSSES = 4000
 MOST_CUBES = 1500
-PAGE_SIZE = (960, 720)
+PAGE_SIZE = (1100, 825)
 CUT = "#f6ecd6"
 TURNS = {
     1: (scene.VERMILLION, "valence 3 (index +1/4)"),
@@ -35,14 +35,14 @@ class Picture:
 
     @property
     def small(self) -> bytes:
-        """PNG for a page: half as wide as the page is, in fewer colours."""
+        """PNG for a page: no wider than a column needs, in few colours."""
         from PIL import Image
 
         with Image.open(io.BytesIO(self.png)) as image:
             image = image.convert("RGB")
         image.thumbnail(PAGE_SIZE, Image.Resampling.LANCZOS)
         data = io.BytesIO()
-        scene.fewer_colours(image, 96).save(data, "PNG", optimize=True)
+        scene.fewer_colours(image, 128).save(data, "PNG", optimize=True)
         return data.getvalue()
 
 

@@ -73,10 +73,10 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
     _of("max", ".2f", "its maximum", _DEG, "alignment_deg.max"),
     _of("features", ".2f", "largest angle between a feature curve and the nearest frame axis, corners included", _DEG, "feature_alignment_deg.max", terminal=False),
     _of(
-        "jump", ".3g",
+        "axis jump", ".3g",
         "jump of the axes along the face between two tets, root mean square: 0 for gradients of a map, of the order of the mesh "
         "width on smooth fields; compare on one mesh only",
-        "integrability", "integrability.jump_rms", terminal=False,
+        "", "integrability.jump_rms", terminal=False,
     ),
     _of("iterations", "d", "diffusion steps and iterations of smoothing", key="iterations"),
     _of("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads", "seconds", "cpu_seconds.smooth"),
@@ -87,13 +87,14 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
 
 
 def run_table(results: Results, runs: list[Run], *, files: bool = False) -> Table:
-    """A line per run. files: with links to its files, for the page only."""
+    """A line per run, those on one problem together. files: with links to their files, for the page only."""
+    runs = sorted(runs, key=lambda run: (results.rank(run), run.repeat))
     columns = [column for column in RUN_COLUMNS if column.page]
     rows = [[column.value(results, run) for column in columns] for run in runs]
     if files:
         columns = [*columns, Column("files")]
         rows = [[*row, _links(run)] for row, run in zip(rows, runs, strict=True)]
-    return Table("runs", columns, rows).without_dull("repeat", "state", *(["input"] if files else []))
+    return Table("runs", columns, rows).without_dull("repeat", "state", *(["input", "seed"] if files else []))
 
 
 def _links(run: Run) -> list[Link]:

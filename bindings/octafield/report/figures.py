@@ -116,11 +116,16 @@ def deviation_plot(angles: Mapping[Method, np.ndarray], first: Method, salt: str
     return to_svg(figure, "angles between fields", salt)
 
 
+def is_wide(results: Results, problems: Sequence[Problem]) -> bool:
+    """Whether the plot of convergence takes the whole width."""
+    return len(problems) > 1 or len(results.methods) > 8
+
+
 def convergence_plot(results: Results, problems: Sequence[Problem], salt: str = "") -> str:
     """Energy against iteration, a panel per problem on common axes."""
     methods = [m for m in results.methods if any(results.field(m, p) for p in problems)]
     style = styles(methods)
-    figure, panels = new_figure(_WIDE if len(problems) > 1 else _HALF, 3.5 + 0.24 * (1 + len(methods) // 8), len(problems), sharex=True, sharey=True)
+    figure, panels = new_figure(_WIDE if is_wide(results, problems) else _HALF, 3.5 + 0.24 * (1 + len(methods) // 8), len(problems), sharex=True, sharey=True)
     longest, shared = 1, {}
     for axes, problem in zip(panels, problems, strict=True):
         curves = {m: run.row["energy_history"] for m in methods if (run := results.field(m, problem)) is not None}
@@ -168,7 +173,7 @@ def seconds_plot(labels: Sequence[str], runs: Sequence[Run], salt: str = "") -> 
     axes.set_ylim(len(runs) - 0.4, -0.6)
     axes.set_xlabel("seconds by the clock")
     axes.grid(axis="x", alpha=0.25, linewidth=0.6)
-    _legend(figure, axes.get_legend_handles_labels()[0])
+    _legend(figure, [_handle(color=colour, linewidth=7, label=phase) for phase, colour in zip(PHASES, PALETTE, strict=False)])
     return to_svg(figure, "seconds per phase", salt)
 
 
@@ -209,5 +214,6 @@ def _handle(**options):
 
 
 def _legend(figure, handles: list) -> None:
-    columns = max(2, min(len(handles), int(figure.get_figwidth() / 1.3)))
+    widest = max(len(handle.get_label()) for handle in handles)
+    columns = max(1, min(len(handles), int(figure.get_figwidth() / (0.6 + 0.085 * widest))))
     figure.legend(handles=handles, frameon=False, labelcolor=TEXT, loc="outside lower center", ncols=columns)

@@ -28,19 +28,19 @@ def scope(results: Results, open_runs: int, cite: str) -> str:
     variants = list(dict.fromkeys(method.variant or "default" for method in results.methods))
     representations = list(dict.fromkeys(method.representation for method in results.methods))
     if len(variants) > 1 and len(representations) * len(variants) == len(results.methods):
-        methods = f"{counted(len(results.methods), 'method')}, {counted(len(representations), 'representation')} ({listed(representations)}) in {len(variants)} variants ({listed(variants)}),"
+        methods = f"{counted(len(results.methods), 'method')}, {counted(len(representations), 'representation')} ({listed(representations)}) in {len(variants)} variants each ({listed(variants)}),"
     if len(results.methods) == 1:
         text = [sentence(f"One method, {names}, is applied to {where}: {runs} {cite}")]
     else:
-        text = [sentence(f"{methods} are compared on {where}: {runs} on {problems} {cite}")]
+        text = [sentence(f"the comparison covers {methods} on {where}: {runs} on {problems} {cite}")]
         text.append("A problem is an input with a boundary treatment and a seed; its fields share one mesh, and energies are compared within a problem only.")
     states = [run.state for run in results.runs]
     counts = {word: states.count(word) for word in ("failed", "crashed")}
     if any(counts.values()):
         without = listed(f"{count} {word}" for word, count in counts.items() if count)
-        text.append(sentence(f"{states.count('done')} of the {runs} ended with a field; {without}"))
+        text.append(sentence(f"a field was obtained in {states.count('done')} of the {runs}; {without} {cite}"))
     if open_runs:
-        text.append(sentence(f"{counted(open_runs, 'run')} {_verb(open_runs, 'has', 'have')} not been carried out yet"))
+        text.append(sentence(f"not carried out yet: {counted(open_runs, 'run')}"))
     return " ".join(text)
 
 
@@ -76,7 +76,7 @@ def _energy_in(setting: Setting, lines: list[Line], cite: str) -> str:
     else:
         text.append(_ranking(where, complete, problems, cite))
     if lines[0].zero and complete and complete[0].ratio is not None:
-        text.append(f"{counted(lines[0].zero, 'problem')} with a lowest energy of zero, up to rounding, {_verb(lines[0].zero, 'is', 'are')} left out of the ratios")
+        text.append(f"a lowest energy of zero, up to rounding, keeps {counted(lines[0].zero, 'problem')} out of the ratios {cite}")
     missing = [line.method for line in lines if not line.complete]
     if complete and missing:
         text.append(f"not ranked, for want of a field on some problem that another method solves: {named(missing)} {cite}")
@@ -123,7 +123,7 @@ def _who_reach_zero(complete: list[Line]) -> str:
 
 
 def _on_all(problems: int) -> str:
-    return "" if problems == 1 else f" on all {counted(problems, 'problem')}"
+    return "" if problems == 1 else " on both problems" if problems == 2 else f" on all {problems:,} problems"
 
 
 def profile(profiles: dict[Method, Profile], cite: str) -> str:
@@ -139,7 +139,7 @@ def convergence(results: Results, cite: str) -> str:
     if not stopped:
         return ""
     reasons = listed(f"“{html.escape(str(reason))}”" for reason in dict.fromkeys(row.get("stop_reason", "") for row in stopped))
-    return sentence(f"{len(stopped)} of {counted(len(fields), 'field')} stopped before the tolerance was met ({reasons}) {cite}")
+    return sentence(f"the tolerance was not met by {len(stopped)} of {counted(len(fields), 'field')} ({reasons}) {cite}")
 
 
 def graphs(lines: Sequence[Line], cite: str) -> list[str]:
@@ -181,13 +181,14 @@ def distances(found: Deviations, cite: str) -> str:
     pairs = found.pairs()
     if not pairs:
         return ""
-    groups = _coinciding(found)
-    text = []
-    for group in groups:
-        if len(group) > 1:
-            within = max(high for (a, b), (_, high) in pairs.items() if a in group and b in group)
-            apart = f"within {max(within, 1e-4):.2g} degrees of each other"
-            text.append(f"the fields of {named(group, _MANY)} coincide: at 95 % of the vertices their frames are {apart} {cite}")
+    groups, text = _coinciding(found), []
+    alike = [group for group in groups if len(group) > 1]
+    if alike:
+        within = max(high for (a, b), (_, high) in pairs.items() if any(a in group and b in group for group in alike))
+        which = f"those of {named(alike[0])}" if len(alike) == 1 else "; ".join(map(named, alike))
+        if len(alike[0]) == len(found.methods):
+            which = f"those of all {counted(len(found.methods), 'method')}"
+        text.append(f"fields that coincide are {which}; at 95 % of the vertices their frames are within {max(within, 1e-4):.2g} degrees of each other {cite}")
     heads = [group[0] for group in groups]
     others = {pair: angles for pair, angles in pairs.items() if all(method in heads for method in pair)}
     if len(others) == 1:

@@ -113,6 +113,11 @@ class Results:
     def problem(self, run: Run) -> Problem:
         return self._of[run][1]
 
+    def rank(self, run: Run) -> tuple[int, ...]:
+        """Order by input, setting, seed, method."""
+        method, problem = self._of[run]
+        return self.inputs.index(problem.input), self.settings.index(problem.setting), problem.seed, self.methods.index(method)
+
     def field(self, method: Method, problem: Problem) -> Run | None:
         """The run that ended with a field, the first of its repeats."""
         return next(iter(self._fields.get((method, problem), ())), None)

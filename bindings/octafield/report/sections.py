@@ -90,7 +90,7 @@ def _results(content: Content, exhibits: Exhibits) -> str:
             matrix = _shaded(matrix)
         if found.drawn:
             caption = f"Angles between a field's frames and those of {html.escape(found.methods[0].name)} on the same mesh, at the vertices of all problems, in degrees: median, quartiles (box), 5th and 95th percentile (line)."
-            boxes = exhibits.figure("boxes", figures.deviation_plot(found.drawn, found.methods[0], exhibits.salt), "Distance to the first method", caption)
+            boxes = exhibits.figure("boxes", figures.deviation_plot(found.drawn, found.methods[0], exhibits.salt), "Distance to the first method", caption, "plot half")
     cite = exhibits.cite
     first = prose.energy(content.lines, cite("summary", "ratios"))
     if profiles:
@@ -178,7 +178,7 @@ def _plots(results: Results, exhibits: Exhibits, problems: Sequence[Problem]) ->
     name = problems[0].input
     more = " Panels are boundary treatments on common axes." if len(problems) > 1 else ""
     more += " First seed." if len({p.seed for p in results.problems if p.input == name}) > 1 else ""
-    kind = "plot wide" if len(problems) > 1 else "plot"
+    kind = "plot wide" if figures.is_wide(results, problems) else "plot"
     plots = [exhibits.figure(f"convergence {name}", figures.convergence_plot(results, problems, exhibits.salt), "Convergence", CONVERGENCE + more, kind)]
     shown = [(p, m, run) for p in problems for m in results.methods if (run := results.field(m, p)) is not None]
     labels = [m.name + (f" ({p.setting.name})" if len(problems) > 1 else "") for p, m, _ in shown]

@@ -51,7 +51,7 @@
     };
     stroke(outline, "#7b8794", 0.8, 0.35);
     const scene = scenes[canvas.dataset.scene];
-    for (const [kind, colour] of Object.entries(colours)) stroke(scene[kind], colour, 2, 0.45);
+    for (const [kind, colour] of Object.entries(colours)) stroke(scene[kind], colour, 2, 0.6);
     pen.fillStyle = ink; pen.globalAlpha = 1;
     for (const line of scene.nodes) for (let k = 0; k < line.length; k += 3) {
       const [u, v] = place(line, k);
