@@ -41,6 +41,7 @@ def to_svg(figure, label: str, salt: str = "") -> str:
     svg = re.sub(r' xmlns(:\w+)?="[^"]*"', "", svg)
     svg = re.sub(r"<!--.*?-->", "", svg, flags=re.DOTALL)
     svg = re.sub(r"\s*\n\s*", " ", svg)
+    svg = re.sub(r'<g id="[^"]*"', "<g", svg)  # nothing refers to groups
     svg = re.sub(r"<[^>]+>", lambda tag: re.sub(r"(-?\d+\.\d\d)\d+", r"\1", tag[0]), svg)  # coordinates, not text
     svg = re.sub(r'(<svg) height="[^"]*"', r"\1", svg)
     svg = re.sub(r'(<svg[^>]*) width="[^"]*"', rf'\1 role="img" aria-label="{label}"', svg, count=1)

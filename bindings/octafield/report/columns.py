@@ -1,6 +1,6 @@
 """The tables of a report and of the terminal: head, number format, meaning and value of each column in one place."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from .deviations import Deviations
@@ -20,8 +20,9 @@ class RunColumn(Column):
     page: bool = True
 
 
-def total_seconds(record: dict, kind: str = "wall_seconds") -> float:
-    return sum(record[kind].values())
+def preparation_seconds(record: dict) -> float:
+    """By the clock, of what the runs on an input share."""
+    return sum(record["wall_seconds"][phase] for phase in ("read", "mesh", "surface"))
 
 
 def _of(head: str, form: str, meaning: str, group: str = "", key: str = "", **more) -> RunColumn:
@@ -71,7 +72,10 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
     ),
     _of("median", ".2f", "angle between surface normal and nearest frame axis, over boundary vertices and their smooth sectors", _DEG, "alignment_deg.median"),
     _of("max", ".2f", "its maximum", _DEG, "alignment_deg.max"),
-    _of("features", ".2f", "largest angle between a feature curve and the nearest frame axis, corners included", _DEG, "feature_alignment_deg.max", terminal=False),
+    _of(
+        "features", ".2f", "largest angle between a feature curve and the nearest frame axis, corners included",
+        _DEG, "feature_alignment_deg.max", terminal=False,
+    ),
     _of(
         "axis jump", ".3g",
         "jump of the axes along the face between two tets, root mean square: 0 for gradients of a map, of the order of the mesh "
@@ -81,12 +85,15 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
     _of("iterations", "d", "diffusion steps and iterations of smoothing", key="iterations"),
     _of("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads", "seconds", "cpu_seconds.smooth"),
     _of("smooth", ".3f", "the same by the clock", "seconds", "wall_seconds.smooth"),
-    RunColumn("total", ".2f", "all phases by the clock, those that runs share included", "seconds", lambda _, run: total_seconds(run.row) if run.done else None),
+    RunColumn(
+        "total", ".2f", "all phases by the clock, those that runs share included", "seconds",
+        lambda _, run: sum(run.row["wall_seconds"].values()) if run.done else None,
+    ),
     _of("peak MB", ",.0f", "largest resident memory of the process during the run, its libraries included", key="peak_mb"),
 )  # fmt: skip
 
 
-def run_table(results: Results, runs: list[Run], *, files: bool = False) -> Table:
+def run_table(results: Results, runs: Sequence[Run], *, files: bool = False) -> Table:
     """A line per run, those on one problem together. files: with links to their files, for the page only."""
     runs = sorted(runs, key=lambda run: (results.rank(run), run.repeat))
     columns = [column for column in RUN_COLUMNS if column.page]
@@ -114,6 +121,7 @@ def input_table(results: Results, anchors: dict[str, str]) -> Table:
         Column("boundary triangles", ",d", "of its surface"), Column("mean edge", ".4g", "of the surface, unit of the input"),
         Column("feature edges", ",d", "edges of the surface that the field follows"), Column("corners", ",d", "where feature curves meet or turn"),
         Column("Euler characteristic", "d", "of the surface; the sum of the indices of the singular points of its cross field"),
+        Column("preparation, s", ".3f", "reading, meshing and cross field on the surface, seconds by the clock, which runs share"),
         Column("runs", "d", "all runs on it"), Column("mesh", "", "first digits of the SHA-256 of the mesh"),
     )  # fmt: skip
     keys = ("vertices", "tets", "boundary_triangles", "edge_length", "feature_edges", "feature_corners")
@@ -122,7 +130,8 @@ def input_table(results: Results, anchors: dict[str, str]) -> Table:
         runs = results.on(name)
         record = next((run.row for run in runs if run.done), {})
         chi = record.get("surface_field", {}).get("euler_characteristic")
-        rows.append([Link(name, f"#{anchor}"), *(record.get(key) for key in keys), chi, len(runs), record.get("mesh_sha256")])
+        seconds = preparation_seconds(record) if record else None
+        rows.append([Link(name, f"#{anchor}"), *(record.get(key) for key in keys), chi, seconds, len(runs), record.get("mesh_sha256")])
     return Table("inputs", columns, rows)
 
 
@@ -154,6 +163,12 @@ def summary_table(results: Results, lines: list[Line], found: Deviations) -> Tab
         ))  # fmt: skip
     alone = ("over lowest", "at most", "lowest on", "mean", "95 %", "over fastest") if len(results.methods) < 2 else ()
     return Table("summary", columns, rows).without(*alone).without_empty("E")
+
+
+def failure_table(results: Results, runs: Sequence[Run]) -> Table:
+    columns = [Column(head) for head in ("input", "method", "boundary", "state", "message")]
+    rows = [[run.input, results.method(run).name, results.problem(run).setting.name, run.state, run.row.get("message", "")] for run in runs]
+    return Table("failures", columns, rows)
 
 
 def deviation_table(found: Deviations) -> Table:

@@ -82,7 +82,13 @@ def frames_of(run: Run) -> np.ndarray | None:
     import pyvista
 
     path = run.file("field.vtu")
-    return None if path is None else np.asarray(pyvista.read(path).point_data["quaternion"], float)
+    if path is None:
+        return None
+    reader = pyvista.get_reader(path)
+    reader.disable_all_cell_arrays()
+    reader.disable_all_point_arrays()
+    reader.enable_point_array("quaternion")
+    return np.asarray(reader.read().point_data["quaternion"], float)
 
 
 def _frames_on(results: Results, problem: Problem, most: int) -> tuple[dict[int, np.ndarray], bool]:
@@ -96,5 +102,5 @@ def _frames_on(results: Results, problem: Problem, most: int) -> tuple[dict[int,
             continue
         mesh = run.row["mesh_sha256"]
         step = -(-len(frames) // most)
-        found[place] = frames[::step]
+        found[place] = frames[::step].copy()
     return found, step > 1

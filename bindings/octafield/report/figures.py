@@ -18,6 +18,7 @@ COLOURS = {
 _DASHES, _MARKS = ("-", "--", ":", "-."), ("o", "s", "^", "D", "v", "P")
 _WIDE, _HALF = 12.4, 6.4  # inches: the whole width of the page, half of it
 _GREY = "#8a939d"
+_LARGEST = 1e12  # ratio that is drawn where it is
 _MOST_POINTS = 400  # of a curve
 
 
@@ -57,12 +58,13 @@ def ratio_plot(results: Results, salt: str = "") -> str:
         largest = 1.0
         for number, setting in enumerate(results.settings):
             found = ratios_to_best(quantity(results, [p for p in results.problems if p.setting == setting]))
-            shift = 0.22 * (number - (len(results.settings) - 1) / 2) / max(1, len(results.settings) - 1) * 2 if len(results.settings) > 1 else 0
+            shift = 0.22 * (2 * number / max(1, len(marks) - 1) - 1) if len(marks) > 1 else 0.0
             for place, (method, ratios) in enumerate(found.items()):
-                ratios = ratios[np.isfinite(ratios)]
+                ratios = np.minimum(ratios[np.isfinite(ratios)], _LARGEST)
                 means.setdefault(method, []).extend(ratios)
                 largest = max(largest, ratios.max(initial=1))
-                axes.plot(ratios, np.full(len(ratios), place + shift), marks[setting], color=style[method].colour, markersize=5.5, alpha=0.75, markeredgewidth=0)
+                dots = {"color": style[method].colour, "markersize": 5.5, "alpha": 0.75, "markeredgewidth": 0}
+                axes.plot(ratios, np.full(len(ratios), place + shift), marks[setting], **dots)
         for place, method in enumerate(results.methods):
             mean = geometric_mean(np.array(means.get(method, [])))
             if mean is not None:
@@ -84,9 +86,9 @@ def profile_plot(parts: Sequence[tuple[Mapping[Method, Profile], str]], salt: st
     figure, panels = new_figure(_WIDE, 3.6 + 0.24 * (1 + len(methods) // 8), len(parts), sharey=True)
     for axes, (profiles, label) in zip(panels, parts, strict=True):
         largest = max((p.ratio[-1] for p in profiles.values()), default=1.0)
-        right = 1 + (max(largest, 1.01) - 1) * 1.05
+        right = 1 + (min(max(largest, 1.01), _LARGEST) - 1) * 1.05
         for method, profile in profiles.items():
-            axes.step(np.r_[profile.ratio, right], np.r_[profile.share, profile.share[-1]], where="post", **style[method].line)
+            axes.step(np.r_[np.minimum(profile.ratio, right), right], np.r_[profile.share, profile.share[-1]], where="post", **style[method].line)
         _ratio_axis(axes, right)
         axes.set_ylim(0, 1.03)
         axes.set_xlabel(label)
@@ -181,7 +183,7 @@ def _ratio_axis(axes, largest: float) -> None:
     """From 1; logarithmic where ratios are large, and never an axis full of rounding."""
     from matplotlib.ticker import ScalarFormatter
 
-    largest = max(largest, 1.001)
+    largest = min(max(largest, 1.001), _LARGEST)
     if largest > 4:
         axes.set_xscale("log")
         axes.xaxis.set_major_formatter("{x:g}")

@@ -26,14 +26,15 @@ class Exhibits:
         """caption: HTML."""
         self._figures += 1
         self._links[key] = f'<a href="#figure-{self._figures}">Figure {self._figures}</a>'
-        text = f'<figcaption><b>Figure {self._figures}. {title}.</b> {caption}</figcaption>'
+        text = f"<figcaption><b>Figure {self._figures}. {title}.</b> {caption}</figcaption>"
         return f'<figure class="{kind}" id="figure-{self._figures}">{content}{text}</figure>'
 
     def table(self, key: str, table: Table, title: str, caption: str, kind: str = "main") -> str:
         self._tables += 1
         self._links[key] = f'<a href="#table-{self._tables}">Table {self._tables}</a>'
-        text = f'<figcaption><b>Table {self._tables}. {title}.</b> {caption}</figcaption>'
-        return f'<figure class="table" id="table-{self._tables}">{text}{table.html(kind)}{table.notes() if kind.startswith("main") else ""}</figure>'
+        text = f"<figcaption><b>Table {self._tables}. {title}.</b> {caption}</figcaption>"
+        notes = table.notes() if kind.startswith("main") else ""
+        return f'<figure class="table" id="table-{self._tables}">{text}{table.html(kind)}{notes}</figure>'
 
     def cite(self, *keys: str) -> str:
         """ "(Table 1, Figure 2)", of those that are there."""
@@ -43,9 +44,14 @@ class Exhibits:
 
 def page(title: str, subtitle: str, body: str, script: str = "", *, paged: bool = False) -> str:
     """title: text; the others HTML. paged: sections of class mesh are shown one at a time."""
-    template = Template(resources.files(__package__).joinpath("template.html").read_text(encoding="utf-8"))
+    template = Template(resource("template.html"))
     start = '<script>document.documentElement.classList.add("paged")</script>' if paged else ""
     return template.substitute(title=html.escape(title), subtitle=subtitle, body=body, script=script, start=start)
+
+
+def resource(name: str) -> str:
+    """A file of this package."""
+    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
 def paragraphs(*texts: str) -> str:

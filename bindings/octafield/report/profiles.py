@@ -61,11 +61,11 @@ def _energy(row: dict) -> float:
 
 @dataclass(frozen=True)
 class Line:
-    """Of one method in one setting. problems: in the setting; solved: with a field; unsolved: runs without one. energy:
-    where there is one problem. zero: problems whose lowest energy is rounding. ratio, largest: energy over the lowest of each problem, geometric mean and largest; lowest:
-    problems on which no method is lower by more than EQUAL. Counts of the singular graphs are sums over problems, None
-    where they are not defined. seconds: sum over problems, slowdown: over the fastest of each, geometric mean.
-    complete: has a field on every problem of the setting that any method has one on."""
+    """Of one method in one setting. problems: in the setting; solved: with a field; unsolved: runs without one. complete: has
+    a field on every problem of the setting that any method has one on. energy: where there is one problem. zero: problems
+    whose lowest energy is rounding. ratio, largest: energy over the lowest of each problem, geometric mean and largest;
+    lowest: problems on which no method is lower by more than EQUAL. Counts of the singular graphs are sums over problems,
+    None where they are not defined. seconds: sum over problems; slowdown: over the fastest of each, geometric mean."""
 
     setting: Setting
     method: Method

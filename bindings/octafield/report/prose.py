@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from .columns import preparation_seconds
 from .deviations import Deviations
 from .profiles import EQUAL, Line, Profile, geometric_mean, ratios_to_best, smoothing_seconds
 from .records import Method, Results, Setting
-from .words import counted, listed, named, sentence, spread, with_boundary
+from .words import counted, every, listed, named, sentence, spread, with_boundary
 
 COINCIDE = 0.01  # degrees: fields closer at 95 % of the vertices are called equal
 _MANY = 3  # names in a list before "and so many more"
@@ -17,31 +18,41 @@ _MANY = 3  # names in a list before "and so many more"
 
 def scope(results: Results, open_runs: int, cite: str) -> str:
     """What was computed on what."""
-    where = html.escape(results.inputs[0]) if len(results.inputs) == 1 else counted(len(results.inputs), "input")
     settings = [html.escape(setting.name) for setting in results.settings]
-    treatments = f"with {counted(len(settings), 'boundary treatment')} ({'; '.join(settings) if any(',' in s for s in settings) else listed(settings)})"
-    seeds = len({problem.seed for problem in results.problems})
-    where += f" {with_boundary(results.settings[0]) if len(settings) == 1 else treatments}" + (f" and {seeds} seeds" if seeds > 1 else "")
-    runs, problems = counted(len(results.runs), "run"), counted(len(results.problems), "problem")
-    names = named(results.methods)
-    methods = f"{counted(len(results.methods), 'method')} ({names})"
-    variants = list(dict.fromkeys(method.variant or "default" for method in results.methods))
-    representations = list(dict.fromkeys(method.representation for method in results.methods))
-    if len(variants) > 1 and len(representations) * len(variants) == len(results.methods):
-        methods = f"{counted(len(results.methods), 'method')}, {counted(len(representations), 'representation')} ({listed(representations)}) in {len(variants)} variants each ({listed(variants)}),"
-    if len(results.methods) == 1:
-        text = [sentence(f"One method, {names}, is applied to {where}: {runs} {cite}")]
+    where = html.escape(results.inputs[0]) if len(results.inputs) == 1 else counted(len(results.inputs), "input")
+    if len(settings) == 1:
+        where += f" {with_boundary(results.settings[0])}"
     else:
-        text = [sentence(f"the comparison covers {methods} on {where}: {runs} on {problems} {cite}")]
-        text.append("A problem is an input with a boundary treatment and a seed; its fields share one mesh, and energies are compared within a problem only.")
+        names = "; ".join(settings) if any("," in name for name in settings) else listed(settings)
+        where += f" with {len(settings)} boundary treatments ({names})"
+    seeds = len({problem.seed for problem in results.problems})
+    where += f" and {seeds} seeds" if seeds > 1 else ""
+    runs = counted(len(results.runs), "run")
+    if len(results.methods) == 1:
+        text = [f"one method, {named(results.methods)}, is applied to {where}: {runs} {cite}"]
+    else:
+        text = [
+            f"the comparison covers {_methods(results.methods)} on {where}: {runs} on {counted(len(results.problems), 'problem')} {cite}",
+            "a problem is an input with a boundary treatment and a seed; its fields share one mesh, and energies are compared within a problem only",
+        ]
     states = [run.state for run in results.runs]
-    counts = {word: states.count(word) for word in ("failed", "crashed")}
-    if any(counts.values()):
-        without = listed(f"{count} {word}" for word, count in counts.items() if count)
-        text.append(sentence(f"a field was obtained in {states.count('done')} of the {runs}; {without} {cite}"))
+    without = listed(f"{states.count(word)} {word}" for word in ("failed", "crashed") if word in states)
+    if without:
+        text.append(f"a field was obtained in {states.count('done')} of the {runs}; {without} {cite}")
     if open_runs:
-        text.append(sentence(f"not carried out yet: {counted(open_runs, 'run')}"))
-    return " ".join(text)
+        text.append(f"not carried out yet: {counted(open_runs, 'run')}")
+    return " ".join(map(sentence, text))
+
+
+def _methods(methods: Sequence[Method]) -> str:
+    """ "3 methods (a, b and c)"; as a product where they are one of representations and variants."""
+    count = counted(len(methods), "method")
+    variants = list(dict.fromkeys(method.variant or "default" for method in methods))
+    representations = list(dict.fromkeys(method.representation for method in methods))
+    if min(len(variants), len(representations)) > 1 and len(representations) * len(variants) == len(methods):
+        both = f"{len(representations)} representations ({listed(representations)}) in {len(variants)} variants each"
+        return f"{count}, {both} ({listed(variants)}),"
+    return f"{count} ({named(methods)})"
 
 
 def meshes(results: Results, cite: str) -> str:
@@ -61,52 +72,52 @@ def energy(lines: Sequence[Line], cite: str) -> list[str]:
 
 
 def _energy_in(setting: Setting, lines: list[Line], cite: str) -> str:
-    where, problems = with_boundary(setting), lines[0].problems
+    where, first = with_boundary(setting), lines[0]
     complete = [line for line in lines if line.complete]
+    missing = [line.method for line in lines if not line.complete]
     if not any(line.solved for line in lines):
         return sentence(f"{where}, no run ended with a field {cite}")
-    text = []
     if not complete:
-        text.append(f"{where}, no method has a field on every problem, so methods are not ranked {cite}")
-    elif complete[0].ratio is None:
-        text.append(f"{where}, the lowest energy is zero up to rounding{_on_all(problems)}; {_who_reach_zero(complete)} {cite}")
-    elif len(lines) == 1:
-        one = complete[0]
-        text.append(f"{where}, {named([one.method])} ends at " + (f"E = {one.energy:.6g} {cite}" if problems == 1 else f"the energies of its runs {cite}"))
-    else:
-        text.append(_ranking(where, complete, problems, cite))
-    if lines[0].zero and complete and complete[0].ratio is not None:
-        text.append(f"a lowest energy of zero, up to rounding, keeps {counted(lines[0].zero, 'problem')} out of the ratios {cite}")
-    missing = [line.method for line in lines if not line.complete]
-    if complete and missing:
+        return sentence(f"{where}, no method has a field on every problem, so methods are not ranked {cite}")
+    text = []
+    if complete[0].ratio is None:
+        reached = _who_reach_zero(complete) if len(lines) > 1 else "the method reaches it"
+        text.append(f"{where}, the lowest energy is zero up to rounding{_on_all(first.problems)}; {reached} {cite}")
+    elif len(lines) > 1:
+        text += _ranking(where, complete, first.problems, cite)
+    elif first.problems == 1:
+        text.append(f"{where}, {named([first.method])} ends at E = {first.energy:.6g} {cite}")
+    if first.zero and complete[0].ratio is not None and len(lines) > 1:
+        text.append(f"a lowest energy of zero, up to rounding, keeps {counted(first.zero, 'problem')} out of the ratios {cite}")
+    if missing:
         text.append(f"not ranked, for want of a field on some problem that another method solves: {named(missing)} {cite}")
     return " ".join(map(sentence, text))
 
 
-def _ranking(where: str, complete: list[Line], problems: int, cite: str) -> str:
+def _ranking(where: str, complete: list[Line], problems: int, cite: str) -> list[str]:
+    """Of methods with a field on every problem."""
     ratio = {line.method: line.ratio for line in complete}
     low, reach = min(ratio.values()), max(complete, key=lambda line: line.largest)
     lowest = [method for method, value in ratio.items() if value <= low * (1 + EQUAL)]
     others = {method: value for method, value in ratio.items() if method not in lowest}
-    best = min((line for line in complete if line.method in lowest), key=lambda line: line.ratio)
+    energy = next(line.energy for line in complete if line.ratio == low)
     if len(complete) == 1:
-        return f"{where}, only {named(lowest)} has a field on every problem {cite}"
+        return [f"{where}, only {named(lowest)} has a field on every problem {cite}"]
     if not others and reach.largest <= 1 + EQUAL:
-        at = f", E = {best.energy:.6g}" if problems == 1 else ""
-        return f"{where}, all {counted(len(complete), 'method')} end at the same energy within 0.01 %{at} {cite}"
-    same = " (within 0.01 % of each other)" if len(lowest) > 1 else ""
-    end = _verb(len(others), "the other ends", "the others end")
-    if problems == 1:
-        return f"{where}, {named(lowest, _MANY)} {_verb(len(lowest), 'has', 'have')} the lowest energy, E = {best.energy:.6g}{same}; {end} at {_times(others)} that {cite}"
-    over = f"{low:.4f} times the lowest of each problem on geometric mean"
+        at = "" if energy is None else f", E = {energy:.6g}"
+        return [f"{where}, {every(len(complete), 'method')} end at the same energy within 0.01 %{at} {cite}"]
+    farthest = f"single problems reach {reach.largest:.4f} ({named([reach.method])})"
     if not others:
-        return f"{where}, all {counted(len(complete), 'method')} are equal on geometric mean, {over}; single problems reach {reach.largest:.4f} ({named([reach.method])}) {cite}"
-    text = f"{where}, {named(lowest, _MANY)} {_verb(len(lowest), 'has', 'have')} the lowest energies{same}: {over}; {end} at {_times(others)} it"
-    if reach.largest > 1 + EQUAL:
-        text += f", and single problems reach {reach.largest:.4f} ({named([reach.method])})"
+        return [f"{where}, {every(len(complete), 'method')} are equal on geometric mean, at {low:.4f} times the lowest of each problem; {farthest} {cite}"]
+    have, same = _verb(len(lowest), "has", "have"), " (within 0.01 % of each other)" if len(lowest) > 1 else ""
+    end = f"{_verb(len(others), 'the other ends', 'the others end')} at {_times(others)}"
+    if problems == 1:
+        return [f"{where}, {named(lowest, _MANY)} {have} the lowest energy, E = {energy:.6g}{same}; {end} that {cite}"]
+    over = f"{low:.4f} times the lowest of each problem on geometric mean"
+    text = f"{where}, {named(lowest, _MANY)} {have} the lowest energies{same}: {over}; {end} it, and {farthest} {cite}"
     most = max(line.lowest for line in complete)
-    tops = [line.method for line in complete if line.lowest == most]
-    return f"{sentence(f'{text} {cite}')} On {most} of {counted(problems, 'problem')} the lowest energy, or one within 0.01 % of it, is that of {named(tops, _MANY)} {cite}"
+    tops = named([line.method for line in complete if line.lowest == most], _MANY)
+    return [text, f"on {most} of {problems} problems the lowest energy, or one within 0.01 % of it, is that of {tops} {cite}"]
 
 
 def _times(ratio: dict[Method, float]) -> str:
@@ -116,21 +127,21 @@ def _times(ratio: dict[Method, float]) -> str:
 def _who_reach_zero(complete: list[Line]) -> str:
     reach = [line.method for line in complete if line.lowest == line.problems]
     if len(reach) == len(complete):
-        return "all methods reach it" if len(reach) > 1 else f"{named(reach)} reaches it"
+        return f"{every(len(reach), 'method')} reach it" if len(reach) > 1 else f"{named(reach)} reaches it"
     if not reach:
         return "no method reaches it everywhere"
     return f"{named(reach, _MANY)} {_verb(len(reach), 'reaches', 'reach')} it, the {_verb(len(complete) - len(reach), 'other ends', 'others end')} above"
 
 
 def _on_all(problems: int) -> str:
-    return "" if problems == 1 else " on both problems" if problems == 2 else f" on all {problems:,} problems"
+    return "" if problems == 1 else f" on {every(problems, 'problem')}"
 
 
 def profile(profiles: dict[Method, Profile], cite: str) -> str:
     """The share of problems on which methods come within a hundredth of the lowest energy."""
     shares = {method: 100 * found.at(1.01) for method, found in profiles.items()}
-    span = spread(shares, ".0f", unit=" %")
-    return sentence(f"the share of problems on which a method ends within 1 % of the lowest energy is {span if len(set(shares.values())) > 1 else span + ' for every method'} {cite}")
+    span = spread(shares, ".0f", unit=" %") + (" for every method" if len(set(shares.values())) == 1 else "")
+    return sentence(f"the share of problems on which a method ends within 1 % of the lowest energy is {span} {cite}")
 
 
 def convergence(results: Results, cite: str) -> str:
@@ -187,8 +198,9 @@ def distances(found: Deviations, cite: str) -> str:
         within = max(high for (a, b), (_, high) in pairs.items() if any(a in group and b in group for group in alike))
         which = f"those of {named(alike[0])}" if len(alike) == 1 else "; ".join(map(named, alike))
         if len(alike[0]) == len(found.methods):
-            which = f"those of all {counted(len(found.methods), 'method')}"
-        text.append(f"fields that coincide are {which}; at 95 % of the vertices their frames are within {max(within, 1e-4):.2g} degrees of each other {cite}")
+            which = f"those of {every(len(found.methods), 'method')}"
+        close = f"at 95 % of the vertices their frames are within {max(within, 1e-4):.2g} degrees of each other"
+        text.append(f"fields that coincide are {which}; {close} {cite}")
     heads = [group[0] for group in groups]
     others = {pair: angles for pair, angles in pairs.items() if all(method in heads for method in pair)}
     if len(others) == 1:
@@ -236,8 +248,8 @@ def _in_all(problems: int) -> str:
 
 
 def shared_time(results: Results, cite: str) -> str:
-    first = {run.input: run.row["wall_seconds"] for run in reversed(results.runs) if run.done}
-    seconds = sorted(sum(of[phase] for phase in ("read", "mesh", "surface")) for of in first.values())
+    first = {run.input: run.row for run in reversed(results.runs) if run.done}
+    seconds = sorted(map(preparation_seconds, first.values()))
     if not seconds:
         return ""
     span = " to ".join(dict.fromkeys(f"{value:.3g}" for value in (seconds[0], seconds[-1])))

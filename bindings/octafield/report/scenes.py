@@ -11,7 +11,6 @@ import base64
 import json
 import zlib
 from collections.abc import Sequence
-from importlib import resources
 from pathlib import Path
 
 import numpy as np
@@ -56,11 +55,6 @@ def encode(runs: Sequence[Run]) -> tuple[str, list[int | None]]:
     text += b" " * (len(text) % 2)
     content = np.uint32(len(text)).astype("<u4").tobytes() + text + np.concatenate(parts).tobytes()
     return base64.b64encode(zlib.compress(content, 9)).decode(), places
-
-
-def resource(name: str) -> str:
-    """A file of this package."""
-    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
 def _deltas(lines: list[np.ndarray]) -> np.ndarray:

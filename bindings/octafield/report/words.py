@@ -10,6 +10,11 @@ def counted(count: int, singular: str, plural: str = "") -> str:
     return f"{count:,} {singular if count == 1 else plural or singular + 's'}"
 
 
+def every(count: int, singular: str) -> str:
+    """ "both methods", "all 3 methods"; of two or more."""
+    return f"both {singular}s" if count == 2 else f"all {count:,} {singular}s"
+
+
 def listed(words: Iterable[str], conjunction: str = "and") -> str:
     """ "a", "a and b", "a, b and c"."""
     words = list(words)

@@ -11,7 +11,7 @@ from .columns import deviation_table, input_table, run_table, summary_table
 from .deviations import deviations
 from .profiles import lines
 from .records import Results, Run
-from .sections import Content, render
+from .render import Content, render
 from .tables import Table, write_records
 
 PAGE_FILE, RECORDS_FILE, TABLES = "report.html", "results.csv", "tables"
@@ -39,7 +39,7 @@ def write_report(report: Report, folder: Path) -> list[str]:
     content = Content(results, lines(results), found, report.pictures, report.title, report.description, report.open_runs, "")
     tables = (
         summary_table(results, content.lines, found), deviation_table(found), input_table(results, content.anchors),
-        run_table(results, list(results.runs)),
+        run_table(results, results.runs),
     )  # fmt: skip
     (folder / TABLES).mkdir(exist_ok=True)
     names = []
@@ -62,7 +62,8 @@ def _write_table(folder: Path, table: Table) -> list[str]:
 def _links(files: Sequence[str], tables: Sequence[str]) -> str:
     linked = lambda name, text: f'<a href="{html.escape(name)}">{html.escape(text)}</a>'  # noqa: E731
     records = ", ".join(linked(name, name) for name in files)
-    parts = [f"{table.removesuffix('.csv').split('/')[-1]} ({linked(table, 'CSV')}, {linked(table.removesuffix('csv') + 'tex', 'LaTeX')})" for table in tables if table.endswith(".csv")]
+    stems = [table.removesuffix(".csv") for table in tables if table.endswith(".csv")]
+    parts = [f"{stem.split('/')[-1]} ({linked(stem + '.csv', 'CSV')}, {linked(stem + '.tex', 'LaTeX')})" for stem in stems]
     return f"Records: {records}. Tables: {', '.join(parts)}"
 
 
