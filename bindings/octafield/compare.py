@@ -1,6 +1,6 @@
 """Representations and boundary treatments side by side, on one mesh per input.
 
-    comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, one folder per run
+    comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, tables/, one folder per run
     comparison.rows[0]["energy"]
 """
 
