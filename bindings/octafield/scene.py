@@ -133,11 +133,6 @@ def look(scene: pyvista.Plotter, points: np.ndarray, direction: np.ndarray, up: 
     scene.reset_camera_clipping_range()
 
 
-def counted(count: int, singular: str) -> str:
-    """ "1 node", "2 nodes"."""
-    return f"{count:,} {singular}" + ("" if count == 1 else "s")
-
-
 def diagonal(points: np.ndarray) -> float:
     return float(np.linalg.norm(points.max(0) - points.min(0)))
 

@@ -3,12 +3,10 @@
 import html
 from collections.abc import Iterable, Mapping
 
+from ..captions import counted
 from .records import Method, Setting
 
-def counted(count: int, singular: str, plural: str = "") -> str:
-    """ "1 mesh", "2 meshes"."""
-    return f"{count:,} {singular if count == 1 else plural or singular + 's'}"
-
+__all__ = ["counted", "every", "listed", "named", "sentence", "spread", "with_boundary"]
 
 def every(count: int, singular: str) -> str:
     """ "both methods", "all 3 methods"; of two or more."""
