@@ -42,7 +42,7 @@ class Comparison:
 
     def to_html(self) -> str:
         """The report, a self-contained page."""
-        return (self.folder / PAGE_FILE).read_text()
+        return (self.folder / PAGE_FILE).read_text(encoding="utf-8")
 
 
 def default_input() -> str:

@@ -48,6 +48,7 @@ def recomputed(comparison) -> list[float]:
     found += [sum(s) for s in seconds.values()] + [float(np.exp(np.mean(np.log(s / fastest)))) for s in seconds.values()]
     found += [sum(of(rows, input=name)[0]["wall_seconds"][phase] for phase in ("read", "mesh", "surface")) for name in inputs]
     lowest = lambda row: min(r["energy"] for r in of(rows, input=row["input"], boundary=row["boundary"]))
+    found.append(len({(row["input"], row["boundary"]) for row in rows if lowest(row) > 1e-9}))
     for method in METHODS:
         ratios = [row["energy"] / lowest(row) for row in of(rows, representation=method) if lowest(row) > 1e-9]
         found.append(100 * float(np.mean(np.array(ratios) <= 1.01)))
@@ -147,6 +148,15 @@ def test_runs_without_a_field_are_told_and_take_no_part_in_rankings(tmp_path):
     assert "A field was obtained in 4 of the 6 runs; 1 failed and 1 crashed" in text and "Not carried out yet: 3 runs" in text
     assert "only su2 has a field on every problem" in text and "Not ranked, for want of a field on some problem that another method solves: sh4 and odeco" in text
     assert "Runs without a field" in page and "&lt;b&gt; is wrong" in page
+
+
+def test_problems_that_no_method_solves_count_for_nothing(tmp_path):
+    records = [("a", record("sh4", energy=1.0)), ("a", record("su2", energy=2.0))]
+    records += [("b", record(m, state="failed", message="no")) for m in ("sh4", "su2")]
+    text = " ".join(prose(page_of(tmp_path, records), references=False))
+    assert "sh4 has the lowest energy, E = 1; the other ends at 2.0000 times that" in text
+    assert "of 1 problem with an energy above zero" in text and "on 2 problems" in text.split(".")[0]
+    assert "processor seconds. Reading" in text.replace("Relative to the fastest of these methods on each problem that is a factor of 1.00 on geometric mean. ", "")
 
 
 def test_nothing_but_failures_is_a_report_too(tmp_path):

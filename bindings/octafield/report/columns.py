@@ -142,7 +142,7 @@ def summary_table(results: Results, lines: list[Line], found: Deviations) -> Tab
         Column("boundary", "", "fixed: frames held at the surface cross field; aligned: one axis on the normal, twist free; none: free"),
         Column("method", "", "what the frames were smoothed as, and how where methods differ in that"),
         Column("solved", "d", "problems (input, boundary and seed) with a field"), Column("of", "d", "problems"),
-        Column("E", ".6g", "Dirichlet energy of the final frames in sh4, on the only problem", "energy"),
+        Column("E", ".6g", "Dirichlet energy of the final frames in sh4, on the only problem with a field", "energy"),
         Column("over lowest", ".4f", "to the lowest energy of all methods on the problem, geometric mean; problems without energy are left out", "energy"),
         Column("at most", ".4f", "the largest of these ratios", "energy"),
         Column("lowest on", "d", "problems on which no method has an energy lower by more than a hundredth of a per cent", "energy"),
@@ -158,7 +158,7 @@ def summary_table(results: Results, lines: list[Line], found: Deviations) -> Tab
     for line in lines:
         angles = (0.0, 0.0) if line.method == results.methods[0] and found.lines else found.lines.get((line.setting, line.method), (None, None))
         rows.append((
-            line.setting.name, line.method.name, line.solved, line.problems, line.energy, line.ratio, line.largest, line.lowest,
+            line.setting.name, line.method.name, line.solved, line.asked, line.energy, line.ratio, line.largest, line.lowest,
             line.singular_edges, line.complex_edges, line.non_meshable, *angles, line.seconds, line.slowdown,
         ))  # fmt: skip
     alone = ("over lowest", "at most", "lowest on", "mean", "95 %", "over fastest") if len(results.methods) < 2 else ()

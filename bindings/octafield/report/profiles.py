@@ -13,10 +13,11 @@ EQUAL = 1e-4  # relative: energies closer than this are not ranked
 
 @dataclass(frozen=True)
 class Profile:
-    """Of one method: share[k] of the problems on which it needs at most ratio[k] times what the best method needs."""
+    """Of one method: share[k] of `problems` problems on which it needs at most ratio[k] times what the best method needs."""
 
     ratio: np.ndarray
     share: np.ndarray
+    problems: int
 
     def at(self, ratio: float) -> float:
         """Share of the problems on which it needs at most `ratio` times the best."""
@@ -30,7 +31,7 @@ def performance_profiles(values: Mapping[Method, Sequence[float]]) -> dict[Metho
     for name, own in ratios_to_best(values).items():
         steps = np.sort(own[np.isfinite(own)])
         shares = np.arange(1, len(steps) + 1) / max(len(own), 1)
-        result[name] = Profile(np.r_[1.0, steps], np.r_[np.sum(own == 1) / max(len(own), 1), shares])
+        result[name] = Profile(np.r_[1.0, steps], np.r_[np.sum(own == 1) / max(len(own), 1), shares], len(own))
     return result
 
 
@@ -61,17 +62,17 @@ def _energy(row: dict) -> float:
 
 @dataclass(frozen=True)
 class Line:
-    """Of one method in one setting. problems: in the setting; solved: with a field; unsolved: runs without one. complete: has
-    a field on every problem of the setting that any method has one on. energy: where there is one problem. zero: problems
-    whose lowest energy is rounding. ratio, largest: energy over the lowest of each problem, geometric mean and largest;
+    """Of one method in one setting. asked: problems in the setting; problems: those of them with a field of any method, which
+    all else is about; solved: with a field of this one. complete: that is on all of them. energy: where there is one problem.
+    zero: problems whose lowest energy is rounding. ratio, largest: energy over the lowest of each problem, geometric mean and largest;
     lowest: problems on which no method is lower by more than EQUAL. Counts of the singular graphs are sums over problems,
     None where they are not defined. seconds: sum over problems; slowdown: over the fastest of each, geometric mean."""
 
     setting: Setting
     method: Method
+    asked: int
     problems: int
     solved: int
-    unsolved: int
     complete: bool
     energy: float | None
     zero: int
@@ -94,33 +95,32 @@ def lines(results: Results, problems: Sequence[Problem] | None = None) -> list[L
         energy, seconds = energies(results, within), smoothing_seconds(results, within)
         over = ratios_to_best(energy), ratios_to_best(seconds)
         best = np.min(list(energy.values()), axis=0)
-        inside = set(within)
-        for method in results.methods:
-            own = [run for run in results.runs if results.method(run) == method and results.problem(run) in inside]
-            if own:
-                found.append(_line(results, setting, method, within, own, energy[method], best, over, seconds[method]))
+        wanted = set(within)
+        inside = {results.method(run) for run in results.runs if results.problem(run) in wanted}
+        for method in (method for method in results.methods if method in inside):
+            found.append(_line(results, setting, method, within, energy[method], best, over, seconds[method]))
     return found
 
 
 def _line(
-    results: Results, setting: Setting, method: Method, within: list[Problem], runs: list[Run],
+    results: Results, setting: Setting, method: Method, within: list[Problem],
     energy: np.ndarray, best: np.ndarray, over: tuple[dict, dict], seconds: np.ndarray,
 ) -> Line:  # fmt: skip
     fields = [run.row for run in (results.field(method, p) for p in within) if run is not None]
+    problems = sum(any(results.field(m, p) for m in results.methods) for p in within)
     ratio, slowdown = (part[method][np.isfinite(part[method])] for part in over)
-    solved = np.isfinite(energy)
     return Line(
         setting,
         method,
-        problems=len(within),
+        asked=len(within),
+        problems=problems,
         solved=len(fields),
-        unsolved=sum(not run.done for run in runs),
-        complete=bool(len(fields)) and not np.any(np.isfinite(best) & ~solved),
-        energy=fields[0]["energy"] if len(within) == 1 and fields else None,
+        complete=0 < len(fields) == problems,
+        energy=fields[0]["energy"] if problems == 1 and fields else None,
         zero=int(np.sum(best == 0)),
         ratio=geometric_mean(ratio),
         largest=float(ratio.max()) if len(ratio) else None,
-        lowest=int(np.sum(solved & (energy <= best * (1 + EQUAL)))),
+        lowest=int(np.sum(np.isfinite(energy) & (energy <= best * (1 + EQUAL)))),
         singular_edges=_total(fields, "singular_edges"),
         complex_edges=_total(fields, "complex_edges"),
         non_meshable=_total(fields, "non_meshable_vertices"),

@@ -140,8 +140,12 @@ def _on_all(problems: int) -> str:
 def profile(profiles: dict[Method, Profile], cite: str) -> str:
     """The share of problems on which methods come within a hundredth of the lowest energy."""
     shares = {method: 100 * found.at(1.01) for method, found in profiles.items()}
+    problems = next(iter(profiles.values())).problems
+    if not problems:
+        return ""
     span = spread(shares, ".0f", unit=" %") + (" for every method" if len(set(shares.values())) == 1 else "")
-    return sentence(f"the share of problems on which a method ends within 1 % of the lowest energy is {span} {cite}")
+    what = f"the share of problems on which a method ends within 1 % of the lowest energy is {span}"
+    return sentence(f"{what}, of {counted(problems, 'problem')} with an energy above zero {cite}")
 
 
 def convergence(results: Results, cite: str) -> str:
@@ -235,11 +239,14 @@ def times(results: Results, cite: str) -> str:
     if not complete:
         return ""
     total = {method: float(own.sum()) for method, own in complete.items()}
-    text = [f"smoothing takes {spread(total, '.3g')} processor seconds{_in_all(int(solved.sum()))} {cite}"]
-    if len(complete) > 1:
-        slow = {method: geometric_mean(ratio) for method, ratio in ratios_to_best(complete).items() if len(ratio)}
-        if slow:
-            text.append(f"relative to the fastest of these methods on each problem that is a factor of {spread(slow, '.2f')} on geometric mean {cite}")
+    alone = f" with {named(complete)}" if len(complete) == 1 < len(results.methods) else ""
+    text = [f"smoothing takes {spread(total, '.3g')} processor seconds{alone}{_in_all(int(solved.sum()))} {cite}"]
+    slow = {method: geometric_mean(ratio) for method, ratio in ratios_to_best(complete).items() if len(ratio)}
+    if len(slow) > 1:
+        text.append(f"relative to the fastest of these methods on each problem that is a factor of {spread(slow, '.2f')} on geometric mean {cite}")
+    missing = [method for method in results.methods if method not in complete]
+    if missing:
+        text.append(f"left out of times, for want of a field on some problem that another method solves: {named(missing)} {cite}")
     return " ".join(map(sentence, text))
 
 
