@@ -1,12 +1,11 @@
 """Representations and boundary treatments side by side, on one mesh per input.
 
-    comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, one folder per run
+    comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, tables/, one folder per run
     comparison.rows[0]["energy"]
 """
 
-import csv
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from .errors import InvalidInput
@@ -15,12 +14,23 @@ from .options import BOUNDARIES, COMPARED, LARGEST_SEED, REPRESENTATIONS, FieldO
 from .output import staged_folder, write_json
 from .phases import Progress
 from .pipeline import FieldResult, Problem, prepare, run
-from .report import InputSection, Picture, render_report
+from .report import PAGE_FILE, Report, Run, write_report
 from .results import write_field_result
 
 ROWS_FILE = "results.json"
-TABLE_FILE = "results.csv"
-REPORT_FILE = "report.html"
+_MOST_CURVES = 3  # pictures of singular curves per boundary treatment
+
+
+@dataclass
+class _Section:
+    """One input: its runs, and pictures: of the surface, then per boundary treatment. drawn: per boundary treatment, the
+    singular graphs that have a picture."""
+
+    name: str
+    slug: str
+    rows: list[dict] = field(default_factory=list)
+    pictures: dict[str, list] = field(default_factory=dict)
+    drawn: dict[str, set[tuple]] = field(default_factory=dict)
 
 
 @dataclass
@@ -32,7 +42,7 @@ class Comparison:
 
     def to_html(self) -> str:
         """The report, a self-contained page."""
-        return (self.folder / REPORT_FILE).read_text()
+        return (self.folder / PAGE_FILE).read_text(encoding="utf-8")
 
 
 def default_input() -> str:
@@ -62,28 +72,27 @@ def compare(
     seeds = integer_in("seeds", seeds, 1, LARGEST_SEED - options.seed + 1)
     with staged_folder(output, ROWS_FILE) as folder:
         rows: list[dict] = []
-        sections: list[InputSection] = []
+        sections: list[_Section] = []
         # All are read before the first run: an unfit one should not cost the time of those before it.
         reports = [_labelled(progress, _short_name(source)) for source in inputs]
         sound = [read_sound(source, options, progress=report) for source, report in zip(inputs, reports, strict=True)]
         for number, source in enumerate(inputs):
             meshed = prepare_mesh(sound[number], options, progress=reports[number])
-            section = InputSection(_short_name(source), _unique([s.slug for s in sections], _slug(source)))
+            name = _unique([s.name for s in sections], _short_name(source), " ")
+            section = _Section(name, _unique([s.slug for s in sections], _slug(source)))
             _run_all(meshed, section, folder, representations, boundaries, seeds, options, progress)
             sections.append(section)
             rows += section.rows
         if progress:
             progress("report", -1.0, float("nan"))
-        (folder / REPORT_FILE).write_text(render_report(sections), encoding="utf-8")
-        _write_csv(folder / TABLE_FILE, rows)
-        rows[0]["files"] += [REPORT_FILE, TABLE_FILE]
+        rows[0]["files"] += write_report(_report(sections, folder), folder)
         write_json(folder / ROWS_FILE, rows)
     return Comparison(rows, Path(output).resolve())
 
 
 def _run_all(
     meshed: MeshedInput,
-    section: InputSection,
+    section: _Section,
     folder: Path,
     representations: Sequence[str],
     boundaries: Sequence[str],
@@ -95,7 +104,7 @@ def _run_all(
         problem = prepare(meshed, seed, _labelled(progress, section.name))
         first = seed == options.seed
         if first:
-            section.pictures += _surface_pictures(problem)
+            section.pictures["surface"] = _surface_pictures(problem)
         for representation in representations:
             for boundary in boundaries:
                 chosen = replace(options, representation=representation, boundary=boundary, seed=seed)
@@ -110,11 +119,17 @@ def _run_all(
                     {**result.record, "folder": name, "files": [f"{name}/{file}" for file in result.record["files"]]}
                 )
                 if first:
-                    lines = len(section.rows) == 1  # one picture of streamlines per input: they differ little
-                    section.pictures += _volume_pictures(result, label, lines)
+                    section.pictures.setdefault(boundary, []).extend(_volume_pictures(section, result, label))
 
 
-def _surface_pictures(problem: Problem) -> list[Picture]:
+def _report(sections: list[_Section], folder: Path) -> Report:
+    runs = [Run(row, section.name, folder / row["folder"], row["folder"]) for section in sections for row in section.rows]
+    names = ", ".join(section.name for section in sections[:3]) + (f" and {len(sections) - 3} more" if len(sections) > 3 else "")
+    pictures = {section.name: sum(section.pictures.values(), []) for section in sections}
+    return Report(f"Frame fields on {names}", runs, pictures, files=(ROWS_FILE,))
+
+
+def _surface_pictures(problem: Problem) -> list:
     from . import pictures, scene  # brings VTK, which nothing else in the package needs when it is imported
 
     if not scene.can_draw():
@@ -123,15 +138,25 @@ def _surface_pictures(problem: Problem) -> list[Picture]:
     return [pictures.surface_cross_field(problem)]
 
 
-def _volume_pictures(result: FieldResult, label: str, lines: bool) -> list[Picture]:
+def _volume_pictures(section: _Section, result: FieldResult, label: str) -> list:
+    """Of the first method with a boundary treatment: singular curves, frames on a cut, and streamlines once per input, since
+    they differ little. Of another: singular curves where they differ in kind."""
     from . import pictures, scene
 
     if not scene.can_draw():
         return []
-    drawn = [pictures.singular_curves(result), pictures.frames_on_cut(result)]
-    if lines and result.streamlines:
-        drawn.append(pictures.streamlines(result))
-    return [replace(picture, title=f"{picture.title} ({label})") for picture in drawn]
+    begun, first = not section.drawn, result.record["boundary"] not in section.drawn
+    drawn = section.drawn.setdefault(result.record["boundary"], set())
+    kind = tuple(str(result.record[key]) for key in ("singular_edges_by_turns", "singular_curves", "singular_nodes", "singular_boundary_ends"))
+    chosen = []
+    if result.record["singular_edges"] and kind not in drawn and len(drawn) < _MOST_CURVES:
+        chosen.append(pictures.singular_curves(result))
+        drawn.add(kind)
+    if first:
+        chosen.append(pictures.frames_on_cut(result))
+    if begun and result.streamlines:
+        chosen.append(pictures.streamlines(result))
+    return [replace(picture, title=f"{picture.title} ({label})") for picture in chosen]
 
 
 def _check(inputs: Sequence, representations: Sequence[str], boundaries: Sequence[str], options: FieldOptions) -> None:
@@ -164,29 +189,8 @@ def _slug(source: Source) -> str:
     return "".join(c if c.isalnum() or c in "-_." else "_" for c in stem).lstrip(".") or "input"
 
 
-def _unique(taken: list[str], slug: str) -> str:
-    number, candidate = 2, slug
+def _unique(taken: list[str], name: str, between: str = "-") -> str:
+    number, candidate = 2, name
     while candidate in taken:
-        number, candidate = number + 1, f"{slug}-{number}"
+        number, candidate = number + 1, f"{name}{between}{number}"
     return candidate
-
-
-def _write_csv(path: Path, rows: list[dict]) -> None:
-    """One line per run: every number and word of the record, nested ones as group_name."""
-    flat = [flatten(row) for row in rows]
-    columns = list(dict.fromkeys(name for row in flat for name in row))
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, columns, restval="")
-        writer.writeheader()
-        writer.writerows(flat)
-
-
-def flatten(row: dict) -> dict:
-    """The record's numbers and words, nested ones as group_name; lists and versions are left out."""
-    flat = {}
-    for name, value in row.items():
-        if name in ("alignment_deg", "feature_alignment_deg", "integrability", "wall_seconds", "cpu_seconds"):
-            flat |= {f"{name}_{key}": inner for key, inner in value.items()}
-        elif not isinstance(value, (dict, list)):
-            flat[name] = value
-    return flat

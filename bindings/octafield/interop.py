@@ -134,6 +134,6 @@ def to_pandas(records: Sequence[dict[str, Any]]) -> pandas.DataFrame:
         import pandas
     except ImportError as error:
         raise InvalidInput("pandas is not installed; pip install pandas", "no_pandas") from error
-    from .compare import flatten
+    from .report.tables import flatten
 
     return pandas.DataFrame([flatten(record) for record in records])

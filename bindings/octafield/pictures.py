@@ -1,18 +1,19 @@
 """Pictures of a report: cross field on the surface, singular curves in the volume, frames on a cut."""
 
-from fractions import Fraction
+import io
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 import pyvista
 
-from . import _core, scene
+from . import _core, captions, scene
 from .pipeline import FieldResult, Problem
-from .report import Picture
 from .results import polylines
 
 MOST_CROSSES = 4000
 MOST_CUBES = 1500
+PAGE_SIZE = (1100, 825)
 CUT = "#f6ecd6"
 TURNS = {
     1: (scene.VERMILLION, "valence 3 (index +1/4)"),
@@ -20,6 +21,28 @@ TURNS = {
     2: (scene.GREEN, "valence 2 or 6 (index \N{PLUS-MINUS SIGN}1/2)"),
     0: (scene.PURPLE, "complex: no hex mesh has it"),
 }
+
+
+@dataclass
+class Picture:
+    """A rendered picture with a caption stating facts from the data and a legend of (colour, meaning)."""
+
+    title: str
+    caption: str
+    png: bytes
+    legend: list[tuple[str, str]] = field(default_factory=list)
+
+    @property
+    def small(self) -> bytes:
+        """PNG for a page: no wider than a column needs, in few colours."""
+        from PIL import Image
+
+        with Image.open(io.BytesIO(self.png)) as image:
+            image = image.convert("RGB")
+        image.thumbnail(PAGE_SIZE, Image.Resampling.LANCZOS)
+        data = io.BytesIO()
+        scene.fewer_colours(image, 128).save(data, "PNG", optimize=True)
+        return data.getvalue()
 
 
 def surface_cross_field(problem: Problem) -> Picture:
@@ -43,7 +66,7 @@ def surface_cross_field(problem: Problem) -> Picture:
             shape.add_mesh(_spheres(centres, radius), color=colour, smooth_shading=True, ambient=0.3)
             legend.append((colour, f"singular point, {word} index"))
     _three_quarter_view(shape, points)
-    return Picture("Cross field on the surface", _surface_caption(problem), scene.render(shape), legend)
+    return Picture("Cross field on the surface", captions.of_surface(problem.singularities), scene.render(shape), legend)
 
 
 def singular_curves(result: FieldResult) -> Picture:
@@ -55,7 +78,7 @@ def singular_curves(result: FieldResult) -> Picture:
         legend.append((scene.INK, "node: three or four curves meet"))
     if _bad_features(result) is not None:
         legend.append((scene.ORANGE, "feature edge that no hex mesh has"))
-    return Picture("Singular curves", _curves_caption(result), scene.render(singular_scene(result)), legend)
+    return Picture("Singular curves", captions.of_curves(result.record), scene.render(singular_scene(result)), legend)
 
 
 def singular_scene(result: FieldResult) -> pyvista.Plotter:
@@ -107,7 +130,7 @@ def streamlines(result: FieldResult) -> Picture:
     _three_quarter_view(shape, points)
     kinds = {_kind(int(turns)) for turns in result.singular_graph.curve_quarter_turns}
     legend = [(scene.SKY, "streamline"), *(TURNS[kind] for kind in TURNS if kind in kinds)]
-    return Picture("Streamlines", _streamlines_caption(result), scene.render(shape), legend)
+    return Picture("Streamlines", captions.of_streamlines(result.record["streamlines"]), scene.render(shape), legend)
 
 
 def frames_on_cut(result: FieldResult) -> Picture:
@@ -141,8 +164,8 @@ def frames_on_cut(result: FieldResult) -> Picture:
     visible = np.concatenate([np.asarray(behind.points), centres]) if behind.n_cells else points
     other = [axes[k] for k in range(3) if k != best]
     scene.look(shape, visible, normal + 0.28 * other[0] + 0.42 * other[1], other[1])
-    words = "frames of vertices within half an edge length of the cut, moved onto it, one where several would overlap"
-    caption = f"Cut through the centre of the bounding box; {scene.counted(len(near), 'cube')}: {words}."
+    words = "for the frames of vertices within half an edge length of the cut, moved onto it, one where several would overlap"
+    caption = f"The shape is cut through the centre of its bounding box, with {captions.counted(len(near), 'cube')} {words}."
     return Picture("Frames on a cut", caption, scene.render(shape), [(scene.SKY, "frame"), (CUT, "cut")])
 
 
@@ -251,49 +274,3 @@ def _cubes(centres: np.ndarray, quaternions: np.ndarray, size: float) -> pyvista
     points = centres[:, None, :] + np.einsum("nij,cj->nci", rotations, corners)
     cells = faces[None] + 8 * np.arange(len(centres))[:, None, None]
     return pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), cells.reshape(-1, 4))
-
-
-def _surface_caption(problem: Problem) -> str:
-    found = problem.singularities
-    indices = [Fraction(float(s.index)).limit_denominator(1000) for s in found.points]
-    total, chi = sum(indices, Fraction(0)), found.euler_characteristic
-    counts = ", ".join(f"{indices.count(i)} of index {_signed(i)}" for i in sorted(set(indices), reverse=True))
-    points = f"{scene.counted(len(indices), 'singular point')}: {counts}" if indices else "No singular points"
-    relation = "=" if total == chi else "\N{NOT EQUAL TO}"
-    sums = f"sum of indices {_signed(total)} {relation} Euler characteristic {_signed(Fraction(chi))}"
-    return f"{points}; {sums}." + (" Points on the far side are hidden." if indices else "")
-
-
-def _curves_caption(result: FieldResult) -> str:
-    record = result.record
-    kinds = record["singular_edges_by_turns"]
-    names = {"+1": "valence 3", "-1": "valence 5", "+2": "valence 2", "-2": "valence 6", "complex": "complex"}
-    parts = ", ".join(f"{count} {names.get(kind, f'{kind} quarter turns')}" for kind, count in kinds.items())
-    if not parts:
-        return "No singular edges."
-    what = f"{scene.counted(record['singular_edges'], 'singular edge')} ({parts})"
-    curves = f"{scene.counted(record['singular_curves'], 'curve')} of total length {record['singular_length']:.4g}"
-    ends = f"{record['singular_boundary_ends']} ends on the surface"
-    bad = f"{record['non_meshable_vertices']} places that no hex mesh has"
-    nodes = scene.counted(record["singular_nodes"], "node")
-    return f"{what}; {curves}; {nodes}; {ends}; {bad}. {_features_caption(record)}".rstrip()
-
-
-def _features_caption(record: dict) -> str:
-    edges, corners = record["non_meshable_feature_edges"], record["non_meshable_corners"]
-    if not edges and not corners:
-        return ""
-    return f"No hex mesh has {scene.counted(edges, 'feature edge')} and {scene.counted(corners, 'corner')} of these."
-
-
-def _streamlines_caption(result: FieldResult) -> str:
-    record = result.record["streamlines"]
-    names = {"singular": "at singular curves", "boundary": "on the surface", "closed": "of closed curves",
-             "length": "at the greatest length", "stuck": "stuck", "seed": "at seeds"}  # fmt: skip
-    ends = ", ".join(f"{count:,} {names[name]}" for name, count in record["ends"].items())
-    return f"{scene.counted(record['curves'], 'curve')} along the axes from evenly spread seeds; ends: {ends}."
-
-
-def _signed(value: Fraction) -> str:
-    text = str(abs(value))
-    return f"\N{MINUS SIGN}{text}" if value < 0 else f"+{text}" if value.denominator > 1 else text

@@ -133,11 +133,6 @@ def look(scene: pyvista.Plotter, points: np.ndarray, direction: np.ndarray, up: 
     scene.reset_camera_clipping_range()
 
 
-def counted(count: int, singular: str) -> str:
-    """ "1 node", "2 nodes"."""
-    return f"{count:,} {singular}" + ("" if count == 1 else "s")
-
-
 def diagonal(points: np.ndarray) -> float:
     return float(np.linalg.norm(points.max(0) - points.min(0)))
 
@@ -157,13 +152,13 @@ def render(scene: pyvista.Plotter) -> bytes:
         )
     for colours in (0, 256, 64):
         data = io.BytesIO()
-        (_fewer_colours(image, colours) if colours else image).save(data, "PNG", optimize=True)
+        (fewer_colours(image, colours) if colours else image).save(data, "PNG", optimize=True)
         if data.tell() <= MOST_BYTES:
             break
     return data.getvalue()
 
 
-def _fewer_colours(image, colours: int):
+def fewer_colours(image, colours: int):
     """`colours` that fit the picture best, found on every ninth pixel: the time is mostly theirs."""
     from PIL import Image
 

@@ -7,7 +7,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from .summary import COLUMNS
+from .report.columns import terminal_table
+from .report.records import Results, Run
 
 
 def show_record(record: dict) -> None:
@@ -21,10 +22,9 @@ def show_record(record: dict) -> None:
 
 
 def show_comparison(rows: list[dict]) -> None:
-    columns = [c for c in COLUMNS if not c.report_only and (c.group != "seconds" or c.head == "total")]
-    heads = [f"{column.group} {column.head}".strip() for column in columns]
-    cells = [[column.show(column.value(Path(row["input"]).name, row)) for column in columns] for row in rows]
-    _table(heads, cells, left=3)
+    table = terminal_table(Results([Run(row, Path(row["input"]).name) for row in rows]))
+    cells = [[column.show(value) for column, value in zip(table.columns, line, strict=True)] for line in table.rows]
+    _table([column.name for column in table.columns], cells, left=3)
 
 
 def show_info(record: dict) -> None:

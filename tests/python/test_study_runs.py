@@ -1,5 +1,6 @@
 """A study ends with the same table however often it is killed, on one machine or several."""
 
+import csv
 import json
 import os
 import random
@@ -11,6 +12,7 @@ import time
 from pathlib import Path
 
 import pytest
+from report_pages import require_sound
 
 import octafield
 from octafield import study
@@ -227,17 +229,12 @@ def test_two_dask_workers_one_killed_lose_and_double_nothing(undisturbed, descri
 def test_reports_show_what_every_kind_of_run_has(undisturbed, described, tmp_path):
     page = study.write_report(undisturbed)
     text = page.read_text()
-    assert "Runs without a field" in text and "nothing_here_1.stl" in text and 'id="scene-' in text
-    assert {path.name for path in (page.parent / "tables").iterdir()} == {"runs.csv", "runs.tex", "summary.csv", "summary.tex"}
+    assert "Runs without a field" in text and "nothing_here_1.stl" in text and 'class="view"' in text
+    assert {path.name for path in (page.parent / "tables").iterdir()} == {f"{stem}.{end}" for stem in ("summary", "deviations", "inputs", "runs") for end in ("csv", "tex")}
+    assert len(list(csv.DictReader((page.parent / "results.csv").open()))) == 12
+    require_sound(text, page.parent)
     mixed = "{name: m, inputs: [{generator: box, mesh: {edge_length: 0.4}}], runs: {sampling: [vertices, tets]}, fields: false}"
     study.run(study.parse(mixed), tmp_path / "mixed")
     text = study.write_report(tmp_path / "mixed").read_text()
-    assert "2 runs: 2 done" in text and 'id="scene-' not in text
-
-
-def test_performance_profiles_count_problems():
-    from octafield.study.profiles import performance_profiles
-
-    found = performance_profiles({"a": [1, 4, 2, 0], "b": [2, 2, float("inf"), 1]})
-    assert found["a"].ratio.tolist() == [1, 1, 1, 2] and found["a"].share.tolist() == pytest.approx([2 / 3, 1 / 3, 2 / 3, 1])
-    assert found["b"].ratio.tolist() == [1, 1, 2] and found["b"].share.tolist() == pytest.approx([1 / 3, 1 / 3, 2 / 3])
+    assert 'class="view"' not in text and "frames in tets" in text
+    require_sound(text, tmp_path / "mixed")

@@ -14,7 +14,7 @@ however often it is interrupted, on one machine or many.
     'report.html'
 
 A folder holds study.json (the description), runs.sqlite (one table), runs/KEY (the files of one run, complete or absent) and, after
-write_report(), report.html and tables/. KEY is a hash of the input's content, the options and octafield's version.
+write_report(), report.html, results.csv and tables/. KEY is a hash of the input's content, the options and octafield's version.
 """
 
 from .description import Study, load, parse

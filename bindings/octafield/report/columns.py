@@ -1,0 +1,181 @@
+"""The tables of a report and of the terminal: head, number format, meaning and value of each column in one place."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from .deviations import Deviations
+from .profiles import Line
+from .records import Results, Run
+from .tables import Column, Link, Table
+
+_DEG = "alignment, deg"
+
+
+@dataclass(frozen=True)
+class RunColumn(Column):
+    """value(results, run). terminal: shown there too, where lines are short. page: shown in the report."""
+
+    value: Callable[[Results, Run], object] = lambda results, run: None
+    terminal: bool = True
+    page: bool = True
+
+
+def preparation_seconds(record: dict) -> float:
+    """By the clock, of what the runs on an input share."""
+    return sum(record["wall_seconds"][phase] for phase in ("read", "mesh", "surface"))
+
+
+def _of(head: str, form: str, meaning: str, group: str = "", key: str = "", **more) -> RunColumn:
+    """A number of the record; key: "name" or "name.inner"; none where the run has no field or the field no such number."""
+
+    def value(_results: Results, run: Run):
+        found = run.row if run.done else {}
+        for part in key.split("."):
+            found = found.get(part) if isinstance(found, dict) else None
+        return found
+
+    return RunColumn(head, form, meaning, group, value, **more)
+
+
+RUN_COLUMNS: tuple[RunColumn, ...] = (
+    RunColumn("input", "", "the file or generated shape", value=lambda _, run: run.input),
+    RunColumn("method", "", "what the frames were smoothed as, and how where methods differ in that", value=lambda results, run: results.method(run).name),
+    RunColumn(
+        "boundary",
+        "",
+        "fixed: frames held at the surface cross field; aligned: one axis on the normal, twist free; none: free",
+        value=lambda results, run: results.problem(run).setting.name,
+    ),
+    RunColumn("seed", "d", "of every random start", value=lambda _, run: run.seed),
+    RunColumn("repeat", "d", "equal runs, for timings", value=lambda _, run: run.repeat, terminal=False),
+    RunColumn("state", "", "done; failed: the input or an option is at fault; crashed: the process died", value=lambda _, run: run.state, terminal=False),
+    _of("vertices", ",d", "of the tetrahedral mesh", key="vertices", page=False),
+    _of("tets", ",d", "tetrahedra", key="tets", page=False),
+    _of("E", ".6g", "Dirichlet energy of the final frames in sh4; compare on one mesh only", "energy", "energy"),
+    _of("unit speed", ".6g", "3/20 of E: of an embedding in which a frame turning by 1 radian moves by 1", "energy", "energy_unit_speed"),
+    _of("edges", ",d", "triangles round which the frames turn: edges of the dual mesh on singular curves", "singular", "singular_edges"),
+    _of("length", ".4g", "of the singular curves, unit of the input", "singular", "singular_length"),
+    _of("complex", ",d", "singular edges whose rotation keeps no axis of the frame; no hex mesh has them", "singular", "complex_edges"),
+    _of(
+        "non-meshable", ",d",
+        "places where singular curves meet, change or reach the surface in a way no hex mesh has (a necessary condition: the "
+        "others may still have none); nodes that complex edges join count one by one",
+        "singular", "non_meshable_vertices",
+    ),
+    _of(
+        "edges", ",d", "feature edges at which the turn of the field leaves no hexahedron (a necessary condition)",
+        "non-meshable features", "non_meshable_feature_edges", terminal=False,
+    ),
+    _of(
+        "corners", ",d", "corners at which the numbers of hexahedra and quadrilaterals round them fit no hex mesh (a necessary condition)",
+        "non-meshable features", "non_meshable_corners", terminal=False,
+    ),
+    _of("median", ".2f", "angle between surface normal and nearest frame axis, over boundary vertices and their smooth sectors", _DEG, "alignment_deg.median"),
+    _of("max", ".2f", "its maximum", _DEG, "alignment_deg.max"),
+    _of(
+        "features", ".2f", "largest angle between a feature curve and the nearest frame axis, corners included",
+        _DEG, "feature_alignment_deg.max", terminal=False,
+    ),
+    _of(
+        "axis jump", ".3g",
+        "jump of the axes along the face between two tets, root mean square: 0 for gradients of a map, of the order of the mesh "
+        "width on smooth fields; compare on one mesh only",
+        "", "integrability.jump_rms", terminal=False,
+    ),
+    _of("iterations", "d", "diffusion steps and iterations of smoothing", key="iterations"),
+    _of("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads", "seconds", "cpu_seconds.smooth"),
+    _of("smooth", ".3f", "the same by the clock", "seconds", "wall_seconds.smooth"),
+    RunColumn(
+        "total", ".2f", "all phases by the clock, those that runs share included", "seconds",
+        lambda _, run: sum(run.row["wall_seconds"].values()) if run.done else None,
+    ),
+    _of("peak MB", ",.0f", "largest resident memory of the process during the run, its libraries included", key="peak_mb"),
+)  # fmt: skip
+
+
+def run_table(results: Results, runs: Sequence[Run], *, files: bool = False) -> Table:
+    """A line per run, those on one problem together. files: with links to their files, for the page only."""
+    runs = sorted(runs, key=lambda run: (results.rank(run), run.repeat))
+    columns = [column for column in RUN_COLUMNS if column.page]
+    rows = [[column.value(results, run) for column in columns] for run in runs]
+    if files:
+        columns = [*columns, Column("files")]
+        rows = [[*row, _links(run)] for row, run in zip(rows, runs, strict=True)]
+    return Table("runs", columns, rows).without_dull("repeat", "state", *(["input", "seed"] if files else []))
+
+
+def _links(run: Run) -> list[Link]:
+    short = {"result.json": "record", "field.vtu": "field", "singular.vtp": "curves", "log.txt": "log"}
+    return [Link(text, f"{run.link}/{name}") for name, text in short.items() if run.link and run.file(name)]
+
+
+def terminal_table(results: Results) -> Table:
+    columns = [column for column in RUN_COLUMNS if column.terminal]
+    return Table("terminal", columns, [[column.value(results, run) for column in columns] for run in results.runs])
+
+
+def input_table(results: Results, anchors: dict[str, str]) -> Table:
+    """A line per input with any field on it; anchors: of its part of the page."""
+    columns = (
+        Column("input", "", "leads to its part of this page"), Column("vertices", ",d", "of the tetrahedral mesh"), Column("tets", ",d", "tetrahedra"),
+        Column("boundary triangles", ",d", "of its surface"), Column("mean edge", ".4g", "of the surface, unit of the input"),
+        Column("feature edges", ",d", "edges of the surface that the field follows"), Column("corners", ",d", "where feature curves meet or turn"),
+        Column("Euler characteristic", "d", "of the surface; the sum of the indices of the singular points of its cross field"),
+        Column("preparation, s", ".3f", "reading, meshing and cross field on the surface, seconds by the clock, which runs share"),
+        Column("runs", "d", "all runs on it"), Column("mesh", "", "first digits of the SHA-256 of the mesh"),
+    )  # fmt: skip
+    keys = ("vertices", "tets", "boundary_triangles", "edge_length", "feature_edges", "feature_corners")
+    rows = []
+    for name, anchor in anchors.items():
+        runs = results.on(name)
+        record = next((run.row for run in runs if run.done), {})
+        chi = record.get("surface_field", {}).get("euler_characteristic")
+        seconds = preparation_seconds(record) if record else None
+        rows.append([Link(name, f"#{anchor}"), *(record.get(key) for key in keys), chi, seconds, len(runs), record.get("mesh_sha256")])
+    return Table("inputs", columns, rows)
+
+
+def summary_table(results: Results, lines: list[Line], found: Deviations) -> Table:
+    """A line per setting and method."""
+    first = results.methods[0].name if results.methods else ""
+    columns = (
+        Column("boundary", "", "fixed: frames held at the surface cross field; aligned: one axis on the normal, twist free; none: free"),
+        Column("method", "", "what the frames were smoothed as, and how where methods differ in that"),
+        Column("solved", "d", "problems (input, boundary and seed) with a field"), Column("of", "d", "problems"),
+        Column("E", ".6g", "Dirichlet energy of the final frames in sh4, on the only problem with a field", "energy"),
+        Column("over lowest", ".4f", "to the lowest energy of all methods on the problem, geometric mean; problems without energy are left out", "energy"),
+        Column("at most", ".4f", "the largest of these ratios", "energy"),
+        Column("lowest on", "d", "problems on which no method has an energy lower by more than a hundredth of a per cent", "energy"),
+        Column("edges", ",d", "singular edges, sum over the problems solved", "singular"),
+        Column("complex", ",d", "singular edges that no hex mesh has", "singular"),
+        Column("non-meshable", ",d", "places of the singular graph that no hex mesh has (a necessary condition)", "singular"),
+        Column("mean", ".2f", "angle between the frames and those of the first method, mean over vertices and problems", f"deg to {first}"),
+        Column("95 %", ".2f", "95th percentile over vertices, mean over problems", f"deg to {first}"),
+        Column("sum", ".3g", "processor seconds of constraints, start and smoothing, on the problems solved", "CPU seconds"),
+        Column("over fastest", ".2f", "to the fastest method on the problem, geometric mean", "CPU seconds"),
+    )  # fmt: skip
+    rows = []
+    for line in lines:
+        angles = (0.0, 0.0) if line.method == results.methods[0] and found.lines else found.lines.get((line.setting, line.method), (None, None))
+        rows.append((
+            line.setting.name, line.method.name, line.solved, line.asked, line.energy, line.ratio, line.largest, line.lowest,
+            line.singular_edges, line.complex_edges, line.non_meshable, *angles, line.seconds, line.slowdown,
+        ))  # fmt: skip
+    alone = ("over lowest", "at most", "lowest on", "mean", "95 %", "over fastest") if len(results.methods) < 2 else ()
+    return Table("summary", columns, rows).without(*alone).without_empty("E")
+
+
+def failure_table(results: Results, runs: Sequence[Run]) -> Table:
+    columns = [Column(head) for head in ("input", "method", "boundary", "state", "message")]
+    rows = [[run.input, results.method(run).name, results.problem(run).setting.name, run.state, run.row.get("message", "")] for run in runs]
+    return Table("failures", columns, rows)
+
+
+def deviation_table(found: Deviations) -> Table:
+    """Mean angles below the diagonal, 95th percentiles above."""
+    columns = [Column("method"), *(Column(method.name, ".2f") for method in found.methods)]
+    rows = []
+    for i, method in enumerate(found.methods):
+        values = [found.mean[i, j] if j < i else found.high[i, j] for j in range(len(found.methods))]
+        rows.append([method.name, *(None if i == j or not (v == v) else float(v) for j, v in enumerate(values))])
+    return Table("deviations", columns, rows)

@@ -1,0 +1,221 @@
+"""Plots of a report. Colour tells representations apart, dashes and marks their variants (solvers), marks of dots settings."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..phases import PHASES
+from ..plots import PALETTE, TEXT, new_figure, to_svg
+from .profiles import Profile, energies, geometric_mean, ratios_to_best, smoothing_seconds
+from .records import Method, Problem, Results, Run
+
+# Okabe and Ito's colours, told apart with any colour vision, and two of Tol's; TEXT is black or white with the page.
+COLOURS = {
+    "sh4": "#0072B2", "tensor4": "#56B4E9", "su2": "#D55E00", "odeco": "#009E73", "sh469": "#E69F00", "geodesic": "#CC79A7",
+    "su2_midpoint": TEXT, "odeco_lengths": "#999933", "su2_geodesic": "#AA3355", "su2_symmetric": "#7b8794", "su2_frozen": "#A58A1F",
+}  # fmt: skip
+_DASHES, _MARKS = ("-", "--", ":", "-."), ("o", "s", "^", "D", "v", "P")
+_WIDE, _HALF = 12.4, 6.4  # inches: the whole width of the page, half of it
+_GREY = "#8a939d"
+_LARGEST = 1e12  # ratio that is drawn where it is
+_MOST_POINTS = 400  # of a curve
+
+
+@dataclass(frozen=True)
+class Style:
+    """width: later methods are drawn narrower, so that curves that coincide are all seen."""
+
+    colour: str
+    dash: str
+    mark: str
+    width: float
+
+    @property
+    def line(self) -> dict:
+        return {"color": self.colour, "linestyle": self.dash, "linewidth": self.width}
+
+
+def styles(methods: Sequence[Method]) -> dict[Method, Style]:
+    variants = list(dict.fromkeys(method.variant for method in methods))
+    found = {}
+    for number, method in enumerate(methods):
+        place = variants.index(method.variant)
+        width = 3.6 - 2.2 * number / max(1, len(methods) - 1) if len(methods) > 1 else 1.8
+        colour = COLOURS.get(method.representation, TEXT)
+        found[method] = Style(colour, _DASHES[place % len(_DASHES)], _MARKS[place % len(_MARKS)], width)
+    return found
+
+
+def ratio_plot(results: Results, salt: str = "") -> str:
+    """A dot per method and problem: energy over the lowest, processor seconds over the fastest; a bar: geometric mean."""
+    figure, both = new_figure(_WIDE, 1.3 + 0.27 * len(results.methods), 2, sharey=True)
+    marks = {setting: _MARKS[k % len(_MARKS)] for k, setting in enumerate(results.settings)}
+    style, places = styles(results.methods), range(len(results.methods))
+    parts = ((energies, "energy over the lowest of the problem"), (smoothing_seconds, "CPU seconds over the fastest of the problem"))
+    for axes, (quantity, label) in zip(both, parts, strict=True):
+        means: dict[Method, list[float]] = {}
+        largest = 1.0
+        for number, setting in enumerate(results.settings):
+            found = ratios_to_best(quantity(results, [p for p in results.problems if p.setting == setting]))
+            shift = 0.22 * (2 * number / max(1, len(marks) - 1) - 1) if len(marks) > 1 else 0.0
+            for place, (method, ratios) in enumerate(found.items()):
+                ratios = np.minimum(ratios[np.isfinite(ratios)], _LARGEST)
+                means.setdefault(method, []).extend(ratios)
+                largest = max(largest, ratios.max(initial=1))
+                dots = {"color": style[method].colour, "markersize": 5.5, "alpha": 0.75, "markeredgewidth": 0}
+                axes.plot(ratios, np.full(len(ratios), place + shift), marks[setting], **dots)
+        for place, method in enumerate(results.methods):
+            mean = geometric_mean(np.array(means.get(method, [])))
+            if mean is not None:
+                axes.plot([mean, mean], [place - 0.36, place + 0.36], color=TEXT, linewidth=1.6)
+        _ratio_axis(axes, largest)
+        axes.set_xlabel(label)
+        axes.grid(axis="x", alpha=0.25, linewidth=0.6)
+    both[0].set_yticks(list(places), [method.name for method in results.methods])
+    both[0].set_ylim(len(results.methods) - 0.5, -0.5)
+    if len(results.settings) > 1:
+        _legend(figure, [_handle(marker=mark, color=TEXT, linestyle="none", label=setting.name) for setting, mark in marks.items()])
+    return to_svg(figure, "energies and seconds relative to the best method of each problem", salt)
+
+
+def profile_plot(parts: Sequence[tuple[Mapping[Method, Profile], str]], salt: str = "") -> str:
+    """One panel per (profiles, label of their ratios), the same methods in each."""
+    methods = list(parts[0][0])
+    style = styles(methods)
+    figure, panels = new_figure(_WIDE, 3.6 + 0.24 * (1 + len(methods) // 8), len(parts), sharey=True)
+    for axes, (profiles, label) in zip(panels, parts, strict=True):
+        largest = max((p.ratio[-1] for p in profiles.values()), default=1.0)
+        right = 1 + (min(max(largest, 1.01), _LARGEST) - 1) * 1.05
+        for method, profile in profiles.items():
+            axes.step(np.r_[np.minimum(profile.ratio, right), right], np.r_[profile.share, profile.share[-1]], where="post", **style[method].line)
+        _ratio_axis(axes, right)
+        axes.set_ylim(0, 1.03)
+        axes.set_xlabel(label)
+        axes.grid(alpha=0.25, linewidth=0.6)
+    panels[0].set_ylabel("share of problems")
+    _method_legend(figure, methods)
+    return to_svg(figure, "performance profiles", salt)
+
+
+def deviation_plot(angles: Mapping[Method, np.ndarray], first: Method, salt: str = "") -> str:
+    """One box per method: median, quartiles, 5th and 95th per cent of degrees."""
+    figure, (axes,) = new_figure(_HALF, 0.9 + 0.3 * len(angles))
+    style = styles(list(angles))
+    for place, (method, values) in enumerate(angles.items()):
+        low, left, middle, right, high = np.percentile(values, [5, 25, 50, 75, 95])
+        colour = style[method].colour
+        axes.plot([low, high], [place, place], color=colour, linewidth=1.4)
+        axes.barh(place, right - left, left=left, height=0.5, color=colour, alpha=0.55, linewidth=0)
+        axes.plot([middle, middle], [place - 0.32, place + 0.32], color=TEXT, linewidth=1.8)
+    axes.set_yticks(range(len(angles)), [method.name for method in angles])
+    axes.set_ylim(len(angles) - 0.5, -0.5)
+    axes.set_xlim(left=0)
+    if axes.get_xlim()[1] < 0.01:  # they coincide: no axis full of rounding
+        axes.set_xlim(0, 0.01)
+    axes.set_xlabel(f"angle to the frames of {first.name}, degrees")
+    axes.grid(axis="x", alpha=0.25, linewidth=0.6)
+    return to_svg(figure, "angles between fields", salt)
+
+
+def is_wide(results: Results, problems: Sequence[Problem]) -> bool:
+    """Whether the plot of convergence takes the whole width."""
+    return len(problems) > 1 or len(results.methods) > 8
+
+
+def convergence_plot(results: Results, problems: Sequence[Problem], salt: str = "") -> str:
+    """Energy against iteration, a panel per problem on common axes."""
+    methods = [m for m in results.methods if any(results.field(m, p) for p in problems)]
+    style = styles(methods)
+    figure, panels = new_figure(_WIDE if is_wide(results, problems) else _HALF, 3.5 + 0.24 * (1 + len(methods) // 8), len(problems), sharex=True, sharey=True)
+    longest, shared = 1, {}
+    for axes, problem in zip(panels, problems, strict=True):
+        curves = {m: run.row["energy_history"] for m in methods if (run := results.field(m, problem)) is not None}
+        begin = _common(list(curves.values()))
+        if begin > 1:
+            shared |= {"color": _GREY, "linewidth": 2.4}
+            _curve(axes, next(iter(curves.values()))[:begin], 0, **shared)
+        for method, history in curves.items():
+            longest = max(longest, len(history))
+            mark = {"marker": style[method].mark, "markevery": [-1], "markersize": 5 + style[method].width / 2}
+            _curve(axes, history[max(0, begin - 1) :], max(0, begin - 1), **style[method].line, **mark)
+        axes.set_xlabel("iteration")
+        axes.grid(alpha=0.25, linewidth=0.6)
+        if len(problems) > 1:
+            axes.set_title(problem.setting.name, fontsize=10)
+    if longest > 300:
+        panels[0].set_xscale("symlog", linthresh=10)
+    else:
+        panels[0].xaxis.get_major_locator().set_params(integer=True)
+    panels[0].set_ylabel("energy E")
+    _method_legend(figure, methods, [_handle(**shared, label="common to all")] if shared else [])
+    return to_svg(figure, "energy against iteration", salt)
+
+
+def _common(histories: list[list[float]]) -> int:
+    """How many steps all have in common from the start on: sh4, which others start from. 0 for a single one."""
+    steps = list(zip(*histories, strict=False)) if len(histories) > 1 else []
+    return next((k for k, values in enumerate(steps) if len(set(values)) > 1), len(steps))
+
+
+def _curve(axes, history: list[float], first: int, **options) -> None:
+    places = np.unique(np.linspace(0, len(history) - 1, min(len(history), _MOST_POINTS)).astype(int))
+    axes.plot(first + places, np.array(history)[places], **options)
+
+
+def seconds_plot(labels: Sequence[str], runs: Sequence[Run], salt: str = "") -> str:
+    """Seconds by the clock per phase, one stacked bar per run."""
+    figure, (axes,) = new_figure(_HALF, 1.0 + 0.24 * len(runs))
+    left, places = np.zeros(len(runs)), range(len(runs))
+    for number, phase in enumerate(PHASES):
+        seconds = np.array([run.row["wall_seconds"].get(phase, 0.0) for run in runs])
+        axes.barh(places, seconds, left=left, height=0.66, color=PALETTE[number], label=phase, edgecolor="none")
+        left += seconds
+    axes.set_yticks(list(places), labels, fontsize=9)
+    axes.set_ylim(len(runs) - 0.4, -0.6)
+    axes.set_xlabel("seconds by the clock")
+    axes.grid(axis="x", alpha=0.25, linewidth=0.6)
+    _legend(figure, [_handle(color=colour, linewidth=7, label=phase) for phase, colour in zip(PHASES, PALETTE, strict=False)])
+    return to_svg(figure, "seconds per phase", salt)
+
+
+def _ratio_axis(axes, largest: float) -> None:
+    """From 1; logarithmic where ratios are large, and never an axis full of rounding."""
+    from matplotlib.ticker import ScalarFormatter
+
+    largest = min(max(largest, 1.001), _LARGEST)
+    if largest > 4:
+        axes.set_xscale("log")
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.xaxis.set_minor_formatter("{x:g}" if largest < 10 else "")
+        axes.set_xlim(0.96, largest * 1.08)
+    else:
+        axes.xaxis.set_major_formatter(ScalarFormatter(useOffset=False))
+        axes.set_xlim(1 - 0.02 * (largest - 1), 1 + 1.05 * (largest - 1))
+
+
+def _method_legend(figure, methods: Sequence[Method], more: Sequence = ()) -> None:
+    """A line per method where they are few; else colours of representations, then dashes of variants."""
+    style = styles(methods)
+    variants = list(dict.fromkeys(method.variant for method in methods))
+    if len(variants) < 2 or len(methods) < 8:
+        _legend(figure, [_handle(**{**style[m].line, "linewidth": 2}, marker=style[m].mark, label=m.name) for m in methods] + list(more))
+        return
+    first = {method.representation: style[method].colour for method in methods}
+    handles = [_handle(color=colour, linewidth=5, label=name) for name, colour in first.items()]
+    for variant in variants:
+        of = next(style[m] for m in methods if m.variant == variant)
+        handles.append(_handle(color=TEXT, linestyle=of.dash, marker=of.mark, label=variant or "default"))
+    _legend(figure, [*handles, *more])
+
+
+def _handle(**options):
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], **options)
+
+
+def _legend(figure, handles: list) -> None:
+    widest = max(len(handle.get_label()) for handle in handles)
+    columns = max(1, min(len(handles), int(figure.get_figwidth() / (0.6 + 0.085 * widest))))
+    figure.legend(handles=handles, frameon=False, labelcolor=TEXT, loc="outside lower center", ncols=columns)

@@ -1,0 +1,78 @@
+"""From runs to the files of a report."""
+
+import html
+import os
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .columns import deviation_table, input_table, run_table, summary_table
+from .deviations import deviations
+from .profiles import lines
+from .records import Results, Run
+from .render import Content, render
+from .tables import Table, write_records
+
+PAGE_FILE, RECORDS_FILE, TABLES = "report.html", "results.csv", "tables"
+
+
+@dataclass
+class Report:
+    """runs: in the order of the page; the first method is the one that others are measured against. pictures: of
+    octafield.pictures, per input. description: of the study, shown as it is. open_runs: not carried out yet. files: others
+    beside the page to link."""
+
+    title: str
+    runs: Sequence[Run]
+    pictures: dict[str, list] = field(default_factory=dict)
+    description: str = ""
+    open_runs: int = 0
+    files: Sequence[str] = ()
+
+
+def write_report(report: Report, folder: Path) -> list[str]:
+    """Writes report.html, results.csv (a line per run, all numbers of its record) and tables/*.csv, *.tex (the tables of the
+    page) into an existing folder, each replaced at once; their names."""
+    results = Results(report.runs)
+    found = deviations(results)
+    content = Content(results, lines(results), found, report.pictures, report.title, report.description, report.open_runs, "")
+    tables = (
+        summary_table(results, content.lines, found), deviation_table(found), input_table(results, content.anchors),
+        run_table(results, results.runs),
+    )  # fmt: skip
+    (folder / TABLES).mkdir(exist_ok=True)
+    names = []
+    for table in tables:
+        names += _write_table(folder, table)
+    _replace(folder / RECORDS_FILE, lambda path: write_records(path, [run.row for run in report.runs]))
+    content.links = _links([*report.files, RECORDS_FILE], names)
+    text = render(content)
+    _replace(folder / PAGE_FILE, lambda path: path.write_text(text, encoding="utf-8"))
+    return [PAGE_FILE, RECORDS_FILE, *names]
+
+
+def _write_table(folder: Path, table: Table) -> list[str]:
+    names = [f"{TABLES}/{table.stem}.{end}" for end in ("csv", "tex")]
+    _replace(folder / names[0], table.write_csv)
+    _replace(folder / names[1], table.write_latex)
+    return names
+
+
+def _links(files: Sequence[str], tables: Sequence[str]) -> str:
+    linked = lambda name, text: f'<a href="{html.escape(name)}">{html.escape(text)}</a>'  # noqa: E731
+    records = ", ".join(linked(name, name) for name in files)
+    stems = [table.removesuffix(".csv") for table in tables if table.endswith(".csv")]
+    parts = [f"{stem.split('/')[-1]} ({linked(stem + '.csv', 'CSV')}, {linked(stem + '.tex', 'LaTeX')})" for stem in stems]
+    return f"Records: {records}. Tables: {', '.join(parts)}"
+
+
+def _replace(path: Path, write: Callable[[Path], object]) -> None:
+    handle, partial = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    os.close(handle)
+    try:
+        write(Path(partial))
+        os.chmod(partial, 0o644)
+        os.replace(partial, path)
+    finally:
+        Path(partial).unlink(missing_ok=True)
