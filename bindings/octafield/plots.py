@@ -49,5 +49,11 @@ def to_svg(figure, label: str, salt: str = "") -> str:
     return svg.replace(TEXT, "currentColor")
 
 
+def standalone(svg: str) -> str:
+    """A file from an element of to_svg: black, on white in a browser."""
+    spaces = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+    return svg.replace("<svg", f'<svg {spaces} color="black" font-family="sans-serif" style="background: white"', 1)
+
+
 def _page_font(match: re.Match) -> str:
     return f"font-size: {match[1]}" if match[1] else "font-family: inherit"

@@ -2,11 +2,12 @@
 
     python -m studies.flagship -o DIR [--part generators] [--jobs N]
 
-DIR gets a folder per part, with its report, and flagship.md: conclusions whose numbers are filled in from the runs. Killed at any moment, it
+DIR gets a folder per part, with its report, pictures/ (the first figure of each) and flagship.md: conclusions whose numbers are filled in from the runs. Killed at any moment, it
 goes on when called again. HexMe is taken from ../shared/data/hexme; without it that part, and the page, are left out.
 """
 
 import argparse
+import shutil
 import sys
 from pathlib import Path
 
@@ -29,6 +30,8 @@ def run_part(part: str, folder: Path, jobs: int) -> bool:
         return False
     outcome = study.run(described, folder / part, jobs=jobs)
     print(study.write_report(folder / part), vars(outcome.status))
+    (folder / "pictures").mkdir(exist_ok=True)
+    shutil.copyfile(folder / part / "figures" / "figure-1.svg", folder / "pictures" / f"flagship_{part}.svg")
     return True
 
 

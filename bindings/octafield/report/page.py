@@ -16,6 +16,7 @@ class Exhibits:
     _figures: int = 0
     _tables: int = 0
     _links: dict[str, str] = field(default_factory=dict)
+    plots: dict[str, str] = field(default_factory=dict)  # "figure-2" -> <svg> element
 
     @property
     def salt(self) -> str:
@@ -26,6 +27,8 @@ class Exhibits:
         """caption: HTML."""
         self._figures += 1
         self._links[key] = f'<a href="#figure-{self._figures}">Figure {self._figures}</a>'
+        if content.startswith("<svg"):
+            self.plots[f"figure-{self._figures}"] = content
         text = f"<figcaption><b>Figure {self._figures}. {title}.</b> {caption}</figcaption>"
         return f'<figure class="{kind}" id="figure-{self._figures}">{content}{text}</figure>'
 

@@ -49,9 +49,9 @@ def _methods(methods: Sequence[Method]) -> str:
     count = counted(len(methods), "method")
     variants = list(dict.fromkeys(method.variant or "default" for method in methods))
     representations = list(dict.fromkeys(method.representation for method in methods))
-    if min(len(variants), len(representations)) > 1 and len(representations) * len(variants) == len(methods):
-        both = f"{len(representations)} representations ({listed(representations)}) in {len(variants)} variants each"
-        return f"{count}, {both} ({listed(variants)}),"
+    if min(len(variants), len(representations)) > 1:
+        each = "" if len(representations) * len(variants) == len(methods) else "up to "
+        return f"{count}, {len(representations)} representations ({listed(representations)}) in {each}{counted(len(variants), 'variant')} ({listed(variants)}),"
     return f"{count} ({named(methods)})"
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..plots import standalone
 from .columns import deviation_table, input_table, run_table, summary_table
 from .deviations import deviations
 from .profiles import lines
@@ -14,7 +15,7 @@ from .records import Results, Run
 from .render import Content, render
 from .tables import Table, write_records
 
-PAGE_FILE, RECORDS_FILE, TABLES = "report.html", "results.csv", "tables"
+PAGE_FILE, RECORDS_FILE, TABLES, FIGURES = "report.html", "results.csv", "tables", "figures"
 
 
 @dataclass
@@ -33,7 +34,7 @@ class Report:
 
 def write_report(report: Report, folder: Path) -> list[str]:
     """Writes report.html, results.csv (a line per run, all numbers of its record) and tables/*.csv, *.tex (the tables of the
-    page) into an existing folder, each replaced at once; their names."""
+    page) and figures/*.svg (its plots) into an existing folder, each replaced at once; their names."""
     results = Results(report.runs)
     found = deviations(results)
     content = Content(results, lines(results), found, report.pictures, report.title, report.description, report.open_runs, "")
@@ -47,9 +48,18 @@ def write_report(report: Report, folder: Path) -> list[str]:
         names += _write_table(folder, table)
     _replace(folder / RECORDS_FILE, lambda path: write_records(path, [run.row for run in report.runs]))
     content.links = _links([*report.files, RECORDS_FILE], names)
-    text = render(content)
+    text, plots = render(content)
     _replace(folder / PAGE_FILE, lambda path: path.write_text(text, encoding="utf-8"))
-    return [PAGE_FILE, RECORDS_FILE, *names]
+    return [PAGE_FILE, RECORDS_FILE, *names, *_write_plots(folder, plots)]
+
+
+def _write_plots(folder: Path, plots: dict[str, str]) -> list[str]:
+    (folder / FIGURES).mkdir(exist_ok=True)
+    for old in set((folder / FIGURES).glob("figure-*.svg")) - {folder / FIGURES / f"{name}.svg" for name in plots}:
+        old.unlink()
+    for name, plot in plots.items():
+        _replace(folder / FIGURES / f"{name}.svg", lambda path, plot=plot: path.write_text(standalone(plot), encoding="utf-8"))
+    return [f"{FIGURES}/{name}.svg" for name in plots]
 
 
 def _write_table(folder: Path, table: Table) -> list[str]:
