@@ -50,7 +50,7 @@ class Child:
         self._left = [run.key for run in runs]  # the same, as far as it has told
         self._limit, self._tell, self._message = limit, tell, ""
         self._late, self._prepared = "", False
-        self._since: float | None = time.monotonic()  # the step in work began; None: it waits for leave
+        self._since: float | None = None  # the step in work began; None: it starts, or waits for leave
         environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
         reading, writing = os.pipe()  # not stdout, on which anything may print
         try:
@@ -96,7 +96,9 @@ class Child:
                 event = _parsed(line)
                 if event is None:
                     continue
-                if event["event"] == "prepared":
+                if event["event"] == "ready":
+                    self._since = time.monotonic()
+                elif event["event"] == "prepared":
                     self._since, self._prepared = None, True
                 elif event["event"] == "finished":
                     self._since, self._left = time.monotonic(), [key for key in self._left if key != event["key"]]

@@ -14,6 +14,7 @@ import math
 import os
 import queue
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 from ..errors import Error, InvalidInput, IoError
@@ -40,9 +41,24 @@ def run_on_cluster(leader: Leader, scheduler: str, patience: float) -> None:
         from distributed import Client
     except ImportError as error:
         raise InvalidInput("dask.distributed is not installed; pip install octafield[cluster]", "no_dask") from error
-    logging.getLogger("distributed").setLevel(logging.ERROR)  # told by our own errors
+    with _silent(logging.getLogger("distributed")):
+        _lead(Client, leader, scheduler, patience)
+
+
+@contextlib.contextmanager
+def _silent(logger: logging.Logger) -> Iterator[None]:
+    """Lost connections are told by our own errors."""
+    level = logger.level
+    logger.setLevel(logging.CRITICAL + 1)
     try:
-        client = Client(scheduler, timeout=10, set_as_default=False)
+        yield
+    finally:
+        logger.setLevel(level)
+
+
+def _lead(connect, leader: Leader, scheduler: str, patience: float) -> None:
+    try:
+        client = connect(scheduler, timeout=10, set_as_default=False)
     except (OSError, ValueError) as error:
         raise IoError(f"{scheduler}: no dask scheduler answers there ({error})", "no_scheduler") from error
     try:

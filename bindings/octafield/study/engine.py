@@ -125,7 +125,9 @@ class _Local:
         tell = lambda child, event: self.events.put((child, event))
         child = Child(leader.store.folder, group.runs, leader.keep_fields, leader.limit, tell)
         self.active[child] = _Job(group, child, needed_mb(0, group.runs))
-        leader.begins(group)
+
+    def _on_ready(self, job: _Job, _event: dict) -> None:
+        self.leader.begins(job.group)
 
     def _on_prepared(self, job: _Job, event: dict) -> None:
         self.leader.prepared(job.group, event["tets"], event["seconds"])
@@ -144,7 +146,7 @@ class _Local:
     def _on_unwritable(self, job: _Job, event: dict) -> None:
         raise IoError(event["message"], "cannot_write")
 
-    def _on_broken(self, job: _Job, event: dict) -> None:
+    def _on_broken(self, job: _Job, _event: dict) -> None:
         pass  # the child keeps the words for its end
 
     def _on_ended(self, job: _Job, _event: dict) -> None:

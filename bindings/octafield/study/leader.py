@@ -27,9 +27,13 @@ class Group:
     runs: list[Run]
     number: int = field(default_factory=itertools.count().__next__)
 
+    def __post_init__(self) -> None:
+        self.name = self.runs[0].name
+
     @property
     def label(self) -> str:
-        return f"{self.runs[0].name}, {self.runs[0].options.representation}" if self.runs else ""
+        """Of the run in work."""
+        return f"{self.name}, {self.runs[0].options.representation}" if self.runs else self.name
 
 
 class Leader:

@@ -1,6 +1,6 @@
 """Runs of one group, one after the other, in a process of their own.
 
-Speaks JSON lines: reads one job from standard input; writes to the file descriptor that its argument names {"event": "prepared", "tets": n,
+Speaks JSON lines: reads one job from standard input; writes to the file descriptor that its argument names {"event": "ready"}, {"event": "prepared", "tets": n,
 "seconds": s}, waits for a line (the leader's leave to use that much memory), then {"event": "finished", "key": ..., "seconds": s,
 "state": ...} for each run and "progress" between. Before it ends without having finished all: "changed" (the input is no longer
 what was planned), "unwritable" (the folder) or "broken", each with a "message".
@@ -101,6 +101,7 @@ def main() -> None:
     out = os.fdopen(int(sys.argv[1]), "w", buffering=1)
     tell = lambda **event: print(json.dumps(event), file=out)
     job = json.loads(sys.stdin.readline())
+    tell(event="ready")
     runs = [Run.from_json(content) for content in job["runs"]]
 
     def prepared(tets: int, seconds: float) -> None:
