@@ -44,6 +44,7 @@ class PhaseTimeLeft:
 
     def __init__(self) -> None:
         self._seen: deque[tuple[float, float]] = deque()
+        self._begin = 0.0
         self._steady = Steady()
 
     def at(self, fraction: float, now: float) -> float | None:
@@ -52,15 +53,15 @@ class PhaseTimeLeft:
             return None
         if self._seen and fraction < self._seen[-1][1]:
             self._seen.clear()
+        if not self._seen:
+            self._begin = now
         self._seen.append((now, fraction))
-        begin, first = self._seen[0]
-        if now - begin < _LEAST_SECONDS or fraction - first < _LEAST_FRACTION:
+        tells = lambda seen: now - seen[0] >= _LEAST_SECONDS and fraction - seen[1] >= _LEAST_FRACTION
+        if not tells(self._seen[0]):
             return None
         # The slope over the later half of the time so far: steps of one kind follow those of another.
-        middle = begin + (now - begin) / 2
-        while len(self._seen) > 2 and self._seen[1][0] <= middle and now - self._seen[1][0] >= _LEAST_SECONDS:
+        middle = (self._begin + now) / 2
+        while self._seen[1][0] <= middle and tells(self._seen[1]):
             self._seen.popleft()
         earlier, low = self._seen[0]
-        if fraction <= low:
-            return None
         return self._steady.follow((1 - fraction) * (now - earlier) / (fraction - low), now)

@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
+from study_fixtures import table, trap_workers
 
 import octafield
 from octafield import study
@@ -40,12 +41,6 @@ def undisturbed(described) -> Path:
     outcome = study.run(study.load(described), described.parent / "undisturbed")
     assert outcome.status == study.Status(done=8, failed=4, crashed=0, open=0) and len(outcome.computed) == 12
     return outcome.folder
-
-
-def table(folder: Path) -> list[dict]:
-    """What a run decides; times and hosts differ from run to run."""
-    keys = ("key", "input", "state", "message", "repeat", "mesh_sha256", "energy", "energy_history", "singular_edges", "options")
-    return [{key: row.get(key) for key in keys} for row in study.rows(folder)]
 
 
 def left_over(folder: Path) -> list[str]:
@@ -131,16 +126,13 @@ def test_a_run_whose_process_is_killed_is_tried_again(undisturbed, described, tm
 
 def test_a_run_that_kills_its_process_twice_is_recorded_and_tried_on_resume(described, tmp_path, monkeypatch):
     text = "{name: x, inputs: [{generator: ball, mesh: {edge_length: 0.45}}], runs: {representation: [sh4, su2, geodesic]}}"
-    trap = tmp_path / "trap"
-    trap.mkdir()
-    (trap / "sitecustomize.py").write_text(
-        "import os, sys\n"
-        "if any('worker' in a for a in sys.orig_argv):\n"
-        "    import octafield.pipeline as p\n"
-        "    run = p.run\n"
-        "    p.run = lambda problem, options, *a: os.abort() if options.representation == 'su2' else run(problem, options, *a)\n"
+    trap_workers(
+        tmp_path,
+        monkeypatch,
+        "import octafield.pipeline as p\n"
+        "run = p.run\n"
+        "p.run = lambda problem, options, *a: os.abort() if options.representation == 'su2' else run(problem, options, *a)\n",
     )
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(trap), *filter(None, [os.environ.get("PYTHONPATH")])]))
     outcome = study.run(study.parse(text), tmp_path / "out", jobs=1)
     assert outcome.status == study.Status(done=2, failed=0, crashed=1, open=0)
     (row,) = [row for row in study.rows(tmp_path / "out") if row["state"] == "crashed"]
