@@ -11,6 +11,12 @@ inputs:
   - {generator: box, mesh: {edge_length: 0.4}}
 runs: {representation: [sh4, sh469]}
 """
+# Of processes of runs: sh469 takes a minute.
+STALLS = """import time
+import octafield.pipeline as p
+run = p.run
+p.run = lambda problem, options, *a: time.sleep(60) if options.representation == 'sh469' else run(problem, options, *a)
+"""
 
 
 def table(folder: Path) -> list[dict]:
@@ -24,5 +30,5 @@ def trap_workers(folder: Path, monkeypatch, code: str) -> None:
     trap = folder / "trap"
     trap.mkdir()
     guarded = "".join(f"    {line}\n" for line in code.splitlines())
-    (trap / "sitecustomize.py").write_text(f"import os, sys\nif any('worker' in a for a in sys.orig_argv):\n{guarded}")
+    (trap / "sitecustomize.py").write_text(f"import os, sys\nif any('study.worker' in a for a in sys.orig_argv):\n{guarded}")
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(trap), *filter(None, [os.environ.get("PYTHONPATH")])]))

@@ -8,7 +8,7 @@ import threading
 import time
 
 import pytest
-from study_fixtures import BODIES, table, trap_workers
+from study_fixtures import BODIES, STALLS, table, trap_workers
 
 import octafield
 from octafield import study
@@ -26,23 +26,16 @@ def copy(sound, tmp_path):
     return shutil.copytree(sound, tmp_path / "copy")
 
 
-STALLS = """import time
-import octafield.pipeline as p
-run = p.run
-p.run = lambda problem, options, *a: time.sleep(60) if options.representation == 'sh469' else run(problem, options, *a)
-"""
-
-
 def test_a_run_past_the_limit_is_ended_and_recorded_and_retried_on_request(sound, tmp_path, monkeypatch):
     trap_workers(tmp_path, monkeypatch, STALLS)
     begin = time.monotonic()
-    outcome = study.run(study.parse(BODIES + "limit: 4\n"), tmp_path / "out", jobs=2)
-    assert time.monotonic() - begin < 40
+    outcome = study.run(study.parse(BODIES + "limit: 9\n"), tmp_path / "out", jobs=2)
+    assert time.monotonic() - begin < 90
     assert outcome.status == study.Status(done=2, failed=2, crashed=0, open=0)
     for row in study.rows(outcome.folder):
         late = row["options"]["representation"] == "sh469"
         assert row["state"] == ("failed" if late else "done") and row.get("error_kind", "") == ("timed_out" if late else "")
-        assert not late or row["message"] == "not finished after 4 s, the study's limit"
+        assert not late or row["message"] == "not finished after 9 s, the study's limit"
     assert study.run(study.parse(BODIES + "limit: 90\n"), outcome.folder).computed == []
     monkeypatch.undo()
     assert len(study.run(study.parse(BODIES), outcome.folder, retry=True).computed) == 2

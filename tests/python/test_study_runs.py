@@ -181,41 +181,6 @@ def test_cancelling_keeps_what_is_finished(described, tmp_path):
     assert 3 <= len(study.rows(tmp_path / "out")) < 12
 
 
-def test_two_dask_workers_one_killed_lose_and_double_nothing(undisturbed, described, tmp_path):
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    dask = [sys.executable, "-m", "dask"]
-    address = tmp_path / "scheduler.json"
-    options = ["--scheduler-file", address, "--no-dashboard"]
-    started = [subprocess.Popen([*dask, "scheduler", "--port", "0", *options], cwd=tmp_path, **quiet)]
-    try:
-        one_thread = ["--nthreads", "1", "--nworkers", "1", "--no-nanny", "--local-directory", tmp_path]
-        started += [subprocess.Popen([*dask, "worker", *options, *one_thread], cwd=tmp_path, **quiet) for _ in range(2)]
-        while not address.is_file() or not address.stat().st_size:
-            time.sleep(0.05)
-        scheduler = json.loads(address.read_text())["address"]
-        from distributed import Client
-
-        with Client(scheduler) as client:
-            client.wait_for_workers(2, timeout=60)
-            by_pid = client.run(os.getpid)
-        folder = tmp_path / "cluster"
-        victim, killed = next(iter(by_pid.values())), []
-
-        leader = subprocess.Popen([sys.executable, "-m", "octafield", "study", "run", described, "-o", folder, "--scheduler", scheduler], **quiet)
-        while leader.poll() is None:
-            if not killed and finished(folder):
-                killed.append(os.kill(victim, signal.SIGKILL))
-            time.sleep(0.01)
-        assert killed and leader.returncode == 0
-    finally:
-        for process in started:
-            process.kill()
-            process.wait()
-    assert table(folder) == table(undisturbed)
-    with pytest.raises(octafield.IoError, match="no dask scheduler"):
-        study.run(study.load(described), folder, scheduler="tcp://127.0.0.1:1", retry=True)
-
-
 def test_reports_show_what_every_kind_of_run_has(undisturbed, described, tmp_path):
     page = study.write_report(undisturbed)
     text = page.read_text()

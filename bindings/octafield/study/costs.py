@@ -166,5 +166,5 @@ class Forecast:
         if group.since is not None:
             passed = max(now - group.since, 0.0)
             # What takes longer than expected is likely to take some time more.
-            steps[0] = max(steps[0] - passed, 0.2 * passed)
+            steps[0] = max(steps[0] - passed, 0.5 * passed)
         return sum(steps)
