@@ -6,6 +6,7 @@ import logging
 import math
 import os
 import sys
+import time
 import traceback
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -16,6 +17,7 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeEl
 
 from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from .output import write_json
+from .time_left import PhaseTimeLeft, words
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 _REPAIRABLE = (
@@ -81,36 +83,72 @@ def _say(message: str) -> None:
 
 
 @contextlib.contextmanager
-def progress_bar(quiet: bool) -> Iterator:
-    """Yields a progress callback; draws on stderr when that is a terminal."""
-    if quiet or not sys.stderr.isatty():
+def progress_bar(quiet: bool, whole: bool = False) -> Iterator:
+    """Yields a progress callback; None when quiet. Draws on stderr when that is a terminal, else writes a plain line there now and
+    then. whole: what is reported is one piece of work, whose text tells the time left itself; else phases, one after the other."""
+    if quiet:
         yield None
-        return
+    elif sys.stderr.isatty():
+        with _drawn(whole) as report:
+            yield report
+    else:
+        yield PlainLines(_say, whole)
+
+
+@contextlib.contextmanager
+def _drawn(whole: bool) -> Iterator:
     columns = (
         SpinnerColumn(),
         TextColumn("{task.description}", markup=False),
         BarColumn(),
         TextColumn("{task.fields[merit]}"),
         TimeElapsedColumn(),
+        TextColumn("{task.fields[left]}"),
     )
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("", total=None, merit="")
-        shown = ""
+        task = bar.add_task("", total=None, merit="", left="")
+        shown, left = "", PhaseTimeLeft()
 
         def report(phase: str, fraction: float, merit: float) -> bool:
-            nonlocal shown
-            if phase != shown:
-                bar.reset(task, description=phase, merit="")
-                shown = phase
+            nonlocal shown, left
+            if phase != shown and not whole:
+                bar.reset(task, merit="", left="")
+                left = PhaseTimeLeft()
+            shown = phase
+            seconds = None if whole else left.at(fraction, time.monotonic())
             bar.update(
                 task,
+                description=phase,
                 total=1.0 if fraction >= 0 else None,
                 completed=max(fraction, 0.0),
                 merit="" if math.isnan(merit) else f"{merit:.6g}",
+                left="" if seconds is None else words(seconds, most=True),
             )
             return True
 
         yield report
+
+
+class PlainLines:
+    """A progress callback for logs: lines without control codes, the first after some seconds, then ever more rarely."""
+
+    FIRST, GROWTH, LARGEST = 10.0, 1.5, 300.0  # seconds between lines
+
+    def __init__(self, say: Callable[[str], None], whole: bool, clock: Callable[[], float] = time.monotonic):
+        self._say, self._whole, self._clock = say, whole, clock
+        self._wait, self._last = self.FIRST, clock()
+        self._phase, self._left = "", PhaseTimeLeft()
+
+    def __call__(self, phase: str, fraction: float, merit: float) -> bool:
+        now = self._clock()
+        if phase != self._phase:
+            self._phase, self._left = phase, PhaseTimeLeft()
+        seconds = None if self._whole else self._left.at(fraction, now)
+        if now - self._last >= self._wait:
+            share = "" if self._whole or fraction < 0 else f", {fraction:.0%} of the most steps"
+            self._say(phase + share + ("" if seconds is None else f", {words(seconds, most=True)}"))
+            self._last, self._wait = now, min(self._wait * self.GROWTH, self.LARGEST)
+        return True
 
 
 def check_json_target(target: str | None) -> None:

@@ -17,6 +17,7 @@ Jobs = Annotated[int, typer.Option(metavar="N", help="Processes at once; 0: one 
 RunThreads = Annotated[int, typer.Option("--threads", metavar="N", help="Threads of each run; 0: all. Results do not depend on it.")]
 Memory = Annotated[float, typer.Option(metavar="GB", help="That all processes may be expected to need; 0: four fifths of the machine's.")]
 Scheduler = Annotated[str, typer.Option(metavar="ADDRESS", help="Dask scheduler whose workers do the runs; they must see DIR and the inputs.")]
+Patience = Annotated[float, typer.Option(metavar="S", help="Seconds to wait for a dask worker that can take what is left.")]
 Retry = Annotated[bool, typer.Option("--retry", help="Try runs that failed again.")]
 
 
@@ -28,6 +29,7 @@ def run(
     threads: RunThreads = 1,
     memory: Memory = 0,
     scheduler: Scheduler = "",
+    patience: Patience = 300,
     retry: Retry = False,
     json: Json = None,
     quiet: Quiet = False,
@@ -38,7 +40,7 @@ def run(
     def work() -> None:
         from .study.description import load
 
-        _run(load(description), output, jobs, threads, memory, scheduler, retry, json, quiet)
+        _run(load(description), output, jobs, threads, memory, scheduler, patience, retry, json, quiet)
 
     carry_out(work, quiet, verbose, json)
 
@@ -50,6 +52,7 @@ def resume(
     threads: RunThreads = 1,
     memory: Memory = 0,
     scheduler: Scheduler = "",
+    patience: Patience = 300,
     retry: Retry = False,
     json: Json = None,
     quiet: Quiet = False,
@@ -60,7 +63,7 @@ def resume(
     def work() -> None:
         from .study.store import Store
 
-        _run(Store(folder).study(), folder, jobs, threads, memory, scheduler, retry, json, quiet)
+        _run(Store(folder).study(), folder, jobs, threads, memory, scheduler, patience, retry, json, quiet)
 
     carry_out(work, quiet, verbose, json)
 
@@ -89,14 +92,15 @@ def report(folder: Folder, quiet: Quiet = False, verbose: Verbose = False) -> No
     carry_out(work, quiet, verbose, None)
 
 
-def _run(study, folder, jobs, threads, memory, scheduler, retry, json, quiet) -> None:
+def _run(study, folder, jobs, threads, memory, scheduler, patience, retry, json, quiet) -> None:
     from .study.engine import run as run_study
     from .study.report import write_report
 
-    with console.progress_bar(quiet) as progress:
+    with console.progress_bar(quiet, whole=True) as progress:
         outcome = run_study(
-            study, folder, jobs=jobs, threads=threads, memory_mb=1000 * memory, scheduler=scheduler, retry=retry, progress=progress
-        )
+            study, folder, jobs=jobs, threads=threads, memory_mb=1000 * memory,
+            scheduler=scheduler, patience=patience, retry=retry, progress=progress,
+        )  # fmt: skip
         if progress:
             progress("report", -1.0, float("nan"))
         page = write_report(folder)

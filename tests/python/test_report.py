@@ -4,6 +4,7 @@ import base64
 import csv
 import json
 from io import BytesIO
+from xml.etree import ElementTree
 
 import pytest
 import pyvista
@@ -107,8 +108,11 @@ def test_a_new_comparison_replaces_the_old_one_only(comparison, tmp_path):
         "results.csv",
         "notes.txt",
         "tables",
+        "figures",
         "cube-sh4-none",
     }
+    for plot in (out / "figures").iterdir():
+        assert ElementTree.parse(plot).getroot().tag == "{http://www.w3.org/2000/svg}svg"
     assert {p.name for p in (out / "tables").iterdir()} == {f"{stem}.{end}" for stem in ("summary", "deviations", "inputs", "runs") for end in ("csv", "tex")}
 
 

@@ -48,6 +48,42 @@ def test_a_key_tells_content_and_options_but_not_names_or_threads(tmp_path, box_
     assert keys("{name: x, inputs: [a.stl]}") != [a]
 
 
+def test_skip_names_inputs_and_the_limit_is_not_part_of_keys():
+    chosen = lambda text: {(run.name, run.options.representation) for run in study.plan(study.parse(text))}
+    text = SOUND.replace("skip:\n", "skip:\n  - {input: ball, representation: sh4}\n  - {input: 'box*', boundary: fixed}\n")
+    assert chosen(text) == {("box x 2", "sh4"), ("box x 2", "geodesic"), ("ball", "geodesic")}
+    assert chosen(SOUND + "limit: 3\n") == chosen(SOUND)
+    assert chosen(SOUND.replace("skip:\n", "skip:\n  - {input: ball}\n")) == {("box x 2", "sh4"), ("box x 2", "geodesic")}
+    limited, free = (study.plan(study.parse(SOUND + line)) for line in ("limit: 2.5\n", ""))
+    assert [run.key for run in limited] == [run.key for run in free]
+    line = SOUND.splitlines().index("skip:") + 2
+    with pytest.raises(octafield.InvalidInput, match=f"^s.yaml:{line}: no input is called 'bal'; there are: ball, box x 2"):
+        study.plan(study.parse(SOUND.replace("skip:\n", "skip:\n  - {input: bal}\n"), name="s.yaml"))
+
+
+def test_files_are_read_again_only_when_they_changed(tmp_path, monkeypatch):
+    import os
+
+    from octafield.study import digests
+
+    part = tmp_path / "a.node"
+    part.write_text("nodes")
+    (tmp_path / "a.ele").write_text("tets")
+    read = []
+    monkeypatch.setattr(digests, "digest_of", lambda path, real=digests.digest_of: read.append(path) or real(path))
+    young = digests.Digests()
+    assert young.of(part) == young.of(part) and len(read) == 2 and young.fresh == {}, "it may change again within a tick"
+    monkeypatch.setattr(digests, "_TICKS_NS", -(10**12))
+    known = digests.Digests()
+    first = known.of(part)
+    again = digests.Digests(known.fresh)
+    assert again.of(part) == first and len(read) == 3 and again.fresh == {}
+    was = (tmp_path / "a.ele").stat()
+    (tmp_path / "a.ele").write_text("TETS")
+    os.utime(tmp_path / "a.ele", ns=(was.st_atime_ns, was.st_mtime_ns))
+    assert again.of(part) != first, "a change of the twin of equal length and time of writing"
+
+
 @pytest.mark.parametrize(
     ("line", "words", "text"),
     [
@@ -70,6 +106,11 @@ def test_a_key_tells_content_and_options_but_not_names_or_threads(tmp_path, box_
         (4, "must be an integer", "name: x\ninputs: [a]\nruns:\n  rounds: 1.5"),
         (4, "no option 'threads'", "name: x\ninputs: [a]\nruns:\n  threads: 2"),
         (5, "not among the options of runs", "name: x\ninputs: [a]\nruns: {rounds: [1]}\nskip:\n- {solver: lbfgs}"),
+        (3, "limit: ", "name: x\ninputs: [a]\nlimit: 0"),
+        (3, "limit: ", "name: x\ninputs: [a]\nlimit: .inf"),
+        (3, "limit: ", "name: x\ninputs: [a]\nlimit: soon"),
+        (3, "folder: no such key", "name: x\ninputs: [a]\nfolder: /tmp"),
+        (4, "input is a name or glob", "name: x\ninputs: [a]\nskip:\n- {input: 16}"),
         (1, "in place of an alias", "a: &a [*a]"),
         (1, "expected", "bad: ["),
         (1, "could not determine a constructor", "name: !!python/object:os.system x"),

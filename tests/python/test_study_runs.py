@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from report_pages import require_sound
+from study_fixtures import table, trap_workers
 
 import octafield
 from octafield import study
@@ -42,12 +43,6 @@ def undisturbed(described) -> Path:
     outcome = study.run(study.load(described), described.parent / "undisturbed")
     assert outcome.status == study.Status(done=8, failed=4, crashed=0, open=0) and len(outcome.computed) == 12
     return outcome.folder
-
-
-def table(folder: Path) -> list[dict]:
-    """What a run decides; times and hosts differ from run to run."""
-    keys = ("key", "input", "state", "message", "repeat", "mesh_sha256", "energy", "energy_history", "singular_edges", "options")
-    return [{key: row.get(key) for key in keys} for row in study.rows(folder)]
 
 
 def left_over(folder: Path) -> list[str]:
@@ -133,16 +128,13 @@ def test_a_run_whose_process_is_killed_is_tried_again(undisturbed, described, tm
 
 def test_a_run_that_kills_its_process_twice_is_recorded_and_tried_on_resume(described, tmp_path, monkeypatch):
     text = "{name: x, inputs: [{generator: ball, mesh: {edge_length: 0.45}}], runs: {representation: [sh4, su2, geodesic]}}"
-    trap = tmp_path / "trap"
-    trap.mkdir()
-    (trap / "sitecustomize.py").write_text(
-        "import os, sys\n"
-        "if any('worker' in a for a in sys.orig_argv):\n"
-        "    import octafield.pipeline as p\n"
-        "    run = p.run\n"
-        "    p.run = lambda problem, options, *a: os.abort() if options.representation == 'su2' else run(problem, options, *a)\n"
+    trap_workers(
+        tmp_path,
+        monkeypatch,
+        "import octafield.pipeline as p\n"
+        "run = p.run\n"
+        "p.run = lambda problem, options, *a: os.abort() if options.representation == 'su2' else run(problem, options, *a)\n",
     )
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(trap), *filter(None, [os.environ.get("PYTHONPATH")])]))
     outcome = study.run(study.parse(text), tmp_path / "out", jobs=1)
     assert outcome.status == study.Status(done=2, failed=0, crashed=1, open=0)
     (row,) = [row for row in study.rows(tmp_path / "out") if row["state"] == "crashed"]
@@ -189,41 +181,6 @@ def test_cancelling_keeps_what_is_finished(described, tmp_path):
     with pytest.raises(octafield.Cancelled):
         study.run(study.load(described), tmp_path / "out", progress=lambda what, fraction, merit: fraction < 0.3)
     assert 3 <= len(study.rows(tmp_path / "out")) < 12
-
-
-def test_two_dask_workers_one_killed_lose_and_double_nothing(undisturbed, described, tmp_path):
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    dask = [sys.executable, "-m", "dask"]
-    address = tmp_path / "scheduler.json"
-    options = ["--scheduler-file", address, "--no-dashboard"]
-    started = [subprocess.Popen([*dask, "scheduler", "--port", "0", *options], cwd=tmp_path, **quiet)]
-    try:
-        one_thread = ["--nthreads", "1", "--nworkers", "1", "--no-nanny", "--local-directory", tmp_path]
-        started += [subprocess.Popen([*dask, "worker", *options, *one_thread], cwd=tmp_path, **quiet) for _ in range(2)]
-        while not address.is_file() or not address.stat().st_size:
-            time.sleep(0.05)
-        scheduler = json.loads(address.read_text())["address"]
-        from distributed import Client
-
-        with Client(scheduler) as client:
-            client.wait_for_workers(2, timeout=60)
-            by_pid = client.run(os.getpid)
-        folder = tmp_path / "cluster"
-        victim, killed = next(iter(by_pid.values())), []
-
-        leader = subprocess.Popen([sys.executable, "-m", "octafield", "study", "run", described, "-o", folder, "--scheduler", scheduler], **quiet)
-        while leader.poll() is None:
-            if not killed and finished(folder):
-                killed.append(os.kill(victim, signal.SIGKILL))
-            time.sleep(0.01)
-        assert killed and leader.returncode == 0
-    finally:
-        for process in started:
-            process.kill()
-            process.wait()
-    assert table(folder) == table(undisturbed)
-    with pytest.raises(octafield.IoError, match="no dask scheduler"):
-        study.run(study.load(described), folder, scheduler="tcp://127.0.0.1:1", retry=True)
 
 
 def test_reports_show_what_every_kind_of_run_has(undisturbed, described, tmp_path):

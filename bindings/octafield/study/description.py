@@ -29,6 +29,7 @@ _MESH = tuple(f.name for f in dataclasses.fields(MeshOptions))
 _RUN = tuple(f.name for f in dataclasses.fields(FieldOptions) if f.name not in (*_MESH, "seed", "threads"))
 
 _MOST_SEEDS = 10_000
+_OURS = ("folder", "text", "origin")  # attributes of a Study that its file does not set
 _TYPES = ("str", "bool", "int", "float")  # pydantic names the members of a union
 
 Scalar = str | bool | int | float
@@ -80,8 +81,9 @@ _Input = Annotated[
 class Study(_Strict):
     """name: shown in reports. inputs: files, globs, generators. mesh: options of octafield.MeshOptions for all of them
     (angles in degrees). runs: options of octafield.FieldOptions, one value or a list; every combination is run, but those
-    that `skip` names. seeds: a list, or how many from 0. repeats: of every run, for timings. fields: keep field.vtu and the
-    .vtp files of each run. folder: that relative paths begin at; text: of the file."""
+    that `skip` names. seeds: a list, or how many from 0. repeats: of every run, for timings. limit: seconds after which a run
+    is ended and counts as failed; None: none. fields: keep field.vtu and the .vtp files of each run. folder: that relative
+    paths begin at; text: of the file; origin: its name in messages."""
 
     name: str
     inputs: Annotated[list[_Input], Field(min_length=1)]
@@ -90,9 +92,11 @@ class Study(_Strict):
     skip: list[dict[str, Scalar]] = Field(default_factory=list)
     seeds: Annotated[list[Annotated[int, Field(ge=0, lt=2**64)]], Field(min_length=1)] = [0]
     repeats: Annotated[int, Field(ge=1, le=1000)] = 1
+    limit: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
     fields: bool = True
     folder: Path = Field(default=Path(), exclude=True)
     text: str = Field(default="", exclude=True)
+    origin: str = Field(default="study", exclude=True)
 
     @field_validator("runs", mode="before")
     @classmethod
@@ -138,13 +142,22 @@ def parse(text: str, *, folder: str | Path = ".", name: str = "study") -> Study:
     if not isinstance(content, dict):
         raise InvalidInput(f"{name}:1: a study is a mapping with the keys name, inputs, runs ...", "bad_study")
     _refuse_repeated_keys(tree, name)
+    for key in _OURS:
+        if key in content:
+            raise InvalidInput(f"{name}:{_line(tree, (key,))}: {key}: no such key", "bad_study")
     try:
-        study = Study.model_validate({**content, "folder": Path(folder), "text": text})
+        study = Study.model_validate({**content, "folder": Path(folder), "text": text, "origin": name})
     except ValidationError as error:
         first = error.errors()[0]
         raise InvalidInput(f"{name}:{_line(tree, first['loc'])}: {_told(first)}", "bad_study") from error
     _check_options(study, tree, name)
     return study
+
+
+def place(study: Study, loc: tuple) -> str:
+    """file:line of a part of the description."""
+    tree = yaml.compose(study.text, Loader=yaml.SafeLoader)
+    return f"{study.origin}:{_line(tree, loc)}" if tree else study.origin
 
 
 def mesh_options(study: Study, entry: FromFile | Generated) -> MeshOptions:
@@ -181,9 +194,12 @@ def _check_options(study: Study, tree: yaml.Node, name: str) -> None:
                 raise InvalidInput(f"{name}:{_line(tree, ('runs', key, k))}: {value!r} is given twice", "bad_study")
             check(("runs",), _RUN, {key: value}, FieldOptions)
     for k, rule in enumerate(study.skip):
-        check(("skip", k), _RUN, rule, FieldOptions)
+        if not isinstance(rule.get("input", ""), str):
+            where = _line(tree, ("skip", k, "input"))
+            raise InvalidInput(f"{name}:{where}: input is a name or glob, in quotes where it is a number", "bad_study")
+        check(("skip", k), ("input", *_RUN), {key: value for key, value in rule.items() if key != "input"}, FieldOptions)
         for key in rule:
-            if key not in study.runs:
+            if key not in study.runs and key != "input":
                 where = _line(tree, ("skip", k, key))
                 raise InvalidInput(f"{name}:{where}: {key!r} is not among the options of runs", "bad_study")
     if len(set(study.seeds)) < len(study.seeds):

@@ -3,26 +3,24 @@
 A crash or a kill of such a process costs the run it was in, which is tried once more; the others go on.
 """
 
-import json
+import math
 import os
 import queue
-import signal
-import subprocess
-import sys
-import threading
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import Cancelled, InvalidInput
+from ..errors import InvalidInput, IoError
 from ..options import LARGEST_INT, integer_in
 from ..phases import Progress
+from .child import Child
 from .description import Study
-from .plan import Run, groups, plan
-from .results import Status, status
-from .store import LOG_FILE, Store, write_record
+from .leader import Group, Leader
+from .memory import needed_mb
+from .plan import plan
+from .results import Status, status_of
+from .store import Store
 
-_ATTEMPTS = 2  # of a run whose process dies
+PATIENCE = 300.0
 
 
 @dataclass(frozen=True)
@@ -42,6 +40,7 @@ def run(
     threads: int = 1,
     memory_mb: float = 0,
     scheduler: str = "",
+    patience: float = PATIENCE,
     retry: bool = False,
     progress: Progress | None = None,
 ) -> Outcome:
@@ -49,175 +48,111 @@ def run(
 
     jobs: processes at once (0: one per core). threads: of each run; results do not depend on it. memory_mb: that all
     processes together may be expected to need (0: four fifths of the machine's). scheduler: address of a dask scheduler,
-    whose workers see `folder` and the inputs under the same paths, in place of this machine. retry: runs that failed are tried again.
-    Raises InvalidInput (also for a folder of something else), IoError, Cancelled.
+    whose workers see `folder` and the inputs under the same paths, in place of this machine; patience: seconds to wait for a
+    worker that can take what is left. retry: runs that failed are tried again. progress: called with what is done, the time left
+    and what is in work, as one text, and the fraction of runs done.
+    Raises InvalidInput (also for a folder of something else, and for inputs that changed meanwhile: their runs stay open), IoError, Cancelled.
     """
     jobs = integer_in("jobs", jobs, 0, LARGEST_INT) or len(os.sched_getaffinity(0))
-    runs = plan(study, threads=integer_in("threads", threads, 0, LARGEST_INT))
-    if not memory_mb >= 0:
-        raise InvalidInput(f"memory_mb must not be negative, not {memory_mb!r}", "option_out_of_range")
+    threads = integer_in("threads", threads, 0, LARGEST_INT)
+    for name, value in (("memory_mb", memory_mb), ("patience", patience)):
+        if not value >= 0:
+            raise InvalidInput(f"{name} must not be negative, not {value!r}", "option_out_of_range")
     store = Store(folder)
+    digests = store.digests()
+    runs = plan(study, threads=threads, digests=digests)
     with store.led(study):
-        known = store.entered()
-        stale = [key for key, r in known.items() if r["state"] == "crashed" or (retry and r["state"] == "failed")]
-        store.forget(stale)
-        entered = set(known) - set(stale)
-        left_over = [r.key for r in runs if r.key not in entered and store.is_finished(r.key)]
-        store.enter(left_over)
-        entered.update(left_over)
-        pending = groups([r for r in runs if r.key not in entered])
-        leader = _Leader(store, pending, study.fields, len(runs), len(entered & {r.key for r in runs}), progress)
+        store.keep(digests)
+        leader = Leader(store, study, runs, retry, progress)
         if scheduler:
             from .cluster import run_on_cluster
 
-            run_on_cluster(leader, scheduler)
-        elif pending:
+            run_on_cluster(leader, scheduler, patience)
+        elif leader.pending:
             _Local(leader, jobs, memory_mb or 0.8 * _machine_mb()).run()
-    return Outcome(status(store.folder), leader.computed, store.folder)
+        leader.require_unchanged()
+        return Outcome(status_of(store, runs), leader.computed, store.folder)
 
 
-class _Leader:
-    """What is left to do, and what is said about it; the only one that writes the table."""
-
-    def __init__(self, store: Store, pending: list[list[Run]], keep_fields: bool, total: int, done: int, progress: Progress | None):
-        self.store, self.pending, self.keep_fields = store, pending, keep_fields
-        self.total, self.done, self.progress = total, done, progress
-        self.computed: list[str] = []
-
-    def finished(self, keys: Sequence[str]) -> None:
-        self.store.enter(list(keys))
-        self.computed += keys
-        self.done += len(keys)
-
-    def crashed(self, run: Run, message: str) -> None:
-        with self.store.new_run(run) as folder:
-            (folder / LOG_FILE).write_text(message + "\n", encoding="utf-8")
-            write_record(folder, run, {}, "crashed", message)
-        self.finished([run.key])
-
-    def tell(self, what: str) -> None:
-        if self.progress is None:
-            return
-        answer = self.progress(f"{self.done} of {self.total}: {what}", self.done / self.total, float("nan"))
-        if answer is not None and not answer:
-            raise Cancelled(f"cancelled after {self.done} of {self.total} runs")
-
-
-@dataclass
+@dataclass(eq=False)
 class _Job:
-    runs: list[Run]
-    process: subprocess.Popen
+    group: Group
+    child: Child
     memory_mb: float
-    tets: int = 0
     waits: bool = False  # for leave to begin
 
 
 class _Local:
-    def __init__(self, leader: _Leader, jobs: int, memory_mb: float):
+    def __init__(self, leader: Leader, jobs: int, memory_mb: float):
         self.leader, self.slots, self.memory_mb = leader, jobs, memory_mb
+        self.leader.forecast.slots = jobs
         self.events: queue.SimpleQueue = queue.SimpleQueue()
-        self.active: list[_Job] = []
-        self.attempts: dict[str, int] = {}
+        self.active: dict[Child, _Job] = {}
 
     def run(self) -> None:
         try:
             while self.leader.pending or self.active:
                 self._start_jobs()
-                job, event = self.events.get()
-                getattr(self, f"_on_{event['event']}")(job, event)
+                try:
+                    child, event = self.events.get(timeout=self._seconds_to_deadline())
+                    if child in self.active:
+                        getattr(self, f"_on_{event['event']}")(self.active[child], event)
+                except queue.Empty:
+                    pass
+                for child in self.active:
+                    child.stop_if_late()
         finally:
-            for job in self.active:
-                job.process.kill()
-                job.process.wait()
+            for child in self.active:
+                child.stop()
+
+    def _seconds_to_deadline(self) -> float | None:
+        seconds = min((child.seconds_to_deadline for child in self.active), default=math.inf)
+        return None if seconds == math.inf else max(seconds, 0.0)
 
     def _start_jobs(self) -> None:
-        while self.leader.pending and len(self.active) < self.slots and not any(job.waits for job in self.active):
-            self._start(self.leader.pending.pop(0))
-        for job in self.active:
-            fits = sum(other.memory_mb for other in self.active if not other.waits) + job.memory_mb <= self.memory_mb
-            if job.waits and (fits or all(other.waits for other in self.active)):
+        jobs = self.active.values()
+        while self.leader.pending and len(jobs) < self.slots and not any(job.waits for job in jobs):
+            self._start(self.leader.pending.popleft())
+        for job in jobs:
+            fits = sum(other.memory_mb for other in jobs if not other.waits) + job.memory_mb <= self.memory_mb
+            if job.waits and (fits or all(other.waits for other in jobs)):
                 job.waits = False
-                _send(job, "go")
+                job.child.go()
+                self.leader.begins(job.group)
 
-    def _start(self, runs: list[Run]) -> None:
-        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-        log = self.leader.store.folder / "workers.log"
-        with log.open("a") as errors:
-            process = subprocess.Popen(
-                [sys.executable, "-m", "octafield.study.worker"],
-                stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=errors, text=True, env=environment,
-            )  # fmt: skip
-        job = _Job(runs, process, needed_mb(0, runs))
-        self.active.append(job)
-        content = {"folder": str(self.leader.store.folder), "keep_fields": self.leader.keep_fields}
-        _send(job, json.dumps({**content, "runs": [run.to_json() for run in runs]}))
-        threading.Thread(target=self._listen, args=(job,), daemon=True).start()
+    def _start(self, group: Group) -> None:
+        leader = self.leader
+        tell = lambda child, event: self.events.put((child, event))
+        child = Child(leader.store.folder, group.runs, leader.keep_fields, leader.limit, tell)
+        self.active[child] = _Job(group, child, needed_mb(0, group.runs))
 
-    def _listen(self, job: _Job) -> None:
-        for line in job.process.stdout:
-            self.events.put((job, json.loads(line)))
-        self.events.put((job, {"event": "ended"}))
+    def _on_ready(self, job: _Job, _event: dict) -> None:
+        self.leader.begins(job.group)
 
     def _on_prepared(self, job: _Job, event: dict) -> None:
-        job.tets, job.memory_mb, job.waits = event["tets"], needed_mb(event["tets"], job.runs), True
+        self.leader.prepared(job.group, event["tets"], event["seconds"])
+        job.memory_mb, job.waits = needed_mb(event["tets"], job.group.runs), True
 
     def _on_progress(self, job: _Job, event: dict) -> None:
-        self.leader.tell(f"{_label(job.runs[0])}: {event['phase']}")
+        self.leader.tell(f"{job.group.label}: {event['phase']}")
 
     def _on_finished(self, job: _Job, event: dict) -> None:
-        self.leader.finished([event["key"]])
-        job.runs = [run for run in job.runs if run.key != event["key"]]
-        self.leader.tell(_label(job.runs[0]) if job.runs else "")
+        self.leader.finished(job.group, event["key"], event["seconds"], event["state"])
+        self.leader.tell(job.group.label)
+
+    def _on_changed(self, job: _Job, event: dict) -> None:
+        self.leader.input_changed(job.group, event["message"])
+
+    def _on_unwritable(self, job: _Job, event: dict) -> None:
+        raise IoError(event["message"], "cannot_write")
+
+    def _on_broken(self, job: _Job, _event: dict) -> None:
+        pass  # the child keeps the words for its end
 
     def _on_ended(self, job: _Job, _event: dict) -> None:
-        self.active.remove(job)
-        code = job.process.wait()
-        if not job.runs:
-            return
-        first = job.runs[0]
-        if self.leader.store.is_finished(first.key):  # it died between the run's end and its message
-            self.leader.finished([first.key])
-            job.runs = job.runs[1:]
-        else:
-            self.attempts[first.key] = self.attempts.get(first.key, 0) + 1
-            if self.attempts[first.key] == _ATTEMPTS:
-                self.leader.crashed(first, _ending(code))
-                job.runs = job.runs[1:]
-        if job.runs:
-            self.leader.pending.insert(0, job.runs)
-
-
-def needed_mb(tets: int, runs: list[Run]) -> float:
-    """Peak memory to expect of a process that carries out `runs` on so many tets. Measured on 1.36 million tets (HexMe's i16c):
-    sh4 690, sh469 880, geodesic 3,540, su2_midpoint 4,000."""
-    by_ceres = any(run.options.solver in ("levenberg_marquardt", "lbfgs") or _is_metric(run) for run in runs)
-    return 250 + tets * (3.5e-3 if by_ceres else 5e-4)
-
-
-def _is_metric(run: Run) -> bool:
-    from .. import _core
-
-    return run.options.representation not in _core.representations
-
-
-def _label(run: Run) -> str:
-    return f"{run.name}, {run.options.representation}"
-
-
-def _send(job: _Job, line: str) -> None:
-    try:
-        job.process.stdin.write(line + "\n")
-        job.process.stdin.flush()
-    except BrokenPipeError:
-        pass  # it has died; the end of its output tells
-
-
-def _ending(code: int) -> str:
-    if code >= 0:
-        return f"the process ended with exit code {code}; workers.log may tell why"
-    name = signal.Signals(-code).name
-    why = "most likely memory ran out" if name == "SIGKILL" else "a defect of octafield: please report this input"
-    return f"the process was stopped by signal {name}, twice; {why}"
+        del self.active[job.child]
+        if self.leader.ended(job.group, job.child.ending()):
+            self.leader.add(job.group, first=True)
 
 
 def _machine_mb() -> float:

@@ -1,6 +1,7 @@
 """From a description to the list of runs, each with its key."""
 
 import dataclasses
+import fnmatch
 import glob
 import hashlib
 import itertools
@@ -8,10 +9,11 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import InvalidInput
+from ..errors import InvalidInput, IoError
 from ..options import FieldOptions
 from ..phases import octafield_version
-from .description import FromFile, Generated, Study, field_options, mesh_options
+from .description import FromFile, Generated, Study, field_options, mesh_options, place
+from .digests import Digests, digest_of
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class Run:
         return (self.name, json.dumps(mesh, sort_keys=True))
 
     def to_json(self) -> dict:
-        return {**dataclasses.asdict(self), "options": dataclasses.asdict(self.options)}
+        return {**vars(self), "options": dict(vars(self.options))}
 
     @classmethod
     def from_json(cls, content: dict) -> "Run":
@@ -42,18 +44,37 @@ class Run:
 _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))
 
 
-def plan(study: Study, *, threads: int = 1) -> list[Run]:
-    """Every combination, inputs outermost, in the order of the file. Raises InvalidInput where a file or glob is not there."""
+def plan(study: Study, *, threads: int = 1, digests: Digests | None = None) -> list[Run]:
+    """Every combination, inputs outermost, in the order of the file. Raises InvalidInput where a file or glob is not there.
+    digests: of files, kept from earlier times."""
+    digests = digests or Digests()
     runs: list[Run] = []
     taken: set[str] = set()
     for entry in study.inputs:
-        for source, stem, digest in _sources(study, entry):
+        for source, stem, digest in _sources(study, entry, digests):
             name = _unique(stem, taken)
             runs += _runs_on(study, entry, source, name, digest, threads)
+    _require_matching_rules(study, taken)
     runs = list({run.key: run for run in reversed(runs)}.values())[::-1]  # an input that two globs name runs once
     if not runs:
         raise InvalidInput("skip leaves nothing to run; remove a rule", "bad_study")
     return runs
+
+
+def has_promised_content(run: Run) -> bool:
+    """Whether the input still has the content that the key of the run stands for. Reads it."""
+    try:
+        digest = digest_of(Path(run.source)) if isinstance(run.source, str) else json.dumps(run.source)
+    except OSError:
+        return False
+    return _key(digest, run.options, run.repeat) == run.key
+
+
+def _require_matching_rules(study: Study, names: set[str]) -> None:
+    for k, rule in enumerate(study.skip):
+        if "input" in rule and not any(fnmatch.fnmatchcase(name, str(rule["input"])) for name in names):
+            known = ", ".join(sorted(names)[:10]) + (" ..." if len(names) > 10 else "")
+            raise InvalidInput(f"{place(study, ('skip', k, 'input'))}: no input is called {rule['input']!r}; there are: {known}", "bad_study")
 
 
 def groups(runs: list[Run]) -> list[list[Run]]:
@@ -66,11 +87,13 @@ def groups(runs: list[Run]) -> list[list[Run]]:
 
 def _runs_on(study: Study, entry, source, name: str, digest: str, threads: int) -> list[Run]:
     mesh = mesh_options(study, entry)
+    rules = [rule for rule in study.skip if fnmatch.fnmatchcase(name, str(rule.get("input", "*")))]
+    rules = [{key: value for key, value in rule.items() if key != "input"} for rule in rules]
     result = []
     for seed in study.seeds:
         for values in itertools.product(*study.runs.values()):
             chosen = dict(zip(study.runs, values, strict=True))
-            if any(all(chosen[key] == value for key, value in rule.items()) for rule in study.skip):
+            if any(all(chosen[key] == value for key, value in rule.items()) for rule in rules):
                 continue
             options = field_options(mesh, chosen, seed, threads)
             for repeat in range(study.repeats):
@@ -79,12 +102,12 @@ def _runs_on(study: Study, entry, source, name: str, digest: str, threads: int) 
 
 
 def _key(digest: str, options: FieldOptions, repeat: int) -> str:
-    content = {k: v for k, v in dataclasses.asdict(options).items() if k != "threads"}
+    content = {k: v for k, v in vars(options).items() if k != "threads"}
     text = json.dumps([digest, content, repeat, octafield_version()], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:20]
 
 
-def _sources(study: Study, entry: FromFile | Generated):
+def _sources(study: Study, entry: FromFile | Generated, digests: Digests):
     """(source, stem of a name, digest of the content) of each input that an entry stands for."""
     if isinstance(entry, Generated):
         spec = {"generator": entry.generator, "with": dict(sorted(entry.with_.items()))}
@@ -97,21 +120,14 @@ def _sources(study: Study, entry: FromFile | Generated):
     if not paths:
         raise InvalidInput(f"{entry.file}: no such file under {study.folder}", "no_such_input")
     for path in paths:
-        yield path, _stem(path), _digest(Path(path))
+        try:
+            yield path, _stem(path), digests.of(Path(path))
+        except OSError as error:
+            raise IoError(f"{path}: cannot read it ({error.strerror})") from error
 
 
 def _stem(path: str) -> str:
     return Path(path).name.removesuffix(".gz").rsplit(".", 1)[0]
-
-
-def _digest(path: Path) -> str:
-    """Of the content and of the companion file of TetGen's pairs."""
-    with path.open("rb") as file:
-        sha = hashlib.file_digest(file, "sha256")
-    for one, other in ((".node", ".ele"), (".ele", ".node")):
-        if one in path.suffixes and (twin := path.with_name(path.name.replace(one, other))).is_file():
-            sha.update(twin.read_bytes())
-    return sha.hexdigest()
 
 
 def _unique(stem: str, taken: set[str]) -> str:

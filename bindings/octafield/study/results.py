@@ -1,16 +1,17 @@
 """What the folder of a study holds."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from .plan import plan
+from .plan import Run, plan
 from .store import Store
 
 
 @dataclass(frozen=True)
 class Status:
-    """How many runs of a study are done, failed (the input or an option is at fault; the record's message says how),
-    crashed (their process died) and open."""
+    """How many runs of a study are done, failed (the input or an option is at fault, or the study's limit was passed; the
+    record's message says which), crashed (their process died) and open."""
 
     done: int
     failed: int
@@ -25,12 +26,18 @@ class Status:
 def rows(folder: str | Path) -> list[dict]:
     """Records of the finished runs of the study, in the order of its description; state: done, failed or crashed."""
     store = Store(folder)
+    runs = plan(store.study(), digests=store.digests())
     known = store.entered()
-    return [known[run.key] for run in plan(store.study()) if run.key in known]
+    return [known[run.key] for run in runs if run.key in known]
 
 
 def status(folder: str | Path) -> Status:
     store = Store(folder)
-    known = store.entered()
-    states = [known[run.key]["state"] if run.key in known else "open" for run in plan(store.study())]
+    return status_of(store, plan(store.study(), digests=store.digests()))
+
+
+def status_of(store: Store, runs: Sequence[Run]) -> Status:
+    """Of a study whose plan is known."""
+    known = store.states()
+    states = [known.get(run.key, "open") for run in runs]
     return Status(*(states.count(state) for state in ("done", "failed", "crashed", "open")))

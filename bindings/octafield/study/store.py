@@ -1,7 +1,8 @@
 """The folder of a study: one table, one folder per run.
 
-A run is finished when runs/KEY exists: it is written elsewhere and renamed. The table runs.sqlite has one line per finished
-run and is written by the process that leads the study only; what a killed leader had not entered is entered by the next.
+A run is finished when runs/KEY exists: it is written elsewhere, to the disk, and renamed. The table runs.sqlite has one line per
+finished run and is written by the process that leads the study only; what a killed leader had not entered is entered by the next,
+which makes the whole table anew from the runs where it is broken.
 """
 
 import contextlib
@@ -10,19 +11,24 @@ import os
 import shutil
 import sqlite3
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 
 from ..errors import InvalidInput, IoError
 from ..output import require_utf8, write_json
 from .description import Study, parse
+from .digests import Digests
 from .plan import Run
 
 STUDY_FILE, TABLE_FILE, RUNS, RECORD_FILE, LOG_FILE = "study.json", "runs.sqlite", "runs", "result.json", "log.txt"
+LOCK_FILE = "lock"  # not the table: on network file systems closing that would give the lock up
 _PARTIAL = ".partial-"
-_SCHEMA = """CREATE TABLE IF NOT EXISTS runs (
-    key TEXT PRIMARY KEY, input TEXT NOT NULL, state TEXT NOT NULL, message TEXT NOT NULL, record TEXT NOT NULL)"""
+_SCHEMA = (
+    """CREATE TABLE IF NOT EXISTS runs (
+    key TEXT PRIMARY KEY, input TEXT NOT NULL, state TEXT NOT NULL, message TEXT NOT NULL, record TEXT NOT NULL)""",
+    "CREATE TABLE IF NOT EXISTS digests (path TEXT PRIMARY KEY, stamp TEXT NOT NULL, digest TEXT NOT NULL)",
+)
 
 
 class Store:
@@ -36,17 +42,21 @@ class Store:
         import fcntl
 
         self._make()
-        with (self.folder / TABLE_FILE).open("a") as lock:
+        with self._writing():
+            lock = (self.folder / LOCK_FILE).open("a")
+        with lock:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError as error:
                 raise InvalidInput(f"{self.folder}: another process runs this study", "study_is_running") from error
-            self._describe(study)
-            for left in (self.folder / RUNS).glob(f"{_PARTIAL}*"):
-                shutil.rmtree(left, ignore_errors=True)
-            with self._table() as table:
-                table.execute(_SCHEMA)
-            yield
+            with self._writing():
+                self._describe(study)
+                self._remove_partial()
+                self._open_table()
+            try:
+                yield
+            finally:
+                self._remove_partial()
 
     def study(self) -> Study:
         """What was run last in this folder."""
@@ -60,29 +70,46 @@ class Store:
     def run_folder(self, key: str) -> Path:
         return self.folder / RUNS / key
 
+    def record(self, key: str) -> dict | None:
+        """Of a finished run; None where it is not there or not whole."""
+        try:
+            record = json.loads((self.run_folder(key) / RECORD_FILE).read_text(encoding="utf-8"))
+            return record if record["key"] == key and record["state"] else None
+        except (OSError, ValueError, KeyError, TypeError):
+            return None
+
     def is_finished(self, key: str) -> bool:
-        return (self.run_folder(key) / RECORD_FILE).is_file()
+        return self.record(key) is not None
+
+    def folders(self) -> set[str]:
+        """Keys of all runs that have one."""
+        with self._writing(), os.scandir(self.folder / RUNS) as entries:
+            return {entry.name for entry in entries if not entry.name.startswith(".")}
 
     @contextlib.contextmanager
     def new_run(self, run: Run) -> Iterator[Path]:
         """A folder to write a run's files into; at runs/KEY after the block unless another process was first."""
-        parent = self.folder / RUNS
-        partial = Path(tempfile.mkdtemp(prefix=f"{_PARTIAL}{run.key}-", dir=parent))
-        partial.chmod(0o755)
-        try:
-            yield partial
-            with contextlib.suppress(FileExistsError):  # the same run on two machines: equal results
-                _rename_new(partial, self.run_folder(run.key))
-        finally:
-            shutil.rmtree(partial, ignore_errors=True)
+        with self._writing():
+            partial = Path(tempfile.mkdtemp(prefix=f"{_PARTIAL}{run.key}-", dir=self.folder / RUNS))
+            partial.chmod(0o755)
+            try:
+                yield partial
+                _to_disk(partial)
+                with contextlib.suppress(FileExistsError):  # the same run on two machines: equal results
+                    _rename_new(partial, self.run_folder(run.key))
+            finally:
+                shutil.rmtree(partial, ignore_errors=True)
 
-    def enter(self, keys: list[str]) -> list[dict]:
-        """Puts finished runs into the table, in one transaction; their records."""
-        records = [json.loads((self.run_folder(key) / RECORD_FILE).read_text()) for key in keys]
-        lines = [(r["key"], r["input"], r["state"], r["message"], json.dumps(r)) for r in records]
+    def enter(self, keys: Iterable[str]) -> list[str]:
+        """Puts finished runs into the table, in one transaction. Returns their keys without those whose record is not whole: their folders are removed."""
+        records = [(key, self.record(key)) for key in keys]
+        lines = [(key, r["input"], r["state"], r["message"], json.dumps(r)) for key, r in records if r]
         with self._table() as table:
             table.executemany("INSERT OR REPLACE INTO runs VALUES (?, ?, ?, ?, ?)", lines)
-        return records
+        for key, record in records:
+            if record is None:
+                shutil.rmtree(self.run_folder(key), ignore_errors=True)
+        return [line[0] for line in lines]
 
     def forget(self, keys: list[str]) -> None:
         """Removes runs, so that they run again."""
@@ -93,10 +120,41 @@ class Store:
 
     def entered(self) -> dict[str, dict]:
         """Records in the table by key."""
-        if not (self.folder / TABLE_FILE).is_file():
-            return {}
+        return {key: json.loads(text) for key, text in self._rows("SELECT key, record FROM runs")}
+
+    def states(self) -> dict[str, str]:
+        """done, failed or crashed, by key."""
+        return dict(self._rows("SELECT key, state FROM runs"))
+
+    def times(self) -> dict[str, tuple[int, float]]:
+        """Tets and seconds of the runs that are done."""
+        number = lambda name: f"json_extract(record, '$.{name}')"
+        found = self._rows(f"SELECT key, {number('tets')}, {number('ended')} - {number('began')} FROM runs WHERE state = 'done'")
+        return {key: (tets, seconds) for key, tets, seconds in found if tets is not None and seconds is not None}
+
+    def digests(self) -> Digests:
+        """Kept from earlier times; none where the table is broken."""
+        try:
+            found = self._rows("SELECT path, stamp, digest FROM digests")
+        except IoError:
+            found = []
+        return Digests({path: (stamp, digest) for path, stamp, digest in found})
+
+    def keep(self, digests: Digests) -> None:
+        if digests.fresh:
+            with self._table() as table:
+                table.executemany("INSERT OR REPLACE INTO digests VALUES (?, ?, ?)", [(p, *kept) for p, kept in digests.fresh.items()])
+
+    def _rows(self, query: str) -> list[tuple]:
+        """None where there is no table, or a file without one."""
+        path = self.folder / TABLE_FILE
+        if not path.is_file() or not path.stat().st_size:
+            return []
         with self._table() as table:
-            return {key: json.loads(text) for key, text in table.execute("SELECT key, record FROM runs")}
+            name = query.split(" FROM ")[1].split()[0]
+            if table.execute("SELECT 1 FROM sqlite_master WHERE name = ?", (name,)).fetchone() is None:
+                return []
+            return table.execute(query).fetchall()
 
     @contextlib.contextmanager
     def _table(self) -> Iterator[sqlite3.Connection]:
@@ -104,32 +162,70 @@ class Store:
             with contextlib.closing(sqlite3.connect(self.folder / TABLE_FILE, timeout=60)) as table, table:
                 yield table
         except sqlite3.Error as error:
-            raise IoError(f"{self.folder / TABLE_FILE}: {error}") from error
+            raise IoError(f"{self.folder / TABLE_FILE}: {error}; octafield study resume makes a broken table anew") from error
+
+    def _open_table(self) -> None:
+        """Makes the table; a broken one is emptied first, its lines are entered again from the runs."""
+        path = self.folder / TABLE_FILE
+        try:
+            with contextlib.closing(sqlite3.connect(path, timeout=60)) as table:
+                sound = table.execute("PRAGMA quick_check").fetchone() == ("ok",)
+                table.execute("SELECT * FROM sqlite_master").fetchall()
+        except sqlite3.OperationalError as error:  # locked, no access, disk full: not broken
+            raise IoError(f"{path}: {error}") from error
+        except sqlite3.DatabaseError:
+            sound = False
+        if not sound:
+            path.write_bytes(b"")
+            path.with_name(path.name + "-journal").unlink(missing_ok=True)
+        with self._table() as table:
+            for statement in _SCHEMA:
+                table.execute(statement)
 
     def _make(self) -> None:
         """Refuses a folder that is not empty unless a study was begun in it: its table is made first."""
-        try:
-            if self.folder.is_dir() and any(self.folder.iterdir()) and not (self.folder / TABLE_FILE).exists():
+        with self._writing():
+            ours = any((self.folder / name).exists() for name in (TABLE_FILE, STUDY_FILE))
+            if self.folder.is_dir() and any(self.folder.iterdir()) and not ours:
                 raise InvalidInput(f"{self.folder}: not empty and not the folder of a study; choose another", "foreign_folder")
             self.folder.mkdir(parents=True, exist_ok=True)
             (self.folder / TABLE_FILE).touch()
             (self.folder / RUNS).mkdir(exist_ok=True)
-        except OSError as error:
-            raise IoError(f"{self.folder}: cannot write there ({error.strerror})") from error
 
     def _describe(self, study: Study) -> None:
         partial = self.folder / f".{STUDY_FILE}.partial"
+        write_json(partial, {"description": study.text, "folder": str(study.folder.resolve())})
+        os.replace(partial, self.folder / STUDY_FILE)
+
+    def _remove_partial(self) -> None:
+        for left in (self.folder / RUNS).glob(f"{_PARTIAL}*"):
+            shutil.rmtree(left, ignore_errors=True)
+
+    @contextlib.contextmanager
+    def _writing(self) -> Iterator[None]:
+        """What the system refuses, disk full for one, as an IoError."""
         try:
-            write_json(partial, {"description": study.text, "folder": str(study.folder.resolve())})
-            os.replace(partial, self.folder / STUDY_FILE)
+            yield
+        except IoError:
+            raise
         except OSError as error:
-            raise IoError(f"{self.folder}: cannot write there ({error.strerror})") from error
+            raise IoError(f"{error.filename or self.folder}: cannot write there ({error.strerror or error})", "cannot_write") from error
 
 
 def write_record(folder: Path, run: Run, record: dict, state: str, message: str = "") -> None:
     """result.json: the record of `octafield field`, or the options alone, with what makes it this run."""
     identity = {"key": run.key, "input": run.name, "repeat": run.repeat, "state": state, "message": message}
     write_json(folder / RECORD_FILE, {"options": asdict(run.options), **record, **identity})
+
+
+def _to_disk(folder: Path) -> None:
+    """So that a power cut after the rename finds the files whole."""
+    for path in [*folder.iterdir(), folder]:
+        number = os.open(path, os.O_RDONLY)
+        try:
+            os.fsync(number)
+        finally:
+            os.close(number)
 
 
 def _rename_new(source: Path, target: Path) -> None:

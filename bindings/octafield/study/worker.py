@@ -1,7 +1,9 @@
 """Runs of one group, one after the other, in a process of their own.
 
-Speaks JSON lines: reads one job from standard input; writes {"event": "prepared", "tets": n}, waits for a line (the leader's
-leave to use that much memory), then {"event": "finished", "key": ...} for each run and "progress" between.
+Speaks JSON lines: reads one job from standard input; writes to the file descriptor that its argument names {"event": "ready"}, {"event": "prepared", "tets": n,
+"seconds": s}, waits for a line (the leader's leave to use that much memory), then {"event": "finished", "key": ..., "seconds": s,
+"state": ...} for each run and "progress" between. Before it ends without having finished all: "changed" (the input is no longer
+what was planned), "unwritable" (the folder) or "broken", each with a "message".
 """
 
 import contextlib
@@ -14,40 +16,54 @@ import traceback
 from collections.abc import Callable
 from pathlib import Path
 
-from ..errors import Error
+from ..errors import Error, InvalidInput
 from ..phases import Progress
-from .plan import Run
+from .plan import Run, has_promised_content
 from .store import LOG_FILE, Store, write_record
 
-Prepared = Callable[[int], None]  # called with the number of tets before the first field
-Finished = Callable[[str], None]  # called with each key that is finished
+_QUIET = 0.5  # seconds between reports
+Prepared = Callable[[int, float], None]  # called with the number of tets and the seconds it took before the first field
+Finished = Callable[[str, float, str], None]  # called with each key that is finished, its seconds and state
+
+
+class InputChanged(InvalidInput):
+    """The file of an input is gone or holds something else than when its runs were planned: their keys promise that."""
 
 
 def execute(store: Store, runs: list[Run], keep_fields: bool, prepared: Prepared, finished: Finished, progress: Progress | None = None) -> None:
-    """Runs of one group that are not finished yet. An error that the input or an option is at fault for is the run's result."""
+    """Runs of one group that are not finished yet. An error that the input or an option is at fault for is the run's result;
+    InputChanged and IoError of the study's folder are raised."""
     from ..pipeline import prepare, prepare_mesh
     from ..pipeline import run as compute
 
     runs = [run for run in runs if not store.is_finished(run.key)]
     if not runs:
         return
-    begin = time.time()
+    begin, clock = time.time(), time.perf_counter()
+    error = None
     try:
         meshed = prepare_mesh(_surface(runs[0].source), runs[0].options, progress=progress)
         problem = prepare(meshed, runs[0].options.seed, progress)
-    except Error as error:
+    except Error as raised:
+        error = raised
+    if not has_promised_content(runs[0]):  # asked after the reading: what was read is what the key stands for
+        raise InputChanged(f"{runs[0].source}: not there, or changed since its runs were planned", "input_changed")
+    if error:
         for run in runs:
             _write_failure(store, run, error, begin)
-            finished(run.key)
+            finished(run.key, 0.0, "failed")
         return
-    prepared(len(meshed.tets.tets))
+    prepared(len(meshed.tets.tets), time.perf_counter() - clock)
     for run in runs:
-        begin = time.time()
+        begin, clock = time.time(), time.perf_counter()
+        result = None
         try:
-            _write_run(store, run, compute(problem, run.options, progress), keep_fields, begin)
-        except Error as error:
-            _write_failure(store, run, error, begin)
-        finished(run.key)
+            result = compute(problem, run.options, progress)
+        except Error as raised:
+            _write_failure(store, run, raised, begin)
+        if result is not None:
+            _write_run(store, run, result, keep_fields, begin)
+        finished(run.key, time.perf_counter() - clock, "failed" if result is None else "done")
 
 
 def _surface(source):
@@ -82,26 +98,40 @@ def main() -> None:
 
     die_with_parent()
     logging.disable()
-    out = os.fdopen(os.dup(1), "w", buffering=1)
-    os.dup2(2, 1)  # what libraries print goes to the log
+    out = os.fdopen(int(sys.argv[1]), "w", buffering=1)
     tell = lambda **event: print(json.dumps(event), file=out)
     job = json.loads(sys.stdin.readline())
+    tell(event="ready")
     runs = [Run.from_json(content) for content in job["runs"]]
 
-    def prepared(tets: int) -> None:
-        tell(event="prepared", tets=tets)
+    def prepared(tets: int, seconds: float) -> None:
+        tell(event="prepared", tets=tets, seconds=seconds)
         if not sys.stdin.readline():
             sys.exit(1)  # the leader is gone
 
     def report(phase: str, fraction: float, merit: float) -> None:
         now = time.monotonic()
-        if now - report.last > 0.5:
+        if now - report.last > _QUIET:
             report.last = now
             tell(event="progress", phase=phase, fraction=fraction)
 
     report.last = 0.0
+    finished = lambda key, seconds, state: tell(event="finished", key=key, seconds=seconds, state=state)
     with contextlib.suppress(BrokenPipeError):
-        execute(Store(Path(job["folder"])), runs, job["keep_fields"], prepared, lambda key: tell(event="finished", key=key), report)
+        try:
+            execute(Store(Path(job["folder"])), runs, job["keep_fields"], prepared, finished, report)
+        except InputChanged as error:
+            tell(event="changed", message=str(error))
+        except MemoryError:
+            tell(event="broken", message="memory ran out")
+            raise
+        except BrokenPipeError:
+            pass
+        except OSError as error:
+            tell(event="unwritable", message=str(error))
+        except Exception as error:
+            tell(event="broken", message=f"{type(error).__name__}: {error}")
+            raise
 
 
 if __name__ == "__main__":

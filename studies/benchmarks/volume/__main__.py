@@ -7,15 +7,11 @@ growth, parts, large, split; a part that was not run keeps the tables it left in
 """
 
 import argparse
-import datetime
-import os
-import platform
-import subprocess
 from pathlib import Path
 
 from octafield.options import COMPARED
-from octafield.phases import octafield_version
 
+from ..pages import page, when
 from . import energies, growth, parts
 
 MESHES = ("sphere_r0.17", "sphere_r0.10", "78322_gear.2", "genus3", "sphere_r0.06")
@@ -38,27 +34,7 @@ def run_part(part: str, a) -> None:
         parts.main([str(hexme), "-o", str(folder), "--representations", quick, "--recipe-only", "--only", "i16c"])
     else:
         parts.main([str(hexme), "-o", str(folder), "--split", "--skip", "i16c"])
-    (folder / "when.md").write_text(f"{datetime.date.today()}, {machine()}, octafield {octafield_version()}, commit {commit()}.\n")
-
-
-def machine() -> str:
-    model = next((line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")), platform.machine())
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
-    return f"{len(os.sched_getaffinity(0))} cores of {model}, {memory:.0f} GiB"
-
-
-def commit() -> str:
-    found = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=Path(__file__).parent, capture_output=True, text=True)
-    return found.stdout.strip() or "unknown"
-
-
-def page(template: str, folder: Path) -> str:
-    """The text with every line "<< PATH" replaced by that file of the folder."""
-    lines = []
-    for line in template.splitlines():
-        path = folder / line.removeprefix("<< ")
-        lines.append(line if not line.startswith("<< ") else path.read_text().rstrip("\n") if path.is_file() else "(not run)")
-    return "\n".join(lines) + "\n"
+    (folder / "when.md").write_text(when())
 
 
 def main() -> None:
