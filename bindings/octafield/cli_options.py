@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from .completion import words
 from .options import FEATURES
 
 
@@ -26,7 +27,9 @@ Json = Annotated[str | None, typer.Option("--json", metavar="FILE", help="Write 
 Features = Annotated[
     str,
     typer.Option(
-        metavar=choices(FEATURES), help="Source of feature edges; default: file when it marks some, else angle."
+        metavar=choices(FEATURES),
+        autocompletion=words(FEATURES),
+        help="Source of feature edges; default: file when it marks some, else angle.",
     ),
 ]
 FeatureAngle = Annotated[float, typer.Option(metavar="DEG", help="Angle between normals at a feature edge, degrees.")]

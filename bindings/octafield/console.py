@@ -7,7 +7,7 @@ import math
 import os
 import sys
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import typer
@@ -32,6 +32,7 @@ _REPAIRABLE = (
 _OPTION_AT_FAULT = ("epsilon_too_large", "thin_triangles", "bad_weights")
 
 log = logging.getLogger("octafield")
+_written: list[str] = []  # targets of --json that have their document
 
 
 def set_verbosity(quiet: bool, verbose: bool) -> None:
@@ -65,15 +66,62 @@ def error_code(error: BaseException) -> int:
 
 
 def carry_out(work: Callable[[], None], quiet: bool, verbose: bool, json: str | None) -> None:
-    """Runs a command; an error becomes one line on stderr and an exit code."""
+    """Runs a command; an error becomes one line on stderr, an exit code and, with --json, a document."""
     set_verbosity(quiet, verbose)
+    _written.clear()
     try:
         check_json_target(json)
         work()
     except typer.Exit:
         raise
     except (Exception, KeyboardInterrupt) as error:
-        raise typer.Exit(error_code(error)) from None
+        code = error_code(error)
+        put_error(json, error, code)
+        raise typer.Exit(code) from None
+
+
+def usage_error(error: Exception, arguments: Sequence[str]) -> int:
+    """Reports what typer's parser finds wrong as carry_out does errors. arguments: of the command line."""
+    if not hasattr(error, "format_message"):
+        return error_code(error)
+    code = int(getattr(error, "exit_code", BAD_INPUT))
+    context = getattr(error, "ctx", None)
+    if type(error).__name__ == "NoArgsIsHelpError":
+        typer.echo(context.get_help(), err=True)
+        return code
+    near = getattr(error, "possibilities", None)
+    message = error.format_message()
+    if near:
+        message = message.split(" (Possible")[0].rstrip(".") + f". Did you mean {near[0]}?"
+    path = context.command_path if context else "octafield"
+    _say(f"error: {message.rstrip('.')}" + ("" if message.endswith("?") else ".") + f" Try '{path} --help'.")
+    put_error(_json_target(arguments), InvalidInput(message, "usage"), code)
+    return code
+
+
+def _json_target(arguments: Sequence[str]) -> str | None:
+    for word, after in zip(arguments, [*arguments[1:], ""], strict=True):
+        if word.startswith("--json="):
+            return word.removeprefix("--json=")
+        if word == "--json":
+            return after or None
+    return None
+
+
+def put_error(target: str | None, error: BaseException, code: int) -> None:
+    """The JSON document of a command that failed before it had one."""
+    if target is None or target in _written:
+        return
+    told = {
+        "type": type(error).__name__,
+        "kind": getattr(error, "kind", ""),
+        "message": " ".join(str(error).split()),
+        "elements": [int(i) for i in getattr(error, "elements", [])],
+        "exit_code": code,
+    }
+    with contextlib.suppress(Error):  # the target itself may be what is wrong
+        check_json_target(target)
+        put_json(target, {"error": told})
 
 
 def _say(message: str) -> None:
@@ -131,6 +179,7 @@ def check_json_target(target: str | None) -> None:
 
 def put_json(target: str, value) -> None:
     """Writes the JSON of a command to a file, or to stdout for "-"."""
+    _written.append(target)
     if target == "-":
         sys.stdout.write(json.dumps(value, indent=1, allow_nan=False) + "\n")
         return

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import _core
+from . import _core, display
 from ._core import BoundarySurface, FeatureGraph, Sheets, TetMesh, TriangleMesh
 from .errors import GeometryError, InvalidInput
 from .inputs import Input, from_mesh, naming, read_input, with_regions
@@ -18,7 +18,7 @@ Source = str | Path | TriangleMesh | TetMesh
 TOUCHING = ("non_manifold_edge", "non_manifold_vertex")  # kinds of defects that the boundary of tets may have
 
 
-@dataclass
+@dataclass(repr=False)
 class MeshedInput:
     """A sound input, ready for fields: `surface` is the boundary of `tets` (None where only a surface was wanted).
 
@@ -42,6 +42,9 @@ class MeshedInput:
     interface_triangles: int = 0
     sheet_map: np.ndarray | None = None
     locking: dict = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return display.meshed_line(self)
 
     def at_boundary_vertices(self, values: np.ndarray) -> np.ndarray:
         """Of values at the vertices of the surface, those at the boundary's: of its first copy in each case."""

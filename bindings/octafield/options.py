@@ -1,12 +1,13 @@
 """Options of the pipeline. Defaults of numerical options are those of the C++ structs."""
 
+import difflib
 import math
 import numbers
 from dataclasses import dataclass
 
 import numpy as np
 
-from . import _core
+from . import _core, display
 from .defaults import default_of
 from .errors import InvalidInput
 
@@ -24,7 +25,15 @@ ALIGNMENTS = ("strong", "weak", "none")
 
 def require_one_of(name: str, value: str, allowed) -> None:
     if value not in allowed:
-        raise InvalidInput(f"{name} {value!r} is not one of: {', '.join(allowed)}", "unknown_option_value")
+        raise InvalidInput(
+            f"{name} {value!r} is not one of: {', '.join(allowed)}{did_you_mean(value, allowed)}", "unknown_option_value"
+        )
+
+
+def did_you_mean(value: str, known) -> str:
+    """"; did you mean 'sh4'?" where a known word is near, else nothing."""
+    near = difflib.get_close_matches(str(value), list(known), 1)
+    return f"; did you mean {near[0]!r}?" if near else ""
 
 
 def _require(condition: bool, message: str) -> None:
@@ -43,7 +52,7 @@ def integer_in(name: str, value, low: int, high: int, note: str = "") -> int:
     return int(value)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class MeshOptions:
     """From a file to the mesh the field is computed on.
 
@@ -65,6 +74,9 @@ class MeshOptions:
     interfaces: bool = True
     split: bool = False
 
+    def __repr__(self) -> str:
+        return display.options_line(self)
+
     def __post_init__(self) -> None:
         require_one_of("features", self.features, FEATURES)
         for name in ("remesh", "repair", "interfaces", "split"):
@@ -77,7 +89,7 @@ class MeshOptions:
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class SurfaceFieldOptions(MeshOptions):
     """Of an N-direction field on a surface: symmetry is N, method "gl", "mbo" or "eigen",
     epsilon the coherence length (0: default).
@@ -118,7 +130,7 @@ class SurfaceFieldOptions(MeshOptions):
         _make_integer(self, "seed", 0, LARGEST_SEED)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class FieldOptions(MeshOptions):
     """Of a frame field in a volume.
 

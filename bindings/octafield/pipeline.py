@@ -61,9 +61,12 @@ __all__ = [
 ]
 
 
-@dataclass
+@dataclass(repr=False)
 class Problem:
-    """What all runs on one input and seed share: the mesh and the surface cross field."""
+    """What all runs on one input and seed share: the mesh and the surface cross field.
+
+    meshed: the input. seed: of the cross field. direction_field: of the surface. directions: (B, 3), per vertex of the
+    surface. singularities, separatrices: of the cross field. clock, peak_mb: what it took."""
 
     meshed: MeshedInput
     seed: int
@@ -73,6 +76,9 @@ class Problem:
     separatrices: Sequence[Streamline]
     clock: PhaseClock
     peak_mb: float
+
+    def __repr__(self) -> str:
+        return display.problem_line(self)
 
 
 @dataclass(repr=False)
@@ -108,10 +114,7 @@ class FieldResult:
     lengths: np.ndarray | None = None
 
     def __repr__(self) -> str:
-        return display.one_line(self)
-
-    def _repr_html_(self) -> str:
-        return display.as_html(self)
+        return display.field_line(self)
 
     def scene(self) -> "pyvista.Plotter":
         """The singular curves inside the translucent surface, to show() in a window or Jupyter."""

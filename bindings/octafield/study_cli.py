@@ -78,15 +78,19 @@ def status(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Ver
 
 
 @app.command()
-def report(folder: Folder, quiet: Quiet = False, verbose: Verbose = False) -> None:
-    """Writes report.html and tables/ from the runs finished so far."""
+def report(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """Writes report.html and tables/ from the runs finished so far; with --json the document of status, and what was written."""
 
     def work() -> None:
+        from .study import results
         from .study.report import write_report
 
-        log.info("wrote %s", write_report(folder))
+        page = write_report(folder)
+        if json:
+            console.put_json(json, {**_document(results.status(folder), results.rows(folder)), "report": str(page)})
+        log.info("wrote %s", page)
 
-    carry_out(work, quiet, verbose, None)
+    carry_out(work, quiet, verbose, json)
 
 
 def _run(study, folder, jobs, threads, memory, scheduler, retry, json, quiet) -> None:
@@ -105,12 +109,16 @@ def _run(study, folder, jobs, threads, memory, scheduler, retry, json, quiet) ->
     log.info("wrote %s", page)
 
 
+def _document(status, rows: list[dict]) -> dict:
+    return {**dataclasses.asdict(status), "runs": rows}
+
+
 def _tell(status, folder, json, quiet) -> None:
     from .study.results import rows
 
     known = rows(folder)
     if json:
-        console.put_json(json, {**dataclasses.asdict(status), "runs": known})
+        console.put_json(json, _document(status, known))
     if json != "-" and not quiet:
         typer.echo(f"{status.done} done, {status.failed} failed, {status.crashed} crashed, {status.open} open")
     for row in known:

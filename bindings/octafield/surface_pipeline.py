@@ -6,10 +6,11 @@
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
-from . import _core
+from . import _core, display
 from ._core import (
     DirectionConstraints,
     DirectionField,
@@ -26,7 +27,7 @@ from .options import METHODS, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, StopNote, forward, octafield_version, versions
 
 
-@dataclass
+@dataclass(repr=False)
 class SurfaceFieldResult:
     """An N-direction field on a surface. directions: (V, 3), one representative per vertex. record: the JSON object."""
 
@@ -36,7 +37,10 @@ class SurfaceFieldResult:
     directions: np.ndarray
     singularities: SurfaceSingularities
     separatrices: Sequence[Streamline]
-    record: dict
+    record: dict[str, Any]
+
+    def __repr__(self) -> str:
+        return display.surface_field_line(self)
 
 
 def compute_surface_field(

@@ -60,4 +60,5 @@ PYBIND11_MODULE(_core, module) {
     bind_field_analysis(module);
     bind_frame_streamlines(module);
     bind_volume_input(module);
+    add_examples(module);
 }

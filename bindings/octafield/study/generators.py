@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._core import TriangleMesh
+from ..options import require_one_of
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,18 @@ class Generator:
 
 
 def generate(name: str, **parameters: float) -> TriangleMesh:
-    """The surface of GENERATORS[name], not remeshed: faces are as large as its shape lets them be."""
+    """A closed surface by rule: "ball" (radius), "box" (x, y, z), "cylinder" (radius, height), "torus" (radius, tube) or
+    "nut" (of the package pyvista). parameters: input unit. Not remeshed: faces are as large as the shape lets them be.
+    Raises InvalidInput.
+
+        >>> from octafield.study.generators import generate
+        >>> generate("box", z=2)
+        TriangleMesh(8 vertices, 12 triangles, box [0, 1] x [0, 1] x [0, 2])
+    """
+    require_one_of("generator", name, GENERATORS)
+    known = GENERATORS[name].parameters
+    for given in parameters:
+        require_one_of(f"parameter of {name}", given, known)
     return GENERATORS[name].make(**parameters)
 
 
