@@ -14,20 +14,10 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
+from .errors import REPAIRABLE, Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from .output import write_json
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
-_REPAIRABLE = (
-    "degenerate_triangle",
-    "soup",
-    "duplicate_vertex",
-    "non_manifold_edge",
-    "inconsistent_orientation",
-    "not_closed",
-    "inside_out",
-)
-
 # kinds of SolverError that another option or another mesh avoids
 _OPTION_AT_FAULT = ("epsilon_too_large", "thin_triangles", "bad_weights")
 
@@ -49,7 +39,7 @@ def error_code(error: BaseException) -> int:
         _say("interrupted")
         return INTERRUPTED
     if isinstance(error, (InvalidInput, GeometryError, IoError)):
-        hint = " (option --repair does this)" if error.kind in _REPAIRABLE and "repair the mesh" in str(error) else ""
+        hint = " (option --repair does this)" if error.kind in REPAIRABLE and "repair the mesh" in str(error) else ""
         _say(f"error: {error}{hint}")
         return BAD_INPUT
     if isinstance(error, SolverError) and error.kind in _OPTION_AT_FAULT:

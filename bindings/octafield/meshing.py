@@ -93,9 +93,9 @@ def read_sound(
         with naming(found.name):
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):
-        locking = {} if found.tets is None else _treat_locking(found, options)
+        locking = {} if found.tets is None else split_on_request(found, options)
         sheets = _core.cut_into_sheets(found.surface) if found.interface_triangles or found.touches else None
-        features, feature_source = _features(found, options, sheets)
+        features, feature_source = find_features(found, options, sheets)
         of_surface = features if sheets is None else _lifted(features, sheets)
     return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), features, sheets, locking)
 
@@ -211,7 +211,7 @@ def possible_remedy(message: str, found: Input, options: MeshOptions) -> str:
     return f"{fact}; {done}correct {mesh} where it was made"
 
 
-def _features(found: Input, options: MeshOptions, sheets: Sheets | None) -> tuple[FeatureGraph, str]:
+def find_features(found: Input, options: MeshOptions, sheets: Sheets | None) -> tuple[FeatureGraph, str]:
     """Of found.surface. Curves where interfaces meet the boundary or each other always belong to them."""
     source = options.features
     if source == "default":
@@ -263,12 +263,12 @@ def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) 
     meshed.boundary = _core.boundary_surface(meshed.tets)
     if not np.array_equal(np.asarray(meshed.boundary.vertex_map), np.arange(count)):
         raise GeometryError("the tet mesh does not keep the vertices of the surface; please report this input")
-    meshed.locking = _treat_locking(meshed, options)
+    meshed.locking = split_on_request(meshed, options)
     meshed.surface = meshed.boundary.mesh  # the same vertices; triangles in the order of the tets
     meshed.boundary_features = meshed.features
 
 
-def _treat_locking(mesh: Input | MeshedInput, options: MeshOptions) -> dict:
+def split_on_request(mesh: Input | MeshedInput, options: MeshOptions) -> dict:
     """Counts what joins the surface to itself and splits it on request: tets, regions and boundary change, surface
     vertices and features stay."""
     if not options.split:

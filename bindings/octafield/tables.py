@@ -35,15 +35,20 @@ def show_info(record: dict) -> None:
     ]
     facts += [
         (f"{name} {key}", f"{value:.6g}" if isinstance(value, float) else str(value))
-        for name in ("bounding_box", "features", "feature_lines")
+        for name in ("bounding_box", "features", "feature_lines", "tet_quality", "expected")
         for key, value in record.get(name, {}).items()
     ]
     _facts(record["input"], facts)
     _table(
-        ["", "requirement", "remedy"],
-        [[r["state"], r["requirement"], r["message"]] for r in record["requirements"]],
-        left=3,
+        ["", "requirement", "what is wrong", "remedy"],
+        [[r["state"], r["requirement"], _fact(r), r["remedy"]] for r in record["requirements"]],
+        left=4,
     )
+
+
+def _fact(requirement: dict) -> str:
+    """The message without the remedy, which has a column of its own."""
+    return requirement["message"].removesuffix(f"; {requirement['remedy']}") if requirement["remedy"] else requirement["message"]
 
 
 def show_doctor(record: dict) -> None:

@@ -78,12 +78,11 @@ constexpr Example of_meshes[] = {
     >>> octafield.region_surface(tets, [1, 2])
     RegionSurface(7 triangles, 1 between regions))"},
     {"find_locking", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"), radius_edge_ratio=100)
-    >>> found = octafield.find_locking(tets, octafield.boundary_surface(tets))
-    >>> len(found.tets) > 0  # tets with all four vertices on the surface
-    True)"},
+    >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
+    >>> octafield.find_locking(tets, octafield.boundary_surface(tets))  # a tet with all four vertices on the surface
+    LockingElements(1 tet, 0 edges, 0 triangles))"},
     {"split_locking", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"), radius_edge_ratio=100)
+    >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
     >>> split = octafield.split_locking(tets, octafield.boundary_surface(tets))
     >>> octafield.find_locking(split.mesh, octafield.boundary_surface(split.mesh))
     LockingElements(0 tets, 0 edges, 0 triangles))"},
