@@ -17,9 +17,9 @@ from .phases import versions
 MISSING = "not installed"
 _OPTIONAL = {
     "distributed": "studies on several machines: pip install octafield[cluster]",
-    "pandas": "octafield.to_pandas: pip install pandas",
+    "pandas": "octafield.to_pandas, from_pandas: pip install pandas",
     "gmsh": "CAD input: pip install octafield[cad]",
-    "trame": "scenes to turn in Jupyter: pip install 'pyvista[jupyter]'",
+    "trame": "scenes to turn in Jupyter: pip install octafield[notebook]",
 }
 
 

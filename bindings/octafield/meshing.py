@@ -109,7 +109,14 @@ def prepare_mesh(
 ) -> MeshedInput:
     """Reads, validates, finds features, remeshes and (volume) fills with tets.
 
-    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for.
+    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for. source: a
+    path, TriangleMesh or TetMesh. Raises InvalidInput, GeometryError (naming the defect), IoError, Cancelled.
+
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> meshed = octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3))
+        >>> len(meshed.features.corners), meshed.feature_source
+        (8, 'angle')
     """
     if not isinstance(source, SoundInput):
         source = read_sound(source, options, volume=volume, progress=progress)

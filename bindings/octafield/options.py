@@ -143,6 +143,16 @@ class FieldOptions(MeshOptions):
     not depend on it. representation, solver: what the last smoothing minimises and how; rounds, max_iterations,
     tolerance: see octafield.frame_field. streamlines: so many seeds of curves along the three axes, spread over the
     volume (octafield.spread_points), go into streamlines.vtp; 0: none.
+
+    Raises InvalidInput.
+
+        >>> import octafield
+        >>> octafield.FieldOptions(boundary="fixed", edge_length=0.5)
+        FieldOptions(edge_length=0.5, boundary='fixed')
+        >>> octafield.FieldOptions(representation="sh5")  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+            ...
+        octafield.InvalidInput: representation 'sh5' is not one of: ...
     """
 
     sampling: str = "vertices"

@@ -133,9 +133,15 @@ def compute_field(
     constraints: the user's own, on vertices (or, with sampling "tets", tets) of the mesh the field is computed on. Meshing and splitting make
     another mesh of the input, so prepare it first:
 
-        meshed = prepare_mesh("part.stl", options)
-        held = VertexConstraints(vertices=[7], kinds=[1], axes=[[0, 0, 1]])  # of meshed.tets
-        result = compute_field(meshed, options, constraints=held)
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> meshed = octafield.prepare_mesh(generate("ball"), octafield.MeshOptions(edge_length=0.3))  # or a path
+        >>> held = octafield.VertexConstraints(vertices=[300], kinds=[1], axes=[[0, 0, 1]])  # of meshed.tets
+        >>> result = octafield.compute_field(meshed, constraints=held)
+        >>> result.record["constraints"]["given"]
+        1
+
+    progress(phase, fraction, merit): False cancels. Raises InvalidInput, GeometryError, IoError, SolverError, Cancelled.
     """
     if constraints is not None and not isinstance(source, MeshedInput):
         raise InvalidInput(
@@ -148,7 +154,13 @@ def compute_field(
 
 
 def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None) -> Problem:
-    """Computes the cross field on the surface, the start of every boundary frame."""
+    """Computes the cross field on the surface, the start of every boundary frame. Raises GeometryError, SolverError.
+
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> octafield.prepare(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3))).seed
+        0
+    """
     memory = PeakMemory()
     clock = PhaseClock(meshed.clock)
     with clock.phase("surface"):
@@ -169,7 +181,16 @@ def run(
     constraints: VertexConstraints | None = None,
 ) -> FieldResult:
     """One frame field on a prepared problem. The record's phase times include those of the shared preparation.
-    constraints: see compute_field."""
+    constraints: see compute_field.
+
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> problem = octafield.prepare(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3)))
+        >>> for boundary in ("fixed", "aligned"):  # on one mesh, so that energies compare
+        ...     print(boundary, octafield.run(problem, octafield.FieldOptions(boundary=boundary)).record["singular_edges"])
+        fixed 0
+        aligned 0
+    """
     memory = PeakMemory()
     meshed, clock = problem.meshed, PhaseClock(problem.clock)
     tets, threads = meshed.tets, options.threads

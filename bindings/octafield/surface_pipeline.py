@@ -56,9 +56,12 @@ def compute_surface_field(
     constraints, guide: directions to follow, on the vertices, edges and triangles of the surface the field is computed
     on. Remeshing makes another surface of the input, so prepare it first:
 
-        meshed = prepare_mesh("part.stl", options, volume=False)
-        asked = DirectionConstraints(vertices=[7], vertex_directions=[[1, 0, 0]])  # of meshed.surface
-        result = compute_surface_field(meshed, options, constraints=asked)
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> meshed = octafield.prepare_mesh(generate("ball"), volume=False)  # or a path
+        >>> asked = octafield.DirectionConstraints(vertices=[7], vertex_directions=[[1, 0, 0]])  # of meshed.surface
+        >>> len(octafield.compute_surface_field(meshed, constraints=asked).singularities.points)
+        8
 
     When progress returns False while the field is computed or after, the best field so far is returned, with
     record["stopped"] true, converged False where the solver was stopped, and no separatrices; before that, Cancelled is

@@ -25,6 +25,10 @@ class Run:
     options: FieldOptions
     repeat: int
 
+    def __repr__(self) -> str:
+        again = f", repeat {self.repeat}" if self.repeat else ""
+        return f"Run({self.key}: {self.name}, {self.options!r}{again})"
+
     @property
     def group(self) -> tuple:
         """Runs of equal group share their mesh and cross field."""
@@ -43,7 +47,13 @@ _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])
 
 
 def plan(study: Study, *, threads: int = 1) -> list[Run]:
-    """Every combination, inputs outermost, in the order of the file. Raises InvalidInput where a file or glob is not there."""
+    """Every combination, inputs outermost, in the order of the file. Raises InvalidInput where a file or glob is not there.
+
+        >>> from octafield import study
+        >>> described = study.parse("{name: two, inputs: [{generator: box}], runs: {representation: [sh4, su2]}, seeds: 3}")
+        >>> [(run.name, run.options.representation, run.options.seed) for run in study.plan(described)][:2]
+        [('box', 'sh4', 0), ('box', 'su2', 0)]
+    """
     runs: list[Run] = []
     taken: set[str] = set()
     for entry in study.inputs:

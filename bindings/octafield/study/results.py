@@ -23,13 +23,28 @@ class Status:
 
 
 def rows(folder: str | Path) -> list[dict]:
-    """Records of the finished runs of the study, in the order of its description; state: done, failed or crashed."""
+    """Records of the finished runs of the study, in the order of its description; state: done, failed or crashed. Raises
+    InvalidInput where `folder` is not that of a study.
+
+        >>> from octafield import study
+        >>> described = study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}")
+        >>> outcome = study.run(described, "folder")
+        >>> [row["singular_edges"] for row in study.rows("folder")]
+        [0]
+    """
     store = Store(folder)
     known = store.entered()
     return [known[run.key] for run in plan(store.study()) if run.key in known]
 
 
 def status(folder: str | Path) -> Status:
+    """Of the study that `folder` holds. Raises InvalidInput where it holds none.
+
+        >>> from octafield import study
+        >>> outcome = study.run(study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}"), "folder")
+        >>> study.status("folder")
+        Status(done=1, failed=0, crashed=0, open=0)
+    """
     store = Store(folder)
     known = store.entered()
     states = [known[run.key]["state"] if run.key in known else "open" for run in plan(store.study())]
