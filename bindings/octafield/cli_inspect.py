@@ -35,7 +35,7 @@ def info(
     """What was read, and pass, warn or fail of each requirement with the remedy; exit code 2 when one fails."""
 
     def work() -> None:
-        from .info import examine, first_failure
+        from .info import PASS, examine, first_failure
 
         options = MeshOptions(
             features=features,
@@ -49,7 +49,8 @@ def info(
         record = examine(input, options)
         if json:
             console.put_json(json, record)
-        if json != "-" and not quiet:
+        unread = record["requirements"][0]["state"] != PASS
+        if json != "-" and not quiet and not unread:
             tables.show_info(record)
         for note in record["notes"]:
             log.info("%s: %s", record["input"], note)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from .meshing import MeshedInput
     from .options import MeshOptions
     from .pipeline import FieldResult, Problem
+    from .study.description import Study
     from .surface_pipeline import SurfaceFieldResult
 
 
@@ -68,6 +69,14 @@ def options_line(options: MeshOptions) -> str:
     default = type(options)()
     changed = {name: value for name, value in vars(options).items() if value != getattr(default, name)}
     return f"{type(options).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
+
+
+def study_line(study: Study) -> str:
+    """What it varies; an input may stand for several files."""
+    varied = "".join(f", {name}: {', '.join(map(str, values))}" for name, values in study.runs.items())
+    repeats = f", {study.repeats} repeats" if study.repeats > 1 else ""
+    inputs, seeds = _counted(len(study.inputs), "input", "inputs"), _counted(len(study.seeds), "seed", "seeds")
+    return f"Study({study.name}: {inputs}{varied}; {seeds}{repeats})"
 
 
 def _counted(count: int, one: str, many: str) -> str:

@@ -25,7 +25,7 @@ MODULES = [m.name for m in pkgutil.walk_packages(octafield.__path__, "octafield.
 
 
 def test_the_pages_meant_to_run_do_have_blocks():
-    assert {"docs/first_steps.md", "docs/concepts.md", "docs/studies.md", "docs/reproducibility.md", "docs/install.md"} <= set(RUN)
+    assert {"docs/first_steps.md", "docs/concepts.md", "docs/studies.md", "docs/reproducibility.md", "docs/install.md", "docs/command_line.md"} <= set(RUN)
 
 
 @pytest.mark.parametrize("name", RUN)  # README.md: test_readme.py
