@@ -3,7 +3,7 @@
 import math
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -77,7 +77,7 @@ def _options_of_all(
 
 def _mesh_options(
     features: str, feature_angle: float, edge_length: float, remesh: bool, repair: bool, **others: bool
-) -> dict:
+) -> dict[str, Any]:
     return {
         **others,
         "features": features,
@@ -88,7 +88,7 @@ def _mesh_options(
     }
 
 
-def _report_notes(record: dict) -> None:
+def _report_notes(record: dict[str, Any]) -> None:
     for note in record["notes"]:
         log.info("%s: %s", record["input"], note)
 
@@ -231,7 +231,7 @@ def surface_field(
 @app.command()
 def compare(
     inputs: InputFiles = None,
-    output: Output = ...,
+    output: Output = ...,  # type: ignore[assignment]
     representations: Annotated[
         str,
         typer.Option(
@@ -296,7 +296,7 @@ def _listed(text: str) -> list[str]:
     return [word.strip() for word in text.split(",") if word.strip()]
 
 
-def _finish(record: dict, json: str | None, quiet: bool, output: Path) -> None:
+def _finish(record: dict[str, Any], json: str | None, quiet: bool, output: Path) -> None:
     _report_notes(record)
     if json:
         console.put_json(json, record)

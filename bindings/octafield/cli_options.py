@@ -1,5 +1,6 @@
 """The options that several commands share: name, placeholder and help."""
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
@@ -9,7 +10,7 @@ from .completion import words
 from .options import FEATURES
 
 
-def choices(values) -> str:
+def choices(values: Iterable[str]) -> str:
     return "|".join(value for value in values if value != "default")
 
 

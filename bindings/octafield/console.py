@@ -9,6 +9,7 @@ import sys
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import typer
 from rich.console import Console
@@ -75,7 +76,7 @@ def usage_error(error: Exception, arguments: Sequence[str]) -> int:
     if not hasattr(error, "format_message"):
         return error_code(error)
     code = int(getattr(error, "exit_code", BAD_INPUT))
-    context = getattr(error, "ctx", None)
+    context: Any = getattr(error, "ctx", None)
     if type(error).__name__ == "NoArgsIsHelpError":
         typer.echo(context.get_help(), err=True)
         return code
@@ -167,7 +168,7 @@ def check_json_target(target: str | None) -> None:
         raise IoError(f"{target}: cannot write there (no permission)")
 
 
-def put_json(target: str, value) -> None:
+def put_json(target: str, value: Any) -> None:
     """Writes the JSON of a command to a file, or to stdout for "-"."""
     _written.append(target)
     if target == "-":

@@ -55,7 +55,10 @@ def comparison_line(comparison: Comparison) -> str:
     """inputs, how many runs of what, the range of energies, and where."""
     rows = comparison.rows
     energies = [row["energy"] for row in rows if "energy" in row]
-    count = lambda name, one, many: _counted(len({row[name] for row in rows if name in row}), one, many)
+
+    def count(name: str, one: str, many: str) -> str:
+        return _counted(len({row[name] for row in rows if name in row}), one, many)
+
     spread = f"; E {min(energies):.6g} to {max(energies):.6g}" if energies else ""
     return (
         f"Comparison({_counted(len(rows), 'run', 'runs')}: {count('input', 'input', 'inputs')}, "

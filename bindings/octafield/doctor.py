@@ -7,9 +7,11 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from ._core import TriangleMesh
 from .errors import Error
 from .info import FAIL, PASS
 from .phases import versions
@@ -23,7 +25,7 @@ _OPTIONAL = {
 }
 
 
-def examine() -> dict:
+def examine() -> dict[str, Any]:
     """The JSON object of `octafield doctor`. Key "ok": everything that is not optional works."""
     checks = [_tried(name, check) for name, check in _CHECKS]
     checks += [_optional(name, remedy) for name, remedy in _OPTIONAL.items()]
@@ -36,7 +38,7 @@ def examine() -> dict:
     }
 
 
-def _tried(name: str, check: Callable[[], str]) -> dict:
+def _tried(name: str, check: Callable[[], str]) -> dict[str, Any]:
     begin = time.perf_counter()
     try:
         state, message = PASS, check()
@@ -47,7 +49,7 @@ def _tried(name: str, check: Callable[[], str]) -> dict:
     return {"name": name, "state": state, "message": message, "seconds": round(time.perf_counter() - begin, 2)}
 
 
-def _optional(name: str, remedy: str) -> dict:
+def _optional(name: str, remedy: str) -> dict[str, Any]:
     if importlib.util.find_spec(name) is None:
         return {"name": name, "state": MISSING, "message": remedy, "seconds": 0.0}
     return {"name": name, "state": PASS, "message": importlib.metadata.version(name), "seconds": 0.0}
@@ -64,7 +66,7 @@ def _frames() -> str:
     return f"1000 projections, largest error {worst:.1e} radians"
 
 
-def _cube():
+def _cube() -> TriangleMesh:
     from .study.generators import generate
 
     return generate("box")

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _core, estimates, info_checks
+from ._core import TetMesh
 from .errors import REPAIRABLE, Error
 from .info_checks import FAIL, NOT_TESTED, PASS, WARN, Examined, Finding
 from .info_measures import radius_ratios
@@ -70,6 +71,7 @@ def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict[str,
             found.notes += [f"repair: {action}" for action in repaired.actions]
         whole = found.surface
         if found.interface_triangles:
+            assert found.tets is not None
             found.surface = _core.boundary_surface(found.tets).mesh  # interfaces are sound where the tets are
         findings = [Finding("file can be read", PASS), *_defects(found, options)]
         failed = {f.requirement for f in findings if f.state != PASS}
@@ -165,7 +167,7 @@ def _beyond_defects(found: Input, options: MeshOptions) -> tuple[list[Finding], 
         count = len(found.tets.tets)
     facts["mesh_size"] = length
     if found.tets is not None:
-        facts["tet_quality"] = _quality(seen)
+        facts["tet_quality"] = _quality(seen, found.tets)
     facts["expected"] = {
         "tets": count,
         "memory_mb": round(estimates.memory_mb(count)),
@@ -180,10 +182,10 @@ def _beyond_defects(found: Input, options: MeshOptions) -> tuple[list[Finding], 
     return [*findings, info_checks.memory(seen, count)], facts
 
 
-def _quality(seen: Examined) -> dict[str, Any]:
+def _quality(seen: Examined, tets: TetMesh) -> dict[str, Any]:
     """radius_ratio: 3 inradius / circumradius, 1 for regular tets."""
     angles = seen.dihedral_angles
-    ratio = radius_ratios(np.asarray(seen.found.tets.vertices), np.asarray(seen.found.tets.tets))
+    ratio = radius_ratios(np.asarray(tets.vertices), np.asarray(tets.tets))
     return {
         "dihedral_min_deg": float(np.nanmin(angles)),
         "dihedral_max_deg": float(np.nanmax(angles)),

@@ -29,7 +29,8 @@ def curve_lengths(surface: TriangleMesh, features: FeatureGraph) -> Array:
     chosen = inner[vertex]
     at = scipy.sparse.csr_array((np.ones(int(chosen.sum())), (edge[chosen], vertex[chosen])), shape=(len(edges), len(points)))
     count, label = scipy.sparse.csgraph.connected_components(at @ at.T, directed=False)
-    return np.bincount(label, weights=lengths, minlength=count)
+    result: Array = np.bincount(label, weights=lengths, minlength=count)
+    return result
 
 
 def thicknesses(surface: TriangleMesh) -> tuple[Array, Array]:
@@ -71,7 +72,8 @@ def dihedral_angles(points: Array, tets: Array) -> Array:
     normals /= np.linalg.norm(normals, axis=2, keepdims=True)
     pairs = [(a, b) for a in range(4) for b in range(a)]
     cosines = np.stack([-np.einsum("nc,nc->n", normals[:, a], normals[:, b]) for a, b in pairs], axis=1)
-    return np.degrees(np.arccos(np.clip(cosines, -1, 1)))
+    angles: Array = np.degrees(np.arccos(np.clip(cosines, -1, 1)))
+    return angles
 
 
 def radius_ratios(points: Array, tets: Array) -> Array:
@@ -84,4 +86,5 @@ def radius_ratios(points: Array, tets: Array) -> Array:
     squares = [np.einsum("nc,nc->n", x, x)[:, None] for x in (a, b, c)]
     turned = squares[0] * np.cross(b, c) + squares[1] * np.cross(c, a) + squares[2] * np.cross(a, b)
     circumradius = np.linalg.norm(turned, axis=1) / np.maximum(12 * volume, np.finfo(float).tiny)
-    return 9 * volume / (area * np.maximum(circumradius, np.finfo(float).tiny))
+    ratios: Array = 9 * volume / (area * np.maximum(circumradius, np.finfo(float).tiny))
+    return ratios

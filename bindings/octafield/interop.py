@@ -71,16 +71,19 @@ def to_pyvista(
     if isinstance(value, BoundarySurface):
         value = value.mesh
     if isinstance(value, TriangleMesh):
-        return pyvista.PolyData.from_regular_faces(np.array(value.vertices), np.array(value.triangles))
+        faces: Any = np.array(value.triangles)
+        surface: pyvista.PolyData = pyvista.PolyData.from_regular_faces(np.array(value.vertices), faces)
+        return surface
     if isinstance(value, TetMesh):
         return pyvista.UnstructuredGrid({pyvista.CellType.TETRA: np.array(value.tets)}, np.array(value.vertices))
+    lines: pyvista.PolyData
     if isinstance(value, SingularGraph):
         points = np.asarray(value.points)
         lines = polylines([points[np.asarray(curve)] for curve in value.curves])
         lines.cell_data["quarter_turns"] = np.array(value.curve_quarter_turns, np.int32)
         return lines
     if isinstance(value, SurfaceFieldResult):
-        surface = to_pyvista(value.surface)
+        surface = cast("pyvista.PolyData", to_pyvista(value.surface))
         surface.point_data["direction"] = np.array(value.directions)
         return surface
     if isinstance(value, FieldResult):
@@ -115,9 +118,9 @@ def from_pyvista(dataset: pyvista.DataSet) -> TriangleMesh | TetMesh:
         return _triangles(dataset)
     grid = dataset.cast_to_unstructured_grid()
     cells = grid.cells_dict
-    volumes = [kind for kind in cells if pyvista.CellType(kind).name not in _FLAT]
-    if [int(kind) for kind in volumes] == [int(pyvista.CellType.TETRA)]:
-        return TetMesh(np.array(grid.points, float), np.array(cells[pyvista.CellType.TETRA], np.int32))
+    volumes = {int(kind): ids for kind, ids in cells.items() if pyvista.CellType(int(kind)).name not in _FLAT}
+    if list(volumes) == [int(pyvista.CellType.TETRA)]:
+        return TetMesh(np.array(grid.points, float), np.array(volumes[int(pyvista.CellType.TETRA)], np.int32))
     if volumes:
         names = ", ".join(sorted(pyvista.CellType(kind).name.lower() for kind in volumes))
         raise InvalidInput(f"the dataset has cells of kind {names}; frame fields need tets only", "not_tets")

@@ -4,16 +4,18 @@ import hashlib
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _core, display
-from ._core import BoundarySurface, FeatureGraph, Sheets, TetMesh, TriangleMesh
+from ._core import BoundarySurface, FeatureGraph, LockingElements, Sheets, TetMesh, TriangleMesh
 from .errors import GeometryError, InvalidInput
 from .inputs import Input, from_mesh, naming, read_input, with_regions
 from .options import MeshOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
 
+Array = np.ndarray[Any, Any]
 Source = str | Path | TriangleMesh | TetMesh
 TOUCHING = ("non_manifold_edge", "non_manifold_vertex")  # kinds of defects that the boundary of tets may have
 
@@ -41,10 +43,16 @@ class MeshedInput:
     regions: np.ndarray | None = None
     interface_triangles: int = 0
     sheet_map: np.ndarray | None = None
-    locking: dict = field(default_factory=dict)
+    locking: dict[str, Any] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return display.meshed_line(self)
+
+    def volume(self) -> "Volume":
+        """The tets and what goes with them. Raises InvalidInput where only a surface was prepared."""
+        if self.tets is None or self.boundary is None or self.boundary_features is None:
+            raise InvalidInput(f"{self.name}: was prepared with volume=False; prepare it with its volume", "no_volume")
+        return Volume(self.tets, self.boundary, self.boundary_features)
 
     def at_boundary_vertices(self, values: np.ndarray) -> np.ndarray:
         """Of values at the vertices of the surface, those at the boundary's: of its first copy in each case."""
@@ -54,11 +62,18 @@ class MeshedInput:
 
     def digest(self) -> str:
         """SHA-256 of the mesh arrays, first 16 hexadecimal digits: equal for equal meshes."""
-        mesh = self.surface if self.tets is None else self.tets
-        cells = mesh.triangles if self.tets is None else mesh.tets
-        sha = hashlib.sha256(np.ascontiguousarray(mesh.vertices).tobytes())
+        vertices, cells = (self.surface.vertices, self.surface.triangles) if self.tets is None else (self.tets.vertices, self.tets.tets)
+        sha = hashlib.sha256(np.ascontiguousarray(vertices).tobytes())
         sha.update(np.ascontiguousarray(cells).tobytes())
         return sha.hexdigest()[:16]
+
+
+class Volume(NamedTuple):
+    """Of a MeshedInput that has tets."""
+
+    tets: TetMesh
+    boundary: BoundarySurface
+    boundary_features: FeatureGraph
 
 
 def load_surface(path: str | Path, *, repair: bool = False) -> TriangleMesh:
@@ -78,7 +93,7 @@ class SoundInput:
     peak_mb: float
     boundary_features: FeatureGraph
     sheets: Sheets | None
-    locking: dict
+    locking: dict[str, Any]
 
 
 def read_sound(
@@ -179,7 +194,9 @@ def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
 
 
 def _require_valid(found: Input, options: MeshOptions, **tests: bool) -> None:
-    surface = found.surface if not found.interface_triangles else _core.boundary_surface(found.tets).mesh
+    surface = found.surface
+    if found.interface_triangles and found.tets is not None:
+        surface = _core.boundary_surface(found.tets).mesh
     try:
         try:
             _core.require_valid(surface, **tests)
@@ -233,7 +250,7 @@ def find_features(found: Input, options: MeshOptions, sheets: Sheets | None) -> 
         )
     if source == "angle" and sheets is None:
         return _core.detect_features(found.surface, angle=options.feature_angle), source
-    edges = found.lines if source == "file" else np.empty((0, 2), np.int32)
+    edges: Array = np.empty((0, 2), np.int32) if source != "file" or found.lines is None else found.lines
     if sheets is not None:
         cuts = np.asarray(sheets.cuts)
         if source == "angle":
@@ -275,9 +292,11 @@ def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) 
     meshed.boundary_features = meshed.features
 
 
-def split_on_request(mesh: Input | MeshedInput, options: MeshOptions) -> dict:
+def split_on_request(mesh: Input | MeshedInput, options: MeshOptions) -> dict[str, Any]:
     """Counts what joins the surface to itself and splits it on request: tets, regions and boundary change, surface
     vertices and features stay."""
+    if mesh.tets is None or mesh.boundary is None:
+        return {}
     if not options.split:
         found = _core.find_locking(mesh.tets, mesh.boundary)
         return _locking_record(found)
@@ -292,7 +311,7 @@ def split_on_request(mesh: Input | MeshedInput, options: MeshOptions) -> dict:
     }
 
 
-def _locking_record(found) -> dict:
+def _locking_record(found: LockingElements) -> dict[str, Any]:
     return {"tets": len(found.tets), "edges": len(found.edges), "triangles": len(found.triangles)}
 
 

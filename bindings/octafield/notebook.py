@@ -20,7 +20,6 @@ from ._core import SingularGraph, TetMesh, TriangleMesh
 if TYPE_CHECKING:
     import pyvista
 
-    from .compare import Comparison
     from .pipeline import FieldResult
     from .surface_pipeline import SurfaceFieldResult
 
@@ -46,7 +45,7 @@ def display_live(value: Any) -> None:
     for the HTML above."""
     if type(value).__name__ == "Comparison" or not live_backend() or not _can_draw():
         raise NotImplementedError
-    from IPython.display import HTML, display
+    from IPython.display import HTML, display  # type: ignore[import-not-found, unused-ignore]
 
     title, facts = describe(value)
     viewer = scene_of(value).show(return_viewer=True)
@@ -71,7 +70,7 @@ def _installed(package: str) -> bool:
 
 def _in_kernel() -> bool:
     try:
-        from IPython import get_ipython
+        from IPython import get_ipython  # type: ignore[import-not-found, unused-ignore]
     except ImportError:
         return False
     return hasattr(get_ipython(), "kernel")
@@ -88,7 +87,7 @@ def describe(value: Any) -> tuple[str, Mapping[str, Any] | list[Mapping[str, Any
     if isinstance(value, (TriangleMesh, TetMesh, SingularGraph)):
         return type(value).__name__, _facts_of_arrays(value)
     if type(value).__name__ == "Comparison":
-        rows = [{name: row[name] for name in _ROW if name in row} for row in value.rows]
+        rows: list[Mapping[str, Any]] = [{name: row[name] for name in _ROW if name in row} for row in value.rows]
         return f"Comparison in {value.folder}", rows
     record = value.record
     names = _FIELD if "tets" in record else _SURFACE
@@ -111,14 +110,17 @@ def _facts_of_arrays(value: TriangleMesh | TetMesh | SingularGraph) -> dict[str,
     return facts
 
 
+def _cell(value: Any) -> str:
+    return html.escape(f"{value:.6g}" if isinstance(value, float) else str(value))
+
+
 def _table(facts: Mapping[str, Any] | list[Mapping[str, Any]]) -> str:
-    cell = lambda value: html.escape(f"{value:.6g}" if isinstance(value, float) else str(value))
     if isinstance(facts, Mapping):
-        lines = [f"<tr><td>{html.escape(name)}</td><td>{cell(value)}</td></tr>" for name, value in facts.items()]
+        lines = [f"<tr><td>{html.escape(name)}</td><td>{_cell(value)}</td></tr>" for name, value in facts.items()]
     else:
         heads = list(dict.fromkeys(name for row in facts for name in row))
         lines = ["<tr>" + "".join(f"<th>{html.escape(name)}</th>" for name in heads) + "</tr>"]
-        lines += ["<tr>" + "".join(f"<td>{cell(row.get(name, ''))}</td>" for name in heads) + "</tr>" for row in facts]
+        lines += ["<tr>" + "".join(f"<td>{_cell(row.get(name, ''))}</td>" for name in heads) + "</tr>" for row in facts]
     return f"<table>{''.join(lines)}</table>"
 
 
@@ -144,7 +146,9 @@ def scene_of(value: FieldResult | SurfaceFieldResult | SingularGraph | TriangleM
         return _surface_scene(value)
     if isinstance(value, TetMesh):
         return _tets_scene(value)
-    if "tets" in value.record:
+    from .pipeline import FieldResult
+
+    if isinstance(value, FieldResult):
         from .pictures import singular_scene
 
         return singular_scene(value)

@@ -3,7 +3,9 @@
 import difflib
 import math
 import numbers
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -23,14 +25,15 @@ METHODS = {"gl": "ginzburg_landau", "mbo": "mbo", "eigen": "eigenvector"}
 ALIGNMENTS = ("strong", "weak", "none")
 
 
-def require_one_of(name: str, value: str, allowed) -> None:
+def require_one_of(name: str, value: str, allowed: Iterable[str]) -> None:
+    allowed = list(allowed)
     if value not in allowed:
         raise InvalidInput(
             f"{name} {value!r} is not one of: {', '.join(allowed)}{did_you_mean(value, allowed)}", "unknown_option_value"
         )
 
 
-def did_you_mean(value: str, known) -> str:
+def did_you_mean(value: str, known: Iterable[str]) -> str:
     """"; did you mean 'sh4'?" where a known word is near, else nothing."""
     near = difflib.get_close_matches(str(value), list(known), 1)
     return f"; did you mean {near[0]!r}?" if near else ""
@@ -41,13 +44,13 @@ def _require(condition: bool, message: str) -> None:
         raise InvalidInput(message, "option_out_of_range")
 
 
-def _make_integer(options, name: str, low: int, high: int, note: str = "") -> None:
+def _make_integer(options: object, name: str, low: int, high: int, note: str = "") -> None:
     """Requires an integer in low .. high and keeps it as an int: numpy's integers are no JSON."""
     object.__setattr__(options, name, integer_in(name.replace("_", " "), getattr(options, name), low, high, note))
 
 
-def integer_in(name: str, value, low: int, high: int, note: str = "") -> int:
-    valid = isinstance(value, numbers.Integral) and low <= value <= high
+def integer_in(name: str, value: Any, low: int, high: int, note: str = "") -> int:
+    valid = isinstance(value, numbers.Integral) and low <= int(value) <= high
     _require(valid, f"{name} must be an integer in {low} .. {high}{note}, not {value!r}")
     return int(value)
 

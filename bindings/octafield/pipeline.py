@@ -13,7 +13,7 @@ A comparison prepares a Problem once and runs it with several options:
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 import numpy as np
 
@@ -33,12 +33,12 @@ from ._core import (
     TriangleMesh,
     VertexConstraints,
 )
-from .analysis import analyse
+from .analysis import FieldAnalysis, analyse
 from .errors import InvalidInput
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
-from .tet_analysis import analyse_tets
+from .tet_analysis import TetFieldAnalysis, analyse_tets
 from .surface_pipeline import SurfaceFieldResult, common_record, compute_surface_field, index_summary, structure
 
 if TYPE_CHECKING:
@@ -108,7 +108,7 @@ class FieldResult:
     boundary_meshability: BoundaryMeshability | None
     integrability: Integrability | None
     streamlines: list[FrameStreamline]
-    record: dict
+    record: dict[str, Any]
     regions: np.ndarray | None = None
     tet_frames: np.ndarray | None = None
     lengths: np.ndarray | None = None
@@ -193,15 +193,15 @@ def run(
     """
     memory = PeakMemory()
     meshed, clock = problem.meshed, PhaseClock(problem.clock)
-    tets, threads = meshed.tets, options.threads
+    tets, threads = meshed.volume().tets, options.threads
     with clock.phase("smooth"):
         announce(progress, "smooth")
-        where = _core.tet_sampling(tets) if options.sampling == "tets" else tets
+        in_tets = _core.tet_sampling(tets) if options.sampling == "tets" else None
         held = _boundary_constraints(problem, options)
         if constraints is not None:
             held = _core.with_constraints(held, constraints)
         found = _core.frame_field(
-            where,
+            tets if in_tets is None else in_tets,
             held,
             start="cross_field" if options.boundary == "none" else "constraints",
             seed=problem.seed,
@@ -211,18 +211,20 @@ def run(
             tolerance=options.tolerance,
             threads=threads,
             progress=forward(progress, "smooth", 0.0, 1.0),
-            **({} if options.solver == "default" else {"solver": options.solver}),
+            solver="automatic" if options.solver == "default" else options.solver,
         )
         smoothed = found.smooth
     with clock.phase("analyse"):
         announce(progress, "analyse")
         frames, of_tets = np.asarray(smoothed.frames), None
-        if options.sampling == "tets":
+        analysis: FieldAnalysis | TetFieldAnalysis
+        if in_tets is not None:
             of_tets = frames
-            analysis = analyse_tets(meshed, where, of_tets, threads)
+            analysis = analyse_tets(meshed, in_tets, of_tets, threads)
             frames = analysis.frames
         else:
             analysis = analyse(meshed, frames, threads, options.streamlines)
+        at_vertices = analysis if isinstance(analysis, FieldAnalysis) else None
         lengths = np.asarray(smoothed.lengths) if len(smoothed.lengths) else None
     record = {
         **common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
@@ -268,13 +270,13 @@ def run(
         tets,
         held,
         frames,
-        analysis.singular_graph if of_tets is None else analysis.singular.graph,
+        analysis.singular_graph if isinstance(analysis, FieldAnalysis) else analysis.singular.graph,
         analysis.alignment,
         analysis.feature_alignment,
-        analysis.meshability if of_tets is None else None,
-        analysis.boundary_meshability if of_tets is None else None,
-        analysis.integrability if of_tets is None else None,
-        analysis.streamlines if of_tets is None else [],
+        None if at_vertices is None else at_vertices.meshability,
+        None if at_vertices is None else at_vertices.boundary_meshability,
+        None if at_vertices is None else at_vertices.integrability,
+        [] if at_vertices is None else at_vertices.streamlines,
         record,
         meshed.regions,
         of_tets,
@@ -284,13 +286,14 @@ def run(
 
 def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryConstraints:
     meshed = problem.meshed
-    how = {"mode": options.boundary, "feature_tolerance": options.feature_tolerance}
+    tets, boundary, features = meshed.volume()
+    mode, tolerance = options.boundary, options.feature_tolerance
     if options.sampling == "tets":  # triangles of the surface are those of the boundary, sheets or not
         directions = _core.triangle_directions(meshed.surface, problem.direction_field)
-        return _core.tet_boundary_constraints(meshed.tets, meshed.boundary, directions, **how)
+        return _core.tet_boundary_constraints(tets, boundary, directions, mode=mode, feature_tolerance=tolerance)
     directions = meshed.at_boundary_vertices(problem.directions)
     return _core.boundary_constraints(
-        len(meshed.tets.vertices), meshed.boundary, meshed.boundary_features, directions, **how
+        len(tets.vertices), boundary, features, directions, mode=mode, feature_tolerance=tolerance
     )
 
 

@@ -2,13 +2,16 @@
 
 import dataclasses
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from . import console
 from .cli_options import Json, Quiet, Verbose
 from .console import carry_out, log
+
+if TYPE_CHECKING:
+    from .study import Status, Study
 
 app = typer.Typer(no_args_is_help=True, help="Comparisons described by a file: run, resume after any interruption, report.")
 
@@ -93,7 +96,9 @@ def report(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Ver
     carry_out(work, quiet, verbose, json)
 
 
-def _run(study, folder, jobs, threads, memory, scheduler, retry, json, quiet) -> None:
+def _run(
+    study: "Study", folder: Path, jobs: int, threads: int, memory: float, scheduler: str, retry: bool, json: str | None, quiet: bool
+) -> None:
     from .study.engine import run as run_study
     from .study.report import write_report
 
@@ -109,11 +114,11 @@ def _run(study, folder, jobs, threads, memory, scheduler, retry, json, quiet) ->
     log.info("wrote %s", page)
 
 
-def _document(status, rows: list[dict]) -> dict:
+def _document(status: "Status", rows: list[dict[str, Any]]) -> dict[str, Any]:
     return {**dataclasses.asdict(status), "runs": rows}
 
 
-def _tell(status, folder, json, quiet) -> None:
+def _tell(status: "Status", folder: Path, json: str | None, quiet: bool) -> None:
     from .study.results import rows
 
     known = rows(folder)

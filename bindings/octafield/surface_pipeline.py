@@ -74,9 +74,7 @@ def compute_surface_field(
             "give the result of prepare_mesh(source, options, volume=False) instead of the source",
             "not_meshed",
         )
-    meshed = source
-    if not isinstance(source, MeshedInput):
-        meshed = prepare_mesh(source, options, volume=False, progress=progress)
+    meshed = source if isinstance(source, MeshedInput) else prepare_mesh(source, options, volume=False, progress=progress)
     clock = PhaseClock(meshed.clock)
     stop = StopNote(progress)
     with naming(meshed.name), clock.phase("surface"):
@@ -153,7 +151,7 @@ def structure(
     return directions, singularities, separatrices
 
 
-def common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dict:
+def common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dict[str, Any]:
     return {
         "input": meshed.name,
         "version": octafield_version(),
@@ -171,7 +169,7 @@ def common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dic
     }
 
 
-def index_summary(singularities: SurfaceSingularities) -> dict:
+def index_summary(singularities: SurfaceSingularities) -> dict[str, Any]:
     return {
         "euler_characteristic": singularities.euler_characteristic,
         "index_sum": singularities.index_sum,

@@ -24,6 +24,6 @@ from .plan import Run, plan
 from .report import write_report
 from .results import Status, rows, status
 
-Study.__repr__ = study_line  # type: ignore[method-assign]
+Study.__repr__ = study_line  # type: ignore[method-assign, assignment]
 
 __all__ = ["Outcome", "Run", "Status", "Study", "load", "parse", "plan", "rows", "run", "status", "write_report"]

@@ -3,6 +3,7 @@
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -37,7 +38,7 @@ def generate(name: str, **parameters: float) -> TriangleMesh:
     return GENERATORS[name].make(**parameters)
 
 
-def _closed(poly) -> TriangleMesh:
+def _closed(poly: Any) -> TriangleMesh:
     """Triangles with shared vertices, oriented outwards."""
     clean = poly.triangulate().clean(tolerance=1e-9)
     clean = clean.compute_normals(auto_orient_normals=True, split_vertices=False, cell_normals=False)

@@ -5,13 +5,18 @@ import glob
 import hashlib
 import itertools
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ..errors import InvalidInput
 from ..options import FieldOptions
 from ..phases import octafield_version
 from .description import FromFile, Generated, Study, field_options, mesh_options
+
+
+Source = str | dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -21,7 +26,7 @@ class Run:
 
     key: str
     name: str
-    source: str | dict
+    source: str | dict[str, Any]
     options: FieldOptions
     repeat: int
 
@@ -30,16 +35,16 @@ class Run:
         return f"Run({self.key}: {self.name}, {self.options!r}{again})"
 
     @property
-    def group(self) -> tuple:
+    def group(self) -> tuple[str, str]:
         """Runs of equal group share their mesh and cross field."""
         mesh = {f.name: getattr(self.options, f.name) for f in dataclasses.fields(FieldOptions) if f.name in _SHARED}
         return (self.name, json.dumps(mesh, sort_keys=True))
 
-    def to_json(self) -> dict:
+    def to_json(self) -> dict[str, Any]:
         return {**dataclasses.asdict(self), "options": dataclasses.asdict(self.options)}
 
     @classmethod
-    def from_json(cls, content: dict) -> "Run":
+    def from_json(cls, content: dict[str, Any]) -> "Run":
         return cls(**{**content, "options": FieldOptions(**content["options"])})
 
 
@@ -68,13 +73,13 @@ def plan(study: Study, *, threads: int = 1) -> list[Run]:
 
 def groups(runs: list[Run]) -> list[list[Run]]:
     """Runs that share a mesh and cross field, in their order."""
-    found: dict[tuple, list[Run]] = {}
+    found: dict[tuple[str, str], list[Run]] = {}
     for run in runs:
         found.setdefault(run.group, []).append(run)
     return list(found.values())
 
 
-def _runs_on(study: Study, entry, source, name: str, digest: str, threads: int) -> list[Run]:
+def _runs_on(study: Study, entry: FromFile | Generated, source: Source, name: str, digest: str, threads: int) -> list[Run]:
     mesh = mesh_options(study, entry)
     result = []
     for seed in study.seeds:
@@ -94,10 +99,10 @@ def _key(digest: str, options: FieldOptions, repeat: int) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:20]
 
 
-def _sources(study: Study, entry: FromFile | Generated):
+def _sources(study: Study, entry: FromFile | Generated) -> Iterator[tuple[Source, str, str]]:
     """(source, stem of a name, digest of the content) of each input that an entry stands for."""
     if isinstance(entry, Generated):
-        spec = {"generator": entry.generator, "with": dict(sorted(entry.with_.items()))}
+        spec: dict[str, Any] = {"generator": entry.generator, "with": dict(sorted(entry.with_.items()))}
         numbers = "".join(f" {name} {value:g}" for name, value in spec["with"].items())
         yield spec, entry.generator + numbers, json.dumps(spec)
         return

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from .plan import plan
 from .store import Store
@@ -22,7 +23,7 @@ class Status:
         return self.done + self.failed + self.crashed + self.open
 
 
-def rows(folder: str | Path) -> list[dict]:
+def rows(folder: str | Path) -> list[dict[str, Any]]:
     """Records of the finished runs of the study, in the order of its description; state: done, failed or crashed. Raises
     InvalidInput where `folder` is not that of a study.
 
