@@ -16,6 +16,7 @@ Path: TypeAlias = str | PathLike[str]
 Progress: TypeAlias = Callable[[str, float, float], bool | None]
 
 __version__: str
+__libraries__: str
 unit_speed_factor: float
 """3/20: times an energy of sh4 vectors gives that of a representation that moves at speed 1 per radian."""
 core_energy: float

@@ -4,12 +4,24 @@ aligned, how far it is from the gradients of a map; and streamlines to look at i
 import math
 from collections import Counter
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from . import _core
-from ._core import BoundaryMeshability, FeatureWedge, FrameStreamline, Integrability, Meshability, SingularGraph, SingularVertex
+from ._core import (
+    BoundaryConstraints,
+    BoundaryMeshability,
+    FeatureWedge,
+    FrameStreamline,
+    Integrability,
+    Meshability,
+    SingularGraph,
+    SingularVertex,
+    SurfaceSingularities,
+    VertexConstraints,
+)
 from .meshing import MeshedInput
 
 
@@ -124,3 +136,18 @@ def degrees(angles: np.ndarray) -> dict[str, float]:
     if len(angles) == 0:
         return {"median": 0.0, "max": 0.0}
     return {"median": math.degrees(float(np.median(angles))), "max": math.degrees(float(angles.max()))}
+
+
+def spread(lengths: np.ndarray) -> dict[str, float]:
+    return {"min": float(lengths.min()), "median": float(np.median(lengths)), "max": float(lengths.max())}
+
+
+def constraint_counts(held: BoundaryConstraints, given: VertexConstraints | None) -> dict[str, int]:
+    free, axis, fixed = np.bincount(np.asarray(held.kind), minlength=3).tolist()
+    return {"free": free, "axis": axis, "fixed": fixed, "given": 0 if given is None else len(given.vertices)}
+
+
+def counts_by_index(singularities: SurfaceSingularities) -> dict[str, int]:
+    """{"1/4": 8}: how many singular points of each index, positive ones first."""
+    indices = sorted((Fraction(float(s.index)).limit_denominator(1000) for s in singularities.points), reverse=True)
+    return {("+" if index > 0 else "") + str(index): indices.count(index) for index in dict.fromkeys(indices)}

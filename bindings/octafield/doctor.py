@@ -14,7 +14,7 @@ import numpy as np
 from ._core import TriangleMesh
 from .errors import Error
 from .info import FAIL, PASS
-from .phases import versions
+from .phases import libraries, versions
 
 MISSING = "not installed"
 _OPTIONAL = {
@@ -32,6 +32,7 @@ def examine() -> dict[str, Any]:
     return {
         "ok": all(check["state"] != FAIL for check in checks),
         "versions": versions(),
+        "libraries": libraries(),
         "cores": len(os.sched_getaffinity(0)),
         "memory_gb": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
         "checks": checks,

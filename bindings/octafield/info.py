@@ -14,7 +14,8 @@ from .errors import REPAIRABLE, Error
 from .info_checks import FAIL, NOT_TESTED, PASS, WARN, Examined, Finding
 from .info_measures import radius_ratios
 from .inputs import Input, naming, read_input
-from .meshing import TOUCHING, find_features, possible_remedy, split_on_request
+from .locking import split_on_request
+from .meshing import TOUCHING, find_features, possible_remedy
 from .options import MeshOptions
 from .phases import octafield_version
 

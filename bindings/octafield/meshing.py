@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _core, display
-from ._core import BoundarySurface, FeatureGraph, LockingElements, Sheets, TetMesh, TriangleMesh
+from ._core import BoundarySurface, FeatureGraph, Sheets, TetMesh, TriangleMesh
 from .errors import GeometryError, InvalidInput
-from .inputs import Input, from_mesh, naming, read_input, with_regions
+from .inputs import Input, from_mesh, naming, read_input
+from .locking import split_on_request
 from .options import MeshOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
 
@@ -290,29 +291,6 @@ def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) 
     meshed.locking = split_on_request(meshed, options)
     meshed.surface = meshed.boundary.mesh  # the same vertices; triangles in the order of the tets
     meshed.boundary_features = meshed.features
-
-
-def split_on_request(mesh: Input | MeshedInput, options: MeshOptions) -> dict[str, Any]:
-    """Counts what joins the surface to itself and splits it on request: tets, regions and boundary change, surface
-    vertices and features stay."""
-    if mesh.tets is None or mesh.boundary is None:
-        return {}
-    if not options.split:
-        found = _core.find_locking(mesh.tets, mesh.boundary)
-        return _locking_record(found)
-    split = _core.split_locking(mesh.tets, mesh.boundary)
-    mesh.tets = split.mesh
-    regions = None if mesh.regions is None else np.asarray(mesh.regions)[np.asarray(split.parent)]
-    with_regions(mesh, regions)
-    return _locking_record(split.found) | {
-        "added_vertices": split.added_vertices,
-        "added_tets": len(split.parent) - len(np.unique(split.parent)),
-        "left": len(split.left),
-    }
-
-
-def _locking_record(found: LockingElements) -> dict[str, Any]:
-    return {"tets": len(found.tets), "edges": len(found.edges), "triangles": len(found.triangles)}
 
 
 def _note_unused(meshed: MeshedInput, options: MeshOptions) -> None:

@@ -73,6 +73,15 @@ def versions() -> dict[str, str]:
     return found
 
 
+def libraries() -> dict[str, str]:
+    """Versions of the C++ libraries that the compiled part was built with."""
+    found = {}
+    for entry in _core.__libraries__.split(","):
+        name, _, version = entry.partition(" ")
+        found[name] = version or "unknown"
+    return found
+
+
 def octafield_version() -> str:
     return _core.__version__
 

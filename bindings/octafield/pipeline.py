@@ -12,7 +12,6 @@ A comparison prepares a Problem once and runs it with several options:
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
-from fractions import Fraction
 from typing import Any, TYPE_CHECKING
 
 import numpy as np
@@ -33,7 +32,7 @@ from ._core import (
     TriangleMesh,
     VertexConstraints,
 )
-from .analysis import FieldAnalysis, analyse
+from .analysis import FieldAnalysis, analyse, constraint_counts, counts_by_index, spread
 from .errors import InvalidInput
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
@@ -241,7 +240,7 @@ def run(
         "seed": problem.seed,
         "threads": threads,
         **analysis.record,
-        **({} if lengths is None else {"lengths": _spread(lengths)}),
+        **({} if lengths is None else {"lengths": spread(lengths)}),
         "objective": float(smoothed.objective),
         "iterations": smoothed.iterations,
         "diffusion_steps": found.diffusion_steps,
@@ -249,13 +248,13 @@ def run(
         "stop_reason": smoothed.message,
         "energy_history": [float(e) for e in smoothed.energy_history],
         "surface_field": {
-            "singular_points": _counts_by_index(problem.singularities),
+            "singular_points": counts_by_index(problem.singularities),
             "epsilon": problem.direction_field.epsilon,
             "iterations": problem.direction_field.iterations,
             "converged": bool(problem.direction_field.converged),
             **index_summary(problem.singularities),
         },
-        "constraints": _constraint_counts(held, constraints),
+        "constraints": constraint_counts(held, constraints),
         "released_corners": len(held.released_corners),
         "released_corner_vertices": np.asarray(held.released_corners).tolist(),
         "options": asdict(replace(options, seed=problem.seed)),
@@ -295,18 +294,3 @@ def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryCo
     return _core.boundary_constraints(
         len(tets.vertices), boundary, features, directions, mode=mode, feature_tolerance=tolerance
     )
-
-
-def _spread(lengths: np.ndarray) -> dict[str, float]:
-    return {"min": float(lengths.min()), "median": float(np.median(lengths)), "max": float(lengths.max())}
-
-
-def _constraint_counts(held: BoundaryConstraints, given: VertexConstraints | None) -> dict[str, int]:
-    free, axis, fixed = np.bincount(np.asarray(held.kind), minlength=3).tolist()
-    return {"free": free, "axis": axis, "fixed": fixed, "given": 0 if given is None else len(given.vertices)}
-
-
-def _counts_by_index(singularities: SurfaceSingularities) -> dict[str, int]:
-    """{"1/4": 8}: how many singular points of each index, positive ones first."""
-    indices = sorted((Fraction(float(s.index)).limit_denominator(1000) for s in singularities.points), reverse=True)
-    return {("+" if index > 0 else "") + str(index): indices.count(index) for index in dict.fromkeys(indices)}

@@ -52,7 +52,8 @@ def _fact(requirement: dict) -> str:
 
 
 def show_doctor(record: dict) -> None:
-    facts = [(name, str(value)) for name, value in record["versions"].items()]
+    facts = [(name, str(value)) for name, value in {**record["versions"], **record["libraries"]}.items() if name != "vtk"]
+    facts.append(("VTK of pictures", record["versions"]["vtk"]))
     facts += [("cores", str(record["cores"])), ("memory", f"{record['memory_gb']:g} GB")]
     _facts("octafield doctor", facts)
     _table(["", "part", "what was found"], [[c["state"], c["name"], c["message"]] for c in record["checks"]], left=3)

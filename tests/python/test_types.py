@@ -7,7 +7,7 @@ from pathlib import Path
 import octafield
 
 MODULES = ["__init__", "analysis", "cli", "cli_inspect", "cli_options", "completion", "defaults", "display", "doctor", "errors", "estimates", "info",
-           "info_checks", "info_measures", "inputs", "interop", "meshing", "notebook", "options", "output", "phases", "pickling", "pipeline", "results",
+           "info_checks", "info_measures", "inputs", "interop", "locking", "meshing", "notebook", "options", "output", "phases", "pickling", "pipeline", "results",
            "study_cli", "surface_pipeline", "tet_analysis", "study/__init__", "study/generators", "study/plan", "study/results"]  # fmt: skip
 
 
