@@ -230,8 +230,26 @@ from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, Solv
 # Written in Python.
 from .compare import Comparison, compare
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
-from .interop import from_meshio, from_pyvista, to_meshio, to_pandas, to_pyvista
-from .pipeline import FieldResult, SurfaceFieldResult, compute_field, compute_surface_field, prepare, prepare_mesh, run
+from .interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
+from .meshing import MeshedInput
+from .pipeline import (
+    FieldResult,
+    Problem,
+    SurfaceFieldResult,
+    compute_field,
+    compute_surface_field,
+    prepare,
+    prepare_mesh,
+    run,
+)
+from . import display as _display
+from . import notebook as _notebook
+from . import pickling as _pickling  # noqa: F401
+
+for _kind in (TriangleMesh, TetMesh, SingularGraph, FieldResult, SurfaceFieldResult, Comparison):
+    _notebook.shown(_kind)
+del _kind
+Comparison.__repr__ = _display.comparison_line  # type: ignore[method-assign,assignment]
 
 __all__ = [
     "BoundaryConstraints",
@@ -260,9 +278,11 @@ __all__ = [
     "LockingElements",
     "LockingSplit",
     "MeshOptions",
+    "MeshedInput",
     "Meshability",
     "Metric",
     "PrincipalDirections",
+    "Problem",
     "RegionSurface",
     "RemeshResult",
     "RepairResult",
@@ -444,6 +464,7 @@ __all__ = [
     "write_surface",
     "write_surface_field",
     "from_meshio",
+    "from_pandas",
     "from_pyvista",
     "prepare",
     "prepare_mesh",
@@ -451,6 +472,7 @@ __all__ = [
     "to_meshio",
     "to_pandas",
     "to_pyvista",
+    "to_scipy",
     "Sampling",
     "SingularEdge",
     "SingularEdges",

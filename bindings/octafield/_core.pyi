@@ -16,6 +16,7 @@ Path: TypeAlias = str | PathLike[str]
 Progress: TypeAlias = Callable[[str, float, float], bool | None]
 
 __version__: str
+__libraries__: str
 unit_speed_factor: float
 """3/20: times an energy of sh4 vectors gives that of a representation that moves at speed 1 per radian."""
 core_energy: float
@@ -661,6 +662,15 @@ def lumped_mass(mesh: TetMesh) -> Float64s: ...
 def dirichlet_energy(mesh: TetMesh | Sampling, frames: ArrayLike, *, threads: int = 0) -> float: ...
 
 class Sampling:
+    def __init__(
+        self,
+        stiffness: Any,
+        mass: ArrayLike,
+        body_radius: float,
+        edge_length: float,
+        box_diagonal: float,
+        sites: str = ...,
+    ) -> None: ...
     @property
     def sites(self) -> str: ...
     @property
@@ -671,6 +681,8 @@ class Sampling:
     def body_radius(self) -> float: ...
     @property
     def edge_length(self) -> float: ...
+    @property
+    def box_diagonal(self) -> float: ...
     def __len__(self) -> int: ...
 
 class SingularEdge:

@@ -4,11 +4,24 @@ aligned, how far it is from the gradients of a map; and streamlines to look at i
 import math
 from collections import Counter
 from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
 from . import _core
-from ._core import BoundaryMeshability, FrameStreamline, Integrability, Meshability, SingularGraph
+from ._core import (
+    BoundaryConstraints,
+    BoundaryMeshability,
+    FeatureWedge,
+    FrameStreamline,
+    Integrability,
+    Meshability,
+    SingularGraph,
+    SingularVertex,
+    SurfaceSingularities,
+    VertexConstraints,
+)
 from .meshing import MeshedInput
 
 
@@ -24,20 +37,20 @@ class FieldAnalysis:
     feature_alignment: np.ndarray
     energy: float
     streamlines: list[FrameStreamline]
-    record: dict
+    record: dict[str, Any]
 
 
 def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0, streamlines: int = 0) -> FieldAnalysis:
     """streamlines: number of seeds, three curves each."""
-    tets = meshed.tets
+    tets, boundary, features = meshed.volume()
     graph = _core.singular_graph(tets, frames, threads=threads)
     meshability = _core.local_meshability(tets, frames, graph)
     at_boundary = _core.boundary_meshability(
-        tets, meshed.boundary, meshed.boundary_features, frames, threads=threads
+        tets, boundary, features, frames, threads=threads
     )
     integrability = _core.integrability(tets, frames, threads=threads)
-    alignment = np.asarray(_core.alignment_angles(meshed.boundary, meshed.boundary_features, frames))
-    feature_alignment = np.asarray(_core.feature_alignment_angles(meshed.boundary, meshed.boundary_features, frames))
+    alignment = np.asarray(_core.alignment_angles(boundary, features, frames))
+    feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
     energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
     size = float(np.linalg.norm(np.ptp(np.asarray(tets.vertices), axis=0)))
     seeds = _core.spread_points(tets, streamlines)
@@ -64,7 +77,7 @@ def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0, streamlin
     )
 
 
-def _singular_record(graph: SingularGraph) -> dict:
+def _singular_record(graph: SingularGraph) -> dict[str, Any]:
     turns = [int(t.quarter_turns) for t in graph.triangles]
     return {
         "singular_edges": len(turns),
@@ -79,7 +92,7 @@ def _singular_record(graph: SingularGraph) -> dict:
     }
 
 
-def _meshability_record(found: Meshability) -> dict:
+def _meshability_record(found: Meshability) -> dict[str, Any]:
     counts = Counter(_type(vertex) for vertex in found.vertices if vertex.kind != "boundary_end")
     return {
         "non_meshable_vertices": found.non_meshable_vertices,
@@ -93,7 +106,7 @@ def _meshability_record(found: Meshability) -> dict:
     }
 
 
-def _boundary_record(found: BoundaryMeshability) -> dict:
+def _boundary_record(found: BoundaryMeshability) -> dict[str, Any]:
     """hexahedra_at_features: how many feature edges have how many, by the frames of their ends where these agree."""
     numbers = Counter(_hexahedra(wedge) for wedge in found.wedges)
     return {
@@ -107,12 +120,12 @@ def _boundary_record(found: BoundaryMeshability) -> dict:
     }
 
 
-def _hexahedra(wedge) -> str:
+def _hexahedra(wedge: FeatureWedge) -> str:
     numbers = {number for number in (wedge.hexahedra_a, wedge.hexahedra_b) if number != _core.no_number}
     return "none" if not numbers else str(numbers.pop()) if len(numbers) == 1 else "changing"
 
 
-def _type(vertex) -> str:
+def _type(vertex: SingularVertex) -> str:
     """The valences of the singular edges at a vertex: "3 3 5 5"."""
     return " ".join(
         ["2"] * vertex.valence2 + ["3"] * vertex.valence3 + ["5"] * vertex.valence5 + ["6"] * vertex.valence6 + ["complex"] * vertex.complex
@@ -123,3 +136,18 @@ def degrees(angles: np.ndarray) -> dict[str, float]:
     if len(angles) == 0:
         return {"median": 0.0, "max": 0.0}
     return {"median": math.degrees(float(np.median(angles))), "max": math.degrees(float(angles.max()))}
+
+
+def spread(lengths: np.ndarray) -> dict[str, float]:
+    return {"min": float(lengths.min()), "median": float(np.median(lengths)), "max": float(lengths.max())}
+
+
+def constraint_counts(held: BoundaryConstraints, given: VertexConstraints | None) -> dict[str, int]:
+    free, axis, fixed = np.bincount(np.asarray(held.kind), minlength=3).tolist()
+    return {"free": free, "axis": axis, "fixed": fixed, "given": 0 if given is None else len(given.vertices)}
+
+
+def counts_by_index(singularities: SurfaceSingularities) -> dict[str, int]:
+    """{"1/4": 8}: how many singular points of each index, positive ones first."""
+    indices = sorted((Fraction(float(s.index)).limit_denominator(1000) for s in singularities.points), reverse=True)
+    return {("+" if index > 0 else "") + str(index): indices.count(index) for index in dict.fromkeys(indices)}

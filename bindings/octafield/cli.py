@@ -1,13 +1,13 @@
-"""The command line: octafield compare, field, surface-field, study, info, view, doctor, representations."""
+"""The command line: octafield compare, field, surface-field; study, info, view, doctor, representations are elsewhere."""
 
 import math
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from . import console, tables
+from . import cli_inspect, console, tables
 from .cli_options import (
     EdgeLength,
     FeatureAngle,
@@ -26,8 +26,8 @@ from .cli_options import (
     Verbose,
     choices,
 )
+from .completion import lists, words
 from .console import carry_out, log
-from .errors import InvalidInput
 from .options import (
     ALIGNMENTS,
     BOUNDARIES,
@@ -37,7 +37,6 @@ from .options import (
     SAMPLINGS,
     SOLVERS,
     FieldOptions,
-    MeshOptions,
     SurfaceFieldOptions,
 )
 from .study_cli import app as studies
@@ -50,6 +49,7 @@ app = typer.Typer(
     help="Frame fields in volumes and on surfaces. Exit code: 0 done, 2 bad input or usage, 130 interrupted, 1 defect.",
 )
 
+app.add_typer(cli_inspect.app)
 app.add_typer(studies, name="study")
 
 _FIELD, _SURFACE = FieldOptions(), SurfaceFieldOptions()
@@ -77,7 +77,7 @@ def _options_of_all(
 
 def _mesh_options(
     features: str, feature_angle: float, edge_length: float, remesh: bool, repair: bool, **others: bool
-) -> dict:
+) -> dict[str, Any]:
     return {
         **others,
         "features": features,
@@ -88,7 +88,7 @@ def _mesh_options(
     }
 
 
-def _report_notes(record: dict) -> None:
+def _report_notes(record: dict[str, Any]) -> None:
     for note in record["notes"]:
         log.info("%s: %s", record["input"], note)
 
@@ -97,11 +97,20 @@ def _report_notes(record: dict) -> None:
 def field(
     input: InputFile,
     output: Output,
-    sampling: Annotated[str, typer.Option(metavar=choices(SAMPLINGS), help="Where the frames live.")] = _FIELD.sampling,
-    representation: Annotated[str, typer.Option(metavar=choices(REPRESENTATIONS))] = _FIELD.representation,
-    solver: Annotated[str, typer.Option(metavar="|".join(SOLVERS))] = _FIELD.solver,
+    sampling: Annotated[
+        str, typer.Option(metavar=choices(SAMPLINGS), autocompletion=words(SAMPLINGS), help="Where the frames live.")
+    ] = _FIELD.sampling,
+    representation: Annotated[
+        str, typer.Option(metavar=choices(REPRESENTATIONS), autocompletion=words(REPRESENTATIONS))
+    ] = _FIELD.representation,
+    solver: Annotated[str, typer.Option(metavar="|".join(SOLVERS), autocompletion=words(SOLVERS))] = _FIELD.solver,
     boundary: Annotated[
-        str, typer.Option(metavar=choices(BOUNDARIES), help="aligned: twist free; fixed: whole frame held.")
+        str,
+        typer.Option(
+            metavar=choices(BOUNDARIES),
+            autocompletion=words(BOUNDARIES),
+            help="aligned: twist free; fixed: whole frame held.",
+        ),
     ] = _FIELD.boundary,
     feature_tolerance: Annotated[
         float, typer.Option(metavar="DEG", help="How well one frame must fit a feature vertex to be held, degrees.")
@@ -161,7 +170,9 @@ def surface_field(
     method: Annotated[
         str,
         typer.Option(
-            metavar=choices(METHODS), help="gl: Ginzburg-Landau; mbo: diffusion, faster; eigen: smoothest eigenvector."
+            metavar=choices(METHODS),
+            autocompletion=words(METHODS),
+            help="gl: Ginzburg-Landau; mbo: diffusion, faster; eigen: smoothest eigenvector.",
         ),
     ] = _SURFACE.method,
     epsilon: Annotated[
@@ -169,7 +180,11 @@ def surface_field(
     ] = _SURFACE.epsilon,
     boundary: Annotated[
         str,
-        typer.Option(metavar=choices(ALIGNMENTS), help="How the field follows the rim of an open surface."),
+        typer.Option(
+            metavar=choices(ALIGNMENTS),
+            autocompletion=words(ALIGNMENTS),
+            help="How the field follows the rim of an open surface.",
+        ),
     ] = _SURFACE.boundary,
     curvature: Annotated[
         float, typer.Option(metavar="WEIGHT", help="Pull towards the lines of curvature, 1 is usual; 0: none.")
@@ -216,12 +231,18 @@ def surface_field(
 @app.command()
 def compare(
     inputs: InputFiles = None,
-    output: Output = ...,
+    output: Output = ...,  # type: ignore[assignment]
     representations: Annotated[
         str,
-        typer.Option(metavar="all|A,B", help=f"Of: {choices(REPRESENTATIONS)}; all: {', '.join(COMPARED)}."),
+        typer.Option(
+            metavar="all|A,B",
+            autocompletion=lists(REPRESENTATIONS, "all"),
+            help=f"Of: {choices(REPRESENTATIONS)}; all: {', '.join(COMPARED)}.",
+        ),
     ] = "all",
-    boundaries: Annotated[str, typer.Option(metavar="A,B", help=f"Of: {choices(BOUNDARIES)}.")] = "fixed,aligned",
+    boundaries: Annotated[
+        str, typer.Option(metavar="A,B", autocompletion=lists(BOUNDARIES), help=f"Of: {choices(BOUNDARIES)}.")
+    ] = "fixed,aligned",
     seeds: Annotated[int, typer.Option(metavar="K", help="Seeds per run: --seed and the K - 1 numbers after it.")] = 1,
     features: Features = _FIELD.features,
     feature_angle: FeatureAngle = _ANGLE,
@@ -271,102 +292,11 @@ def compare(
     carry_out(work, quiet, verbose, json)
 
 
-@app.command()
-def info(
-    input: InputFile,
-    feature_angle: FeatureAngle = _ANGLE,
-    repair: Repair = False,
-    json: Json = None,
-    quiet: Quiet = False,
-    verbose: Verbose = False,
-) -> None:
-    """What was read, and pass or fail of each requirement; exit code 2 when one fails."""
-
-    def work() -> None:
-        from .info import examine, first_failure
-
-        record = examine(input, MeshOptions(feature_angle=math.radians(feature_angle), repair=repair))
-        if json:
-            console.put_json(json, record)
-        if json != "-" and not quiet:
-            tables.show_info(record)
-        _report_notes(record)
-        failure = first_failure(record)
-        if failure:
-            raise InvalidInput(
-                f"{input}: {failure}", next(r["kind"] for r in record["requirements"] if r["message"] == failure)
-            )
-
-    carry_out(work, quiet, verbose, json)
-
-
-@app.command()
-def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
-    """Representations of a frame and metrics on frames, by the names that options and functions take."""
-
-    def work() -> None:
-        from . import metrics
-        from . import representations as known
-
-        record = {
-            "representations": [
-                {"name": r.name, "dimension": r.dimension, "speed": r.speed, "rotates_linearly": r.rotate is not None}
-                for r in known.values()
-            ],
-            "metrics": [{"name": m.name, "speed": m.speed, "description": m.description} for m in metrics.values()],
-        }
-        if json:
-            console.put_json(json, record)
-        if json != "-" and not quiet:
-            tables.show_registry(record)
-
-    carry_out(work, quiet, verbose, json)
-
-
-@app.command()
-def doctor(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
-    """Versions, cores, memory, and a small run of every part of this installation; exit code 1 when one fails."""
-
-    def work() -> None:
-        from .doctor import examine
-
-        record = examine()
-        if json:
-            console.put_json(json, record)
-        if json != "-" and not quiet:
-            tables.show_doctor(record)
-        if not record["ok"]:
-            raise typer.Exit(console.DEFECT)
-
-    carry_out(work, quiet, verbose, json)
-
-
-@app.command()
-def view(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that `octafield field` wrote.")],
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="PNG", help="Write a picture in place of opening a window.")
-    ] = None,
-    quiet: Quiet = False,
-    verbose: Verbose = False,
-) -> None:
-    """The singular curves of a result inside its surface, in a window."""
-
-    def work() -> None:
-        from .display import view_folder
-
-        view_folder(folder, output)
-        if output is not None:
-            log.info("wrote %s", output)
-
-    carry_out(work, quiet, verbose, None)
-
-
 def _listed(text: str) -> list[str]:
     return [word.strip() for word in text.split(",") if word.strip()]
 
 
-def _finish(record: dict, json: str | None, quiet: bool, output: Path) -> None:
+def _finish(record: dict[str, Any], json: str | None, quiet: bool, output: Path) -> None:
     _report_notes(record)
     if json:
         console.put_json(json, record)
@@ -382,10 +312,12 @@ def main() -> None:
 
 def _run_app() -> int:
     try:
-        app(prog_name="octafield")
+        code = app(prog_name="octafield", standalone_mode=False)
     except SystemExit as stop:
-        return stop.code if isinstance(stop.code, int) else 0 if stop.code is None else 1
-    return 0
+        code = stop.code
+    except Exception as error:  # of typer's parser: commands handle their own
+        return console.usage_error(error, sys.argv[1:])
+    return code if isinstance(code, int) else 0 if code is None else 1
 
 
 if __name__ == "__main__":

@@ -1,14 +1,16 @@
 """The options that several commands share: name, placeholder and help."""
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from .completion import words
 from .options import FEATURES
 
 
-def choices(values) -> str:
+def choices(values: Iterable[str]) -> str:
     return "|".join(value for value in values if value != "default")
 
 
@@ -26,7 +28,9 @@ Json = Annotated[str | None, typer.Option("--json", metavar="FILE", help="Write 
 Features = Annotated[
     str,
     typer.Option(
-        metavar=choices(FEATURES), help="Source of feature edges; default: file when it marks some, else angle."
+        metavar=choices(FEATURES),
+        autocompletion=words(FEATURES),
+        help="Source of feature edges; default: file when it marks some, else angle.",
     ),
 ]
 FeatureAngle = Annotated[float, typer.Option(metavar="DEG", help="Angle between normals at a feature edge, degrees.")]

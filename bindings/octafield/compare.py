@@ -66,6 +66,13 @@ def compare(
 
     Each input is read and meshed once. `options` gives everything else. The output folder is complete or absent; an
     earlier comparison in it is replaced, a folder with anything else is refused (InvalidInput).
+
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> options = octafield.FieldOptions(edge_length=0.4)
+        >>> found = octafield.compare(generate("box"), "out", representations=["sh4"], options=options)
+        >>> [(row["boundary"], row["singular_edges"]) for row in found.rows]
+        [('fixed', 0), ('aligned', 0)]
     """
     inputs = [inputs] if isinstance(inputs, Source) else list(inputs)
     _check(inputs, representations, boundaries, options)

@@ -8,32 +8,24 @@ import os
 import sys
 import time
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
+from .errors import REPAIRABLE, Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from .output import write_json
 from .time_left import PhaseTimeLeft, words
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
-_REPAIRABLE = (
-    "degenerate_triangle",
-    "soup",
-    "duplicate_vertex",
-    "non_manifold_edge",
-    "inconsistent_orientation",
-    "not_closed",
-    "inside_out",
-)
-
 # kinds of SolverError that another option or another mesh avoids
 _OPTION_AT_FAULT = ("epsilon_too_large", "thin_triangles", "bad_weights")
 
 log = logging.getLogger("octafield")
+_written: list[str] = []  # targets of --json that have their document
 
 
 def set_verbosity(quiet: bool, verbose: bool) -> None:
@@ -50,7 +42,7 @@ def error_code(error: BaseException) -> int:
         _say("interrupted")
         return INTERRUPTED
     if isinstance(error, (InvalidInput, GeometryError, IoError)):
-        hint = " (option --repair does this)" if error.kind in _REPAIRABLE and "repair the mesh" in str(error) else ""
+        hint = " (option --repair does this)" if error.kind in REPAIRABLE and "repair the mesh" in str(error) else ""
         _say(f"error: {error}{hint}")
         return BAD_INPUT
     if isinstance(error, SolverError) and error.kind in _OPTION_AT_FAULT:
@@ -67,15 +59,62 @@ def error_code(error: BaseException) -> int:
 
 
 def carry_out(work: Callable[[], None], quiet: bool, verbose: bool, json: str | None) -> None:
-    """Runs a command; an error becomes one line on stderr and an exit code."""
+    """Runs a command; an error becomes one line on stderr, an exit code and, with --json, a document."""
     set_verbosity(quiet, verbose)
+    _written.clear()
     try:
         check_json_target(json)
         work()
     except typer.Exit:
         raise
     except (Exception, KeyboardInterrupt) as error:
-        raise typer.Exit(error_code(error)) from None
+        code = error_code(error)
+        put_error(json, error, code)
+        raise typer.Exit(code) from None
+
+
+def usage_error(error: Exception, arguments: Sequence[str]) -> int:
+    """Reports what typer's parser finds wrong as carry_out does errors. arguments: of the command line."""
+    if not hasattr(error, "format_message"):
+        return error_code(error)
+    code = int(getattr(error, "exit_code", BAD_INPUT))
+    context: Any = getattr(error, "ctx", None)
+    if type(error).__name__ == "NoArgsIsHelpError":
+        typer.echo(context.get_help(), err=True)
+        return code
+    near = getattr(error, "possibilities", None)
+    message = error.format_message()
+    if near:
+        message = message.split(" (Possible")[0].rstrip(".") + f". Did you mean {near[0]}?"
+    path = context.command_path if context else "octafield"
+    _say(f"error: {message.rstrip('.')}" + ("" if message.endswith("?") else ".") + f" Try '{path} --help'.")
+    put_error(_json_target(arguments), InvalidInput(message, "usage"), code)
+    return code
+
+
+def _json_target(arguments: Sequence[str]) -> str | None:
+    for word, after in zip(arguments, [*arguments[1:], ""], strict=True):
+        if word.startswith("--json="):
+            return word.removeprefix("--json=")
+        if word == "--json":
+            return after or None
+    return None
+
+
+def put_error(target: str | None, error: BaseException, code: int) -> None:
+    """The JSON document of a command that failed before it had one."""
+    if target is None or target in _written:
+        return
+    told = {
+        "type": type(error).__name__,
+        "kind": getattr(error, "kind", ""),
+        "message": " ".join(str(error).split()),
+        "elements": [int(i) for i in getattr(error, "elements", [])],
+        "exit_code": code,
+    }
+    with contextlib.suppress(Error):  # the target itself may be what is wrong
+        check_json_target(target)
+        put_json(target, {"error": told})
 
 
 def _say(message: str) -> None:
@@ -167,8 +206,9 @@ def check_json_target(target: str | None) -> None:
         raise IoError(f"{target}: cannot write there (no permission)")
 
 
-def put_json(target: str, value) -> None:
+def put_json(target: str, value: Any) -> None:
     """Writes the JSON of a command to a file, or to stdout for "-"."""
+    _written.append(target)
     if target == "-":
         sys.stdout.write(json.dumps(value, indent=1, allow_nan=False) + "\n")
         return

@@ -2,6 +2,7 @@
 
 import ast
 import functools
+from typing import Any
 
 from . import _core
 
@@ -15,15 +16,17 @@ def _signature(function: str) -> dict[str, object]:
         if start < 0 or end < 0:
             continue
         try:
-            arguments = ast.parse(f"def {line[start:end]}: ...").body[0].args
+            parsed = ast.parse(f"def {line[start:end]}: ...").body[0]
         except SyntaxError:
             continue
+        assert isinstance(parsed, ast.FunctionDef)
+        arguments = parsed.args
         for argument, value in zip(arguments.kwonlyargs, arguments.kw_defaults):
             if isinstance(value, (ast.Constant, ast.UnaryOp)):
                 defaults[argument.arg] = ast.literal_eval(value)
     return defaults
 
 
-def default_of(function: str, option: str):
+def default_of(function: str, option: str) -> Any:
     """Default of keyword `option` of `octafield.<function>`."""
     return _signature(function)[option]

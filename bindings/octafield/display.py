@@ -1,23 +1,25 @@
-"""How results show themselves: one line in a terminal, facts and a picture in Jupyter, a scene to turn."""
+"""How results show themselves in a terminal and in a window; notebooks are in notebook.py."""
 
 from __future__ import annotations
 
-import base64
-import html
+import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .errors import IoError
 
 if TYPE_CHECKING:
     import pyvista
 
-    from .pipeline import FieldResult
+    from .compare import Comparison
+    from .meshing import MeshedInput
+    from .options import MeshOptions
+    from .pipeline import FieldResult, Problem
+    from .study.description import Study
+    from .surface_pipeline import SurfaceFieldResult
 
-_FACTS = ("vertices", "tets", "energy", "singular_edges", "complex_edges", "non_meshable_vertices", "converged")
 
-
-def one_line(result: FieldResult) -> str:
+def field_line(result: FieldResult) -> str:
     r = result.record
     return (
         f"FieldResult({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; {r['representation']}, {r['boundary']}; "
@@ -25,33 +27,79 @@ def one_line(result: FieldResult) -> str:
     )
 
 
-def as_html(result: FieldResult) -> str:
-    """For Jupyter: the singular curves and the main figures."""
-    from . import pictures, scene
-
+def surface_field_line(result: SurfaceFieldResult) -> str:
     r = result.record
-    shown = {name: f"{r[name]:.6g}" if isinstance(r[name], float) else str(r[name]) for name in _FACTS}
-    lines = "".join(f"<tr><td>{html.escape(name)}</td><td>{value}</td></tr>" for name, value in shown.items())
-    image = ""
-    if scene.can_draw():
-        data = base64.b64encode(pictures.singular_curves(result).png).decode()
-        image = f'<img style="max-width:420px" alt="singular curves" src="data:image/png;base64,{data}">'
     return (
-        f"<div><b>{html.escape(str(r['input']))}</b>, {html.escape(r['representation'])}, {html.escape(r['boundary'])}"
-        f'<div style="display:flex;gap:1em;align-items:center">{image}<table>{lines}</table></div></div>'
+        f"SurfaceFieldResult({r['input']}: {r['triangles']:,} triangles; symmetry {result.direction_field.symmetry}; "
+        f"{len(result.singularities.points):,} singular points, index sum {result.singularities.index_sum:g})"
     )
+
+
+def meshed_line(meshed: MeshedInput) -> str:
+    tets = "" if meshed.tets is None else f", {len(meshed.tets.tets):,} tets"
+    regions = f", {meshed.interface_triangles:,} interface triangles" if meshed.interface_triangles else ""
+    return (
+        f"MeshedInput({meshed.name}: {len(meshed.surface.triangles):,} triangles{tets}{regions}; "
+        f"{len(meshed.features.edges):,} feature edges by {meshed.feature_source})"
+    )
+
+
+def problem_line(problem: Problem) -> str:
+    return (
+        f"Problem({meshed_line(problem.meshed)}, seed {problem.seed}, "
+        f"{len(problem.singularities.points):,} singular points on the surface)"
+    )
+
+
+def comparison_line(comparison: Comparison) -> str:
+    """inputs, how many runs of what, the range of energies, and where."""
+    rows = comparison.rows
+    energies = [row["energy"] for row in rows if "energy" in row]
+
+    def count(name: str, one: str, many: str) -> str:
+        return _counted(len({row[name] for row in rows if name in row}), one, many)
+
+    spread = f"; E {min(energies):.6g} to {max(energies):.6g}" if energies else ""
+    return (
+        f"Comparison({_counted(len(rows), 'run', 'runs')}: {count('input', 'input', 'inputs')}, "
+        f"{count('representation', 'representation', 'representations')}, {count('boundary', 'boundary', 'boundaries')}"
+        f"{spread}; {comparison.folder})"
+    )
+
+
+def options_line(options: MeshOptions) -> str:
+    """The options that are not as they are by default: evaluates to an equal object."""
+    default = type(options)()
+    changed = {name: value for name, value in vars(options).items() if value != getattr(default, name)}
+    return f"{type(options).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
+
+
+def study_line(study: Study) -> str:
+    """What it varies; an input may stand for several files."""
+    varied = "".join(f", {name}: {', '.join(map(str, values))}" for name, values in study.runs.items())
+    repeats = f", {study.repeats} repeats" if study.repeats > 1 else ""
+    inputs, seeds = _counted(len(study.inputs), "input", "inputs"), _counted(len(study.seeds), "seed", "seeds")
+    return f"Study({study.name}: {inputs}{varied}; {seeds}{repeats})"
+
+
+def _counted(count: int, one: str, many: str) -> str:
+    return f"{count:,} {one if count == 1 else many}"
 
 
 def scene_of(result: FieldResult) -> pyvista.Plotter:
     """A pyvista scene of the singular curves inside the translucent surface: .show() opens a window, or in Jupyter a view to
-    turn (with trame) or a picture."""
+    turn (with trame) or a picture. Without a display .screenshot(PNG) draws it all the same."""
+    import pyvista
+
     from .pictures import singular_scene
 
-    return singular_scene(result)
+    shape = singular_scene(result)
+    shape.off_screen = bool(pyvista.OFF_SCREEN or shape.notebook or not os.environ.get("DISPLAY"))
+    return shape
 
 
-def view_folder(folder: Path, picture: Path | None = None) -> None:
-    """Shows the singular curves that `octafield field` wrote, in a window, or writes them to a PNG."""
+def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
+    """Shows the singular curves that `octafield field` wrote, in a window, or writes them to a PNG; what it did, for --json."""
     from .pictures import scene_from_files
 
     files = folder / "surface.vtp", folder / "singular.vtp"
@@ -59,10 +107,11 @@ def view_folder(folder: Path, picture: Path | None = None) -> None:
     if missing is not None:
         raise IoError(f"{missing}: no such file; give the folder of a result of `octafield field`")
     shape = scene_from_files(*files)
+    record = {"folder": str(folder), "files": [path.name for path in files], "picture": picture and str(picture)}
     if picture is None:
         shape.off_screen = False
         shape.show(title=f"octafield: {folder}")
-        return
+        return record
     from . import scene
 
     partial = picture.with_name(f".{picture.name}.partial")
@@ -71,3 +120,4 @@ def view_folder(folder: Path, picture: Path | None = None) -> None:
         partial.replace(picture)
     except OSError as error:
         raise IoError(f"{picture}: cannot write there ({error.strerror})") from error
+    return record

@@ -7,36 +7,39 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from ._core import TriangleMesh
 from .errors import Error
 from .info import FAIL, PASS
-from .phases import versions
+from .phases import libraries, versions
 
 MISSING = "not installed"
 _OPTIONAL = {
     "distributed": "studies on several machines: pip install octafield[cluster]",
-    "pandas": "octafield.to_pandas: pip install pandas",
+    "pandas": "octafield.to_pandas, from_pandas: pip install pandas",
     "gmsh": "CAD input: pip install octafield[cad]",
-    "trame": "scenes to turn in Jupyter: pip install 'pyvista[jupyter]'",
+    "trame": "scenes to turn in Jupyter: pip install octafield[notebook]",
 }
 
 
-def examine() -> dict:
+def examine() -> dict[str, Any]:
     """The JSON object of `octafield doctor`. Key "ok": everything that is not optional works."""
     checks = [_tried(name, check) for name, check in _CHECKS]
     checks += [_optional(name, remedy) for name, remedy in _OPTIONAL.items()]
     return {
         "ok": all(check["state"] != FAIL for check in checks),
         "versions": versions(),
+        "libraries": libraries(),
         "cores": len(os.sched_getaffinity(0)),
         "memory_gb": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
         "checks": checks,
     }
 
 
-def _tried(name: str, check: Callable[[], str]) -> dict:
+def _tried(name: str, check: Callable[[], str]) -> dict[str, Any]:
     begin = time.perf_counter()
     try:
         state, message = PASS, check()
@@ -47,7 +50,7 @@ def _tried(name: str, check: Callable[[], str]) -> dict:
     return {"name": name, "state": state, "message": message, "seconds": round(time.perf_counter() - begin, 2)}
 
 
-def _optional(name: str, remedy: str) -> dict:
+def _optional(name: str, remedy: str) -> dict[str, Any]:
     if importlib.util.find_spec(name) is None:
         return {"name": name, "state": MISSING, "message": remedy, "seconds": 0.0}
     return {"name": name, "state": PASS, "message": importlib.metadata.version(name), "seconds": 0.0}
@@ -64,7 +67,7 @@ def _frames() -> str:
     return f"1000 projections, largest error {worst:.1e} radians"
 
 
-def _cube():
+def _cube() -> TriangleMesh:
     from .study.generators import generate
 
     return generate("box")

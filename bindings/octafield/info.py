@@ -1,18 +1,25 @@
-"""The doctor for inputs: what was read, and which requirement it meets or fails, with the remedy."""
+"""The doctor for inputs: what was read, and which requirement it meets, barely meets or fails, with the remedy."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from . import _core
-from .inputs import Input, read_input
-from .meshing import TOUCHING, possible_remedy
+from . import _core, estimates, info_checks
+from ._core import TetMesh
+from .errors import REPAIRABLE, Error
+from .info_checks import FAIL, NOT_TESTED, PASS, WARN, Examined, Finding
+from .info_measures import radius_ratios
+from .inputs import Input, naming, read_input
+from .locking import split_on_request
+from .meshing import TOUCHING, find_features, possible_remedy
 from .options import MeshOptions
 from .phases import octafield_version
 
-PASS, FAIL, NOT_TESTED = "pass", "fail", "not tested"
+__all__ = ["FAIL", "NOT_TESTED", "PASS", "WARN", "examine", "first_failure"]
 
 
 @dataclass(frozen=True)
@@ -47,43 +54,70 @@ REQUIREMENTS = (
 )
 
 
-def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict:
-    """Facts about a file and the state of each requirement: the JSON object of `octafield info`. Key "ok": all passed.
+def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict[str, Any]:
+    """Facts about a file and the state of each requirement: the JSON object of `octafield info`. Key "ok": none failed.
 
-    options.repair: the surface is repaired first, the actions are in "notes". Raises IoError,
-    InvalidInput, GeometryError when there is nothing to examine.
+    Each requirement has a state ("pass"; "warn": a field can be computed, but expect trouble; "fail"; "not tested": another
+    has to be met first), kind (a stable word), message, remedy (an option of the command line where one does it) and
+    elements (ids). options: as they would be given to the field; a surface is repaired (repair) and a tet mesh split (split) first.
     """
-    found = read_input(path)
-    if options.repair and found.tets is None:
-        repaired = _core.repair(found.surface)
-        found.surface = repaired.mesh
-        found.notes += [f"repair: {action}" for action in repaired.actions]
-    lines_are_features = found.lines_are_features()
-    if found.interface_triangles:
-        found.surface = _core.boundary_surface(found.tets).mesh  # interfaces are sound where the tets are
-    requirements = _requirements(found, options)
-    record = {
+    try:
+        found = read_input(path, interfaces=options.interfaces)
+    except Error as error:  # the first requirement that can fail
+        return _unread(str(path), error)
+    with naming(found.name):
+        if options.repair and found.tets is None:
+            repaired = _core.repair(found.surface)
+            found.surface = repaired.mesh
+            found.notes += [f"repair: {action}" for action in repaired.actions]
+        whole = found.surface
+        if found.interface_triangles:
+            assert found.tets is not None
+            found.surface = _core.boundary_surface(found.tets).mesh  # interfaces are sound where the tets are
+        findings = [Finding("file can be read", PASS), *_defects(found, options)]
+        failed = {f.requirement for f in findings if f.state != PASS}
+        facts: dict[str, Any] = {}
+        if not failed & {"has triangles", "vertex numbers in range", "finite coordinates"}:
+            facts = _topology(found, failed)
+        if not failed:
+            found.surface = whole
+            more, further = _beyond_defects(found, options)
+            findings += more
+            facts |= further
+    return {
         "input": found.name,
         "version": octafield_version(),
         "input_kind": found.kind,
-        "ok": all(r["state"] == PASS for r in requirements),
+        "ok": not any(f.state in (FAIL, NOT_TESTED) for f in findings),
         **_counts(found),
         **_geometry(found),
         "notes": found.notes,
-        "requirements": requirements,
+        "requirements": [f.to_json() for f in findings],
+        **facts,
     }
-    failed = {r["requirement"] for r in requirements if r["state"] != PASS}
-    if not failed & {"has triangles", "vertex numbers in range", "finite coordinates"}:
-        record |= _topology(found, options, failed, lines_are_features)
-    return record
 
 
-def first_failure(record: dict) -> str | None:
-    """The message of the first requirement that failed."""
-    return next((r["message"] for r in record["requirements"] if r["state"] == FAIL), None)
+def first_failure(record: dict[str, Any]) -> dict[str, Any] | None:
+    """The first requirement that failed."""
+    return next((r for r in record["requirements"] if r["state"] == FAIL), None)
 
 
-def _requirements(found: Input, options: MeshOptions) -> list[dict]:
+def _unread(name: str, error: Error) -> dict[str, Any]:
+    flat = error.kind == "inverted_tet"
+    what = Finding(
+        "tets have volume" if flat else "file can be read",
+        FAIL,
+        error.kind or "unreadable",
+        str(error),
+        str(error).rpartition("; ")[2] if "; " in str(error) else "",
+        tuple(error.elements),
+    )
+    findings = [Finding("file can be read", PASS), what] if flat else [what]
+    record = {"input": name, "version": octafield_version(), "ok": False, "notes": []}
+    return record | {"requirements": [f.to_json() for f in findings]}
+
+
+def _defects(found: Input, options: MeshOptions) -> list[Finding]:
     # Tets of positive volume rarely make a crossing boundary, and the pipeline does not ask for this test there.
     test_crossings = found.tets is None
     defects = {d.kind: d for d in _core.find_defects(found.surface, self_intersection=test_crossings)}
@@ -98,19 +132,71 @@ def _requirements(found: Input, options: MeshOptions) -> list[dict]:
             continue
         broken = [defects[kind] for kind in requirement.kinds if kind in defects]
         state = FAIL if broken else NOT_TESTED if any(kind in defects for kind in requirement.needs) else PASS
-        listed.append(
-            {
-                "requirement": requirement.text,
-                "state": state,
-                "kind": broken[0].kind if broken else "",
-                "message": possible_remedy(broken[0].message, found, options) if broken else "",
-                "elements": [int(i) for d in broken for i in d.elements],
-            }
-        )
+        if not broken:
+            listed.append(Finding(requirement.text, state))
+            continue
+        message = possible_remedy(broken[0].message, found, options)
+        remedy = message.partition("; ")[2]
+        if found.tets is None and not options.repair and broken[0].kind in REPAIRABLE:
+            remedy = "--repair" if "repair the mesh" in message else f"--repair, or {remedy}"
+        elements = tuple(int(i) for d in broken for i in d.elements)
+        listed.append(Finding(requirement.text, state, broken[0].kind, message, remedy, elements))
     return listed
 
 
-def _counts(found: Input) -> dict:
+def _beyond_defects(found: Input, options: MeshOptions) -> tuple[list[Finding], dict[str, Any]]:
+    """Of a sound input: what makes fields poor, slow or impossible to compute."""
+    facts: dict[str, Any] = {}
+    locking = {} if found.tets is None else split_on_request(found, options)
+    sheets = _core.cut_into_sheets(found.surface) if found.interface_triangles or found.touches else None
+    try:
+        features, source = find_features(found, options, sheets)
+    except Error as error:
+        return [Finding("features can be found", FAIL, error.kind, str(error), "--features angle")], facts
+    facts["features"] = {
+        "source": source,
+        "angle_deg": math.degrees(options.feature_angle),
+        "edges": len(features.edges),
+        "corners": len(features.corners),
+    }
+    remade = found.tets is None and options.remesh
+    length = estimates.edge_length(found.surface, options.edge_length) if remade else float(_core.mean_edge_length(found.surface))
+    seen = Examined(found, options, features, source, length, locking)
+    if found.tets is None:
+        count = estimates.tets_inside(found.surface, length)
+    else:
+        count = len(found.tets.tets)
+    facts["mesh_size"] = length
+    if found.tets is not None:
+        facts["tet_quality"] = _quality(seen, found.tets)
+    facts["expected"] = {
+        "tets": count,
+        "memory_mb": round(estimates.memory_mb(count)),
+        "seconds": round(estimates.seconds(count), 1),
+        "machine_mb": round(estimates.machine_mb()),
+    }
+    checks: tuple[Callable[[Examined], Finding], ...] = (
+        *info_checks.OF_ALL,
+        *(info_checks.OF_SURFACES if found.tets is None else info_checks.OF_TETS),
+    )
+    findings = [check(seen) for check in checks]
+    return [*findings, info_checks.memory(seen, count)], facts
+
+
+def _quality(seen: Examined, tets: TetMesh) -> dict[str, Any]:
+    """radius_ratio: 3 inradius / circumradius, 1 for regular tets."""
+    angles = seen.dihedral_angles
+    ratio = radius_ratios(np.asarray(tets.vertices), np.asarray(tets.tets))
+    return {
+        "dihedral_min_deg": float(np.nanmin(angles)),
+        "dihedral_max_deg": float(np.nanmax(angles)),
+        "slivers": int((angles < 5).any(axis=1).sum()),
+        "radius_ratio_min": float(ratio.min()),
+        "radius_ratio_median": float(np.median(ratio)),
+    }
+
+
+def _counts(found: Input) -> dict[str, int]:
     counts = {"vertices": len(found.surface.vertices), "triangles": len(found.surface.triangles)}
     if found.tets is not None:
         counts |= {
@@ -123,7 +209,7 @@ def _counts(found: Input) -> dict:
     return counts
 
 
-def _geometry(found: Input) -> dict:
+def _geometry(found: Input) -> dict[str, Any]:
     points = np.asarray(found.surface.vertices)
     finite = points[np.isfinite(points).all(axis=1)]
     if not len(finite):
@@ -132,9 +218,9 @@ def _geometry(found: Input) -> dict:
     return {"bounding_box": {"min": low.tolist(), "max": high.tolist(), "diagonal": float(np.linalg.norm(high - low))}}
 
 
-def _topology(found: Input, options: MeshOptions, failed: set[str], lines_are_features: bool) -> dict:
+def _topology(found: Input, failed: set[str]) -> dict[str, Any]:
     """Numbers that mean something only where the requirements they rest on are met."""
-    facts = {
+    facts: dict[str, Any] = {
         "area": float(np.asarray(_core.triangle_areas(found.surface)).sum()),
         "mean_edge_length": float(_core.mean_edge_length(found.surface)),
     }
@@ -143,16 +229,10 @@ def _topology(found: Input, options: MeshOptions, failed: set[str], lines_are_fe
     sound = {"no triangle of zero area", "triangles share vertices", "at most two triangles at an edge"}
     if not failed & (sound | {"triangles oriented alike"}) and not found.touches:
         facts["euler_characteristic"] = int(_core.euler_characteristic(found.surface))
-        features = _core.detect_features(found.surface, angle=options.feature_angle)
-        facts["features"] = {
-            "angle_deg": math.degrees(options.feature_angle),
-            "edges": len(features.edges),
-            "corners": len(features.corners),
-        }
     if found.lines is not None:
         facts["feature_lines"] = {
             "edges": len(found.lines),
             "not_on_boundary": found.ignored_lines,
-            "used_by_default": lines_are_features,
+            "used_by_default": found.lines_are_features(),
         }
     return facts

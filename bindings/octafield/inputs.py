@@ -4,6 +4,7 @@ import contextlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -166,15 +167,15 @@ def _tet_input(name: str, grid: Grid) -> Input:
         notes.append(f"{int(inverted.sum())} of {len(tets)} tets were turned over to positive volume")
     mesh = TetMesh(points_used, tets.astype(np.int32))
     _core.require_valid(mesh)
-    found = with_regions(Input(name, TriangleMesh(), mesh, notes=notes), grid.regions)
+    found: Input = with_regions(Input(name, TriangleMesh(), mesh, notes=notes), grid.regions)
     lines = _to_boundary(found, new_id)
     if "line" in cells:
         _take_lines(found, lines, grid)
     return found
 
 
-def with_regions(found: Input, regions: np.ndarray | None) -> Input:
-    """Sets the surface of a tet mesh: its boundary, and the interfaces where there is more than one region."""
+def with_regions(found: Any, regions: np.ndarray | None) -> Any:
+    """Sets the surface of a tet mesh (Input or MeshedInput): its boundary, and the interfaces where there is more than one region."""
     if regions is not None and (regions == regions[0]).all():
         regions = None
     found.regions, found.interface_triangles = None, 0
@@ -190,9 +191,11 @@ def with_regions(found: Input, regions: np.ndarray | None) -> Input:
 
 def _to_boundary(found: Input, new_id: np.ndarray) -> np.ndarray:
     """Surface vertex of each point of the file; -1: none."""
+    assert found.tets is not None and found.boundary is not None
     to_boundary = np.full(len(found.tets.vertices), -1)
     to_boundary[np.asarray(found.boundary.vertex_map)] = np.arange(len(found.surface.vertices))
-    return np.append(to_boundary, -1)[new_id]
+    result: np.ndarray = np.append(to_boundary, -1)[new_id]
+    return result
 
 
 def _surface_input(name: str, grid: Grid) -> Input:

@@ -1,4 +1,4 @@
-"""Meshes and results to and from the objects of other libraries: pyvista, meshio, pandas.
+"""Meshes and results to and from the objects of other libraries: pyvista, meshio, scipy.sparse, pandas.
 
     >>> import octafield
     >>> from octafield.study.generators import generate
@@ -11,20 +11,24 @@
     True
     >>> octafield.to_meshio(result.tets).write("part.vtu")
 
-    octafield.to_pandas([result.record])  # one line per record; needs pandas
+    >>> octafield.to_scipy(result.tets).shape == (len(tets.vertices),) * 2  # the graph of the edges, with their lengths
+    True
 
-Matrices (`octafield.stiffness`, `octafield.mass`) are scipy.sparse already; arrays of every object are numpy's.
+    octafield.to_pandas(result)  # one line per record; needs pandas
+
+Matrices (`octafield.stiffness`, `octafield.mass`, `Sampling.stiffness`) are scipy.sparse already, and `octafield.Sampling` takes
+one of your own; arrays of every object are numpy's.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from . import _core
-from ._core import SingularGraph, TetMesh, TriangleMesh
+from ._core import BoundarySurface, FrameStreamline, SingularGraph, Streamline, TetMesh, TriangleMesh
 from .errors import InvalidInput
 from .pipeline import FieldResult, SurfaceFieldResult
 from .results import polylines
@@ -33,32 +37,53 @@ if TYPE_CHECKING:
     import meshio
     import pandas
     import pyvista
+    import scipy.sparse
 
-__all__ = ["from_meshio", "from_pyvista", "to_meshio", "to_pandas", "to_pyvista"]
+    from .compare import Comparison
+
+__all__ = ["from_meshio", "from_pandas", "from_pyvista", "to_meshio", "to_pandas", "to_pyvista", "to_scipy"]
 
 
 def to_pyvista(
-    value: TriangleMesh | TetMesh | SingularGraph | FieldResult | SurfaceFieldResult,
+    value: TriangleMesh
+    | BoundarySurface
+    | TetMesh
+    | SingularGraph
+    | FieldResult
+    | SurfaceFieldResult
+    | Sequence[Streamline]
+    | Sequence[FrameStreamline],
 ) -> pyvista.PolyData | pyvista.UnstructuredGrid:
-    """A dataset of pyvista: triangles or tets with the arrays of results, or the curves of a singular graph.
+    """A dataset of pyvista: triangles or tets with the arrays of results, the curves of a singular graph, or streamlines.
 
     FieldResult: point data frame_u, frame_v, frame_w (the axes, unit vectors) and quaternion (w x y z); cell data region
     where there are several. SurfaceFieldResult: point data direction. SingularGraph: one polyline per curve with cell data
-    quarter_turns (+1: valence 3, -1: valence 5, 0: complex).
+    quarter_turns (+1: valence 3, -1: valence 5, 0: complex). Streamlines: one polyline each with cell data length. Raises
+    InvalidInput for anything else.
+
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> octafield.to_pyvista(generate("box")).n_cells
+        12
     """
     import pyvista
 
+    if isinstance(value, BoundarySurface):
+        value = value.mesh
     if isinstance(value, TriangleMesh):
-        return pyvista.PolyData.from_regular_faces(np.array(value.vertices), np.array(value.triangles))
+        faces: Any = np.array(value.triangles)
+        surface: pyvista.PolyData = pyvista.PolyData.from_regular_faces(np.array(value.vertices), faces)
+        return surface
     if isinstance(value, TetMesh):
         return pyvista.UnstructuredGrid({pyvista.CellType.TETRA: np.array(value.tets)}, np.array(value.vertices))
+    lines: pyvista.PolyData
     if isinstance(value, SingularGraph):
         points = np.asarray(value.points)
         lines = polylines([points[np.asarray(curve)] for curve in value.curves])
         lines.cell_data["quarter_turns"] = np.array(value.curve_quarter_turns, np.int32)
         return lines
     if isinstance(value, SurfaceFieldResult):
-        surface = to_pyvista(value.surface)
+        surface = cast("pyvista.PolyData", to_pyvista(value.surface))
         surface.point_data["direction"] = np.array(value.directions)
         return surface
     if isinstance(value, FieldResult):
@@ -70,21 +95,32 @@ def to_pyvista(
         if value.regions is not None:
             grid.cell_data["region"] = np.asarray(value.regions)
         return grid
-    raise InvalidInput(f"to_pyvista takes meshes, results and singular graphs, not {type(value).__name__}", "bad_type")
+    if isinstance(value, Sequence) and all(isinstance(line, (Streamline, FrameStreamline)) for line in value):
+        lines = polylines([np.asarray(line.points) for line in value])
+        lines.cell_data["length"] = np.array([line.length for line in value], float)
+        return lines
+    raise InvalidInput(
+        f"to_pyvista takes meshes, results, singular graphs and streamlines, not {type(value).__name__}", "bad_type"
+    )
 
 
 def from_pyvista(dataset: pyvista.DataSet) -> TriangleMesh | TetMesh:
     """A TetMesh where the dataset has tets, else a TriangleMesh of its triangles (polygons are cut into triangles).
-    Points are kept as they are, unused ones too. Raises InvalidInput where there are other volume cells or no cells of either kind."""
+    Points are kept as they are, unused ones too. Raises InvalidInput where there are other volume cells or no cells of either kind.
+
+        >>> import octafield, pyvista
+        >>> octafield.from_pyvista(pyvista.Box(bounds=(0, 1, 0, 1, 0, 1)).clean())
+        TriangleMesh(8 vertices, 12 triangles, box [0, 1] x [0, 1] x [0, 1])
+    """
     import pyvista
 
     if isinstance(dataset, pyvista.PolyData):
         return _triangles(dataset)
     grid = dataset.cast_to_unstructured_grid()
     cells = grid.cells_dict
-    volumes = [kind for kind in cells if pyvista.CellType(kind).name not in _FLAT]
-    if [int(kind) for kind in volumes] == [int(pyvista.CellType.TETRA)]:
-        return TetMesh(np.array(grid.points, float), np.array(cells[pyvista.CellType.TETRA], np.int32))
+    volumes = {int(kind): ids for kind, ids in cells.items() if pyvista.CellType(int(kind)).name not in _FLAT}
+    if list(volumes) == [int(pyvista.CellType.TETRA)]:
+        return TetMesh(np.array(grid.points, float), np.array(volumes[int(pyvista.CellType.TETRA)], np.int32))
     if volumes:
         names = ", ".join(sorted(pyvista.CellType(kind).name.lower() for kind in volumes))
         raise InvalidInput(f"the dataset has cells of kind {names}; frame fields need tets only", "not_tets")
@@ -102,7 +138,13 @@ def _triangles(surface: pyvista.PolyData) -> TriangleMesh:
 
 
 def to_meshio(value: TriangleMesh | TetMesh | FieldResult) -> meshio.Mesh:
-    """A meshio.Mesh; of a FieldResult with the point data of to_pyvista."""
+    """A meshio.Mesh; of a FieldResult with the point data of to_pyvista. Raises InvalidInput for anything else.
+
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> octafield.to_meshio(generate("box")).cells_dict["triangle"].shape
+        (12, 3)
+    """
     import meshio
 
     if isinstance(value, TriangleMesh):
@@ -119,7 +161,13 @@ def to_meshio(value: TriangleMesh | TetMesh | FieldResult) -> meshio.Mesh:
 
 
 def from_meshio(mesh: meshio.Mesh) -> TriangleMesh | TetMesh:
-    """A TetMesh of the cells of kind tetra where there are any, else a TriangleMesh of those of kind triangle."""
+    """A TetMesh of the cells of kind tetra where there are any, else a TriangleMesh of those of kind triangle. Raises
+    InvalidInput where there are neither.
+
+        >>> import meshio, octafield
+        >>> octafield.from_meshio(meshio.Mesh([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]], [("triangle", [[0, 1, 2]])]))
+        TriangleMesh(3 vertices, 1 triangle, box [0, 1] x [0, 1] x [0, 0])
+    """
     for kind, make in (("tetra", TetMesh), ("triangle", TriangleMesh)):
         blocks = [block.data for block in mesh.cells if block.type == kind]
         if blocks:
@@ -127,13 +175,108 @@ def from_meshio(mesh: meshio.Mesh) -> TriangleMesh | TetMesh:
     raise InvalidInput("the mesh has no cells of kind tetra or triangle", "no_cells")
 
 
-def to_pandas(records: Sequence[dict[str, Any]]) -> pandas.DataFrame:
-    """One line per record (`result.record`, `Comparison.rows`, `octafield.study.rows`), nested numbers as group_name.
-    Lists are left out. Raises InvalidInput where pandas is not installed."""
+def to_scipy(value: TriangleMesh | TetMesh | SingularGraph | FieldResult) -> scipy.sparse.csr_array:
+    """A graph as a scipy.sparse matrix, for scipy.sparse.csgraph. Meshes: (n, n) symmetric, the length (input unit) of the
+    edge between two vertices. SingularGraph: the same between its points, along its curves. FieldResult: int32 entry
+    (a, b), a < b, of each edge of its tets: the element of octahedral_group() that brings the frame of a closest to that of
+    b (octafield.matching); the identity, 0, is stored too. Raises InvalidInput for anything else.
+
+        >>> import octafield, scipy.sparse.csgraph
+        >>> from octafield.study.generators import generate
+        >>> graph = octafield.to_scipy(generate("box"))
+        >>> scipy.sparse.csgraph.connected_components(graph, directed=False)[0]
+        1
+    """
+    import scipy.sparse
+
+    if isinstance(value, FieldResult):
+        edges = _edges_of(np.asarray(value.tets.tets))
+        numbers = np.asarray(_core.matching(value.frames[edges[:, 0]], value.frames[edges[:, 1]]), np.int32)
+        size = len(value.tets.vertices)
+        return scipy.sparse.csr_array((numbers, (edges[:, 0], edges[:, 1])), shape=(size, size))
+    if isinstance(value, SingularGraph):
+        points = np.asarray(value.points)
+        pairs = [np.column_stack([curve[:-1], curve[1:]]) for curve in map(np.asarray, value.curves)]
+        edges = np.unique(np.sort(np.concatenate([np.empty((0, 2), int), *pairs]), axis=1), axis=0)
+    elif isinstance(value, (TriangleMesh, TetMesh)):
+        points = np.asarray(value.vertices)
+        edges = _edges_of(np.asarray(value.triangles if isinstance(value, TriangleMesh) else value.tets))
+    else:
+        raise InvalidInput(f"to_scipy takes meshes, fields and singular graphs, not {type(value).__name__}", "bad_type")
+    lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
+    both = np.concatenate([edges, edges[:, ::-1]])
+    return scipy.sparse.csr_array((np.tile(lengths, 2), (both[:, 0], both[:, 1])), shape=(len(points), len(points)))
+
+
+def _edges_of(cells: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """(e, 2) pairs of vertices, lower first, each once."""
+    pairs = [cells[:, [a, b]] for a in range(cells.shape[1]) for b in range(a)]
+    return np.unique(np.sort(np.concatenate(pairs), axis=1), axis=0)
+
+
+Record = Mapping[str, Any]
+
+
+def to_pandas(
+    records: Sequence[Record] | Record | FieldResult | SurfaceFieldResult | Comparison | SingularGraph,
+) -> pandas.DataFrame:
+    """One line per record: of a result, a list of `result.record`, a Comparison, `octafield.study.rows(folder)`; nested numbers
+    are in columns group_name, lists are left out. SingularGraph: one line per curve with quarter_turns, length, closed and
+    points. Raises InvalidInput where pandas is not installed.
+
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> result = octafield.compute_field(generate("box"))
+        >>> frame = octafield.to_pandas([result.record])  # doctest: +SKIP
+        >>> frame[["tets", "energy", "wall_seconds_smooth"]]  # doctest: +SKIP
+    """
     try:
         import pandas
     except ImportError as error:
         raise InvalidInput("pandas is not installed; pip install pandas", "no_pandas") from error
     from .report.tables import flatten
 
-    return pandas.DataFrame([flatten(record) for record in records])
+    if isinstance(records, SingularGraph):
+        return pandas.DataFrame(_curve_lines(records), columns=["quarter_turns", "length", "closed", "points"])
+    if isinstance(records, (FieldResult, SurfaceFieldResult)):
+        records = [records.record]
+    elif isinstance(records, Mapping):
+        records = [records]
+    rows = cast("Sequence[Record]", getattr(records, "rows", records))
+    return pandas.DataFrame([flatten(dict(record)) for record in rows])
+
+
+def _curve_lines(graph: SingularGraph) -> list[dict[str, Any]]:
+    points = np.asarray(graph.points)
+    lines = []
+    for curve, turns in zip(graph.curves, np.asarray(graph.curve_quarter_turns).tolist(), strict=True):
+        along = points[np.asarray(curve)]
+        length = float(np.linalg.norm(np.diff(along, axis=0), axis=1).sum())
+        lines.append({"quarter_turns": turns, "length": length, "closed": bool(curve[0] == curve[-1]), "points": len(curve)})
+    return lines
+
+
+_GROUPS = ("feature_alignment_deg", "alignment_deg", "integrability", "wall_seconds", "cpu_seconds")
+
+
+def from_pandas(frame: pandas.DataFrame) -> list[dict[str, Any]]:
+    """The records of a table of to_pandas, or of results.csv: one per line, groups nested again, empty cells left out. What the
+    table does not have (lists, versions) is not there.
+
+        >>> import octafield, pandas
+        >>> octafield.from_pandas(pandas.DataFrame({"energy": [2.5], "wall_seconds_smooth": [0.1]}))  # doctest: +SKIP
+        [{'energy': 2.5, 'wall_seconds': {'smooth': 0.1}}]
+    """
+    records = []
+    for row in frame.to_dict("records"):
+        record: dict[str, Any] = {}
+        for name, value in row.items():
+            if value is None or value != value:
+                continue
+            group = next((g for g in _GROUPS if str(name).startswith(f"{g}_")), None)
+            if group is None:
+                record[str(name)] = value
+            else:
+                record.setdefault(group, {})[str(name).removeprefix(f"{group}_")] = value
+        records.append(record)
+    return records

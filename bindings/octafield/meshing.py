@@ -4,21 +4,24 @@ import hashlib
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _core
+from . import _core, display
 from ._core import BoundarySurface, FeatureGraph, Sheets, TetMesh, TriangleMesh
 from .errors import GeometryError, InvalidInput
-from .inputs import Input, from_mesh, naming, read_input, with_regions
+from .inputs import Input, from_mesh, naming, read_input
+from .locking import split_on_request
 from .options import MeshOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
 
+Array = np.ndarray[Any, Any]
 Source = str | Path | TriangleMesh | TetMesh
 TOUCHING = ("non_manifold_edge", "non_manifold_vertex")  # kinds of defects that the boundary of tets may have
 
 
-@dataclass
+@dataclass(repr=False)
 class MeshedInput:
     """A sound input, ready for fields: `surface` is the boundary of `tets` (None where only a surface was wanted).
 
@@ -41,7 +44,16 @@ class MeshedInput:
     regions: np.ndarray | None = None
     interface_triangles: int = 0
     sheet_map: np.ndarray | None = None
-    locking: dict = field(default_factory=dict)
+    locking: dict[str, Any] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return display.meshed_line(self)
+
+    def volume(self) -> "Volume":
+        """The tets and what goes with them. Raises InvalidInput where only a surface was prepared."""
+        if self.tets is None or self.boundary is None or self.boundary_features is None:
+            raise InvalidInput(f"{self.name}: was prepared with volume=False; prepare it with its volume", "no_volume")
+        return Volume(self.tets, self.boundary, self.boundary_features)
 
     def at_boundary_vertices(self, values: np.ndarray) -> np.ndarray:
         """Of values at the vertices of the surface, those at the boundary's: of its first copy in each case."""
@@ -51,11 +63,18 @@ class MeshedInput:
 
     def digest(self) -> str:
         """SHA-256 of the mesh arrays, first 16 hexadecimal digits: equal for equal meshes."""
-        mesh = self.surface if self.tets is None else self.tets
-        cells = mesh.triangles if self.tets is None else mesh.tets
-        sha = hashlib.sha256(np.ascontiguousarray(mesh.vertices).tobytes())
+        vertices, cells = (self.surface.vertices, self.surface.triangles) if self.tets is None else (self.tets.vertices, self.tets.tets)
+        sha = hashlib.sha256(np.ascontiguousarray(vertices).tobytes())
         sha.update(np.ascontiguousarray(cells).tobytes())
         return sha.hexdigest()[:16]
+
+
+class Volume(NamedTuple):
+    """Of a MeshedInput that has tets."""
+
+    tets: TetMesh
+    boundary: BoundarySurface
+    boundary_features: FeatureGraph
 
 
 def load_surface(path: str | Path, *, repair: bool = False) -> TriangleMesh:
@@ -75,7 +94,7 @@ class SoundInput:
     peak_mb: float
     boundary_features: FeatureGraph
     sheets: Sheets | None
-    locking: dict
+    locking: dict[str, Any]
 
 
 def read_sound(
@@ -90,9 +109,9 @@ def read_sound(
         with naming(found.name):
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):
-        locking = {} if found.tets is None else _treat_locking(found, options)
+        locking = {} if found.tets is None else split_on_request(found, options)
         sheets = _core.cut_into_sheets(found.surface) if found.interface_triangles or found.touches else None
-        features, feature_source = _features(found, options, sheets)
+        features, feature_source = find_features(found, options, sheets)
         of_surface = features if sheets is None else _lifted(features, sheets)
     return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), features, sheets, locking)
 
@@ -106,7 +125,14 @@ def prepare_mesh(
 ) -> MeshedInput:
     """Reads, validates, finds features, remeshes and (volume) fills with tets.
 
-    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for.
+    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for. source: a
+    path, TriangleMesh or TetMesh. Raises InvalidInput, GeometryError (naming the defect), IoError, Cancelled.
+
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> meshed = octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3))
+        >>> len(meshed.features.corners), meshed.feature_source
+        (8, 'angle')
     """
     if not isinstance(source, SoundInput):
         source = read_sound(source, options, volume=volume, progress=progress)
@@ -169,7 +195,9 @@ def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
 
 
 def _require_valid(found: Input, options: MeshOptions, **tests: bool) -> None:
-    surface = found.surface if not found.interface_triangles else _core.boundary_surface(found.tets).mesh
+    surface = found.surface
+    if found.interface_triangles and found.tets is not None:
+        surface = _core.boundary_surface(found.tets).mesh
     try:
         try:
             _core.require_valid(surface, **tests)
@@ -208,7 +236,7 @@ def possible_remedy(message: str, found: Input, options: MeshOptions) -> str:
     return f"{fact}; {done}correct {mesh} where it was made"
 
 
-def _features(found: Input, options: MeshOptions, sheets: Sheets | None) -> tuple[FeatureGraph, str]:
+def find_features(found: Input, options: MeshOptions, sheets: Sheets | None) -> tuple[FeatureGraph, str]:
     """Of found.surface. Curves where interfaces meet the boundary or each other always belong to them."""
     source = options.features
     if source == "default":
@@ -223,7 +251,7 @@ def _features(found: Input, options: MeshOptions, sheets: Sheets | None) -> tupl
         )
     if source == "angle" and sheets is None:
         return _core.detect_features(found.surface, angle=options.feature_angle), source
-    edges = found.lines if source == "file" else np.empty((0, 2), np.int32)
+    edges: Array = np.empty((0, 2), np.int32) if source != "file" or found.lines is None else found.lines
     if sheets is not None:
         cuts = np.asarray(sheets.cuts)
         if source == "angle":
@@ -260,30 +288,9 @@ def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) 
     meshed.boundary = _core.boundary_surface(meshed.tets)
     if not np.array_equal(np.asarray(meshed.boundary.vertex_map), np.arange(count)):
         raise GeometryError("the tet mesh does not keep the vertices of the surface; please report this input")
-    meshed.locking = _treat_locking(meshed, options)
+    meshed.locking = split_on_request(meshed, options)
     meshed.surface = meshed.boundary.mesh  # the same vertices; triangles in the order of the tets
     meshed.boundary_features = meshed.features
-
-
-def _treat_locking(mesh: Input | MeshedInput, options: MeshOptions) -> dict:
-    """Counts what joins the surface to itself and splits it on request: tets, regions and boundary change, surface
-    vertices and features stay."""
-    if not options.split:
-        found = _core.find_locking(mesh.tets, mesh.boundary)
-        return _locking_record(found)
-    split = _core.split_locking(mesh.tets, mesh.boundary)
-    mesh.tets = split.mesh
-    regions = None if mesh.regions is None else np.asarray(mesh.regions)[np.asarray(split.parent)]
-    with_regions(mesh, regions)
-    return _locking_record(split.found) | {
-        "added_vertices": split.added_vertices,
-        "added_tets": len(split.parent) - len(np.unique(split.parent)),
-        "left": len(split.left),
-    }
-
-
-def _locking_record(found) -> dict:
-    return {"tets": len(found.tets), "edges": len(found.edges), "triangles": len(found.triangles)}
 
 
 def _note_unused(meshed: MeshedInput, options: MeshOptions) -> None:

@@ -1,12 +1,15 @@
 """Options of the pipeline. Defaults of numerical options are those of the C++ structs."""
 
+import difflib
 import math
 import numbers
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from . import _core
+from . import _core, display
 from .defaults import default_of
 from .errors import InvalidInput
 
@@ -22,9 +25,18 @@ METHODS = {"gl": "ginzburg_landau", "mbo": "mbo", "eigen": "eigenvector"}
 ALIGNMENTS = ("strong", "weak", "none")
 
 
-def require_one_of(name: str, value: str, allowed) -> None:
+def require_one_of(name: str, value: str, allowed: Iterable[str]) -> None:
+    allowed = list(allowed)
     if value not in allowed:
-        raise InvalidInput(f"{name} {value!r} is not one of: {', '.join(allowed)}", "unknown_option_value")
+        raise InvalidInput(
+            f"{name} {value!r} is not one of: {', '.join(allowed)}{did_you_mean(value, allowed)}", "unknown_option_value"
+        )
+
+
+def did_you_mean(value: str, known: Iterable[str]) -> str:
+    """"; did you mean 'sh4'?" where a known word is near, else nothing."""
+    near = difflib.get_close_matches(str(value), list(known), 1)
+    return f"; did you mean {near[0]!r}?" if near else ""
 
 
 def _require(condition: bool, message: str) -> None:
@@ -32,18 +44,18 @@ def _require(condition: bool, message: str) -> None:
         raise InvalidInput(message, "option_out_of_range")
 
 
-def _make_integer(options, name: str, low: int, high: int, note: str = "") -> None:
+def _make_integer(options: object, name: str, low: int, high: int, note: str = "") -> None:
     """Requires an integer in low .. high and keeps it as an int: numpy's integers are no JSON."""
     object.__setattr__(options, name, integer_in(name.replace("_", " "), getattr(options, name), low, high, note))
 
 
-def integer_in(name: str, value, low: int, high: int, note: str = "") -> int:
-    valid = isinstance(value, numbers.Integral) and low <= value <= high
+def integer_in(name: str, value: Any, low: int, high: int, note: str = "") -> int:
+    valid = isinstance(value, numbers.Integral) and low <= int(value) <= high
     _require(valid, f"{name} must be an integer in {low} .. {high}{note}, not {value!r}")
     return int(value)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class MeshOptions:
     """From a file to the mesh the field is computed on.
 
@@ -65,6 +77,9 @@ class MeshOptions:
     interfaces: bool = True
     split: bool = False
 
+    def __repr__(self) -> str:
+        return display.options_line(self)
+
     def __post_init__(self) -> None:
         require_one_of("features", self.features, FEATURES)
         for name in ("remesh", "repair", "interfaces", "split"):
@@ -77,7 +92,7 @@ class MeshOptions:
         )
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class SurfaceFieldOptions(MeshOptions):
     """Of an N-direction field on a surface: symmetry is N, method "gl", "mbo" or "eigen",
     epsilon the coherence length (0: default).
@@ -118,7 +133,7 @@ class SurfaceFieldOptions(MeshOptions):
         _make_integer(self, "seed", 0, LARGEST_SEED)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class FieldOptions(MeshOptions):
     """Of a frame field in a volume.
 
@@ -131,6 +146,16 @@ class FieldOptions(MeshOptions):
     not depend on it. representation, solver: what the last smoothing minimises and how; rounds, max_iterations,
     tolerance: see octafield.frame_field. streamlines: so many seeds of curves along the three axes, spread over the
     volume (octafield.spread_points), go into streamlines.vtp; 0: none.
+
+    Raises InvalidInput.
+
+        >>> import octafield
+        >>> octafield.FieldOptions(boundary="fixed", edge_length=0.5)
+        FieldOptions(edge_length=0.5, boundary='fixed')
+        >>> octafield.FieldOptions(representation="sh5")  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+            ...
+        octafield.InvalidInput: representation 'sh5' is not one of: ...
     """
 
     sampling: str = "vertices"

@@ -9,15 +9,16 @@ import json
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 from .errors import InvalidInput, IoError
 
-_listeners = []  # called with (path, alive) when a staging folder appears or goes, see supervise.py
+_listeners: list[Callable[[Path, bool], None]] = []  # called with (path, alive) when a staging folder appears or goes, see supervise.py
 
 
-def on_staging(listener) -> None:
+def on_staging(listener: Callable[[Path, bool], None]) -> None:
     """Has `listener(path, alive)` called whenever a staging folder is made or goes."""
     _listeners.append(listener)
 
@@ -91,7 +92,7 @@ def earlier_files(target: Path, marker: str) -> list[Path]:
     return [path for path in paths if not path.is_absolute() and ".." not in path.parts]
 
 
-def write_json(path: Path, value) -> None:
+def write_json(path: Path, value: Any) -> None:
     """JSON with numbers at full precision; not-a-number and infinities are refused, they are no JSON."""
     path.write_text(json.dumps(value, indent=1, allow_nan=False) + "\n")
 

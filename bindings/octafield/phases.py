@@ -22,8 +22,8 @@ class PhaseClock:
     """Wall and processor seconds per phase. Processor time counts all threads of the process."""
 
     def __init__(self, earlier: "PhaseClock | None" = None):
-        self.wall = dict(earlier.wall) if earlier else dict.fromkeys(PHASES, 0.0)
-        self.cpu = dict(earlier.cpu) if earlier else dict.fromkeys(PHASES, 0.0)
+        self.wall: dict[str, float] = dict(earlier.wall) if earlier else dict.fromkeys(PHASES, 0.0)
+        self.cpu: dict[str, float] = dict(earlier.cpu) if earlier else dict.fromkeys(PHASES, 0.0)
 
     @contextlib.contextmanager
     def phase(self, name: str) -> Iterator[None]:
@@ -73,6 +73,15 @@ def versions() -> dict[str, str]:
     return found
 
 
+def libraries() -> dict[str, str]:
+    """Versions of the C++ libraries that the compiled part was built with."""
+    found = {}
+    for entry in _core.__libraries__.split(","):
+        name, _, version = entry.partition(" ")
+        found[name] = version or "unknown"
+    return found
+
+
 def octafield_version() -> str:
     return _core.__version__
 
@@ -97,7 +106,7 @@ class StopNote:
         self._callback = progress
 
     def _report(self, phase: str, fraction: float, merit: float) -> bool | None:
-        answer = self._callback(phase, fraction, merit)
+        answer = None if self._callback is None else self._callback(phase, fraction, merit)
         self.stopped = self.stopped or (answer is not None and not answer)
         return answer
 

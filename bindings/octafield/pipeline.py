@@ -12,8 +12,7 @@ A comparison prepares a Problem once and runs it with several options:
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
-from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 import numpy as np
 
@@ -33,12 +32,12 @@ from ._core import (
     TriangleMesh,
     VertexConstraints,
 )
-from .analysis import analyse
+from .analysis import FieldAnalysis, analyse, constraint_counts, counts_by_index, spread
 from .errors import InvalidInput
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
-from .tet_analysis import analyse_tets
+from .tet_analysis import TetFieldAnalysis, analyse_tets
 from .surface_pipeline import SurfaceFieldResult, common_record, compute_surface_field, index_summary, structure
 
 if TYPE_CHECKING:
@@ -61,9 +60,12 @@ __all__ = [
 ]
 
 
-@dataclass
+@dataclass(repr=False)
 class Problem:
-    """What all runs on one input and seed share: the mesh and the surface cross field."""
+    """What all runs on one input and seed share: the mesh and the surface cross field.
+
+    meshed: the input. seed: of the cross field. direction_field: of the surface. directions: (B, 3), per vertex of the
+    surface. singularities, separatrices: of the cross field. clock, peak_mb: what it took."""
 
     meshed: MeshedInput
     seed: int
@@ -73,6 +75,9 @@ class Problem:
     separatrices: Sequence[Streamline]
     clock: PhaseClock
     peak_mb: float
+
+    def __repr__(self) -> str:
+        return display.problem_line(self)
 
 
 @dataclass(repr=False)
@@ -102,16 +107,13 @@ class FieldResult:
     boundary_meshability: BoundaryMeshability | None
     integrability: Integrability | None
     streamlines: list[FrameStreamline]
-    record: dict
+    record: dict[str, Any]
     regions: np.ndarray | None = None
     tet_frames: np.ndarray | None = None
     lengths: np.ndarray | None = None
 
     def __repr__(self) -> str:
-        return display.one_line(self)
-
-    def _repr_html_(self) -> str:
-        return display.as_html(self)
+        return display.field_line(self)
 
     def scene(self) -> "pyvista.Plotter":
         """The singular curves inside the translucent surface, to show() in a window or Jupyter."""
@@ -130,9 +132,15 @@ def compute_field(
     constraints: the user's own, on vertices (or, with sampling "tets", tets) of the mesh the field is computed on. Meshing and splitting make
     another mesh of the input, so prepare it first:
 
-        meshed = prepare_mesh("part.stl", options)
-        held = VertexConstraints(vertices=[7], kinds=[1], axes=[[0, 0, 1]])  # of meshed.tets
-        result = compute_field(meshed, options, constraints=held)
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> meshed = octafield.prepare_mesh(generate("ball"), octafield.MeshOptions(edge_length=0.3))  # or a path
+        >>> held = octafield.VertexConstraints(vertices=[300], kinds=[1], axes=[[0, 0, 1]])  # of meshed.tets
+        >>> result = octafield.compute_field(meshed, constraints=held)
+        >>> result.record["constraints"]["given"]
+        1
+
+    progress(phase, fraction, merit): False cancels. Raises InvalidInput, GeometryError, IoError, SolverError, Cancelled.
     """
     if constraints is not None and not isinstance(source, MeshedInput):
         raise InvalidInput(
@@ -145,7 +153,13 @@ def compute_field(
 
 
 def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None) -> Problem:
-    """Computes the cross field on the surface, the start of every boundary frame."""
+    """Computes the cross field on the surface, the start of every boundary frame. Raises GeometryError, SolverError.
+
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> octafield.prepare(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3))).seed
+        0
+    """
     memory = PeakMemory()
     clock = PhaseClock(meshed.clock)
     with clock.phase("surface"):
@@ -166,18 +180,27 @@ def run(
     constraints: VertexConstraints | None = None,
 ) -> FieldResult:
     """One frame field on a prepared problem. The record's phase times include those of the shared preparation.
-    constraints: see compute_field."""
+    constraints: see compute_field.
+
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> problem = octafield.prepare(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3)))
+        >>> for boundary in ("fixed", "aligned"):  # on one mesh, so that energies compare
+        ...     print(boundary, octafield.run(problem, octafield.FieldOptions(boundary=boundary)).record["singular_edges"])
+        fixed 0
+        aligned 0
+    """
     memory = PeakMemory()
     meshed, clock = problem.meshed, PhaseClock(problem.clock)
-    tets, threads = meshed.tets, options.threads
+    tets, threads = meshed.volume().tets, options.threads
     with clock.phase("smooth"):
         announce(progress, "smooth")
-        where = _core.tet_sampling(tets) if options.sampling == "tets" else tets
+        in_tets = _core.tet_sampling(tets) if options.sampling == "tets" else None
         held = _boundary_constraints(problem, options)
         if constraints is not None:
             held = _core.with_constraints(held, constraints)
         found = _core.frame_field(
-            where,
+            tets if in_tets is None else in_tets,
             held,
             start="cross_field" if options.boundary == "none" else "constraints",
             seed=problem.seed,
@@ -187,18 +210,20 @@ def run(
             tolerance=options.tolerance,
             threads=threads,
             progress=forward(progress, "smooth", 0.0, 1.0),
-            **({} if options.solver == "default" else {"solver": options.solver}),
+            solver="automatic" if options.solver == "default" else options.solver,
         )
         smoothed = found.smooth
     with clock.phase("analyse"):
         announce(progress, "analyse")
         frames, of_tets = np.asarray(smoothed.frames), None
-        if options.sampling == "tets":
+        analysis: FieldAnalysis | TetFieldAnalysis
+        if in_tets is not None:
             of_tets = frames
-            analysis = analyse_tets(meshed, where, of_tets, threads)
+            analysis = analyse_tets(meshed, in_tets, of_tets, threads)
             frames = analysis.frames
         else:
             analysis = analyse(meshed, frames, threads, options.streamlines)
+        at_vertices = analysis if isinstance(analysis, FieldAnalysis) else None
         lengths = np.asarray(smoothed.lengths) if len(smoothed.lengths) else None
     record = {
         **common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
@@ -215,7 +240,7 @@ def run(
         "seed": problem.seed,
         "threads": threads,
         **analysis.record,
-        **({} if lengths is None else {"lengths": _spread(lengths)}),
+        **({} if lengths is None else {"lengths": spread(lengths)}),
         "objective": float(smoothed.objective),
         "iterations": smoothed.iterations,
         "diffusion_steps": found.diffusion_steps,
@@ -223,13 +248,13 @@ def run(
         "stop_reason": smoothed.message,
         "energy_history": [float(e) for e in smoothed.energy_history],
         "surface_field": {
-            "singular_points": _counts_by_index(problem.singularities),
+            "singular_points": counts_by_index(problem.singularities),
             "epsilon": problem.direction_field.epsilon,
             "iterations": problem.direction_field.iterations,
             "converged": bool(problem.direction_field.converged),
             **index_summary(problem.singularities),
         },
-        "constraints": _constraint_counts(held, constraints),
+        "constraints": constraint_counts(held, constraints),
         "released_corners": len(held.released_corners),
         "released_corner_vertices": np.asarray(held.released_corners).tolist(),
         "options": asdict(replace(options, seed=problem.seed)),
@@ -244,13 +269,13 @@ def run(
         tets,
         held,
         frames,
-        analysis.singular_graph if of_tets is None else analysis.singular.graph,
+        analysis.singular_graph if isinstance(analysis, FieldAnalysis) else analysis.singular.graph,
         analysis.alignment,
         analysis.feature_alignment,
-        analysis.meshability if of_tets is None else None,
-        analysis.boundary_meshability if of_tets is None else None,
-        analysis.integrability if of_tets is None else None,
-        analysis.streamlines if of_tets is None else [],
+        None if at_vertices is None else at_vertices.meshability,
+        None if at_vertices is None else at_vertices.boundary_meshability,
+        None if at_vertices is None else at_vertices.integrability,
+        [] if at_vertices is None else at_vertices.streamlines,
         record,
         meshed.regions,
         of_tets,
@@ -260,26 +285,12 @@ def run(
 
 def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryConstraints:
     meshed = problem.meshed
-    how = {"mode": options.boundary, "feature_tolerance": options.feature_tolerance}
+    tets, boundary, features = meshed.volume()
+    mode, tolerance = options.boundary, options.feature_tolerance
     if options.sampling == "tets":  # triangles of the surface are those of the boundary, sheets or not
         directions = _core.triangle_directions(meshed.surface, problem.direction_field)
-        return _core.tet_boundary_constraints(meshed.tets, meshed.boundary, directions, **how)
+        return _core.tet_boundary_constraints(tets, boundary, directions, mode=mode, feature_tolerance=tolerance)
     directions = meshed.at_boundary_vertices(problem.directions)
     return _core.boundary_constraints(
-        len(meshed.tets.vertices), meshed.boundary, meshed.boundary_features, directions, **how
+        len(tets.vertices), boundary, features, directions, mode=mode, feature_tolerance=tolerance
     )
-
-
-def _spread(lengths: np.ndarray) -> dict[str, float]:
-    return {"min": float(lengths.min()), "median": float(np.median(lengths)), "max": float(lengths.max())}
-
-
-def _constraint_counts(held: BoundaryConstraints, given: VertexConstraints | None) -> dict[str, int]:
-    free, axis, fixed = np.bincount(np.asarray(held.kind), minlength=3).tolist()
-    return {"free": free, "axis": axis, "fixed": fixed, "given": 0 if given is None else len(given.vertices)}
-
-
-def _counts_by_index(singularities: SurfaceSingularities) -> dict[str, int]:
-    """{"1/4": 8}: how many singular points of each index, positive ones first."""
-    indices = sorted((Fraction(float(s.index)).limit_denominator(1000) for s in singularities.points), reverse=True)
-    return {("+" if index > 0 else "") + str(index): indices.count(index) for index in dict.fromkeys(indices)}

@@ -3,14 +3,18 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _core
-from ._core import BoundaryMeshability, FrameStreamline, Streamline
+from ._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetMesh
 from .output import write_json
 from .phases import PhaseClock, Progress, announce
 from .pipeline import FieldResult, SurfaceFieldResult
+
+if TYPE_CHECKING:
+    import pyvista
 
 SURFACE_FILES = ("surface.vtp", "surface_singularities.vtp", "surface_separatrices.vtp")
 FIELD_FILES = ("field.vtu", "singular.vtp", "features.vtp", "streamlines.vtp", *SURFACE_FILES)
@@ -23,7 +27,7 @@ def write_field_result(result: FieldResult, folder: Path, progress: Progress | N
     metadata = _metadata(result.record)
     clock = _clock(result.record)
     with clock.phase("write"):
-        regions = [] if result.regions is None else result.regions
+        regions: Sequence[int] | np.ndarray = [] if result.regions is None else result.regions
         more = {}
         if result.tet_frames is not None:
             more["tet_frames"] = result.tet_frames
@@ -56,7 +60,7 @@ def _write_surface_files(result: FieldResult | SurfaceFieldResult, folder: Path,
     write_streamlines(curves, result.separatrices, metadata)
 
 
-def write_singular_points(path: Path, singularities, metadata: dict[str, str]) -> None:
+def write_singular_points(path: Path, singularities: Sequence[SurfaceSingularity], metadata: dict[str, str]) -> None:
     """.vtp vertices with point data index (turns), triangle, vertex (-1: none) and boundary (0/1)."""
     import pyvista
 
@@ -78,7 +82,7 @@ def write_streamlines(
     octafield.FrameStreamline); for curves on surfaces first_singularity and last_singularity (places in the file of
     singular points, -1: none). Curves of a single point are left out, but for those on surfaces."""
     if lines and isinstance(lines[0], FrameStreamline):
-        lines = [line for line in lines if len(line.points) > 1]
+        lines = [line for line in lines if isinstance(line, FrameStreamline) and len(line.points) > 1]
     poly = polylines([line.points for line in lines])
     poly.cell_data["length"] = np.array([line.length for line in lines], float)
     for name in ("first_singularity", "last_singularity"):
@@ -89,7 +93,7 @@ def write_streamlines(
     _save(poly, path, metadata)
 
 
-def write_features(path: Path, tets, found: BoundaryMeshability, metadata: dict[str, str]) -> None:
+def write_features(path: Path, tets: TetMesh, found: BoundaryMeshability, metadata: dict[str, str]) -> None:
     """.vtp: corners as vertex cells, then feature edges (one line per wedge), then edges of the surface that a singular
     edge crosses. Cell data kind (0, 1, 2 in this order), meshable (0/1) and hexahedra (lines: the lower number of the
     two ends; corners: what is left for edges inside; octafield.no_number: none), angle (of the wedge, degrees; else 0),
@@ -97,7 +101,8 @@ def write_features(path: Path, tets, found: BoundaryMeshability, metadata: dict[
     import pyvista
 
     corners, wedges, crossings = found.corners, found.wedges, found.crossings
-    edges = np.array([(e.a, e.b) for e in [*wedges, *crossings]], np.int64).reshape(-1, 2)
+    pairs = [(wedge.a, wedge.b) for wedge in wedges] + [(crossing.a, crossing.b) for crossing in crossings]
+    edges = np.array(pairs, np.int64).reshape(-1, 2)
     ids = np.array([c.vertex for c in corners], np.int64)
     used, place = np.unique(np.concatenate([ids, edges.ravel()]), return_inverse=True)
     lines = place.ravel()[len(ids) :].reshape(-1, 2)
@@ -111,7 +116,7 @@ def write_features(path: Path, tets, found: BoundaryMeshability, metadata: dict[
     crossing_numbers = [c.hexahedra for c in crossings]
     columns = {
         "kind": [0] * len(corners) + [1] * len(wedges) + [2] * len(crossings),
-        "meshable": [e.meshable for e in [*corners, *wedges]] + [n >= 1 for n in crossing_numbers],
+        "meshable": [c.meshable for c in corners] + [w.meshable for w in wedges] + [n >= 1 for n in crossing_numbers],
         "hexahedra": [c.inside for c in corners] + wedge_numbers + crossing_numbers,
         "vertex": [*ids, *edges[:, 0]],
     }
@@ -122,7 +127,7 @@ def write_features(path: Path, tets, found: BoundaryMeshability, metadata: dict[
     _save(poly, path, metadata)
 
 
-def polylines(lines: Sequence[np.ndarray]):
+def polylines(lines: Sequence[np.ndarray]) -> "pyvista.PolyData":
     """Polylines, (n, 3) points each, as the cells of a pyvista.PolyData, in their order."""
     import pyvista
 
@@ -134,13 +139,13 @@ def polylines(lines: Sequence[np.ndarray]):
     return pyvista.PolyData(np.concatenate(lines), lines=np.concatenate(cells))
 
 
-def _save(poly, path: Path, metadata: dict[str, str]) -> None:
+def _save(poly: "pyvista.PolyData", path: Path, metadata: dict[str, str]) -> None:
     for name, text in metadata.items():
         poly.GetFieldData().AddArray(_text_array(name, [text]))
     poly.save(path)
 
 
-def _text_array(name: str, texts: Sequence[str]):
+def _text_array(name: str, texts: Sequence[str]) -> Any:
     """UTF-8, as in the other files; pyvista's own field data holds ASCII only."""
     from vtkmodules.vtkCommonCore import vtkStringArray
 
@@ -151,7 +156,7 @@ def _text_array(name: str, texts: Sequence[str]):
     return array
 
 
-def _metadata(record: dict) -> dict[str, str]:
+def _metadata(record: dict[str, Any]) -> dict[str, str]:
     """What makes a file understandable by itself; no times, so that equal runs write equal files, and no
     thread count, on which results do not depend."""
     options = {name: value for name, value in record["options"].items() if name != "threads"}
@@ -165,7 +170,7 @@ def _metadata(record: dict) -> dict[str, str]:
     }
 
 
-def _clock(record: dict) -> PhaseClock:
+def _clock(record: dict[str, Any]) -> PhaseClock:
     """A clock that adds to the record's own times."""
     clock = PhaseClock()
     clock.wall, clock.cpu = record["wall_seconds"], record["cpu_seconds"]

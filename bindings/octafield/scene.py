@@ -42,7 +42,6 @@ def _loads(library: str) -> bool:
 def plotter() -> pyvista.Plotter:
     if not can_draw():
         raise IoError(NO_OPENGL, "no_opengl")
-    pyvista.OFF_SCREEN = True
     scene = pyvista.Plotter(off_screen=True, window_size=SIZE, lighting="none")
     for place, strength in (
         ((-0.6, 0.9, 0.7), 0.45),

@@ -2,13 +2,16 @@
 
 import dataclasses
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from . import console
 from .cli_options import Json, Quiet, Verbose
 from .console import carry_out, log
+
+if TYPE_CHECKING:
+    from .study import Status, Study
 
 app = typer.Typer(no_args_is_help=True, help="Comparisons described by a file: run, resume after any interruption, report.")
 
@@ -81,18 +84,25 @@ def status(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Ver
 
 
 @app.command()
-def report(folder: Folder, quiet: Quiet = False, verbose: Verbose = False) -> None:
-    """Writes report.html and tables/ from the runs finished so far."""
+def report(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """Writes report.html and tables/ from the runs finished so far; with --json the document of status, and what was written."""
 
     def work() -> None:
+        from .study import results
         from .study.report import write_report
 
-        log.info("wrote %s", write_report(folder))
+        page = write_report(folder)
+        if json:
+            console.put_json(json, {**_document(results.status(folder), results.rows(folder)), "report": str(page)})
+        log.info("wrote %s", page)
 
-    carry_out(work, quiet, verbose, None)
+    carry_out(work, quiet, verbose, json)
 
 
-def _run(study, folder, jobs, threads, memory, scheduler, patience, retry, json, quiet) -> None:
+def _run(
+    study: "Study", folder: Path, jobs: int, threads: int, memory: float, scheduler: str, patience: float, retry: bool,
+    json: str | None, quiet: bool,
+) -> None:
     from .study.engine import run as run_study
     from .study.report import write_report
 
@@ -109,12 +119,16 @@ def _run(study, folder, jobs, threads, memory, scheduler, patience, retry, json,
     log.info("wrote %s", page)
 
 
-def _tell(status, folder, json, quiet) -> None:
+def _document(status: "Status", rows: list[dict[str, Any]]) -> dict[str, Any]:
+    return {**dataclasses.asdict(status), "runs": rows}
+
+
+def _tell(status: "Status", folder: Path, json: str | None, quiet: bool) -> None:
     from .study.results import rows
 
     known = rows(folder)
     if json:
-        console.put_json(json, {**dataclasses.asdict(status), "runs": known})
+        console.put_json(json, _document(status, known))
     if json != "-" and not quiet:
         typer.echo(f"{status.done} done, {status.failed} failed, {status.crashed} crashed, {status.open} open")
     for row in known:

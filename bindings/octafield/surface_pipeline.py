@@ -6,10 +6,11 @@
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
-from . import _core
+from . import _core, display
 from ._core import (
     DirectionConstraints,
     DirectionField,
@@ -26,7 +27,7 @@ from .options import METHODS, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, StopNote, forward, octafield_version, versions
 
 
-@dataclass
+@dataclass(repr=False)
 class SurfaceFieldResult:
     """An N-direction field on a surface. directions: (V, 3), one representative per vertex. record: the JSON object."""
 
@@ -36,7 +37,10 @@ class SurfaceFieldResult:
     directions: np.ndarray
     singularities: SurfaceSingularities
     separatrices: Sequence[Streamline]
-    record: dict
+    record: dict[str, Any]
+
+    def __repr__(self) -> str:
+        return display.surface_field_line(self)
 
 
 def compute_surface_field(
@@ -52,9 +56,12 @@ def compute_surface_field(
     constraints, guide: directions to follow, on the vertices, edges and triangles of the surface the field is computed
     on. Remeshing makes another surface of the input, so prepare it first:
 
-        meshed = prepare_mesh("part.stl", options, volume=False)
-        asked = DirectionConstraints(vertices=[7], vertex_directions=[[1, 0, 0]])  # of meshed.surface
-        result = compute_surface_field(meshed, options, constraints=asked)
+        >>> import octafield
+        >>> from octafield.study.generators import generate
+        >>> meshed = octafield.prepare_mesh(generate("ball"), volume=False)  # or a path
+        >>> asked = octafield.DirectionConstraints(vertices=[7], vertex_directions=[[1, 0, 0]])  # of meshed.surface
+        >>> len(octafield.compute_surface_field(meshed, constraints=asked).singularities.points)
+        8
 
     When progress returns False while the field is computed or after, the best field so far is returned, with
     record["stopped"] true, converged False where the solver was stopped, and no separatrices; before that, Cancelled is
@@ -67,9 +74,7 @@ def compute_surface_field(
             "give the result of prepare_mesh(source, options, volume=False) instead of the source",
             "not_meshed",
         )
-    meshed = source
-    if not isinstance(source, MeshedInput):
-        meshed = prepare_mesh(source, options, volume=False, progress=progress)
+    meshed = source if isinstance(source, MeshedInput) else prepare_mesh(source, options, volume=False, progress=progress)
     clock = PhaseClock(meshed.clock)
     stop = StopNote(progress)
     with naming(meshed.name), clock.phase("surface"):
@@ -146,7 +151,7 @@ def structure(
     return directions, singularities, separatrices
 
 
-def common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dict:
+def common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dict[str, Any]:
     return {
         "input": meshed.name,
         "version": octafield_version(),
@@ -164,7 +169,7 @@ def common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dic
     }
 
 
-def index_summary(singularities: SurfaceSingularities) -> dict:
+def index_summary(singularities: SurfaceSingularities) -> dict[str, Any]:
     return {
         "euler_characteristic": singularities.euler_characteristic,
         "index_sum": singularities.index_sum,

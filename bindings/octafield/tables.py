@@ -35,19 +35,25 @@ def show_info(record: dict) -> None:
     ]
     facts += [
         (f"{name} {key}", f"{value:.6g}" if isinstance(value, float) else str(value))
-        for name in ("bounding_box", "features", "feature_lines")
+        for name in ("bounding_box", "features", "feature_lines", "tet_quality", "expected")
         for key, value in record.get(name, {}).items()
     ]
     _facts(record["input"], facts)
     _table(
-        ["", "requirement", "remedy"],
-        [[r["state"], r["requirement"], r["message"]] for r in record["requirements"]],
-        left=3,
+        ["", "requirement", "what is wrong", "remedy"],
+        [[r["state"], r["requirement"], _fact(r), r["remedy"]] for r in record["requirements"]],
+        left=4,
     )
 
 
+def _fact(requirement: dict) -> str:
+    """The message without the remedy, which has a column of its own."""
+    return requirement["message"].removesuffix(f"; {requirement['remedy']}") if requirement["remedy"] else requirement["message"]
+
+
 def show_doctor(record: dict) -> None:
-    facts = [(name, str(value)) for name, value in record["versions"].items()]
+    facts = [(name, str(value)) for name, value in {**record["versions"], **record["libraries"]}.items() if name != "vtk"]
+    facts.append(("VTK of pictures", record["versions"]["vtk"]))
     facts += [("cores", str(record["cores"])), ("memory", f"{record['memory_gb']:g} GB")]
     _facts("octafield doctor", facts)
     _table(["", "part", "what was found"], [[c["state"], c["name"], c["message"]] for c in record["checks"]], left=3)

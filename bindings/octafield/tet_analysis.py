@@ -2,6 +2,7 @@
 vertices and left out."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -20,15 +21,15 @@ class TetFieldAnalysis:
     singular: SingularEdges
     alignment: np.ndarray
     feature_alignment: np.ndarray
-    record: dict
+    record: dict[str, Any]
 
 
 def analyse_tets(meshed: MeshedInput, sampling: Sampling, of_tets: np.ndarray, threads: int = 0) -> TetFieldAnalysis:
-    tets = meshed.tets
+    tets, boundary, features = meshed.volume()
     frames = np.asarray(_core.vertex_frames(tets, of_tets, threads=threads))
     found = _core.singular_edges(tets, of_tets, threads=threads)
-    alignment = np.asarray(_core.tet_alignment_angles(tets, meshed.boundary, of_tets))
-    feature_alignment = np.asarray(_core.feature_alignment_angles(meshed.boundary, meshed.boundary_features, frames))
+    alignment = np.asarray(_core.tet_alignment_angles(tets, boundary, of_tets))
+    feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
     energy = float(_core.dirichlet_energy(sampling, of_tets, threads=threads))
     turns = [int(edge.quarter_turns) for edge in found.edges]
     record = {

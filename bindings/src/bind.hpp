@@ -27,5 +27,6 @@ void bind_field_analysis(pybind11::module_& module);
 void bind_frame_streamline_types(pybind11::module_& module);
 void bind_frame_streamlines(pybind11::module_& module);
 void bind_volume_input(pybind11::module_& module);
+void add_examples(pybind11::module_& module);  // to docstrings, after everything else
 
 }  // namespace octafield::bindings

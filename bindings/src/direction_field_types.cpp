@@ -10,8 +10,6 @@ using namespace surface;
 
 namespace {
 
-std::string number(double value) { return py::str(py::float_(value)).cast<std::string>(); }
-
 void bind_requests(py::module_& m) {
     Record<DirectionConstraints>(
         m, "DirectionConstraints",
@@ -75,7 +73,12 @@ void bind_field(py::module_& m) {
                "its normal (a sphere seen from outside).")
         .field("anisotropy", &PrincipalDirections::anisotropy,
                "(F,) float64 in [0, 1]: 0 where the direction means nothing (flat, or bent alike in all directions).")
-        .finish([](const PrincipalDirections& p) { return count(p.directions.rows(), "triangle"); });
+        .finish([](const PrincipalDirections& p) {
+            const std::string range = p.curvatures.rows() == 0 ? ""
+                                                               : ", curvatures " + number(p.curvatures.minCoeff()) +
+                                                                     " to " + number(p.curvatures.maxCoeff());
+            return count(p.directions.rows(), "triangle") + range;
+        });
 }
 
 void bind_singularities(py::module_& m) {

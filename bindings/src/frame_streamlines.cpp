@@ -89,14 +89,17 @@ void bind_frame_streamline_types(py::module_& m) {
                "Why it ends there: \"boundary\", \"singular\" (the tet ahead is singular for this axis), \"closed\" "
                "(first and last point are the same), \"length\" (max_length reached) or \"stuck\".")
         .finish([](const FrameStreamline& s) {
-            return count(s.points.rows(), "point") + ", length " + py::str(py::float_(s.length)).cast<std::string>() +
+            return count(s.points.rows(), "point") + ", length " + number(s.length) +
                    ", " + to_word(s.first_end) + " to " + to_word(s.last_end);
         });
 
     Record<LocatedPoints>(m, "LocatedPoints", "Points and the tets of a mesh that hold them.")
         .field("tet", &LocatedPoints::tet, "(n,) int32; -1: outside the mesh.")
         .field("weights", &LocatedPoints::weights, "(n, 4) float64 barycentric coordinates in the tet; 0 outside.")
-        .finish([](const LocatedPoints& p) { return count(p.weights.rows(), "point"); });
+        .finish([](const LocatedPoints& p) {
+            return count(p.weights.rows(), "point") + ", " +
+                   std::to_string(std::count(p.tet.begin(), p.tet.end(), -1)) + " outside";
+        });
 }
 
 void bind_frame_streamlines(py::module_& m) {

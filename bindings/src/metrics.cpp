@@ -31,7 +31,9 @@ void bind_metrics(py::module_& m) {
                 });
             },
             "q1"_a, "q2"_a, py::kw_only(), "threads"_a = 0, "(n,) distances of (n, 4) frames.")
-        .def("__repr__", [](const Metric& metric) { return "Metric(" + std::string(metric.name) + ")"; });
+        .def("__repr__", [](const Metric& metric) { 
+            return "Metric(" + std::string(metric.name) + ": " + std::string(metric.description) + ")";
+        });
     py::dict all;
     for (const Metric& each : metrics())
         all[py::str(std::string(each.name))] = py::cast(&each, py::return_value_policy::reference);

@@ -45,6 +45,7 @@ PYBIND11_MODULE(_core, module) {
     using namespace octafield::bindings;
     module.doc() = "Hexahedral frame fields: the compiled part of octafield. Use it through the package octafield.";
     module.attr("__version__") = OCTAFIELD_VERSION;
+    module.attr("__libraries__") = OCTAFIELD_LIBRARIES;  // "CGAL 5.5.1,Eigen 3.4.0": what it was built with
     module.attr("unit_speed_factor") = octafield::volume::unit_speed_factor;
     py::register_local_exception_translator(translate);
     bind_frames(module);
@@ -60,4 +61,5 @@ PYBIND11_MODULE(_core, module) {
     bind_field_analysis(module);
     bind_frame_streamlines(module);
     bind_volume_input(module);
+    add_examples(module);
 }

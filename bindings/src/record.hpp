@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 
+#include <cstdio>
 #include <functional>
 #include <memory>
 #include <string>
@@ -131,5 +132,32 @@ inline std::string count(std::ptrdiff_t n, const std::string& one, const std::st
     return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 inline std::string count(std::ptrdiff_t n, const std::string& one) { return count(n, one, one + "s"); }
+
+// Six digits, as in tables; the field itself has all of them.
+inline std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+// ", box [0, 1] x [0, 2] x [0, 1]", nothing for no points.
+template <class Rows>
+std::string box(const Rows& points) {
+    if (points.rows() == 0) return {};
+    std::string text = ", box ";
+    for (Eigen::Index k = 0; k < points.cols(); ++k)
+        text += (k ? " x [" : "[") + number(points.col(k).minCoeff()) + ", " + number(points.col(k).maxCoeff()) + "]";
+    return text;
+}
+
+// "1 free, 2 axis, 1 fixed": how many of the kinds of constraints are there.
+template <class Kinds>
+std::string count_kinds(const Kinds& kinds) {
+    std::ptrdiff_t counts[3] = {};
+    for (const auto kind : kinds)
+        if (static_cast<unsigned>(kind) < 3) ++counts[static_cast<unsigned>(kind)];
+    return std::to_string(counts[0]) + " free, " + std::to_string(counts[1]) + " axis, " + std::to_string(counts[2]) +
+           " fixed";
+}
 
 }  // namespace octafield::bindings

@@ -12,7 +12,8 @@ using namespace surface;
 namespace {
 
 std::string repr_mesh(const TriangleMesh& mesh) {
-    return count(mesh.vertices.rows(), "vertex", "vertices") + ", " + count(mesh.triangles.rows(), "triangle");
+    return count(mesh.vertices.rows(), "vertex", "vertices") + ", " + count(mesh.triangles.rows(), "triangle") +
+           box(mesh.vertices);
 }
 
 std::string repr_features(const FeatureGraph& features) {

@@ -34,7 +34,8 @@ void bind_types(py::module_& m) {
         .field("vertex_map", &Sheets::vertex_map, "(n,) int32: vertex of the surface that each is a copy of.")
         .field("cuts", &Sheets::cuts, "(c, 2) int32: edges of the surface with three triangles or more.")
         .finish([](const Sheets& s) {
-            return count(s.mesh.triangles.rows(), "triangle") + ", " + count(s.cuts.rows(), "cut edge");
+            return count(s.mesh.vertices.rows(), "vertex", "vertices") + ", " +
+                   count(s.mesh.triangles.rows(), "triangle") + ", " + count(s.cuts.rows(), "cut edge");
         });
 
     Record<LockingElements>(m, "LockingElements",
@@ -55,7 +56,8 @@ void bind_types(py::module_& m) {
         .field("added_vertices", &LockingSplit::added_vertices, "Number of new vertices.")
         .field("left", &LockingSplit::left, "int32 ids of tets that are too flat to split.")
         .finish([](const LockingSplit& s) {
-            return count(s.mesh.tets.rows(), "tet") + ", " + count(s.added_vertices, "new vertex", "new vertices");
+            return count(s.mesh.tets.rows(), "tet") + ", " + count(s.added_vertices, "new vertex", "new vertices") +
+                   ", " + count(static_cast<std::ptrdiff_t>(s.left.size()), "tet") + " left";
         });
 
     Record<VertexConstraints>(m, "VertexConstraints",
@@ -66,7 +68,8 @@ void bind_types(py::module_& m) {
         .field("frames", &VertexConstraints::frames,
                "(k, 4) float64 quaternions w x y z where the kind is 2; or no rows.")
         .finish([](const VertexConstraints& c) {
-            return count(static_cast<std::ptrdiff_t>(c.vertices.size()), "vertex", "vertices");
+            return count(static_cast<std::ptrdiff_t>(c.vertices.size()), "vertex", "vertices") + ": " +
+                   count_kinds(c.kinds);
         });
 }
 

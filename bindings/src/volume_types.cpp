@@ -17,7 +17,8 @@ void bind_meshes(py::module_& m) {
         .field("vertices", &TetMesh::vertices, "(n, 3) float64 positions, the input's length unit.")
         .field("tets", &TetMesh::tets, "(m, 4) int32 vertex ids, 0-based, det(p1-p0, p2-p0, p3-p0) > 0.")
         .finish([](const TetMesh& mesh) {
-            return count(mesh.vertices.rows(), "vertex", "vertices") + ", " + count(mesh.tets.rows(), "tet");
+            return count(mesh.vertices.rows(), "vertex", "vertices") + ", " + count(mesh.tets.rows(), "tet") +
+                   box(mesh.vertices);
         });
 
     Record<BoundarySurface>(m, "BoundarySurface",
@@ -27,7 +28,7 @@ void bind_meshes(py::module_& m) {
                "(B,) int32: tet-mesh vertex of each boundary vertex, ascending.")
         .finish([](const BoundarySurface& b) {
             return count(b.mesh.vertices.rows(), "vertex", "vertices") + ", " +
-                   count(b.mesh.triangles.rows(), "triangle");
+                   count(b.mesh.triangles.rows(), "triangle") + box(b.mesh.vertices);
         });
 }
 
@@ -47,11 +48,10 @@ void bind_boundary(py::module_& m) {
                "(n, 3) float64 axis lengths held by odeco_lengths, or no rows (all 1): along the axes of frames where "
                "kind is 2; along axis, column 0, where it is 1.")
         .finish([](const BoundaryConstraints& c) {
-            const auto total = [&](VertexConstraint kind) {
-                return std::to_string(std::count(c.kind.begin(), c.kind.end(), kind));
-            };
-            return total(VertexConstraint::free) + " free, " + total(VertexConstraint::axis) + " axis, " +
-                   total(VertexConstraint::fixed) + " fixed";
+            return count_kinds(c.kind) +
+                   (c.released_corners.empty()
+                        ? ""
+                        : ", " + count(static_cast<std::ptrdiff_t>(c.released_corners.size()), "released corner"));
         });
 
     Record<SectorNormals>(
@@ -77,7 +77,7 @@ void bind_results(py::module_& m) {
         .field("lengths", &SmoothResult::lengths,
                "(n, 3) float64 lengths of the frames' axes where odeco_lengths was minimised; else no rows.")
         .finish([](const SmoothResult& r) {
-            return count(r.frames.rows(), "frame") + ", energy " + py::str(py::float_(r.energy)).cast<std::string>() +
+            return count(r.frames.rows(), "frame") + ", energy " + number(r.energy) +
                    ", " + count(r.iterations, "iteration") + ", " + (r.converged ? "converged" : "not converged");
         });
 
@@ -86,8 +86,9 @@ void bind_results(py::module_& m) {
                "SmoothResult of the field of lowest energy; iterations and energy_history are those of all rounds.")
         .field("diffusion_steps", &FrameFieldResult::diffusion_steps, "Steps of diffusion, of all rounds.")
         .finish([](const FrameFieldResult& r) {
-            return "energy " + py::str(py::float_(r.smooth.energy)).cast<std::string>() + ", " +
-                   count(r.diffusion_steps, "diffusion step") + ", " + count(r.smooth.iterations, "iteration");
+            return count(r.smooth.frames.rows(), "frame") + ", energy " + number(r.smooth.energy) + ", " +
+                   count(r.diffusion_steps, "diffusion step") + ", " + count(r.smooth.iterations, "iteration") +
+                   (r.smooth.converged ? ", converged" : ", not converged");
         });
 
     Record<SingularTriangle>(m, "SingularTriangle",
@@ -122,7 +123,7 @@ void bind_results(py::module_& m) {
         .finish([](const SingularGraph& g) {
             return count(static_cast<std::ptrdiff_t>(g.triangles.size()), "triangle") + ", " +
                    count(static_cast<std::ptrdiff_t>(g.curves.size()), "curve") + ", " +
-                   count(static_cast<std::ptrdiff_t>(g.nodes.size()), "node") + ", " +
+                   count(static_cast<std::ptrdiff_t>(g.nodes.size()), "node") + ", length " + number(g.length) + ", " +
                    std::to_string(g.complex_triangles) + " complex";
         });
 }

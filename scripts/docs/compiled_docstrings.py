@@ -2,6 +2,7 @@
 
 import inspect
 import re
+import textwrap
 from typing import Any
 
 import griffe
@@ -31,6 +32,15 @@ def fields_as_list(text: str, fields: list[str]) -> str:
     return "\n\n".join(paragraphs)
 
 
+def examples_fenced(text: str) -> str:
+    """Paragraphs of doctests as code, however far they are indented."""
+    paragraphs = text.split("\n\n")
+    for k, paragraph in enumerate(paragraphs):
+        if paragraph.lstrip().startswith(">>> "):
+            paragraphs[k] = f"```pycon\n{textwrap.dedent(paragraph.strip(chr(10))).rstrip()}\n```"
+    return "\n\n".join(paragraphs)
+
+
 class CompiledDocstrings(griffe.Extension):
     def on_package(self, *, pkg: griffe.Module, **kwargs: Any) -> None:
         stub = pkg["_core"]
@@ -50,8 +60,18 @@ class CompiledDocstrings(griffe.Extension):
             elif member.is_function:
                 member.docstring = griffe.Docstring(without_signatures(inspect.getdoc(thing) or ""), parent=member)
         self._lists(pkg)
+        self._fence(pkg)
         for name in ("MeshOptions", "SurfaceFieldOptions", "FieldOptions"):
             self._state_defaults(pkg["options"].members[name], getattr(options, name))
+
+    def _fence(self, thing: griffe.Module | griffe.Class) -> None:
+        for member in thing.members.values():
+            if member.is_alias:
+                continue
+            if member.docstring:
+                member.docstring.value = examples_fenced(member.docstring.value)
+            if member.is_module or member.is_class:
+                self._fence(member)
 
     def _describe_class(self, member: griffe.Class, thing: type) -> None:
         """One table of the fields in place of a section for each."""

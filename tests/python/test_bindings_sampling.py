@@ -4,6 +4,7 @@ import copy
 
 import numpy as np
 import pytest
+import scipy.sparse
 from pipeline_fixtures import octafield as command
 from pipeline_fixtures import write_cube, write_sphere
 
@@ -27,7 +28,7 @@ def held(box):
 def test_a_sampling_is_the_coupling_of_its_sites(box):
     vertices, tets = of.vertex_sampling(box), of.tet_sampling(box)
     assert (vertices.sites, len(vertices)) == ("vertices", len(box.vertices))
-    assert (tets.sites, len(tets)) == ("tets", len(box.tets)) and repr(tets) == f"Sampling({len(box.tets)} tets)"
+    assert (tets.sites, len(tets)) == ("tets", len(box.tets)) and repr(tets).startswith(f"Sampling({len(box.tets)} tets, ")
     assert abs(vertices.stiffness - of.stiffness(box)).max() == 0
     np.testing.assert_array_equal(vertices.mass, of.lumped_mass(box))
     np.testing.assert_allclose(tets.mass, of.tet_volumes(box))
@@ -134,3 +135,33 @@ def test_the_command_line_writes_tets_and_lengths(tmp_path):
     lengths = pyvista.read(tmp_path / "odeco" / "field.vtu").point_data["frame_lengths"]
     np.testing.assert_allclose(lengths, 1, atol=1e-6)  # of the constant field
     assert command("field", cube, "-o", tmp_path / "bad", "--sampling", "edges", check=2).stderr
+
+
+def test_a_sampling_of_ones_own_matrix_is_used_by_every_solver(box):
+    made = of.tet_sampling(box)
+    own = of.Sampling(made.stiffness.tocsr(), made.mass, made.body_radius, made.edge_length, made.box_diagonal, "tets")
+    assert repr(own) == repr(made) and (own.stiffness != made.stiffness).nnz == 0
+    start = of.random_rotations(len(own))
+    held = of.BoundaryConstraints(np.zeros(len(own)), np.zeros((len(own), 3)), np.tile([1.0, 0, 0, 0], (len(own), 1)), np.zeros(len(own)))
+    for call in (lambda s: of.diffuse(s, held, start, max_steps=3).frames, lambda s: of.smooth(s, held, start, max_iterations=3).frames,
+                 lambda s: of.smooth(s, held, start, representation="geodesic", max_iterations=2).frames):  # fmt: skip
+        np.testing.assert_array_equal(call(own), call(made))
+    assert of.dirichlet_energy(own, start) == of.dirichlet_energy(made, start)
+
+
+@pytest.mark.parametrize("matrix, mass, kind", [
+    ([[1, -1], [-1, 1]], [1, 1, 1], "wrong_shape"), ([[1, -1, 0], [-1, 1, 0]], [1, 1], "wrong_shape"), ([[1, -1], [0, 0]], [1, 1], "not_symmetric"),
+    ([[2, -1], [-1, 1]], [1, 1], "rows_sum"), ([[-1, 1], [1, -1]], [1, 1], "positive_entry"), ([[np.inf, -1], [-1, 1]], [1, 1], "non_finite"),
+    ([[1, -1], [-1, 1]], [1, -1], "bad_mass"), ([[1, -1], [-1, 1]], [0, 0], "bad_mass")])
+def test_matrices_that_couple_nothing_sensible_are_refused(matrix, mass, kind):
+    with pytest.raises(of.InvalidInput) as caught:
+        of.Sampling(scipy.sparse.csc_array(np.array(matrix, float)), mass, 1, 1, 1)
+    assert caught.value.kind == kind
+
+
+def test_lengths_of_a_sampling_must_be_positive_and_its_sites_known():
+    matrix = scipy.sparse.csc_array([[1.0, -1], [-1, 1]])
+    with pytest.raises(of.InvalidInput, match="must be positive"):
+        of.Sampling(matrix, [1, 1], 0, 1, 1)
+    with pytest.raises(of.InvalidInput, match="sites"):
+        of.Sampling(matrix, [1, 1], 1, 1, 1, "edges")

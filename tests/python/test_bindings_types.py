@@ -107,7 +107,7 @@ def test_pickles_hold_every_field():
 
 def test_enumerations_are_words():
     line = of.Streamline([[0, 0, 0], [1, 0, 0]], [5], 1.0, "singularity", "boundary", 3)
-    assert repr(line) == "Streamline(2 points, length 1.0, singularity to boundary)" and line.last_singularity == -1
+    assert repr(line) == "Streamline(2 points, length 1, singularity to boundary)" and line.last_singularity == -1
     again = pickle.loads(pickle.dumps(line))
     assert (again.first_end, again.last_end, again.first_singularity) == ("singularity", "boundary", 3)
     line.last_end = "closed"
@@ -128,8 +128,8 @@ def test_singular_points_are_kept_with_their_sums():
 
 
 def test_reprs_count():
-    assert repr(of.TriangleMesh(POINTS, [[0, 2, 1]])) == "TriangleMesh(4 vertices, 1 triangle)"
-    assert repr(of.TetMesh(POINTS, [[0, 1, 2, 3]])) == "TetMesh(4 vertices, 1 tet)"
+    assert repr(of.TriangleMesh(POINTS, [[0, 2, 1]])) == "TriangleMesh(4 vertices, 1 triangle, box [0, 1] x [0, 1] x [0, 1])"
+    assert repr(of.TetMesh(POINTS, [[0, 1, 2, 3]])) == "TetMesh(4 vertices, 1 tet, box [0, 1] x [0, 1] x [0, 1])"
     assert repr(of.FeatureGraph([[0, 1]], [0, 1])) == "FeatureGraph(1 edge, 2 corners)"
     assert repr(of.BoundaryConstraints(kind=[0, 1, 1, 2])) == "BoundaryConstraints(1 free, 2 axis, 1 fixed)"
 

@@ -3,6 +3,7 @@
 import gzip
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -295,6 +296,8 @@ def test_doctor_finds_this_installation_sound(tmp_path):
     octafield("doctor", "--json", tmp_path / "d.json", "-q", check=0)
     record = json.loads((tmp_path / "d.json").read_text())
     assert record["ok"] and {c["state"] for c in record["checks"]} <= {"pass", "not installed"}
+    assert set(record["libraries"]) == {"CGAL", "CHOLMOD", "Ceres", "Eigen", "TetGen", "VTK"}
+    assert all(re.fullmatch(r"\d+(\.\d+)+", version) for version in record["libraries"].values())
     assert "smoothing (Ceres)" in {c["name"] for c in record["checks"] if c["state"] == "pass"}
 
 

@@ -8,11 +8,15 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 import yaml
 from docs_blocks import ROOT, blocks, python_of, run_page
 
 import octafield
+import octafield.study
+from octafield import _core
+from octafield.study.generators import generate
 
 DOCS = ROOT / "docs"
 PAGES = {str(page.relative_to(ROOT)): page for page in [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]}
@@ -21,7 +25,7 @@ MODULES = [m.name for m in pkgutil.walk_packages(octafield.__path__, "octafield.
 
 
 def test_the_pages_meant_to_run_do_have_blocks():
-    assert {"docs/first_steps.md", "docs/concepts.md", "docs/studies.md", "docs/reproducibility.md", "docs/install.md"} <= set(RUN)
+    assert {"docs/first_steps.md", "docs/concepts.md", "docs/studies.md", "docs/reproducibility.md", "docs/install.md", "docs/command_line.md"} <= set(RUN)
 
 
 @pytest.mark.parametrize("name", RUN)  # README.md: test_readme.py
@@ -59,6 +63,39 @@ def test_examples_in_docstrings_run(name, tmp_path, monkeypatch):
     assert found.failed == 0
     if name in ("octafield", "octafield.study", "octafield.interop"):
         assert found.attempted > 2
+
+
+def _examples_of_the_compiled_module():
+    documented = {name: getattr(thing, "__doc__", None) or "" for name, thing in vars(_core).items() if callable(thing)}
+    return {name: text for name, text in documented.items() if ">>>" in text}
+
+
+@pytest.mark.parametrize("name", _examples_of_the_compiled_module())
+def test_examples_in_docstrings_of_the_compiled_module_run(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    given = {"np": np, "octafield": octafield, "generate": generate}
+    examples = doctest.DocTestParser().get_doctest(_examples_of_the_compiled_module()[name], given, name, None, 0)
+    assert doctest.DocTestRunner().run(examples).failed == 0
+
+
+def test_what_a_script_uses_first_has_an_example():
+    first = {"TriangleMesh", "TetMesh", "read_surface", "write_surface", "require_valid", "repair", "detect_features", "remesh",
+             "tetrahedralize", "boundary_surface", "direction_field", "surface_singularities", "boundary_constraints", "initial_frames",
+             "diffuse", "smooth", "frame_field", "singular_graph", "dirichlet_energy", "stiffness", "mass", "write_field", "random_rotations",
+             "distance", "matching", "slerp", "sh4_embed", "sh4_project", "frame_streamlines", "tet_sampling", "Sampling"}  # fmt: skip
+    assert first - set(_examples_of_the_compiled_module()) == set()
+    written_here = {"compute_field", "compute_surface_field", "compare", "prepare", "prepare_mesh", "run", "FieldOptions", "to_pyvista",
+                    "from_pyvista", "to_meshio", "from_meshio", "to_scipy", "to_pandas", "from_pandas"}  # fmt: skip
+    assert [name for name in written_here if ">>> " not in (getattr(octafield, name).__doc__ or "")] == []
+    for name in ("load", "parse", "plan", "run", "status", "rows", "write_report"):
+        assert ">>> " in (getattr(octafield.study, name).__doc__ or "") or name in octafield.study.__doc__, name
+
+
+@pytest.mark.parametrize("name", sorted(set(octafield.__all__) - {"__version__", "no_number"}))
+def test_every_public_name_explains_itself(name):
+    thing = getattr(octafield, name)
+    words = [] if isinstance(thing, (dict, tuple, float)) else (thing.__doc__ or "").split()
+    assert isinstance(thing, (dict, tuple, float)) or len(words) > 4
 
 
 def test_every_public_name_is_on_one_page_of_the_api():

@@ -17,10 +17,13 @@ A folder holds study.json (the description), runs.sqlite (one table), runs/KEY (
 write_report(), report.html, results.csv and tables/. KEY is a hash of the input's content, the options and octafield's version.
 """
 
+from ..display import study_line
 from .description import Study, load, parse
 from .engine import Outcome, run
 from .plan import Run, plan
 from .report import write_report
 from .results import Status, rows, status
+
+Study.__repr__ = study_line  # type: ignore[method-assign, assignment]
 
 __all__ = ["Outcome", "Run", "Status", "Study", "load", "parse", "plan", "rows", "run", "status", "write_report"]

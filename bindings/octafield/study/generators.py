@@ -3,10 +3,12 @@
 import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from .._core import TriangleMesh
+from ..options import require_one_of
 
 
 @dataclass(frozen=True)
@@ -21,11 +23,22 @@ class Generator:
 
 
 def generate(name: str, **parameters: float) -> TriangleMesh:
-    """The surface of GENERATORS[name], not remeshed: faces are as large as its shape lets them be."""
+    """A closed surface by rule: "ball" (radius), "box" (x, y, z), "cylinder" (radius, height), "torus" (radius, tube) or
+    "nut" (of the package pyvista). parameters: input unit. Not remeshed: faces are as large as the shape lets them be.
+    Raises InvalidInput.
+
+        >>> from octafield.study.generators import generate
+        >>> generate("box", z=2)
+        TriangleMesh(8 vertices, 12 triangles, box [0, 1] x [0, 1] x [0, 2])
+    """
+    require_one_of("generator", name, GENERATORS)
+    known = GENERATORS[name].parameters
+    for given in parameters:
+        require_one_of(f"parameter of {name}", given, known)
     return GENERATORS[name].make(**parameters)
 
 
-def _closed(poly) -> TriangleMesh:
+def _closed(poly: Any) -> TriangleMesh:
     """Triangles with shared vertices, oriented outwards."""
     clean = poly.triangulate().clean(tolerance=1e-9)
     clean = clean.compute_normals(auto_orient_normals=True, split_vertices=False, cell_normals=False)

@@ -6,14 +6,19 @@ import glob
 import hashlib
 import itertools
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ..errors import InvalidInput, IoError
 from ..options import FieldOptions
 from ..phases import octafield_version
 from .description import FromFile, Generated, Study, field_options, mesh_options, place
 from .digests import Digests, digest_of
+
+
+Source = str | dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -23,21 +28,25 @@ class Run:
 
     key: str
     name: str
-    source: str | dict
+    source: str | dict[str, Any]
     options: FieldOptions
     repeat: int
 
+    def __repr__(self) -> str:
+        again = f", repeat {self.repeat}" if self.repeat else ""
+        return f"Run({self.key}: {self.name}, {self.options!r}{again})"
+
     @property
-    def group(self) -> tuple:
+    def group(self) -> tuple[str, str]:
         """Runs of equal group share their mesh and cross field."""
         mesh = {f.name: getattr(self.options, f.name) for f in dataclasses.fields(FieldOptions) if f.name in _SHARED}
         return (self.name, json.dumps(mesh, sort_keys=True))
 
-    def to_json(self) -> dict:
+    def to_json(self) -> dict[str, Any]:
         return {**vars(self), "options": dict(vars(self.options))}
 
     @classmethod
-    def from_json(cls, content: dict) -> "Run":
+    def from_json(cls, content: dict[str, Any]) -> "Run":
         return cls(**{**content, "options": FieldOptions(**content["options"])})
 
 
@@ -46,7 +55,13 @@ _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])
 
 def plan(study: Study, *, threads: int = 1, digests: Digests | None = None) -> list[Run]:
     """Every combination, inputs outermost, in the order of the file. Raises InvalidInput where a file or glob is not there.
-    digests: of files, kept from earlier times."""
+    digests: of files, kept from earlier times.
+
+        >>> from octafield import study
+        >>> described = study.parse("{name: two, inputs: [{generator: box}], runs: {representation: [sh4, su2]}, seeds: 3}")
+        >>> [(run.name, run.options.representation, run.options.seed) for run in study.plan(described)][:2]
+        [('box', 'sh4', 0), ('box', 'su2', 0)]
+    """
     digests = digests or Digests()
     runs: list[Run] = []
     taken: set[str] = set()
@@ -79,13 +94,13 @@ def _require_matching_rules(study: Study, names: set[str]) -> None:
 
 def groups(runs: list[Run]) -> list[list[Run]]:
     """Runs that share a mesh and cross field, in their order."""
-    found: dict[tuple, list[Run]] = {}
+    found: dict[tuple[str, str], list[Run]] = {}
     for run in runs:
         found.setdefault(run.group, []).append(run)
     return list(found.values())
 
 
-def _runs_on(study: Study, entry, source, name: str, digest: str, threads: int) -> list[Run]:
+def _runs_on(study: Study, entry: FromFile | Generated, source: Source, name: str, digest: str, threads: int) -> list[Run]:
     mesh = mesh_options(study, entry)
     rules = [rule for rule in study.skip if fnmatch.fnmatchcase(name, str(rule.get("input", "*")))]
     rules = [{key: value for key, value in rule.items() if key != "input"} for rule in rules]
@@ -107,10 +122,10 @@ def _key(digest: str, options: FieldOptions, repeat: int) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:20]
 
 
-def _sources(study: Study, entry: FromFile | Generated, digests: Digests):
+def _sources(study: Study, entry: FromFile | Generated, digests: Digests) -> Iterator[tuple[Source, str, str]]:
     """(source, stem of a name, digest of the content) of each input that an entry stands for."""
     if isinstance(entry, Generated):
-        spec = {"generator": entry.generator, "with": dict(sorted(entry.with_.items()))}
+        spec: dict[str, Any] = {"generator": entry.generator, "with": dict(sorted(entry.with_.items()))}
         numbers = "".join(f" {name} {value:g}" for name, value in spec["with"].items())
         yield spec, entry.generator + numbers, json.dumps(spec)
         return

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from .plan import Run, plan
 from .store import Store
@@ -23,8 +24,16 @@ class Status:
         return self.done + self.failed + self.crashed + self.open
 
 
-def rows(folder: str | Path) -> list[dict]:
-    """Records of the finished runs of the study, in the order of its description; state: done, failed or crashed."""
+def rows(folder: str | Path) -> list[dict[str, Any]]:
+    """Records of the finished runs of the study, in the order of its description; state: done, failed or crashed. Raises
+    InvalidInput where `folder` is not that of a study.
+
+        >>> from octafield import study
+        >>> described = study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}")
+        >>> outcome = study.run(described, "folder")
+        >>> [row["singular_edges"] for row in study.rows("folder")]
+        [0]
+    """
     store = Store(folder)
     runs = plan(store.study(), digests=store.digests())
     known = store.entered()
@@ -32,6 +41,13 @@ def rows(folder: str | Path) -> list[dict]:
 
 
 def status(folder: str | Path) -> Status:
+    """Of the study that `folder` holds. Raises InvalidInput where it holds none.
+
+        >>> from octafield import study
+        >>> outcome = study.run(study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}"), "folder")
+        >>> study.status("folder")
+        Status(done=1, failed=0, crashed=0, open=0)
+    """
     store = Store(folder)
     return status_of(store, plan(store.study(), digests=store.digests()))
 

@@ -1,0 +1,127 @@
+"""Commands that look and tell: info, representations, doctor, view."""
+
+import math
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import console, tables
+from .cli_options import EdgeLength, FeatureAngle, Features, InputFile, Interfaces, Json, Quiet, Remesh, Repair, Split, Verbose
+from .console import carry_out, log
+from .errors import InvalidInput
+from .options import MeshOptions
+
+app = typer.Typer()
+
+_MESH = MeshOptions()
+_ANGLE = round(math.degrees(_MESH.feature_angle), 6)
+
+
+@app.command()
+def info(
+    input: InputFile,
+    features: Features = _MESH.features,
+    feature_angle: FeatureAngle = _ANGLE,
+    edge_length: EdgeLength = _MESH.edge_length,
+    remesh: Remesh = _MESH.remesh,
+    repair: Repair = _MESH.repair,
+    interfaces: Interfaces = _MESH.interfaces,
+    split: Split = _MESH.split,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """What was read, and pass, warn or fail of each requirement with the remedy; exit code 2 when one fails."""
+
+    def work() -> None:
+        from .info import PASS, examine, first_failure
+
+        options = MeshOptions(
+            features=features,
+            feature_angle=math.radians(feature_angle),
+            edge_length=edge_length,
+            remesh=remesh,
+            repair=repair,
+            interfaces=interfaces,
+            split=split,
+        )
+        record = examine(input, options)
+        if json:
+            console.put_json(json, record)
+        unread = record["requirements"][0]["state"] != PASS
+        if json != "-" and not quiet and not unread:
+            tables.show_info(record)
+        for note in record["notes"]:
+            log.info("%s: %s", record["input"], note)
+        failure = first_failure(record)
+        if failure:
+            message = failure["message"] if str(input) in failure["message"] else f"{input}: {failure['message']}"
+            raise InvalidInput(message, failure["kind"], failure["elements"])
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """Representations of a frame and metrics on frames, by the names that options and functions take."""
+
+    def work() -> None:
+        from . import metrics
+        from . import representations as known
+
+        record = {
+            "representations": [
+                {"name": r.name, "dimension": r.dimension, "speed": r.speed, "rotates_linearly": r.rotate is not None}
+                for r in known.values()
+            ],
+            "metrics": [{"name": m.name, "speed": m.speed, "description": m.description} for m in metrics.values()],
+        }
+        if json:
+            console.put_json(json, record)
+        if json != "-" and not quiet:
+            tables.show_registry(record)
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def doctor(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """Versions, libraries, cores, memory, and a small run of every part of this installation; exit code 1 when one fails."""
+
+    def work() -> None:
+        from .doctor import examine
+
+        record = examine()
+        if json:
+            console.put_json(json, record)
+        if json != "-" and not quiet:
+            tables.show_doctor(record)
+        if not record["ok"]:
+            raise typer.Exit(console.DEFECT)
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def view(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that `octafield field` wrote.")],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="PNG", help="Write a picture in place of opening a window.")
+    ] = None,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """The singular curves of a result inside its surface, in a window."""
+
+    def work() -> None:
+        from .display import view_folder
+
+        record = view_folder(folder, output)
+        if json:
+            console.put_json(json, record)
+        if output is not None:
+            log.info("wrote %s", output)
+
+    carry_out(work, quiet, verbose, json)

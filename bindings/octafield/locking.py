@@ -1,0 +1,38 @@
+"""Tets, edges and triangles inside a mesh that join its surface to itself: counted, and split on request."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+from ._core import LockingElements
+from .inputs import Input, with_regions
+from .options import MeshOptions
+
+if TYPE_CHECKING:
+    from .meshing import MeshedInput
+
+
+def split_on_request(mesh: Input | MeshedInput, options: MeshOptions) -> dict[str, Any]:
+    """Counts what joins the surface to itself and splits it on request: tets, regions and boundary change, surface
+    vertices and features stay."""
+    if mesh.tets is None or mesh.boundary is None:
+        return {}
+    if not options.split:
+        found = _core.find_locking(mesh.tets, mesh.boundary)
+        return _locking_record(found)
+    split = _core.split_locking(mesh.tets, mesh.boundary)
+    mesh.tets = split.mesh
+    regions = None if mesh.regions is None else np.asarray(mesh.regions)[np.asarray(split.parent)]
+    with_regions(mesh, regions)
+    return _locking_record(split.found) | {
+        "added_vertices": split.added_vertices,
+        "added_tets": len(split.parent) - len(np.unique(split.parent)),
+        "left": len(split.left),
+    }
+
+
+def _locking_record(found: LockingElements) -> dict[str, Any]:
+    return {"tets": len(found.tets), "edges": len(found.edges), "triangles": len(found.triangles)}

@@ -1,0 +1,235 @@
+"""Every public class: a telling repr, pickles and copies with every bit, pictures in notebooks."""
+
+import copy
+import dataclasses
+import inspect
+import pickle
+import sys
+import types
+
+import numpy as np
+import pydantic
+import pytest
+import scipy.sparse
+
+import octafield as of
+from octafield import display, notebook, study
+from octafield.study.generators import generate
+
+CLASSES = sorted({getattr(of, name) for name in of.__all__ if inspect.isclass(getattr(of, name))}
+                 | {getattr(study, name) for name in study.__all__ if inspect.isclass(getattr(study, name))}, key=lambda c: c.__name__)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def field():
+    return of.compute_field(generate("cylinder"), of.FieldOptions(edge_length=0.35, streamlines=3))
+
+
+@pytest.fixture(scope="module")
+def objects(field, tmp_path_factory):
+    """Instances of every class, found in results of real calls."""
+    folder = tmp_path_factory.mktemp("objects")
+    box = of.prepare_mesh(generate("box"), of.MeshOptions(edge_length=0.4))
+    surface, tets, frames = field.surface, field.tets, field.frames
+    two = np.r_[np.zeros(1, int), np.ones(len(tets.tets) - 1, int)]
+    open_box = generate("box")
+    open_box.triangles = open_box.triangles[1:]
+    in_tets = of.compute_field(tets, of.FieldOptions(sampling="tets", streamlines=0))
+    meshed = of.prepare_mesh(generate("box"), of.MeshOptions(edge_length=0.4))
+    described = study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}")
+    boundary = of.boundary_surface(tets)
+    everything = [
+        field, in_tets, meshed, of.prepare(meshed), of.compute_surface_field(generate("torus"), of.SurfaceFieldOptions(curvature=1)),
+        of.compare(generate("box"), folder / "compared", representations=["sh4"], boundaries=["aligned"], options=of.FieldOptions(edge_length=0.5)),
+        boundary, of.region_surface(tets, two), of.cut_into_sheets(of.region_surface(tets, two).surface.mesh),
+        of.split_locking(tets, boundary), of.find_defects(open_box), of.repair(open_box), of.remesh(generate("box"), of.detect_features(generate("box"))),
+        of.edge_topology(surface), of.feature_tangents(surface, field.features), of.sector_normals(surface, field.features),
+        of.principal_directions(surface, field.features), of.locate_points(tets, [[0, 0, 0.5], [9, 9, 9]]), of.smoothed_curves(field.singular_graph),
+        of.frame_field(tets, field.constraints, max_steps=2, max_iterations=2), of.vertex_sampling(tets), of.tet_sampling(tets),
+        of.Sampling(of.tet_sampling(tets).stiffness, of.tet_sampling(tets).mass, 1, 1, 2, "tets"),
+        of.singular_edges(tets, in_tets.tet_frames), of.singular_graph(tets, of.random_rotations(len(frames))),
+        of.local_meshability(tets, of.random_rotations(len(frames)), of.singular_graph(tets, of.random_rotations(len(frames)))),
+        of.boundary_meshability(tets, boundary, field.features, of.random_rotations(len(frames))),
+        of.boundary_meshability(box.tets, box.boundary, box.features, of.random_rotations(len(box.tets.vertices))),
+        of.DirectionConstraints([[0, 1]], [[1, 0, 0]], [2.0]), of.DirectionGuide([[1, 0, 0]], [1], 3), of.VertexConstraints([3], [1], [[0, 0, 1]]),
+        of.MeshOptions(repair=True), of.FieldOptions(seed=3), of.SurfaceFieldOptions(symmetry=6), list(of.representations.values()), list(of.metrics.values()),
+        described, study.plan(described), study.run(described, folder / "study"),
+        *(error("what; the remedy", "a_kind", [1, 2]) for error in (of.Error, of.InvalidInput, of.GeometryError, of.SolverError, of.IoError, of.Cancelled)),
+    ]  # fmt: skip
+    found = {}
+    for thing in everything:
+        collect(thing, found)
+    return found
+
+
+def parts(value):
+    """Names and values of what an object holds."""
+    if dataclasses.is_dataclass(value):
+        return {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
+    if isinstance(value, of.Error):
+        return {"message": str(value), "kind": value.kind, "elements": value.elements}
+    if isinstance(value, pydantic.BaseModel):
+        return dict(value)
+    if type(value).__module__.startswith("octafield"):
+        properties = [n for n in dir(type(value)) if isinstance(getattr(type(value), n), property)]
+        return {name: getattr(value, name) for name in properties} or vars(value)
+    return {}
+
+
+def collect(value, found):
+    if isinstance(value, (list, tuple)):
+        for item in value[:50]:
+            collect(item, found)
+        return
+    kind = type(value)
+    if kind.__module__.startswith("octafield") and len(found.setdefault(kind, [])) < 4:
+        found[kind].append(value)
+    for part in parts(value).values():
+        if not isinstance(part, (np.ndarray, dict, str)):
+            collect(part, found)
+
+
+def identical(a, b, where="value"):
+    assert type(a) is type(b), where
+    if isinstance(a, np.ndarray):
+        assert a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes(), where
+    elif scipy.sparse.issparse(a):
+        assert all((getattr(a, part) == getattr(b, part)).all() for part in ("data", "indices", "indptr")), where
+    elif isinstance(a, (list, tuple)):
+        assert len(a) == len(b), where
+        for k, (x, y) in enumerate(zip(a, b, strict=True)):
+            identical(x, y, f"{where}[{k}]")
+    elif isinstance(a, dict):
+        assert list(a) == list(b), where
+        for key in a:
+            identical(a[key], b[key], f"{where}[{key!r}]")
+    elif inner := {} if isinstance(a, types.BuiltinFunctionType) else parts(a):
+        for name in inner:
+            identical(inner[name], parts(b)[name], f"{where}.{name}")
+    elif isinstance(a, float):
+        assert a.hex() == b.hex(), where
+    else:
+        assert a == b, where
+
+
+@pytest.mark.parametrize("cls", CLASSES, ids=lambda cls: cls.__name__)
+def test_pickles_and_copies_hold_every_bit(cls, objects):
+    assert objects.get(cls), f"add something that holds a {cls.__name__} to the objects above"
+    for value in objects[cls]:
+        for again in (pickle.loads(pickle.dumps(value)), copy.deepcopy(value), copy.copy(value)):
+            identical(value, again, cls.__name__)
+
+
+@pytest.mark.parametrize("cls", CLASSES, ids=lambda cls: cls.__name__)
+def test_reprs_are_one_short_line_with_the_class(cls, objects):
+    for value in objects[cls]:
+        text = repr(value)
+        if issubclass(cls, of.Error) or cls is of.Defect:
+            assert text.startswith(cls.__name__)
+            continue
+        assert text.startswith(f"{cls.__name__}(") and text.endswith(")")
+        assert "\n" not in text and len(text) < 320 and " object at 0x" not in text and "array(" not in text
+        assert any(c.isdigit() for c in text) or cls in (of.MeshOptions, of.FieldOptions, of.Metric)
+
+
+def test_reprs_tell_counts_and_ranges(field, objects):
+    assert repr(field.tets).startswith(f"TetMesh({len(field.tets.vertices)} vertices, {len(field.tets.tets)} tets, box [-")
+    assert repr(field).startswith("FieldResult(mesh in memory: ")
+    (comparison,) = objects[of.Comparison]
+    assert repr(comparison).startswith("Comparison(1 run: 1 input, 1 representation, 1 boundary; E ")
+    assert "complex" in repr(field.singular_graph) and "length" in repr(field.singular_graph)
+    assert repr(of.VertexConstraints([1, 2], [1, 2])) == "VertexConstraints(2 vertices: 0 free, 1 axis, 1 fixed)"
+    assert repr(study.parse("{name: two, inputs: [{generator: box}], runs: {boundary: [aligned, fixed]}, seeds: 3}")) == (
+        "Study(two: 1 input, boundary: aligned, fixed; 3 seeds)"
+    )
+    assert repr(of.metrics["geodesic"]).startswith("Metric(geodesic: ")
+
+
+def test_reprs_of_options_are_what_differs_from_the_defaults():
+    options = of.SurfaceFieldOptions(symmetry=6, features="none")
+    assert repr(options) == "SurfaceFieldOptions(features='none', symmetry=6)"
+    assert eval(repr(options), vars(of)) == options
+
+
+SHOWN = ("FieldResult", "SurfaceFieldResult", "SingularGraph", "TriangleMesh", "TetMesh")
+
+
+@pytest.mark.parametrize("name", [*SHOWN, "Comparison"])
+def test_notebooks_get_a_picture_and_the_figures_or_these_alone(name, objects, monkeypatch):
+    value = objects[getattr(of, name)][0]
+    shown = value._repr_html_()
+    assert ("data:image/png;base64," in shown) == (name in SHOWN) and "<table>" in shown and "</div>" in shown
+    monkeypatch.setattr("octafield.scene.can_draw", lambda: False)
+    plain = value._repr_html_()
+    assert "<img" not in plain and "<table>" in plain
+
+
+@pytest.mark.parametrize("value", [of.TriangleMesh(), of.TetMesh(), of.SingularGraph()], ids=repr)
+def test_empty_objects_show_themselves_too(value):
+    assert "<table>" in value._repr_html_()
+
+
+def test_names_from_files_are_no_markup(field):
+    result = copy.copy(field)
+    result.record = {**field.record, "input": "<script>alert(1)</script>"}
+    assert "<script>" not in result._repr_html_()
+
+
+class _Display(list):
+    """IPython's display functions, as far as they are used."""
+
+    def install(self, monkeypatch, kernel):
+        module = types.ModuleType("IPython.display")
+        module.display, module.HTML = self.append, lambda text: text
+        ipython = types.ModuleType("IPython")
+        ipython.display = module
+        ipython.get_ipython = lambda: types.SimpleNamespace(kernel=1) if kernel else types.SimpleNamespace()
+        monkeypatch.setitem(sys.modules, "IPython", ipython)
+        monkeypatch.setitem(sys.modules, "IPython.display", module)
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_in_jupyter_pyvista_shows_the_scene_where_it_has_a_backend(name, objects, monkeypatch):
+    import pyvista
+
+    value = objects[getattr(of, name)][0]
+    with pytest.raises(NotImplementedError):  # IPython then takes the HTML
+        value._ipython_display_()
+    shown = _Display()
+    shown.install(monkeypatch, kernel=True)
+    monkeypatch.setattr(notebook, "_installed", lambda package: package == "trame_vtk")
+    monkeypatch.setattr(pyvista.Plotter, "show", lambda self, **how: ("a view", how))
+    value._ipython_display_()
+    assert shown[0] == ("a view", {"return_viewer": True}) and "<table>" in shown[1]
+    monkeypatch.setattr(pyvista.global_theme, "_jupyter_backend", "static", raising=False)
+    with pytest.raises(NotImplementedError):
+        value._ipython_display_()
+
+
+def test_no_scene_without_a_kernel_without_trame_or_without_opengl(objects, monkeypatch):
+    value = objects[of.TriangleMesh][0]
+    _Display().install(monkeypatch, kernel=False)
+    monkeypatch.setattr(notebook, "_installed", lambda package: True)
+    assert not notebook.live_backend()
+    _Display().install(monkeypatch, kernel=True)
+    assert notebook.live_backend()
+    monkeypatch.setattr("octafield.scene.can_draw", lambda: False)
+    with pytest.raises(NotImplementedError):
+        value._ipython_display_()
+    monkeypatch.setattr(notebook, "_installed", lambda package: False)
+    assert not notebook.live_backend()
+
+
+def test_the_scene_of_a_result_can_be_drawn_without_a_display(field, monkeypatch):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    scene = display.scene_of(field)
+    assert scene.screenshot(return_img=True).std() > 1
+    scene.close()
+
+
+def test_drawing_leaves_the_settings_of_pyvista_alone(field):
+    import pyvista
+
+    before = pyvista.OFF_SCREEN
+    field._repr_html_()
+    assert pyvista.OFF_SCREEN == before
