@@ -80,7 +80,7 @@ def test_without_opengl_the_report_goes_without_pictures_and_says_so(tmp_path, m
 
     monkeypatch.setattr(scene, "can_draw", lambda: False)
     page = compare(write_cube(tmp_path), tmp_path / "out", representations=("sh4",), options=COARSE).to_html()
-    assert "<img" not in page and scene.NO_OPENGL in page and 'class="view"' in page
+    assert "<img" not in page and scene.NO_OPENGL in page and 'data-scene="0"' in page
 
 
 def test_captions_state_the_index_sum_and_the_table_the_energy(comparison, page):

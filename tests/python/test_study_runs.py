@@ -186,12 +186,12 @@ def test_cancelling_keeps_what_is_finished(described, tmp_path):
 def test_reports_show_what_every_kind_of_run_has(undisturbed, described, tmp_path):
     page = study.write_report(undisturbed)
     text = page.read_text()
-    assert "Runs without a field" in text and "nothing_here_1.stl" in text and 'class="view"' in text
+    assert "Runs without a field" in text and "nothing_here_1.stl" in text and 'data-scene="0"' in text
     assert {path.name for path in (page.parent / "tables").iterdir()} == {f"{stem}.{end}" for stem in ("summary", "deviations", "inputs", "runs") for end in ("csv", "tex")}
     assert len(list(csv.DictReader((page.parent / "results.csv").open()))) == 12
     require_sound(text, page.parent)
     mixed = "{name: m, inputs: [{generator: box, mesh: {edge_length: 0.4}}], runs: {sampling: [vertices, tets]}, fields: false}"
     study.run(study.parse(mixed), tmp_path / "mixed")
     text = study.write_report(tmp_path / "mixed").read_text()
-    assert 'class="view"' not in text and "frames in tets" in text
+    assert 'data-scene="0"' not in text and "frames in tets" in text
     require_sound(text, tmp_path / "mixed")

@@ -83,8 +83,8 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
         "", "integrability.jump_rms", terminal=False,
     ),
     _of("iterations", "d", "diffusion steps and iterations of smoothing", key="iterations"),
-    _of("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads", "seconds", "cpu_seconds.smooth"),
-    _of("smooth", ".3f", "the same by the clock", "seconds", "wall_seconds.smooth"),
+    _of("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads", "seconds", "cpu_seconds.smooth", terminal=False),
+    _of("smooth", ".3f", "the same by the clock", "seconds", "wall_seconds.smooth", terminal=False),
     RunColumn(
         "total", ".2f", "all phases by the clock, those that runs share included", "seconds",
         lambda _, run: sum(run.row["wall_seconds"].values()) if run.done else None,

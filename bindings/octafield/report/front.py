@@ -35,7 +35,7 @@ class Front:
         if self.energy_profiles:
             energy.append(prose.profile(self.energy_profiles, cite("profiles")))
         graphs = [*prose.graphs(self.lines, cite("summary")), prose.convergence(results, cite("runs"))]
-        time = f"{prose.times(results, both)} {prose.shared_time(results, cite('inputs'))}".strip()
+        time = f"{prose.times(results, cite('summary'), cite('ratios'))} {prose.shared_time(results, cite('inputs'))}".strip()
         distances = self.matrix + self.boxes
         if distances and len(results.methods) <= MANY:
             distances = f'<div class="figures">{distances}</div>'

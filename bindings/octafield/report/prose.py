@@ -231,8 +231,8 @@ def _coinciding(found: Deviations) -> list[list[Method]]:
     return [[found.methods[k] for k in group] for group in groups]
 
 
-def times(results: Results, cite: str) -> str:
-    """What methods cost, those with a field wherever any has one."""
+def times(results: Results, cite: str, ratios: str) -> str:
+    """What methods cost, those with a field wherever any has one. ratios: where these are shown."""
     seconds = smoothing_seconds(results, results.problems)
     solved = np.isfinite(np.min(list(seconds.values()), axis=0)) if seconds else np.zeros(0, bool)
     complete = {method: own[solved] for method, own in seconds.items() if solved.any() and np.isfinite(own[solved]).all()}
@@ -241,9 +241,10 @@ def times(results: Results, cite: str) -> str:
     total = {method: float(own.sum()) for method, own in complete.items()}
     alone = f" with {named(complete)}" if len(complete) == 1 < len(results.methods) else ""
     text = [f"smoothing takes {spread(total, '.3g')} processor seconds{alone}{_in_all(int(solved.sum()))} {cite}"]
-    slow = {method: geometric_mean(ratio) for method, ratio in ratios_to_best(complete).items() if len(ratio)}
-    if len(slow) > 1:
-        text.append(f"relative to the fastest of these methods on each problem that is a factor of {spread(slow, '.2f')} on geometric mean {cite}")
+    over = ratios_to_best(seconds)
+    slow = {method: geometric_mean(over[method]) for method in complete if len(over[method])}
+    if len(results.methods) > 1 and slow:
+        text.append(f"relative to the fastest method on each problem that is a factor of {spread(slow, '.2f')} on geometric mean {ratios}")
     missing = [method for method in results.methods if method not in complete]
     if missing:
         text.append(f"left out of times, for want of a field on some problem that another method solves: {named(missing)} {cite}")
