@@ -183,12 +183,13 @@ def write_memory(folder: Path, found: list[Measured]) -> None:
 def write_fit(folder: Path, balls: list[Measured]) -> None:
     header = ["step", "bytes per vertex", "bytes per tet", "million tets per GB", "CPU s per million tets"]
     per_tet = lambda of, value: slope([m.tets for m in of], [value(m) for m in of]) * 1e6
-    rows, ratio = [], slope([m.vertices for m in balls], [m.tets for m in balls])
+    rows, rates, ratio = [], {}, slope([m.vertices for m in balls], [m.tets for m in balls])
 
     def add(name: str, mb: float, of: list[Measured], seconds) -> None:
         timed = [m for m in of if seconds(m) is not None]
         largest = max(timed, key=lambda m: m.tets)
-        rows.append((name, f"{mb * ratio:,.0f}", f"{mb:,.0f}", f"{1e3 / mb:.1f}", f"{1e6 * seconds(largest) / largest.tets:.0f} (at {largest.tets:,})"))
+        rates[name] = 1e6 * seconds(largest) / largest.tets
+        rows.append((name, f"{mb * ratio:,.0f}", f"{mb:,.0f}", f"{1e3 / mb:.1f}", f"{rates[name]:.0f} (at {largest.tets:,})"))
 
     add("reading, meshing, cross field", per_tet(balls, lambda m: max(m.mesh_mb, m.surface_mb)), balls, lambda m: m.prepare_s)
     for name in REPRESENTATIONS:
@@ -196,6 +197,15 @@ def write_fit(folder: Path, balls: list[Measured]) -> None:
         if len(of) > 1:
             add(f"field by {name}", per_tet(of, lambda m: m.run_mb), of, lambda m: m.run_s)
     (folder / "fit.md").write_text(markdown_table(header, rows))
+    write_hours(folder, rates)
+
+
+def write_hours(folder: Path, rates: dict[str, float], meshes: int = 10_000, millions: float = 0.1, cores: int = 64) -> None:
+    """Of a sweep with one run on each mesh, and with all."""
+    prepare, *fields = rates.values()
+    hours = lambda *of: f"{meshes * (1 + millions * (prepare + sum(of))) / 3600 / cores:.1f}"
+    rows = [(name.removeprefix("field by "), hours(rate)) for name, rate in list(rates.items())[1:]] + [("all of them", hours(*fields))]
+    (folder / "hours.md").write_text(markdown_table(["representation", "hours"], rows))
 
 
 def write_disk(folder: Path, balls: list[Measured]) -> None:
