@@ -1,4 +1,4 @@
-"""Peak memory to expect of the process of a group: fitted to measurements (docs/scaling.md), a quarter more."""
+"""Peak memory to expect of the process of a group: fitted to measurements (docs/scaling.md), and at least a quarter more."""
 
 from ..options import FieldOptions
 from .plan import Run
@@ -6,7 +6,7 @@ from .plan import Run
 _PROCESS_MB = 260.0  # Python, its libraries, small arrays
 _TET_SAMPLING = 3.5  # over frames at vertices: there are five to six times as many tets, but fewer neighbours
 # Megabytes per tet.
-_SECOND_ORDER, _SH469, _FIRST_ORDER, _LEAST_SQUARES = 5e-4, 7.5e-4, 2e-3, 4.8e-3
+_SECOND_ORDER, _SH469, _FIRST_ORDER, _METRIC, _LEAST_SQUARES = 4.5e-4, 6.5e-4, 2e-3, 3.5e-3, 4.8e-3
 
 
 def needed_mb(tets: float, runs: list[Run]) -> float:
@@ -19,7 +19,9 @@ def _mb_per_tet(options: FieldOptions) -> float:
 
     if options.solver == "lbfgs" or options.representation == "odeco_lengths":
         mb = _FIRST_ORDER
-    elif options.solver == "levenberg_marquardt" or options.representation not in _core.representations:
+    elif options.representation not in _core.representations:
+        mb = _METRIC
+    elif options.solver == "levenberg_marquardt":
         mb = _LEAST_SQUARES
     else:
         mb = _SH469 if options.representation == "sh469" else _SECOND_ORDER
