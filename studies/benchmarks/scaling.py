@@ -35,6 +35,10 @@ from .pages import page, when
 
 REPRESENTATIONS = ("sh4", "sh469", "geodesic", "su2_midpoint")
 BY_CERES = ("geodesic", "su2_midpoint")
+HEADER = [
+    "mesh", "representation", "vertices", "tets", "reading, meshing MB", "cross field MB", "field, files MB", "process, all MB", "expected by studies MB",
+    "preparing CPU s", "field, files CPU s",
+]  # fmt: skip
 FULL_RUN = 300_000  # tets up to which those run to their end
 TETS_PER_CUBED_EDGE = {"ball": 43.5, "box": 10.4}  # of these bodies, over one by the cubed edge length
 TEXT = Path(__file__).with_name("texts") / "scaling.md"
@@ -165,13 +169,13 @@ def memory_part(folder: Path, sizes: list[int]) -> None:
 
 
 def write_memory(folder: Path, found: list[Measured]) -> None:
-    header = ["mesh", "representation", "vertices", "tets", "reading, meshing MB", "cross field MB", "field, files MB", "process, all MB", "expected by studies MB", "preparing CPU s", "field, files CPU s"]
     rows = []
     for m in found:
         (run,) = study.plan(study.parse(f"{{name: x, inputs: [{{generator: ball}}], runs: {{representation: {m.representation}}}}}"))
-        rows.append((m.body, m.representation, f"{m.vertices:,}", f"{m.tets:,}", f"{m.mesh_mb:.0f}", f"{m.surface_mb:.0f}", f"{m.run_mb:.0f}", f"{m.start_mb + m.peak_mb:.0f}",
-                     f"{needed_mb(m.tets, [run]):.0f}", f"{m.prepare_s:.2f}", "-" if m.run_s is None else f"{m.run_s:.2f}"))  # fmt: skip
-    (folder / "memory.md").write_text(markdown_table(header, rows))
+        megabytes = (m.mesh_mb, m.surface_mb, m.run_mb, m.start_mb + m.peak_mb, needed_mb(m.tets, [run]))
+        seconds = (f"{m.prepare_s:.2f}", "-" if m.run_s is None else f"{m.run_s:.2f}")
+        rows.append((m.body, m.representation, f"{m.vertices:,}", f"{m.tets:,}", *(f"{mb:,.0f}" for mb in megabytes), *seconds))
+    (folder / "memory.md").write_text(markdown_table(HEADER, rows))
     balls = [m for m in found if m.body == "ball"]
     if len({m.tets for m in balls}) > 1:
         write_fit(folder, balls)
@@ -183,12 +187,13 @@ def write_memory(folder: Path, found: list[Measured]) -> None:
 def write_fit(folder: Path, balls: list[Measured]) -> None:
     header = ["step", "bytes per vertex", "bytes per tet", "million tets per GB", "CPU s per million tets"]
     per_tet = lambda of, value: slope([m.tets for m in of], [value(m) for m in of]) * 1e6
-    rows, ratio = [], slope([m.vertices for m in balls], [m.tets for m in balls])
+    rows, rates, ratio = [], {}, slope([m.vertices for m in balls], [m.tets for m in balls])
 
     def add(name: str, mb: float, of: list[Measured], seconds) -> None:
         timed = [m for m in of if seconds(m) is not None]
         largest = max(timed, key=lambda m: m.tets)
-        rows.append((name, f"{mb * ratio:,.0f}", f"{mb:,.0f}", f"{1e3 / mb:.1f}", f"{1e6 * seconds(largest) / largest.tets:.0f} (at {largest.tets:,})"))
+        rates[name] = 1e6 * seconds(largest) / largest.tets
+        rows.append((name, f"{mb * ratio:,.0f}", f"{mb:,.0f}", f"{1e3 / mb:.1f}", f"{rates[name]:.0f} (at {largest.tets:,})"))
 
     add("reading, meshing, cross field", per_tet(balls, lambda m: max(m.mesh_mb, m.surface_mb)), balls, lambda m: m.prepare_s)
     for name in REPRESENTATIONS:
@@ -196,6 +201,15 @@ def write_fit(folder: Path, balls: list[Measured]) -> None:
         if len(of) > 1:
             add(f"field by {name}", per_tet(of, lambda m: m.run_mb), of, lambda m: m.run_s)
     (folder / "fit.md").write_text(markdown_table(header, rows))
+    write_hours(folder, rates)
+
+
+def write_hours(folder: Path, rates: dict[str, float], meshes: int = 10_000, millions: float = 0.1, cores: int = 64) -> None:
+    """Of a sweep with one run on each mesh, and with all."""
+    prepare, *fields = rates.values()
+    hours = lambda *of: f"{meshes * (1 + millions * (prepare + sum(of))) / 3600 / cores:.1f}"
+    rows = [(name.removeprefix("field by "), hours(rate)) for name, rate in list(rates.items())[1:]] + [("all of them", hours(*fields))]
+    (folder / "hours.md").write_text(markdown_table(["representation", "hours"], rows))
 
 
 def write_disk(folder: Path, balls: list[Measured]) -> None:
@@ -203,7 +217,8 @@ def write_disk(folder: Path, balls: list[Measured]) -> None:
     rows = []
     for m in balls:
         rest = sum(size for name, size in m.disk.items() if name not in ("result.json", "field.vtu"))
-        rows.append((f"{m.vertices:,}", f"{m.tets:,}", f"{m.disk['result.json'] / 1e3:.1f}", f"{m.disk['field.vtu'] / 1e6:.2f}", f"{rest / 1e6:.2f}", f"{sum(m.disk.values()) / m.vertices:.0f}"))
+        sizes = (f"{m.disk['result.json'] / 1e3:.1f}", f"{m.disk['field.vtu'] / 1e6:.2f}", f"{rest / 1e6:.2f}")
+        rows.append((f"{m.vertices:,}", f"{m.tets:,}", *sizes, f"{sum(m.disk.values()) / m.vertices:.0f}"))
     (folder / "disk.md").write_text(markdown_table(header, rows))
 
 

@@ -15,7 +15,7 @@ from .plan import Run
 PREPARE = "prepare"  # the method of reading, meshing and the cross field
 # Seconds on a million tets, one thread; they matter until runs of the method are finished.
 _SECONDS_PER_MILLION = {
-    PREPARE: 12.0, "sh4": 20.0, "tensor4": 22.0, "odeco": 22.0, "sh469": 30.0, "su2": 50.0, "geodesic": 130.0, "su2_midpoint": 400.0, "odeco_lengths": 1000.0,
+    PREPARE: 10.0, "sh4": 30.0, "tensor4": 33.0, "odeco": 33.0, "sh469": 70.0, "su2": 70.0, "geodesic": 160.0, "su2_midpoint": 250.0, "odeco_lengths": 1000.0,
 }  # fmt: skip
 _UNKNOWN_METHOD = 100.0
 _LEAST = 0.2  # seconds of a run on any mesh

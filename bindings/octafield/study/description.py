@@ -166,7 +166,7 @@ def mesh_options(study: Study, entry: FromFile | Generated) -> MeshOptions:
 
 
 def field_options(mesh: MeshOptions, chosen: dict[str, Scalar], seed: int, threads: int) -> FieldOptions:
-    return FieldOptions(**dataclasses.asdict(mesh), **_converted(chosen), seed=seed, threads=threads)
+    return FieldOptions(**vars(mesh), **_converted(chosen), seed=seed, threads=threads)
 
 
 def _converted(options: dict[str, Scalar]) -> dict[str, Any]:
