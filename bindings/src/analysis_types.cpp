@@ -165,9 +165,8 @@ void bind_measure_types(py::module_& m) {
         .field("points", &SmoothedCurves::points, "(p, 3) float64, in the place of SingularGraph.points.")
         .field("lengths", &SmoothedCurves::lengths, "float64 per curve, input unit.")
         .field("length", &SmoothedCurves::length, "Their sum.")
-        .finish([](const SmoothedCurves& c) {
-            return count(c.lengths.size(), "curve") + ", length " + number(c.length);
-        });
+        .finish(
+            [](const SmoothedCurves& c) { return count(c.lengths.size(), "curve") + ", length " + number(c.length); });
 
     Record<Integrability>(m, "Integrability", "How far a frame field is from the gradients of a map.")
         .field("jump_rms", &Integrability::jump_rms,

@@ -1,5 +1,6 @@
 // Examples in the docstrings of the module, apart from the functions so that either can be read. They run as tests
-// (tests/python/test_docs.py) after: import numpy as np; import octafield; from octafield.study.generators import generate
+// (tests/python/test_docs.py) after: import numpy as np; import octafield; from octafield.study.generators import
+// generate
 #include <pybind11/pybind11.h>
 
 #include <cstdlib>
@@ -143,9 +144,6 @@ constexpr Example of_frames[] = {
     >>> q = octafield.frame_from_axes([1, 1, 0], [0, 0, 1])  # along a diagonal, normal z
     >>> round(float(np.degrees(octafield.distance(q, [1, 0, 0, 0]))), 10)
     45.0)"},
-    {"octahedral_group", R"(
-    >>> octafield.octahedral_group().shape
-    (24, 4))"},
     {"distance", R"(
     >>> quarter = [np.cos(np.pi / 4), 0, 0, np.sin(np.pi / 4)]  # a quarter turn leaves the frame as it is
     >>> round(octafield.distance([1, 0, 0, 0], quarter), 12)
@@ -273,9 +271,6 @@ constexpr Example of_volume_fields[] = {
     {"write_field", R"(
     >>> tets = octafield.tetrahedralize(generate("box"))
     >>> octafield.write_field("field.vtu", tets, octafield.random_rotations(len(tets.vertices)), {"made by": "a test"}))"},
-    {"hex_vertex_exists", R"(
-    >>> octafield.hex_vertex_exists(4, 0), octafield.hex_vertex_exists(1, 0)  # the corner of four hexahedra; none
-    (True, False))"},
 };
 
 // What pybind11 does itself when an overload is added.

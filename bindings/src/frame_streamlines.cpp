@@ -89,8 +89,8 @@ void bind_frame_streamline_types(py::module_& m) {
                "Why it ends there: \"boundary\", \"singular\" (the tet ahead is singular for this axis), \"closed\" "
                "(first and last point are the same), \"length\" (max_length reached) or \"stuck\".")
         .finish([](const FrameStreamline& s) {
-            return count(s.points.rows(), "point") + ", length " + number(s.length) +
-                   ", " + to_word(s.first_end) + " to " + to_word(s.last_end);
+            return count(s.points.rows(), "point") + ", length " + number(s.length) + ", " + to_word(s.first_end) +
+                   " to " + to_word(s.last_end);
         });
 
     Record<LocatedPoints>(m, "LocatedPoints", "Points and the tets of a mesh that hold them.")

@@ -31,7 +31,7 @@ void bind_metrics(py::module_& m) {
                 });
             },
             "q1"_a, "q2"_a, py::kw_only(), "threads"_a = 0, "(n,) distances of (n, 4) frames.")
-        .def("__repr__", [](const Metric& metric) { 
+        .def("__repr__", [](const Metric& metric) {
             return "Metric(" + std::string(metric.name) + ": " + std::string(metric.description) + ")";
         });
     py::dict all;

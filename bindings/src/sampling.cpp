@@ -67,10 +67,9 @@ py::tuple reduced(const py::object& self) {
     if (sampling->elements)
         return py::make_tuple(py::module_::import("octafield._core").attr("vertex_sampling"),
                               py::make_tuple(TetMesh(*sampling->elements)));
-    return py::make_tuple(py::type::of(self),
-                          py::make_tuple(sampling->stiffness, own(Eigen::VectorXd(sampling->mass)),
-                                         sampling->body_radius, sampling->edge_length, sampling->box_diagonal,
-                                         to_word(sampling->sites)));
+    return py::make_tuple(py::type::of(self), py::make_tuple(sampling->stiffness, own(Eigen::VectorXd(sampling->mass)),
+                                                             sampling->body_radius, sampling->edge_length,
+                                                             sampling->box_diagonal, to_word(sampling->sites)));
 }
 
 void bind_samplings(py::module_& m) {

@@ -77,8 +77,8 @@ void bind_results(py::module_& m) {
         .field("lengths", &SmoothResult::lengths,
                "(n, 3) float64 lengths of the frames' axes where odeco_lengths was minimised; else no rows.")
         .finish([](const SmoothResult& r) {
-            return count(r.frames.rows(), "frame") + ", energy " + number(r.energy) +
-                   ", " + count(r.iterations, "iteration") + ", " + (r.converged ? "converged" : "not converged");
+            return count(r.frames.rows(), "frame") + ", energy " + number(r.energy) + ", " +
+                   count(r.iterations, "iteration") + ", " + (r.converged ? "converged" : "not converged");
         });
 
     Record<FrameFieldResult>(m, "FrameFieldResult", "A frame field by frame_field, and how it was reached.")

@@ -142,7 +142,7 @@ def test_a_sampling_of_ones_own_matrix_is_used_by_every_solver(box):
     own = of.Sampling(made.stiffness.tocsr(), made.mass, made.body_radius, made.edge_length, made.box_diagonal, "tets")
     assert repr(own) == repr(made) and (own.stiffness != made.stiffness).nnz == 0
     start = of.random_rotations(len(own))
-    held = of.BoundaryConstraints(np.zeros(len(own)), np.zeros((len(own), 3)), np.tile([1.0, 0, 0, 0], (len(own), 1)), np.zeros(len(own)))
+    held = of.BoundaryConstraints(np.zeros(len(own), int), np.zeros((len(own), 3)), np.tile([1.0, 0, 0, 0], (len(own), 1)), np.zeros(len(own), int))
     for call in (lambda s: of.diffuse(s, held, start, max_steps=3).frames, lambda s: of.smooth(s, held, start, max_iterations=3).frames,
                  lambda s: of.smooth(s, held, start, representation="geodesic", max_iterations=2).frames):  # fmt: skip
         np.testing.assert_array_equal(call(own), call(made))
