@@ -26,7 +26,7 @@ class Input:
     region of each tet, where there are several; surface and boundary then hold the interfaces between them too, as the
     last `interface_triangles`. touches: the boundary of the tets touches itself at edges or vertices. lines: (n, 2) feature edges given by the file, vertex ids of `surface`; None when it has
     no line cells. creases: the file tells that they are. faces: CAD face of each triangle of `surface`, -1 where the file tells none.
-    file_points: (n,) ids in the file of the vertices of `tets`. notes: what was changed in reading (tets turned over, unused
+    file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file. notes: what was changed in reading (tets turned over, unused
     points dropped), one sentence each.
     """
 
@@ -42,6 +42,7 @@ class Input:
     touches: bool = False
     faces: np.ndarray | None = None
     file_points: np.ndarray | None = None
+    points_in_file: int = 0
     notes: list[str] = field(default_factory=list)
 
     @property
@@ -92,22 +93,26 @@ def _read(path: Path, interfaces: bool, edge_length: float) -> Input:
             f"{path}: unknown kind of file; known are surfaces ({surfaces}), tet meshes ({tets}) and CAD models ({cad}), also .gz"
         )
     grid = read_grid(path, suffix)
-    cells = grid.cells
     if not interfaces:
         grid.regions = None
+    return input_of_grid(str(path), grid)
+
+
+def input_of_grid(name: str, grid: Grid) -> Input:
+    cells = grid.cells
     _refuse({kind: len(c) for kind, c in cells.items() if kind.startswith(_VOLUMES) and kind != "tetra"})
     others = {kind: len(c) for kind, c in cells.items() if kind != "tetra" and kind not in LOWER}
     if "tetra" in cells:
-        found = _tet_input(str(path), grid)
+        found = _tet_input(name, grid)
         found.notes += [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
         return found
     _refuse({kind: count for kind, count in others.items() if not kind.startswith(("line", "VTK_LAGRANGE_CURVE"))})
     if "triangle" in cells:
-        found = _surface_input(str(path), grid)
+        found = _surface_input(name, grid)
         found.notes += [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
         return found
     kinds = ", ".join(sorted(cells)) or "none"
-    raise InvalidInput(f"{path}: holds neither tetrahedra nor triangles (cell types: {kinds}); linear ones are needed")
+    raise InvalidInput(f"{name}: holds neither tetrahedra nor triangles (cell types: {kinds}); linear ones are needed")
 
 
 def _refuse(counts: dict[str, int]) -> None:
@@ -172,7 +177,8 @@ def _tet_input(name: str, grid: Grid) -> Input:
         notes.append(f"{int(inverted.sum())} of {len(tets)} tets were turned over to positive volume")
     mesh = TetMesh(points_used, tets.astype(np.int32))
     _core.require_valid(mesh)
-    found = with_regions(Input(name, TriangleMesh(), mesh, notes=notes, file_points=np.flatnonzero(new_id >= 0)), grid.regions)
+    found = Input(name, TriangleMesh(), mesh, notes=notes, file_points=np.flatnonzero(new_id >= 0), points_in_file=len(points))
+    with_regions(found, grid.regions)
     lines = _to_boundary(found, new_id)
     if grid.faces is not None:
         found.faces = _face_of(np.asarray(found.surface.triangles).astype(np.int64), lines, grid)

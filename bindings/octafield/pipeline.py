@@ -16,6 +16,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _core, display
 from ._core import (
@@ -26,7 +27,9 @@ from ._core import (
     FrameStreamline,
     Integrability,
     Meshability,
+    Sampling,
     SingularGraph,
+    SmoothResult,
     Streamline,
     SurfaceSingularities,
     TetMesh,
@@ -35,6 +38,7 @@ from ._core import (
 )
 from .analysis import analyse
 from .errors import InvalidInput
+from .imported import fitting_frames
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
@@ -124,6 +128,7 @@ def compute_field(
     progress: Progress | None = None,
     *,
     constraints: VertexConstraints | None = None,
+    start: ArrayLike | None = None,
 ) -> FieldResult:
     """Frame field inside a closed surface or on a tet mesh (paths or meshes in memory).
 
@@ -133,7 +138,12 @@ def compute_field(
         meshed = prepare_mesh("part.stl", options)
         held = VertexConstraints(vertices=[7], kinds=[1], axes=[[0, 0, 1]])  # of meshed.tets
         result = compute_field(meshed, options, constraints=held)
+
+    start: (n, 4) frames to smooth from, on that mesh's vertices (sampling "tets": tets), such as octafield.read_frames gives; they are
+    polished by one smoothing, without the heat flow that a field begins with otherwise.
     """
+    if start is not None and not isinstance(source, (MeshedInput, TetMesh)):
+        raise InvalidInput("a start belongs to a tet mesh; give that, or the result of prepare_mesh(source, options)", "not_meshed")
     if constraints is not None and not isinstance(source, MeshedInput):
         raise InvalidInput(
             "constraints belong to the tet mesh the field is computed on; "
@@ -141,7 +151,7 @@ def compute_field(
             "not_meshed",
         )
     meshed = source if isinstance(source, MeshedInput) else prepare_mesh(source, options, progress=progress)
-    return run(prepare(meshed, options.seed, progress), options, progress, constraints=constraints)
+    return run(prepare(meshed, options.seed, progress), options, progress, constraints=constraints, start=start)
 
 
 def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None) -> Problem:
@@ -164,9 +174,10 @@ def run(
     progress: Progress | None = None,
     *,
     constraints: VertexConstraints | None = None,
+    start: ArrayLike | None = None,
 ) -> FieldResult:
     """One frame field on a prepared problem. The record's phase times include those of the shared preparation.
-    constraints: see compute_field."""
+    constraints, start: see compute_field."""
     memory = PeakMemory()
     meshed, clock = problem.meshed, PhaseClock(problem.clock)
     tets, threads = meshed.tets, options.threads
@@ -176,20 +187,7 @@ def run(
         held = _boundary_constraints(problem, options)
         if constraints is not None:
             held = _core.with_constraints(held, constraints)
-        found = _core.frame_field(
-            where,
-            held,
-            start="cross_field" if options.boundary == "none" else "constraints",
-            seed=problem.seed,
-            rounds=options.rounds,
-            representation=options.representation,
-            max_iterations=options.max_iterations,
-            tolerance=options.tolerance,
-            threads=threads,
-            progress=forward(progress, "smooth", 0.0, 1.0),
-            **({} if options.solver == "default" else {"solver": options.solver}),
-        )
-        smoothed = found.smooth
+        smoothed, diffusion_steps = _smoothed(problem, options, where, held, start, progress)
     with clock.phase("analyse"):
         announce(progress, "analyse")
         frames, of_tets = np.asarray(smoothed.frames), None
@@ -218,7 +216,8 @@ def run(
         **({} if lengths is None else {"lengths": _spread(lengths)}),
         "objective": float(smoothed.objective),
         "iterations": smoothed.iterations,
-        "diffusion_steps": found.diffusion_steps,
+        "diffusion_steps": diffusion_steps,
+        "start": "default" if start is None else "given",
         "converged": bool(smoothed.converged),
         "stop_reason": smoothed.message,
         "energy_history": [float(e) for e in smoothed.energy_history],
@@ -256,6 +255,30 @@ def run(
         of_tets,
         lengths,
     )
+
+
+def _smoothed(
+    problem: Problem,
+    options: FieldOptions,
+    where: TetMesh | Sampling,
+    held: BoundaryConstraints,
+    start: ArrayLike | None,
+    progress: Progress | None,
+) -> tuple[SmoothResult, int]:
+    """The field and how many steps of the heat flow came before."""
+    how = {
+        "representation": options.representation,
+        "max_iterations": options.max_iterations,
+        "tolerance": options.tolerance,
+        "threads": options.threads,
+        "progress": forward(progress, "smooth", 0.0, 1.0),
+        **({} if options.solver == "default" else {"solver": options.solver}),
+    }
+    if start is not None:
+        return _core.smooth(where, held, fitting_frames(problem.meshed.tets, start, options.sampling), **how), 0
+    begin = "cross_field" if options.boundary == "none" else "constraints"
+    found = _core.frame_field(where, held, start=begin, seed=problem.seed, rounds=options.rounds, **how)
+    return found.smooth, found.diffusion_steps
 
 
 def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryConstraints:

@@ -42,9 +42,8 @@ def read_text(path: str | Path) -> str:
     try:
         return data.decode("utf-8")
     except UnicodeDecodeError as error:
-        raise IoError(
-            f"{path}, line {data.count(b'\n', 0, error.start) + 1}: no text (byte {error.start}); is it a binary file?"
-        ) from error
+        line = data.count(b"\n", 0, error.start) + 1
+        raise IoError(f"{path}, line {line}: no text (byte {error.start}); is it a binary file?") from error
 
 
 def write_whole(path: str | Path, pieces: Iterable[bytes]) -> None:

@@ -45,7 +45,8 @@ def ovm_of_tets(vertices: np.ndarray, tets: np.ndarray) -> OvmMesh:
     half_edges = 2 * edge + (start > end)
     inward = tets[:, TRIANGLES_OF_TET][:, :, [0, 2, 1]]
     reversed_ = (_from_lowest(inward.reshape(-1, 3)) != _from_lowest(faces[of_tet.ravel()])).any(axis=1)
-    return OvmMesh(np.asarray(vertices, float), edges, half_edges, 2 * of_tet + reversed_.reshape(-1, 4))
+    half_faces = 2 * of_tet + reversed_.reshape(-1, 4)
+    return OvmMesh(np.asarray(vertices, float), edges, half_edges, half_faces[:, [3, 0, 1, 2]])  # opposite the last vertex first
 
 
 def _from_lowest(triangles: np.ndarray) -> np.ndarray:
