@@ -8,7 +8,7 @@ from .formats import FrameFile, find_format, read_frames, write_frames
 from .formats.files import plain_name
 from .formats.meshes import MESH_SUFFIXES, write_mesh
 from .formats.registry import FORMATS
-from .inputs import Input, from_mesh, naming, read_input
+from .inputs import SURFACE_SUFFIXES, Input, from_mesh, naming, read_input
 
 
 @dataclass
@@ -64,7 +64,7 @@ def _convert_mesh(source: Path, target: Path, frames: FrameFile | None, mesh: st
         notes.append("the file's lines list mesh edges in general: they were left out")
     if frames is not None:
         notes.append(f"the frames were left out: {target.suffix} files hold a mesh alone")
-    if found.tets is None:
+    if found.tets is None or plain_name(target).endswith((*SURFACE_SUFFIXES, ".vtp")):
         return Conversion(str(source), str(target), "surface", len(found.surface.vertices), len(found.surface.triangles), notes=notes)
     return Conversion(str(source), str(target), "tets", len(found.tets.vertices), len(found.tets.tets), notes=notes)
 

@@ -124,8 +124,9 @@ def _ovm_grid(path: Path) -> Grid:
     for entity, name, kind, of in (("edge", "AlgoHex::FeatureEdges", "line", mesh.edges), ("face", "AlgoHex::FeatureFaces", "triangle", mesh.triangles())):
         tags = mesh.properties.get((entity, name))
         if tags is not None and tags.ndim == 1:
+            ids = tags[tags > 0].astype(np.int64)
             blocks.append((kind, of[tags > 0]))
-            faces.append(tags[tags > 0].astype(np.int64))
+            faces.append(ids if len(np.unique(ids)) > 1 else 0 * ids)  # one tag for the whole boundary tells no faces apart
     regions = mesh.properties.get(("cell", "region"))
     ids = None if regions is None or regions.ndim != 1 else [regions.astype(np.int64), *faces[1:]]
     if not len(mesh.cells):
@@ -145,7 +146,8 @@ def _vtp_grid(path: Path) -> Grid:
         flat = found.triangulate() if found.n_cells else found
         if not found.n_points:
             raise IoError(f"{path}: holds no points, or is damaged")
-        blocks = [("triangle", np.asarray(flat.faces).reshape(-1, 4)[:, 1:])] if flat.n_faces_strict else []
+        sides = np.asarray(flat.faces)
+        blocks = [("triangle", sides.reshape(-1, 4)[:, 1:])] if len(sides) else []
         lines = _line_segments(np.asarray(found.lines))
         if len(lines):
             blocks.append(("line", lines))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._core import BoundaryMeshability, FrameStreamline, Integrability, Meshability, SingularGraph, TetMesh
+from ._core import BoundaryMeshability, FrameStreamline, Integrability, Meshability, SingularGraph, TetMesh, TriangleMesh
 from .analysis import analyse as analyse_frames
 from .errors import InvalidInput
 from .formats.base import SITES
@@ -28,6 +28,7 @@ class AnalysedField:
     """A field and its analysis; the parts are those of octafield.FieldResult. frames: at the vertices; tet_frames: (m, 4) where the field lives in
     the tets, whose analysis has no meshability and integrability."""
 
+    surface: TriangleMesh
     tets: TetMesh
     frames: np.ndarray
     singular_graph: SingularGraph
@@ -88,7 +89,7 @@ def analyse(
         **found.record,
         "options": asdict(options),
     }
-    return AnalysedField(meshed.tets, *parts, record, meshed.regions, values if where == "tets" else None)
+    return AnalysedField(meshed.surface, meshed.tets, *parts, record, meshed.regions, values if where == "tets" else None)
 
 
 def fitting_frames(tets: TetMesh, frames: ArrayLike, where: str) -> np.ndarray:

@@ -31,10 +31,15 @@ def write_field_result(result: FieldResult, folder: Path, progress: Progress | N
 
 
 def write_analysis(result: AnalysedField, folder: Path, progress: Progress | None = None) -> None:
-    """The files of the volume, and the record."""
+    """The files of the volume, the surface without a field, and the record."""
+    import pyvista
+
     announce(progress, "write")
+    metadata = _metadata(result.record)
     with _clock(result.record).phase("write"):
-        _write_volume_files(result, folder, _metadata(result.record))
+        _write_volume_files(result, folder, metadata)
+        surface = pyvista.PolyData.from_regular_faces(np.array(result.surface.vertices), np.array(result.surface.triangles))
+        _save(surface, folder / SURFACE_FILES[0], metadata)
     result.record["files"] = [*(name for name in FIELD_FILES if (folder / name).exists()), RECORD_FILE]
     write_json(folder / RECORD_FILE, result.record)
 

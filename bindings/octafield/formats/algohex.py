@@ -70,9 +70,9 @@ def write(path: Path, field: Field) -> None:
     write_ovm(path, mesh)
 
 
-def add_features(mesh: OvmMesh, field: Field) -> None:
-    """Edges as given, vertices where other than two of them meet, all faces of the boundary and between regions. None where
-    no edges are given: AlgoHex finds features itself then."""
+def add_features(mesh: OvmMesh, field: Field, triangles: np.ndarray | None = None, faces: np.ndarray | None = None) -> None:
+    """Edges as given, vertices where other than two of them meet, all faces of the boundary and between regions, by the CAD
+    faces of (t, 3) triangles where these are known, else 1. None where no edges are given: AlgoHex finds features itself then."""
     if field.regions is not None:
         mesh.properties["cell", "region"] = np.asarray(field.regions).astype(np.int32)
     if field.features is None:
@@ -93,5 +93,13 @@ def add_features(mesh: OvmMesh, field: Field) -> None:
         np.minimum.at(low, of_tet.ravel(), ids)
         np.maximum.at(high, of_tet.ravel(), ids)
         on_surface |= low != high
-    for entity, tags in (("vertex", (degree > 0) & (degree != 2)), ("edge", marked), ("face", on_surface)):
-        mesh.properties[entity, FEATURES[entity]] = tags.astype(np.int32)
+    face_tags = on_surface.astype(np.int32)
+    if faces is not None:
+        both = np.sort(np.concatenate([mesh.triangles(), triangles]), axis=1)
+        ids = np.unique(both, axis=0, return_inverse=True)[1].ravel()
+        of_triangle = np.zeros(ids.max() + 1, np.int64)
+        of_triangle[ids[len(mesh.faces) :]] = np.where(faces > 0, faces, faces.max() + 1)
+        face_tags = np.where(on_surface, of_triangle[ids[: len(mesh.faces)]], 0).astype(np.int32)
+    tags = {"vertex": (degree > 0) & (degree != 2), "edge": marked, "face": face_tags}
+    for entity, values in tags.items():
+        mesh.properties[entity, FEATURES[entity]] = values.astype(np.int32)

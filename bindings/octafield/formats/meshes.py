@@ -21,6 +21,30 @@ TETS_SUFFIXES = (".node", ".ele", ".ovm", ".ovmb")
 MESH_SUFFIXES = (*SURFACE_SUFFIXES, ".vtp", *BOTH_SUFFIXES, *TETS_SUFFIXES)
 
 
+def patches(triangles: np.ndarray, lines: np.ndarray | None) -> np.ndarray:
+    """(t,) numbers from 1 of the connected parts of a surface cut along (k, 2) lines. Where a line ends inside a part, a
+    triangle beside it is a part of its own, so that no line has one part on both sides."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    triangles = triangles.astype(np.int64)
+    sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    count = int(triangles.max(initial=0)) + 1
+    keys, of_triangle = sides[:, 0] * count + sides[:, 1], np.repeat(np.arange(len(triangles)), 3)
+    order = np.argsort(keys, kind="stable")
+    same = keys[order][1:] == keys[order][:-1]
+    first, second, key = of_triangle[order][:-1][same], of_triangle[order][1:][same], keys[order][1:][same]
+    cut = np.zeros(len(key), bool)
+    if lines is not None and len(lines):
+        low, high = np.sort(np.asarray(lines).astype(np.int64), axis=1).T
+        cut = np.isin(key, low * count + high)
+    graph = coo_array((np.ones((~cut).sum()), (first[~cut], second[~cut])), shape=(len(triangles), len(triangles)))
+    labels = connected_components(graph, directed=False)[1].astype(np.int64) + 1
+    for triangle in np.unique(first[cut & (labels[first] == labels[second])]):
+        labels[triangle] = labels.max() + 1
+    return labels
+
+
 @dataclass
 class Parts:
     """What is written. lines: (k, 2) feature edges or None. triangles: (t, 3); faces: (t,) CAD face of each, 0: none, or None. tets:
@@ -35,10 +59,14 @@ class Parts:
 
     @classmethod
     def of_input(cls, found: Input) -> "Parts":
-        """The tets with their boundary and interfaces, or the surface."""
+        """The tets with their boundary and interfaces, or the surface. Where the file tells no CAD faces, the parts of the surface between
+        feature edges stand for them, for readers take an edge with one face on both sides for a seam."""
         features = found.lines if found.lines_are_features() else None
-        faces = None if found.faces is None or (found.faces <= 0).all() else np.maximum(found.faces, 0)
         triangles = np.asarray(found.surface.triangles)
+        if found.faces is None or (found.faces <= 0).all():
+            faces = patches(triangles, features)
+        else:
+            faces = np.maximum(found.faces, 0)
         if found.tets is None:
             return cls(np.asarray(found.surface.vertices), features, triangles, faces)
         ids = np.asarray(found.boundary.vertex_map)
@@ -72,24 +100,23 @@ def write_mesh(path: str | Path, found: Input) -> list[str]:
         raise InvalidInput(f"{path}: {suffix} files hold tets, and {found.name} is a surface; write one of {' '.join((*SURFACE_SUFFIXES, *BOTH_SUFFIXES))}", "not_tets")
     if suffix in SURFACE_SUFFIXES:
         surface = found.surface if not found.interface_triangles else _core.boundary_surface(found.tets).mesh
-        return _write_surface(path, suffix, surface, parts)
+        return _write_surface(path, suffix, surface, parts, found)
     if suffix == ".vtp":
         return _write_vtp(path, parts, found)
     if suffix in (".node", ".ele"):
         return _write_tetgen(path, suffix, parts)
     if suffix in (".ovm", ".ovmb"):
         mesh = ovm_of_tets(parts.points, parts.tets)
-        add_features(mesh, Field(found.tets, np.empty((0, 4)), "tets", features=parts.lines, regions=parts.regions))
+        field = Field(found.tets, np.empty((0, 4)), "tets", features=parts.lines, regions=parts.regions)
+        add_features(mesh, field, parts.triangles, parts.faces)
         write_ovm(path, mesh)
-        return ["the CAD faces were left out: OpenVolumeMesh files have one tag for all feature faces"] if parts.faces is not None else []
+        return []
     return _write_by_meshio(path, suffix, parts)
 
 
-def _write_surface(path: Path, suffix: str, surface: TriangleMesh, parts: Parts) -> list[str]:
+def _write_surface(path: Path, suffix: str, surface: TriangleMesh, parts: Parts, found: Input) -> list[str]:
     notes = [] if parts.tets is None else [f"{suffix} files hold triangles: the boundary of the tets was written"]
-    lost = [name for name, part in (("feature edges", parts.lines), ("CAD faces", parts.faces), ("regions", parts.regions)) if part is not None]
-    if lost:
-        notes.append(f"{suffix} files hold no {', no '.join(lost)}: left out")
+    notes += _lost(suffix, ("feature edges", parts.lines), ("CAD faces", found.faces), ("regions", parts.regions))
     if suffix == ".stl":
         notes.append("STL files hold single precision and no vertex ids: points were rounded, equal ones merge on reading")
     through_file(path, suffix, lambda plain: _core.write_surface(surface, plain))
@@ -104,7 +131,13 @@ def _write_vtp(path: Path, parts: Parts, found: Input) -> list[str]:
         lines = np.asarray(found.lines)
         surface.lines = np.column_stack([np.full(len(lines), 2), lines]).ravel()
     through_file(path, ".vtp", lambda plain: surface.save(plain))
-    return [] if parts.tets is None else [".vtp files hold triangles: the boundary of the tets was written"]
+    notes = [] if parts.tets is None else [".vtp files hold triangles: the boundary of the tets was written"]
+    return notes + _lost(".vtp", ("CAD faces", found.faces), ("regions", parts.regions))
+
+
+def _lost(suffix: str, *parts: tuple[str, np.ndarray | None]) -> list[str]:
+    names = [name for name, part in parts if part is not None]
+    return [f"{suffix} files hold no {', no '.join(names)}: left out"] if names else []
 
 
 def _write_tetgen(path: Path, suffix: str, parts: Parts) -> list[str]:
@@ -118,8 +151,7 @@ def _write_tetgen(path: Path, suffix: str, parts: Parts) -> list[str]:
     with_regions = [] if parts.regions is None else [np.asarray(parts.regions)]
     tets = np.column_stack([np.arange(len(parts.tets)), parts.tets, *with_regions])
     write_whole(beside[".ele"], [f"{len(tets)} 4 {len(with_regions)}\n".encode(), *rows_of(tets)])
-    markers = np.ones(len(parts.triangles), np.int64) if parts.faces is None else parts.faces
-    faces = np.column_stack([np.arange(len(markers)), parts.triangles, markers])
+    faces = np.column_stack([np.arange(len(parts.triangles)), parts.triangles, parts.faces])
     write_whole(beside[".face"], [f"{len(faces)} 1\n".encode(), *rows_of(faces)])
     if parts.lines is not None:
         lines = np.column_stack([np.arange(len(parts.lines)), parts.lines, np.ones(len(parts.lines), np.int64)])
@@ -137,16 +169,38 @@ def _write_by_meshio(path: Path, suffix: str, parts: Parts) -> list[str]:
     import meshio
 
     notes: list[str] = []
+    if suffix == ".vtk":
+        write_whole(path, _vtk_pieces(parts))
+        return notes
     if suffix == ".msh":
         mesh, notes = msh_of(parts)
         write = lambda plain: meshio.gmsh.write(str(plain), mesh, "2.2", binary=True)  # noqa: E731
     else:
         name = "medit:ref" if suffix in (".mesh", ".meshb") else "CellEntityIds"
         mesh = _meshio_mesh(parts, name)
-        writers = {".vtk": meshio.vtk, ".vtu": meshio.vtu, ".mesh": meshio.medit, ".meshb": meshio.medit}
+        writers = {".vtu": meshio.vtu, ".mesh": meshio.medit, ".meshb": meshio.medit}
         write = lambda plain: writers[suffix].write(str(plain), mesh)  # noqa: E731
     through_file(path, suffix, write)
     return notes
+
+
+def _vtk_pieces(parts: Parts):
+    """Legacy version 2.0 in ASCII with one colour per cell, as Gmsh writes it and AlgoHex's reader wants it."""
+    blocks = parts.blocks()
+    counts = [len(cells) for _, cells, _ in blocks]
+    numbers = sum(cells.size + len(cells) for _, cells, _ in blocks)
+    yield b"# vtk DataFile Version 2.0\nwritten by octafield\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+    yield f"POINTS {len(parts.points)} double\n".encode()
+    yield from rows_of(parts.points)
+    yield f"CELLS {sum(counts)} {numbers}\n".encode()
+    for _, cells, _ in blocks:
+        yield from rows_of(cells, prefix=f"{cells.shape[1]} ")
+    yield f"CELL_TYPES {sum(counts)}\n".encode()
+    for (kind, *_), count in zip(blocks, counts, strict=True):
+        yield ({"line": "3\n", "triangle": "5\n", "tetra": "10\n"}[kind] * count).encode()
+    yield f"CELL_DATA {sum(counts)}\nSCALARS CellEntityIds int 1\nLOOKUP_TABLE default\n".encode()
+    for *_, ids in blocks:
+        yield from rows_of(ids[:, None])
 
 
 def _meshio_mesh(parts: Parts, name: str):

@@ -71,7 +71,9 @@ def tets_of_ovm(mesh: OvmMesh, name: str) -> np.ndarray:
     tets = np.hstack([base, apex])
     distinct = np.sort(of_cell.reshape(-1, 12), axis=1)
     four = (np.diff(distinct, axis=1) != 0).sum(axis=1) == 3
-    if not (four & is_apex.any(axis=1)).all():
-        bad = int(np.argmin(four & is_apex.any(axis=1)))
+    sides = np.sort(mesh.cells // 2, axis=1)
+    bounds = four & is_apex.any(axis=1) & (np.diff(sides, axis=1) > 0).all(axis=1)
+    if not bounds.all():
+        bad = int(np.argmin(bounds))
         raise InvalidInput(f"{name}: the half-faces of cell {bad} (from 0) bound no tetrahedron", "not_tets", [bad])
     return tets
