@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation
 import octafield
 
 PAGE = Path(__file__).parents[2] / "docs" / "formats.md"
-BEGIN, END = "<!-- table of round trips -->\n", "<!-- end of the table -->\n"
+BEGIN, FORMATS_BEGIN, END = "<!-- table of round trips -->\n", "<!-- table of formats -->\n", "<!-- end of the table -->\n"
 HEAVY = ("mouette",)  # readers that need not be there
 SAME = 2e-15  # radians: what 64-bit axes leave of a quaternion
 
@@ -192,9 +192,25 @@ def table_of(found: list[Row]) -> str:
     return head + "".join(row.markdown() for row in found)
 
 
-def on_page() -> str:
+def table_of_formats() -> str:
+    text = "| format | extension | what | frames at | read | written | holds, per frame | precision |\n" + "|---" * 8 + "|\n"
+    for form in octafield.frame_formats.values():
+        does = ("yes" if form.read else "no", "yes" if form.write else "no")
+        cells = (form.name, " ".join(form.extensions) or "(by name)", form.title, ", ".join(form.where), *does, form.holds, form.precision)
+        text += "| " + " | ".join(cells) + " |\n"
+    return text
+
+
+def on_page(begin: str = BEGIN) -> str:
     text = PAGE.read_text(encoding="utf-8")
-    return text[text.index(BEGIN) + len(BEGIN) : text.index(END)]
+    start = text.index(begin) + len(begin)
+    return text[start : text.index(END, start)]
+
+
+def put_on_page(begin: str, table: str) -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    start = text.index(begin) + len(begin)
+    PAGE.write_text(text[:start] + table + text[text.index(END, start) :], encoding="utf-8")
 
 
 if __name__ == "__main__":
@@ -202,6 +218,6 @@ if __name__ == "__main__":
 
     with tempfile.TemporaryDirectory() as name:
         table = table_of(rows(box_tets(3), Path(name)))
-    text = PAGE.read_text(encoding="utf-8")
-    PAGE.write_text(text[: text.index(BEGIN) + len(BEGIN)] + table + text[text.index(END) :], encoding="utf-8")
+    put_on_page(FORMATS_BEGIN, table_of_formats())
+    put_on_page(BEGIN, table)
     sys.stdout.write(table)

@@ -7,7 +7,7 @@ import numpy as np
 import other_readers as readers
 import pytest
 from conftest import box_tets
-from format_table import available, axes, frames_at, on_page, rows, table_of
+from format_table import FORMATS_BEGIN, available, axes, frames_at, on_page, rows, table_of, table_of_formats
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -31,6 +31,10 @@ def test_the_table_of_round_trips_in_the_docs_is_what_this_run_finds(mesh, tmp_p
     lines = on_page().splitlines()
     here = [line for line in lines if "|" not in line or available((line.split("|") + [""] * 4)[4].strip())]
     assert here == table_of(rows(mesh, tmp_path)).splitlines(), "PYTHONPATH=tests/python python tests/python/format_table.py"
+
+
+def test_the_list_of_formats_in_the_docs_is_that_of_the_program():
+    assert on_page(FORMATS_BEGIN) == table_of_formats()
 
 
 @pytest.mark.parametrize("packed", ["", ".gz"])
@@ -245,15 +249,13 @@ def test_any_rotation_goes_through_nine_numbers(tmp_path_factory, values):
     assert np.array_equal(read_frames(path.with_suffix(".qtn")).frames, q)
 
 
-def test_a_million_lines_take_seconds(tmp_path):
+def test_a_hundred_thousand_lines_take_seconds(tmp_path):
     import time
 
-    q = np.tile(octafield.random_rotations(1000, 1), (300, 1))
+    q = np.tile(octafield.random_rotations(1000, 1), (100, 1))
     start = time.perf_counter()
     write_frames(tmp_path / "a.txt", None, q)
-    middle = time.perf_counter()
     assert len(read_frames(tmp_path / "a.txt").frames) == len(q)
-    print(f"300,000 lines: written in {middle - start:.2f} s, read in {time.perf_counter() - middle:.2f} s")
     assert time.perf_counter() - start < 20
 
 

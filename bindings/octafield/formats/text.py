@@ -120,6 +120,5 @@ def _require_count(have: int, count: int, path: Path, line: int, what: str) -> N
 
 def read_txt(path: Path) -> FrameFile:
     """Text whose first line tells what it is: 3 numbers (geogram), 12 (geogram with centres), else 9 (ARFF)."""
-    counts = words_per_line(read_text(path))
-    first = int(counts[counts > 0][0]) if counts.any() else 0
-    return {3: read_geogram, 12: read_geogram_centres}.get(first, read_arff)(path)
+    first = next((line.split() for line in read_text(path).lstrip()[:10000].splitlines()), [])
+    return {3: read_geogram, 12: read_geogram_centres}.get(len(first), read_arff)(path)
