@@ -21,7 +21,7 @@ from octafield.study.generators import generate
 
 BODIES = {"ball": 0.4, "cylinder": 0.4, "torus": 0.35}  # and the edge length
 HEAD = ["body", "tets", "mouette: s", "E", "singular edges", "complex", "polished: E", "singular edges", "complex", "octafield: E", "singular edges", "complex",
-        "alignment of mouette, degrees", "polished"]  # fmt: skip
+        "median alignment, degrees: mouette", "polished"]  # fmt: skip
 OPTIONS = octafield.FieldOptions(sampling="tets", features="none")
 
 
@@ -66,7 +66,7 @@ def row(name: str, surface: octafield.TriangleMesh, length: float, folder: Path)
     polished = octafield.compute_field(tets, OPTIONS, start=found.frames).record
     ours = octafield.compute_field(tets, OPTIONS).record
     return [name, len(tets.tets), seconds, *(r[key] for r in (theirs, polished, ours) for key in ("energy", "singular_edges", "complex_edges")),
-            theirs["alignment_deg"]["max"], polished["alignment_deg"]["max"]]  # fmt: skip
+            theirs["alignment_deg"]["median"], polished["alignment_deg"]["median"]]  # fmt: skip
 
 
 def main() -> None:
@@ -75,7 +75,7 @@ def main() -> None:
     folder = parser.parse_args().output
     folder.mkdir(parents=True, exist_ok=True)
     rows = [row(name, generate(name), length, folder) for name, length in BODIES.items()]
-    table = markdown_table(HEAD, rows)
+    table = markdown_table(HEAD, [[f"{x:.4g}" if isinstance(x, float) else x for x in row] for row in rows])
     (folder / "mouette.md").write_text(table)
     print(table)
 

@@ -27,9 +27,7 @@ from ._core import (
     FrameStreamline,
     Integrability,
     Meshability,
-    Sampling,
     SingularGraph,
-    SmoothResult,
     Streamline,
     SurfaceSingularities,
     TetMesh,
@@ -38,10 +36,10 @@ from ._core import (
 )
 from .analysis import analyse
 from .errors import InvalidInput
-from .imported import fitting_frames
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
+from .smoothing import smoothed_field
 from .tet_analysis import analyse_tets
 from .surface_pipeline import SurfaceFieldResult, common_record, compute_surface_field, index_summary, structure
 
@@ -187,7 +185,7 @@ def run(
         held = _boundary_constraints(problem, options)
         if constraints is not None:
             held = _core.with_constraints(held, constraints)
-        smoothed, diffusion_steps = _smoothed(problem, options, where, held, start, progress)
+        smoothed, diffusion_steps = smoothed_field(meshed.tets, options, where, held, start, problem.seed, progress)
     with clock.phase("analyse"):
         announce(progress, "analyse")
         frames, of_tets = np.asarray(smoothed.frames), None
@@ -255,30 +253,6 @@ def run(
         of_tets,
         lengths,
     )
-
-
-def _smoothed(
-    problem: Problem,
-    options: FieldOptions,
-    where: TetMesh | Sampling,
-    held: BoundaryConstraints,
-    start: ArrayLike | None,
-    progress: Progress | None,
-) -> tuple[SmoothResult, int]:
-    """The field and how many steps of the heat flow came before."""
-    how = {
-        "representation": options.representation,
-        "max_iterations": options.max_iterations,
-        "tolerance": options.tolerance,
-        "threads": options.threads,
-        "progress": forward(progress, "smooth", 0.0, 1.0),
-        **({} if options.solver == "default" else {"solver": options.solver}),
-    }
-    if start is not None:
-        return _core.smooth(where, held, fitting_frames(problem.meshed.tets, start, options.sampling), **how), 0
-    begin = "cross_field" if options.boundary == "none" else "constraints"
-    found = _core.frame_field(where, held, start=begin, seed=problem.seed, rounds=options.rounds, **how)
-    return found.smooth, found.diffusion_steps
 
 
 def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryConstraints:
