@@ -36,12 +36,12 @@ def _array(data: bytes, name: str) -> np.ndarray:
     try:
         version = np.lib.format.read_magic(stream)
         shape, fortran, dtype = getattr(np.lib.format, _UNITS[version[0]])(stream)
-    except (ValueError, KeyError, EOFError) as error:
+    except Exception as error:  # the head is Python text: whatever its tokenizer raises
         raise IoError(f"{name}, byte 0: no .npy array ({error})") from error
     start, count = stream.tell(), 1
     for length in shape:
         count *= length
-    if dtype.hasobject or len(data) - start != count * dtype.itemsize:
+    if dtype.hasobject or min(shape, default=0) < 0 or len(data) - start != count * dtype.itemsize:
         raise IoError(f"{name}, byte {start}: {len(data) - start} bytes; an array of {dtype} with shape {shape} is announced")
     return np.frombuffer(data, dtype, count, start).reshape(shape, order="F" if fortran else "C")
 
