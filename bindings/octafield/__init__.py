@@ -229,6 +229,9 @@ from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, Solv
 
 # Written in Python.
 from .compare import Comparison, compare
+from .conversion import Conversion, convert_file
+from .formats import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
+from .imported import AnalysedField, analyse
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
 from .meshing import MeshedInput
@@ -463,6 +466,15 @@ __all__ = [
     "write_singular_graph",
     "write_surface",
     "write_surface_field",
+    "AnalysedField",
+    "Conversion",
+    "FrameFile",
+    "FrameFormat",
+    "analyse",
+    "convert_file",
+    "frame_formats",
+    "read_frames",
+    "write_frames",
     "from_meshio",
     "from_pandas",
     "from_pyvista",

@@ -1,4 +1,4 @@
-"""The command line: octafield compare, field, surface-field; study, info, view, doctor, representations are elsewhere."""
+"""The command line: octafield compare, field, surface-field; study, convert, analyse, info, view, doctor, representations are elsewhere."""
 
 import math
 import sys
@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from . import cli_inspect, console, tables
+from . import cli_inspect, console, files_cli, tables
 from .cli_options import (
     EdgeLength,
     FeatureAngle,
@@ -51,6 +51,7 @@ app = typer.Typer(
 
 app.add_typer(cli_inspect.app)
 app.add_typer(studies, name="study")
+files_cli.register(app)
 
 _FIELD, _SURFACE = FieldOptions(), SurfaceFieldOptions()
 
@@ -126,6 +127,9 @@ def field(
     streamlines: Annotated[
         int, typer.Option(metavar="N", help="Seeds of streamlines.vtp, three curves each; 0: none.")
     ] = _FIELD.streamlines,
+    start: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Smooth from the frames of a file (docs/formats.md); INPUT: their tet mesh.")
+    ] = None,
     seed: Seed = _FIELD.seed,
     threads: Threads = _FIELD.threads,
     json: Json = None,
@@ -136,6 +140,7 @@ def field(
     streamlines.vtp, result.json."""
 
     def work() -> None:
+        from .field_files import polish_file
         from .output import staged_folder
         from .pipeline import compute_field
         from .results import RECORD_FILE, write_field_result
@@ -153,7 +158,7 @@ def field(
             **_mesh_options(features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split),
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
-            result = compute_field(input, options, progress)
+            result = compute_field(input, options, progress) if start is None else polish_file(input, start, options, progress)
             write_field_result(result, folder, progress)
         _finish(result.record, json, quiet, output)
 

@@ -16,7 +16,7 @@ def choices(values: Iterable[str]) -> str:
 
 InputFile = Annotated[
     str,
-    typer.Argument(metavar="INPUT", help="Surface (.stl .obj .off .ply) or tet mesh (.vtk .vtu .msh .mesh .node/.ele), also .gz."),
+    typer.Argument(metavar="INPUT", help="Surface (.stl .obj .off .ply .vtp), CAD model (.step .brep) or tet mesh (.vtk .vtu .msh .mesh .ovm .node/.ele), also .gz."),
 ]
 InputFiles = Annotated[
     list[str] | None, typer.Argument(metavar="[INPUT]...", help="Surfaces or tet meshes; none: the nut of pyvista.")

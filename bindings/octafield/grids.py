@@ -1,18 +1,21 @@
 """Files of cells: what they hold as arrays, by meshio or our own readers of text, before any meaning is given to it."""
 
+import contextlib
 import gzip
 import shutil
 import zlib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from .errors import IoError
+from .errors import InvalidInput, IoError
 from .output import scratch_folder
 from .text_meshes import TextMesh, read_medit, read_tetgen
 
-GRID_SUFFIXES = (".vtk", ".vtu", ".msh", ".mesh", ".meshb", ".node", ".ele")
+GRID_SUFFIXES = (".vtk", ".vtu", ".vtp", ".msh", ".mesh", ".meshb", ".node", ".ele", ".ovm", ".ovmb")
+MESHIO_SUFFIXES = (".vtk", ".vtu", ".msh", ".meshb")
 _SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
 LOWER = ("vertex", "line", "triangle")
 
@@ -31,22 +34,17 @@ class Grid:
 
 def read_grid(path: Path, suffix: str) -> Grid:
     """Whatever a reader stumbles over becomes an IoError."""
-    try:
+    if suffix in MESHIO_SUFFIXES:
+        return grid_of_meshio(read_meshio(path, suffix))
+    if suffix == ".vtp":
+        return _vtp_grid(path)
+    with _reading(path, suffix):
         if suffix == ".mesh":
             return _grid_of_text(read_medit(_text(path), str(path)))
         if suffix in (".node", ".ele"):
             files = _tetgen_files(path, suffix)
             return _grid_of_text(read_tetgen({kind: (_text(file), str(file)) for kind, file in files.items()}))
-        if not path.is_file():
-            raise IoError(f"{path}: no such file")
-        return _meshio_grid(path, suffix)
-    except IoError:
-        raise
-    except (gzip.BadGzipFile, EOFError, zlib.error) as error:
-        raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
-    except (Exception, SystemExit) as error:  # meshio raises whatever its parsers run into, and exits on failure
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise IoError(f"{path}: cannot be read as {suffix} ({reason})") from error
+        return _ovm_grid(path)
 
 
 def _text(path: Path) -> str:
@@ -74,22 +72,108 @@ def _grid_of_text(mesh: TextMesh) -> Grid:
     return _grid(mesh.points, mesh.cells, mesh.references, mesh.references, mesh.ridges)
 
 
-def _meshio_grid(path: Path, suffix: str) -> Grid:
-    """Readers are called directly: meshio.read guesses by the name."""
+def read_meshio(path: Path, suffix: str):
+    """A meshio.Mesh. Readers are called directly: meshio.read guesses by the name. IoError, whatever they stumble over."""
     import meshio
 
+    if not path.is_file():
+        raise IoError(f"{path}: no such file")
     reader = {".vtk": meshio.vtk, ".vtu": meshio.vtu, ".msh": meshio.gmsh, ".meshb": meshio.medit}[suffix]
-    if path.name.lower().endswith(".gz"):
-        with scratch_folder() as folder:
-            plain = folder / f"input{suffix}"
-            with gzip.open(path, "rb") as packed, open(plain, "wb") as unpacked:
-                shutil.copyfileobj(packed, unpacked)
-            found = reader.read(str(plain))
-    else:
-        found = reader.read(str(path))
+    with _reading(path, suffix), _unpacked(path, suffix) as plain:
+        return reader.read(str(plain))
+
+
+@contextlib.contextmanager
+def _unpacked(path: Path, suffix: str) -> Iterator[Path]:
+    if not path.name.lower().endswith(".gz"):
+        yield path
+        return
+    with scratch_folder() as folder:
+        plain = folder / f"input{suffix}"
+        with gzip.open(path, "rb") as packed, open(plain, "wb") as unpacked:
+            shutil.copyfileobj(packed, unpacked)
+        yield plain
+
+
+@contextlib.contextmanager
+def _reading(path: Path, suffix: str) -> Iterator[None]:
+    try:
+        yield
+    except (InvalidInput, IoError):
+        raise
+    except (gzip.BadGzipFile, EOFError, zlib.error) as error:
+        raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
+    except (Exception, SystemExit) as error:  # meshio raises whatever its parsers run into, and exits on failure
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise IoError(f"{path}: cannot be read as {suffix} ({reason})") from error
+
+
+def grid_of_meshio(found) -> Grid:
     blocks = [(block.type, np.asarray(block.data)) for block in found.cells]
     entities = _entity_ids(found, ("CellEntityIds", "gmsh:geometrical", "medit:ref"))
     return _grid(found.points, blocks, entities, _regions_of(found, entities))
+
+
+def _ovm_grid(path: Path) -> Grid:
+    """Feature edges and faces are those that AlgoHex marks; regions: cell property region."""
+    from .formats.ovm import read_ovm
+    from .formats.ovm_mesh import tets_of_ovm
+
+    mesh = read_ovm(path)
+    blocks, faces = [("tetra", tets_of_ovm(mesh, str(path)))], [np.zeros(len(mesh.cells), np.int64)]
+    for entity, name, kind, of in (("edge", "AlgoHex::FeatureEdges", "line", mesh.edges), ("face", "AlgoHex::FeatureFaces", "triangle", mesh.triangles())):
+        tags = mesh.properties.get((entity, name))
+        if tags is not None and tags.ndim == 1:
+            ids = tags[tags > 0].astype(np.int64)
+            blocks.append((kind, of[tags > 0]))
+            faces.append(ids if len(np.unique(ids)) > 1 else 0 * ids)  # one tag for the whole boundary tells no faces apart
+    regions = mesh.properties.get(("cell", "region"))
+    ids = None if regions is None or regions.ndim != 1 else [regions.astype(np.int64), *faces[1:]]
+    if not len(mesh.cells):
+        raise InvalidInput(f"{path}: holds no tetrahedra")
+    return _grid(mesh.vertices, blocks, faces, ids)
+
+
+def _vtp_grid(path: Path) -> Grid:
+    import pyvista
+
+    from .formats.files import read_bytes
+
+    data = read_bytes(path)
+    with _reading(path, ".vtp"), scratch_folder() as folder:
+        (folder / "input.vtp").write_bytes(data)
+        found = _quietly(lambda: pyvista.read(folder / "input.vtp"))
+        flat = found.triangulate() if found.n_cells else found
+        if not found.n_points:
+            raise IoError(f"{path}: holds no points, or is damaged")
+        sides = np.asarray(flat.faces)
+        blocks = [("triangle", sides.reshape(-1, 4)[:, 1:])] if len(sides) else []
+        lines = _line_segments(np.asarray(found.lines))
+        if len(lines):
+            blocks.append(("line", lines))
+        return _grid(np.asarray(flat.points, float), blocks, None, None)
+
+
+def _quietly(work):
+    """VTK writes about damaged files to stderr and goes on; what it read is tested instead."""
+    from vtkmodules.vtkCommonCore import vtkObject
+
+    shown = vtkObject.GetGlobalWarningDisplay()
+    vtkObject.GlobalWarningDisplayOff()
+    try:
+        return work()
+    finally:
+        vtkObject.SetGlobalWarningDisplay(shown)
+
+
+def _line_segments(cells: np.ndarray) -> np.ndarray:
+    """(k, 2) of VTK's polylines: a count and the points of each."""
+    segments, at = [], 0
+    while at < len(cells):
+        ids = cells[at + 1 : at + 1 + cells[at]]
+        segments.append(np.column_stack([ids[:-1], ids[1:]]))
+        at += 1 + cells[at]
+    return np.concatenate(segments) if segments else np.empty((0, 2), np.int64)
 
 
 def _regions_of(found, entities: list[np.ndarray] | None) -> list[np.ndarray] | None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _core
 from ._core import BoundarySurface, TetMesh, TriangleMesh
+from .cad import CAD_SUFFIXES, read_cad
 from .errors import GeometryError, InvalidInput, IoError, SolverError
 from .grids import GRID_SUFFIXES, LOWER, Grid, read_grid
 from .output import require_utf8
@@ -25,7 +26,8 @@ class Input:
     surface: the triangles, or the boundary of the tets. boundary: the same with the map to tet vertices. regions: (m,)
     region of each tet, where there are several; surface and boundary then hold the interfaces between them too, as the
     last `interface_triangles`. touches: the boundary of the tets touches itself at edges or vertices. lines: (n, 2) feature edges given by the file, vertex ids of `surface`; None when it has
-    no line cells. creases: the file tells that they are. notes: what was changed in reading (tets turned over, unused
+    no line cells. creases: the file tells that they are. faces: CAD face of each triangle of `surface`, -1 where the file tells none.
+    file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file. notes: what was changed in reading (tets turned over, unused
     points dropped), one sentence each.
     """
 
@@ -39,6 +41,9 @@ class Input:
     regions: np.ndarray | None = None
     interface_triangles: int = 0
     touches: bool = False
+    faces: np.ndarray | None = None
+    file_points: np.ndarray | None = None
+    points_in_file: int = 0
     notes: list[str] = field(default_factory=list)
 
     @property
@@ -53,17 +58,17 @@ class Input:
         return self.creases or len(self.lines) < 0.5 * 1.5 * len(self.surface.triangles)
 
 
-def read_input(path: str | Path, *, interfaces: bool = True) -> Input:
-    """Reads a surface (STL, OBJ, OFF, PLY) or a tet mesh (.vtk, .vtu, Gmsh .msh, Medit .mesh and .meshb, TetGen .node
-    or .ele with the other beside it, and .face and .edge where there; triangles alone are a surface), each also as .gz. Raises IoError naming the file,
-    and the line in Medit and TetGen text, InvalidInput where it holds neither tets nor triangles.
-    interfaces: see MeshOptions."""
+def read_input(path: str | Path, *, interfaces: bool = True, edge_length: float = 0.0) -> Input:
+    """Reads a surface (STL, OBJ, OFF, PLY, .vtp; STEP, BREP and IGES by Gmsh where it is installed) or a tet mesh (.vtk, .vtu, Gmsh .msh, Medit
+    .mesh and .meshb, OpenVolumeMesh .ovm and .ovmb, TetGen .node or .ele with the other beside it, and .face and .edge where there; triangles
+    alone are a surface), each also as .gz. Raises IoError naming the file, and the line in text, InvalidInput where it holds neither tets nor
+    triangles. interfaces: see MeshOptions. edge_length: of the triangles on a CAD model (0: from its size)."""
     path = Path(path)
     require_utf8(path)
     if path.is_dir():
         raise IoError(f"{path}: is a folder; give a file")
     with naming(str(path)):
-        return _read(path, interfaces)
+        return _read(path, interfaces, edge_length)
 
 
 @contextlib.contextmanager
@@ -77,32 +82,38 @@ def naming(name: str) -> Iterator[None]:
         raise type(error)(f"{name}: {error}", error.kind, error.elements) from error
 
 
-def _read(path: Path, interfaces: bool) -> Input:
+def _read(path: Path, interfaces: bool, edge_length: float) -> Input:
     suffix = _suffix(path)
     if suffix in SURFACE_SUFFIXES:
         return Input(str(path), _core.read_surface(path))
+    if suffix in CAD_SUFFIXES:
+        return _surface_input(str(path), read_cad(path, suffix, edge_length))
     if suffix not in GRID_SUFFIXES:
-        surfaces, tets = " ".join(SURFACE_SUFFIXES), " ".join(GRID_SUFFIXES)
+        surfaces, tets, cad = (" ".join(known) for known in (SURFACE_SUFFIXES, GRID_SUFFIXES, CAD_SUFFIXES))
         raise IoError(
-            f"{path}: unknown kind of file; known are surfaces ({surfaces}) and tet meshes ({tets}), also .gz"
+            f"{path}: unknown kind of file; known are surfaces ({surfaces}), tet meshes ({tets}) and CAD models ({cad}), also .gz"
         )
     grid = read_grid(path, suffix)
-    cells = grid.cells
     if not interfaces:
         grid.regions = None
+    return input_of_grid(str(path), grid)
+
+
+def input_of_grid(name: str, grid: Grid) -> Input:
+    cells = grid.cells
     _refuse({kind: len(c) for kind, c in cells.items() if kind.startswith(_VOLUMES) and kind != "tetra"})
     others = {kind: len(c) for kind, c in cells.items() if kind != "tetra" and kind not in LOWER}
     if "tetra" in cells:
-        found = _tet_input(str(path), grid)
+        found = _tet_input(name, grid)
         found.notes += [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
         return found
     _refuse({kind: count for kind, count in others.items() if not kind.startswith(("line", "VTK_LAGRANGE_CURVE"))})
     if "triangle" in cells:
-        found = _surface_input(str(path), grid)
+        found = _surface_input(name, grid)
         found.notes += [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
         return found
     kinds = ", ".join(sorted(cells)) or "none"
-    raise InvalidInput(f"{path}: holds neither tetrahedra nor triangles (cell types: {kinds}); linear ones are needed")
+    raise InvalidInput(f"{name}: holds neither tetrahedra nor triangles (cell types: {kinds}); linear ones are needed")
 
 
 def _refuse(counts: dict[str, int]) -> None:
@@ -167,8 +178,11 @@ def _tet_input(name: str, grid: Grid) -> Input:
         notes.append(f"{int(inverted.sum())} of {len(tets)} tets were turned over to positive volume")
     mesh = TetMesh(points_used, tets.astype(np.int32))
     _core.require_valid(mesh)
-    found: Input = with_regions(Input(name, TriangleMesh(), mesh, notes=notes), grid.regions)
+    found = Input(name, TriangleMesh(), mesh, notes=notes, file_points=np.flatnonzero(new_id >= 0), points_in_file=len(points))
+    with_regions(found, grid.regions)
     lines = _to_boundary(found, new_id)
+    if grid.faces is not None:
+        found.faces = _face_of(np.asarray(found.surface.triangles).astype(np.int64), lines, grid)
     if "line" in cells:
         _take_lines(found, lines, grid)
     return found
@@ -202,6 +216,7 @@ def _surface_input(name: str, grid: Grid) -> Input:
     _require_points(grid.cells, len(grid.points))
     points_used, new_id = _compact(grid.points, grid.cells["triangle"])
     found = Input(name, TriangleMesh(points_used, new_id[grid.cells["triangle"]].astype(np.int32)))
+    found.faces = grid.faces
     if "line" in grid.cells:
         _take_lines(found, new_id, grid)
     return found

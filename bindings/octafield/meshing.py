@@ -105,7 +105,10 @@ def read_sound(
     clock = PhaseClock()
     with clock.phase("read"):
         announce(progress, "read")
-        found = from_mesh(source) if isinstance(source, (TriangleMesh, TetMesh)) else read_input(source, interfaces=options.interfaces)
+        if isinstance(source, (TriangleMesh, TetMesh)):
+            found = from_mesh(source)
+        else:
+            found = read_input(source, interfaces=options.interfaces, edge_length=options.edge_length)
         with naming(found.name):
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):

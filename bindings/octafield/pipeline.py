@@ -15,6 +15,7 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _core, display
 from ._core import (
@@ -37,6 +38,7 @@ from .errors import InvalidInput
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
+from .smoothing import smoothed_field
 from .tet_analysis import TetFieldAnalysis, analyse_tets
 from .surface_pipeline import SurfaceFieldResult, common_record, compute_surface_field, index_summary, structure
 
@@ -126,6 +128,7 @@ def compute_field(
     progress: Progress | None = None,
     *,
     constraints: VertexConstraints | None = None,
+    start: ArrayLike | None = None,
 ) -> FieldResult:
     """Frame field inside a closed surface or on a tet mesh (paths or meshes in memory).
 
@@ -140,8 +143,13 @@ def compute_field(
         >>> result.record["constraints"]["given"]
         1
 
+    start: (n, 4) frames to smooth from, on that mesh's vertices (sampling "tets": tets), such as octafield.read_frames gives; they are
+    polished by one smoothing, without the heat flow that a field begins with otherwise.
+
     progress(phase, fraction, merit): False cancels. Raises InvalidInput, GeometryError, IoError, SolverError, Cancelled.
     """
+    if start is not None and not isinstance(source, (MeshedInput, TetMesh)):
+        raise InvalidInput("a start belongs to a tet mesh; give that, or the result of prepare_mesh(source, options)", "not_meshed")
     if constraints is not None and not isinstance(source, MeshedInput):
         raise InvalidInput(
             "constraints belong to the tet mesh the field is computed on; "
@@ -149,7 +157,7 @@ def compute_field(
             "not_meshed",
         )
     meshed = source if isinstance(source, MeshedInput) else prepare_mesh(source, options, progress=progress)
-    return run(prepare(meshed, options.seed, progress), options, progress, constraints=constraints)
+    return run(prepare(meshed, options.seed, progress), options, progress, constraints=constraints, start=start)
 
 
 def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None) -> Problem:
@@ -178,9 +186,10 @@ def run(
     progress: Progress | None = None,
     *,
     constraints: VertexConstraints | None = None,
+    start: ArrayLike | None = None,
 ) -> FieldResult:
     """One frame field on a prepared problem. The record's phase times include those of the shared preparation.
-    constraints: see compute_field.
+    constraints, start: see compute_field.
 
         >>> import octafield
         >>> from octafield.study.generators import generate
@@ -199,20 +208,8 @@ def run(
         held = _boundary_constraints(problem, options)
         if constraints is not None:
             held = _core.with_constraints(held, constraints)
-        found = _core.frame_field(
-            tets if in_tets is None else in_tets,
-            held,
-            start="cross_field" if options.boundary == "none" else "constraints",
-            seed=problem.seed,
-            rounds=options.rounds,
-            representation=options.representation,
-            max_iterations=options.max_iterations,
-            tolerance=options.tolerance,
-            threads=threads,
-            progress=forward(progress, "smooth", 0.0, 1.0),
-            solver="automatic" if options.solver == "default" else options.solver,
-        )
-        smoothed = found.smooth
+        where = tets if in_tets is None else in_tets
+        smoothed, diffusion_steps = smoothed_field(tets, options, where, held, start, problem.seed, progress)
     with clock.phase("analyse"):
         announce(progress, "analyse")
         frames, of_tets = np.asarray(smoothed.frames), None
@@ -243,7 +240,8 @@ def run(
         **({} if lengths is None else {"lengths": spread(lengths)}),
         "objective": float(smoothed.objective),
         "iterations": smoothed.iterations,
-        "diffusion_steps": found.diffusion_steps,
+        "diffusion_steps": diffusion_steps,
+        "start": "default" if start is None else "given",
         "converged": bool(smoothed.converged),
         "stop_reason": smoothed.message,
         "energy_history": [float(e) for e in smoothed.energy_history],

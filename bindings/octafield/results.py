@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _core
 from ._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetMesh
+from .imported import AnalysedField
 from .output import write_json
 from .phases import PhaseClock, Progress, announce
 from .pipeline import FieldResult, SurfaceFieldResult
@@ -27,21 +28,39 @@ def write_field_result(result: FieldResult, folder: Path, progress: Progress | N
     metadata = _metadata(result.record)
     clock = _clock(result.record)
     with clock.phase("write"):
-        regions: Sequence[int] | np.ndarray = [] if result.regions is None else result.regions
-        more = {}
-        if result.tet_frames is not None:
-            more["tet_frames"] = result.tet_frames
-        if result.lengths is not None:
-            more["lengths" if result.tet_frames is None else "tet_lengths"] = result.lengths
-        _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions, **more)
-        _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
-        if result.boundary_meshability is not None:
-            write_features(folder / "features.vtp", result.tets, result.boundary_meshability, metadata)
-        if result.streamlines:
-            write_streamlines(folder / "streamlines.vtp", result.streamlines, metadata)
+        _write_volume_files(result, folder, metadata)
         _write_surface_files(result, folder, metadata)
     result.record["files"] = [*(name for name in FIELD_FILES if (folder / name).exists()), RECORD_FILE]
     write_json(folder / RECORD_FILE, result.record)
+
+
+def write_analysis(result: AnalysedField, folder: Path, progress: Progress | None = None) -> None:
+    """The files of the volume, the surface without a field, and the record."""
+    import pyvista
+
+    announce(progress, "write")
+    metadata = _metadata(result.record)
+    with _clock(result.record).phase("write"):
+        _write_volume_files(result, folder, metadata)
+        surface = pyvista.PolyData.from_regular_faces(np.array(result.surface.vertices), np.array(result.surface.triangles))
+        _save(surface, folder / SURFACE_FILES[0], metadata)
+    result.record["files"] = [*(name for name in FIELD_FILES if (folder / name).exists()), RECORD_FILE]
+    write_json(folder / RECORD_FILE, result.record)
+
+
+def _write_volume_files(result: FieldResult | AnalysedField, folder: Path, metadata: dict[str, str]) -> None:
+    regions: Sequence[int] | np.ndarray = [] if result.regions is None else result.regions
+    more = {}
+    if result.tet_frames is not None:
+        more["tet_frames"] = result.tet_frames
+    if result.lengths is not None:
+        more["lengths" if result.tet_frames is None else "tet_lengths"] = result.lengths
+    _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions, **more)
+    _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
+    if result.boundary_meshability is not None:
+        write_features(folder / "features.vtp", result.tets, result.boundary_meshability, metadata)
+    if result.streamlines:
+        write_streamlines(folder / "streamlines.vtp", result.streamlines, metadata)
 
 
 def write_surface_result(result: SurfaceFieldResult, folder: Path, progress: Progress | None = None) -> None:

@@ -1,0 +1,102 @@
+"""CAD models as triangles, by Gmsh where it is installed: the model's curves are the feature edges."""
+
+import contextlib
+import gzip
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from .errors import InvalidInput, IoError
+from .grids import Grid
+from .output import scratch_folder
+
+CAD_SUFFIXES = (".step", ".stp", ".brep", ".iges", ".igs")
+_PARTS = 30  # edges along the diagonal of the bounding box, where no length is asked for
+_GMSH_TRIANGLE, _GMSH_LINE = 2, 1
+
+
+def read_cad(path: Path, suffix: str, edge_length: float) -> Grid:
+    """Triangles with their CAD face and lines along the curves between faces. The boundary of solids alone is meshed where there are any."""
+    try:
+        import gmsh
+    except (ImportError, OSError) as error:
+        raise InvalidInput(
+            f"{path}: CAD models are read by Gmsh, which is not here ({error}); pip install 'octafield[cad]'", "no_gmsh"
+        ) from error
+    if not path.is_file():
+        raise IoError(f"{path}: no such file")
+    try:
+        with _model(gmsh), _plain(path, suffix) as plain:
+            gmsh.model.occ.importShapes(str(plain))
+            gmsh.model.occ.synchronize()
+            return _meshed(gmsh, path, edge_length)
+    except (InvalidInput, IoError):
+        raise
+    except Exception as error:  # Gmsh raises plain exceptions
+        raise IoError(f"{path}: Gmsh cannot read or mesh it ({' '.join(str(error).split())})") from error
+
+
+@contextlib.contextmanager
+def _model(gmsh) -> Iterator[None]:
+    """A model of its own, in the caller's session of Gmsh where there is one, whose options are put back."""
+    ours = not gmsh.isInitialized()
+    if ours:
+        gmsh.initialize(["octafield"], readConfigFiles=False, interruptible=False)
+    numbers = ("General.Terminal", "Mesh.MeshSizeMin", "Mesh.MeshSizeMax", "General.NumThreads")
+    before = {name: gmsh.option.getNumber(name) for name in numbers}
+    current = None if ours else gmsh.model.getCurrent()
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.option.setNumber("General.NumThreads", 1)
+    gmsh.model.add("octafield input")
+    try:
+        yield
+    finally:
+        gmsh.model.remove()
+        for name, value in before.items():
+            gmsh.option.setNumber(name, value)
+        if ours:
+            gmsh.finalize()
+        elif current:
+            gmsh.model.setCurrent(current)
+
+
+@contextlib.contextmanager
+def _plain(path: Path, suffix: str) -> Iterator[Path]:
+    if not path.name.lower().endswith(".gz"):
+        yield path
+        return
+    with scratch_folder() as folder:
+        with gzip.open(path, "rb") as packed, open(folder / f"input{suffix}", "wb") as unpacked:
+            shutil.copyfileobj(packed, unpacked)
+        yield folder / f"input{suffix}"
+
+
+def _meshed(gmsh, path: Path, edge_length: float) -> Grid:
+    solids = gmsh.model.getEntities(3)
+    faces = gmsh.model.getBoundary(solids, combined=True, oriented=False) if solids else gmsh.model.getEntities(2)
+    if not faces:
+        raise InvalidInput(f"{path}: the model has no faces")
+    box = np.array(gmsh.model.getBoundingBox(-1, -1)).reshape(2, 3)
+    size = edge_length if edge_length > 0 else float(np.linalg.norm(box[1] - box[0])) / _PARTS
+    gmsh.option.setNumber("Mesh.MeshSizeMin", size)
+    gmsh.option.setNumber("Mesh.MeshSizeMax", size)
+    gmsh.model.mesh.generate(2)
+    for _, solid in solids:
+        gmsh.model.mesh.setOutwardOrientation(solid)
+    tags, points, _ = gmsh.model.mesh.getNodes()
+    place = np.zeros(int(tags.max()) + 1, np.int64)
+    place[tags] = np.arange(len(tags))
+    curves = gmsh.model.getBoundary(faces, combined=False, oriented=False)
+    triangles, of_face = _elements(gmsh, [tag for _, tag in faces], 2, _GMSH_TRIANGLE)
+    lines, _ = _elements(gmsh, sorted({abs(tag) for _, tag in curves}), 1, _GMSH_LINE)
+    cells = {"triangle": place[triangles]} | ({"line": place[lines]} if len(lines) else {})
+    return Grid(points.reshape(-1, 3), cells, of_face, None, np.ones(len(lines), bool) if len(lines) else None)
+
+
+def _elements(gmsh, entities: list[int], dimension: int, kind: int) -> tuple[np.ndarray, np.ndarray]:
+    """(k, dimension + 1) node tags of the elements on the entities, and (k,) the entity of each."""
+    nodes = [gmsh.model.mesh.getElementsByType(kind, tag)[1].reshape(-1, dimension + 1).astype(np.int64) for tag in entities]
+    ids = [np.full(len(part), tag) for part, tag in zip(nodes, entities, strict=True)]
+    return (np.concatenate(nodes), np.concatenate(ids)) if nodes else (np.empty((0, dimension + 1), np.int64), np.empty(0, np.int64))

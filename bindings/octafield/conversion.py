@@ -1,0 +1,112 @@
+"""From one kind of file to another: meshes, and fields with their meshes."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .errors import InvalidInput, IoError
+from .formats import FrameFile, find_format, read_frames, write_frames
+from .formats.files import plain_name
+from .formats.meshes import MESH_SUFFIXES, write_mesh
+from .formats.registry import FORMATS
+from .inputs import SURFACE_SUFFIXES, Input, from_mesh, naming, read_input
+
+
+@dataclass
+class Conversion:
+    """kind: "surface", "tets" or "field", of what was written. where: of the frames in the file written. notes: what was changed or left out."""
+
+    input: str
+    output: str
+    kind: str
+    vertices: int
+    cells: int
+    frames: int = 0
+    where: str | None = None
+    deviation_deg: float = 0.0
+    notes: list[str] = field(default_factory=list)
+
+
+def convert_file(
+    source: str | Path,
+    target: str | Path,
+    *,
+    mesh: str | Path | None = None,
+    from_format: str | None = None,
+    to_format: str | None = None,
+    at: str | None = None,
+    edge_length: float = 0.0,
+) -> Conversion:
+    """Reads a mesh or a field, writes the other file. mesh: of the frames, where their file has none. from_format, to_format: names of
+    octafield.frame_formats, where the extensions do not tell. at: "vertices" or "tets", where the frames shall be. edge_length: of triangles on CAD models."""
+    source, target = Path(source), Path(target)
+    frames = _frames(source, mesh, from_format)
+    if to_format is None and not _writes_frames(target) and not _is_mesh(target):
+        kinds = " ".join(sorted({*MESH_SUFFIXES, *(e for f in FORMATS.values() if f.write for e in f.extensions)}))
+        raise IoError(f"{target}: unknown kind of file; known are {kinds}, also .gz")
+    if frames is not None and (to_format is not None or _writes_frames(target)):
+        notes = write_frames(
+            target, frames.mesh, frames.frames, frames.where, to_format, at=at, lengths=frames.lengths, features=frames.features, regions=frames.regions
+        )
+        written = at or _site_in_file(target, to_format, frames.where)
+        count, cells = (0, 0) if frames.mesh is None else (len(frames.mesh.vertices), len(frames.mesh.tets))
+        number = len(frames.frames) if written == frames.where else {"vertices": count, "tets": cells}[written]
+        return Conversion(str(source), str(target), "field", count, cells, number, written, _degrees(frames.deviation), frames.notes + notes)
+    if not _is_mesh(target) or to_format is not None or (frames is None and at is not None):
+        raise InvalidInput(f"{source}: holds no frames to write" if frames is None else f"{target}: cannot hold frames", "no_frames")
+    return _convert_mesh(source, target, frames, mesh, edge_length)
+
+
+def _convert_mesh(source: Path, target: Path, frames: FrameFile | None, mesh: str | Path | None, edge_length: float) -> Conversion:
+    found = _mesh_of(source, frames, mesh, edge_length)
+    with naming(found.name):
+        notes = [*found.notes, *write_mesh(target, found)]
+    if found.lines is not None and not found.lines_are_features():
+        notes.append("the file's lines list mesh edges in general: they were left out")
+    if frames is not None:
+        notes.append(f"the frames were left out: {target.suffix} files hold a mesh alone")
+    if found.tets is None or plain_name(target).endswith((*SURFACE_SUFFIXES, ".vtp")):
+        return Conversion(str(source), str(target), "surface", len(found.surface.vertices), len(found.surface.triangles), notes=notes)
+    return Conversion(str(source), str(target), "tets", len(found.tets.vertices), len(found.tets.tets), notes=notes)
+
+
+def _mesh_of(source: Path, frames: FrameFile | None, mesh: str | Path | None, edge_length: float) -> Input:
+    if frames is None:
+        return read_input(source, edge_length=edge_length)
+    if mesh is not None:
+        return read_input(mesh)
+    if _is_mesh(source):
+        return read_input(source)
+    if frames.mesh is None:
+        raise InvalidInput(f"{source}: holds frames and no mesh; give it with --mesh", "no_mesh")
+    return from_mesh(frames.mesh)
+
+
+def _frames(source: Path, mesh: str | Path | None, name: str | None) -> FrameFile | None:
+    """None where the file is one of a mesh alone."""
+    if name is None and not any(f.read and f.owns(source) for f in FORMATS.values()):
+        return None
+    if name is not None or not find_format(source, None).holds_mesh or not _is_mesh(source):
+        return read_frames(source, mesh, name)
+    try:
+        return read_frames(source, mesh)
+    except InvalidInput as error:
+        if error.kind in ("no_frames", "not_tets"):
+            return None
+        raise
+
+
+def _is_mesh(path: Path) -> bool:
+    return plain_name(path).endswith(MESH_SUFFIXES)
+
+
+def _writes_frames(path: Path) -> bool:
+    return any(f.write and f.owns(path) for f in FORMATS.values())
+
+
+def _site_in_file(target: Path, name: str | None, where: str) -> str:
+    known = find_format(target, name, to_write=True).where
+    return where if where in known else known[0]
+
+
+def _degrees(radians: float) -> float:
+    return radians * 57.29577951308232

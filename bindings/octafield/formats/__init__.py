@@ -1,0 +1,140 @@
+"""Files of frames: what other programs write comes in, what they read goes out.
+
+    found = octafield.read_frames("field.frame", mesh="part.mesh")  # a FrameFile
+    octafield.analyse(found.mesh, found.frames, where=found.where).record["singular_edges"]
+    octafield.write_frames("field.ovmb", found.mesh, found.frames, found.where)
+
+Formats and their layouts: docs/formats.md, octafield.frame_formats.
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _core
+from .._core import TetMesh
+from ..errors import InvalidInput
+from ..inputs import Input, read_input
+from .base import SITES, Field, FrameFile, FrameFormat
+from .files import plain_name
+from .placing import place
+from .registry import FORMATS, find_format
+from .rotations import unit_quaternions
+from .text import read_txt
+
+__all__ = ["FrameFile", "FrameFormat", "frame_formats", "read_frames", "write_frames"]
+
+frame_formats: Mapping[str, FrameFormat] = MappingProxyType(FORMATS)
+
+
+def read_frames(
+    path: str | Path, mesh: TetMesh | str | Path | None = None, format: str | None = None, *, where: str | None = None
+) -> FrameFile:
+    """The frames of a file, as unit quaternions, with what else it holds.
+
+    mesh: the tet mesh they belong to, or its file; without one, the file's own. With a mesh, the number of frames tells whether they sit at
+    its vertices or in its tets. format: a name of frame_formats; None: by the extension, and in .txt by the numbers on the first line. where: "vertices" or
+    "tets", where the file does not tell. Axes of any length and handedness that are not quite at right angles are taken
+    to the nearest frame, which the notes tell. Raises IoError naming the line or byte, and InvalidInput where axes are zero or in one plane,
+    or the number of frames fits nothing.
+    """
+    path = Path(path)
+    _require_site(where)
+    reader = find_format(path, format)
+    given = read_input(mesh) if isinstance(mesh, (str, Path)) else mesh
+    if given is not None and not isinstance(given, (Input, TetMesh)):
+        raise InvalidInput(f"a TetMesh or its file is needed, not {type(given).__name__}", "bad_type")
+    if isinstance(given, Input) and given.tets is None:
+        raise InvalidInput(f"{given.name}: holds triangles; frames need the tet mesh they belong to", "not_tets")
+    found = read_txt(path) if format is None and plain_name(path).endswith(".txt") else reader.read(path)
+    if found.mesh is not None:  # the file is checked, and its own mesh is the one wanted unless another is given
+        _core.require_valid(found.mesh)
+    return place(found, given, where)
+
+
+def write_frames(
+    path: str | Path,
+    mesh: TetMesh | None,
+    frames: ArrayLike,
+    where: str = "vertices",
+    format: str | None = None,
+    *,
+    at: str | None = None,
+    lengths: ArrayLike | None = None,
+    features: ArrayLike | None = None,
+    regions: ArrayLike | None = None,
+    metadata: Mapping[str, str] | None = None,
+) -> list[str]:
+    """Writes (n, 4) frames to a file that appears only when complete, packed where the name ends with .gz.
+
+    where: where the frames are, "vertices" or "tets". format: a name of frame_formats; None: by the extension. at: where they shall be in
+    the file; None: where they are, if the format has that; else they are taken there by vertex_frames or tet_frames. lengths: (n, 3) of the axes.
+    features: (k, 2) feature edges, vertex ids. regions: (m,) of the tets. metadata: words for .vtu. mesh: None where the format
+    needs none. Returns notes on what was changed or left out. Raises InvalidInput and IoError.
+    """
+    path = Path(path)
+    _require_site(where)
+    _require_site(at)
+    writer = find_format(path, format, to_write=True)
+    values = np.asarray(frames, float)
+    if values.ndim != 2 or values.shape[1] != 4:
+        raise InvalidInput(f"frames of shape {values.shape}; (n, 4) quaternions w x y z are needed", "bad_shape")
+    values, _ = unit_quaternions(values, lambda i: "frames")
+    field = Field(mesh, values, where, _array(lengths, 3), _array(features, 2), _array(regions, None), dict(metadata or {}))
+    _require_fit(field, writer)
+    notes = _move(field, writer, at)
+    for name, words in (("lengths", "lengths of the axes"), ("features", "feature edges"), ("regions", "regions")):
+        if getattr(field, name) is not None and not getattr(writer, f"holds_{name}"):
+            notes.append(f"the {words} were left out: {writer.title} files hold none")
+            setattr(field, name, None)
+    writer.write(path, field)
+    return notes
+
+
+def _require_site(where: str | None) -> None:
+    if where is not None and where not in SITES:
+        raise InvalidInput(f"where must be one of: {', '.join(SITES)}; not {where!r}", "unknown_option_value")
+
+
+def _array(values: ArrayLike | None, width: int | None) -> np.ndarray | None:
+    if values is None:
+        return None
+    result = np.asarray(values)
+    if result.ndim != (1 if width is None else 2) or (width and result.shape[1] != width):
+        raise InvalidInput(f"an array of shape {result.shape}; (n, {width}) is needed" if width else f"(m,) ids are needed, not {result.shape}", "bad_shape")
+    return result
+
+
+def _require_fit(field: Field, writer: FrameFormat) -> None:
+    if field.mesh is None:
+        if writer.needs_mesh:
+            raise InvalidInput(f"{writer.title} files need the mesh of the frames; give it", "no_mesh")
+        return
+    count = len(field.mesh.vertices if field.where == "vertices" else field.mesh.tets)
+    if len(field.frames) != count:
+        raise InvalidInput(f"{len(field.frames)} frames; the mesh has {count} {field.where}", "bad_count")
+    for name, wanted in (("lengths", count), ("regions", len(field.mesh.tets))):
+        part = getattr(field, name)
+        if part is not None and len(part) != wanted:
+            raise InvalidInput(f"{len(part)} rows of {name}; {wanted} are needed", "bad_count")
+
+
+def _move(field: Field, writer: FrameFormat, at: str | None) -> list[str]:
+    """Takes the frames to where the file shall have them."""
+    target = at or (field.where if field.where in writer.where else writer.where[0])
+    if target not in writer.where:
+        raise InvalidInput(f"{writer.title} files hold frames at {writer.where[0]} only", "unknown_option_value")
+    if target == field.where:
+        return []
+    if field.mesh is None:
+        raise InvalidInput(f"frames at {field.where} are taken to {target} with the mesh; give it", "no_mesh")
+    move = _core.tet_frames if target == "tets" else _core.vertex_frames
+    field.frames, field.where = np.asarray(move(field.mesh, field.frames)), target
+    notes = [f"the frames were taken to the {target}: the nearest to the mean sh4 vector of those around"]
+    if field.lengths is not None:
+        field.lengths = None
+        notes.append("the lengths of the axes were left out: they stay where they were")
+    return notes

@@ -1,0 +1,105 @@
+"""Frames and features as AlgoHex names them, in OpenVolumeMesh files."""
+
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InvalidInput
+from ..inputs import read_input
+from ..topology import unique_triangles
+from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4
+from .files import plain_name
+from .ovm import read_ovm, write_ovm
+from .ovm_mesh import OvmMesh, ovm_of_tets
+from .rotations import axes_of
+from .vtk import AXES, with_mesh
+
+_BINARY_NAME = {"tets": "FrameFieldQuaternions", "vertices": "vertex quaternion"}  # type Quaternion: x y z w
+_COEFFICIENTS = "scaled vertex spherical harmonic coefficients"
+_ENTITY = {"tets": "cell", "vertices": "vertex"}
+FEATURES = {"vertex": "AlgoHex::FeatureVertices", "edge": "AlgoHex::FeatureEdges", "face": "AlgoHex::FeatureFaces"}
+
+
+def read(path: Path) -> FrameFile:
+    """Of the cells, or of the vertices where the cells have none."""
+    name = "ovmb" if plain_name(path).endswith(".ovmb") else "ovm"
+    mesh = read_ovm(path)
+    result = _frames_in(path, name, mesh)
+    if result is None:
+        known = ", ".join(sorted(f"{entity} {key}" for entity, key in mesh.properties)) or "none"
+        raise InvalidInput(f"{path}: holds no frames that are known (properties: {known})", "no_frames")
+    found = read_input(path)
+    if result.where == "vertices":
+        for part in ("frames", "lengths"):
+            if getattr(result, part) is not None:
+                setattr(result, part, getattr(result, part)[found.file_points])
+    if mesh.skipped:
+        result.notes.append(f"properties of other types were left out: {', '.join(mesh.skipped[:5])}")
+    return with_mesh(result, found)
+
+
+def _frames_in(path: Path, name: str, mesh: OvmMesh) -> FrameFile | None:
+    for where, entity in _ENTITY.items():
+        found = {key: values for (of, key), values in mesh.properties.items() if of == entity and values.ndim == 2}
+        key = _BINARY_NAME[where]
+        if mesh.kinds.get((entity, key)) == "Quaternion":
+            return from_quaternions(path, name, where, found[key][:, [3, 0, 1, 2]])
+        for key in ("quaternion", key):
+            if key in found and found[key].shape[1] == 4:
+                return from_quaternions(path, name, where, found[key])
+        if all(key in found and found[key].shape[1] == 3 for key in AXES):
+            return from_axes(path, name, where, np.stack([found[key] for key in AXES], axis=2))
+        if _COEFFICIENTS in found and found[_COEFFICIENTS].shape[1] == 9:
+            return from_sh4(path, name, where, found[_COEFFICIENTS])
+    return None
+
+
+def write(path: Path, field: Field) -> None:
+    mesh = ovm_of_tets(field.mesh.vertices, field.mesh.tets)
+    add_features(mesh, field)
+    entity = _ENTITY[field.where]
+    if plain_name(path).endswith(".ovmb"):
+        key = entity, _BINARY_NAME[field.where]
+        mesh.properties[key] = field.frames[:, [1, 2, 3, 0]]
+        mesh.kinds[key] = "Quaternion"
+    else:
+        mesh.properties[entity, "quaternion"] = field.frames
+        axes = axes_of(field.frames)
+        for k, name in enumerate(AXES):
+            mesh.properties[entity, name] = np.ascontiguousarray(axes[:, :, k])
+    write_ovm(path, mesh)
+
+
+def add_features(mesh: OvmMesh, field: Field, triangles: np.ndarray | None = None, faces: np.ndarray | None = None) -> None:
+    """Edges as given, vertices where other than two of them meet, all faces of the boundary and between regions, by the CAD
+    faces of (t, 3) triangles where these are known, else 1. None where no edges are given: AlgoHex finds features itself then."""
+    if field.regions is not None:
+        mesh.properties["cell", "region"] = np.asarray(field.regions).astype(np.int32)
+    if field.features is None:
+        return
+    count = len(mesh.vertices)
+    features = np.sort(np.asarray(field.features).astype(np.int64), axis=1)
+    keys = features[:, 0] * count + features[:, 1]
+    marked = np.isin(mesh.edges[:, 0] * count + mesh.edges[:, 1], keys)
+    if marked.sum() < len(np.unique(keys)):
+        raise InvalidInput("features name pairs of vertices that are no edges of the tet mesh", "bad_features")
+    degree = np.bincount(mesh.edges[marked].ravel(), minlength=count)
+    _, of_tet = unique_triangles(field.mesh.tets)
+    sides = np.bincount(of_tet.ravel(), minlength=len(mesh.faces))
+    on_surface = sides == 1
+    if field.regions is not None:
+        ids = np.repeat(np.asarray(field.regions), 4)
+        low, high = np.full(len(mesh.faces), np.iinfo(np.int64).max), np.full(len(mesh.faces), np.iinfo(np.int64).min)
+        np.minimum.at(low, of_tet.ravel(), ids)
+        np.maximum.at(high, of_tet.ravel(), ids)
+        on_surface |= low != high
+    face_tags = on_surface.astype(np.int32)
+    if faces is not None:
+        both = np.sort(np.concatenate([mesh.triangles(), triangles]), axis=1)
+        ids = np.unique(both, axis=0, return_inverse=True)[1].ravel()
+        of_triangle = np.zeros(ids.max() + 1, np.int64)
+        of_triangle[ids[len(mesh.faces) :]] = np.where(faces > 0, faces, faces.max() + 1)
+        face_tags = np.where(on_surface, of_triangle[ids[: len(mesh.faces)]], 0).astype(np.int32)
+    tags = {"vertex": (degree > 0) & (degree != 2), "edge": marked, "face": face_tags}
+    for entity, values in tags.items():
+        mesh.properties[entity, FEATURES[entity]] = values.astype(np.int32)

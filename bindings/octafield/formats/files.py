@@ -1,0 +1,119 @@
+"""Bytes of a file in and out: packed or not, written whole or not at all, and numbers of text with the line of a defect."""
+
+import gzip
+import os
+import tempfile
+import zlib
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import IoError
+from ..output import require_utf8
+
+_ROWS_AT_ONCE = 1 << 16
+
+
+def plain_name(path: str | Path) -> str:
+    """The file's name in small letters without .gz."""
+    return Path(path).name.lower().removesuffix(".gz")
+
+
+def read_bytes(path: str | Path) -> bytes:
+    """The content, unpacked. Raises IoError naming the file."""
+    require_utf8(path)
+    path = Path(path)
+    if path.is_dir():
+        raise IoError(f"{path}: is a folder; give a file")
+    if not path.is_file():
+        raise IoError(f"{path}: no such file")
+    try:
+        data = path.read_bytes()
+        return gzip.decompress(data) if path.name.lower().endswith(".gz") else data
+    except (gzip.BadGzipFile, EOFError, zlib.error) as error:
+        raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
+    except OSError as error:
+        raise IoError(f"{path}: cannot be read ({error.strerror})") from error
+
+
+def read_text(path: str | Path) -> str:
+    data = read_bytes(path)
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise IoError(f"{path}, line {line}: no text (byte {error.start}); is it a binary file?") from error
+
+
+def write_whole(path: str | Path, pieces: Iterable[bytes]) -> None:
+    """Writes the pieces, packed where the name ends with .gz; the file appears only when complete."""
+    require_utf8(path)
+    path = Path(path)
+    if path.is_dir():
+        raise IoError(f"{path}: is a folder; give a file")
+    staging = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, staging = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        with os.fdopen(handle, "wb") as raw:
+            if path.name.lower().endswith(".gz"):
+                with gzip.GzipFile(filename="", mode="wb", fileobj=raw, mtime=0) as packed:  # no name, no time: equal bytes
+                    packed.writelines(pieces)
+            else:
+                raw.writelines(pieces)
+        umask = os.umask(0)
+        os.umask(umask)
+        os.chmod(staging, 0o666 & ~umask)
+        os.replace(staging, path)
+    except OSError as error:
+        raise IoError(f"{path}: cannot write there ({error.strerror})") from error
+    finally:
+        if staging is not None and os.path.exists(staging):
+            os.unlink(staging)
+
+
+def rows_of(table: np.ndarray, prefix: str = "") -> Iterable[bytes]:
+    """The rows as lines. Floats with the fewest digits (17 at most) that read back to the same bits."""
+    table = np.asarray(table)
+    form = repr if table.dtype.kind == "f" else str
+    for start in range(0, len(table), _ROWS_AT_ONCE):
+        lines = (prefix + " ".join(map(form, row)) for row in table[start : start + _ROWS_AT_ONCE].tolist())
+        yield ("\n".join(lines) + "\n").encode()
+
+
+def numbers_of(text: str, name: str, first_line: int = 1) -> np.ndarray:
+    """All numbers of a text; IoError with the line of the first word that is none. first_line: number of its first."""
+    try:
+        return np.fromstring(text, sep=" ") if text.strip() else np.empty(0)
+    except (ValueError, DeprecationWarning):
+        pass
+    for offset, line in enumerate(text.split("\n")):
+        for word in line.split():
+            try:
+                float(word)
+                continue
+            except ValueError:
+                raise IoError(f"{name}, line {first_line + offset}: no number: {word[:40]!r}") from None
+    raise IoError(f"{name}, line {first_line}: numbers separated by blanks are needed")
+
+
+def table_of(text: str, name: str, width: int, first_line: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of `width` numbers, one per line, blank lines left out, and the line of each; else IoError with the line."""
+    counts = words_per_line(text)
+    filled = np.flatnonzero(counts)
+    wrong = filled[counts[filled] != width]
+    if len(wrong):
+        numbers_of(text.split("\n")[wrong[0]], name, first_line + int(wrong[0]))
+        raise IoError(f"{name}, line {first_line + wrong[0]}: {counts[wrong[0]]} numbers; {width} are needed on every line")
+    return numbers_of(text, name, first_line).reshape(-1, width), first_line + filled
+
+
+def words_per_line(text: str) -> np.ndarray:
+    """How many words each line has."""
+    data = np.frombuffer((text + "\n").encode(), np.uint8)
+    blank = data <= 32
+    begins = ~blank & np.concatenate([[True], blank[:-1]])
+    ends = np.flatnonzero(data == 10)
+    before = np.searchsorted(np.flatnonzero(begins), ends)
+    return np.diff(before, prepend=0)

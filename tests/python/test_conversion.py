@@ -1,0 +1,228 @@
+"""octafield convert: meshes and fields from one kind of file to another, checked with other people's readers."""
+
+import gzip
+import json
+
+import meshio
+import numpy as np
+import other_readers as readers
+import pytest
+import pyvista
+from conftest import box_tets
+from format_table import frames_at
+from pipeline_fixtures import SHARED_TETS, octafield, shared
+from test_tet_input import cube_edges, halves
+
+import octafield as of
+from octafield.conversion import convert_file
+from octafield.inputs import read_input
+
+VOLUMES = (".vtk", ".vtu", ".msh", ".mesh", ".meshb", ".ele", ".node", ".ovm", ".ovmb")
+SURFACES = (".obj", ".off", ".ply", ".vtp")
+
+
+@pytest.fixture(scope="module")
+def halved(tmp_path_factory):
+    """A cube in two regions with its twelve edges as features, and six CAD faces."""
+    tets = box_tets(4)
+    points = np.asarray(tets.vertices)
+    boundary = of.boundary_surface(tets)
+    triangles = np.asarray(boundary.vertex_map)[boundary.mesh.triangles]
+    at = points[triangles]
+    faces = sum((1 + 2 * k + side) * (at[:, :, k] == side).all(axis=1) for k in range(3) for side in (0, 1))
+    lines = cube_edges(tets)
+    cells = [("line", lines), ("triangle", triangles), ("tetra", np.asarray(tets.tets))]
+    ids = [np.ones(len(lines), int), faces, halves(tets)]
+    path = tmp_path_factory.mktemp("halved") / "halved.vtk"
+    meshio.Mesh(points, cells, cell_data={"CellEntityIds": ids}).write(path)
+    return path
+
+
+def feature_lines(found):
+    if found.lines is None or not found.lines_are_features():
+        return None
+    lines = found.lines if found.tets is None else np.asarray(found.boundary.vertex_map)[found.lines]
+    return np.unique(np.sort(lines, axis=1), axis=0)
+
+
+@pytest.mark.parametrize("packed", ["", ".gz"])
+@pytest.mark.parametrize("suffix", VOLUMES)
+def test_tets_keep_points_regions_features_and_cad_faces_in_every_format_that_holds_them(halved, tmp_path, suffix, packed):
+    before = read_input(halved)
+    done = convert_file(halved, tmp_path / f"a{suffix}{packed}")
+    after = read_input(tmp_path / f"a{suffix}{packed}")
+    assert (done.kind, done.vertices, done.cells) == ("tets", 125, 384)
+    assert np.array_equal(after.tets.vertices, before.tets.vertices)
+    assert np.array_equal(np.sort(after.tets.tets, axis=1), np.sort(before.tets.tets, axis=1))
+    assert np.array_equal(after.regions, before.regions)
+    assert np.array_equal(feature_lines(after), cube_edges(before.tets))
+    known = before.faces > 0
+    assert np.array_equal(after.faces[known], before.faces[known]) and known.sum() == 6 * 2 * 16
+
+
+@pytest.mark.parametrize("suffix", SURFACES)
+def test_surfaces_keep_their_points_and_say_what_is_lost(halved, tmp_path, suffix):
+    done = convert_file(halved, tmp_path / f"a{suffix}")
+    after = read_input(tmp_path / f"a{suffix}").surface
+    expected = of.boundary_surface(read_input(halved).tets).mesh
+    assert done.kind == "surface" and any("hold triangles" in note for note in done.notes)
+    if suffix != ".vtp":  # which has the interface, too
+        assert np.array_equal(after.vertices, expected.vertices) and np.array_equal(after.triangles, expected.triangles)
+        assert any("no feature edges, no CAD faces, no regions" in note for note in done.notes)
+
+
+def test_other_libraries_read_the_meshes(halved, tmp_path):
+    points, tets = np.asarray(read_input(halved).tets.vertices), np.asarray(read_input(halved).tets.tets)
+    for suffix in (".vtk", ".vtu", ".msh", ".mesh", ".meshb", ".node"):
+        convert_file(halved, tmp_path / f"a{suffix}")
+        found = meshio.read(tmp_path / f"a{suffix}")
+        assert np.array_equal(found.points, points) and np.array_equal(found.cells_dict["tetra"], tets), suffix
+        if suffix != ".node":
+            assert np.array_equal(np.unique(np.sort(found.cells_dict["line"], axis=1), axis=0), cube_edges(box_tets(4)))
+    for suffix in (".vtk", ".vtu"):
+        grid = pyvista.read(tmp_path / f"a{suffix}")
+        assert np.array_equal(grid.points, points) and np.array_equal(grid.cells_dict[pyvista.CellType.TETRA], tets)
+        assert sorted(set(np.asarray(grid.cell_data["CellEntityIds"])[-len(tets) :])) == [2, 5]
+
+
+def test_gmsh_reads_what_is_written_for_it(halved, tmp_path):
+    import gmsh
+
+    for suffix in (".msh", ".mesh", ".vtk"):
+        convert_file(halved, tmp_path / f"a{suffix}")
+        gmsh.initialize(["test"], readConfigFiles=False, interruptible=False)
+        try:
+            gmsh.option.setNumber("General.Terminal", 0)
+            gmsh.open(str(tmp_path / f"a{suffix}"))
+            tags, points, _ = gmsh.model.mesh.getNodes()
+            order = np.argsort(tags)
+            assert np.array_equal(points.reshape(-1, 3)[order], read_input(halved).tets.vertices)
+            assert len(gmsh.model.mesh.getElementsByType(4)[0]) == 384
+            assert len(gmsh.model.mesh.getElementsByType(1)[0]) == 48
+            if suffix == ".msh":
+                assert sorted(tag for _, tag in gmsh.model.getPhysicalGroups(3)) == [2, 5]
+        finally:
+            gmsh.finalize()
+
+
+def test_trimesh_reads_the_surfaces(halved, tmp_path):
+    import trimesh
+
+    for suffix in (".stl", ".obj", ".off", ".ply"):
+        convert_file(halved, tmp_path / f"a{suffix}")
+        found = trimesh.load(tmp_path / f"a{suffix}")
+        assert found.is_watertight and found.volume == pytest.approx(1) and len(found.faces) == 192
+
+
+def test_medit_files_are_what_the_readers_of_arff_and_cubecover_want(halved, tmp_path):
+    """ARFF: sections in the order Vertices, Triangles, Edges, Tetrahedra; CubeCover: no other sections, version 1 or 2, an End."""
+    convert_file(halved, tmp_path / "a.mesh")
+    words = [line.split()[0] for line in (tmp_path / "a.mesh").read_text().splitlines() if line[:1].isalpha()]
+    assert words == ["MeshVersionFormatted", "Dimension", "Vertices", "Triangles", "Edges", "Tetrahedra", "End"]
+    assert (tmp_path / "a.mesh").read_text().split()[:2] == ["MeshVersionFormatted", "2"]
+
+
+def test_the_vtk_file_for_algohex_has_cells_and_colours_as_hexme_has_them(tmp_path):
+    path = shared(SHARED_TETS / "s01u.vtk.gz")
+    convert_file(path, tmp_path / "a.ovm")
+    convert_file(tmp_path / "a.ovm", tmp_path / "b.vtk")
+    ours, theirs = read_input(tmp_path / "b.vtk"), read_input(path)
+    assert np.array_equal(feature_lines(ours), feature_lines(theirs))
+    assert np.array_equal(ours.faces, theirs.faces)
+    found = readers.ovm_text(tmp_path / "a.ovm")
+    assert set(np.unique(found["FProp", "AlgoHex::FeatureFaces"])) == {0, *np.unique(theirs.faces)}
+
+
+def test_legacy_vtk_is_version_2_in_ascii_with_a_colour_per_cell(halved, tmp_path):
+    """What OpenVolumeMesh's VtkColorReader, by which AlgoHex reads, insists on, in its order."""
+    convert_file(halved, tmp_path / "a.vtk")
+    lines = (tmp_path / "a.vtk").read_text().splitlines()
+    assert lines[0] == "# vtk DataFile Version 2.0" and lines[2:5] == ["ASCII", "DATASET UNSTRUCTURED_GRID", "POINTS 125 double"]
+    cells = 5 + 125
+    count = int(lines[cells].split()[1])
+    assert lines[cells].split()[0] == "CELLS" and count == 48 + 6 * 32 + 32 + 384
+    assert lines[cells + count + 1] == f"CELL_TYPES {count}" and lines[cells + 2 * count + 2] == f"CELL_DATA {count}"
+    assert lines[cells + 2 * count + 3].split()[0] == "SCALARS" and lines[cells + 2 * count + 4].split()[0] == "LOOKUP_TABLE"
+    assert len(lines) == cells + 3 * count + 5
+
+
+def test_lines_without_cad_faces_survive_readers_that_look_for_seams(tmp_path):
+    """A slit: a line that ends inside a face."""
+    mesh = box_tets(3)
+    lines = np.concatenate([cube_edges(mesh), [[index(1, 1, 0), index(1, 2, 0)]]])
+    meshio.Mesh(mesh.vertices, [("line", lines), ("tetra", mesh.tets)]).write(tmp_path / "a.vtu")
+    for suffix in VOLUMES:
+        convert_file(tmp_path / "a.vtu", tmp_path / f"b{suffix}")
+        assert len(feature_lines(read_input(tmp_path / f"b{suffix}"))) == 37, suffix
+    faces = read_input(tmp_path / "b.vtk").faces
+    assert len(np.unique(faces)) == 7 and faces.min() == 1
+
+
+def index(i, j, k):
+    return 16 * i + 4 * j + k
+
+
+def test_fields_go_through_a_chain_of_formats(tmp_path):
+    mesh = box_tets(2)
+    q = frames_at(mesh, "tets")
+    meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)]).write(tmp_path / "box.mesh")
+    np.save(tmp_path / "0.npy", q)
+    chain = ("1.frame", "2.fra", "3.ovmb", "4.vtu", "5.ff3", "6.bfra", "7.msh", "8.npz", "9.qtn.gz")
+    source = tmp_path / "0.npy"
+    for name in chain:
+        convert_file(source, tmp_path / name, mesh=tmp_path / "box.mesh")
+        source = tmp_path / name
+    assert np.max(of.distance(readers.qtn(_unpacked(source)), q)) < 1e-14
+
+
+def _unpacked(path):
+    plain = path.with_name(path.name.removesuffix(".gz"))
+    plain.write_bytes(gzip.decompress(path.read_bytes()))
+    return plain
+
+
+def test_the_command_tells_what_it_did(tmp_path):
+    mesh = box_tets(2)
+    of.write_frames(tmp_path / "a.vtu", mesh, frames_at(mesh, "vertices"))
+    done = octafield("convert", tmp_path / "a.vtu", "-o", tmp_path / "b.frame", "--json", "-", check=0)
+    record = json.loads(done.stdout)
+    assert (record["kind"], record["frames"], record["where"]) == ("field", 48, "tets")
+    assert "nearest to the mean sh4 vector" in done.stderr and "wrote" in done.stderr
+    record = json.loads(octafield("convert", tmp_path / "a.vtu", "-o", tmp_path / "c.mesh", "--json", "-", check=0).stdout)
+    assert record["kind"] == "tets" and any("frames were left out" in note for note in record["notes"])
+    record = json.loads(octafield("convert", tmp_path / "a.vtu", "-o", tmp_path / "d.txt", "--to", "geogram", "--json", "-", check=0).stdout)
+    assert len(readers.geogram(tmp_path / "d.txt")) == 48 == record["frames"]
+    done = octafield("convert", tmp_path / "b.frame", "-o", tmp_path / "e.npy", "--mesh", tmp_path / "c.mesh", "--at", "vertices", check=0)
+    assert np.load(tmp_path / "e.npy").shape == (27, 4)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["a.frame", "-o", "b.vtu"], "need the mesh"),
+        (["a.frame", "-o", "b.mesh"], "give it with --mesh"),
+        (["a.mesh", "-o", "b.frame"], "holds no frames to write"),
+        (["a.off", "-o", "b.ovm"], "hold tets"),
+        (["a.mesh", "-o", "b.doc"], "unknown kind of file"),
+        (["a.mesh", "-o", "b.vtu", "--from", "unheard"], "format 'unheard'"),
+        (["a.frame", "-o", "b.qtn", "--mesh", "a.off"], "holds triangles"),
+        (["a.frame", "-o", "b.frame", "--at", "corners"], "where must be one of"),
+        (["none.mesh", "-o", "b.vtu"], "no such file"),
+    ],
+)
+def test_what_cannot_be_converted_is_told_in_one_line(tmp_path, arguments, message):
+    mesh = box_tets(1)
+    of.write_frames(tmp_path / "a.frame", mesh, frames_at(mesh, "tets"), "tets")
+    meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)]).write(tmp_path / "a.mesh")
+    of.write_surface(of.boundary_surface(mesh).mesh, tmp_path / "a.off")
+    words = [str(tmp_path / word) if "." in word else word for word in arguments]
+    done = octafield("convert", *words, check=2)
+    assert message in done.stderr and len(done.stderr.splitlines()) == 1
+
+
+def test_field_takes_every_kind_of_mesh(halved, tmp_path):
+    energies = []
+    for suffix in (".ovmb", ".ele", ".msh"):
+        convert_file(halved, tmp_path / f"a{suffix}")
+        energies.append(of.compute_field(tmp_path / f"a{suffix}").record["energy"])
+    assert np.ptp(energies) < 1e-9
