@@ -10,8 +10,9 @@ from octafield.phases import octafield_version
 
 
 def when() -> str:
-    """A line for the page: day, machine, version."""
-    return f"{datetime.date.today()}, {machine()}, octafield {octafield_version()}, commit {commit()}.\n"
+    """A line for the page: day, machine and how busy it was, version."""
+    load = f"load average {os.getloadavg()[1]:.1f}"
+    return f"{datetime.date.today()}, {machine()}, {load}, octafield {octafield_version()}, commit {commit()}.\n"
 
 
 def machine() -> str:

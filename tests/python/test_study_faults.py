@@ -120,7 +120,7 @@ def test_a_full_disk_is_an_error_and_no_record(sound, tmp_path):
 def test_a_folder_deleted_meanwhile_is_an_error(tmp_path):
     text = BODIES.replace("sh469", "geodesic, sh469, su2").replace("0.4}", "0.2}")
     strike = lambda what, fraction, merit: fraction == 0 or shutil.rmtree(tmp_path / "out", ignore_errors=True) or True
-    with pytest.raises(octafield.IoError, match="cannot|unable"):
+    with pytest.raises(octafield.IoError):
         study.run(study.parse(text), tmp_path / "out", progress=strike)
 
 

@@ -162,10 +162,8 @@ class Leader:
         if self._progress is None:
             return
         now = time.monotonic()
-        if now - self._forecast_at >= _FORECAST_EVERY:
+        if self._left is None or now - self._forecast_at >= _FORECAST_EVERY:
             self._left, self._forecast_at = self.forecast.left(now), now
-        elif self._left is not None:
-            self._left = max(self._left, 0.0)
         left = "" if self._left is None or self.done == self.total else f", {words(self._steady.follow(self._left, now))}"
         answer = self._progress(f"{self.done} of {self.total}{left}: {what}", self.done / self.total, math.nan)
         if answer is not None and not answer:

@@ -3,10 +3,10 @@
 from ..options import FieldOptions
 from .plan import Run
 
-_PROCESS_MB = 260.0  # Python, its libraries, small arrays
+_PROCESS_MB = 270.0  # Python, its libraries, small arrays
 _TET_SAMPLING = 3.5  # over frames at vertices: there are five to six times as many tets, but fewer neighbours
 # Megabytes per tet.
-_SECOND_ORDER, _SH469, _FIRST_ORDER, _METRIC, _LEAST_SQUARES = 4.5e-4, 6.5e-4, 2e-3, 3.5e-3, 4.8e-3
+_SECOND_ORDER, _SH469, _FIRST_ORDER, _METRIC, _LEAST_SQUARES = 4.5e-4, 6.5e-4, 2e-3, 4e-3, 4.8e-3
 
 
 def needed_mb(tets: float, runs: list[Run]) -> float:
