@@ -10,7 +10,6 @@ from .options import FieldOptions
 
 DEFAULT_EDGES = 25  # edges along the diagonal where no length is given, see remesh
 _TETS_PER_CUBE = 12.5  # in a cube of one edge length; measured on remeshed bodies of 2,000 to 100,000 tets: 11 to 16
-_SECONDS_PER_TET = 5.5e-5  # file to field by default options on two cores; measured on the same: 3e-5 to 8e-5
 
 
 def edge_length(surface: TriangleMesh, asked: float) -> float:
@@ -30,14 +29,17 @@ def edge_length_for(surface: TriangleMesh, tets: float) -> float:
 
 def memory_mb(tets: int) -> float:
     """Peak of one field by default options."""
-    from .study.engine import needed_mb
+    from .study.memory import needed_mb
     from .study.plan import Run
 
     return needed_mb(tets, [Run("", "", "", FieldOptions(), 0)])
 
 
 def seconds(tets: int) -> float:
-    return 1.0 + _SECONDS_PER_TET * tets
+    """From file to field by default options."""
+    from .study.costs import field_seconds
+
+    return 1.0 + field_seconds(FieldOptions().representation, tets)
 
 
 def machine_mb() -> float:

@@ -42,7 +42,7 @@ def write_analysis(result: AnalysedField, folder: Path, progress: Progress | Non
     metadata = _metadata(result.record)
     with _clock(result.record).phase("write"):
         _write_volume_files(result, folder, metadata)
-        surface = pyvista.PolyData.from_regular_faces(np.array(result.surface.vertices), np.array(result.surface.triangles))
+        surface = pyvista.PolyData.from_regular_faces(np.array(result.surface.vertices), np.array(result.surface.triangles, int))
         _save(surface, folder / SURFACE_FILES[0], metadata)
     result.record["files"] = [*(name for name in FIELD_FILES if (folder / name).exists()), RECORD_FILE]
     write_json(folder / RECORD_FILE, result.record)

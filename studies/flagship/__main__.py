@@ -13,7 +13,7 @@ from pathlib import Path
 
 from octafield import InvalidInput, study
 
-from ..benchmarks.volume.__main__ import commit, machine
+from ..benchmarks.pages import when
 from . import conclusions
 
 HERE = Path(__file__).parent
@@ -43,7 +43,7 @@ def main() -> None:
     a = parser.parse_args()
     present = [part for part in a.part or PARTS if run_part(part, a.output, a.jobs)]
     if set(present) == set(PARTS):
-        text = conclusions.page(*(study.rows(a.output / part) for part in PARTS), made=f"{machine()}, commit {commit()}")
+        text = conclusions.page(*(study.rows(a.output / part) for part in PARTS), made=when().strip())
         (a.output / "flagship.md").write_text(text, encoding="utf-8")
         print(a.output / "flagship.md")
 

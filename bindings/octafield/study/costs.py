@@ -22,6 +22,11 @@ _LEAST = 0.2  # seconds of a run on any mesh
 _TYPICAL_TETS = 50_000.0  # of an input before any is known
 
 
+def field_seconds(representation: str, tets: float) -> float:
+    """Of one field from file to analysis, one thread, where nothing else is known."""
+    return _LEAST + (_SECONDS_PER_MILLION[PREPARE] + _SECONDS_PER_MILLION.get(representation, _UNKNOWN_METHOD)) * tets / 1e6
+
+
 def method_of(run: Run) -> str:
     """Runs of one method cost the same on the same mesh."""
     o = run.options
