@@ -48,6 +48,8 @@ def _representations(parts: pandas.DataFrame) -> dict:
     require(max(abs(ratio[r] - 1) for r in FREE) < 2e-3, "sh4, tensor4 and odeco end in one field")
     require(ratio["sh469"] < 1.01 and seconds["sh469"] > 1.1, "sh469 is as good and dearer")
     require(all(1 < ratio[r] < 1.1 and broken[r] < 1 and seconds[r] > 3 for r in METRICS), "metrics: a little more energy, fewer complex edges, far dearer")
+    fixed = _of(recipe, boundary="fixed").groupby("representation")["complex edges"].sum()
+    require(all(fixed[r] > 0.99 * fixed["sh4"] for r in METRICS), "with fixed frames metrics have no fewer complex edges")
     require(ratio["su2"] > 1.5 and broken["su2"] > 10, "su2 fails")
     return {
         "representation_table": markdown(by_method(recipe, ["boundary", "representation"])),
