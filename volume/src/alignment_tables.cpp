@@ -18,11 +18,11 @@ namespace {
 using frames::Vector3;
 using Edge = std::pair<Index, Index>;
 
-std::int8_t signed_axis(int number) { return static_cast<std::int8_t>(number < 3 ? number + 1 : 2 - number); }
-int axis_number(std::int8_t axis) { return axis > 0 ? axis - 1 : 2 - axis; }
+Index signed_axis(int number) { return number < 3 ? number + 1 : 2 - number; }
+int axis_number(Index axis) { return axis > 0 ? axis - 1 : 2 - axis; }
 
 // The nearest axis of a frame to a direction, and the angle between.
-std::pair<std::int8_t, double> nearest(const Quaternions& frames, Index tet, const Vector3& direction) {
+std::pair<Index, double> nearest(const Quaternions& frames, Index tet, const Vector3& direction) {
     const Vector3 in_frame = frames::from_wxyz(frames.row(tet)).conjugate() * direction;
     const int number = nearest_axis_number(in_frame);
     const Vector3 axis = axis_unit(number);

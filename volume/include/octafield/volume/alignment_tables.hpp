@@ -14,7 +14,7 @@ namespace octafield::volume {
 struct AlignmentTables {
     // Per triangle of the surface.
     std::vector<Index> triangle_tet;           // (F) the tet behind it
-    std::vector<std::int8_t> triangle_axis;    // (F) nearest to its normal, outward
+    std::vector<Index> triangle_axis;          // (F) nearest to its normal, outward
     Eigen::VectorXd triangle_angle;            // (F) between the two, radians
     std::vector<Index> triangle_patch;         // (F)
     // Per patch, 1: one axis is normal all over. Carried by the matchings from a triangle's tet round their edge to that
@@ -23,7 +23,7 @@ struct AlignmentTables {
     // Per feature edge.
     Edges feature_edges;                       // (E, 2) tet-mesh vertices a, b in the order of the features
     std::vector<Index> feature_tet;            // (E) the lowest tet at it
-    std::vector<std::int8_t> feature_axis;     // (E) nearest to b - a
+    std::vector<Index> feature_axis;           // (E) nearest to b - a
     Eigen::VectorXd feature_angle;             // (E) between the two, radians
 };
 
