@@ -8,12 +8,14 @@ namespace octafield::volume {
 // A map whose coordinates have the gradients h_i n_i, n_i the unit axes, exists locally where curl(h_i n_i) =
 // h_i (grad H_i x n_i + curl n_i) is 0, H_i = log h_i. h_i is the density of its grid along axis i, 1 / h_i the size of a
 // cell, each up to a constant. Beaufort (2019), conclusion, section 2, (5.5) to (5.7), has the plane, where one H for
-// both axes takes all of the curl away: n_1 = (cos a, sin a) gives grad H = (a_y, -a_x). In space most fields leave
+// both axes takes all of the curl away: n_1 = (cos a, sin a) gives grad H = (-a_y, a_x), that is grad a = grad H x n, as
+// (5.5) reads; for lengths of tangent vectors, 1 / h_i, the sign is the other. In space most fields leave
 // something: n_i . curl n_i (the twist of integrability.hpp) in any case.
 
-// What is left of the curl: per tet the root of sum_i |grad H_i x n_i + curl n_i|^2, with the axes of the vertices matched
-// to the tet's frame (tet_frames) and interpolated linearly. And the jump of integrability.hpp for the axes h_i n_i, h_i
-// of the tet's centre, each axis's divided by its mean length on both sides.
+// What is left of the curl: per tet the root of sum_i |grad H_i x n_i + curl n_i|^2, with the axes of the vertices
+// matched to the tet's frame (tet_frames) and interpolated linearly. It tends to a limit that measures the field. And the
+// jump of integrability.hpp for the axes h_i n_i, h_i of the tet's centre, each axis's divided by its mean length on both
+// sides: of the order of the mesh width for any h, and as a rule larger than that of unit axes, since h changes too.
 struct ScaledIntegrability {
     double curl_rms = 0, curl_max = 0;  // over tets, weighted by volume; 1 / input unit
     double jump_rms = 0, jump_max = 0;  // over interior faces, weighted by area; pure numbers
@@ -34,8 +36,9 @@ IsotropicScale isotropic_scale(const TetMesh& mesh, const Quaternions& frames, i
 
 struct AxisScaleOptions {
     // eps, in (0, 1]: weight of the change of H_i along its own axis, which no curl sees: a new parameter on the same
-    // grid lines. Small: fits the curl alone; with 1, grad H_i is near (n_i . grad) n_i.
-    double along = 1e-2;
+    // grid lines. Below 0.1 the curl hardly falls any further, H_i follows errors of the mesh width, and conjugate
+    // gradients take longer (docs/analysis.md).
+    double along = 0.1;
     int threads = 0;
 };
 
