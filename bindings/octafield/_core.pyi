@@ -1110,7 +1110,12 @@ class ScaledIntegrability:
         curl_max: float = ...,
         jump_rms: float = ...,
         jump_max: float = ...,
+        curl: ArrayLike = ...,
     ) -> None: ...
+    @property
+    def curl(self) -> Float64s: ...
+    @curl.setter
+    def curl(self, value: ArrayLike) -> None: ...
 
 class IsotropicScale:
     parts: int

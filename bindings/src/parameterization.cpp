@@ -77,6 +77,7 @@ void bind_scaling_types(py::module_& m) {
         .field("jump_rms", &ScaledIntegrability::jump_rms,
                "As of Integrability, each axis's divided by its mean length on both sides.")
         .field("jump_max", &ScaledIntegrability::jump_max, "The largest.")
+        .field("curl", &ScaledIntegrability::curl, "(m,) float64, per tet.")
         .finish([](const ScaledIntegrability& s) {
             return "curl " + number(s.curl_rms) + ", at most " + number(s.curl_max) + "; jump " + number(s.jump_rms) +
                    ", at most " + number(s.jump_max);

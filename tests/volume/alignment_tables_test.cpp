@@ -43,11 +43,13 @@ TEST(AlignmentTables, OfACubeHaveSixPatchesOfOneAxisAndTheTurnAsAngle) {
         const Vector3 normal = normals.row(f).transpose();
         const double angle = std::abs(normal.z()) > 0.5 ? 0 : 0.2;
         EXPECT_NEAR(found.triangle_angle[f], angle, 1e-12);
-        EXPECT_NEAR(direction(combed, found.triangle_tet[f], found.triangle_axis[f]).dot(normal), std::cos(angle), 1e-12);
-        EXPECT_LT((centroid(mesh, found.triangle_tet[f]).transpose() -
-                   Vector3(surface.mesh.vertices(surface.mesh.triangles.row(f), Eigen::all).colwise().mean()).transpose())
-                      .dot(normal.transpose()),
-                  0);
+        EXPECT_NEAR(direction(combed, found.triangle_tet[f], found.triangle_axis[f]).dot(normal), std::cos(angle),
+                    1e-12);
+        EXPECT_LT(
+            (centroid(mesh, found.triangle_tet[f]).transpose() -
+             Vector3(surface.mesh.vertices(surface.mesh.triangles.row(f), Eigen::all).colwise().mean()).transpose())
+                .dot(normal.transpose()),
+            0);
         EXPECT_EQ(found.triangle_patch[f] == found.triangle_patch[0], (normals.row(f) - normals.row(0)).norm() < 1e-9);
     }
     ASSERT_EQ(found.feature_edges.rows(), 36);
@@ -73,8 +75,7 @@ TEST(AlignmentTables, CarryTheNormalsAxisAcrossTheCut) {
             return about_x ? Quaternion(q * frames::exp(to_x)) : q;
         });
         const CombedField combed = comb(mesh, field);
-        const AlignmentTables found =
-            alignment_tables(mesh, surface, surface::detect_features(surface.mesh), combed);
+        const AlignmentTables found = alignment_tables(mesh, surface, surface::detect_features(surface.mesh), combed);
         ASSERT_EQ(found.patch_one_axis.size(), 6u);
         const Points normals = surface::triangle_normals(surface.mesh);
         for (Eigen::Index f = 0; f < normals.rows(); ++f)

@@ -141,7 +141,8 @@ TEST(Comb, LeavesNoCutInABallWithoutSingularEdges) {
 }
 
 TEST(Comb, LeavesOneDiskInARing) {
-    const TetMesh mesh = kuhn_grid(3, 3, 2, 1.0 / 3, Vector3::Zero(), [](int i, int j, int) { return i != 1 || j != 1; });
+    const TetMesh mesh =
+        kuhn_grid(3, 3, 2, 1.0 / 3, Vector3::Zero(), [](int i, int j, int) { return i != 1 || j != 1; });
     const CombedField combed = comb(mesh, constant(mesh));
     expect_combed(mesh, constant(mesh), combed);
     EXPECT_GT(cut_size(combed), 0u);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <ostream>
 
 #include "field_fixtures.hpp"
 #include "octafield/error.hpp"
@@ -34,10 +35,12 @@ Quaternions mixed_representatives(Quaternions frames) {
 // A map with orthogonal gradients h_i n_i on the image of the unit cube.
 struct Known {
     const char* name;
-    std::function<Vector3(const Vector3&)> place;    // of a point of the unit cube
-    std::function<Matrix3(const Vector3&)> axes;     // n_i as columns, of a place
+    std::function<Vector3(const Vector3&)> place;      // of a point of the unit cube
+    std::function<Matrix3(const Vector3&)> axes;       // n_i as columns, of a place
     std::function<Vector3(const Vector3&)> log_scale;  // log h_i
 };
+
+void PrintTo(const Known& known, std::ostream* out) { *out << known.name; }
 
 double radius(const Vector3& x) { return std::hypot(x.x(), x.y()); }
 
@@ -69,9 +72,7 @@ const Known spherical{"spherical",
                           return {r * std::sin(t) * std::cos(f), r * std::sin(t) * std::sin(f), r * std::cos(t)};
                       },
                       spherical_axes,
-                      [](const Vector3& x) {
-                          return Vector3(0, -std::log(x.norm()), -std::log(radius(x)));
-                      }};
+                      [](const Vector3& x) { return Vector3(0, -std::log(x.norm()), -std::log(radius(x))); }};
 
 // The inverse of the plane's exponential map: log h is that of |1 / z| for both axes, and 0 for the third.
 const Known exponential{"exponential", polar.place, polar.axes, [](const Vector3& x) {
@@ -95,8 +96,7 @@ TetMesh image_of_grid(int n, const Known& known) {
 }
 
 Quaternions frames_of(const TetMesh& mesh, const Known& known) {
-    return mixed_representatives(
-        sample(mesh, [&](const Vector3& x) { return Quaternion(Matrix3(known.axes(x))); }));
+    return mixed_representatives(sample(mesh, [&](const Vector3& x) { return Quaternion(Matrix3(known.axes(x))); }));
 }
 
 // Root mean square, over tets and axes, of H_i at the centres less log h_i, each of mean 0.
@@ -172,9 +172,10 @@ TEST(IsotropicScale, OfThePolarFrameIsHalfTheLogarithmAndLeavesHalfOfTheSquaredC
         EXPECT_LT(spread, 0.6 * error);
         error = spread;
         EXPECT_NEAR(found.after.curl_rms / found.before.curl_rms, 1 / std::sqrt(2), 0.4 / n);
-        EXPECT_NEAR(found.before.curl_rms, std::sqrt(volume_mean(mesh, [&](Index t) {
-                        return std::pow(radius(testing::centroid(mesh, t)), -2);
-                    })), 0.5 / n);
+        EXPECT_NEAR(
+            found.before.curl_rms,
+            std::sqrt(volume_mean(mesh, [&](Index t) { return std::pow(radius(testing::centroid(mesh, t)), -2); })),
+            0.5 / n);
     }
     EXPECT_LT(error, 0.01);
 }
@@ -208,8 +209,9 @@ TEST(IsotropicScale, OfAnInversionIsThatOfTheMap) {
 
 TEST(Scales, OfAConstantFieldAreZero) {
     const TetMesh mesh = kuhn_cube(4);
-    const Quaternions field =
-        mixed_representatives(sample(mesh, [](const Vector3&) { return frames::exp({0.3, 0.5, -0.2}); }));
+    const Quaternions field = mixed_representatives(sample(mesh, [](const Vector3&) {
+        return frames::exp({0.3, 0.5, -0.2});
+    }));
     const IsotropicScale one = isotropic_scale(mesh, field);
     EXPECT_LT(one.log_scale.cwiseAbs().maxCoeff(), 1e-13);
     EXPECT_LT(one.after.curl_max, 1e-12);
@@ -223,8 +225,9 @@ TEST(Scales, OfAConstantFieldAreZero) {
 TEST(AxisScales, OfAxesThatASingularCurveExchangesAreOneSet) {
     const int n = 6;
     const TetMesh mesh = kuhn_grid(n, n, n, 1.0 / n, Vector3(-0.5 + 0.137 / n, -0.5 + 0.071 / n, -0.5));
-    const Quaternions field = mixed_representatives(
-        sample(mesh, [](const Vector3& x) { return frames::exp({0, 0, std::atan2(x.y(), x.x()) / 4}); }));
+    const Quaternions field = mixed_representatives(sample(mesh, [](const Vector3& x) {
+        return frames::exp({0, 0, std::atan2(x.y(), x.x()) / 4});
+    }));
     const AxisScales found = axis_scales(mesh, field);
     EXPECT_EQ(found.parts, 2);
     EXPECT_LT(found.values.size(), 3 * mesh.vertices.rows());
@@ -242,6 +245,8 @@ TEST(Scales, NeverAddCurlAndAgreeWithIntegrabilityBefore) {
     const Integrability unscaled = integrability(mesh, field);
     EXPECT_NEAR(one.before.jump_rms, unscaled.jump_rms, 1e-13);
     EXPECT_NEAR(three.before.jump_max, unscaled.jump_max, 1e-13);
+    EXPECT_EQ(three.after.curl.maxCoeff(), three.after.curl_max);
+    EXPECT_EQ(three.after.curl.size(), mesh.tets.rows());
     EXPECT_GE(three.after.curl_rms, unscaled.twist_rms);  // no scale takes the twist away
 }
 

@@ -143,8 +143,8 @@ void tell_triangles(const TetMesh& mesh, const BoundarySurface& surface, const s
     for (const auto& [one, other] : pairs) {
         const Edge edge{surface.vertex_map[one.edge.first], surface.vertex_map[one.edge.second]};
         const Index from = one.triangle, to = other.triangle;
-        const int axis = carrier.carried(rows[from], result.triangle_tet[from], edge,
-                                         axis_number(result.triangle_axis[from]));
+        const int axis =
+            carrier.carried(rows[from], result.triangle_tet[from], edge, axis_number(result.triangle_axis[from]));
         if (axis != axis_number(result.triangle_axis[to])) result.patch_one_axis[result.triangle_patch[from]] = 0;
     }
 }

@@ -38,8 +38,7 @@ template <class Use>
 void for_each_edge_loop(const std::vector<TetAtEdge>& tets, const TriangleTable& table,
                         const std::vector<std::uint8_t>& matching, const Use& use) {
     for (std::size_t first = 0, last; first < tets.size(); first = last) {
-        for (last = first + 1;
-             last < tets.size() && tets[last].a == tets[first].a && tets[last].b == tets[first].b;)
+        for (last = first + 1; last < tets.size() && tets[last].a == tets[first].a && tets[last].b == tets[first].b;)
             ++last;
         use(first, last, edge_loop({&tets[first], last - first}, table, matching));
     }

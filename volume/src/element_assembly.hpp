@@ -56,8 +56,8 @@ SparseMatrix assemble(const Tets& elements, Index count, const ElementColumn& el
     return matrix;
 }
 
-// Rows: gradients of the four hat functions of a tet. With E its edges from vertex 0 as columns, those of 1 to 3 are the
-// rows of E^-1.
+// Rows: gradients of the four hat functions of a tet. With E its edges from vertex 0 as columns, those of 1 to 3 are
+// the rows of E^-1.
 using Gradients = Eigen::Matrix<double, 4, 3>;
 Gradients hat_gradients(const Eigen::Matrix3d& edges);
 Eigen::Matrix3d tet_edges(const TetMesh& mesh, Eigen::Index tet);

@@ -23,14 +23,14 @@ using frames::Vector3;
 class CurlField {
 public:
     CurlField(const TetMesh& mesh, const Quaternions& frames, int threads)
-        : mesh_(mesh), of_tets(tet_frames(mesh, frames, threads)), curls_(mesh.tets.rows(), 9) {
+        : of_tets_(tet_frames(mesh, frames, threads)), curls_(mesh.tets.rows(), 9) {
         parallel_for(mesh.tets.rows(), threads, [&](std::int64_t t) {
-            Eigen::Map<Matrix3>(curls_.row(t).data()) =
-                axis_curls(mesh, frames, frames::from_wxyz(of_tets.row(t)), t);
+            Eigen::Map<Matrix3>(curls_.row(t).data()) = axis_curls(mesh, frames, frames::from_wxyz(of_tets_.row(t)), t);
         });
     }
 
-    Matrix3 axes(Eigen::Index t) const { return frames::from_wxyz(of_tets.row(t)).toRotationMatrix(); }
+    const Quaternions& of_tets() const { return of_tets_; }
+    Matrix3 axes(Eigen::Index t) const { return frames::from_wxyz(of_tets_.row(t)).toRotationMatrix(); }
     Matrix3 curls(Eigen::Index t) const { return Eigen::Map<const Matrix3>(curls_.row(t).data()); }
     // -n_i x curl n_i = (n_i . grad) n_i, for linear axes without the change of their length.
     Matrix3 turns(Eigen::Index t) const {
@@ -48,12 +48,7 @@ public:
     }
 
 private:
-    const TetMesh& mesh_;
-
-public:
-    const Quaternions of_tets;
-
-private:
+    Quaternions of_tets_;
     Rows<double, 9> curls_;
 };
 
@@ -66,12 +61,15 @@ ScaledIntegrability measure(const TetMesh& mesh, const FaceMatchings& faces, con
     parallel_for(jumps.size(), threads, [&](std::int64_t f) {
         const auto p = [&](int k) -> Vector3 { return mesh.vertices.row(faces.triangles(f, k)).transpose(); };
         const Vector3 area = (p(1) - p(0)).cross(p(2) - p(0)) / 2;
-        const auto frame = [&](int k) { return frames::from_wxyz(field.of_tets.row(faces.tets(f, k))); };
+        const auto frame = [&](int k) { return frames::from_wxyz(field.of_tets().row(faces.tets(f, k))); };
         const auto lengths = [&](int k) -> Vector3 { return log_scales.row(faces.tets(f, k)).array().exp(); };
         areas[f] = area.norm();
         jumps[f] = face_jump(frame(0), lengths(0), frame(1), lengths(1), area.normalized());
     });
-    return {weighted_rms(curls, tet_volumes(mesh)), largest_of(curls), weighted_rms(jumps, areas), largest_of(jumps)};
+    ScaledIntegrability result{
+        weighted_rms(curls, tet_volumes(mesh)), largest_of(curls), weighted_rms(jumps, areas), largest_of(jumps), {}};
+    result.curl = std::move(curls);
+    return result;
 }
 
 ScaledIntegrability measure_unscaled(const TetMesh& mesh, const FaceMatchings& faces, const CurlField& field,
@@ -100,7 +98,7 @@ IsotropicScale isotropic_scale(const TetMesh& mesh, const Quaternions& frames, i
     require_valid(mesh);
     require_frames(frames, mesh.vertices.rows());
     const CurlField field(mesh, frames, threads);
-    const FaceMatchings faces = face_matchings(mesh, field.of_tets, threads);
+    const FaceMatchings faces = face_matchings(mesh, field.of_tets(), threads);
     const Eigen::VectorXd volumes = tet_volumes(mesh);
     std::vector<Index> vertices;
     const Tets elements = compact_numbers(mesh, vertices);
@@ -140,7 +138,7 @@ AxisScales axis_scales(const TetMesh& mesh, const Quaternions& frames, const Axi
     if (!(options.along > 0 && options.along <= 1))
         throw InvalidInput("along is a weight above 0 and at most 1", "along");
     const CurlField field(mesh, frames, options.threads);
-    const FaceMatchings faces = face_matchings(mesh, field.of_tets, options.threads);
+    const FaceMatchings faces = face_matchings(mesh, field.of_tets(), options.threads);
     const Eigen::VectorXd volumes = tet_volumes(mesh);
     AxisOrbits orbits = axis_orbits(mesh, faces);
 
@@ -183,7 +181,7 @@ AxisScales axis_scales(const TetMesh& mesh, const Quaternions& frames, const Axi
     result.after = measure(mesh, faces, field, gradients, result.log_scales, options.threads);
     result.values = std::move(solution.values);
     result.unknowns = std::move(orbits.of_tets);
-    result.of_tets = field.of_tets;
+    result.of_tets = field.of_tets();
     return result;
 }
 

@@ -25,9 +25,9 @@ FaceMatchings face_matchings(const TetMesh& mesh, const Quaternions& of_tets, in
 
 // The field with representatives chosen so that the axes of neighbouring tets correspond by number and sign but across
 // the cut: triangles that leave each connected part of the mesh simply connected and touch every singular edge. By
-// integers alone, after the matchings: a breadth-first spanning tree of the tets, then triangles that are the only one of
-// the cut at a regular edge inside the mesh are taken back until none is (after Nieser, Reitebuch, Polthier 2011). In a
-// ball without singular edges nothing is left as a rule, though no theorem says so.
+// integers alone, after the matchings: a breadth-first spanning tree of the tets, then triangles that are the only one
+// of the cut at a regular edge inside the mesh are taken back until none is (after Nieser, Reitebuch, Polthier 2011).
+// In a ball without singular edges nothing is left as a rule, though no theorem says so.
 struct CombedField {
     Quaternions frames;                 // (m, 4): q o, with signs that agree from parent to child in the tree
     std::vector<std::uint8_t> element;  // (m) o, of the octahedral group; 0 in the lowest tet of each part
