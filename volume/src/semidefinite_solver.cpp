@@ -9,7 +9,7 @@
 namespace octafield::volume {
 namespace {
 
-constexpr double tolerance = 1e-9;  // of the residual over the right-hand side
+constexpr double tolerance = 1e-7;  // of the residual over the right-hand side
 
 // values -= mean of the part; the mean is over `places` unknowns with their weights.
 class Means {
@@ -47,7 +47,7 @@ SemidefiniteSolution solve_semidefinite(const SparseMatrix& matrix, Eigen::Vecto
     for (Index v = 0; v < right.size(); ++v) rounding.add(v, right[v], 1);
     rounding.subtract_from(right);
 
-    Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double>> solver;
+    Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>> solver;
     solver.setTolerance(tolerance);
     solver.compute(matrix);
     if (solver.info() != Eigen::Success)
