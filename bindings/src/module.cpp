@@ -53,12 +53,14 @@ PYBIND11_MODULE(_core, module) {
     bind_surface(module);
     bind_volume_types(module);
     bind_field_analysis_types(module);
+    bind_parameterization_types(module);
     bind_frame_streamline_types(module);
     bind_sampling_types(module);
     bind_volume(module);
     bind_sampling(module);
     bind_smoothing(module);
     bind_field_analysis(module);
+    bind_parameterization(module);
     bind_frame_streamlines(module);
     bind_volume_input(module);
     add_examples(module);

@@ -1,18 +1,12 @@
 #include "octafield/volume/operators.hpp"
 
-#include <algorithm>
-#include <vector>
-
+#include "element_assembly.hpp"
 #include "octafield/frames/sh4.hpp"
 #include "octafield/parallel.hpp"
 #include "require_frames.hpp"
 
 namespace octafield::volume {
-namespace {
 
-using Gradients = Eigen::Matrix<double, 4, 3>;  // rows: gradients of the four hat functions of a tet
-
-// With E the edge vectors p_k - p_0 as columns, the gradients of phi_1..3 are the rows of E^-1.
 Gradients hat_gradients(const Eigen::Matrix3d& e) {
     Gradients g;
     g.row(1) = e.col(1).cross(e.col(2)).transpose();
@@ -30,61 +24,9 @@ Eigen::Matrix3d tet_edges(const TetMesh& mesh, Eigen::Index t) {
     return e;
 }
 
-// For every vertex its corners 4 tet + k, in ascending order of tets.
-struct Corners {
-    std::vector<std::int64_t> begin;  // (n + 1)
-    std::vector<Index> corner;        // (4 m)
-};
-
-Corners vertex_corners(const TetMesh& mesh) {
-    const Eigen::Index n = mesh.vertices.rows(), m = mesh.tets.rows();
-    Corners corners{std::vector<std::int64_t>(n + 1, 0), std::vector<Index>(4 * m)};
-    for (Eigen::Index i = 0; i < 4 * m; ++i) ++corners.begin[mesh.tets(i / 4, i % 4) + 1];
-    for (Eigen::Index v = 0; v < n; ++v) corners.begin[v + 1] += corners.begin[v];
-    std::vector<std::int64_t> next(corners.begin.begin(), corners.begin.end() - 1);
-    for (Eigen::Index i = 0; i < 4 * m; ++i) corners.corner[next[mesh.tets(i / 4, i % 4)]++] = static_cast<Index>(i);
-    return corners;
-}
-
-// Sums the columns element_column(tet, k) of the 4 x 4 element matrices into a sparse matrix. Column by column, so that
-// no list of 16 m triplets is ever held; both halves sum the same numbers in the same order, so the result is exactly
-// symmetric.
-template <class ElementColumn>
-SparseMatrix assemble(const TetMesh& mesh, const ElementColumn& element_column) {
-    require_valid(mesh);
-    const Corners corners = vertex_corners(mesh);
-    const Index n = static_cast<Index>(mesh.vertices.rows());
-    SparseMatrix matrix(n, n);
-    matrix.reserve(n + 14 * static_cast<std::int64_t>(n));  // a vertex has about 14 neighbours
-    std::vector<double> value(n, 0);
-    std::vector<Index> stamp(n, -1), rows;
-    for (Index column = 0; column < n; ++column) {
-        rows.clear();
-        for (std::int64_t c = corners.begin[column]; c < corners.begin[column + 1]; ++c) {
-            const Index tet = corners.corner[c] / 4;
-            const Eigen::Vector4d local = element_column(tet, corners.corner[c] % 4);
-            for (int k = 0; k < 4; ++k) {
-                const Index row = mesh.tets(tet, k);
-                if (stamp[row] != column) {
-                    stamp[row] = column;
-                    value[row] = 0;
-                    rows.push_back(row);
-                }
-                value[row] += local[k];
-            }
-        }
-        std::sort(rows.begin(), rows.end());
-        matrix.startVec(column);
-        for (const Index row : rows) matrix.insertBack(row, column) = value[row];
-    }
-    matrix.finalize();
-    return matrix;
-}
-
-}  // namespace
-
 SparseMatrix stiffness(const TetMesh& mesh) {
-    return assemble(mesh, [&](Index tet, int k) -> Eigen::Vector4d {
+    require_valid(mesh);
+    return assemble(mesh.tets, static_cast<Index>(mesh.vertices.rows()), [&](Index tet, int k) -> Eigen::Vector4d {
         const Eigen::Matrix3d e = tet_edges(mesh, tet);
         const Gradients g = hat_gradients(e);
         const Eigen::Vector4d dots = g * g.row(k).transpose();  // before scaling: exact symmetry
@@ -93,7 +35,8 @@ SparseMatrix stiffness(const TetMesh& mesh) {
 }
 
 SparseMatrix mass(const TetMesh& mesh) {
-    return assemble(mesh, [&](Index tet, int k) -> Eigen::Vector4d {
+    require_valid(mesh);
+    return assemble(mesh.tets, static_cast<Index>(mesh.vertices.rows()), [&](Index tet, int k) -> Eigen::Vector4d {
         const double volume = tet_edges(mesh, tet).determinant() / 6;
         return (Eigen::Vector4d::Ones() + Eigen::Vector4d::Unit(k)) * (volume / 20);
     });

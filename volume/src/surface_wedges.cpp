@@ -2,46 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <string>
 #include <tuple>
 
-#include "octafield/error.hpp"
 #include "octafield/parallel.hpp"
+#include "surface_rows.hpp"
 #include "triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {
-
-// Row of the triangle in the table, whose rows are in lexicographic order; -1: none.
-Eigen::Index find_row(const TriangleTable& table, std::array<Index, 3> ids) {
-    std::sort(ids.begin(), ids.end());
-    const auto row = [&](Eigen::Index t) {
-        return std::array{table.triangles(t, 0), table.triangles(t, 1), table.triangles(t, 2)};
-    };
-    Eigen::Index low = 0, high = table.triangles.rows();
-    while (low < high) {
-        const Eigen::Index middle = (low + high) / 2;
-        (row(middle) < ids ? low : high) = row(middle) < ids ? middle + 1 : middle;
-    }
-    return low < table.triangles.rows() && row(low) == ids ? low : -1;
-}
-
-std::vector<Eigen::Index> rows_of(const TriangleTable& table, const BoundarySurface& surface) {
-    std::vector<Eigen::Index> rows;
-    std::vector<Index> missing;
-    for (Eigen::Index t = 0; t < surface.mesh.triangles.rows(); ++t) {
-        std::array<Index, 3> ids;
-        for (int k = 0; k < 3; ++k) ids[k] = surface.vertex_map[surface.mesh.triangles(t, k)];
-        rows.push_back(find_row(table, ids));
-        if (rows.back() < 0) missing.push_back(static_cast<Index>(t));
-    }
-    if (!missing.empty())
-        throw InvalidInput("triangles " + first_few(missing) + " of the surface are none of the tet mesh; give the " +
-                               "surface of this mesh",
-                           "wrong_mesh", missing);
-    return rows;
-}
 
 // A triangle of the surface, the tet on one of its sides, and one of its edges.
 struct Beginning {
@@ -104,12 +72,12 @@ private:
 std::vector<Wedge> surface_wedges(const TetMesh& mesh, const BoundarySurface& surface,
                                   const std::vector<std::pair<Index, Index>>& edges, int threads) {
     const TriangleTable table = triangle_table(mesh, threads);
-    const std::vector<Eigen::Index> rows = rows_of(table, surface);
+    const std::vector<Index> rows = surface_rows(mesh, table, surface);
     std::vector<std::uint8_t> on_surface(table.triangles.rows(), 0);
     for (Eigen::Index t = 0; t < table.triangles.rows(); ++t) on_surface[t] = table.sides(t, 1) < 0;
-    for (const Eigen::Index row : rows) on_surface[row] = 1;
+    for (const Index row : rows) on_surface[row] = 1;
     std::vector<Beginning> beginnings;
-    for (const Eigen::Index row : rows)
+    for (const Index row : rows)
         for (const Index side : {table.sides(row, 0), table.sides(row, 1)})
             for (int k = 0; k < 3 && side >= 0; ++k) {
                 const Index v = table.triangles(row, k), w = table.triangles(row, (k + 1) % 3);

@@ -1,6 +1,5 @@
 // Boundary constraints of frames that live in the tets.
 #include <algorithm>
-#include <array>
 #include <string>
 
 #include "alignment.hpp"
@@ -8,6 +7,7 @@
 #include "octafield/error.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "require_frames.hpp"
+#include "surface_rows.hpp"
 #include "triangle_table.hpp"
 
 namespace octafield::volume {
@@ -22,38 +22,13 @@ struct Side {
 };
 
 std::vector<Side> sides_of(const TetMesh& mesh, const BoundarySurface& surface) {
-    const Index count = static_cast<Index>(surface.vertex_map.size());
-    for (const Index v : surface.vertex_map)
-        if (v < 0 || v >= mesh.vertices.rows())
-            throw InvalidInput("vertex_map refers to vertex " + std::to_string(v) + ", which the mesh does not have",
-                               "index_out_of_range", {v});
     const TriangleTable table = triangle_table(mesh);
-    const auto row = [&](Eigen::Index t) {
-        return std::array{table.triangles(t, 0), table.triangles(t, 1), table.triangles(t, 2)};
-    };
+    const std::vector<Index> rows = surface_rows(mesh, table, surface);
     std::vector<Side> sides;
-    for (Index f = 0; f < surface.mesh.triangles.rows(); ++f) {
-        const auto corners = surface.mesh.triangles.row(f);
-        if (corners.minCoeff() < 0 || corners.maxCoeff() >= count)
-            throw InvalidInput("triangle " + std::to_string(f) + " refers to a vertex that is not in vertex_map",
-                               "index_out_of_range", {f});
-        std::array<Index, 3> key;
-        for (int k = 0; k < 3; ++k) key[k] = surface.vertex_map[corners[k]];
-        std::sort(key.begin(), key.end());
-        Eigen::Index low = 0, high = table.triangles.rows();
-        while (low < high) {
-            const Eigen::Index middle = (low + high) / 2;
-            if (row(middle) < key)
-                low = middle + 1;
-            else
-                high = middle;
-        }
-        if (low == table.triangles.rows() || row(low) != key)
-            throw InvalidInput("triangle " + std::to_string(f) + " of the surface is no triangle of the tet mesh",
-                               "wrong_mesh", {f});
+    for (std::size_t f = 0; f < rows.size(); ++f)
         for (int side = 0; side < 2; ++side)
-            if (table.sides(low, side) >= 0) sides.push_back({table.sides(low, side) / 4, f});
-    }
+            if (table.sides(rows[f], side) >= 0)
+                sides.push_back({table.sides(rows[f], side) / 4, static_cast<Index>(f)});
     return sides;
 }
 
