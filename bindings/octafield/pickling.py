@@ -1,9 +1,10 @@
-"""Pickles of what the compiled module holds once: entries of its registries go by name."""
+"""Pickles of what there is once: entries of registries go by name."""
 
 import copyreg
 
 from . import _core
 from ._core import Metric, Representation
+from .formats import FrameFormat, frame_formats
 
 
 def _representation(name: str) -> Representation:
@@ -14,5 +15,10 @@ def _metric(name: str) -> Metric:
     return _core.metrics[name]
 
 
+def _frame_format(name: str) -> FrameFormat:
+    return frame_formats[name]
+
+
 copyreg.pickle(Representation, lambda entry: (_representation, (entry.name,)))
 copyreg.pickle(Metric, lambda entry: (_metric, (entry.name,)))
+copyreg.pickle(FrameFormat, lambda entry: (_frame_format, (entry.name,)))

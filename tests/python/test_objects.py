@@ -38,6 +38,8 @@ def objects(field, tmp_path_factory):
     meshed = of.prepare_mesh(generate("box"), of.MeshOptions(edge_length=0.4))
     described = study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}")
     boundary = of.boundary_surface(tets)
+    combed = of.comb(tets, of.tet_frames(tets, frames))
+    of.write_frames(folder / "field.npz", tets, frames)
     everything = [
         field, in_tets, meshed, of.prepare(meshed), of.compute_surface_field(generate("torus"), of.SurfaceFieldOptions(curvature=1)),
         of.compare(generate("box"), folder / "compared", representations=["sh4"], boundaries=["aligned"], options=of.FieldOptions(edge_length=0.5)),
@@ -53,7 +55,9 @@ def objects(field, tmp_path_factory):
         of.boundary_meshability(box.tets, box.boundary, box.features, of.random_rotations(len(box.tets.vertices))),
         of.DirectionConstraints([[0, 1]], [[1, 0, 0]], [2.0]), of.DirectionGuide([[1, 0, 0]], [1], 3), of.VertexConstraints([3], [1], [[0, 0, 1]]),
         of.MeshOptions(repair=True), of.FieldOptions(seed=3), of.SurfaceFieldOptions(symmetry=6), list(of.representations.values()), list(of.metrics.values()),
-        described, study.plan(described), study.run(described, folder / "study"),
+        combed, of.alignment_tables(tets, boundary, field.features, combed), of.isotropic_scale(tets, frames), of.axis_scales(tets, frames),
+        of.read_frames(folder / "field.npz"), of.analyse(tets, frames), of.convert_file(folder / "field.npz", folder / "field.frame"),
+        list(of.frame_formats.values()), described, study.plan(described), study.run(described, folder / "study"),
         *(error("what; the remedy", "a_kind", [1, 2]) for error in (of.Error, of.InvalidInput, of.GeometryError, of.SolverError, of.IoError, of.Cancelled)),
     ]  # fmt: skip
     found = {}

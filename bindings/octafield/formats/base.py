@@ -38,6 +38,11 @@ class FrameFile:
     centres: np.ndarray | None = None
     notes: list[str] = field(default_factory=list)
 
+    def __repr__(self) -> str:
+        mesh = "no mesh" if self.mesh is None else f"{len(self.mesh.tets):,} tets"
+        notes = f"; {len(self.notes)} notes" if self.notes else ""
+        return f"FrameFile({self.path}: {self.format}, {len(self.frames):,} frames {'at' if self.where == 'vertices' else 'in'} {self.where}, {mesh}{notes})"
+
 
 @dataclass
 class Field:
@@ -76,6 +81,10 @@ class FrameFormat:
     holds_lengths: bool = False
     holds_features: bool = False
     holds_regions: bool = False
+
+    def __repr__(self) -> str:
+        done = " and ".join(word for word, how in (("read", self.read), ("written", self.write)) if how is not None)
+        return f"FrameFormat({self.name}: {self.title}, {self.holds}; {' or '.join(self.where)}; {done})"
 
     def owns(self, path: str | Path) -> bool:
         return plain_name(path).endswith(self.extensions)
