@@ -185,8 +185,10 @@ class Store:
     def _make(self) -> None:
         """Refuses a folder that is not empty unless a study was begun in it: its table is made first."""
         with self._writing():
+            filled = self.folder.is_dir() and any(self.folder.iterdir())
+            # Asked after: another leader that fills the folder now has made the table by the time anything is seen.
             ours = any((self.folder / name).exists() for name in (TABLE_FILE, STUDY_FILE))
-            if self.folder.is_dir() and any(self.folder.iterdir()) and not ours:
+            if filled and not ours:
                 raise InvalidInput(f"{self.folder}: not empty and not the folder of a study; choose another", "foreign_folder")
             self.folder.mkdir(parents=True, exist_ok=True)
             (self.folder / TABLE_FILE).touch()
