@@ -40,7 +40,7 @@ def read_cad(path: Path, suffix: str, edge_length: float) -> Grid:
 
 @contextlib.contextmanager
 def _model(gmsh) -> Iterator[None]:
-    """A model of its own, in the caller's session of Gmsh where there is one, whose options are put back."""
+    """A model of its own. Where the calling program has initialised Gmsh already, its options and current model are put back."""
     ours = not gmsh.isInitialized()
     if ours:
         gmsh.initialize(["octafield"], readConfigFiles=False, interruptible=False)

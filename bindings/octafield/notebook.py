@@ -41,7 +41,7 @@ def html_of(value: Any) -> str:
 
 
 def display_live(value: Any) -> None:
-    """For _ipython_display_: a scene to turn and the figures. NotImplementedError: there is no backend, IPython then asks
+    """For _ipython_display_: a scene to turn and the figures. NotImplementedError, which is IPython's word for it: there is no backend, IPython then asks
     for the HTML above."""
     if type(value).__name__ == "Comparison" or not live_backend() or not _can_draw():
         raise NotImplementedError

@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 
@@ -146,7 +145,6 @@ def test_bash_completes_commands_options_and_values(typed, offered):
     assert sorted(completed(*typed)) == sorted(offered)
 
 
-@pytest.mark.skipif(shutil.which("bash") is None, reason="no bash")
 def test_the_completion_script_of_bash_loads_and_completes(tmp_path):
     environment = {**os.environ, "_OCTAFIELD_COMPLETE": "source_bash"}
     script = subprocess.run([sys.executable, "-m", "octafield"], env=environment, capture_output=True, text=True, timeout=60).stdout
