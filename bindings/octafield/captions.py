@@ -30,14 +30,16 @@ def of_curves(record: dict) -> str:
         return "The field has no singular edges."
     what = f"{counted(record['singular_edges'], 'singular edge')} ({parts})"
     curves = f"{counted(record['singular_curves'], 'curve')} of total length {record['singular_length']:.4g}"
-    ends = f"{counted(record['singular_nodes'], 'node')} and {counted(record['singular_boundary_ends'], 'end')} on the surface"
+    ends = counted(record["singular_nodes"], "node")
+    if "singular_boundary_ends" in record:  # not of frames in tets
+        ends += f" and {counted(record['singular_boundary_ends'], 'end')} on the surface"
     bad = _not_meshable(record)
     return f"The field has {what} in {curves}, with {ends}." + (f" At {bad} it is unlike any hex mesh." if bad else "")
 
 
 def _not_meshable(record: dict) -> str:
     counts = (("non_meshable_vertices", "place"), ("non_meshable_feature_edges", "feature edge"), ("non_meshable_corners", "corner"))
-    parts = [counted(record[key], word) for key, word in counts if record[key]]
+    parts = [counted(record[key], word) for key, word in counts if record.get(key)]
     return " and ".join(filter(None, [", ".join(parts[:-1]), *parts[-1:]]))
 
 

@@ -7,34 +7,35 @@ from typing import Annotated, Any
 
 import typer
 
-from . import cli_inspect, console, files_cli, tables
+from . import cli_inspect, compare_cli, console, files_cli, tables
 from .cli_options import (
+    ANGLE,
     EdgeLength,
     FeatureAngle,
     Features,
     InputFile,
-    InputFiles,
     Interfaces,
     Json,
     Output,
     Quiet,
     Remesh,
     Repair,
+    Sampling,
     Seed,
     Split,
     Threads,
     Verbose,
     choices,
+    mesh_options,
 )
-from .completion import lists, words
+from .completion import words
 from .console import carry_out, log
 from .options import (
     ALIGNMENTS,
     BOUNDARIES,
-    COMPARED,
     METHODS,
+    OF_A_START,
     REPRESENTATIONS,
-    SAMPLINGS,
     SOLVERS,
     FieldOptions,
     SurfaceFieldOptions,
@@ -52,11 +53,9 @@ app = typer.Typer(
 app.add_typer(cli_inspect.app)
 app.add_typer(studies, name="study")
 files_cli.register(app)
+compare_cli.register(app)
 
 _FIELD, _SURFACE = FieldOptions(), SurfaceFieldOptions()
-
-
-_ANGLE = round(math.degrees(_FIELD.feature_angle), 6)
 
 
 def _show_version(wanted: bool) -> None:
@@ -76,31 +75,11 @@ def _options_of_all(
     pass
 
 
-def _mesh_options(
-    features: str, feature_angle: float, edge_length: float, remesh: bool, repair: bool, **others: bool
-) -> dict[str, Any]:
-    return {
-        **others,
-        "features": features,
-        "feature_angle": math.radians(feature_angle),
-        "edge_length": edge_length,
-        "remesh": remesh,
-        "repair": repair,
-    }
-
-
-def _report_notes(record: dict[str, Any]) -> None:
-    for note in record["notes"]:
-        log.info("%s: %s", record["input"], note)
-
-
 @app.command()
 def field(
     input: InputFile,
     output: Output,
-    sampling: Annotated[
-        str, typer.Option(metavar=choices(SAMPLINGS), autocompletion=words(SAMPLINGS), help="Where the frames live.")
-    ] = _FIELD.sampling,
+    sampling: Sampling = _FIELD.sampling,
     representation: Annotated[
         str, typer.Option(metavar=choices(REPRESENTATIONS), autocompletion=words(REPRESENTATIONS))
     ] = _FIELD.representation,
@@ -108,16 +87,16 @@ def field(
     boundary: Annotated[
         str,
         typer.Option(
-            metavar=choices(BOUNDARIES),
-            autocompletion=words(BOUNDARIES),
-            help="aligned: twist free; fixed: whole frame held.",
+            metavar=choices((*BOUNDARIES, OF_A_START)),
+            autocompletion=words((*BOUNDARIES, OF_A_START)),
+            help="aligned: twist free; fixed: whole frame held at the cross field; start: at --start.",
         ),
     ] = _FIELD.boundary,
     feature_tolerance: Annotated[
         float, typer.Option(metavar="DEG", help="How well one frame must fit a feature vertex to be held, degrees.")
     ] = round(math.degrees(_FIELD.feature_tolerance), 6),
     features: Features = _FIELD.features,
-    feature_angle: FeatureAngle = _ANGLE,
+    feature_angle: FeatureAngle = ANGLE,
     edge_length: EdgeLength = _FIELD.edge_length,
     remesh: Remesh = _FIELD.remesh,
     repair: Repair = _FIELD.repair,
@@ -155,7 +134,7 @@ def field(
             streamlines=streamlines,
             seed=seed,
             threads=threads,
-            **_mesh_options(features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split),
+            **mesh_options(features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split),
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             result = compute_field(input, options, progress) if start is None else polish_file(input, start, options, progress)
@@ -195,7 +174,7 @@ def surface_field(
         float, typer.Option(metavar="WEIGHT", help="Pull towards the lines of curvature, 1 is usual; 0: none.")
     ] = _SURFACE.curvature,
     features: Features = _SURFACE.features,
-    feature_angle: FeatureAngle = _ANGLE,
+    feature_angle: FeatureAngle = ANGLE,
     least_feature_angle: Annotated[
         float, typer.Option(metavar="DEG", help="Feature edges that bend by less are not followed, degrees.")
     ] = math.degrees(_SURFACE.least_feature_angle),
@@ -223,7 +202,7 @@ def surface_field(
             least_feature_angle=math.radians(least_feature_angle),
             curvature=curvature,
             seed=seed,
-            **_mesh_options(features, feature_angle, edge_length, remesh, repair),
+            **mesh_options(features, feature_angle, edge_length, remesh, repair),
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             result = compute_surface_field(input, options, progress)
@@ -233,76 +212,8 @@ def surface_field(
     carry_out(work, quiet, verbose, json)
 
 
-@app.command()
-def compare(
-    inputs: InputFiles = None,
-    output: Output = ...,  # type: ignore[assignment]
-    representations: Annotated[
-        str,
-        typer.Option(
-            metavar="all|A,B",
-            autocompletion=lists(REPRESENTATIONS, "all"),
-            help=f"Of: {choices(REPRESENTATIONS)}; all: {', '.join(COMPARED)}.",
-        ),
-    ] = "all",
-    boundaries: Annotated[
-        str, typer.Option(metavar="A,B", autocompletion=lists(BOUNDARIES), help=f"Of: {choices(BOUNDARIES)}.")
-    ] = "fixed,aligned",
-    seeds: Annotated[int, typer.Option(metavar="K", help="Seeds per run: --seed and the K - 1 numbers after it.")] = 1,
-    features: Features = _FIELD.features,
-    feature_angle: FeatureAngle = _ANGLE,
-    edge_length: EdgeLength = _FIELD.edge_length,
-    remesh: Remesh = _FIELD.remesh,
-    repair: Repair = _FIELD.repair,
-    interfaces: Interfaces = _FIELD.interfaces,
-    split: Split = _FIELD.split,
-    seed: Seed = _FIELD.seed,
-    threads: Threads = _FIELD.threads,
-    json: Json = None,
-    quiet: Quiet = False,
-    verbose: Verbose = False,
-) -> None:
-    """Representations and boundary treatments side by side. DIR gets report.html, results.json, a folder per run."""
-
-    def work() -> None:
-        from .compare import compare as run_comparison
-        from .compare import default_input
-
-        options = FieldOptions(
-            seed=seed,
-            threads=threads,
-            **_mesh_options(
-                features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split
-            ),
-        )
-        chosen = COMPARED if representations == "all" else _listed(representations)
-        with console.progress_bar(quiet) as progress:
-            comparison = run_comparison(
-                inputs or [default_input()],
-                output,
-                representations=chosen,
-                boundaries=_listed(boundaries),
-                seeds=seeds,
-                options=options,
-                progress=progress,
-            )
-        for record in {row["input"]: row for row in comparison.rows}.values():
-            _report_notes(record)
-        if json:
-            console.put_json(json, comparison.rows)
-        if json != "-" and not quiet:
-            tables.show_comparison(comparison.rows)
-        log.info("wrote %s", output / "report.html")
-
-    carry_out(work, quiet, verbose, json)
-
-
-def _listed(text: str) -> list[str]:
-    return [word.strip() for word in text.split(",") if word.strip()]
-
-
 def _finish(record: dict[str, Any], json: str | None, quiet: bool, output: Path) -> None:
-    _report_notes(record)
+    console.report_notes(record)
     if json:
         console.put_json(json, record)
     if json != "-" and not quiet:

@@ -1,17 +1,47 @@
 """The options that several commands share: name, placeholder and help."""
 
+import math
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from .completion import words
-from .options import FEATURES
+from .errors import InvalidInput
+from .options import FEATURES, SAMPLINGS, MeshOptions
+
+ANGLE = round(math.degrees(MeshOptions().feature_angle), 6)
 
 
 def choices(values: Iterable[str]) -> str:
     return "|".join(value for value in values if value != "default")
+
+
+def named_files(words: Iterable[str]) -> dict[str, Path]:
+    """Of NAME=FILE; InvalidInput otherwise, and where a name comes twice."""
+    found: dict[str, Path] = {}
+    for word in words:
+        name, between, file = word.partition("=")
+        if not (between and name and file):
+            raise InvalidInput(f"--field {word}: give it as NAME=FILE", "bad_name")
+        if name in found:
+            raise InvalidInput(f"--field {word}: the name {name} is there already", "repeated_value")
+        found[name] = Path(file)
+    return found
+
+
+def mesh_options(
+    features: str, feature_angle: float, edge_length: float, remesh: bool, repair: bool, **others: bool
+) -> dict[str, Any]:
+    return {
+        **others,
+        "features": features,
+        "feature_angle": math.radians(feature_angle),
+        "edge_length": edge_length,
+        "remesh": remesh,
+        "repair": repair,
+    }
 
 
 InputFile = Annotated[
@@ -43,6 +73,7 @@ Interfaces = Annotated[
     bool, typer.Option("--interfaces/--no-interfaces", help="Follow the interfaces between regions of a tet mesh.")
 ]
 Split = Annotated[bool, typer.Option("--split", help="Split inner edges and tets that join the surface to itself.")]
+Sampling = Annotated[str, typer.Option(metavar=choices(SAMPLINGS), autocompletion=words(SAMPLINGS), help="Where the frames live.")]
 Seed = Annotated[int, typer.Option(metavar="N", help="Seed of every random start.")]
 Threads = Annotated[int, typer.Option(metavar="N", help="Threads; 0: all. Results do not depend on it.")]
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Nothing but errors.")]

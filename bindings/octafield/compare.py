@@ -4,18 +4,21 @@
     comparison.rows[0]["energy"]
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from types import MappingProxyType
 
 from .errors import InvalidInput
+from .given_fields import FieldSource, GivenField, given_fields
+from .imported import AnalysedField, analyse
 from .meshing import MeshedInput, Source, prepare_mesh, read_sound
 from .options import BOUNDARIES, COMPARED, LARGEST_SEED, REPRESENTATIONS, FieldOptions, integer_in, require_one_of
 from .output import staged_folder, write_json
 from .phases import Progress
 from .pipeline import FieldResult, Problem, prepare, run
 from .report import PAGE_FILE, Report, Run, write_report
-from .results import write_field_result
+from .results import write_analysis, write_field_result
 
 ROWS_FILE = "results.json"
 _MOST_CURVES = 3  # pictures of singular curves per boundary treatment
@@ -24,13 +27,14 @@ _MOST_CURVES = 3  # pictures of singular curves per boundary treatment
 @dataclass
 class _Section:
     """One input: its runs, and pictures: of the surface, then per boundary treatment. drawn: per boundary treatment, the
-    singular graphs that have a picture."""
+    singular graphs that have a picture. given: rows of the fields that were read, by name."""
 
     name: str
     slug: str
     rows: list[dict] = field(default_factory=list)
     pictures: dict[str, list] = field(default_factory=dict)
     drawn: dict[str, set[tuple]] = field(default_factory=dict)
+    given: dict[str, dict] = field(default_factory=dict)
 
 
 @dataclass
@@ -60,11 +64,14 @@ def compare(
     boundaries: Sequence[str] = ("fixed", "aligned"),
     seeds: int = 1,
     options: FieldOptions = FieldOptions(),
+    fields: Mapping[str, FieldSource] = MappingProxyType({}),
     progress: Progress | None = None,
 ) -> Comparison:
     """Every representation with every boundary treatment and `seeds` seeds (options.seed and following) on each input.
 
-    Each input is read and meshed once. `options` gives everything else. The output folder is complete or absent; an
+    Each input is read and meshed once. `options` gives everything else. fields: by name, files of frames (read_frames) or
+    (n, 4) arrays on the vertices (sampling "tets": the tets) of the only input, a tet mesh; each stands beside the others as it
+    is and as the first representation makes it by one smoothing. The output folder is complete or absent; an
     earlier comparison in it is replaced, a folder with anything else is refused (InvalidInput).
 
         >>> import octafield
@@ -83,11 +90,13 @@ def compare(
         # All are read before the first run: an unfit one should not cost the time of those before it.
         reports = [_labelled(progress, _short_name(source)) for source in inputs]
         sound = [read_sound(source, options, progress=report) for source, report in zip(inputs, reports, strict=True)]
+        given = given_fields(sound, fields, options)
         for number, source in enumerate(inputs):
             meshed = prepare_mesh(sound[number], options, progress=reports[number])
             name = _unique([s.name for s in sections], _short_name(source), " ")
             section = _Section(name, _unique([s.slug for s in sections], _slug(source)))
-            _run_all(meshed, section, folder, representations, boundaries, seeds, options, progress)
+            meshed.notes += [note for one in given for note in one.notes]
+            _run_all(meshed, section, folder, representations, boundaries, seeds, options, given, progress)
             sections.append(section)
             rows += section.rows
         if progress:
@@ -105,6 +114,7 @@ def _run_all(
     boundaries: Sequence[str],
     seeds: int,
     options: FieldOptions,
+    given: Sequence[GivenField],
     progress: Progress | None,
 ) -> None:
     for seed in range(options.seed, options.seed + seeds):
@@ -112,21 +122,44 @@ def _run_all(
         first = seed == options.seed
         if first:
             section.pictures["surface"] = _surface_pictures(problem)
-        for representation in representations:
+        for representation, start in [*((name, None) for name in representations), *((representations[0], one) for one in given)]:
+            method = representation if start is None else f"{representation} from {start.name}"
             for boundary in boundaries:
                 chosen = replace(options, representation=representation, boundary=boundary, seed=seed)
-                label = f"{representation}, {boundary}" + (f", seed {seed}" if seeds > 1 else "")
+                label = f"{method}, {boundary}" + (f", seed {seed}" if seeds > 1 else "")
                 report = _labelled(progress, f"{section.name}, {label}")
-                result = run(problem, chosen, report)
-                name = f"{section.slug}-{representation}-{boundary}" + (f"-seed{seed}" if seeds > 1 else "")
+                result = run(problem, chosen, report, start=None if start is None else start.frames)
+                name = f"{section.slug}-{_slug(method)}-{boundary}" + (f"-seed{seed}" if seeds > 1 else "")
                 (folder / name).mkdir()
                 result.record["label"] = label
+                if start is not None:
+                    result.record["start"] = start.name
                 write_field_result(result, folder / name, report)
-                section.rows.append(
-                    {**result.record, "folder": name, "files": [f"{name}/{file}" for file in result.record["files"]]}
-                )
+                section.rows.append(_row(result.record, name))
                 if first:
                     section.pictures.setdefault(boundary, []).extend(_volume_pictures(section, result, label))
+        _add_given(problem, section, folder, boundaries, seed, options, given)
+
+
+def _add_given(
+    problem: Problem, section: _Section, folder: Path, boundaries: Sequence[str], seed: int, options: FieldOptions, given: Sequence[GivenField]
+) -> None:
+    """A row per boundary treatment and seed, all of one analysis."""
+    for one in given:
+        name = f"{section.slug}-{_slug(one.name)}"
+        if not (folder / name).is_dir():
+            (folder / name).mkdir()
+            result = analyse(problem.meshed, one.frames, options.sampling, options)
+            result.record |= {"label": one.name, "representation": one.name, "wall_seconds": {**problem.clock.wall, **result.record["wall_seconds"]}}
+            write_analysis(result, folder / name)
+            section.given[one.name] = _row(result.record, name)
+            section.pictures.setdefault("given", []).extend(_pictures_of_given(one.name, result))
+        row = section.given[one.name]
+        section.rows += [{**row, "boundary": boundary, "options": {**row["options"], "boundary": boundary, "seed": seed}} for boundary in boundaries]
+
+
+def _row(record: dict, folder: str) -> dict:
+    return {**record, "folder": folder, "files": [f"{folder}/{file}" for file in record["files"]]}
 
 
 def _report(sections: list[_Section], folder: Path) -> Report:
@@ -154,7 +187,7 @@ def _volume_pictures(section: _Section, result: FieldResult, label: str) -> list
         return []
     begun, first = not section.drawn, result.record["boundary"] not in section.drawn
     drawn = section.drawn.setdefault(result.record["boundary"], set())
-    kind = tuple(str(result.record[key]) for key in ("singular_edges_by_turns", "singular_curves", "singular_nodes", "singular_boundary_ends"))
+    kind = tuple(str(result.record.get(key)) for key in ("singular_edges_by_turns", "singular_curves", "singular_nodes", "singular_boundary_ends"))
     chosen = []
     if result.record["singular_edges"] and kind not in drawn and len(drawn) < _MOST_CURVES:
         chosen.append(pictures.singular_curves(result))
@@ -166,13 +199,20 @@ def _volume_pictures(section: _Section, result: FieldResult, label: str) -> list
     return [replace(picture, title=f"{picture.title} ({label})") for picture in chosen]
 
 
+def _pictures_of_given(name: str, result: AnalysedField) -> list:
+    from . import pictures, scene
+
+    if not scene.can_draw() or not result.record["singular_edges"]:
+        return []
+    picture = pictures.singular_curves(result)
+    return [replace(picture, title=f"{picture.title} ({name})")]
+
+
 def _check(inputs: Sequence, representations: Sequence[str], boundaries: Sequence[str], options: FieldOptions) -> None:
     if not inputs or not representations or not boundaries:
         raise InvalidInput(
             "a comparison needs at least one input, representation and boundary treatment", "nothing_to_compare"
         )
-    if options.sampling != "vertices":
-        raise InvalidInput("a comparison is of frames at vertices; leave sampling as it is", "wrong_sampling")
     for representation in representations:
         require_one_of("representation", representation, REPRESENTATIONS)
     for boundary in boundaries:

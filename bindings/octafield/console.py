@@ -121,6 +121,11 @@ def _say(message: str) -> None:
     print("octafield: " + " ".join(message.split()), file=sys.stderr, flush=True)
 
 
+def report_notes(record: dict[str, Any]) -> None:
+    for note in record["notes"]:
+        log.info("%s: %s", record["input"], note)
+
+
 @contextlib.contextmanager
 def progress_bar(quiet: bool, whole: bool = False) -> Iterator:
     """Yields a progress callback; None when quiet. Draws on stderr when that is a terminal, else writes a plain line there now and

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _core
 from .errors import InvalidInput
-from .formats import read_frames
+from .formats import FrameFile, read_frames
 from .formats.files import plain_name
 from .formats.meshes import MESH_SUFFIXES
 from .imported import AnalysedField, analyse
@@ -33,16 +33,21 @@ def analyse_file(
     return result
 
 
+def frames_at(found: FrameFile, where: str) -> np.ndarray:
+    """The frames of a file with a mesh, taken to the vertices or the tets if they are not there; a note tells."""
+    if found.where == where:
+        return found.frames
+    move = _core.tet_frames if where == "tets" else _core.vertex_frames
+    found.notes.append(f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around")
+    return np.asarray(move(found.mesh, found.frames))
+
+
 def polish_file(source: str, start: Path, options: FieldOptions, progress: Progress | None = None) -> FieldResult:
     """A field on a tet mesh, smoothed from the frames of a file, which are taken to where the field has its own."""
     if options.split:
         raise InvalidInput("splitting makes another mesh than the start belongs to; leave it out", "option_out_of_range")
     found = read_frames(start, source)
-    frames = found.frames
-    if found.where != options.sampling:
-        move = _core.tet_frames if options.sampling == "tets" else _core.vertex_frames
-        frames = np.asarray(move(found.mesh, frames))
-        found.notes.append(f"the start was taken to the {options.sampling}: the nearest to the mean sh4 vector of those around")
+    frames = frames_at(found, options.sampling)
     result = compute_field(prepare_mesh(source, options, progress=progress), options, progress, start=frames)
     result.record["start"] = str(start)
     result.record["notes"] += [note for note in found.notes if note not in result.record["notes"]]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._core import BoundaryMeshability, FrameStreamline, Integrability, Meshability, SingularGraph, TetMesh, TriangleMesh
+from ._core import BoundaryMeshability, FeatureGraph, FrameStreamline, Integrability, Meshability, SingularGraph, TetMesh, TriangleMesh
 from .analysis import analyse as analyse_frames
 from .errors import InvalidInput
 from .formats.base import SITES
@@ -29,6 +29,7 @@ class AnalysedField:
     the tets, whose analysis has no meshability and integrability."""
 
     surface: TriangleMesh
+    features: FeatureGraph
     tets: TetMesh
     frames: np.ndarray
     singular_graph: SingularGraph
@@ -89,7 +90,7 @@ def analyse(
         **found.record,
         "options": asdict(options),
     }
-    return AnalysedField(meshed.surface, meshed.tets, *parts, record, meshed.regions, values if where == "tets" else None)
+    return AnalysedField(meshed.surface, meshed.features, meshed.tets, *parts, record, meshed.regions, values if where == "tets" else None)
 
 
 def fitting_frames(tets: TetMesh, frames: ArrayLike, where: str) -> np.ndarray:

@@ -17,6 +17,7 @@ REPRESENTATIONS = _core.smooth_representations
 COMPARED = (*_core.representations, "geodesic", "su2_midpoint")  # what a comparison takes when not told
 SOLVERS = ("default", "trust_region", "levenberg_marquardt", "lbfgs")  # default: what goes with the representation
 BOUNDARIES = ("aligned", "fixed", "none")
+OF_A_START = "start"  # a treatment of the boundary that needs frames to start from
 SAMPLINGS = ("vertices", "tets")
 FEATURES = ("default", "file", "angle", "none")
 LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
@@ -139,7 +140,8 @@ class FieldOptions(MeshOptions):
 
     sampling: where the frames live, "vertices" or "tets" (octafield.tet_sampling; constraints, energy, singular edges
         and alignment are those of the tets then, and meshability and integrability are left out).
-    boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none".
+    boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none", or "start"
+        (frames on the surface held at those of the start that compute_field is given).
     feature_tolerance: radians; a vertex on a feature keeps its whole frame when one frame fits all its normals and
         tangents so well (octafield.boundary_constraints).
     seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
@@ -175,7 +177,7 @@ class FieldOptions(MeshOptions):
         require_one_of("sampling", self.sampling, SAMPLINGS)
         require_one_of("representation", self.representation, REPRESENTATIONS)
         require_one_of("solver", self.solver, SOLVERS)
-        require_one_of("boundary", self.boundary, BOUNDARIES)
+        require_one_of("boundary", self.boundary, (*BOUNDARIES, OF_A_START))
         _require(0 <= self.feature_tolerance <= math.pi / 2, "the feature tolerance must lie between 0 and 90 degrees")
         _make_integer(self, "seed", 0, LARGEST_SEED)
         _make_integer(self, "threads", 0, LARGEST_INT, " (0: all)")

@@ -8,6 +8,7 @@ import numpy as np
 import pyvista
 
 from . import _core, captions, scene
+from .imported import AnalysedField
 from .pipeline import FieldResult, Problem
 from .results import polylines
 
@@ -69,7 +70,7 @@ def surface_cross_field(problem: Problem) -> Picture:
     return Picture("Cross field on the surface", captions.of_surface(problem.singularities), scene.render(shape), legend)
 
 
-def singular_curves(result: FieldResult) -> Picture:
+def singular_curves(result: FieldResult | AnalysedField) -> Picture:
     """Tubes along the singular curves (smoothed), by type, inside the translucent surface; what no hex mesh has."""
     graph = result.singular_graph
     kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
@@ -81,7 +82,7 @@ def singular_curves(result: FieldResult) -> Picture:
     return Picture("Singular curves", captions.of_curves(result.record), scene.render(singular_scene(result)), legend)
 
 
-def singular_scene(result: FieldResult) -> pyvista.Plotter:
+def singular_scene(result: FieldResult | AnalysedField) -> pyvista.Plotter:
     graph, points = result.singular_graph, np.asarray(result.surface.vertices)
     radius = 0.0045 * scene.diagonal(points)
     shape = _glass(scene.surface_mesh(result.surface))
@@ -193,7 +194,7 @@ def _add_nodes(shape: pyvista.Plotter, nodes: np.ndarray, radius: float) -> None
         shape.add_mesh(_spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
 
 
-def _bad_features(result: FieldResult) -> pyvista.PolyData | None:
+def _bad_features(result: FieldResult | AnalysedField) -> pyvista.PolyData | None:
     if result.boundary_meshability is None:
         return None
     edges = np.array([(w.a, w.b) for w in result.boundary_meshability.wedges if not w.meshable], int).reshape(-1, 2)

@@ -36,9 +36,9 @@ from ._core import (
 from .analysis import FieldAnalysis, analyse, constraint_counts, counts_by_index, spread
 from .errors import InvalidInput
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
-from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
+from .options import OF_A_START, FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
-from .smoothing import smoothed_field
+from .smoothing import held_at_start, smoothed_field
 from .tet_analysis import TetFieldAnalysis, analyse_tets
 from .surface_pipeline import SurfaceFieldResult, common_record, compute_surface_field, index_summary, structure
 
@@ -206,6 +206,8 @@ def run(
         announce(progress, "smooth")
         in_tets = _core.tet_sampling(tets) if options.sampling == "tets" else None
         held = _boundary_constraints(problem, options)
+        if options.boundary == OF_A_START:
+            held = held_at_start(tets, options, held, start)
         if constraints is not None:
             held = _core.with_constraints(held, constraints)
         where = tets if in_tets is None else in_tets
@@ -284,7 +286,7 @@ def run(
 def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryConstraints:
     meshed = problem.meshed
     tets, boundary, features = meshed.volume()
-    mode, tolerance = options.boundary, options.feature_tolerance
+    mode, tolerance = "none" if options.boundary == OF_A_START else options.boundary, options.feature_tolerance
     if options.sampling == "tets":  # triangles of the surface are those of the boundary, sheets or not
         directions = _core.triangle_directions(meshed.surface, problem.direction_field)
         return _core.tet_boundary_constraints(tets, boundary, directions, mode=mode, feature_tolerance=tolerance)

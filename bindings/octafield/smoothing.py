@@ -1,11 +1,13 @@
 """The field of a run: by the whole recipe, or smoothed from frames that are given."""
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._core import BoundaryConstraints, Sampling, SmoothResult, TetMesh
+from ._core import BoundaryConstraints, Sampling, SmoothResult, TetMesh, VertexConstraints
+from .errors import InvalidInput
 from .imported import fitting_frames
-from .options import FieldOptions
+from .options import OF_A_START, FieldOptions
 from .phases import Progress, forward
 
 
@@ -32,3 +34,13 @@ def smoothed_field(
     begin = "cross_field" if options.boundary == "none" else "constraints"
     found = _core.frame_field(where, held, start=begin, seed=seed, rounds=options.rounds, **how)
     return found.smooth, found.diffusion_steps
+
+
+def held_at_start(tets: TetMesh, options: FieldOptions, free: BoundaryConstraints, start: ArrayLike | None) -> BoundaryConstraints:
+    """free: constraints that hold nothing. With the frames on the surface held at those of the start."""
+    if start is None:
+        raise InvalidInput(f"boundary {OF_A_START!r} holds the surface at the frames of a start (--start FILE): give one, or another boundary", "no_start")
+    there = np.flatnonzero(free.on_boundary)
+    frames = fitting_frames(tets, start, options.sampling)[there]
+    fixed = np.full(len(there), 2, np.uint8)
+    return _core.with_constraints(free, VertexConstraints(vertices=there, kinds=fixed, frames=frames))

@@ -77,7 +77,7 @@ def test_a_start_elsewhere_is_taken_to_the_sampling(ball, in_tets, tmp_path):
     of.write_frames(tmp_path / "a.frame", ball.tets, in_tets.tet_frames, "tets")
     meshio.Mesh(ball.tets.vertices, [("tetra", ball.tets.tets)]).write(tmp_path / "ball.mesh")
     done = octafield("field", tmp_path / "ball.mesh", "-o", tmp_path / "out", "--start", tmp_path / "a.frame", "--features", "none", "--json", "-", check=0)
-    assert any("start was taken to the vertices" in note for note in json.loads(done.stdout)["notes"])
+    assert any("frames were taken to the vertices" in note for note in json.loads(done.stdout)["notes"])
 
 
 def test_what_does_not_fit_is_refused(ball, tmp_path, box_surface):

@@ -39,7 +39,7 @@ def _of(head: str, form: str, meaning: str, group: str = "", key: str = "", **mo
 
 RUN_COLUMNS: tuple[RunColumn, ...] = (
     RunColumn("input", "", "the file or generated shape", value=lambda _, run: run.input),
-    RunColumn("method", "", "what the frames were smoothed as, and how where methods differ in that", value=lambda results, run: results.method(run).name),
+    RunColumn("method", "", "what the frames were smoothed as, and how where methods differ in that; or the name given to a field that was read", value=lambda results, run: results.method(run).name),
     RunColumn(
         "boundary",
         "",
@@ -140,7 +140,7 @@ def summary_table(results: Results, lines: list[Line], found: Deviations) -> Tab
     first = results.methods[0].name if results.methods else ""
     columns = (
         Column("boundary", "", "fixed: frames held at the surface cross field; aligned: one axis on the normal, twist free; none: free"),
-        Column("method", "", "what the frames were smoothed as, and how where methods differ in that"),
+        Column("method", "", "what the frames were smoothed as, and how where methods differ in that; or the name given to a field that was read"),
         Column("solved", "d", "problems (input, boundary and seed) with a field"), Column("of", "d", "problems"),
         Column("E", ".6g", "Dirichlet energy of the final frames in sh4, on the only problem with a field", "energy"),
         Column("over lowest", ".4f", "to the lowest energy of all methods on the problem, geometric mean; problems without energy are left out", "energy"),

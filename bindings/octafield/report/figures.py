@@ -15,6 +15,7 @@ COLOURS = {
     "sh4": "#0072B2", "tensor4": "#56B4E9", "su2": "#D55E00", "odeco": "#009E73", "sh469": "#E69F00", "geodesic": "#CC79A7",
     "su2_midpoint": TEXT, "odeco_lengths": "#999933", "su2_geodesic": "#AA3355", "su2_symmetric": "#7b8794", "su2_frozen": "#A58A1F",
 }  # fmt: skip
+_OF_OTHERS = ("#AA4499", "#44AA99", "#882255", "#6699CC")  # fields that were read
 _DASHES, _MARKS = ("-", "--", ":", "-."), ("o", "s", "^", "D", "v", "P")
 _WIDE, _HALF = 12.4, 6.4  # inches: the whole width of the page, half of it
 _GREY = "#8a939d"
@@ -38,12 +39,13 @@ class Style:
 
 def styles(methods: Sequence[Method]) -> dict[Method, Style]:
     variants = list(dict.fromkeys(method.variant for method in methods))
+    others = list(dict.fromkeys(method.representation for method in methods if method.representation not in COLOURS))
+    colours = COLOURS | {name: _OF_OTHERS[k % len(_OF_OTHERS)] for k, name in enumerate(others)}
     found = {}
     for number, method in enumerate(methods):
         place = variants.index(method.variant)
         width = 3.6 - 2.2 * number / max(1, len(methods) - 1) if len(methods) > 1 else 1.8
-        colour = COLOURS.get(method.representation, TEXT)
-        found[method] = Style(colour, _DASHES[place % len(_DASHES)], _MARKS[place % len(_MARKS)], width)
+        found[method] = Style(colours[method.representation], _DASHES[place % len(_DASHES)], _MARKS[place % len(_MARKS)], width)
     return found
 
 
@@ -125,12 +127,12 @@ def is_wide(results: Results, problems: Sequence[Problem]) -> bool:
 
 def convergence_plot(results: Results, problems: Sequence[Problem], salt: str = "") -> str:
     """Energy against iteration, a panel per problem on common axes."""
-    methods = [m for m in results.methods if any(results.field(m, p) for p in problems)]
+    methods = [m for m in results.methods if any(run.computed for p in problems if (run := results.field(m, p)))]
     style = styles(methods)
     figure, panels = new_figure(_WIDE if is_wide(results, problems) else _HALF, 3.5 + 0.24 * (1 + len(methods) // 8), len(problems), sharex=True, sharey=True)
     longest, shared = 1, {}
     for axes, problem in zip(panels, problems, strict=True):
-        curves = {m: run.row["energy_history"] for m in methods if (run := results.field(m, problem)) is not None}
+        curves = {m: run.row["energy_history"] for m in methods if (run := results.field(m, problem)) is not None and run.computed}
         begin = _common(list(curves.values()))
         if begin > 1:
             shared |= {"color": _GREY, "linewidth": 2.4}

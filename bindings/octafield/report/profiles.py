@@ -49,8 +49,8 @@ def energies(results: Results, problems: Sequence[Problem]) -> dict[Method, np.n
 
 
 def smoothing_seconds(results: Results, problems: Sequence[Problem]) -> dict[Method, np.ndarray]:
-    """Processor seconds of constraints, start and smoothing."""
-    return results.least(lambda row: row["cpu_seconds"]["smooth"], problems)
+    """Processor seconds of constraints, start and smoothing; infinite for fields that were read."""
+    return results.least(lambda row: row["cpu_seconds"]["smooth"] if "energy_history" in row else math.inf, problems)
 
 
 def _energy(row: dict) -> float:
@@ -124,7 +124,7 @@ def _line(
         singular_edges=_total(fields, "singular_edges"),
         complex_edges=_total(fields, "complex_edges"),
         non_meshable=_total(fields, "non_meshable_vertices"),
-        seconds=float(seconds[np.isfinite(seconds)].sum()) if fields else None,
+        seconds=float(seconds[np.isfinite(seconds)].sum()) if np.isfinite(seconds).any() else None,
         slowdown=geometric_mean(slowdown),
     )
 

@@ -28,11 +28,13 @@ def scope(results: Results, open_runs: int, cite: str) -> str:
     seeds = len({problem.seed for problem in results.problems})
     where += f" and {seeds} seeds" if seeds > 1 else ""
     runs = counted(len(results.runs), "run")
+    read = results.read()
+    others = f" and {counted(len(read), 'field')} read from files ({named(read)})" if read else ""
     if len(results.methods) == 1:
         text = [f"one method, {named(results.methods)}, is applied to {where}: {runs} {cite}"]
     else:
         text = [
-            f"the comparison covers {_methods(results.methods)} on {where}: {runs} on {counted(len(results.problems), 'problem')} {cite}",
+            f"the comparison covers {_methods([m for m in results.methods if m not in read])}{others} on {where}: {runs} on {counted(len(results.problems), 'problem')} {cite}",
             "a problem is an input with a boundary treatment and a seed; its fields share one mesh, and energies are compared within a problem only",
         ]
     states = [run.state for run in results.runs]
@@ -149,7 +151,7 @@ def profile(profiles: dict[Method, Profile], cite: str) -> str:
 
 
 def convergence(results: Results, cite: str) -> str:
-    fields = [run.row for run in results.runs if run.done]
+    fields = [run.row for run in results.runs if run.computed]
     stopped = [row for row in fields if not row.get("converged", True)]
     if not stopped:
         return ""
@@ -245,7 +247,10 @@ def times(results: Results, cite: str, ratios: str) -> str:
     slow = {method: geometric_mean(over[method]) for method in complete if len(over[method])}
     if len(results.methods) > 1 and slow:
         text.append(f"relative to the fastest method on each problem that is a factor of {spread(slow, '.2f')} on geometric mean {ratios}")
-    missing = [method for method in results.methods if method not in complete]
+    read = results.read()
+    missing = [method for method in results.methods if method not in complete and method not in read]
+    if read:
+        text.append(f"read from files, without times: {named(read)}")
     if missing:
         text.append(f"left out of times, for want of a field on some problem that another method solves: {named(missing)} {cite}")
     return " ".join(map(sentence, text))

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-OF_METHODS = ("representation", "solver", "rounds", "max_iterations", "tolerance")
+OF_METHODS = ("representation", "solver", "rounds", "max_iterations", "tolerance", "start")
 OF_SETTINGS = ("boundary", "sampling", "feature_tolerance")
 
 
@@ -31,12 +31,23 @@ class Run:
         return self.row.get("options") or {}
 
     @property
+    def choices(self) -> dict:
+        """The options, and what is no option of FieldOptions: the start, and the name of a field that was read."""
+        row = self.row
+        return {**self.options, **{name: row[name] for name in ("representation", "boundary", "start") if name in row}}
+
+    @property
     def state(self) -> str:
         return self.row.get("state", "done")
 
     @property
     def done(self) -> bool:
         return self.state == "done"
+
+    @property
+    def computed(self) -> bool:
+        """Has a field, and not one that was read from a file."""
+        return self.done and "energy_history" in self.row
 
     @property
     def seed(self) -> int:
@@ -96,8 +107,8 @@ class Results:
 
     def __post_init__(self) -> None:
         names = (*OF_METHODS, *OF_SETTINGS)
-        self._varying = {name for name in names if len({repr(run.options.get(name)) for run in self.runs}) > 1}
-        self._of = {run: (self._method(run.options), self._problem(run)) for run in self.runs}
+        self._varying = {name for name in names if len({repr(run.choices.get(name)) for run in self.runs if name in run.choices}) > 1}
+        self._of = {run: (self._method(run.choices), self._problem(run)) for run in self.runs}
         self.methods = list(dict.fromkeys(method for method, _ in self._of.values()))
         self.problems = list(dict.fromkeys(problem for _, problem in self._of.values()))
         self.settings = list(dict.fromkeys(problem.setting for problem in self.problems))
@@ -106,6 +117,11 @@ class Results:
         for run in self.runs:
             if run.done:
                 self._fields.setdefault(self._of[run], []).append(run)
+
+    def read(self) -> list[Method]:
+        """Fields that were read from files."""
+        found = {self.method(run) for run in self.runs if run.done and not run.computed}
+        return [method for method in self.methods if method in found]
 
     def method(self, run: Run) -> Method:
         return self._of[run][0]
@@ -143,7 +159,7 @@ class Results:
         return Method(str(options.get("representation", "unknown")), " ".join(filter(None, words)))
 
     def _problem(self, run: Run) -> Problem:
-        options = run.options
+        options = run.choices
         words = [_word(name, options.get(name)) for name in OF_SETTINGS[1:] if name in self._varying]
         return Problem(run.input, Setting(str(options.get("boundary", "unknown")), ", ".join(words)), run.seed)
 
@@ -151,6 +167,8 @@ class Results:
 def _word(name: str, value: object) -> str:
     if name == "solver":
         return "" if value == "default" else str(value)
+    if name == "start":
+        return "" if value in (None, "default") else f"from {value}"
     if name == "sampling":
         return f"frames at {value}" if value == "vertices" else f"frames in {value}"
     if name == "feature_tolerance" and isinstance(value, (int, float)):
