@@ -136,7 +136,7 @@ def completed(*typed: str) -> list[str]:
     (["study", "r"], ["run", "resume", "report"]),
     (["field", "--repres"], ["--representation"]),
     (["field", "--representation", "su"], ["su2", "su2_midpoint", "su2_geodesic", "su2_symmetric", "su2_frozen"]),
-    (["field", "--boundary", ""], ["aligned", "fixed", "none"]),
+    (["field", "--boundary", ""], ["aligned", "fixed", "none", "start"]),
     (["surface-field", "--method", ""], ["gl", "mbo", "eigen"]),
     (["compare", "--representations", "sh4,te"], ["sh4,tensor4"]),
     (["info", "--features", "f"], ["file"]),
