@@ -103,6 +103,25 @@ def test_runs_whose_record_is_not_whole_or_whose_folder_is_gone_run_again(sound,
     assert table(copy) == table(sound)
 
 
+def test_a_run_that_ends_while_a_leader_clears_up_is_whole_or_not_there(copy, monkeypatch):
+    """A worker elsewhere renames its folder when the leader has begun to remove it: there would be half a run."""
+    run = next((copy / "runs").iterdir())
+    partial = run.rename(run.with_name(f".partial-{run.name}-x"))
+    remove, refused = shutil.rmtree, []
+
+    def ends_meanwhile(path, **options):
+        try:
+            partial.rename(run)
+        except FileNotFoundError:
+            refused.append(path)
+        remove(path, **options)
+
+    monkeypatch.setattr("octafield.study.store.shutil.rmtree", ends_meanwhile)
+    with Store(copy).led(study.parse(BODIES)):
+        pass
+    assert refused and not run.exists() and not list((copy / "runs").glob(".*"))
+
+
 def test_a_full_disk_is_an_error_and_no_record(sound, tmp_path):
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (30_000, hard))  # as a full disk, for large files

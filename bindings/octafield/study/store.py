@@ -23,7 +23,7 @@ from .plan import Run
 
 STUDY_FILE, TABLE_FILE, RUNS, RECORD_FILE, LOG_FILE = "study.json", "runs.sqlite", "runs", "result.json", "log.txt"
 LOCK_FILE = "lock"  # not the table: on network file systems closing that would give the lock up
-_PARTIAL = ".partial-"
+_PARTIAL, _REMOVED = ".partial-", ".removed-"
 _SCHEMA = (
     """CREATE TABLE IF NOT EXISTS runs (
     key TEXT PRIMARY KEY, input TEXT NOT NULL, state TEXT NOT NULL, message TEXT NOT NULL, record TEXT NOT NULL)""",
@@ -200,7 +200,12 @@ class Store:
         os.replace(partial, self.folder / STUDY_FILE)
 
     def _remove_partial(self) -> None:
-        for left in (self.folder / RUNS).glob(f"{_PARTIAL}*"):
+        """A worker on another machine may finish one at this moment: the rename lets either have it whole."""
+        runs = self.folder / RUNS
+        for left in runs.glob(f"{_PARTIAL}*"):
+            with contextlib.suppress(OSError):
+                left.rename(left.with_name(left.name.replace(_PARTIAL, _REMOVED, 1)))
+        for left in runs.glob(f"{_REMOVED}*"):
             shutil.rmtree(left, ignore_errors=True)
 
     @contextlib.contextmanager
