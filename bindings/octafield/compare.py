@@ -12,13 +12,14 @@ from types import MappingProxyType
 from .errors import InvalidInput
 from .given_fields import FieldSource, GivenField, given_fields
 from .imported import AnalysedField, analyse
-from .meshing import MeshedInput, Source, prepare_mesh, read_sound
+from .meshing import Source, prepare_mesh, read_sound
 from .options import BOUNDARIES, COMPARED, LARGEST_SEED, REPRESENTATIONS, FieldOptions, integer_in, require_one_of
 from .output import staged_folder, write_json
-from .phases import Progress
+from .phases import Progress, announce
 from .pipeline import FieldResult, Problem, prepare, run
 from .report import PAGE_FILE, Report, Run, write_report
 from .results import write_analysis, write_field_result
+from .whole import Whole
 
 ROWS_FILE = "results.json"
 _MOST_CURVES = 3  # pictures of singular curves per boundary treatment
@@ -26,15 +27,24 @@ _MOST_CURVES = 3  # pictures of singular curves per boundary treatment
 
 @dataclass
 class _Section:
-    """One input: its runs, and pictures: of the surface, then per boundary treatment. drawn: per boundary treatment, the
-    singular graphs that have a picture. given: rows of the fields that were read, by name."""
+    """One input: its runs, and pictures: of the surface, then per boundary treatment. folder: of the comparison, with a folder
+    per run. drawn: per boundary treatment, the singular graphs that have a picture. given: rows of the fields that were read, by name."""
 
     name: str
     slug: str
+    folder: Path
+    options: FieldOptions
+    several_seeds: bool
     rows: list[dict] = field(default_factory=list)
     pictures: dict[str, list] = field(default_factory=dict)
     drawn: dict[str, set[tuple]] = field(default_factory=dict)
     given: dict[str, dict] = field(default_factory=dict)
+
+    def new_folder(self, run: str) -> str:
+        """Makes it; its name."""
+        name = _unique([path.name for path in self.folder.iterdir()], f"{self.slug}-{_quoted(run)}")
+        (self.folder / name).mkdir()
+        return name
 
 
 @dataclass
@@ -91,71 +101,80 @@ def compare(
         reports = [_labelled(progress, _short_name(source)) for source in inputs]
         sound = [read_sound(source, options, progress=report) for source, report in zip(inputs, reports, strict=True)]
         given = given_fields(sound, fields, options)
+        steps = _steps(representations, boundaries, given)
+        whole = Whole(progress, len(inputs) * seeds, [step.representation for step in steps])
         for number, source in enumerate(inputs):
-            meshed = prepare_mesh(sound[number], options, progress=reports[number])
             name = _unique([s.name for s in sections], _short_name(source), " ")
-            section = _Section(name, _unique([s.slug for s in sections], _slug(source)))
+            section = _Section(name, _unique([s.slug for s in sections], _slug(source)), folder, options, seeds > 1)
+            whole.begins()
+            meshed = prepare_mesh(sound[number], options, progress=whole.labelled(name))
             meshed.notes += [note for one in given for note in one.notes]
-            _run_all(meshed, section, folder, representations, boundaries, seeds, options, given, progress)
+            for seed in range(options.seed, options.seed + seeds):
+                if seed != options.seed:
+                    whole.begins()
+                problem = prepare(meshed, seed, whole.labelled(name))
+                whole.prepared(len(meshed.tets.tets))
+                _run_all(problem, section, steps, whole)
+                _add_given(problem, section, boundaries, given)
             sections.append(section)
             rows += section.rows
-        if progress:
-            progress("report", -1.0, float("nan"))
+        announce(progress, "report")
         rows[0]["files"] += write_report(_report(sections, folder), folder)
         write_json(folder / ROWS_FILE, rows)
     return Comparison(rows, Path(output).resolve())
 
 
-def _run_all(
-    meshed: MeshedInput,
-    section: _Section,
-    folder: Path,
-    representations: Sequence[str],
-    boundaries: Sequence[str],
-    seeds: int,
-    options: FieldOptions,
-    given: Sequence[GivenField],
-    progress: Progress | None,
-) -> None:
-    for seed in range(options.seed, options.seed + seeds):
-        problem = prepare(meshed, seed, _labelled(progress, section.name))
-        first = seed == options.seed
+@dataclass(frozen=True)
+class _Step:
+    """A field to compute. start: the given field it is smoothed from."""
+
+    representation: str
+    boundary: str
+    start: GivenField | None = None
+
+    @property
+    def method(self) -> str:
+        return self.representation if self.start is None else f"{self.representation} from {self.start.name}"
+
+
+def _steps(representations: Sequence[str], boundaries: Sequence[str], given: Sequence[GivenField]) -> list[_Step]:
+    starts = [*((name, None) for name in representations), *((representations[0], one) for one in given)]
+    return [_Step(name, boundary, start) for name, start in starts for boundary in boundaries]
+
+
+def _run_all(problem: Problem, section: _Section, steps: Sequence[_Step], whole: Whole) -> None:
+    first = problem.seed == section.options.seed
+    if first:
+        section.pictures["surface"] = _surface_pictures(problem)
+    for step in steps:
+        label = f"{step.method}, {step.boundary}" + (f", seed {problem.seed}" if section.several_seeds else "")
+        report = whole.labelled(f"{section.name}, {label}")
+        chosen = replace(section.options, representation=step.representation, boundary=step.boundary, seed=problem.seed)
+        result = run(problem, chosen, report, start=None if step.start is None else step.start.frames)
+        result.record["label"] = label
+        if step.start is not None:
+            result.record["start"] = step.start.name
+        name = section.new_folder(f"{step.method}-{step.boundary}" + (f"-seed{problem.seed}" if section.several_seeds else ""))
+        write_field_result(result, section.folder / name, report)
+        section.rows.append(_row(result.record, name))
         if first:
-            section.pictures["surface"] = _surface_pictures(problem)
-        for representation, start in [*((name, None) for name in representations), *((representations[0], one) for one in given)]:
-            method = representation if start is None else f"{representation} from {start.name}"
-            for boundary in boundaries:
-                chosen = replace(options, representation=representation, boundary=boundary, seed=seed)
-                label = f"{method}, {boundary}" + (f", seed {seed}" if seeds > 1 else "")
-                report = _labelled(progress, f"{section.name}, {label}")
-                result = run(problem, chosen, report, start=None if start is None else start.frames)
-                name = f"{section.slug}-{_slug(method)}-{boundary}" + (f"-seed{seed}" if seeds > 1 else "")
-                (folder / name).mkdir()
-                result.record["label"] = label
-                if start is not None:
-                    result.record["start"] = start.name
-                write_field_result(result, folder / name, report)
-                section.rows.append(_row(result.record, name))
-                if first:
-                    section.pictures.setdefault(boundary, []).extend(_volume_pictures(section, result, label))
-        _add_given(problem, section, folder, boundaries, seed, options, given)
+            section.pictures.setdefault(step.boundary, []).extend(_volume_pictures(section, result, label))
+        whole.finished()
 
 
-def _add_given(
-    problem: Problem, section: _Section, folder: Path, boundaries: Sequence[str], seed: int, options: FieldOptions, given: Sequence[GivenField]
-) -> None:
+def _add_given(problem: Problem, section: _Section, boundaries: Sequence[str], given: Sequence[GivenField]) -> None:
     """A row per boundary treatment and seed, all of one analysis."""
     for one in given:
-        name = f"{section.slug}-{_slug(one.name)}"
-        if not (folder / name).is_dir():
-            (folder / name).mkdir()
-            result = analyse(problem.meshed, one.frames, options.sampling, options)
+        if one.name not in section.given:
+            result = analyse(problem.meshed, one.frames, section.options.sampling, section.options)
             result.record |= {"label": one.name, "representation": one.name, "wall_seconds": {**problem.clock.wall, **result.record["wall_seconds"]}}
-            write_analysis(result, folder / name)
+            name = section.new_folder(one.name)
+            write_analysis(result, section.folder / name)
             section.given[one.name] = _row(result.record, name)
             section.pictures.setdefault("given", []).extend(_pictures_of_given(one.name, result))
         row = section.given[one.name]
-        section.rows += [{**row, "boundary": boundary, "options": {**row["options"], "boundary": boundary, "seed": seed}} for boundary in boundaries]
+        chosen = [{**row["options"], "boundary": boundary, "seed": problem.seed} for boundary in boundaries]
+        section.rows += [{**row, "boundary": options["boundary"], "options": options} for options in chosen]
 
 
 def _row(record: dict, folder: str) -> dict:
@@ -232,7 +251,10 @@ def _short_name(source: Source) -> str:
 
 def _slug(source: Source) -> str:
     """A folder name from an input's: the stem, letters that need no quoting."""
-    stem = _short_name(source).removesuffix(".gz").rsplit(".", 1)[0]
+    return _quoted(_short_name(source).removesuffix(".gz").rsplit(".", 1)[0])
+
+
+def _quoted(stem: str) -> str:
     return "".join(c if c.isalnum() or c in "-_." else "_" for c in stem).lstrip(".") or "input"
 
 

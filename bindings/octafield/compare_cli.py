@@ -85,7 +85,7 @@ def compare(
             ),
         )
         chosen = COMPARED if representations == "all" else _listed(representations)
-        with console.progress_bar(quiet) as progress:
+        with console.progress_bar(quiet, whole=True) as progress:
             comparison = run_comparison(
                 inputs or [default_input()],
                 output,

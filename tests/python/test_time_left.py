@@ -5,9 +5,11 @@ import random
 
 import pytest
 
+import octafield
 from octafield import time_left
 from octafield.console import PlainLines
 from octafield.study.costs import PREPARE, Costs, Forecast
+from octafield.study.generators import generate
 
 
 @pytest.mark.parametrize(
@@ -119,3 +121,22 @@ def test_logs_get_a_line_now_and_then():
     report = PlainLines(short.append, whole=False, clock=lambda: 0.0)
     report("read", -1.0, math.nan)
     assert short == []
+
+
+def test_a_comparison_counts_its_runs_and_tells_what_is_left_of_all(tmp_path):
+    told: list[tuple[str, float]] = []
+    octafield.compare(
+        generate("cylinder"), tmp_path / "out", representations=["sh4", "su2"], boundaries=["aligned"], seeds=2,
+        options=octafield.FieldOptions(edge_length=0.5), progress=lambda what, fraction, merit: told.append((what, fraction)),
+    )  # fmt: skip
+    counted = [(what, fraction) for what, fraction in told if " of 4" in what]
+    assert [fraction for _, fraction in counted] == sorted(fraction for _, fraction in counted)
+    assert {fraction for _, fraction in counted} == {0, 0.25, 0.5, 0.75}
+    assert all(what.startswith(f"{4 * fraction:.0f} of 4") for what, fraction in counted)
+    assert all(" left: " in what for what, fraction in counted if fraction > 0)
+
+
+def test_a_comparison_that_is_told_to_stop_leaves_nothing(tmp_path):
+    with pytest.raises(octafield.Cancelled):
+        octafield.compare(generate("box"), tmp_path / "out", representations=["sh4"], progress=lambda what, fraction, merit: " of 2" not in what)
+    assert not (tmp_path / "out").exists()
