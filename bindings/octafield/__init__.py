@@ -246,6 +246,7 @@ from .imported import AnalysedField, analyse
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
 from .meshing import MeshedInput
+from .parameterization import ParameterizationInput, parameterization_input
 from .pipeline import (
     FieldResult,
     Problem,
@@ -492,9 +493,11 @@ __all__ = [
     "Conversion",
     "FrameFile",
     "FrameFormat",
+    "ParameterizationInput",
     "analyse",
     "convert_file",
     "frame_formats",
+    "parameterization_input",
     "read_frames",
     "write_frames",
     "from_meshio",

@@ -34,10 +34,12 @@ def convert_file(
     from_format: str | None = None,
     to_format: str | None = None,
     at: str | None = None,
+    combed: bool = False,
     edge_length: float = 0.0,
 ) -> Conversion:
     """Reads a mesh or a field, writes the other file. mesh: of the frames, where their file has none. from_format, to_format: names of
-    octafield.frame_formats, where the extensions do not tell. at: "vertices" or "tets", where the frames shall be. edge_length: of triangles on CAD models."""
+    octafield.frame_formats, where the extensions do not tell. at: "vertices" or "tets", where the frames shall be. combed: as of write_frames. edge_length: of triangles on CAD
+    models."""
     source, target = Path(source), Path(target)
     frames = _frames(source, mesh, from_format)
     if to_format is None and not _writes_frames(target) and not _is_mesh(target):
@@ -45,13 +47,14 @@ def convert_file(
         raise IoError(f"{target}: unknown kind of file; known are {kinds}, also .gz")
     if frames is not None and (to_format is not None or _writes_frames(target)):
         notes = write_frames(
-            target, frames.mesh, frames.frames, frames.where, to_format, at=at, lengths=frames.lengths, features=frames.features, regions=frames.regions
-        )
-        written = at or _site_in_file(target, to_format, frames.where)
+            target, frames.mesh, frames.frames, frames.where, to_format, at=at, lengths=frames.lengths, features=frames.features, regions=frames.regions,
+            combed=combed,
+        )  # fmt: skip
+        written = "tets" if combed else at or _site_in_file(target, to_format, frames.where)
         count, cells = (0, 0) if frames.mesh is None else (len(frames.mesh.vertices), len(frames.mesh.tets))
         number = len(frames.frames) if written == frames.where else {"vertices": count, "tets": cells}[written]
         return Conversion(str(source), str(target), "field", count, cells, number, written, _degrees(frames.deviation), frames.notes + notes)
-    if not _is_mesh(target) or to_format is not None or (frames is None and at is not None):
+    if not _is_mesh(target) or to_format is not None or (frames is None and at is not None) or combed:
         raise InvalidInput(f"{source}: holds no frames to write" if frames is None else f"{target}: cannot hold frames", "no_frames")
     return _convert_mesh(source, target, frames, mesh, edge_length)
 

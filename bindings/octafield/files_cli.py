@@ -31,6 +31,7 @@ def convert(
     source: Annotated[str | None, typer.Option("--from", metavar="FORMAT", help="Format of frames, where the extension does not tell.")] = None,
     target: Annotated[str | None, typer.Option("--to", metavar="FORMAT", help="Format of frames, where the extension does not tell.")] = None,
     at: Annotated[str | None, typer.Option(metavar=choices(SAMPLINGS), help="Where the frames shall be; else where they are.")] = None,
+    combed: Annotated[bool, typer.Option("--combed", help="Axes correspond by number across all triangles but a cut; .npz gets all that a parameterization asks for.")] = False,
     edge_length: EdgeLength = 0.0,
     json: Json = None,
     quiet: Quiet = False,
@@ -41,7 +42,7 @@ def convert(
     def work() -> None:
         from .conversion import convert_file
 
-        done = convert_file(input, output, mesh=mesh, from_format=source, to_format=target, at=at, edge_length=edge_length)
+        done = convert_file(input, output, mesh=mesh, from_format=source, to_format=target, at=at, combed=combed, edge_length=edge_length)
         for note in done.notes:
             log.info("%s: %s", input, note)
         if json:

@@ -98,14 +98,16 @@ class SoundInput:
 
 
 def read_sound(
-    source: Source, options: MeshOptions = MeshOptions(), *, volume: bool = True, progress: Progress | None = None
+    source: Source | Input, options: MeshOptions = MeshOptions(), *, volume: bool = True, progress: Progress | None = None
 ) -> SoundInput:
     """Reads, validates and finds features: everything that can show an input unfit in short time."""
     memory = PeakMemory()
     clock = PhaseClock()
     with clock.phase("read"):
         announce(progress, "read")
-        if isinstance(source, (TriangleMesh, TetMesh)):
+        if isinstance(source, Input):
+            found = source
+        elif isinstance(source, (TriangleMesh, TetMesh)):
             found = from_mesh(source)
         else:
             found = read_input(source, interfaces=options.interfaces, edge_length=options.edge_length)
@@ -120,7 +122,7 @@ def read_sound(
 
 
 def prepare_mesh(
-    source: Source | SoundInput,
+    source: Source | Input | SoundInput,
     options: MeshOptions = MeshOptions(),
     *,
     volume: bool = True,

@@ -22,11 +22,10 @@ def unique_triangles(tets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return all_of[first], of_tet.reshape(-1, 4)
 
 
-def inner_triangles(tets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(k, 3) triangles with a tet on both sides and (k, 2) these tets, the lower one first."""
-    triangles, of_tet = unique_triangles(tets)
-    order = np.argsort(of_tet.ravel(), kind="stable")
-    ids = of_tet.ravel()[order]
-    twice = np.flatnonzero(ids[1:] == ids[:-1])
-    sides = np.column_stack([order[twice], order[twice + 1]]) // 4
-    return triangles[ids[twice]], sides
+def first_tets_at(tets: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """(k,) the lowest tet at each of (k, 2) edges of the mesh, lower id first."""
+    pairs = np.sort(np.asarray(tets).astype(np.int64)[:, _EDGES_OF_TET].reshape(-1, 2), axis=1)
+    count = int(pairs.max(initial=0)) + 1
+    keys, first = np.unique(pairs[:, 0] * count + pairs[:, 1], return_index=True)
+    edges = np.asarray(edges).astype(np.int64)
+    return first[np.searchsorted(keys, edges[:, 0] * count + edges[:, 1])] // 6

@@ -9,6 +9,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+import algohex_reader as algohex
 import meshio
 import numpy as np
 import other_readers as readers
@@ -99,10 +100,21 @@ def written(mesh: octafield.TetMesh, folder: Path) -> list[Row]:
         for library, views in (("Gmsh", readers.gmsh_views), ("meshio", lambda p, where=where: readers.meshio_arrays(p, where))):
             row("msh", where, ".msh", library, lambda p, views=views: of_views(views(p)))
         row("pos", where, ".pos", "Gmsh", lambda p: readers.columns(*(readers.gmsh_views(p)[f"frame_{a}"][:, 3:] for a in "uvw")))
+    found += [of_algohex(mesh, folder, combed) for combed in (False, True)]
     row("ff3", "tets", ".ff3", "independent parser", readers.ff3)
     row("npy", "vertices", ".npy", "numpy", np.load)
     row("npz", "tets", ".npz", "numpy", lambda p: np.load(p)["frames"])
     return found
+
+
+def of_algohex(mesh: octafield.TetMesh, folder: Path, combed: bool) -> Row:
+    """The properties beside the frames."""
+    path = folder / f"algohex-{combed}.ovmb"
+    octafield.write_frames(path, mesh, frames_at(mesh, "tets"), "tets", combed=combed)
+    there = algohex.Mesh(readers.ovm_binary(path))
+    algohex.check_transitions(there)
+    assert min(algohex.check_valences(there).values()) > 0
+    return Row("ovmb, combed" if combed else "ovmb", "tets", "written", "independent parser, rules of AlgoHex", "`HalffaceTransiton`, `edge_valance`: same integers")
 
 
 def of_views(views: dict[str, np.ndarray]) -> np.ndarray:

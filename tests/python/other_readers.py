@@ -94,7 +94,7 @@ def ovm_text(path: Path) -> dict:
     for line in lines:
         entity, kind, name = line.split(" ", 2)
         assert kind in ("int", "vec3d", "vec4d") and name[0] == name[-1] == '"'
-        rows = [next(lines).split() for _ in range(len(found[counts[entity]]))]
+        rows = [next(lines).split() for _ in range(2 * len(found["Faces"]) if entity == "HFProp" else len(found[counts[entity]]))]
         found[entity, name[1:-1]] = np.array(rows, int if kind == "int" else float)
     return found
 
@@ -141,7 +141,7 @@ def ovm_binary(path: Path) -> dict:
             width = {"i32": "i", "Quaternion": "4d"}[form]
             values = list(struct.iter_unpack(f"<{width}", body[16:]))
             assert len(values) == count
-            found[("VProp", "EProp", "FProp", "CProp")[entity], name] = np.array(values)
+            found[("VProp", "EProp", "FProp", "CProp", "HEProp", "HFProp")[entity], name] = np.array(values)
 
 
 def ovm_tets(found: dict) -> tuple[np.ndarray, np.ndarray]:

@@ -56,6 +56,7 @@ def objects(field, tmp_path_factory):
         of.DirectionConstraints([[0, 1]], [[1, 0, 0]], [2.0]), of.DirectionGuide([[1, 0, 0]], [1], 3), of.VertexConstraints([3], [1], [[0, 0, 1]]),
         of.MeshOptions(repair=True), of.FieldOptions(seed=3), of.SurfaceFieldOptions(symmetry=6), list(of.representations.values()), list(of.metrics.values()),
         combed, of.alignment_tables(tets, boundary, field.features, combed), of.isotropic_scale(tets, frames), of.axis_scales(tets, frames),
+        of.parameterization_input(tets, frames),
         of.read_frames(folder / "field.npz"), of.analyse(tets, frames), of.convert_file(folder / "field.npz", folder / "field.frame"),
         list(of.frame_formats.values()), described, study.plan(described), study.run(described, folder / "study"),
         *(error("what; the remedy", "a_kind", [1, 2]) for error in (of.Error, of.InvalidInput, of.GeometryError, of.SolverError, of.IoError, of.Cancelled)),

@@ -22,7 +22,7 @@ from .base import SITES, Field, FrameFile, FrameFormat
 from .files import plain_name
 from .placing import place
 from .registry import FORMATS, find_format
-from .rotations import unit_quaternions
+from .rotations import axes_of, unit_quaternions
 from .text import read_txt
 
 __all__ = ["FrameFile", "FrameFormat", "frame_formats", "read_frames", "write_frames"]
@@ -67,13 +67,16 @@ def write_frames(
     features: ArrayLike | None = None,
     regions: ArrayLike | None = None,
     metadata: Mapping[str, str] | None = None,
+    combed: bool = False,
 ) -> list[str]:
     """Writes (n, 4) frames to a file that appears only when complete, packed where the name ends with .gz.
 
     where: where the frames are, "vertices" or "tets". format: a name of frame_formats; None: by the extension. at: where they shall be in
     the file; None: where they are, if the format has that; else they are taken there by vertex_frames or tet_frames. lengths: (n, 3) of the axes.
-    features: (k, 2) feature edges, vertex ids. regions: (m,) of the tets. metadata: words for .vtu. mesh: None where the format
-    needs none. Returns notes on what was changed or left out. Raises InvalidInput and IoError.
+    features: (k, 2) feature edges, vertex ids. regions: (m,) of the tets. metadata: words for .vtu. combed: the frames go to the
+    tets and are combed (octafield.comb): axes correspond by number and sign across all triangles but a cut; .npz then holds all of
+    octafield.parameterization_input, .ovmb and .ovm the cut, .perm its matchings. mesh: None where the format needs none. Returns notes on what was changed
+    or left out. Raises InvalidInput and IoError.
     """
     path = Path(path)
     _require_site(where)
@@ -85,13 +88,32 @@ def write_frames(
     values, _ = unit_quaternions(values, lambda i: "frames")
     field = Field(mesh, values, where, _array(lengths, 3), _array(features, 2), _array(regions, None), dict(metadata or {}))
     _require_fit(field, writer)
-    notes = _move(field, writer, at)
+    if combed and at == "vertices":
+        raise InvalidInput("combed frames sit in the tets; leave out at='vertices'", "unknown_option_value")
+    notes = _move(field, writer, "tets" if combed else at)
+    if combed:
+        notes += _comb(field)
     for name, words in (("lengths", "lengths of the axes"), ("features", "feature edges"), ("regions", "regions")):
         if getattr(field, name) is not None and not getattr(writer, f"holds_{name}"):
             notes.append(f"the {words} were left out: {writer.title} files hold none")
             setattr(field, name, None)
     writer.write(path, field)
     return notes
+
+
+def _comb(field: Field) -> list[str]:
+    from ..parameterization import parameterization_input, with_parts
+
+    if field.mesh is None:
+        raise InvalidInput("frames are combed with their mesh; give it", "no_mesh")
+    meshed = with_parts(field.mesh, field.features, field.regions)
+    field.combed = parameterization_input(meshed, field.frames, "tets")
+    field.frames, _ = unit_quaternions(np.asarray(field.combed.combed.frames), lambda i: "frames")
+    if field.lengths is not None:  # axis j of q o is axis i of q, turned round or not, where o has its entry (i, j)
+        entries = np.abs(axes_of(np.asarray(_core.octahedral_group()))).argmax(axis=1)
+        field.lengths = np.take_along_axis(field.lengths, entries[np.asarray(field.combed.combed.element)], axis=1)
+    found = "" if field.features is not None else f"; no feature edges were given: {len(field.combed.features.edges)} were found by angle"
+    return [f"the frames were combed, {int(np.asarray(field.combed.combed.cut).sum())} triangles are cut{found}"]
 
 
 def _require_site(where: str | None) -> None:

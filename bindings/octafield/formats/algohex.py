@@ -4,9 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
+from .. import _core
 from ..errors import InvalidInput
 from ..inputs import read_input
 from ..topology import unique_triangles
+from .algohex_transitions import CUT, TRANSITIONS, VALENCES, far_transitions, inner_faces, transitions_of, valences_of
 from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4
 from .files import plain_name
 from .ovm import read_ovm, write_ovm
@@ -33,6 +35,8 @@ def read(path: Path) -> FrameFile:
         for part in ("frames", "lengths"):
             if getattr(result, part) is not None:
                 setattr(result, part, getattr(result, part)[found.file_points])
+    if result.where == "tets":
+        result.notes += far_transitions(mesh, result.frames)
     if mesh.skipped:
         result.notes.append(f"properties of other types were left out: {', '.join(mesh.skipped[:5])}")
     return with_mesh(result, found)
@@ -67,39 +71,63 @@ def write(path: Path, field: Field) -> None:
         axes = axes_of(field.frames)
         for k, name in enumerate(AXES):
             mesh.properties[entity, name] = np.ascontiguousarray(axes[:, :, k])
+    if field.where == "tets":
+        _add_transitions(mesh, field)
     write_ovm(path, mesh)
+
+
+def _add_transitions(mesh: OvmMesh, field: Field) -> None:
+    """What AlgoHex's refined meshes hold beside the frames."""
+    if field.combed is None:
+        edges = _core.singular_edges(field.mesh, field.frames).edges
+        ends = np.array([(e.a, e.b) for e in edges], np.int64).reshape(-1, 2)
+        holonomy = np.array([e.holonomy for e in edges], np.int64)
+    else:
+        parts = field.combed.arrays()
+        ends, holonomy = parts["singular_edges"].astype(np.int64), parts["singular_holonomy"]
+        mesh.properties[CUT] = np.zeros(len(mesh.faces), np.int32)
+        mesh.properties[CUT][inner_faces(mesh)] = parts["cut"]
+    mesh.properties[TRANSITIONS] = transitions_of(mesh, field.matchings())
+    mesh.properties[VALENCES] = valences_of(mesh, field, mesh.properties[TRANSITIONS], ends, holonomy)
 
 
 def add_features(mesh: OvmMesh, field: Field, triangles: np.ndarray | None = None, faces: np.ndarray | None = None) -> None:
     """Edges as given, vertices where other than two of them meet, all faces of the boundary and between regions, by the CAD
-    faces of (t, 3) triangles where these are known, else 1. None where no edges are given: AlgoHex finds features itself then."""
+    faces of (t, 3) triangles where these are known, else 1. Where no edges are given AlgoHex finds features itself, unless there are frames."""
     if field.regions is not None:
         mesh.properties["cell", "region"] = np.asarray(field.regions).astype(np.int32)
-    if field.features is None:
-        return
+    if field.features is not None:
+        marked = _marked_edges(mesh, np.asarray(field.features))
+        degree = np.bincount(mesh.edges[marked].ravel(), minlength=len(mesh.vertices))
+        mesh.properties["vertex", FEATURES["vertex"]] = ((degree > 0) & (degree != 2)).astype(np.int32)
+        mesh.properties["edge", FEATURES["edge"]] = marked.astype(np.int32)
+    if field.features is not None or len(field.frames):
+        mesh.properties["face", FEATURES["face"]] = _face_tags(mesh, field, triangles, faces)
+
+
+def _marked_edges(mesh: OvmMesh, features: np.ndarray) -> np.ndarray:
     count = len(mesh.vertices)
-    features = np.sort(np.asarray(field.features).astype(np.int64), axis=1)
+    features = np.sort(features.astype(np.int64), axis=1)
     keys = features[:, 0] * count + features[:, 1]
-    marked = np.isin(mesh.edges[:, 0] * count + mesh.edges[:, 1], keys)
+    marked: np.ndarray = np.isin(mesh.edges[:, 0] * count + mesh.edges[:, 1], keys)
     if marked.sum() < len(np.unique(keys)):
         raise InvalidInput("features name pairs of vertices that are no edges of the tet mesh", "bad_features")
-    degree = np.bincount(mesh.edges[marked].ravel(), minlength=count)
+    return marked
+
+
+def _face_tags(mesh: OvmMesh, field: Field, triangles: np.ndarray | None, faces: np.ndarray | None) -> np.ndarray:
     _, of_tet = unique_triangles(field.mesh.tets)
-    sides = np.bincount(of_tet.ravel(), minlength=len(mesh.faces))
-    on_surface = sides == 1
+    on_surface = np.bincount(of_tet.ravel(), minlength=len(mesh.faces)) == 1
     if field.regions is not None:
         ids = np.repeat(np.asarray(field.regions), 4)
         low, high = np.full(len(mesh.faces), np.iinfo(np.int64).max), np.full(len(mesh.faces), np.iinfo(np.int64).min)
         np.minimum.at(low, of_tet.ravel(), ids)
         np.maximum.at(high, of_tet.ravel(), ids)
         on_surface |= low != high
-    face_tags = on_surface.astype(np.int32)
-    if faces is not None:
-        both = np.sort(np.concatenate([mesh.triangles(), triangles]), axis=1)
-        ids = np.unique(both, axis=0, return_inverse=True)[1].ravel()
-        of_triangle = np.zeros(ids.max() + 1, np.int64)
-        of_triangle[ids[len(mesh.faces) :]] = np.where(faces > 0, faces, faces.max() + 1)
-        face_tags = np.where(on_surface, of_triangle[ids[: len(mesh.faces)]], 0).astype(np.int32)
-    tags = {"vertex": (degree > 0) & (degree != 2), "edge": marked, "face": face_tags}
-    for entity, values in tags.items():
-        mesh.properties[entity, FEATURES[entity]] = values.astype(np.int32)
+    if triangles is None or faces is None:
+        return on_surface.astype(np.int32)
+    both = np.sort(np.concatenate([mesh.triangles(), triangles]), axis=1)
+    ids = np.unique(both, axis=0, return_inverse=True)[1].ravel()
+    of_triangle = np.zeros(ids.max() + 1, np.int64)
+    of_triangle[ids[len(mesh.faces) :]] = np.where(faces > 0, faces, faces.max() + 1)
+    return np.where(on_surface, of_triangle[ids[: len(mesh.faces)]], 0).astype(np.int32)

@@ -109,6 +109,8 @@ def write_npz(path: Path, field: Field) -> None:
     for name in ("lengths", "features", "regions"):
         if getattr(field, name) is not None:
             parts[name] = getattr(field, name)
+    if field.combed is not None:
+        parts |= field.combed.arrays()
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as folder:  # no times: equal fields, equal bytes
         for name, values in parts.items():

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,6 +11,9 @@ from .. import _core
 from .._core import TetMesh
 from .files import plain_name
 from .rotations import frames_of_axes, unit_quaternions
+
+if TYPE_CHECKING:
+    from ..parameterization import ParameterizationInput
 
 SITES = ("vertices", "tets")
 _WORTH_A_NOTE = 1e-6  # radians, or relative length: what six digits leave
@@ -46,7 +50,7 @@ class FrameFile:
 
 @dataclass
 class Field:
-    """A field to be written: see write_frames for the parts."""
+    """A field to be written: see write_frames for the parts. combed: of frames in the tets that are combed."""
 
     mesh: TetMesh | None
     frames: np.ndarray
@@ -55,6 +59,11 @@ class Field:
     features: np.ndarray | None = None
     regions: np.ndarray | None = None
     metadata: dict[str, str] = field(default_factory=dict)
+    combed: "ParameterizationInput | None" = None
+
+    def matchings(self) -> _core.FaceMatchings:
+        """Of frames in the tets, across all triangles between two of them."""
+        return _core.face_matchings(self.mesh, self.frames) if self.combed is None else self.combed.combed.faces
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,6 @@ import numpy as np
 
 from .. import _core
 from ..errors import InvalidInput, IoError
-from ..topology import inner_triangles
 from .base import Field, FrameFile, from_axes
 from .files import plain_name, read_bytes, read_text, rows_of, table_of, write_whole
 from .rotations import axes_in_rows, axes_of
@@ -50,10 +49,9 @@ def write_fra(path: Path, field: Field) -> None:
 
 def permutations(field: Field) -> np.ndarray:
     """(k, 5): two tets, ids from 0, and p1 p2 p3: vector i of the first times the sign of pi is closest to vector |pi|,
-    from 1, of the second. Where that is the identity there is no row."""
-    _, tets = inner_triangles(np.asarray(field.mesh.tets))
-    first, second = field.frames[tets[:, 0]], field.frames[tets[:, 1]]
-    matched = np.asarray(_core.matching(first, second)).reshape(-1)
+    from 1, of the second. Where that is the identity there is no row. Combed frames: rows of the cut alone."""
+    faces = field.matchings()
+    tets, matched = np.asarray(faces.tets), np.asarray(faces.matching)
     group = np.rint(axes_of(np.asarray(_core.octahedral_group()))).astype(int)  # R1 o is close to R2: column j of R2 is sum_i R1_i o_ij
     column = np.abs(group).argmax(axis=2)  # row i of o has its entry there
     sign = np.take_along_axis(group, column[:, :, None], axis=2)[:, :, 0]

@@ -34,11 +34,12 @@ class OvmMesh:
 
 
 def ovm_of_tets(vertices: np.ndarray, tets: np.ndarray) -> OvmMesh:
-    """Half-faces of a cell have normals into the cell, as OpenVolumeMesh has them for tets of positive volume."""
+    """Half-faces of a cell have normals into the cell, as OpenVolumeMesh has them for tets of positive volume. Faces begin at their lowest vertex and
+    half-faces of a cell ascend, so that the order of a tet's vertices, which files do not keep, makes no difference."""
     tets = np.asarray(tets).astype(np.int64)
     edges = unique_edges(tets)
     outward, of_tet = unique_triangles(tets)
-    faces = outward[:, [0, 2, 1]]  # into the first tet that has it
+    faces = _from_lowest(outward[:, [0, 2, 1]])  # into the first tet that has it
     count = len(vertices)
     start, end = faces, np.roll(faces, -1, axis=1)
     edge = np.searchsorted(edges[:, 0] * count + edges[:, 1], np.minimum(start, end) * count + np.maximum(start, end))
@@ -46,7 +47,7 @@ def ovm_of_tets(vertices: np.ndarray, tets: np.ndarray) -> OvmMesh:
     inward = tets[:, TRIANGLES_OF_TET][:, :, [0, 2, 1]]
     reversed_ = (_from_lowest(inward.reshape(-1, 3)) != _from_lowest(faces[of_tet.ravel()])).any(axis=1)
     half_faces = 2 * of_tet + reversed_.reshape(-1, 4)
-    return OvmMesh(np.asarray(vertices, float), edges, half_edges, half_faces[:, [3, 0, 1, 2]])  # opposite the last vertex first
+    return OvmMesh(np.asarray(vertices, float), edges, half_edges, np.sort(half_faces, axis=1))
 
 
 def _from_lowest(triangles: np.ndarray) -> np.ndarray:
