@@ -80,25 +80,9 @@ def parameterization_input(
     of_tets = fitting_frames(tets, frames, where)
     if where == "vertices":
         of_tets = np.asarray(_core.tet_frames(tets, of_tets))
-    combed = _combed(tets, of_tets)
+    combed = _core.comb(tets, of_tets)
     tables = _core.alignment_tables(tets, surface, features, combed)
     return ParameterizationInput(tets, combed, _core.singular_edges(tets, of_tets), surface, features, tables)
-
-
-def _combed(mesh: TetMesh, of_tets: np.ndarray) -> CombedField:
-    """octafield.comb, such that a combed field that went through a file comes back as it was: whatever the order of a tet's vertices, which the
-    spanning tree follows, and with all bits of quaternions that stay, which the core scales to length 1."""
-    tets = np.sort(np.asarray(mesh.tets), axis=1)
-    corners = np.asarray(mesh.vertices)[tets]
-    turned = np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0
-    tets[turned] = tets[turned][:, [0, 1, 3, 2]]
-    combed = _core.comb(TetMesh(mesh.vertices, tets), of_tets)
-    frames = np.array(combed.frames)
-    kept = np.asarray(combed.element) == 0
-    against = np.einsum("ni,ni->n", frames, of_tets) < 0
-    frames[kept] = np.where(against[kept, None], -of_tets[kept], of_tets[kept])
-    combed.frames = frames
-    return combed
 
 
 def with_parts(mesh: TetMesh, features: np.ndarray | None, regions: np.ndarray | None) -> MeshedInput:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace octafield::bindings {
@@ -238,7 +239,8 @@ void check_unit(Quaternions& quaternions, std::int64_t rows, std::string_view na
             throw InvalidInput(Text(name) + ": row " + std::to_string(i) + " has length " + std::to_string(length) +
                                    "; quaternions (w, x, y, z) must be unit within 1e-6: divide each row by its length",
                                "not_unit", {static_cast<Index>(i)});
-        quaternions.row(i) /= length;
+        constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+        if (std::abs(length - 1) > rounding) quaternions.row(i) /= length;  // else all bits stay
     }
 }
 

@@ -67,7 +67,7 @@ TEST(AlignmentTables, OfACubeHaveSixPatchesOfOneAxisAndTheTurnAsAngle) {
 // A line of a quarter turn through top and bottom: the cut crosses the patches, whose axis is one only up to it.
 TEST(AlignmentTables, CarryTheNormalsAxisAcrossTheCut) {
     const int n = 5;
-    const TetMesh mesh = kuhn_grid(n, n, n, 1.0 / n, Vector3(-0.5 + 0.137 / n, -0.5 + 0.071 / n, -0.5));
+    const TetMesh mesh = kuhn_grid(n, n, n, 1.0 / n, Vector3(-0.5 + 1.137 / n, -0.5 + 0.071 / n, -0.5));
     const BoundarySurface surface = boundary_surface(mesh);
     const Points normals = surface::triangle_normals(surface.mesh);
     int crossed = 0;

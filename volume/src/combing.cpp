@@ -1,5 +1,7 @@
 #include "octafield/volume/combing.hpp"
 
+#include <algorithm>
+#include <array>
 #include <deque>
 #include <utility>
 
@@ -12,7 +14,6 @@ namespace {
 
 using frames::octahedral_inverse;
 using frames::octahedral_product;
-using frames::Quaternion;
 
 // Rows of the table between two tets.
 FaceMatchings interior(const TriangleTable& table, const std::vector<std::uint8_t>& matching) {
@@ -44,8 +45,10 @@ SpanningTree spanning_tree(const TriangleTable& table, const std::vector<std::ui
     std::vector<std::uint8_t> reached(count, 0);
     std::deque<Index> queue;
     const auto reach_neighbours = [&](Index tet) {
-        for (int k = 0; k < 4; ++k) {
-            const Index triangle = table.tet_triangles(tet, k);
+        std::array<Index, 4> triangles;  // ascending: the order of a tet's vertices does not matter
+        for (int k = 0; k < 4; ++k) triangles[k] = table.tet_triangles(tet, k);
+        std::sort(triangles.begin(), triangles.end());
+        for (const Index triangle : triangles) {
             if (table.sides(triangle, 1) < 0) continue;
             const bool forward = table.sides(triangle, 0) / 4 == tet;
             const Index child = table.sides(triangle, forward ? 1 : 0) / 4;
@@ -53,10 +56,12 @@ SpanningTree spanning_tree(const TriangleTable& table, const std::vector<std::ui
             reached[child] = tree.in_tree[triangle] = 1;
             const int step = forward ? octahedral_inverse(matching[triangle]) : matching[triangle];
             const int element = octahedral_product(step, tree.element[tet]);
-            Quaternion q = frames::from_wxyz(of_tets.row(child)) * frames::octahedral_group()[element];
-            if (q.dot(frames::from_wxyz(tree.frames.row(tet))) < 0) q.coeffs() = -q.coeffs();
+            if (element != 0)  // else all bits stay
+                tree.frames.row(child) = frames::to_wxyz(frames::from_wxyz(of_tets.row(child)) *
+                                                         frames::octahedral_group()[element])
+                                             .transpose();
+            if (tree.frames.row(child).dot(tree.frames.row(tet)) < 0) tree.frames.row(child) *= -1;
             tree.element[child] = static_cast<std::uint8_t>(element);
-            tree.frames.row(child) = frames::to_wxyz(q).transpose();
             queue.push_back(child);
         }
     };

@@ -27,7 +27,8 @@ FaceMatchings face_matchings(const TetMesh& mesh, const Quaternions& of_tets, in
 // the cut: triangles that leave each connected part of the mesh simply connected and touch every singular edge. By
 // integers alone, after the matchings: a breadth-first spanning tree of the tets, then triangles that are the only one
 // of the cut at a regular edge inside the mesh are taken back until none is (after Nieser, Reitebuch, Polthier 2011).
-// In a ball without singular edges nothing is left as a rule, though no theorem says so.
+// In a ball without singular edges nothing is left as a rule, though no theorem says so. The order of a tet's vertices
+// does not matter; a field that is combed stays as it is.
 struct CombedField {
     Quaternions frames;                 // (m, 4): q o, with signs that agree from parent to child in the tree
     std::vector<std::uint8_t> element;  // (m) o, of the octahedral group; 0 in the lowest tet of each part
