@@ -6,6 +6,7 @@ import numpy as np
 
 from . import _core
 from ._core import TriangleMesh
+from .costs import field_seconds
 from .options import FieldOptions
 
 DEFAULT_EDGES = 25  # edges along the diagonal where no length is given, see remesh
@@ -37,8 +38,6 @@ def memory_mb(tets: int) -> float:
 
 def seconds(tets: int) -> float:
     """From file to field by default options."""
-    from .study.costs import field_seconds
-
     return 1.0 + field_seconds(FieldOptions().representation, tets)
 
 

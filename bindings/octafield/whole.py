@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Sequence
 
+from .costs import Costs, Forecast
 from .phases import Progress
 from .time_left import Steady, words
 
@@ -14,8 +15,6 @@ class Whole:
     """Groups of runs on one mesh each, one after the other. methods: of the runs of a group, in their order; equal where they cost alike."""
 
     def __init__(self, progress: Progress | None, groups: int, methods: Sequence[str]):
-        from .study.costs import Costs, Forecast  # the package of studies imports this one's
-
         self._progress, self._forecast, self._steady = progress, Forecast(Costs()), Steady()
         self._left: float | None = None
         self._at = -math.inf

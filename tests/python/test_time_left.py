@@ -8,7 +8,7 @@ import pytest
 import octafield
 from octafield import time_left
 from octafield.console import PlainLines
-from octafield.study.costs import PREPARE, Costs, Forecast
+from octafield.costs import PREPARE, Costs, Forecast
 from octafield.study.generators import generate
 
 

@@ -20,10 +20,9 @@ from pathlib import Path
 from ..errors import Error, InvalidInput, IoError
 from ..phases import octafield_version
 from .child import Child, Ending
-from .costs import mesh_of
 from .leader import Group, Leader
 from .memory import needed_mb
-from .plan import Run
+from .plan import Run, mesh_of
 
 _RESOURCE = "MB"
 _LEAST_TETS = 200_000  # that a group is first sent with memory for

@@ -11,9 +11,9 @@ from ..errors import Cancelled, InvalidInput
 from ..phases import Progress
 from ..time_left import Steady, words
 from .child import Ending
-from .costs import Costs, Forecast, mesh_of, method_of
+from ..costs import Costs, Forecast
 from .description import Study
-from .plan import Run, groups
+from .plan import Run, groups, mesh_of, method_of
 from .store import LOG_FILE, Store, write_record
 
 _ATTEMPTS = 2  # of a run whose process dies

@@ -6,7 +6,7 @@ import glob
 import hashlib
 import itertools
 import json
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -48,6 +48,18 @@ class Run:
     @classmethod
     def from_json(cls, content: dict[str, Any]) -> "Run":
         return cls(**{**content, "options": FieldOptions(**content["options"])})
+
+
+def method_of(run: Run) -> str:
+    """Runs of one method cost the same on the same mesh."""
+    o = run.options
+    return "/".join(map(str, (o.representation, o.solver, o.sampling, o.boundary, o.rounds, o.max_iterations, o.tolerance, o.streamlines)))
+
+
+def mesh_of(run: Run) -> Hashable:
+    """Equal for runs whose meshes have the same number of tets."""
+    o = run.options
+    return (run.name, o.features, o.feature_angle, o.edge_length, o.remesh, o.repair, o.interfaces, o.split)
 
 
 _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))

@@ -1,4 +1,4 @@
-"""How long the runs of a study still take, judged by those that are finished.
+"""How long the runs of a study or a comparison still take, judged by those that are finished.
 
 A run's seconds are taken to grow with its tets, at a rate of its method (representation, solver ...). Rates begin with measured ones
 (docs/scaling.md), which finished runs of any method correct together and those of the same method by itself. An input whose tets are
@@ -9,8 +9,6 @@ import heapq
 import math
 from collections.abc import Hashable
 from dataclasses import dataclass, field
-
-from .plan import Run
 
 PREPARE = "prepare"  # the method of reading, meshing and the cross field
 # Seconds on a million tets, one thread; they matter until runs of the method are finished.
@@ -25,18 +23,6 @@ _TYPICAL_TETS = 50_000.0  # of an input before any is known
 def field_seconds(representation: str, tets: float) -> float:
     """Of one field from file to analysis, one thread, where nothing else is known."""
     return _LEAST + (_SECONDS_PER_MILLION[PREPARE] + _SECONDS_PER_MILLION.get(representation, _UNKNOWN_METHOD)) * tets / 1e6
-
-
-def method_of(run: Run) -> str:
-    """Runs of one method cost the same on the same mesh."""
-    o = run.options
-    return "/".join(map(str, (o.representation, o.solver, o.sampling, o.boundary, o.rounds, o.max_iterations, o.tolerance, o.streamlines)))
-
-
-def mesh_of(run: Run) -> Hashable:
-    """Equal for runs whose meshes have the same number of tets."""
-    o = run.options
-    return (run.name, o.features, o.feature_angle, o.edge_length, o.remesh, o.repair, o.interfaces, o.split)
 
 
 @dataclass
