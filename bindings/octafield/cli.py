@@ -21,6 +21,7 @@ from .cli_options import (
     Remesh,
     Repair,
     Seed,
+    Sizes,
     Split,
     Threads,
     Verbose,
@@ -127,6 +128,7 @@ def field(
     streamlines: Annotated[
         int, typer.Option(metavar="N", help="Seeds of streamlines.vtp, three curves each; 0: none.")
     ] = _FIELD.streamlines,
+    sizes: Sizes = _FIELD.sizes,
     start: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Smooth from the frames of a file (docs/formats.md); INPUT: their tet mesh.")
     ] = None,
@@ -153,6 +155,7 @@ def field(
             feature_tolerance=math.radians(feature_tolerance),
             rounds=rounds,
             streamlines=streamlines,
+            sizes=sizes,
             seed=seed,
             threads=threads,
             **_mesh_options(features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split),
@@ -256,6 +259,7 @@ def compare(
     repair: Repair = _FIELD.repair,
     interfaces: Interfaces = _FIELD.interfaces,
     split: Split = _FIELD.split,
+    sizes: Sizes = _FIELD.sizes,
     seed: Seed = _FIELD.seed,
     threads: Threads = _FIELD.threads,
     json: Json = None,
@@ -269,6 +273,7 @@ def compare(
         from .compare import default_input
 
         options = FieldOptions(
+            sizes=sizes,
             seed=seed,
             threads=threads,
             **_mesh_options(

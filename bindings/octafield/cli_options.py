@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from .completion import words
-from .options import FEATURES
+from .options import FEATURES, SIZES
 
 
 def choices(values: Iterable[str]) -> str:
@@ -43,6 +43,9 @@ Interfaces = Annotated[
     bool, typer.Option("--interfaces/--no-interfaces", help="Follow the interfaces between regions of a tet mesh.")
 ]
 Split = Annotated[bool, typer.Option("--split", help="Split inner edges and tets that join the surface to itself.")]
+Sizes = Annotated[
+    str, typer.Option(metavar="|".join(SIZES), autocompletion=words(SIZES), help="Lengths of the axes that leave least curl, and that curl.")
+]
 Seed = Annotated[int, typer.Option(metavar="N", help="Seed of every random start.")]
 Threads = Annotated[int, typer.Option(metavar="N", help="Threads; 0: all. Results do not depend on it.")]
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Nothing but errors.")]

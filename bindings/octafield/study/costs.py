@@ -30,7 +30,7 @@ def field_seconds(representation: str, tets: float) -> float:
 def method_of(run: Run) -> str:
     """Runs of one method cost the same on the same mesh."""
     o = run.options
-    return "/".join(map(str, (o.representation, o.solver, o.sampling, o.boundary, o.rounds, o.max_iterations, o.tolerance, o.streamlines)))
+    return "/".join(map(str, (o.representation, o.solver, o.sampling, o.boundary, o.rounds, o.max_iterations, o.tolerance, o.streamlines, o.sizes)))
 
 
 def mesh_of(run: Run) -> Hashable:

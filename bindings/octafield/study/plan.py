@@ -50,6 +50,8 @@ class Run:
         return cls(**{**content, "options": FieldOptions(**content["options"])})
 
 
+# Options younger than keys, as they were before: not in the key, so that runs of earlier studies keep theirs.
+_LATER = (("sizes", "none"),)
 _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))
 
 
@@ -117,7 +119,7 @@ def _runs_on(study: Study, entry: FromFile | Generated, source: Source, name: st
 
 
 def _key(digest: str, options: FieldOptions, repeat: int) -> str:
-    content = {k: v for k, v in vars(options).items() if k != "threads"}
+    content = {k: v for k, v in vars(options).items() if k != "threads" and (k, v) not in _LATER}
     text = json.dumps([digest, content, repeat, octafield_version()], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:20]
 
