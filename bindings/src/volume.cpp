@@ -227,7 +227,8 @@ void bind_files(py::module_& m) {
         "boundary (0/1). frames: (n, 4); "
         "metadata: words written as field data; regions: (m,) ids written as cell data region, or none; "
         "tet_frames: (m, 4) frames written as cell data under the same names, or none; lengths: (n, 3) point data "
-        "frame_lengths, or none, and tet_lengths: (m, 3) cell data; point_data, cell_data: other arrays by name, (n,) or "
+        "frame_lengths, or none, and tet_lengths: (m, 3) cell data; point_data, cell_data: other arrays by name, (n,) "
+        "or "
         "(n, k), a row per vertex or tet. Raises IoError.");
     m.def(
         "write_singular_graph",
