@@ -27,7 +27,7 @@ class Conversion:
     where: str | None = None
     deviation_deg: float = 0.0
     notes: list[str] = field(default_factory=list)
-    sizes: dict = field(default_factory=dict)
+    sizes: dict = field(default_factory=dict, repr=False)
 
 
 def convert_file(

@@ -47,17 +47,17 @@ def sizes_record(found: Sizes) -> dict[str, Any]:
     }
 
 
-def sizes_arrays(found: Sizes | None, tet_frames: np.ndarray | None) -> dict[str, dict[str, np.ndarray]]:
-    """Of field.vtu: log_scale at the vertices; or log_scales in the tets, for the axes of tet_frames (None: of octafield.tet_frames), and
+def sizes_arrays(found: Sizes | None, tet_frames: np.ndarray | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Point and cell data of field.vtu: log_scale at the vertices; or log_scales in the tets, for the axes of tet_frames (None: of octafield.tet_frames), and
     scaled_frame, those axes times exp(log_scales), one after the other; curl, what is left of it per tet."""
     if found is None:
-        return {}
+        return {}, {}
     cells = {"curl": np.asarray(found.after.curl)}
     if isinstance(found, IsotropicScale):
-        return {"point_data": {"log_scale": np.asarray(found.log_scale)}, "cell_data": cells}
+        return {"log_scale": np.asarray(found.log_scale)}, cells
     frames = np.asarray(found.of_tets) if tet_frames is None else tet_frames
     logs = log_scales_of(found, frames)
-    return {"cell_data": {**cells, "log_scales": logs, "scaled_frame": axes_in_rows(frames, np.exp(logs))}}
+    return {}, {**cells, "log_scales": logs, "scaled_frame": axes_in_rows(frames, np.exp(logs))}
 
 
 def log_scales_of(found: AxisScales, tet_frames: np.ndarray) -> np.ndarray:
