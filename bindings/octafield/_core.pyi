@@ -800,6 +800,8 @@ def write_field(
     tet_frames: ArrayLike = ...,
     lengths: ArrayLike = ...,
     tet_lengths: ArrayLike = ...,
+    point_data: Mapping[str, ArrayLike] = ...,
+    cell_data: Mapping[str, ArrayLike] = ...,
 ) -> None: ...
 def write_singular_graph(
     path: Path, graph: SingularGraph, metadata: Mapping[str, str] = ..., meshability: Meshability | None = None

@@ -22,6 +22,7 @@ from .cli_options import (
     Repair,
     Sampling,
     Seed,
+    Sizes,
     Split,
     Threads,
     Verbose,
@@ -106,6 +107,7 @@ def field(
     streamlines: Annotated[
         int, typer.Option(metavar="N", help="Seeds of streamlines.vtp, three curves each; 0: none.")
     ] = _FIELD.streamlines,
+    sizes: Sizes = _FIELD.sizes,
     start: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Smooth from the frames of a file (docs/formats.md); INPUT: their tet mesh.")
     ] = None,
@@ -132,6 +134,7 @@ def field(
             feature_tolerance=math.radians(feature_tolerance),
             rounds=rounds,
             streamlines=streamlines,
+            sizes=sizes,
             seed=seed,
             threads=threads,
             **mesh_options(features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split),

@@ -9,7 +9,7 @@ import typer
 
 from .completion import words
 from .errors import InvalidInput
-from .options import FEATURES, SAMPLINGS, MeshOptions
+from .options import FEATURES, SAMPLINGS, SIZES, MeshOptions
 
 ANGLE = round(math.degrees(MeshOptions().feature_angle), 6)
 
@@ -74,6 +74,9 @@ Interfaces = Annotated[
 ]
 Split = Annotated[bool, typer.Option("--split", help="Split inner edges and tets that join the surface to itself.")]
 Sampling = Annotated[str, typer.Option(metavar=choices(SAMPLINGS), autocompletion=words(SAMPLINGS), help="Where the frames live.")]
+Sizes = Annotated[
+    str, typer.Option(metavar="|".join(SIZES), autocompletion=words(SIZES), help="Lengths of the axes that leave least curl, and that curl.")
+]
 Seed = Annotated[int, typer.Option(metavar="N", help="Seed of every random start.")]
 Threads = Annotated[int, typer.Option(metavar="N", help="Threads; 0: all. Results do not depend on it.")]
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Nothing but errors.")]

@@ -19,6 +19,7 @@ from .cli_options import (
     Repair,
     Sampling,
     Seed,
+    Sizes,
     Split,
     Threads,
     Verbose,
@@ -64,6 +65,7 @@ def compare(
     repair: Repair = _FIELD.repair,
     interfaces: Interfaces = _FIELD.interfaces,
     split: Split = _FIELD.split,
+    sizes: Sizes = _FIELD.sizes,
     seed: Seed = _FIELD.seed,
     threads: Threads = _FIELD.threads,
     json: Json = None,
@@ -78,6 +80,7 @@ def compare(
 
         options = FieldOptions(
             sampling=sampling,
+            sizes=sizes,
             seed=seed,
             threads=threads,
             **mesh_options(

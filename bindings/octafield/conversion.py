@@ -9,11 +9,14 @@ from .formats.files import plain_name
 from .formats.meshes import MESH_SUFFIXES, write_mesh
 from .formats.registry import FORMATS
 from .inputs import SURFACE_SUFFIXES, Input, from_mesh, naming, read_input
+from .options import SIZES, require_one_of
+from .sizes import with_sizes
 
 
 @dataclass
 class Conversion:
-    """kind: "surface", "tets" or "field", of what was written. where: of the frames in the file written. notes: what was changed or left out."""
+    """kind: "surface", "tets" or "field", of what was written. where: of the frames in the file written. notes: what was changed or left out.
+    sizes: curl and jump before and after, where sizes were written."""
 
     input: str
     output: str
@@ -24,6 +27,7 @@ class Conversion:
     where: str | None = None
     deviation_deg: float = 0.0
     notes: list[str] = field(default_factory=list)
+    sizes: dict = field(default_factory=dict, repr=False)
 
 
 def convert_file(
@@ -36,16 +40,21 @@ def convert_file(
     at: str | None = None,
     combed: bool = False,
     edge_length: float = 0.0,
+    sizes: str = "none",
 ) -> Conversion:
     """Reads a mesh or a field, writes the other file. mesh: of the frames, where their file has none. from_format, to_format: names of
     octafield.frame_formats, where the extensions do not tell. at: "vertices" or "tets", where the frames shall be. combed: as of write_frames. edge_length: of triangles on CAD
-    models."""
+    models. sizes: "isotropic" or "axes" (see octafield.FieldOptions): lengths of the axes, where the file can hold them."""
+    require_one_of("sizes", sizes, SIZES)
     source, target = Path(source), Path(target)
     frames = _frames(source, mesh, from_format)
     if to_format is None and not _writes_frames(target) and not _is_mesh(target):
         kinds = " ".join(sorted({*MESH_SUFFIXES, *(e for f in FORMATS.values() if f.write for e in f.extensions)}))
         raise IoError(f"{target}: unknown kind of file; known are {kinds}, also .gz")
     if frames is not None and (to_format is not None or _writes_frames(target)):
+        curls: dict = {}
+        if sizes != "none":
+            frames, curls = with_sizes(frames, find_format(target, to_format, to_write=True), "tets" if combed else at, sizes)
         notes = write_frames(
             target, frames.mesh, frames.frames, frames.where, to_format, at=at, lengths=frames.lengths, features=frames.features, regions=frames.regions,
             combed=combed,
@@ -53,8 +62,8 @@ def convert_file(
         written = "tets" if combed else at or _site_in_file(target, to_format, frames.where)
         count, cells = (0, 0) if frames.mesh is None else (len(frames.mesh.vertices), len(frames.mesh.tets))
         number = len(frames.frames) if written == frames.where else {"vertices": count, "tets": cells}[written]
-        return Conversion(str(source), str(target), "field", count, cells, number, written, _degrees(frames.deviation), frames.notes + notes)
-    if not _is_mesh(target) or to_format is not None or (frames is None and at is not None) or combed:
+        return Conversion(str(source), str(target), "field", count, cells, number, written, _degrees(frames.deviation), frames.notes + notes, sizes=curls)
+    if not _is_mesh(target) or to_format is not None or (frames is None and at is not None) or combed or sizes != "none":
         raise InvalidInput(f"{source}: holds no frames to write" if frames is None else f"{target}: cannot hold frames", "no_frames")
     return _convert_mesh(source, target, frames, mesh, edge_length)
 

@@ -8,9 +8,10 @@ from typing import Annotated
 import typer
 
 from . import console, tables
-from .cli_options import EdgeLength, FeatureAngle, Features, Interfaces, Json, Quiet, Threads, Verbose, choices
+from .cli_options import EdgeLength, FeatureAngle, Features, Interfaces, Json, Quiet, Sizes, Threads, Verbose, choices
+from .completion import words
 from .console import carry_out, log
-from .options import SAMPLINGS, FieldOptions
+from .options import SAMPLINGS, SIZES, FieldOptions
 
 _FIELD = FieldOptions()
 MeshFile = Annotated[
@@ -33,6 +34,7 @@ def convert(
     at: Annotated[str | None, typer.Option(metavar=choices(SAMPLINGS), help="Where the frames shall be; else where they are.")] = None,
     combed: Annotated[bool, typer.Option("--combed", help="Axes correspond by number across all triangles but a cut; .npz gets all that a parameterization asks for.")] = False,
     edge_length: EdgeLength = 0.0,
+    sizes: Annotated[str, typer.Option(metavar="|".join(SIZES), autocompletion=words(SIZES), help="Lengths of the axes that leave least curl, into the file.")] = _FIELD.sizes,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -42,7 +44,9 @@ def convert(
     def work() -> None:
         from .conversion import convert_file
 
-        done = convert_file(input, output, mesh=mesh, from_format=source, to_format=target, at=at, combed=combed, edge_length=edge_length)
+        done = convert_file(
+            input, output, mesh=mesh, from_format=source, to_format=target, at=at, combed=combed, edge_length=edge_length, sizes=sizes
+        )
         for note in done.notes:
             log.info("%s: %s", input, note)
         if json:
@@ -61,6 +65,7 @@ def analyse(
     feature_angle: FeatureAngle = round(math.degrees(_FIELD.feature_angle), 6),
     interfaces: Interfaces = _FIELD.interfaces,
     streamlines: Annotated[int, typer.Option(metavar="N", help="Seeds of streamlines.vtp, three curves each; 0: none.")] = _FIELD.streamlines,
+    sizes: Sizes = _FIELD.sizes,
     threads: Threads = 0,
     json: Json = None,
     quiet: Quiet = False,
@@ -75,7 +80,8 @@ def analyse(
         from .results import RECORD_FILE, write_analysis
 
         options = FieldOptions(
-            features=features, feature_angle=math.radians(feature_angle), interfaces=interfaces, streamlines=streamlines if output else 0, threads=threads
+            features=features, feature_angle=math.radians(feature_angle), interfaces=interfaces, streamlines=streamlines if output else 0, sizes=sizes,
+            threads=threads,
         )
         with console.progress_bar(quiet) as progress:
             result = analyse_file(field, mesh, format, options, progress)

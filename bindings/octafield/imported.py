@@ -17,6 +17,7 @@ from .formats.rotations import unit_quaternions
 from .meshing import MeshedInput, Source, prepare_mesh
 from .options import FieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce
+from .sizes import Sizes, sizes_of_run
 from .surface_pipeline import common_record
 from .tet_analysis import analyse_tets
 
@@ -43,6 +44,7 @@ class AnalysedField:
     regions: np.ndarray | None = None
     tet_frames: np.ndarray | None = None
     lengths: np.ndarray | None = None
+    sizes: Sizes | None = None
 
     def __repr__(self) -> str:
         r = self.record
@@ -58,7 +60,7 @@ def analyse(
 ) -> AnalysedField:
     """Analyses (n, 4) frames at the vertices or in the tets of a tet mesh (or its file; features as octafield field finds them).
 
-    Of the options, those of features, interfaces, streamlines and threads count. record has the keys of octafield.compute_field's that do not come from
+    Of the options, those of features, interfaces, streamlines, sizes and threads count. record has the keys of octafield.compute_field's that do not come from
     solving. Raises InvalidInput where the frames do not fit the mesh.
     """
     if where not in SITES:
@@ -79,6 +81,7 @@ def analyse(
             found = analyse_frames(meshed, values, options.threads, options.streamlines)
             parts = (values, found.singular_graph, found.alignment, found.feature_alignment, found.meshability,
                      found.boundary_meshability, found.integrability, found.streamlines)  # fmt: skip
+    sizes, sizes_entry = sizes_of_run(meshed.tets, parts[0], options, clock, progress)
     record = {
         **common_record(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
         "vertices": len(meshed.tets.vertices),
@@ -88,9 +91,10 @@ def analyse(
         "sampling": where,
         "threads": options.threads,
         **found.record,
+        **sizes_entry,
         "options": asdict(options),
     }
-    return AnalysedField(meshed.surface, meshed.features, meshed.tets, *parts, record, meshed.regions, values if where == "tets" else None)
+    return AnalysedField(meshed.surface, meshed.features, meshed.tets, *parts, record, meshed.regions, values if where == "tets" else None, sizes=sizes)
 
 
 def fitting_frames(tets: TetMesh, frames: ArrayLike, where: str) -> np.ndarray:

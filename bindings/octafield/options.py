@@ -19,6 +19,7 @@ SOLVERS = ("default", "trust_region", "levenberg_marquardt", "lbfgs")  # default
 BOUNDARIES = ("aligned", "fixed", "none")
 OF_A_START = "start"  # a treatment of the boundary that needs frames to start from
 SAMPLINGS = ("vertices", "tets")
+SIZES = ("none", "isotropic", "axes")
 FEATURES = ("default", "file", "angle", "none")
 LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
 LARGEST_SYMMETRY = 1000  # largest_symmetry of direction_field.hpp
@@ -147,7 +148,8 @@ class FieldOptions(MeshOptions):
     seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
     not depend on it. representation, solver: what the last smoothing minimises and how; rounds, max_iterations,
     tolerance: see octafield.frame_field. streamlines: so many seeds of curves along the three axes, spread over the
-    volume (octafield.spread_points), go into streamlines.vtp; 0: none.
+    volume (octafield.spread_points), go into streamlines.vtp; 0: none. sizes: lengths of the axes for which the field is closest to the
+    gradients of a map, "isotropic" (one for all three, octafield.isotropic_scale) or "axes" (octafield.axis_scales); "none": not computed.
 
     Raises InvalidInput.
 
@@ -171,6 +173,7 @@ class FieldOptions(MeshOptions):
     max_iterations: int = default_of("smooth", "max_iterations")
     tolerance: float = default_of("smooth", "tolerance")
     streamlines: int = 30
+    sizes: str = "none"
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -178,6 +181,7 @@ class FieldOptions(MeshOptions):
         require_one_of("representation", self.representation, REPRESENTATIONS)
         require_one_of("solver", self.solver, SOLVERS)
         require_one_of("boundary", self.boundary, (*BOUNDARIES, OF_A_START))
+        require_one_of("sizes", self.sizes, SIZES)
         _require(0 <= self.feature_tolerance <= math.pi / 2, "the feature tolerance must lie between 0 and 90 degrees")
         _make_integer(self, "seed", 0, LARGEST_SEED)
         _make_integer(self, "threads", 0, LARGEST_INT, " (0: all)")

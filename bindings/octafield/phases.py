@@ -11,7 +11,7 @@ from pathlib import Path
 from . import _core
 from .errors import Cancelled
 
-PHASES = ("read", "mesh", "surface", "smooth", "analyse", "write")
+PHASES = ("read", "mesh", "surface", "smooth", "analyse", "write")  # of every run; "sizes" where they are asked for
 
 # Called with the phase (one of PHASES, a label before it in comparisons), the fraction done (negative: unknown) and a
 # figure of merit (NaN: none). Returning False cancels.
@@ -31,8 +31,8 @@ class PhaseClock:
         try:
             yield
         finally:
-            self.wall[name] += time.perf_counter() - wall
-            self.cpu[name] += time.process_time() - cpu
+            self.wall[name] = self.wall.get(name, 0.0) + time.perf_counter() - wall
+            self.cpu[name] = self.cpu.get(name, 0.0) + time.process_time() - cpu
 
 
 class PeakMemory:

@@ -38,6 +38,7 @@ from .errors import InvalidInput
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import OF_A_START, FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
+from .sizes import Sizes, sizes_of_run
 from .smoothing import held_at_start, smoothed_field
 from .tet_analysis import TetFieldAnalysis, analyse_tets
 from .surface_pipeline import SurfaceFieldResult, common_record, compute_surface_field, index_summary, structure
@@ -87,11 +88,11 @@ class FieldResult:
     """A frame field and what led to it. frames: (n, 4) unit quaternions w x y z, per tet vertex. alignment: radians,
     per boundary vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record:
     the JSON object of the command line. regions: (m,) ids of the tets where the mesh has several. lengths: (n, 3) of the
-    frames' axes, of the representation odeco_lengths.
+    frames' axes, of the representation odeco_lengths. sizes: an IsotropicScale or AxisScales, as the option of that name asks.
 
     With sampling "tets" the field is tet_frames, (m, 4), and so are constraints, singular_graph (of singular_edges),
     alignment (per triangle and tet beside it) and lengths; frames is the field taken to the vertices, meshability and
-    integrability are None."""
+    integrability are None; sizes are those of frames."""
 
     surface: TriangleMesh
     features: FeatureGraph
@@ -113,6 +114,7 @@ class FieldResult:
     regions: np.ndarray | None = None
     tet_frames: np.ndarray | None = None
     lengths: np.ndarray | None = None
+    sizes: Sizes | None = None
 
     def __repr__(self) -> str:
         return display.field_line(self)
@@ -224,6 +226,7 @@ def run(
             analysis = analyse(meshed, frames, threads, options.streamlines)
         at_vertices = analysis if isinstance(analysis, FieldAnalysis) else None
         lengths = np.asarray(smoothed.lengths) if len(smoothed.lengths) else None
+    sizes, sizes_entry = sizes_of_run(tets, frames, options, clock, progress)
     record = {
         **common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
         "vertices": len(tets.vertices),
@@ -240,6 +243,7 @@ def run(
         "threads": threads,
         **analysis.record,
         **({} if lengths is None else {"lengths": spread(lengths)}),
+        **sizes_entry,
         "objective": float(smoothed.objective),
         "iterations": smoothed.iterations,
         "diffusion_steps": diffusion_steps,
@@ -280,6 +284,7 @@ def run(
         meshed.regions,
         of_tets,
         lengths,
+        sizes,
     )
 
 

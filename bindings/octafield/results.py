@@ -13,6 +13,7 @@ from .imported import AnalysedField
 from .output import write_json
 from .phases import PhaseClock, Progress, announce
 from .pipeline import FieldResult, SurfaceFieldResult
+from .sizes import sizes_arrays
 
 if TYPE_CHECKING:
     import pyvista
@@ -55,7 +56,8 @@ def _write_volume_files(result: FieldResult | AnalysedField, folder: Path, metad
         more["tet_frames"] = result.tet_frames
     if result.lengths is not None:
         more["lengths" if result.tet_frames is None else "tet_lengths"] = result.lengths
-    _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions, **more)
+    points, cells = sizes_arrays(result.sizes, result.tet_frames)
+    _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions, point_data=points, cell_data=cells, **more)
     _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
     if result.boundary_meshability is not None:
         write_features(folder / "features.vtp", result.tets, result.boundary_meshability, metadata)

@@ -16,6 +16,8 @@ def show_record(record: dict) -> None:
     for name, value in record.items():
         if name in ("alignment_deg", "feature_alignment_deg", "integrability", "lengths", "wall_seconds"):
             facts.append((name, "  ".join(f"{key} {number:.3g}" for key, number in value.items())))
+        elif name == "sizes":
+            facts.append((name, "  ".join(f"{key} {entry if isinstance(entry, str) else f'{entry:.3g}'}" for key, entry in value.items())))
         elif isinstance(value, (str, int, float)) and name != "input":
             facts.append((name, f"{value:.8g}" if isinstance(value, float) else str(value)))
     _facts(record["input"], facts)

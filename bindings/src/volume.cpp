@@ -24,6 +24,19 @@ using surface::TriangleMesh;
 
 namespace {
 
+using NamedArrayLikes = std::map<std::string, ArrayLike>;
+
+std::map<std::string, Rows<double, Eigen::Dynamic>> named_arrays(const NamedArrayLikes& given) {
+    std::map<std::string, Rows<double, Eigen::Dynamic>> result;
+    for (const auto& [name, value] : given) {
+        const auto array = numbers<double>(value, name);
+        if (array.ndim() != 1 && (array.ndim() != 2 || array.shape(1) < 1)) throw_shape(name, "(n,) or (n, k)", array);
+        const py::ssize_t columns = array.ndim() == 1 ? 1 : array.shape(1);
+        result[name] = Eigen::Map<const Rows<double, Eigen::Dynamic>>(array.data(), array.shape(0), columns);
+    }
+    return result;
+}
+
 // Binds f(mesh) -> array or matrix after the border checks.
 template <class Function>
 void def_of_mesh(py::module_& m, const char* name, Function function, const char* doc) {
@@ -190,12 +203,13 @@ void bind_files(py::module_& m) {
         "write_field",
         [](const std::filesystem::path& path, const TetMesh& mesh, const ArrayLike& frames, const Metadata& metadata,
            const ArrayLike& regions, const ArrayLike& tet_frames, const ArrayLike& lengths,
-           const ArrayLike& tet_lengths) {
+           const ArrayLike& tet_lengths, const NamedArrayLikes& point_data, const NamedArrayLikes& cell_data) {
             run_interruptible([path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames"),
                                ids = from_python<std::vector<Index>>(regions, "regions"),
                                more = FieldArrays{from_python<Quaternions>(tet_frames, "tet_frames"),
                                                   from_python<Points>(lengths, "lengths"),
-                                                  from_python<Points>(tet_lengths, "tet_lengths")}](Job&) mutable {
+                                                  from_python<Points>(tet_lengths, "tet_lengths"),
+                                                  named_arrays(point_data), named_arrays(cell_data)}](Job&) mutable {
                 check(mesh, false);
                 check_unit(rows, mesh.vertices.rows(), "frames");
                 if (more.tet_frames.rows() > 0) check_unit(more.tet_frames, mesh.tets.rows(), "tet_frames");
@@ -208,11 +222,14 @@ void bind_files(py::module_& m) {
         },
         "path"_a, "mesh"_a, "frames"_a, "metadata"_a = Metadata{}, "regions"_a = py::tuple(), py::kw_only(),
         "tet_frames"_a = py::tuple(), "lengths"_a = py::tuple(), "tet_lengths"_a = py::tuple(),
+        "point_data"_a = NamedArrayLikes{}, "cell_data"_a = NamedArrayLikes{},
         "Write a .vtu file with point data frame_u, frame_v, frame_w (unit axes), quaternion (w x y z), sh4 (9) and "
         "boundary (0/1). frames: (n, 4); "
         "metadata: words written as field data; regions: (m,) ids written as cell data region, or none; "
         "tet_frames: (m, 4) frames written as cell data under the same names, or none; lengths: (n, 3) point data "
-        "frame_lengths, or none, and tet_lengths: (m, 3) cell data. Raises IoError.");
+        "frame_lengths, or none, and tet_lengths: (m, 3) cell data; point_data, cell_data: other arrays by name, (n,) "
+        "or "
+        "(n, k), a row per vertex or tet. Raises IoError.");
     m.def(
         "write_singular_graph",
         [](const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata,

@@ -135,6 +135,7 @@ TEST_P(KnownScales, PerAxisTakeTheCurlAwayAsTheMeshIsRefined) {
         EXPECT_LT(distance_to(mesh, found, GetParam()), 0.6 * error);
         EXPECT_GT(found.before.curl_rms, 0.4);
         EXPECT_LT(found.after.jump_rms, 0.6 * jump);
+        EXPECT_LE(found.iterations, 30);  // at any n
         jump = found.after.jump_rms;
         curl = found.after.curl_rms;
         error = distance_to(mesh, found, GetParam());

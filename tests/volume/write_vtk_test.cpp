@@ -120,6 +120,26 @@ TEST_F(WriteVtk, FramesInTetsAndLengthsAreDataOfTheirOwn) {
     EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {}, {.lengths = Points::Ones(2, 3)}), InvalidInput);
 }
 
+TEST_F(WriteVtk, OtherArraysComeBackAndFitTheMesh) {
+    const TetMesh mesh = testing::kuhn_cube(2);
+    const Quaternions field = frames::random_rotations(mesh.vertices.rows(), 4);
+    FieldArrays more;
+    more.point_data["one"] = Rows<double, Eigen::Dynamic>::Random(mesh.vertices.rows(), 1);
+    more.cell_data["nine"] = Rows<double, Eigen::Dynamic>::Random(mesh.tets.rows(), 9);
+    write_field(folder / "field.vtu", mesh, field, {}, {}, more);
+    const auto reader = read_back<vtkXMLUnstructuredGridReader>(folder / "field.vtu");
+    vtkDataArray* one = reader->GetOutput()->GetPointData()->GetArray("one");
+    vtkDataArray* nine = reader->GetOutput()->GetCellData()->GetArray("nine");
+    for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) EXPECT_EQ(one->GetTuple1(v), more.point_data["one"](v, 0));
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        for (int c = 0; c < 9; ++c) EXPECT_EQ(nine->GetComponent(t, c), more.cell_data["nine"](t, c));
+    FieldArrays few, taken;
+    few.point_data["one"] = more.cell_data["nine"];
+    taken.point_data["boundary"] = more.point_data["one"];
+    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {}, few), InvalidInput);
+    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {}, taken), InvalidInput);
+}
+
 TEST_F(WriteVtk, SingularGraphsComeBack) {
     const TetMesh mesh = testing::kuhn_cube(3);
     const SingularGraph graph = singular_graph(mesh, frames::random_rotations(mesh.vertices.rows(), 4));

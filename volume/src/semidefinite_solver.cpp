@@ -1,8 +1,8 @@
 #include "semidefinite_solver.hpp"
 
-#include <Eigen/IterativeLinearSolvers>
 #include <utility>
 
+#include "aggregation.hpp"
 #include "disjoint_sets.hpp"
 #include "octafield/error.hpp"
 
@@ -10,6 +10,7 @@ namespace octafield::volume {
 namespace {
 
 constexpr double tolerance = 1e-7;  // of the residual over the right-hand side
+constexpr int most_iterations = 2000;
 
 // values -= mean of the part; the mean is over `places` unknowns with their weights.
 class Means {
@@ -32,6 +33,28 @@ private:
     Eigen::VectorXd sum_, weight_;
 };
 
+// From 0.
+SemidefiniteSolution conjugate_gradients(const SparseMatrix& matrix, Eigen::VectorXd residual) {
+    const Aggregation preconditioner(matrix);
+    const double small = tolerance * residual.norm();
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(residual.size()), direction = x;
+    double before = 1;
+    int iterations = 0;
+    for (; !(residual.norm() <= small); ++iterations) {
+        const Eigen::VectorXd near = preconditioner.cycle(residual);
+        const double now = residual.dot(near);
+        direction = near + now / before * direction;
+        before = now;
+        const Eigen::VectorXd image = matrix * direction;
+        const double curvature = direction.dot(image);
+        if (iterations == most_iterations || !(curvature > 0))
+            throw SolverError("the scaling did not converge; look for degenerate tets (octafield info)", "scaling");
+        x += now / curvature * direction;
+        residual -= now / curvature * image;
+    }
+    return {std::move(x), iterations};
+}
+
 }  // namespace
 
 Parts::Parts(const Tets& elements, Index unknowns) {
@@ -47,15 +70,7 @@ SemidefiniteSolution solve_semidefinite(const SparseMatrix& matrix, Eigen::Vecto
     for (Index v = 0; v < right.size(); ++v) rounding.add(v, right[v], 1);
     rounding.subtract_from(right);
 
-    Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>> solver;
-    solver.setTolerance(tolerance);
-    solver.compute(matrix);
-    if (solver.info() != Eigen::Success)
-        throw SolverError("the scaling's matrix could not be factorized; look for degenerate tets (octafield info)",
-                          "scaling");
-    SemidefiniteSolution result{solver.solve(right), static_cast<int>(solver.iterations())};
-    if (solver.info() != Eigen::Success || !result.values.allFinite())
-        throw SolverError("the scaling did not converge; look for degenerate tets (octafield info)", "scaling");
+    SemidefiniteSolution result = conjugate_gradients(matrix, right);
 
     Means means(parts);
     for (Eigen::Index e = 0; e < elements.rows(); ++e)

@@ -21,7 +21,7 @@ struct SemidefiniteSolution {
 };
 
 // x with matrix x = right up to what is constant in a part; the matrix is symmetric, positive semidefinite, and 0 on
-// those. Conjugate gradients with incomplete Cholesky: serial. Throws SolverError.
+// those. Conjugate gradients with aggregation.hpp: serial. Throws SolverError.
 SemidefiniteSolution solve_semidefinite(const SparseMatrix& matrix, Eigen::VectorXd right, const Parts& parts,
                                         const Tets& elements, const Eigen::VectorXd& weights);
 

@@ -127,6 +127,20 @@ void add_lengths(vtkFieldData* data, const Points& lengths) {
                               [&](Eigen::Index i) -> Eigen::Vector3d { return lengths.row(i).transpose(); });
 }
 
+void add_named(vtkFieldData* data, const std::map<std::string, Rows<double, Eigen::Dynamic>>& arrays,
+               Eigen::Index count, const char* per) {
+    for (const auto& [name, rows] : arrays) {
+        if (rows.rows() != count)
+            throw InvalidInput(name + " has " + std::to_string(rows.rows()) + " rows; give one per " + per + ", " +
+                                   std::to_string(count),
+                               "wrong_size");
+        if (data->HasArray(name.c_str()))
+            throw InvalidInput(name + " is an array of the field itself; choose another name", "name_taken");
+        add_array<vtkDoubleArray>(data, name.c_str(), static_cast<int>(rows.cols()), count,
+                                  [&](Eigen::Index i) { return rows.row(i); });
+    }
+}
+
 template <class Table>
 vtkNew<vtkCellArray> to_cells(const Table& table) {
     vtkNew<vtkCellArray> cells;
@@ -200,6 +214,8 @@ void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& f
     if (!regions.empty())
         add_array<vtkIntArray>(grid->GetCellData(), "region", 1, mesh.tets.rows(),
                                [&](Eigen::Index i) { return one(regions[i]); });
+    add_named(grid->GetPointData(), more.point_data, mesh.vertices.rows(), "vertex");
+    add_named(grid->GetCellData(), more.cell_data, mesh.tets.rows(), "tet");
     add_metadata(grid, metadata);
     write<vtkXMLUnstructuredGridWriter>(path, grid.Get());
 }

@@ -72,7 +72,7 @@ class FrameFormat:
 
     where: the sites it can hold, the usual one first. read, write: None where that is not done. holds_mesh: the file has the tets,
     too. needs_mesh: writing takes one. holds: what is written per frame, with its order. precision: of what is written.
-    exact: quaternions come back bit by bit. source: where the layout was read.
+    exact: quaternions come back bit by bit. holds_lengths: of axes; as its readers take them, gradients of a map or, with holds_edges, edges of cells. source: where the layout was read.
     """
 
     name: str
@@ -88,6 +88,7 @@ class FrameFormat:
     needs_mesh: bool = False
     exact: bool = False
     holds_lengths: bool = False
+    holds_edges: bool = False
     holds_features: bool = False
     holds_regions: bool = False
 

@@ -57,7 +57,7 @@ FORMATS: dict[str, FrameFormat] = {
         ),
         FrameFormat(
             "ff3", (".ff3",), "MetricDrivenFrame3D, ASCII", ("tets",), "9 numbers per line: " + _AXES, _SHORTEST,
-            "xianzhongfang/MetricDrivenFrame3D: README.md", text.read_ff3, text.write_ff3, holds_lengths=True,
+            "xianzhongfang/MetricDrivenFrame3D: README.md", text.read_ff3, text.write_ff3, holds_lengths=True, holds_edges=True,
         ),
         FrameFormat(
             "vtu", (".vtu",), "VTK XML", ("vertices", "tets"),

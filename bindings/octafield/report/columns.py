@@ -25,7 +25,7 @@ def preparation_seconds(record: dict) -> float:
     return sum(record["wall_seconds"][phase] for phase in ("read", "mesh", "surface"))
 
 
-def _of(head: str, form: str, meaning: str, group: str = "", key: str = "", **more) -> RunColumn:
+def record_column(head: str, form: str, meaning: str, group: str = "", key: str = "", **more) -> RunColumn:
     """A number of the record; key: "name" or "name.inner"; none where the run has no field or the field no such number."""
 
     def value(_results: Results, run: Run):
@@ -49,47 +49,47 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
     RunColumn("seed", "d", "of every random start", value=lambda _, run: run.seed),
     RunColumn("repeat", "d", "equal runs, for timings", value=lambda _, run: run.repeat, terminal=False),
     RunColumn("state", "", "done; failed: the input or an option is at fault; crashed: the process died", value=lambda _, run: run.state, terminal=False),
-    _of("vertices", ",d", "of the tetrahedral mesh", key="vertices", page=False),
-    _of("tets", ",d", "tetrahedra", key="tets", page=False),
-    _of("E", ".6g", "Dirichlet energy of the final frames in sh4; compare on one mesh only", "energy", "energy"),
-    _of("unit speed", ".6g", "3/20 of E: of an embedding in which a frame turning by 1 radian moves by 1", "energy", "energy_unit_speed"),
-    _of("edges", ",d", "triangles round which the frames turn: edges of the dual mesh on singular curves", "singular", "singular_edges"),
-    _of("length", ".4g", "of the singular curves, unit of the input", "singular", "singular_length"),
-    _of("complex", ",d", "singular edges whose rotation keeps no axis of the frame; no hex mesh has them", "singular", "complex_edges"),
-    _of(
+    record_column("vertices", ",d", "of the tetrahedral mesh", key="vertices", page=False),
+    record_column("tets", ",d", "tetrahedra", key="tets", page=False),
+    record_column("E", ".6g", "Dirichlet energy of the final frames in sh4; compare on one mesh only", "energy", "energy"),
+    record_column("unit speed", ".6g", "3/20 of E: of an embedding in which a frame turning by 1 radian moves by 1", "energy", "energy_unit_speed"),
+    record_column("edges", ",d", "triangles round which the frames turn: edges of the dual mesh on singular curves", "singular", "singular_edges"),
+    record_column("length", ".4g", "of the singular curves, unit of the input", "singular", "singular_length"),
+    record_column("complex", ",d", "singular edges whose rotation keeps no axis of the frame; no hex mesh has them", "singular", "complex_edges"),
+    record_column(
         "non-meshable", ",d",
         "places where singular curves meet, change or reach the surface in a way no hex mesh has (a necessary condition: the "
         "others may still have none); nodes that complex edges join count one by one",
         "singular", "non_meshable_vertices",
     ),
-    _of(
+    record_column(
         "edges", ",d", "feature edges at which the turn of the field leaves no hexahedron (a necessary condition)",
         "non-meshable features", "non_meshable_feature_edges", terminal=False,
     ),
-    _of(
+    record_column(
         "corners", ",d", "corners at which the numbers of hexahedra and quadrilaterals round them fit no hex mesh (a necessary condition)",
         "non-meshable features", "non_meshable_corners", terminal=False,
     ),
-    _of("median", ".2f", "angle between surface normal and nearest frame axis, over boundary vertices and their smooth sectors", _DEG, "alignment_deg.median"),
-    _of("max", ".2f", "its maximum", _DEG, "alignment_deg.max"),
-    _of(
+    record_column("median", ".2f", "angle between surface normal and nearest frame axis, over boundary vertices and their smooth sectors", _DEG, "alignment_deg.median"),
+    record_column("max", ".2f", "its maximum", _DEG, "alignment_deg.max"),
+    record_column(
         "features", ".2f", "largest angle between a feature curve and the nearest frame axis, corners included",
         _DEG, "feature_alignment_deg.max", terminal=False,
     ),
-    _of(
+    record_column(
         "axis jump", ".3g",
         "jump of the axes along the face between two tets, root mean square: 0 for gradients of a map, of the order of the mesh "
         "width on smooth fields; compare on one mesh only",
         "", "integrability.jump_rms", terminal=False,
     ),
-    _of("iterations", "d", "diffusion steps and iterations of smoothing", key="iterations"),
-    _of("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads", "seconds", "cpu_seconds.smooth", terminal=False),
-    _of("smooth", ".3f", "the same by the clock", "seconds", "wall_seconds.smooth", terminal=False),
+    record_column("iterations", "d", "diffusion steps and iterations of smoothing", key="iterations"),
+    record_column("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads", "seconds", "cpu_seconds.smooth", terminal=False),
+    record_column("smooth", ".3f", "the same by the clock", "seconds", "wall_seconds.smooth", terminal=False),
     RunColumn(
         "total", ".2f", "all phases by the clock, those that runs share included", "seconds",
         lambda _, run: sum(run.row["wall_seconds"].values()) if run.done else None,
     ),
-    _of("peak MB", ",.0f", "largest resident memory of the process during the run, its libraries included", key="peak_mb"),
+    record_column("peak MB", ",.0f", "largest resident memory of the process during the run, its libraries included", key="peak_mb"),
 )  # fmt: skip
 
 

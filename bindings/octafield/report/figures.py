@@ -169,7 +169,8 @@ def seconds_plot(labels: Sequence[str], runs: Sequence[Run], salt: str = "") -> 
     """Seconds by the clock per phase, one stacked bar per run."""
     figure, (axes,) = new_figure(_HALF, 1.0 + 0.24 * len(runs))
     left, places = np.zeros(len(runs)), range(len(runs))
-    for number, phase in enumerate(PHASES):
+    phases = [*PHASES, *(["sizes"] if any("sizes" in run.row["wall_seconds"] for run in runs) else [])]
+    for number, phase in enumerate(phases):
         seconds = np.array([run.row["wall_seconds"].get(phase, 0.0) for run in runs])
         axes.barh(places, seconds, left=left, height=0.66, color=PALETTE[number], label=phase, edgecolor="none")
         left += seconds
@@ -177,7 +178,7 @@ def seconds_plot(labels: Sequence[str], runs: Sequence[Run], salt: str = "") -> 
     axes.set_ylim(len(runs) - 0.4, -0.6)
     axes.set_xlabel("seconds by the clock")
     axes.grid(axis="x", alpha=0.25, linewidth=0.6)
-    _legend(figure, [_handle(color=colour, linewidth=7, label=phase) for phase, colour in zip(PHASES, PALETTE, strict=False)])
+    _legend(figure, [_handle(color=colour, linewidth=7, label=phase) for phase, colour in zip(phases, PALETTE, strict=False)])
     return to_svg(figure, "seconds per phase", salt)
 
 

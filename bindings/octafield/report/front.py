@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from . import figures, prose
 from .columns import deviation_table, summary_table
 from .deviations import Deviations
+from .integrability import integrability
 from .page import Exhibits, paragraphs
 from .profiles import Line, Profile, energies, performance_profiles, smoothing_seconds
 from .records import Method, Results
@@ -41,7 +42,7 @@ class Front:
             distances = f'<div class="figures">{distances}</div>'
         return (
             paragraphs(scope) + _headed("Energy", *energy) + self.summary + self.ratios + self.profiles
-            + _headed("Singular graphs", *graphs) + _headed("Distance between fields", prose.distances(self.found, matrix)) + distances
+            + _headed("Singular graphs", *graphs) + _headed("Integrability", *integrability(results, cite("integrability"))) + _headed("Distance between fields", prose.distances(self.found, matrix)) + distances
             + _headed("Time", time)
         )  # fmt: skip
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from .columns import input_table, run_table
 from .deviations import Deviations
 from .front import make_front
+from .integrability import integrability_table
 from .meshes import mesh_section, runs_without_field
 from .page import Exhibits, page, paragraphs, resource
 from .profiles import Line
@@ -43,6 +44,9 @@ def render(content: Content) -> tuple[str, dict[str, str]]:
     inputs = exhibits.table("inputs", input_table(results, anchors), "Inputs", "Every input, its mesh and its features.")
     meshes = "".join(mesh_section(results, exhibits, anchors, name, content.pictures.get(name, ())) for name in results.inputs)
     runs = exhibits.table("runs", run_table(results, results.runs, files=not many), "Runs", "One line per run, those on one problem together.")
+    sizes = integrability_table(results)
+    if sizes.rows:
+        runs += exhibits.table("integrability", sizes.without_dull("input", "seed"), "Integrability", "One line per run with sizes: curl and jump of the axes before and after.")
     body = (
         f'<div class="front"><h2 id="results" class="first">Results</h2>{front.text(exhibits, content.open_runs)}<h2 id="inputs">Inputs</h2>{inputs}</div>'
         f'{meshes}<div class="front"><h2 id="runs">Runs</h2>{runs}{runs_without_field(results, results.runs)}'

@@ -150,7 +150,7 @@ def flatten(record: dict) -> dict:
     """The record's numbers and words, nested ones as group_name; lists and versions are left out."""
     flat = {}
     for name, value in record.items():
-        if name in ("alignment_deg", "feature_alignment_deg", "integrability", "wall_seconds", "cpu_seconds"):
+        if name in ("alignment_deg", "feature_alignment_deg", "integrability", "sizes", "wall_seconds", "cpu_seconds"):
             flat |= {f"{name}_{key}": inner for key, inner in value.items()}
         elif not isinstance(value, (dict, list)):
             flat[name] = value

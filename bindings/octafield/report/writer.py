@@ -10,6 +10,7 @@ from pathlib import Path
 from ..plots import standalone
 from .columns import deviation_table, input_table, run_table, summary_table
 from .deviations import deviations
+from .integrability import integrability_table
 from .profiles import lines
 from .records import Results, Run
 from .render import Content, render
@@ -42,6 +43,8 @@ def write_report(report: Report, folder: Path) -> list[str]:
         summary_table(results, content.lines, found), deviation_table(found), input_table(results, content.anchors),
         run_table(results, results.runs),
     )  # fmt: skip
+    sizes = integrability_table(results)
+    tables += (sizes,) if sizes.rows else ()
     (folder / TABLES).mkdir(exist_ok=True)
     names = []
     for table in tables:

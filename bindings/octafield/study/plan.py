@@ -53,7 +53,7 @@ class Run:
 def method_of(run: Run) -> str:
     """Runs of one method cost the same on the same mesh."""
     o = run.options
-    return "/".join(map(str, (o.representation, o.solver, o.sampling, o.boundary, o.rounds, o.max_iterations, o.tolerance, o.streamlines)))
+    return "/".join(map(str, (o.representation, o.solver, o.sampling, o.boundary, o.rounds, o.max_iterations, o.tolerance, o.streamlines, o.sizes)))
 
 
 def mesh_of(run: Run) -> Hashable:
@@ -62,6 +62,8 @@ def mesh_of(run: Run) -> Hashable:
     return (run.name, o.features, o.feature_angle, o.edge_length, o.remesh, o.repair, o.interfaces, o.split)
 
 
+# Options younger than keys, as they were before: not in the key, so that runs of earlier studies keep theirs.
+_LATER = (("sizes", "none"),)
 _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))
 
 
@@ -129,7 +131,7 @@ def _runs_on(study: Study, entry: FromFile | Generated, source: Source, name: st
 
 
 def _key(digest: str, options: FieldOptions, repeat: int) -> str:
-    content = {k: v for k, v in vars(options).items() if k != "threads"}
+    content = {k: v for k, v in vars(options).items() if k != "threads" and (k, v) not in _LATER}
     text = json.dumps([digest, content, repeat, octafield_version()], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:20]
 

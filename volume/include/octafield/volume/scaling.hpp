@@ -38,8 +38,8 @@ IsotropicScale isotropic_scale(const TetMesh& mesh, const Quaternions& frames, i
 
 struct AxisScaleOptions {
     // eps, in (0, 1]: weight of the change of H_i along its own axis, which no curl sees: a new parameter on the same
-    // grid lines. Below 0.1 the curl hardly falls any further, H_i follows errors of the mesh width, and conjugate
-    // gradients take longer (docs/analysis.md).
+    // grid lines. Below 0.1 the curl hardly falls any further, and H_i follows errors of the mesh width
+    // (docs/analysis.md).
     double along = 0.1;
     int threads = 0;
 };

@@ -26,6 +26,8 @@ struct FieldArrays {
     Quaternions tet_frames{};  // (m, 4): cell data under the names of the point data
     Points lengths{};          // (n, 3): point data frame_lengths, of frame_u, frame_v, frame_w
     Points tet_lengths{};      // (m, 3): cell data frame_lengths
+    // Other arrays by name, a row per vertex and per tet.
+    std::map<std::string, Rows<double, Eigen::Dynamic>> point_data{}, cell_data{};
 };
 
 // .vtu with point data: frame_u, frame_v, frame_w (unit axes), quaternion (w x y z, named components), sh4 (9, named
