@@ -261,7 +261,7 @@ from . import display as _display
 from . import notebook as _notebook
 from . import pickling as _pickling  # noqa: F401
 
-for _kind in (TriangleMesh, TetMesh, SingularGraph, FieldResult, SurfaceFieldResult, Comparison):
+for _kind in (TriangleMesh, TetMesh, SingularGraph, AnalysedField, SurfaceFieldResult, Comparison):
     _notebook.shown(_kind)
 del _kind
 Comparison.__repr__ = _display.comparison_line  # type: ignore[method-assign,assignment]

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import pyvista
 
     from .compare import Comparison
+    from .imported import AnalysedField
     from .meshing import MeshedInput
     from .options import MeshOptions
     from .pipeline import FieldResult, Problem
@@ -25,6 +26,11 @@ def field_line(result: FieldResult) -> str:
         f"FieldResult({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; {r['representation']}, {r['boundary']}; "
         f"E {r['energy']:.6g}, {r['singular_edges']:,} singular edges)"
     )
+
+
+def analysed_line(result: AnalysedField) -> str:
+    r = result.record
+    return f"AnalysedField({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; E {r['energy']:.6g}, {r['singular_edges']:,} singular edges)"
 
 
 def surface_field_line(result: SurfaceFieldResult) -> str:
@@ -86,7 +92,7 @@ def _counted(count: int, one: str, many: str) -> str:
     return f"{count:,} {one if count == 1 else many}"
 
 
-def scene_of(result: FieldResult) -> pyvista.Plotter:
+def scene_of(result: AnalysedField) -> pyvista.Plotter:
     """A pyvista scene of the singular curves inside the translucent surface: .show() opens a window, or in Jupyter a view to
     turn (with trame) or a picture. Without a display .screenshot(PNG) draws it all the same."""
     import pyvista

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _core
+from . import _core, display
 from ._core import BoundaryMeshability, FeatureGraph, FrameStreamline, Integrability, Meshability, SingularGraph, TetMesh, TriangleMesh
 from .analysis import analyse as analyse_frames
 from .errors import InvalidInput
@@ -21,13 +23,23 @@ from .sizes import Sizes, sizes_of_run
 from .surface_pipeline import common_record
 from .tet_analysis import analyse_tets
 
+if TYPE_CHECKING:
+    import pyvista
+
 __all__ = ["AnalysedField", "analyse"]
 
+_OF_ANALYSIS = ("singular_graph", "alignment", "feature_alignment", "meshability", "boundary_meshability", "integrability", "streamlines")
 
-@dataclass(repr=False)
+
+@dataclass(repr=False, kw_only=True)
 class AnalysedField:
-    """A field and its analysis; the parts are those of octafield.FieldResult. frames: at the vertices; tet_frames: (m, 4) where the field lives in
-    the tets, whose analysis has no meshability and integrability."""
+    """A frame field and what it is judged by. frames: (n, 4) unit quaternions w x y z, per tet vertex. alignment: radians, per boundary vertex and
+    smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: the JSON object of the command line. regions: (m,) ids of
+    the tets where the mesh has several. lengths: (n, 3) of the frames' axes, where they have any. sizes: an IsotropicScale or AxisScales, as the option
+    of that name asks.
+
+    A field that lives in the tets is tet_frames, (m, 4), and so are singular_graph (of singular_edges), alignment (per triangle and tet beside it) and
+    lengths; frames is the field taken to the vertices, meshability and integrability are None; sizes are those of frames."""
 
     surface: TriangleMesh
     features: FeatureGraph
@@ -36,19 +48,22 @@ class AnalysedField:
     singular_graph: SingularGraph
     alignment: np.ndarray
     feature_alignment: np.ndarray
-    meshability: Meshability | None
-    boundary_meshability: BoundaryMeshability | None
-    integrability: Integrability | None
-    streamlines: Sequence[FrameStreamline]
-    record: dict
+    meshability: Meshability | None = None
+    boundary_meshability: BoundaryMeshability | None = None
+    integrability: Integrability | None = None
+    streamlines: Sequence[FrameStreamline] = ()
+    record: dict[str, Any]
     regions: np.ndarray | None = None
     tet_frames: np.ndarray | None = None
     lengths: np.ndarray | None = None
     sizes: Sizes | None = None
 
     def __repr__(self) -> str:
-        r = self.record
-        return f"AnalysedField({r['vertices']} vertices, {r['tets']} tets, energy {r['energy']:.6g}, {r['singular_edges']} singular edges)"
+        return display.analysed_line(self)
+
+    def scene(self) -> pyvista.Plotter:
+        """The singular curves inside the translucent surface, to show() in a window or Jupyter."""
+        return display.scene_of(self)
 
 
 def analyse(
@@ -70,31 +85,49 @@ def analyse(
     meshed = mesh if isinstance(mesh, MeshedInput) else prepare_mesh(mesh, options, progress=progress)
     if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):
         raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
-    memory, clock = PeakMemory(), PhaseClock(meshed.clock)
-    values = fitting_frames(meshed.tets, frames, where)
+    values, options = fitting_frames(meshed.tets, frames, where), replace(options, sampling=where)
+    found = judged(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
+    found.record["options"] = asdict(options)
+    return found
+
+
+def judged(
+    meshed: MeshedInput,
+    frames: np.ndarray,
+    options: FieldOptions,
+    clock: PhaseClock,
+    memory: PeakMemory,
+    progress: Progress | None,
+    about: Mapping[str, Any] = MappingProxyType({}),
+) -> AnalysedField:
+    """frames: where options.sampling has them. about: what the record tells of how the field was made."""
+    tets = meshed.volume().tets
+    parts: dict[str, Any]
     with clock.phase("analyse"):
         announce(progress, "analyse")
-        if where == "tets":
-            found = analyse_tets(meshed, _core.tet_sampling(meshed.tets), values, options.threads)
-            parts = (found.frames, found.singular.graph, found.alignment, found.feature_alignment, None, None, None, [])
+        if options.sampling == "tets":
+            of_tets = analyse_tets(meshed, _core.tet_sampling(tets), frames, options.threads)
+            figures = of_tets.record
+            parts = {"frames": of_tets.frames, "tet_frames": frames, "singular_graph": of_tets.singular.graph}
+            parts |= {name: getattr(of_tets, name) for name in ("alignment", "feature_alignment")}
         else:
-            found = analyse_frames(meshed, values, options.threads, options.streamlines)
-            parts = (values, found.singular_graph, found.alignment, found.feature_alignment, found.meshability,
-                     found.boundary_meshability, found.integrability, found.streamlines)  # fmt: skip
-    sizes, sizes_entry = sizes_of_run(meshed.tets, parts[0], options, clock, progress)
+            found = analyse_frames(meshed, frames, options.threads, options.streamlines)
+            figures = found.record
+            parts = {"frames": frames, **{name: getattr(found, name) for name in _OF_ANALYSIS}}
+    sizes, sizes_entry = sizes_of_run(tets, parts["frames"], options, clock, progress)
     record = {
         **common_record(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
-        "vertices": len(meshed.tets.vertices),
-        "tets": len(meshed.tets.tets),
+        "vertices": len(tets.vertices),
+        "tets": len(tets.tets),
         "boundary_triangles": len(meshed.surface.triangles) - meshed.interface_triangles,
         "regions": 1 if meshed.regions is None else len(np.unique(meshed.regions)),
-        "sampling": where,
+        "sampling": options.sampling,
+        **about,
         "threads": options.threads,
-        **found.record,
+        **figures,
         **sizes_entry,
-        "options": asdict(options),
     }
-    return AnalysedField(meshed.surface, meshed.features, meshed.tets, *parts, record, meshed.regions, values if where == "tets" else None, sizes=sizes)
+    return AnalysedField(surface=meshed.surface, features=meshed.features, tets=tets, regions=meshed.regions, sizes=sizes, record=record, **parts)
 
 
 def fitting_frames(tets: TetMesh, frames: ArrayLike, where: str) -> np.ndarray:

@@ -30,7 +30,8 @@ import numpy as np
 from . import _core
 from ._core import BoundarySurface, FrameStreamline, SingularGraph, Streamline, TetMesh, TriangleMesh
 from .errors import InvalidInput
-from .pipeline import FieldResult, SurfaceFieldResult
+from .imported import AnalysedField
+from .surface_pipeline import SurfaceFieldResult
 from .results import polylines
 
 if TYPE_CHECKING:
@@ -49,15 +50,15 @@ def to_pyvista(
     | BoundarySurface
     | TetMesh
     | SingularGraph
-    | FieldResult
+    | AnalysedField
     | SurfaceFieldResult
     | Sequence[Streamline]
     | Sequence[FrameStreamline],
 ) -> pyvista.PolyData | pyvista.UnstructuredGrid:
     """A dataset of pyvista: triangles or tets with the arrays of results, the curves of a singular graph, or streamlines.
 
-    FieldResult: point data frame_u, frame_v, frame_w (the axes, unit vectors) and quaternion (w x y z); cell data region
-    where there are several. SurfaceFieldResult: point data direction. SingularGraph: one polyline per curve with cell data
+    AnalysedField, FieldResult: point data frame_u, frame_v, frame_w (the axes, unit vectors) and quaternion (w x y z); cell data of the same names where
+    the field lives in the tets, and region where there are several. SurfaceFieldResult: point data direction. SingularGraph: one polyline per curve with cell data
     quarter_turns (+1: valence 3, -1: valence 5, 0: complex). Streamlines: one polyline each with cell data length. Raises
     InvalidInput for anything else.
 
@@ -86,12 +87,16 @@ def to_pyvista(
         surface = cast("pyvista.PolyData", to_pyvista(value.surface))
         surface.point_data["direction"] = np.array(value.directions)
         return surface
-    if isinstance(value, FieldResult):
+    if isinstance(value, AnalysedField):
         grid = to_pyvista(value.tets)
-        axes = np.asarray(_core.rotation_matrices(value.frames))
-        for k, name in enumerate(("frame_u", "frame_v", "frame_w")):
-            grid.point_data[name] = np.ascontiguousarray(axes[:, :, k])
-        grid.point_data["quaternion"] = np.array(value.frames)
+        sites = [(grid.point_data, value.frames)]
+        if value.tet_frames is not None:
+            sites.append((grid.cell_data, value.tet_frames))
+        for data, frames in sites:
+            axes = np.asarray(_core.rotation_matrices(frames))
+            for k, name in enumerate(("frame_u", "frame_v", "frame_w")):
+                data[name] = np.ascontiguousarray(axes[:, :, k])
+            data["quaternion"] = np.array(frames)
         if value.regions is not None:
             grid.cell_data["region"] = np.asarray(value.regions)
         return grid
@@ -137,8 +142,8 @@ def _triangles(surface: pyvista.PolyData) -> TriangleMesh:
     return TriangleMesh(np.array(flat.points, float), flat.faces.reshape(-1, 4)[:, 1:].astype(np.int32))
 
 
-def to_meshio(value: TriangleMesh | TetMesh | FieldResult) -> meshio.Mesh:
-    """A meshio.Mesh; of a FieldResult with the point data of to_pyvista. Raises InvalidInput for anything else.
+def to_meshio(value: TriangleMesh | TetMesh | AnalysedField) -> meshio.Mesh:
+    """A meshio.Mesh; of a field (AnalysedField, FieldResult) with the data of to_pyvista. Raises InvalidInput for anything else.
 
         >>> import octafield
         >>> from octafield.study.generators import generate
@@ -151,7 +156,7 @@ def to_meshio(value: TriangleMesh | TetMesh | FieldResult) -> meshio.Mesh:
         return meshio.Mesh(np.array(value.vertices), [("triangle", np.array(value.triangles))])
     if isinstance(value, TetMesh):
         return meshio.Mesh(np.array(value.vertices), [("tetra", np.array(value.tets))])
-    if isinstance(value, FieldResult):
+    if isinstance(value, AnalysedField):
         grid = to_pyvista(value)
         mesh = to_meshio(value.tets)
         mesh.point_data = {name: np.asarray(grid.point_data[name]) for name in grid.point_data}
@@ -175,9 +180,9 @@ def from_meshio(mesh: meshio.Mesh) -> TriangleMesh | TetMesh:
     raise InvalidInput("the mesh has no cells of kind tetra or triangle", "no_cells")
 
 
-def to_scipy(value: TriangleMesh | TetMesh | SingularGraph | FieldResult) -> scipy.sparse.csr_array:
+def to_scipy(value: TriangleMesh | TetMesh | SingularGraph | AnalysedField) -> scipy.sparse.csr_array:
     """A graph as a scipy.sparse matrix, for scipy.sparse.csgraph. Meshes: (n, n) symmetric, the length (input unit) of the
-    edge between two vertices. SingularGraph: the same between its points, along its curves. FieldResult: int32 entry
+    edge between two vertices. SingularGraph: the same between its points, along its curves. AnalysedField, FieldResult: int32 entry
     (a, b), a < b, of each edge of its tets: the element of octahedral_group() that brings the frame of a closest to that of
     b (octafield.matching); the identity, 0, is stored too. Raises InvalidInput for anything else.
 
@@ -189,7 +194,7 @@ def to_scipy(value: TriangleMesh | TetMesh | SingularGraph | FieldResult) -> sci
     """
     import scipy.sparse
 
-    if isinstance(value, FieldResult):
+    if isinstance(value, AnalysedField):
         edges = _edges_of(np.asarray(value.tets.tets))
         numbers = np.asarray(_core.matching(value.frames[edges[:, 0]], value.frames[edges[:, 1]]), np.int32)
         size = len(value.tets.vertices)
@@ -218,7 +223,7 @@ Record = Mapping[str, Any]
 
 
 def to_pandas(
-    records: Sequence[Record] | Record | FieldResult | SurfaceFieldResult | Comparison | SingularGraph,
+    records: Sequence[Record] | Record | AnalysedField | SurfaceFieldResult | Comparison | SingularGraph,
 ) -> pandas.DataFrame:
     """One line per record: of a result, a list of `result.record`, a Comparison, `octafield.study.rows(folder)`; nested numbers
     are in columns group_name, lists are left out. SingularGraph: one line per curve with quarter_turns, length, closed and
@@ -238,7 +243,7 @@ def to_pandas(
 
     if isinstance(records, SingularGraph):
         return pandas.DataFrame(_curve_lines(records), columns=["quarter_turns", "length", "closed", "points"])
-    if isinstance(records, (FieldResult, SurfaceFieldResult)):
+    if isinstance(records, (AnalysedField, SurfaceFieldResult)):
         records = [records.record]
     elif isinstance(records, Mapping):
         records = [records]

@@ -20,7 +20,7 @@ from ._core import SingularGraph, TetMesh, TriangleMesh
 if TYPE_CHECKING:
     import pyvista
 
-    from .pipeline import FieldResult
+    from .imported import AnalysedField
     from .surface_pipeline import SurfaceFieldResult
 
 _FIELD = ("vertices", "tets", "energy", "singular_edges", "complex_edges", "non_meshable_vertices", "converged")
@@ -137,7 +137,7 @@ def _cells(value: TriangleMesh | TetMesh) -> np.ndarray[Any, Any]:
     return np.asarray(value.tets if isinstance(value, TetMesh) else value.triangles)
 
 
-def scene_of(value: FieldResult | SurfaceFieldResult | SingularGraph | TriangleMesh | TetMesh) -> pyvista.Plotter:
+def scene_of(value: AnalysedField | SurfaceFieldResult | SingularGraph | TriangleMesh | TetMesh) -> pyvista.Plotter:
     """A pyvista scene: singular curves inside the translucent surface; singular points and separatrices on it; the curves
     alone; a surface; a tet mesh cut open. Raises IoError without OpenGL."""
     if isinstance(value, SingularGraph):
@@ -146,9 +146,9 @@ def scene_of(value: FieldResult | SurfaceFieldResult | SingularGraph | TriangleM
         return _surface_scene(value)
     if isinstance(value, TetMesh):
         return _tets_scene(value)
-    from .pipeline import FieldResult
+    from .imported import AnalysedField
 
-    if isinstance(value, FieldResult):
+    if isinstance(value, AnalysedField):
         from .pictures import singular_scene
 
         return singular_scene(value)

@@ -9,7 +9,7 @@ import pyvista
 
 from . import _core, captions, scene
 from .imported import AnalysedField
-from .pipeline import FieldResult, Problem
+from .pipeline import Problem
 from .results import polylines
 
 MOST_CROSSES = 4000
@@ -70,7 +70,7 @@ def surface_cross_field(problem: Problem) -> Picture:
     return Picture("Cross field on the surface", captions.of_surface(problem.singularities), scene.render(shape), legend)
 
 
-def singular_curves(result: FieldResult | AnalysedField) -> Picture:
+def singular_curves(result: AnalysedField) -> Picture:
     """Tubes along the singular curves (smoothed), by type, inside the translucent surface; what no hex mesh has."""
     graph = result.singular_graph
     kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
@@ -82,7 +82,7 @@ def singular_curves(result: FieldResult | AnalysedField) -> Picture:
     return Picture("Singular curves", captions.of_curves(result.record), scene.render(singular_scene(result)), legend)
 
 
-def singular_scene(result: FieldResult | AnalysedField) -> pyvista.Plotter:
+def singular_scene(result: AnalysedField) -> pyvista.Plotter:
     graph, points = result.singular_graph, np.asarray(result.surface.vertices)
     radius = 0.0045 * scene.diagonal(points)
     shape = _glass(scene.surface_mesh(result.surface))
@@ -118,7 +118,7 @@ def scene_from_files(surface_file: Path, singular_file: Path) -> pyvista.Plotter
     return shape
 
 
-def streamlines(result: FieldResult) -> Picture:
+def streamlines(result: AnalysedField) -> Picture:
     """Curves along the axes of the frames, and the singular curves that end them."""
     points = np.asarray(result.surface.vertices)
     radius = 0.0025 * scene.diagonal(points)
@@ -134,7 +134,7 @@ def streamlines(result: FieldResult) -> Picture:
     return Picture("Streamlines", captions.of_streamlines(result.record["streamlines"]), scene.render(shape), legend)
 
 
-def frames_on_cut(result: FieldResult) -> Picture:
+def frames_on_cut(result: AnalysedField) -> Picture:
     """The shape cut through its middle, with a small cube for the frame of every vertex near the cut."""
     points, surface = np.asarray(result.tets.vertices), scene.surface_mesh(result.surface)
     grid = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: np.asarray(result.tets.tets)}, points)
@@ -194,7 +194,7 @@ def _add_nodes(shape: pyvista.Plotter, nodes: np.ndarray, radius: float) -> None
         shape.add_mesh(_spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
 
 
-def _bad_features(result: FieldResult | AnalysedField) -> pyvista.PolyData | None:
+def _bad_features(result: AnalysedField) -> pyvista.PolyData | None:
     if result.boundary_meshability is None:
         return None
     edges = np.array([(w.a, w.b) for w in result.boundary_meshability.wedges if not w.meshable], int).reshape(-1, 2)

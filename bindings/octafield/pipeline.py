@@ -12,39 +12,20 @@ A comparison prepares a Problem once and runs it with several options:
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import Any, TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core, display
-from ._core import (
-    BoundaryConstraints,
-    BoundaryMeshability,
-    DirectionField,
-    FeatureGraph,
-    FrameStreamline,
-    Integrability,
-    Meshability,
-    SingularGraph,
-    Streamline,
-    SurfaceSingularities,
-    TetMesh,
-    TriangleMesh,
-    VertexConstraints,
-)
-from .analysis import FieldAnalysis, analyse, constraint_counts, counts_by_index, spread
+from ._core import BoundaryConstraints, DirectionField, Streamline, SurfaceSingularities, TetMesh, VertexConstraints
+from .analysis import constraint_counts, counts_by_index, spread
 from .errors import InvalidInput
+from .imported import AnalysedField, judged
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import OF_A_START, FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
-from .sizes import Sizes, sizes_of_run
 from .smoothing import held_at_start, smoothed_field
-from .tet_analysis import TetFieldAnalysis, analyse_tets
-from .surface_pipeline import SurfaceFieldResult, common_record, compute_surface_field, index_summary, structure
-
-if TYPE_CHECKING:
-    import pyvista
+from .surface_pipeline import SurfaceFieldResult, compute_surface_field, index_summary, structure
 
 __all__ = [
     "FieldOptions",
@@ -83,45 +64,18 @@ class Problem:
         return display.problem_line(self)
 
 
-@dataclass(repr=False)
-class FieldResult:
-    """A frame field and what led to it. frames: (n, 4) unit quaternions w x y z, per tet vertex. alignment: radians,
-    per boundary vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record:
-    the JSON object of the command line. regions: (m,) ids of the tets where the mesh has several. lengths: (n, 3) of the
-    frames' axes, of the representation odeco_lengths. sizes: an IsotropicScale or AxisScales, as the option of that name asks.
+@dataclass(repr=False, kw_only=True)
+class FieldResult(AnalysedField):
+    """A frame field and what led to it: the cross field on the surface, and the constraints, on vertices or, with sampling "tets", tets."""
 
-    With sampling "tets" the field is tet_frames, (m, 4), and so are constraints, singular_graph (of singular_edges),
-    alignment (per triangle and tet beside it) and lengths; frames is the field taken to the vertices, meshability and
-    integrability are None; sizes are those of frames."""
-
-    surface: TriangleMesh
-    features: FeatureGraph
     direction_field: DirectionField
     directions: np.ndarray
     singularities: SurfaceSingularities
     separatrices: Sequence[Streamline]
-    tets: TetMesh
     constraints: BoundaryConstraints
-    frames: np.ndarray
-    singular_graph: SingularGraph
-    alignment: np.ndarray
-    feature_alignment: np.ndarray
-    meshability: Meshability | None
-    boundary_meshability: BoundaryMeshability | None
-    integrability: Integrability | None
-    streamlines: list[FrameStreamline]
-    record: dict[str, Any]
-    regions: np.ndarray | None = None
-    tet_frames: np.ndarray | None = None
-    lengths: np.ndarray | None = None
-    sizes: Sizes | None = None
 
     def __repr__(self) -> str:
         return display.field_line(self)
-
-    def scene(self) -> "pyvista.Plotter":
-        """The singular curves inside the translucent surface, to show() in a window or Jupyter."""
-        return display.scene_of(self)
 
 
 def compute_field(
@@ -203,7 +157,7 @@ def run(
     """
     memory = PeakMemory()
     meshed, clock = problem.meshed, PhaseClock(problem.clock)
-    tets, threads = meshed.volume().tets, options.threads
+    tets = meshed.volume().tets
     with clock.phase("smooth"):
         announce(progress, "smooth")
         in_tets = _core.tet_sampling(tets) if options.sampling == "tets" else None
@@ -214,36 +168,18 @@ def run(
             held = _core.with_constraints(held, constraints)
         where = tets if in_tets is None else in_tets
         smoothed, diffusion_steps = smoothed_field(tets, options, where, held, start, problem.seed, progress)
-    with clock.phase("analyse"):
-        announce(progress, "analyse")
-        frames, of_tets = np.asarray(smoothed.frames), None
-        analysis: FieldAnalysis | TetFieldAnalysis
-        if in_tets is not None:
-            of_tets = frames
-            analysis = analyse_tets(meshed, in_tets, of_tets, threads)
-            frames = analysis.frames
-        else:
-            analysis = analyse(meshed, frames, threads, options.streamlines)
-        at_vertices = analysis if isinstance(analysis, FieldAnalysis) else None
-        lengths = np.asarray(smoothed.lengths) if len(smoothed.lengths) else None
-    sizes, sizes_entry = sizes_of_run(tets, frames, options, clock, progress)
-    record = {
-        **common_record(meshed, clock, max(problem.peak_mb, memory.megabytes())),
-        "vertices": len(tets.vertices),
-        "tets": len(tets.tets),
-        "boundary_triangles": len(meshed.surface.triangles) - meshed.interface_triangles,
-        "regions": 1 if meshed.regions is None else len(np.unique(meshed.regions)),
+    lengths = np.asarray(smoothed.lengths) if len(smoothed.lengths) else None
+    about = {
         "interface_triangles": meshed.interface_triangles,
         "locking": meshed.locking,
-        "sampling": options.sampling,
-        "representation": options.representation,
-        "solver": options.solver,
-        "boundary": options.boundary,
+        **{name: getattr(options, name) for name in ("representation", "solver", "boundary")},
         "seed": problem.seed,
-        "threads": threads,
-        **analysis.record,
+    }
+    found = judged(meshed, np.asarray(smoothed.frames), options, clock, memory, progress, about)
+    found.lengths = lengths
+    found.record |= {
         **({} if lengths is None else {"lengths": spread(lengths)}),
-        **sizes_entry,
+        "peak_mb": max(found.record["peak_mb"], round(problem.peak_mb, 1)),
         "objective": float(smoothed.objective),
         "iterations": smoothed.iterations,
         "diffusion_steps": diffusion_steps,
@@ -264,27 +200,12 @@ def run(
         "options": asdict(replace(options, seed=problem.seed)),
     }
     return FieldResult(
-        meshed.surface,
-        meshed.features,
-        problem.direction_field,
-        problem.directions,
-        problem.singularities,
-        problem.separatrices,
-        tets,
-        held,
-        frames,
-        analysis.singular_graph if isinstance(analysis, FieldAnalysis) else analysis.singular.graph,
-        analysis.alignment,
-        analysis.feature_alignment,
-        None if at_vertices is None else at_vertices.meshability,
-        None if at_vertices is None else at_vertices.boundary_meshability,
-        None if at_vertices is None else at_vertices.integrability,
-        [] if at_vertices is None else at_vertices.streamlines,
-        record,
-        meshed.regions,
-        of_tets,
-        lengths,
-        sizes,
+        **vars(found),
+        direction_field=problem.direction_field,
+        directions=problem.directions,
+        singularities=problem.singularities,
+        separatrices=problem.separatrices,
+        constraints=held,
     )
 
 

@@ -49,7 +49,7 @@ def write_analysis(result: AnalysedField, folder: Path, progress: Progress | Non
     write_json(folder / RECORD_FILE, result.record)
 
 
-def _write_volume_files(result: FieldResult | AnalysedField, folder: Path, metadata: dict[str, str]) -> None:
+def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str, str]) -> None:
     regions: Sequence[int] | np.ndarray = [] if result.regions is None else result.regions
     more = {}
     if result.tet_frames is not None:

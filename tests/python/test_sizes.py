@@ -159,3 +159,15 @@ def test_runs_of_studies_keep_their_keys_where_no_sizes_are_asked_for():
     assert [run.key for run in plain] == [none.key] and axes.key != none.key and axes.options.sizes == "axes"
     with pytest.raises(of.InvalidInput, match=":1: sizes 'all'"):
         study.parse(text.format("all"))
+
+
+def test_sizes_follow_the_axes_of_combed_frames(ball, tmp_path):
+    source = tmp_path / "ball.npz"
+    of.write_frames(source, ball.tets, ball.frames)
+    for name, combed in (("plain", False), ("combed", True)):
+        convert_file(source, tmp_path / f"{name}.npz", at="tets", sizes="axes", combed=combed)
+    plain, combed = (np.load(tmp_path / f"{name}.npz") for name in ("plain", "combed"))
+    between = np.abs(np.swapaxes(matrices(combed["frames"]), 1, 2) @ matrices(plain["frames"]))
+    assert (between.max(axis=2) > 1 - 1e-12).all()
+    np.testing.assert_array_equal(np.take_along_axis(plain["lengths"], between.argmax(axis=2), axis=1), combed["lengths"])
+    assert np.ptp(plain["lengths"]) > 0.1 and combed["element"].any()
