@@ -4,7 +4,7 @@
     python studies/mouette_fields.py -o out/mouette
 
 mouette has one frame per tet. E: Dirichlet energy of frames in tets (octafield.tet_sampling), of mouette's field, of octafield's smoothing from
-there with one axis on the normal of the surface, and of octafield's own field. No features.
+there with one axis on the normal of the surface, and of octafield's own field. No features. DIR/BODY-report/report.html shows them side by side.
 """
 
 import argparse
@@ -61,10 +61,10 @@ def row(name: str, surface: octafield.TriangleMesh, length: float, folder: Path)
     meshed = octafield.prepare_mesh(surface, octafield.FieldOptions(edge_length=length, features="none"))
     tets = meshed.tets
     path, seconds = by_mouette(tets, folder, name)
-    found = octafield.read_frames(path, tets)
-    theirs = octafield.analyse(tets, found.frames, found.where, OPTIONS).record
-    polished = octafield.compute_field(tets, OPTIONS, start=found.frames).record
-    ours = octafield.compute_field(tets, OPTIONS).record
+    compared = octafield.compare(
+        folder / f"{name}.mesh", folder / f"{name}-report", representations=["sh4"], boundaries=["aligned"], options=OPTIONS, fields={"mouette": path}
+    )
+    ours, polished, theirs = compared.rows
     return [name, len(tets.tets), seconds, *(r[key] for r in (theirs, polished, ours) for key in ("energy", "singular_edges", "complex_edges")),
             theirs["alignment_deg"]["median"], polished["alignment_deg"]["median"]]  # fmt: skip
 

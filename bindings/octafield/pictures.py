@@ -74,7 +74,7 @@ def singular_curves(result: AnalysedField) -> Picture:
     """Tubes along the singular curves (smoothed), by type, inside the translucent surface; what no hex mesh has."""
     graph = result.singular_graph
     kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
-    legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")]
+    legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")] * (len(result.features.edges) > 0)
     if len(graph.nodes):
         legend.append((scene.INK, "node: three or four curves meet"))
     if _bad_features(result) is not None:
