@@ -1,23 +1,24 @@
 """Files of cells: what they hold as arrays, by meshio or our own readers of text, before any meaning is given to it."""
 
 import contextlib
-import gzip
-import shutil
-import zlib
-from collections.abc import Iterator
+import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from .binary_medit import read_binary_medit
 from .errors import InvalidInput, IoError
+from .legacy_vtk import read_legacy_vtk
 from .output import scratch_folder
 from .text_meshes import TextMesh, read_medit, read_tetgen
 
 GRID_SUFFIXES = (".vtk", ".vtu", ".vtp", ".msh", ".mesh", ".meshb", ".node", ".ele", ".ovm", ".ovmb")
-MESHIO_SUFFIXES = (".vtk", ".vtu", ".msh", ".meshb")
+MESHIO_SUFFIXES = (".vtk", ".vtu", ".msh")
 _SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
 LOWER = ("vertex", "line", "triangle")
+_CUT = ": the file is cut or damaged; write or download it again"
 
 
 @dataclass
@@ -34,11 +35,13 @@ class Grid:
 
 def read_grid(path: Path, suffix: str) -> Grid:
     """Whatever a reader stumbles over becomes an IoError."""
-    if suffix in MESHIO_SUFFIXES:
-        return grid_of_meshio(read_meshio(path, suffix))
     if suffix == ".vtp":
         return _vtp_grid(path)
     with _reading(path, suffix):
+        if suffix in MESHIO_SUFFIXES:
+            return grid_of_meshio(read_meshio(path, suffix))
+        if suffix == ".meshb":
+            return _grid_of_text(read_binary_medit(_bytes(path), str(path)))
         if suffix == ".mesh":
             return _grid_of_text(read_medit(_text(path), str(path)))
         if suffix in (".node", ".ele"):
@@ -48,10 +51,15 @@ def read_grid(path: Path, suffix: str) -> Grid:
 
 
 def _text(path: Path) -> str:
-    if not path.is_file():
-        raise IoError(f"{path}: no such file")
-    data = path.read_bytes()
-    return (gzip.decompress(data) if path.name.lower().endswith(".gz") else data).decode("utf-8")
+    from .formats.files import read_text
+
+    return read_text(path)
+
+
+def _bytes(path: Path) -> bytes:
+    from .formats.files import read_bytes
+
+    return read_bytes(path)
 
 
 def _tetgen_files(path: Path, suffix: str) -> dict[str, Path]:
@@ -73,44 +81,70 @@ def _grid_of_text(mesh: TextMesh) -> Grid:
 
 
 def read_meshio(path: Path, suffix: str):
-    """A meshio.Mesh. Readers are called directly: meshio.read guesses by the name. IoError, whatever they stumble over."""
+    """A meshio.Mesh, of legacy VTK by our own reader. IoError, whatever meshio's stumble over, with the line or byte where they stood."""
     import meshio
 
-    if not path.is_file():
-        raise IoError(f"{path}: no such file")
-    reader = {".vtk": meshio.vtk, ".vtu": meshio.vtu, ".msh": meshio.gmsh, ".meshb": meshio.medit}[suffix]
-    with _reading(path, suffix), _unpacked(path, suffix) as plain:
-        return reader.read(str(plain))
+    data = _bytes(path)
+    if suffix == ".vtk":
+        return read_legacy_vtk(data, str(path))
+    if suffix == ".msh":
+        _require_closed_sections(data, str(path))
+    with _plain(path, data, suffix) as plain, open(plain, "rb") as stream:
+        if suffix == ".vtu":
+            with _reading(path, suffix):
+                return meshio.vtu.read(str(plain))
+        with _reading(path, suffix, lambda: _place(data, stream.tell())):
+            return meshio.gmsh.main.read_buffer(stream)
 
 
 @contextlib.contextmanager
-def _unpacked(path: Path, suffix: str) -> Iterator[Path]:
+def _plain(path: Path, data: bytes, suffix: str) -> Iterator[Path]:
+    """A file that is not packed: meshio takes names."""
     if not path.name.lower().endswith(".gz"):
         yield path
         return
     with scratch_folder() as folder:
-        plain = folder / f"input{suffix}"
-        with gzip.open(path, "rb") as packed, open(plain, "wb") as unpacked:
-            shutil.copyfileobj(packed, unpacked)
-        yield plain
+        (folder / f"input{suffix}").write_bytes(data)
+        yield folder / f"input{suffix}"
+
+
+def _require_closed_sections(data: bytes, name: str) -> None:
+    """Gmsh's sections, which meshio takes as they are where they end early."""
+    if not data.startswith((b"$MeshFormat", b"$Comments")):
+        raise IoError(f"{name}, line 1: a Gmsh .msh file begins with $MeshFormat")
+    opened, end = None, 0
+    for found in re.finditer(rb"^\$(End)?([A-Z][A-Za-z]{3,})[ \t]*\r?$", data, re.MULTILINE):
+        end, closing, section = found.end(), bool(found[1]), found[2].decode()
+        if closing and section != opened:
+            raise IoError(f"{name}, {_place(data, end)}: $End{section} closes {f'${opened}' if opened else 'nothing'}{_CUT}")
+        if opened and not closing:
+            raise IoError(f"{name}, {_place(data, end)}: ${section} begins before $End{opened}{_CUT}")
+        opened = None if closing else section
+    if opened or data[end:].strip():
+        raise IoError(f"{name}, {_place(data, len(data))}: ends {f'before $End{opened}' if opened else 'within the head of a section'}{_CUT}")
+
+
+def _place(data: bytes, at: int) -> str:
+    """Bytes where the file is binary."""
+    return f"byte {at}" if b"\0" in data else f"line {data.count(10, 0, max(at - 1, 0)) + 1}"
 
 
 @contextlib.contextmanager
-def _reading(path: Path, suffix: str) -> Iterator[None]:
+def _reading(path: Path, suffix: str, place: Callable[[], str] | None = None) -> Iterator[None]:
+    """place: where a reader stands in the file."""
     try:
         yield
     except (InvalidInput, IoError):
         raise
-    except (gzip.BadGzipFile, EOFError, zlib.error) as error:
-        raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
     except (Exception, SystemExit) as error:  # meshio raises whatever its parsers run into, and exits on failure
         reason = " ".join(str(error).split()) or type(error).__name__
-        raise IoError(f"{path}: cannot be read as {suffix} ({reason})") from error
+        at = f", {place()}" if place else ""
+        raise IoError(f"{path}{at}: cannot be read as {suffix} ({reason})") from error
 
 
 def grid_of_meshio(found) -> Grid:
     blocks = [(block.type, np.asarray(block.data)) for block in found.cells]
-    entities = _entity_ids(found, ("CellEntityIds", "gmsh:geometrical", "medit:ref"))
+    entities = _entity_ids(found, ("CellEntityIds", "gmsh:geometrical"))
     return _grid(found.points, blocks, entities, _regions_of(found, entities))
 
 
@@ -177,16 +211,14 @@ def _line_segments(cells: np.ndarray) -> np.ndarray:
 
 
 def _regions_of(found, entities: list[np.ndarray] | None) -> list[np.ndarray] | None:
-    """Gmsh: physical volumes where all tets are in one, which is how a file says what belongs together; else CAD
-    volumes. Our own files: cell data region."""
-    for name in ("region", "gmsh:physical"):
-        ids = _entity_ids(found, (name,))
-        if ids is None:
-            continue
-        of_tets = [i for block, i in zip(found.cells, ids, strict=True) if block.type == "tetra"]
-        if of_tets and all((i > 0).all() for i in of_tets):
-            return ids
-    return entities
+    """Our own files: cell data region, where every number is one. Gmsh: physical volumes where all tets are in one, which is how a
+    file says what belongs together (0: in none); else CAD volumes."""
+    ours = _entity_ids(found, ("region",))
+    if ours is not None:
+        return ours
+    groups = _entity_ids(found, ("gmsh:physical",))
+    of_tets = [] if groups is None else [i for block, i in zip(found.cells, groups, strict=True) if block.type == "tetra"]
+    return groups if of_tets and all((i > 0).all() for i in of_tets) else entities
 
 
 def _entity_ids(found, names: tuple[str, ...]) -> list[np.ndarray] | None:
