@@ -1,8 +1,7 @@
 """Files of cells: what they hold as arrays, by meshio or our own readers of text, before any meaning is given to it."""
 
 import contextlib
-import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from .binary_medit import read_binary_medit
 from .errors import InvalidInput, IoError
+from .gmsh_mesh import read_gmsh
 from .legacy_vtk import read_legacy_vtk
 from .output import scratch_folder
 from .text_meshes import TextMesh, read_medit, read_tetgen
@@ -18,7 +18,6 @@ GRID_SUFFIXES = (".vtk", ".vtu", ".vtp", ".msh", ".mesh", ".meshb", ".node", ".e
 MESHIO_SUFFIXES = (".vtk", ".vtu", ".msh")
 _SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
 LOWER = ("vertex", "line", "triangle")
-_CUT = ": the file is cut or damaged; write or download it again"
 
 
 @dataclass
@@ -81,20 +80,16 @@ def _grid_of_text(mesh: TextMesh) -> Grid:
 
 
 def read_meshio(path: Path, suffix: str):
-    """A meshio.Mesh, of legacy VTK by our own reader. IoError, whatever meshio's stumble over, with the line or byte where they stood."""
-    import meshio
-
+    """A meshio.Mesh, of .vtk and .msh by our own readers. IoError, whatever meshio's stumble over."""
     data = _bytes(path)
     if suffix == ".vtk":
         return read_legacy_vtk(data, str(path))
     if suffix == ".msh":
-        _require_closed_sections(data, str(path))
-    with _plain(path, data, suffix) as plain, open(plain, "rb") as stream:
-        if suffix == ".vtu":
-            with _reading(path, suffix):
-                return meshio.vtu.read(str(plain))
-        with _reading(path, suffix, lambda: _place(data, stream.tell())):
-            return meshio.gmsh.main.read_buffer(stream)
+        return read_gmsh(data, str(path))
+    import meshio
+
+    with _reading(path, suffix), _plain(path, data, suffix) as plain:
+        return meshio.vtu.read(str(plain))
 
 
 @contextlib.contextmanager
@@ -108,38 +103,20 @@ def _plain(path: Path, data: bytes, suffix: str) -> Iterator[Path]:
         yield folder / f"input{suffix}"
 
 
-def _require_closed_sections(data: bytes, name: str) -> None:
-    """Gmsh's sections, which meshio takes as they are where they end early."""
-    if not data.startswith((b"$MeshFormat", b"$Comments")):
-        raise IoError(f"{name}, line 1: a Gmsh .msh file begins with $MeshFormat")
-    opened, end = None, 0
-    for found in re.finditer(rb"^\$(End)?([A-Z][A-Za-z]{3,})[ \t]*\r?$", data, re.MULTILINE):
-        end, closing, section = found.end(), bool(found[1]), found[2].decode()
-        if closing and section != opened:
-            raise IoError(f"{name}, {_place(data, end)}: $End{section} closes {f'${opened}' if opened else 'nothing'}{_CUT}")
-        if opened and not closing:
-            raise IoError(f"{name}, {_place(data, end)}: ${section} begins before $End{opened}{_CUT}")
-        opened = None if closing else section
-    if opened or data[end:].strip():
-        raise IoError(f"{name}, {_place(data, len(data))}: ends {f'before $End{opened}' if opened else 'within the head of a section'}{_CUT}")
-
-
-def _place(data: bytes, at: int) -> str:
+def place_in(data: bytes, at: int) -> str:
     """Bytes where the file is binary."""
     return f"byte {at}" if b"\0" in data else f"line {data.count(10, 0, max(at - 1, 0)) + 1}"
 
 
 @contextlib.contextmanager
-def _reading(path: Path, suffix: str, place: Callable[[], str] | None = None) -> Iterator[None]:
-    """place: where a reader stands in the file."""
+def _reading(path: Path, suffix: str) -> Iterator[None]:
     try:
         yield
     except (InvalidInput, IoError):
         raise
     except (Exception, SystemExit) as error:  # meshio raises whatever its parsers run into, and exits on failure
         reason = " ".join(str(error).split()) or type(error).__name__
-        at = f", {place()}" if place else ""
-        raise IoError(f"{path}{at}: cannot be read as {suffix} ({reason})") from error
+        raise IoError(f"{path}: cannot be read as {suffix} ({reason})") from error
 
 
 def grid_of_meshio(found) -> Grid:

@@ -5,7 +5,6 @@ meshio reads these too, but takes tables that end early as they are, knows no NO
 
 import re
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
@@ -56,7 +55,7 @@ class _File:
         """(count, width) numbers, from here on."""
         kind = kind.lower()
         if kind not in _TYPES:
-            raise IoError(f"{self.place(self.line_at)}: {what} of type {kind[:40]!r}, which is not read; known are {' '.join(_TYPES)}")
+            raise IoError(f"{self.place(self.line_at)}: {what} of type {kind[:40]!r}, which is not read")
         numbers = self._text(what, count * width) if self.text else self._binary(what, count * width, kind)
         return numbers.reshape(count, width)
 
