@@ -4,6 +4,7 @@ meshio reads these too, but not views of meshes with cells of several kinds; it 
 ids, and does not say where a file is damaged. Layout: Gmsh reference manual, MSH file format.
 """
 
+import codecs
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -51,9 +52,13 @@ class _Section:
         return f"{self.file}, line {self.first_line + int(np.searchsorted(ends, min(self.taken, ends[-1] - 1), side='right'))}"
 
     def line(self) -> str:
-        stop = self.data.find(b"\n", self.at, self.end)
-        start, self.at = self.at, self.end if stop < 0 else stop + 1
-        return self.data[start : self.at].decode("utf-8", "replace").strip()
+        """The next that is not blank."""
+        line = b""
+        while not line.strip() and self.at < self.end:
+            stop = self.data.find(b"\n", self.at, self.end)
+            start, self.at = self.at, self.end if stop < 0 else stop + 1
+            line = self.data[start : self.at]
+        return line.decode("utf-8", "replace").strip()
 
     def count(self, what: str) -> int:
         """From a line of text."""
@@ -104,7 +109,7 @@ class _Elements:
 
 def read_gmsh(data: bytes, name: str) -> Any:
     """A meshio.Mesh with cell data gmsh:physical and gmsh:geometrical (0: none) and the views; where a view has no value: nan."""
-    sections = list(_sections(data, name))
+    sections = list(_sections(data.removeprefix(codecs.BOM_UTF8), name))
     version = _version(sections[0])
     order = sections[0].order
     for section in sections:

@@ -2,7 +2,7 @@
 
 import contextlib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -23,13 +23,14 @@ LOWER = ("vertex", "line", "triangle")
 @dataclass
 class Grid:
     """Points, connectivity per meshio cell type, and, where the file tells, the CAD face of each triangle, the region
-    of each tet and which lines are creases (all, where it does not)."""
+    of each tet and which lines are creases (all, where it does not). notes: what is odd about the file."""
 
     points: np.ndarray
     cells: dict[str, np.ndarray]
     faces: np.ndarray | None = None
     regions: np.ndarray | None = None
     creases: np.ndarray | None = None
+    notes: list[str] = field(default_factory=list)
 
 
 def read_grid(path: Path, suffix: str) -> Grid:
@@ -76,7 +77,9 @@ def _tetgen_files(path: Path, suffix: str) -> dict[str, Path]:
 
 
 def _grid_of_text(mesh: TextMesh) -> Grid:
-    return _grid(mesh.points, mesh.cells, mesh.references, mesh.references, mesh.ridges)
+    grid = _grid(mesh.points, mesh.cells, mesh.references, mesh.references, mesh.ridges)
+    grid.notes = mesh.notes
+    return grid
 
 
 def read_meshio(path: Path, suffix: str):

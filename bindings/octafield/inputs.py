@@ -105,12 +105,12 @@ def input_of_grid(name: str, grid: Grid) -> Input:
     others = {kind: len(c) for kind, c in cells.items() if kind != "tetra" and kind not in LOWER}
     if "tetra" in cells:
         found = _tet_input(name, grid)
-        found.notes += [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
+        found.notes += grid.notes + [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
         return found
     _refuse({kind: count for kind, count in others.items() if not kind.startswith(("line", "VTK_LAGRANGE_CURVE"))})
     if "triangle" in cells:
         found = _surface_input(name, grid)
-        found.notes += [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
+        found.notes += grid.notes + [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
         return found
     kinds = ", ".join(sorted(cells)) or "none"
     raise InvalidInput(f"{name}: holds neither tetrahedra nor triangles (cell types: {kinds}); linear ones are needed")
@@ -196,7 +196,11 @@ def with_regions(found: Any, regions: np.ndarray | None) -> Any:
     if regions is None:
         found.boundary = _core.boundary_surface(found.tets)
     else:
-        found.regions = np.asarray(regions).astype(np.int32)
+        wide = np.asarray(regions)
+        if (wide.astype(np.int32) != wide).any():
+            bad = int(np.argmax(wide.astype(np.int32) != wide))
+            raise InvalidInput(f"tet {bad} (from 0) is of region {wide[bad]}: numbers of regions have 32 bits; number them anew", "bad_regions", [bad])
+        found.regions = wide.astype(np.int32)
         surface = _core.region_surface(found.tets, found.regions)
         found.boundary, found.interface_triangles = surface.surface, surface.interface_triangles
     found.surface = found.boundary.mesh

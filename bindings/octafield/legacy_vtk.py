@@ -3,6 +3,7 @@
 meshio reads these too, but takes tables that end early as they are, knows no NORMALS, and does not say where.
 """
 
+import codecs
 import re
 from dataclasses import dataclass, field
 from typing import Any
@@ -90,6 +91,7 @@ class _File:
 
 def read_legacy_vtk(data: bytes, name: str) -> Any:
     """A meshio.Mesh."""
+    data = data.removeprefix(codecs.BOM_UTF8)
     file = _File(data, name)
     if not data.startswith(b"# vtk DataFile Version"):
         raise IoError(f"{name}, line 1: a legacy VTK file begins with '# vtk DataFile Version'")
@@ -135,7 +137,10 @@ def _geometry(file: _File, words: list[str]) -> Any:
     if words[0] == "POINTS":
         return file.table("POINTS", file.whole(words, 1, "points"), 3, words[2] if len(words) > 2 else "none given").astype(float)
     if words[0] == "CELL_TYPES":
-        return file.table("CELL_TYPES", file.whole(words, 1, "cells"), 1, "int").ravel().astype(np.int64)
+        types = file.table("CELL_TYPES", file.whole(words, 1, "cells"), 1, "int").ravel()
+        if not ((types >= 0) & (types < 256) & (types == np.floor(types))).all():
+            raise IoError(f"{file.place(at)}: CELL_TYPES holds a number that is no type of cell")
+        return types.astype(np.int64)
     count, size = file.whole(words, 1, "cells"), file.whole(words, 2, "numbers")
     before = file.at
     inner = file.words()
@@ -193,7 +198,7 @@ def _mesh(file: _File, parts: dict[str, Any]) -> Any:
         raise IoError(f"{place}: CELLS holds a number that is no id")
     numbers = numbers.astype(np.int64)
     starts, sizes = _extents(numbers, types, place) if offsets is None else _from_offsets(offsets, len(numbers), place)
-    known = np.array([_SIZES.get(int(kind), -1) for kind in range(int(types.max(initial=0)) + 1)])[np.maximum(types, 0)]
+    known = np.array([_SIZES.get(kind, -1) for kind in range(256)])[types]
     wrong = np.flatnonzero((known >= 0) & (sizes != known))
     if len(wrong):
         raise IoError(f"{place}: cell {wrong[0]} (from 0) of type {types[wrong[0]]} has {sizes[wrong[0]]} vertices, not {known[wrong[0]]}")

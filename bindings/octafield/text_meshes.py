@@ -27,12 +27,13 @@ _MEDIT_CELLS = {
 @dataclass
 class TextMesh:
     """cells, references: per block; a reference is the id of the CAD entity or region, 0 where there is none.
-    ridges: ids of the rows of the line block that are creases; None where the file does not tell."""
+    ridges: ids of the rows of the line block that are creases; None where the file does not tell. notes: what is odd about the file."""
 
     points: np.ndarray
     cells: list[tuple[str, np.ndarray]] = field(default_factory=list)
     references: list[np.ndarray] = field(default_factory=list)
     ridges: np.ndarray | None = None
+    notes: list[str] = field(default_factory=list)
 
 
 @dataclass
@@ -53,7 +54,9 @@ def read_medit(text: str, name: str) -> TextMesh:
     if dimension != 3:
         line = found["Dimension"].line
         raise IoError(f"{name}, line {line}: points of dimension {dimension}; 3 is needed")
-    mesh = TextMesh(_table(found["Vertices"], name, 4)[:, :3])
+    mesh = TextMesh(_finite(found["Vertices"], name, _table(found["Vertices"], name, 4)[:, :3], 4))
+    if sections[-1].name != "End":
+        mesh.notes.append(f"the file does not end with End, but with {sections[-1].name}: it may be cut")
     for section in sections:
         if section.name not in _MEDIT_CELLS:
             continue
@@ -82,6 +85,7 @@ def read_tetgen(files: dict[str, tuple[str, str]]) -> TextMesh:
     if len(wrong):
         row = wrong[0]
         raise IoError(f"{node_name}: row {row + 1} of the points has number {nodes[row, 0]:g}; number them in order")
+    _finite(_Section("points", _without_comments(node_text), 1), node_name, nodes[:, 1:4], nodes.shape[1], skip=4)
     tets = _headed(ele_text, ele_name, "tets", (4, "vertices per tet"))
     ids = _whole(tets[:, 1:5])
     if ids is None:
@@ -190,6 +194,13 @@ def _table(section: _Section, name: str, width: int, *, counted=True, whole=Fals
         line = _line_of_row(section, bad, width, skip)
         raise IoError(f"{name}, line {line}: {section.name} holds a number that is no id")
     return ids
+
+
+def _finite(section: _Section, name: str, points: np.ndarray, width: int, skip: int = 1) -> np.ndarray:
+    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if len(bad):
+        raise IoError(f"{name}, line {_line_of_row(section, int(bad[0]), width, skip)}: the coordinates of point {bad[0] + 1} (from 1) are not finite")
+    return points
 
 
 def _whole(rows: np.ndarray) -> np.ndarray | None:

@@ -40,7 +40,7 @@ def read_bytes(path: str | Path) -> bytes:
 def read_text(path: str | Path) -> str:
     data = read_bytes(path)
     try:
-        return data.decode("utf-8")
+        return data.decode("utf-8-sig")  # Windows programs begin with a mark
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise IoError(f"{path}, line {line}: no text (byte {error.start}); is it a binary file?") from error
@@ -71,6 +71,18 @@ def write_whole(path: str | Path, pieces: Iterable[bytes]) -> None:
     finally:
         if staging is not None and os.path.exists(staging):
             os.unlink(staging)
+
+
+def head_of(text: str, count: int) -> tuple[list[str], str, int]:
+    """The first `count` lines that are not blank, stripped; the text after them; the number of its first line."""
+    lines: list[str] = []
+    number = 1
+    while len(lines) < count and text:
+        line, _, text = text.partition("\n")
+        number += 1
+        if line.strip():
+            lines.append(line.strip())
+    return lines + [""] * (count - len(lines)), text, number
 
 
 def rows_of(table: np.ndarray, prefix: str = "") -> Iterable[bytes]:

@@ -122,7 +122,7 @@ def sites(field: Field) -> np.ndarray:
     return np.array(points if field.where == "vertices" else points[np.asarray(field.mesh.tets)].mean(axis=1))
 
 
-def write_msh(path: Path, field: Field) -> None:
+def write_msh(path: Path, field: Field) -> list[str]:
     """Version 2.2, binary, with vector views frame_u, frame_v, frame_w and the tensor view frame (axes one after the other)."""
     import meshio
 
@@ -131,12 +131,13 @@ def write_msh(path: Path, field: Field) -> None:
     axes = np.swapaxes(axes_of(field.frames), 1, 2)
     data = {name: np.ascontiguousarray(axes[:, k]) for k, name in enumerate(AXES)}
     data["frame"] = axes.reshape(-1, 9)
-    mesh, _ = msh_of(Parts.of_field(field))
+    mesh, notes = msh_of(Parts.of_field(field))
     if field.where == "vertices":
         mesh.point_data = data
     else:
         mesh.cell_data |= {name: _for_blocks(values, mesh) for name, values in data.items()}
     through_file(path, ".msh", lambda plain: meshio.gmsh.write(str(plain), mesh, "2.2", binary=True))
+    return notes
 
 
 def _for_blocks(values: np.ndarray, mesh) -> list[np.ndarray]:
