@@ -121,9 +121,9 @@ def read_gmsh(data: bytes, name: str) -> Any:
     for section in sections:
         if section.name == "Entities" and wide:
             physical = _entities(section)
-        elif section.name == "Nodes":
+        elif section.name == "Nodes" and not len(points):
             tags, points = (_nodes4 if wide else _nodes2)(section)
-        elif section.name == "Elements":
+        elif section.name == "Elements" and not runs:  # Gmsh writes them again before every view that is appended
             runs = list(_elements4(section, physical) if wide else _elements2(section))
         elif section.name in views:
             views[section.name].append(_view(section))
@@ -157,7 +157,7 @@ def _version(head: _Section) -> float:
     if head.name != "MeshFormat" or len(words) != 3 or words[1] not in ("0", "1") or not re.fullmatch(r"\d(\.\d)?", words[0]):
         raise IoError(f"{place}: $MeshFormat holds a version, 0 or 1 and a size; not {' '.join(words)[:40]!r}")
     version = float(words[0])
-    if not (2 <= version < 3 or version in (4, 4.1)) or words[2] != "8":
+    if not (2 <= version < 3 or version == 4.1) or words[2] != "8":
         raise IoError(f"{place}: version {words[0]} with numbers of {words[2][:9]} bytes; 2, 2.2 and 4.1 with 8 are read: write it with Gmsh -format msh41")
     if words[1] == "1":
         one = head.data[head.at : head.at + 4]

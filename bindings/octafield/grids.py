@@ -1,6 +1,7 @@
 """Files of cells: what they hold as arrays, by meshio or our own readers of text, before any meaning is given to it."""
 
 import contextlib
+import io
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -91,8 +92,12 @@ def read_meshio(path: Path, suffix: str):
         return read_gmsh(data, str(path))
     import meshio
 
-    with _reading(path, suffix), _plain(path, data, suffix) as plain:
-        return meshio.vtu.read(str(plain))
+    said = io.StringIO()
+    with _reading(path, suffix), _plain(path, data, suffix) as plain, contextlib.redirect_stderr(said):
+        found = meshio.vtu.read(str(plain))
+        if "corrupt" in said.getvalue():  # it leaves such arrays out
+            raise ValueError(said.getvalue().replace("Skipping.", ""))
+        return found
 
 
 @contextlib.contextmanager

@@ -179,11 +179,29 @@ def _take_array(file: _File, words: list[str], count: int, arrays: dict[str, np.
                 head = file.words()
             if len(head) < 4:
                 raise IoError(f"{file.place()}: an array of FIELD begins with name, components, rows and type")
-            table = file.table(unquote(head[0]), file.whole(head, 2, "rows"), file.whole(head, 1, "components"), head[3])
+            rows, width = file.whole(head, 2, "rows"), file.whole(head, 1, "components")
+            if head[3] == "string":
+                _skip_strings(file, rows * width)
+                continue
+            table = file.table(unquote(head[0]), rows, width, head[3])
             if not count or len(table) == count:
                 arrays[unquote(head[0])] = table
     else:
         raise IoError(f"{file.place(file.line_at)}: unknown section {kind[:40]!r}")
+
+
+def _skip_strings(file: _File, count: int) -> None:
+    """A line each in text; in binary files the length goes before, in 1, 2, 4 or 8 bytes by the first two bits."""
+    for _ in range(count):
+        if file.at >= len(file.data):
+            raise IoError(f"{file.place()}: ends within {count} strings")
+        if file.text:
+            file.words()
+            continue
+        bits = file.data[file.at] >> 6
+        size = 1 << (3 - bits)
+        length = int.from_bytes(file.data[file.at : file.at + size], "big") & ((1 << (8 * size - 2)) - 1)
+        file.at += size + length
 
 
 def _mesh(file: _File, parts: dict[str, Any]) -> Any:
