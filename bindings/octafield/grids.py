@@ -1,7 +1,6 @@
-"""Files of cells: what they hold as arrays, by meshio or our own readers of text, before any meaning is given to it."""
+"""Files of cells: what they hold as arrays, by our own readers (of .vtp VTK's), before any meaning is given to it."""
 
 import contextlib
-import io
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,9 +13,11 @@ from .gmsh_mesh import read_gmsh
 from .legacy_vtk import read_legacy_vtk
 from .output import scratch_folder
 from .text_meshes import TextMesh, read_medit, read_tetgen
+from .vtu_mesh import read_vtu
 
 GRID_SUFFIXES = (".vtk", ".vtu", ".vtp", ".msh", ".mesh", ".meshb", ".node", ".ele", ".ovm", ".ovmb")
-MESHIO_SUFFIXES = (".vtk", ".vtu", ".msh")
+_READERS = {".vtk": read_legacy_vtk, ".vtu": read_vtu, ".msh": read_gmsh}
+MESHIO_SUFFIXES = tuple(_READERS)  # whose readers make objects of meshio's
 _SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
 LOWER = ("vertex", "line", "triangle")
 
@@ -84,31 +85,8 @@ def _grid_of_text(mesh: TextMesh) -> Grid:
 
 
 def read_meshio(path: Path, suffix: str):
-    """A meshio.Mesh, of .vtk and .msh by our own readers. IoError, whatever meshio's stumble over."""
-    data = _bytes(path)
-    if suffix == ".vtk":
-        return read_legacy_vtk(data, str(path))
-    if suffix == ".msh":
-        return read_gmsh(data, str(path))
-    import meshio
-
-    said = io.StringIO()
-    with _reading(path, suffix), _plain(path, data, suffix) as plain, contextlib.redirect_stderr(said):
-        found = meshio.vtu.read(str(plain))
-        if "corrupt" in said.getvalue():  # it leaves such arrays out
-            raise ValueError(said.getvalue().replace("Skipping.", ""))
-        return found
-
-
-@contextlib.contextmanager
-def _plain(path: Path, data: bytes, suffix: str) -> Iterator[Path]:
-    """A file that is not packed: meshio takes names."""
-    if not path.name.lower().endswith(".gz"):
-        yield path
-        return
-    with scratch_folder() as folder:
-        (folder / f"input{suffix}").write_bytes(data)
-        yield folder / f"input{suffix}"
+    """A meshio.Mesh."""
+    return _READERS[suffix](_bytes(path), str(path))
 
 
 def place_in(data: bytes, at: int) -> str:
@@ -122,7 +100,7 @@ def _reading(path: Path, suffix: str) -> Iterator[None]:
         yield
     except (InvalidInput, IoError):
         raise
-    except (Exception, SystemExit) as error:  # meshio raises whatever its parsers run into, and exits on failure
+    except Exception as error:  # whatever parsers run into
         reason = " ".join(str(error).split()) or type(error).__name__
         raise IoError(f"{path}: cannot be read as {suffix} ({reason})") from error
 

@@ -172,7 +172,8 @@ def _tet_input(name: str, grid: Grid) -> Input:
     if len(points_used) < len(points):
         notes.append(f"{len(points) - len(points_used)} points that no tet uses were left out")
     origin = points_used[tets[:, 0]]
-    inverted = np.linalg.det(points_used[tets[:, 1:]] - origin[:, None, :]) < 0
+    with np.errstate(invalid="ignore", over="ignore"):  # points that are not finite are refused below
+        inverted = np.linalg.det(points_used[tets[:, 1:]] - origin[:, None, :]) < 0
     if inverted.any():
         tets[inverted] = tets[inverted][:, [0, 1, 3, 2]]
         notes.append(f"{int(inverted.sum())} of {len(tets)} tets were turned over to positive volume")

@@ -205,27 +205,41 @@ def _skip_strings(file: _File, count: int) -> None:
 
 
 def _mesh(file: _File, parts: dict[str, Any]) -> Any:
-    import meshio
-
     at, count, numbers, offsets = parts["CELLS"]
     types = parts["CELL_TYPES"]
     place = file.place(at)
     if len(types) != count:
         raise IoError(f"{place}: {count} cells; CELL_TYPES has {len(types)}")
-    if not (np.isfinite(numbers).all() and (numbers == np.floor(numbers)).all()):
-        raise IoError(f"{place}: CELLS holds a number that is no id")
-    numbers = numbers.astype(np.int64)
-    starts, sizes = _extents(numbers, types, place) if offsets is None else _from_offsets(offsets, len(numbers), place)
-    known = np.array([_SIZES.get(kind, -1) for kind in range(256)])[types]
+    numbers = whole_numbers(numbers, f"{place}: CELLS")
+    starts, sizes = _extents(numbers, types, place) if offsets is None else from_offsets(offsets, len(numbers), place)
+    return mesh_of_cells(parts["POINTS"], numbers, starts, sizes, types, file.arrays["POINT_DATA"], file.arrays["CELL_DATA"], place)
+
+
+def whole_numbers(numbers: np.ndarray, place: str) -> np.ndarray:
+    if not ((np.abs(numbers) < 2**53) & (numbers == np.floor(numbers))).all():
+        raise IoError(f"{place} hold a number that is no id")
+    return numbers.astype(np.int64)
+
+
+Arrays = dict[str, np.ndarray]
+
+
+def mesh_of_cells(
+    points: np.ndarray, numbers: np.ndarray, starts: np.ndarray, sizes: np.ndarray, types: np.ndarray, of_points: Arrays, of_cells: Arrays, place: str
+) -> Any:
+    """A meshio.Mesh with a block per run of cells of one kind. numbers: ids of all cells. starts, sizes: where each cell's are. Arrays: (n, components)."""
+    import meshio
+
+    known = np.array([_SIZES.get(kind, -1) for kind in range(256)])[np.clip(types, 0, 255)]
     wrong = np.flatnonzero((known >= 0) & (sizes != known))
     if len(wrong):
         raise IoError(f"{place}: cell {wrong[0]} (from 0) of type {types[wrong[0]]} has {sizes[wrong[0]]} vertices, not {known[wrong[0]]}")
     breaks = np.flatnonzero((np.diff(types) != 0) | (np.diff(sizes) != 0)) + 1
-    chunks = [c for c in np.split(np.arange(count), breaks) if len(c)]
+    chunks = [c for c in np.split(np.arange(len(types)), breaks) if len(c)]
     blocks = [(_kind(types[c[0]]), numbers[starts[c][:, None] + np.arange(sizes[c[0]])]) for c in chunks]
-    flat = {site: {k: v[:, 0] if v.shape[1] == 1 else v for k, v in file.arrays[site].items()} for site in ("POINT_DATA", "CELL_DATA")}
-    of_cells = {key: [values[c] for c in chunks] for key, values in flat["CELL_DATA"].items()}
-    return meshio.Mesh(parts["POINTS"], blocks, point_data=flat["POINT_DATA"], cell_data=of_cells)
+    flat_points, flat_cells = ({key: v[:, 0] if v.shape[1] == 1 else v for key, v in arrays.items()} for arrays in (of_points, of_cells))
+    split = {key: [values[c] for c in chunks] for key, values in flat_cells.items()}
+    return meshio.Mesh(points, blocks, point_data=flat_points, cell_data=split if chunks else {})
 
 
 def _kind(vtk_type: int) -> str:
@@ -247,9 +261,8 @@ def _extents(numbers: np.ndarray, types: np.ndarray, place: str) -> tuple[np.nda
     return starts, numbers[starts - 1]
 
 
-def _from_offsets(offsets: np.ndarray, count: int, place: str) -> tuple[np.ndarray, np.ndarray]:
-    whole = np.isfinite(offsets).all() and (offsets == np.floor(offsets)).all()
-    if not whole or (np.diff(offsets) < 0).any() or (len(offsets) and (offsets[0] != 0 or offsets[-1] != count)):
+def from_offsets(offsets: np.ndarray, count: int, place: str) -> tuple[np.ndarray, np.ndarray]:
+    offsets = whole_numbers(offsets, f"{place}: OFFSETS")
+    if (np.diff(offsets) < 0).any() or (len(offsets) and (offsets[0] != 0 or offsets[-1] != count)):
         raise IoError(f"{place}: OFFSETS do not rise from 0 to {count}, the size of CONNECTIVITY")
-    offsets = offsets.astype(np.int64)
     return offsets[:-1], np.diff(offsets)

@@ -89,7 +89,9 @@ def read_tetgen(files: dict[str, tuple[str, str]]) -> TextMesh:
     tets = _headed(ele_text, ele_name, "tets", (4, "vertices per tet"))
     ids = _whole(tets[:, 1:5])
     if ids is None:
-        raise IoError(f"{ele_name}: a vertex id is no whole number")
+        bad = int(np.argmin(((np.abs(tets[:, 1:5]) < 2**53) & (tets[:, 1:5] == np.floor(tets[:, 1:5]))).all(axis=1)))
+        line = _line_of_row(_Section("", _without_comments(ele_text), 1), bad, tets.shape[1], skip=3)
+        raise IoError(f"{ele_name}, line {line}: a vertex id is no whole number")
     outside = np.flatnonzero(((ids < base) | (ids >= base + len(nodes))).any(axis=1))
     if len(outside):
         line = _line_of_row(_Section("", _without_comments(ele_text), 1), outside[0], tets.shape[1], skip=3)
@@ -128,7 +130,7 @@ def _marked(text: str, name: str, corners: int, base: int, count: int) -> tuple[
     outside = np.ones(1, bool) if whole is None else ((whole[:, 1 : 1 + corners] < base)
                                                      | (whole[:, 1 : 1 + corners] >= base + count)).any(axis=1)  # fmt: skip
     if outside.any():
-        bad = int((table != np.floor(table)).any(axis=1).argmax()) if whole is None else int(outside.argmax())
+        bad = int((~((np.abs(table) < 2**53) & (table == np.floor(table)))).any(axis=1).argmax()) if whole is None else int(outside.argmax())
         line = _line_of_row(section, bad, width, skip=2)
         raise IoError(f"{name}, line {line}: row {bad + 1} of the {section.name} names a point outside {base} .. {base + count - 1}")
     ids = whole[:, 1 : 1 + corners]
@@ -178,9 +180,12 @@ def _table(section: _Section, name: str, width: int, *, counted=True, whole=Fals
     if not counted:
         skip, count = 0, 1
     if count is None:
-        if not len(numbers) or numbers[0] != int(numbers[0]) or numbers[0] < 0:
+        if not len(numbers) or not 0 <= numbers[0] < 2**63 or numbers[0] != int(numbers[0]):
             raise IoError(f"{name}, line {section.line}: {section.name} is not followed by a count")
         count = int(numbers[0])
+    if count < 0:
+        line = _line_of_row(section, 0, width, skip=0)
+        raise IoError(f"{name}, line {line}: the number of {section.name} is {count}")
     if len(numbers) < skip + count * width:
         have = max(0, len(numbers) - skip) // width
         last = section.line + section.text.rstrip().count("\n")
@@ -190,7 +195,7 @@ def _table(section: _Section, name: str, width: int, *, counted=True, whole=Fals
         return rows
     ids = _whole(rows)
     if ids is None:
-        bad = int(np.flatnonzero((rows != np.floor(rows)).any(axis=1))[0])
+        bad = int(np.flatnonzero(~((np.abs(rows) < 2**53) & (rows == np.floor(rows))).all(axis=1))[0])
         line = _line_of_row(section, bad, width, skip)
         raise IoError(f"{name}, line {line}: {section.name} holds a number that is no id")
     return ids
@@ -204,7 +209,7 @@ def _finite(section: _Section, name: str, points: np.ndarray, width: int, skip: 
 
 
 def _whole(rows: np.ndarray) -> np.ndarray | None:
-    return rows.astype(np.int64) if np.isfinite(rows).all() and (rows == np.floor(rows)).all() else None
+    return rows.astype(np.int64) if (np.abs(rows) < 2**53).all() and (rows == np.floor(rows)).all() else None
 
 
 def _require_ids(section: _Section, name: str, ids: np.ndarray, low: int, high: int) -> None:

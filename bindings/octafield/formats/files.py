@@ -30,7 +30,7 @@ def read_bytes(path: str | Path) -> bytes:
         raise IoError(f"{path}: no such file")
     try:
         data = path.read_bytes()
-        return gzip.decompress(data) if path.name.lower().endswith(".gz") else data
+        return gzip.decompress(data) if path.name.lower().endswith(".gz") or data.startswith(b"\x1f\x8b") else data
     except (gzip.BadGzipFile, EOFError, zlib.error) as error:
         raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
     except OSError as error:
