@@ -67,6 +67,8 @@ def read_input(path: str | Path, *, interfaces: bool = True, edge_length: float 
     require_utf8(path)
     if path.is_dir():
         raise IoError(f"{path}: is a folder; give a file")
+    if path.exists() and not path.is_file():
+        raise IoError(f"{path}: is a pipe or a device; save it to a file first")
     with naming(str(path)):
         return _read(path, interfaces, edge_length)
 

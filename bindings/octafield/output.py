@@ -97,6 +97,18 @@ def write_json(path: Path, value: Any) -> None:
     path.write_text(json.dumps(value, indent=1, allow_nan=False) + "\n")
 
 
+def vtp_bytes(surface: Any) -> bytes:
+    """A .vtp file of a pyvista.PolyData, in memory: VTK's writers of files end the process where the disk is full."""
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(surface)
+    writer.SetDataModeToBinary()
+    writer.SetWriteToOutputString(True)
+    writer.Write()
+    return str(writer.GetOutputString()).encode()
+
+
 def _commit(staging: Path, target: Path, earlier: list[Path]) -> None:
     try:
         if not target.is_dir():

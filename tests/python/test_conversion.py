@@ -2,6 +2,9 @@
 
 import gzip
 import json
+import os
+import resource
+import signal
 
 import meshio
 import numpy as np
@@ -302,3 +305,64 @@ def test_pieces_of_vtu_files_are_joined(tmp_path):
     found = read_input(tmp_path / "b.vtu")
     assert (len(found.tets.tets), len(found.tets.vertices)) == (12, 16)
     assert np.array_equal(found.regions, np.tile(halves(mesh), 2))
+
+
+TARGETS = (*VOLUMES, *SURFACES, ".stl", ".vtk.gz", ".fra", ".bfra", ".qtn", ".frame", ".npy", ".npz", ".pos", ".ff3", ".txt")
+
+
+@pytest.mark.parametrize("suffix", TARGETS)
+def test_a_full_disk_is_told_by_the_name_of_the_target_and_leaves_nothing(tmp_path, suffix):
+    of.write_frames(tmp_path / "a.vtu", box_tets(3), frames_at(box_tets(3), "vertices"))
+    (tmp_path / "out").mkdir()
+    before, how = resource.getrlimit(resource.RLIMIT_FSIZE), signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (600, before[1]))
+        with pytest.raises(of.IoError, match=rf"out/b\.({suffix.split('.')[1]}|node).* \(.*\)"):
+            convert_file(tmp_path / "a.vtu", tmp_path / "out" / f"b{suffix}")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, how)
+    assert not list((tmp_path / "out").iterdir())
+
+
+def test_pipes_and_devices_are_no_files_and_links_are_followed(tmp_path):
+    mesh = box_tets(1)
+    of.write_frames(tmp_path / "a.vtu", mesh, frames_at(mesh, "vertices"))
+    os.mkfifo(tmp_path / "pipe.vtu")
+    for path in (tmp_path / "pipe.vtu", "/dev/null"):
+        with pytest.raises(of.IoError, match="is no regular file"):
+            convert_file(tmp_path / "a.vtu", path, to_format="npy")
+    for name in ("pipe.vtu", "pipe.frame", "pipe.stl", "pipe.step"):
+        (tmp_path / name).exists() or os.mkfifo(tmp_path / name)
+        with pytest.raises(of.IoError, match="is a pipe or a device; save it to a file first"):
+            convert_file(tmp_path / name, tmp_path / ("b.npz" if name.endswith(("vtu", "frame")) else "b.ply"), mesh=tmp_path / "a.vtu")
+    (tmp_path / "link.npz").symlink_to(tmp_path / "true.npz")
+    convert_file(tmp_path / "a.vtu", tmp_path / "link.npz")
+    assert (tmp_path / "link.npz").is_symlink() and len(of.read_frames(tmp_path / "true.npz").frames) == 8
+    convert_file(tmp_path / "a.vtu", tmp_path / "a.vtu")
+    assert len(of.read_frames(tmp_path / "a.vtu").frames) == 8
+
+
+@pytest.mark.parametrize("name", ["with space.vtu", "-dash.vtu", "a.b.c.VTU", "quote'\"$.vtu", "überm äßig.vtu"])
+def test_any_name_will_do(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    of.write_frames(name, box_tets(1), frames_at(box_tets(1), "vertices"))
+    convert_file(name, f"{name}.ovmb.gz")
+    assert len(of.read_frames(f"{name}.ovmb.gz").frames) == 8
+
+
+def test_where_numbers_do_not_tell_the_place_of_frames_a_note_does(tmp_path):
+    """Eight vertices, eight tets: an octahedron's, about its axis, and a corner of one."""
+    ring = [2, 3, 4, 5]
+    points = [[0, 0, 1], [0, 0, -1], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 0], [0, 0, 3]]
+    tets = [[a, b, c, 6] for i, j in zip(ring, ring[1:] + ring[:1]) for a, b, c in ((0, i, j), (1, j, i))]
+    points, tets = np.array(points, float), np.array(tets)
+    tets[np.linalg.det(points[tets[:, 1:]] - points[tets[:, :1]]) < 0] = tets[np.linalg.det(points[tets[:, 1:]] - points[tets[:, :1]]) < 0][:, [0, 2, 1, 3]]
+    mesh = of.TetMesh(points[:7], tets[:7])
+    frames = frames_at(mesh, "vertices")
+    np.save(tmp_path / "a.npy", frames)
+    found = of.read_frames(tmp_path / "a.npy", mesh)
+    assert found.where == "vertices" and any("as many vertices as tets" in note for note in found.notes)
+    assert not of.read_frames(tmp_path / "a.npy", mesh, where="tets").notes
+    of.write_frames(tmp_path / "a.npz", mesh, frames)
+    assert not of.read_frames(tmp_path / "a.npz").notes

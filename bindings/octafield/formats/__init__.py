@@ -52,7 +52,11 @@ def read_frames(
     found = read_txt(path) if format is None and plain_name(path).endswith(".txt") else reader.read(path)
     if found.mesh is not None:  # the file is checked, and its own mesh is the one wanted unless another is given
         _core.require_valid(found.mesh)
-    return place(found, given, where)
+    result = place(found, given, where)
+    form = frame_formats[result.format]
+    if where is None and not form.holds_mesh and len(form.where) > 1 and result.mesh is not None and len(result.mesh.vertices) == len(result.mesh.tets):
+        result.notes.append(f"the mesh has as many vertices as tets: the frames are taken to be {'at the vertices' if result.where == 'vertices' else 'in the tets'}")
+    return result
 
 
 def write_frames(

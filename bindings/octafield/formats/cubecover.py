@@ -9,7 +9,7 @@ from .. import _core
 from ..errors import InvalidInput, IoError
 from ..topology import inner_triangles
 from .base import Field, FrameFile, from_axes
-from .files import head_of, plain_name, read_bytes, read_text, rows_of, table_of, write_whole
+from .files import head_of, plain_name, read_bytes, read_text, rows_of, table_of, write_all, write_whole
 from .rotations import axes_in_rows, axes_of
 from .text import _columns, _count, _require_count
 
@@ -39,10 +39,13 @@ def write_fra(path: Path, field: Field) -> None:
     """And .perm beside it."""
     rows = axes_in_rows(field.frames, field.lengths).reshape(-1, 3)
     perm = permutations(field)
-    write_whole(path, [f"FRA 1\n{len(field.frames)} 3 1\n".encode(), *rows_of(rows)])
     stem = path.name[: plain_name(path).rindex(".fra")]
-    write_whole(
-        path.with_name(stem + ".perm"), [f"PERM 1\n{len(field.frames)} {len(perm)} 3\n".encode(), *rows_of(perm)]
+    beside = path.with_name(stem + ".perm")
+    write_all(
+        [
+            (path, [f"FRA 1\n{len(field.frames)} 3 1\n".encode(), *rows_of(rows)]),
+            (beside, [f"PERM 1\n{len(field.frames)} {len(perm)} 3\n".encode(), *rows_of(perm)]),
+        ]
     )
 
 

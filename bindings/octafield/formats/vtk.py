@@ -5,9 +5,10 @@ from pathlib import Path
 import numpy as np
 
 from .. import _core
-from ..errors import InvalidInput
+from ..errors import InvalidInput, IoError
 from ..grids import MESHIO_SUFFIXES, grid_of_meshio, read_meshio
 from ..inputs import Input, input_of_grid, naming
+from ..output import scratch_folder, vtp_bytes
 from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4
 from .files import plain_name, write_whole
 from .rotations import axes_of
@@ -95,11 +96,13 @@ def write_vtu(path: Path, field: Field) -> None:
 
 def through_file(path: Path, suffix: str, write) -> None:
     """For writers that take a path: writes to a scratch file, then to the place wanted, packed where its name says so."""
-    from ..output import scratch_folder
-
     with scratch_folder() as folder:
         plain = folder / f"output{suffix}"
-        write(plain)
+        try:
+            write(plain)
+        except OSError as error:  # IoError, too
+            reason = error.strerror or str(error).partition(f"{plain}: ")[2].partition(";")[0]
+            raise IoError(f"{path}: cannot be written to a scratch file first ({reason}); is {folder.parent} full?") from error
         write_whole(path, [plain.read_bytes()])
 
 
@@ -113,7 +116,7 @@ def write_vtp(path: Path, field: Field) -> None:
         points.point_data[name] = np.ascontiguousarray(axes[:, :, k])
     points.point_data["quaternion"] = np.array(field.frames)
     points.add_field_data([CONVENTION], "convention")
-    through_file(path, ".vtp", lambda plain: points.save(plain))
+    write_whole(path, [vtp_bytes(points)])
 
 
 def sites(field: Field) -> np.ndarray:
