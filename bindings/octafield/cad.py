@@ -34,6 +34,10 @@ def read_cad(path: Path, suffix: str, edge_length: float) -> Grid:
         with _model(gmsh), _plain(path, suffix) as plain:
             _import(gmsh, path, plain)
             gmsh.model.occ.synchronize()
+            if not gmsh.model.getEntities(3) and len(gmsh.model.getEntities(2)) > 1:  # IGES holds loose faces: with curves of their own they would not fit
+                with _printed([]):
+                    gmsh.model.occ.healShapes(tolerance=1e-8, fixDegenerated=False, fixSmallEdges=False, fixSmallFaces=False, sewFaces=True, makeSolids=True)
+                gmsh.model.occ.synchronize()
             return _meshed(gmsh, path, edge_length)
     except (InvalidInput, IoError):
         raise

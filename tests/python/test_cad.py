@@ -130,3 +130,17 @@ def test_bodies_without_curves_and_several_solids(tmp_path):
     assert len(two.lines) == 12 * 3 and of.signed_volume(two.surface) == pytest.approx(1 + 4 / 3 * np.pi, rel=0.1)
     with pytest.raises(of.InvalidInput, match="the model has no faces"):
         read_input(tmp_path / "curve.step")
+
+
+def test_loose_faces_of_iges_are_sewn(tmp_path):
+    gmsh.initialize(["test"], readConfigFiles=False, interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, 0, 0, 1, 2, 3)
+        gmsh.model.occ.synchronize()
+        gmsh.write(str(tmp_path / "box.iges"))
+    finally:
+        gmsh.finalize()
+    found = read_input(tmp_path / "box.iges", edge_length=0.5)
+    of.require_valid(found.surface)
+    assert of.signed_volume(found.surface) == pytest.approx(6) and len(found.lines) == 4 * (2 + 4 + 6)
