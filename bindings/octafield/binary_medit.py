@@ -13,7 +13,7 @@ _CELLS = {5: ("line", 2), 6: ("triangle", 3), 7: ("quad", 4), 8: ("tetra", 4), 9
 
 
 def read_binary_medit(data: bytes, name: str) -> TextMesh:
-    order = {b"\1\0\0\0": "<", b"\0\0\0\1": ">"}.get(data[:4])
+    order = {b"\1\0\0\0": "<", b"\0\0\0\1": ">"}.get(data[:4], "")
     version = int(np.frombuffer(data, f"{order}i4", 1, 4)[0]) if order and len(data) >= 8 else 0
     if version not in (1, 2, 3, 4):
         raise IoError(f"{name}, byte 0: a binary Medit file begins with 1 and a version of 1 to 4")

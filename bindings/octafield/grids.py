@@ -180,8 +180,8 @@ def _regions_of(found, entities: list[np.ndarray] | None) -> list[np.ndarray] | 
     if ours is not None:
         return ours
     groups = _entity_ids(found, ("gmsh:physical",))
-    of_tets = [] if groups is None else [i for block, i in zip(found.cells, groups, strict=True) if block.type == "tetra"]
-    return groups if of_tets and all((i > 0).all() for i in of_tets) else entities
+    of_tets = [] if groups is None else [ids for block, ids in zip(found.cells, groups, strict=True) if block.type == "tetra"]
+    return groups if of_tets and all((ids > 0).all() for ids in of_tets) else entities
 
 
 def _entity_ids(found, names: tuple[str, ...]) -> list[np.ndarray] | None:
