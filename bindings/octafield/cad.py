@@ -1,8 +1,10 @@
 """CAD models as triangles, by Gmsh where it is installed: the model's curves are the feature edges."""
 
 import contextlib
-import gzip
-import shutil
+import os
+import re
+import sys
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,6 +16,7 @@ from .output import scratch_folder
 
 CAD_SUFFIXES = (".step", ".stp", ".brep", ".iges", ".igs")
 _PARTS = 30  # edges along the diagonal of the bounding box, where no length is asked for
+_NO_NUMBER = re.compile(rb"(?i)[(,\s]\s*([-+]?(?:nan|inf|infinity))\s*[,)\s]")  # on which Open CASCADE does not end
 _GMSH_TRIANGLE, _GMSH_LINE = 2, 1
 
 
@@ -29,13 +32,57 @@ def read_cad(path: Path, suffix: str, edge_length: float) -> Grid:
         raise IoError(f"{path}: no such file")
     try:
         with _model(gmsh), _plain(path, suffix) as plain:
-            gmsh.model.occ.importShapes(str(plain))
+            _import(gmsh, path, plain)
             gmsh.model.occ.synchronize()
+            if not gmsh.model.getEntities(3) and len(gmsh.model.getEntities(2)) > 1:  # IGES holds loose faces: with curves of their own they would not fit
+                with _printed([]):
+                    gmsh.model.occ.healShapes(tolerance=1e-8, fixDegenerated=False, fixSmallEdges=False, fixSmallFaces=False, sewFaces=True, makeSolids=True)
+                gmsh.model.occ.synchronize()
             return _meshed(gmsh, path, edge_length)
     except (InvalidInput, IoError):
         raise
     except Exception as error:  # Gmsh raises plain exceptions
         raise IoError(f"{path}: Gmsh cannot read or mesh it ({' '.join(str(error).split())})") from error
+
+
+def _import(gmsh, path: Path, plain: Path) -> None:
+    """Open CASCADE, inside Gmsh, prints what it finds wrong and goes on with what is left, which may not end."""
+    found = _NO_NUMBER.search(content := plain.read_bytes())
+    if found:
+        raise IoError(f"{path}, line {content.count(10, 0, found.start(1)) + 1}: a coordinate is {found[1].decode()}; export it again")
+    said: list[str] = []
+    try:
+        with _printed(said):
+            gmsh.model.occ.importShapes(str(plain))
+    except Exception as error:
+        raise IoError(f"{path}: Gmsh cannot read it ({_first_defect(said) or ' '.join(str(error).split())}); export it again") from error
+    if defect := _first_defect(said):
+        raise IoError(f"{path}: damaged ({defect}); export it again")
+
+
+def _first_defect(said: list[str]) -> str:
+    found = re.search(r"\*{4} ERR \w+ : (.*?)\s*\*{4}", "".join(said))
+    return " ".join(found[1].split()) if found else ""
+
+
+@contextlib.contextmanager
+def _printed(said: list[str]) -> Iterator[None]:
+    """Collects what libraries print to the process's output, which belongs to the command."""
+    sys.stdout.flush()
+    try:
+        kept = os.dup(1)
+    except OSError:  # there is no output
+        yield
+        return
+    with tempfile.TemporaryFile() as file:
+        os.dup2(file.fileno(), 1)
+        try:
+            yield
+        finally:
+            os.dup2(kept, 1)
+            os.close(kept)
+            file.seek(0)
+            said.append(file.read().decode("utf-8", "replace"))
 
 
 @contextlib.contextmanager
@@ -67,9 +114,10 @@ def _plain(path: Path, suffix: str) -> Iterator[Path]:
     if not path.name.lower().endswith(".gz"):
         yield path
         return
+    from .formats.files import read_bytes
+
     with scratch_folder() as folder:
-        with gzip.open(path, "rb") as packed, open(folder / f"input{suffix}", "wb") as unpacked:
-            shutil.copyfileobj(packed, unpacked)
+        (folder / f"input{suffix}").write_bytes(read_bytes(path))
         yield folder / f"input{suffix}"
 
 

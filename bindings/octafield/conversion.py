@@ -75,7 +75,7 @@ def _convert_mesh(source: Path, target: Path, frames: FrameFile | None, mesh: st
     if found.lines is not None and not found.lines_are_features():
         notes.append("the file's lines list mesh edges in general: they were left out")
     if frames is not None:
-        notes.append(f"the frames were left out: {target.suffix} files hold a mesh alone")
+        notes.append(f"the frames were left out: {Path(plain_name(target)).suffix} files hold a mesh alone")
     if found.tets is None or plain_name(target).endswith((*SURFACE_SUFFIXES, ".vtp")):
         return Conversion(str(source), str(target), "surface", len(found.surface.vertices), len(found.surface.triangles), notes=notes)
     return Conversion(str(source), str(target), "tets", len(found.tets.vertices), len(found.tets.tets), notes=notes)

@@ -1,21 +1,23 @@
-"""Files of cells: what they hold as arrays, by meshio or our own readers of text, before any meaning is given to it."""
+"""Files of cells: what they hold as arrays, by our own readers (of .vtp VTK's), before any meaning is given to it."""
 
 import contextlib
-import gzip
-import shutil
-import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
+from .binary_medit import read_binary_medit
 from .errors import InvalidInput, IoError
+from .gmsh_mesh import read_gmsh
+from .legacy_vtk import read_legacy_vtk
 from .output import scratch_folder
 from .text_meshes import TextMesh, read_medit, read_tetgen
+from .vtu_mesh import read_vtu
 
 GRID_SUFFIXES = (".vtk", ".vtu", ".vtp", ".msh", ".mesh", ".meshb", ".node", ".ele", ".ovm", ".ovmb")
-MESHIO_SUFFIXES = (".vtk", ".vtu", ".msh", ".meshb")
+_READERS = {".vtk": read_legacy_vtk, ".vtu": read_vtu, ".msh": read_gmsh}
+MESHIO_SUFFIXES = tuple(_READERS)  # whose readers make objects of meshio's
 _SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
 LOWER = ("vertex", "line", "triangle")
 
@@ -23,22 +25,25 @@ LOWER = ("vertex", "line", "triangle")
 @dataclass
 class Grid:
     """Points, connectivity per meshio cell type, and, where the file tells, the CAD face of each triangle, the region
-    of each tet and which lines are creases (all, where it does not)."""
+    of each tet and which lines are creases (all, where it does not). notes: what is odd about the file."""
 
     points: np.ndarray
     cells: dict[str, np.ndarray]
     faces: np.ndarray | None = None
     regions: np.ndarray | None = None
     creases: np.ndarray | None = None
+    notes: list[str] = field(default_factory=list)
 
 
 def read_grid(path: Path, suffix: str) -> Grid:
     """Whatever a reader stumbles over becomes an IoError."""
-    if suffix in MESHIO_SUFFIXES:
-        return grid_of_meshio(read_meshio(path, suffix))
     if suffix == ".vtp":
         return _vtp_grid(path)
     with _reading(path, suffix):
+        if suffix in MESHIO_SUFFIXES:
+            return grid_of_meshio(read_meshio(path, suffix))
+        if suffix == ".meshb":
+            return _grid_of_text(read_binary_medit(_bytes(path), str(path)))
         if suffix == ".mesh":
             return _grid_of_text(read_medit(_text(path), str(path)))
         if suffix in (".node", ".ele"):
@@ -48,10 +53,15 @@ def read_grid(path: Path, suffix: str) -> Grid:
 
 
 def _text(path: Path) -> str:
-    if not path.is_file():
-        raise IoError(f"{path}: no such file")
-    data = path.read_bytes()
-    return (gzip.decompress(data) if path.name.lower().endswith(".gz") else data).decode("utf-8")
+    from .formats.files import read_text
+
+    return read_text(path)
+
+
+def _bytes(path: Path) -> bytes:
+    from .formats.files import read_bytes
+
+    return read_bytes(path)
 
 
 def _tetgen_files(path: Path, suffix: str) -> dict[str, Path]:
@@ -69,30 +79,19 @@ def _tetgen_files(path: Path, suffix: str) -> dict[str, Path]:
 
 
 def _grid_of_text(mesh: TextMesh) -> Grid:
-    return _grid(mesh.points, mesh.cells, mesh.references, mesh.references, mesh.ridges)
+    grid = _grid(mesh.points, mesh.cells, mesh.references, mesh.references, mesh.ridges)
+    grid.notes = mesh.notes
+    return grid
 
 
 def read_meshio(path: Path, suffix: str):
-    """A meshio.Mesh. Readers are called directly: meshio.read guesses by the name. IoError, whatever they stumble over."""
-    import meshio
-
-    if not path.is_file():
-        raise IoError(f"{path}: no such file")
-    reader = {".vtk": meshio.vtk, ".vtu": meshio.vtu, ".msh": meshio.gmsh, ".meshb": meshio.medit}[suffix]
-    with _reading(path, suffix), _unpacked(path, suffix) as plain:
-        return reader.read(str(plain))
+    """A meshio.Mesh."""
+    return _READERS[suffix](_bytes(path), str(path))
 
 
-@contextlib.contextmanager
-def _unpacked(path: Path, suffix: str) -> Iterator[Path]:
-    if not path.name.lower().endswith(".gz"):
-        yield path
-        return
-    with scratch_folder() as folder:
-        plain = folder / f"input{suffix}"
-        with gzip.open(path, "rb") as packed, open(plain, "wb") as unpacked:
-            shutil.copyfileobj(packed, unpacked)
-        yield plain
+def place_in(data: bytes, at: int) -> str:
+    """Bytes where the file is binary."""
+    return f"byte {at}" if b"\0" in data else f"line {data.count(10, 0, max(at - 1, 0)) + 1}"
 
 
 @contextlib.contextmanager
@@ -101,16 +100,14 @@ def _reading(path: Path, suffix: str) -> Iterator[None]:
         yield
     except (InvalidInput, IoError):
         raise
-    except (gzip.BadGzipFile, EOFError, zlib.error) as error:
-        raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
-    except (Exception, SystemExit) as error:  # meshio raises whatever its parsers run into, and exits on failure
+    except Exception as error:  # whatever parsers run into
         reason = " ".join(str(error).split()) or type(error).__name__
         raise IoError(f"{path}: cannot be read as {suffix} ({reason})") from error
 
 
 def grid_of_meshio(found) -> Grid:
     blocks = [(block.type, np.asarray(block.data)) for block in found.cells]
-    entities = _entity_ids(found, ("CellEntityIds", "gmsh:geometrical", "medit:ref"))
+    entities = _entity_ids(found, ("CellEntityIds", "gmsh:geometrical"))
     return _grid(found.points, blocks, entities, _regions_of(found, entities))
 
 
@@ -177,16 +174,14 @@ def _line_segments(cells: np.ndarray) -> np.ndarray:
 
 
 def _regions_of(found, entities: list[np.ndarray] | None) -> list[np.ndarray] | None:
-    """Gmsh: physical volumes where all tets are in one, which is how a file says what belongs together; else CAD
-    volumes. Our own files: cell data region."""
-    for name in ("region", "gmsh:physical"):
-        ids = _entity_ids(found, (name,))
-        if ids is None:
-            continue
-        of_tets = [i for block, i in zip(found.cells, ids, strict=True) if block.type == "tetra"]
-        if of_tets and all((i > 0).all() for i in of_tets):
-            return ids
-    return entities
+    """Our own files: cell data region, where every number is one. Gmsh: physical volumes where all tets are in one, which is how a
+    file says what belongs together (0: in none); else CAD volumes."""
+    ours = _entity_ids(found, ("region",))
+    if ours is not None:
+        return ours
+    groups = _entity_ids(found, ("gmsh:physical",))
+    of_tets = [] if groups is None else [ids for block, ids in zip(found.cells, groups, strict=True) if block.type == "tetra"]
+    return groups if of_tets and all((ids > 0).all() for ids in of_tets) else entities
 
 
 def _entity_ids(found, names: tuple[str, ...]) -> list[np.ndarray] | None:

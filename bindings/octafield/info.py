@@ -109,7 +109,7 @@ def _unread(name: str, error: Error) -> dict[str, Any]:
         FAIL,
         error.kind or "unreadable",
         str(error),
-        str(error).rpartition("; ")[2] if "; " in str(error) else "",
+        str(error).rpartition("; ")[2] if "; " in str(error) else "correct the file there, or write it again",
         tuple(error.elements),
     )
     findings = [Finding("file can be read", PASS), what] if flat else [what]

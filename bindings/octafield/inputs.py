@@ -67,6 +67,8 @@ def read_input(path: str | Path, *, interfaces: bool = True, edge_length: float 
     require_utf8(path)
     if path.is_dir():
         raise IoError(f"{path}: is a folder; give a file")
+    if path.exists() and not path.is_file():
+        raise IoError(f"{path}: is a pipe or a device; save it to a file first")
     with naming(str(path)):
         return _read(path, interfaces, edge_length)
 
@@ -105,12 +107,12 @@ def input_of_grid(name: str, grid: Grid) -> Input:
     others = {kind: len(c) for kind, c in cells.items() if kind != "tetra" and kind not in LOWER}
     if "tetra" in cells:
         found = _tet_input(name, grid)
-        found.notes += [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
+        found.notes += grid.notes + [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
         return found
     _refuse({kind: count for kind, count in others.items() if not kind.startswith(("line", "VTK_LAGRANGE_CURVE"))})
     if "triangle" in cells:
         found = _surface_input(name, grid)
-        found.notes += [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
+        found.notes += grid.notes + [f"{count} cells of type {kind} were left out" for kind, count in others.items()]
         return found
     kinds = ", ".join(sorted(cells)) or "none"
     raise InvalidInput(f"{name}: holds neither tetrahedra nor triangles (cell types: {kinds}); linear ones are needed")
@@ -172,7 +174,8 @@ def _tet_input(name: str, grid: Grid) -> Input:
     if len(points_used) < len(points):
         notes.append(f"{len(points) - len(points_used)} points that no tet uses were left out")
     origin = points_used[tets[:, 0]]
-    inverted = np.linalg.det(points_used[tets[:, 1:]] - origin[:, None, :]) < 0
+    with np.errstate(invalid="ignore", over="ignore"):  # points that are not finite are refused below
+        inverted = np.linalg.det(points_used[tets[:, 1:]] - origin[:, None, :]) < 0
     if inverted.any():
         tets[inverted] = tets[inverted][:, [0, 1, 3, 2]]
         notes.append(f"{int(inverted.sum())} of {len(tets)} tets were turned over to positive volume")
@@ -196,7 +199,11 @@ def with_regions(found: Any, regions: np.ndarray | None) -> Any:
     if regions is None:
         found.boundary = _core.boundary_surface(found.tets)
     else:
-        found.regions = np.asarray(regions).astype(np.int32)
+        wide = np.asarray(regions)
+        if (wide.astype(np.int32) != wide).any():
+            bad = int(np.argmax(wide.astype(np.int32) != wide))
+            raise InvalidInput(f"tet {bad} (from 0) is of region {wide[bad]}: numbers of regions have 32 bits; number them anew", "bad_regions", [bad])
+        found.regions = wide.astype(np.int32)
         surface = _core.region_surface(found.tets, found.regions)
         found.boundary, found.interface_triangles = surface.surface, surface.interface_triangles
     found.surface = found.boundary.mesh

@@ -94,7 +94,26 @@ def earlier_files(target: Path, marker: str) -> list[Path]:
 
 def write_json(path: Path, value: Any) -> None:
     """JSON with numbers at full precision; not-a-number and infinities are refused, they are no JSON."""
-    path.write_text(json.dumps(value, indent=1, allow_nan=False) + "\n")
+    write_file(path, (json.dumps(value, indent=1, allow_nan=False) + "\n").encode())
+
+
+def write_file(path: Path, content: bytes) -> None:
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        raise IoError(f"{path}: cannot write there ({error.strerror})") from error
+
+
+def vtp_bytes(surface: Any) -> bytes:
+    """A .vtp file of a pyvista.PolyData, in memory: VTK's writers of files end the process where the disk is full."""
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(surface)
+    writer.SetDataModeToBinary()
+    writer.SetWriteToOutputString(True)
+    writer.Write()
+    return str(writer.GetOutputString()).encode()
 
 
 def _commit(staging: Path, target: Path, earlier: list[Path]) -> None:

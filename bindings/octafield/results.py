@@ -10,7 +10,7 @@ import numpy as np
 from . import _core
 from ._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetMesh
 from .imported import AnalysedField
-from .output import write_json
+from .output import vtp_bytes, write_file, write_json
 from .phases import PhaseClock, Progress, announce
 from .pipeline import FieldResult, SurfaceFieldResult
 from .sizes import sizes_arrays
@@ -163,7 +163,7 @@ def polylines(lines: Sequence[np.ndarray]) -> "pyvista.PolyData":
 def _save(poly: "pyvista.PolyData", path: Path, metadata: dict[str, str]) -> None:
     for name, text in metadata.items():
         poly.GetFieldData().AddArray(_text_array(name, [text]))
-    poly.save(path)
+    write_file(path, vtp_bytes(poly))
 
 
 def _text_array(name: str, texts: Sequence[str]) -> Any:

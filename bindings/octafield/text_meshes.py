@@ -27,12 +27,13 @@ _MEDIT_CELLS = {
 @dataclass
 class TextMesh:
     """cells, references: per block; a reference is the id of the CAD entity or region, 0 where there is none.
-    ridges: ids of the rows of the line block that are creases; None where the file does not tell."""
+    ridges: ids of the rows of the line block that are creases; None where the file does not tell. notes: what is odd about the file."""
 
     points: np.ndarray
     cells: list[tuple[str, np.ndarray]] = field(default_factory=list)
     references: list[np.ndarray] = field(default_factory=list)
     ridges: np.ndarray | None = None
+    notes: list[str] = field(default_factory=list)
 
 
 @dataclass
@@ -53,7 +54,9 @@ def read_medit(text: str, name: str) -> TextMesh:
     if dimension != 3:
         line = found["Dimension"].line
         raise IoError(f"{name}, line {line}: points of dimension {dimension}; 3 is needed")
-    mesh = TextMesh(_table(found["Vertices"], name, 4)[:, :3])
+    mesh = TextMesh(_finite(found["Vertices"], name, _table(found["Vertices"], name, 4)[:, :3], 4))
+    if sections[-1].name != "End":
+        mesh.notes.append(f"the file does not end with End, but with {sections[-1].name}: it may be cut")
     for section in sections:
         if section.name not in _MEDIT_CELLS:
             continue
@@ -82,10 +85,13 @@ def read_tetgen(files: dict[str, tuple[str, str]]) -> TextMesh:
     if len(wrong):
         row = wrong[0]
         raise IoError(f"{node_name}: row {row + 1} of the points has number {nodes[row, 0]:g}; number them in order")
+    _finite(_Section("points", _without_comments(node_text), 1), node_name, nodes[:, 1:4], nodes.shape[1], skip=4)
     tets = _headed(ele_text, ele_name, "tets", (4, "vertices per tet"))
     ids = _whole(tets[:, 1:5])
     if ids is None:
-        raise IoError(f"{ele_name}: a vertex id is no whole number")
+        bad = int(np.argmin(((np.abs(tets[:, 1:5]) < 2**53) & (tets[:, 1:5] == np.floor(tets[:, 1:5]))).all(axis=1)))
+        line = _line_of_row(_Section("", _without_comments(ele_text), 1), bad, tets.shape[1], skip=3)
+        raise IoError(f"{ele_name}, line {line}: a vertex id is no whole number")
     outside = np.flatnonzero(((ids < base) | (ids >= base + len(nodes))).any(axis=1))
     if len(outside):
         line = _line_of_row(_Section("", _without_comments(ele_text), 1), outside[0], tets.shape[1], skip=3)
@@ -124,7 +130,7 @@ def _marked(text: str, name: str, corners: int, base: int, count: int) -> tuple[
     outside = np.ones(1, bool) if whole is None else ((whole[:, 1 : 1 + corners] < base)
                                                      | (whole[:, 1 : 1 + corners] >= base + count)).any(axis=1)  # fmt: skip
     if outside.any():
-        bad = int((table != np.floor(table)).any(axis=1).argmax()) if whole is None else int(outside.argmax())
+        bad = int((~((np.abs(table) < 2**53) & (table == np.floor(table)))).any(axis=1).argmax()) if whole is None else int(outside.argmax())
         line = _line_of_row(section, bad, width, skip=2)
         raise IoError(f"{name}, line {line}: row {bad + 1} of the {section.name} names a point outside {base} .. {base + count - 1}")
     ids = whole[:, 1 : 1 + corners]
@@ -174,9 +180,12 @@ def _table(section: _Section, name: str, width: int, *, counted=True, whole=Fals
     if not counted:
         skip, count = 0, 1
     if count is None:
-        if not len(numbers) or numbers[0] != int(numbers[0]) or numbers[0] < 0:
+        if not len(numbers) or not 0 <= numbers[0] < 2**63 or numbers[0] != int(numbers[0]):
             raise IoError(f"{name}, line {section.line}: {section.name} is not followed by a count")
         count = int(numbers[0])
+    if count < 0:
+        line = _line_of_row(section, 0, width, skip=0)
+        raise IoError(f"{name}, line {line}: the number of {section.name} is {count}")
     if len(numbers) < skip + count * width:
         have = max(0, len(numbers) - skip) // width
         last = section.line + section.text.rstrip().count("\n")
@@ -186,14 +195,21 @@ def _table(section: _Section, name: str, width: int, *, counted=True, whole=Fals
         return rows
     ids = _whole(rows)
     if ids is None:
-        bad = int(np.flatnonzero((rows != np.floor(rows)).any(axis=1))[0])
+        bad = int(np.flatnonzero(~((np.abs(rows) < 2**53) & (rows == np.floor(rows))).all(axis=1))[0])
         line = _line_of_row(section, bad, width, skip)
         raise IoError(f"{name}, line {line}: {section.name} holds a number that is no id")
     return ids
 
 
+def _finite(section: _Section, name: str, points: np.ndarray, width: int, skip: int = 1) -> np.ndarray:
+    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if len(bad):
+        raise IoError(f"{name}, line {_line_of_row(section, int(bad[0]), width, skip)}: the coordinates of point {bad[0] + 1} (from 1) are not finite")
+    return points
+
+
 def _whole(rows: np.ndarray) -> np.ndarray | None:
-    return rows.astype(np.int64) if np.isfinite(rows).all() and (rows == np.floor(rows)).all() else None
+    return rows.astype(np.int64) if (np.abs(rows) < 2**53).all() and (rows == np.floor(rows)).all() else None
 
 
 def _require_ids(section: _Section, name: str, ids: np.ndarray, low: int, high: int) -> None:

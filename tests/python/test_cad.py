@@ -79,3 +79,68 @@ def test_without_gmsh_the_remedy_is_told(part, monkeypatch):
     monkeypatch.setitem(sys.modules, "gmsh", None)
     with pytest.raises(of.InvalidInput, match=r"pip install 'octafield\[cad\]'"):
         read_input(part / "part.step")
+
+
+DEFECTS = {  # of STEP text: what is replaced, by what, the message
+    "cut": (lambda text: text[: len(text) // 2], "Line [0-9]+: .*export it again"),
+    "not a number": (lambda text: text.replace("CARTESIAN_POINT('',(0.,0.,1.))", "CARTESIAN_POINT('',(0.,nan,1.))"), "line [0-9]+: a coordinate is nan"),
+    "a word": (lambda text: text.replace("CARTESIAN_POINT('',(0.,0.,1.))", "CARTESIAN_POINT('',(0.,x,1.))"), "damaged .*export it again"),
+    "without solids": (lambda text: text[: text.index("DATA;")] + "DATA;\nENDSEC;\nEND-ISO-10303-21;\n", "damaged|no faces"),
+    "a page": (lambda text: "<html></html>", "Gmsh cannot read it .Undefined Parsing: Line 2"),
+}
+
+
+@pytest.mark.parametrize("name", DEFECTS)
+def test_damaged_step_text_is_told_with_its_line_and_the_output_stays_clean(part, tmp_path, capfd, name):
+    change, message = DEFECTS[name]
+    text = (part / "part.step").read_text()
+    assert change(text) != text
+    (tmp_path / "a.step").write_text(change(text))
+    with pytest.raises(of.Error, match=rf"a\.step.*({message})"):
+        read_input(tmp_path / "a.step")
+    assert capfd.readouterr().out == ""
+
+
+def test_damaged_packed_models_are_told_as_such(part, tmp_path):
+    (tmp_path / "a.step.gz").write_bytes(gzip.compress((part / "part.step").read_bytes())[:-50])
+    with pytest.raises(of.IoError, match="damaged gzip file"):
+        read_input(tmp_path / "a.step.gz")
+
+
+def test_bodies_without_curves_and_several_solids(tmp_path):
+    gmsh.initialize(["test"], readConfigFiles=False, interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addSphere(0, 0, 0, 1)
+        gmsh.model.occ.synchronize()
+        gmsh.write(str(tmp_path / "ball.step"))
+        gmsh.model.occ.addBox(2, 0, 0, 1, 1, 1)
+        gmsh.model.occ.synchronize()
+        gmsh.write(str(tmp_path / "two.step"))
+        gmsh.model.add("nothing")
+        gmsh.model.occ.addCircle(0, 0, 0, 1)
+        gmsh.model.occ.synchronize()
+        gmsh.write(str(tmp_path / "curve.step"))
+    finally:
+        gmsh.finalize()
+    ball, two = read_input(tmp_path / "ball.step", edge_length=0.4), read_input(tmp_path / "two.step", edge_length=0.4)
+    for found in (ball, two):
+        of.require_valid(found.surface)
+    assert ball.lines is None or not len(ball.lines)
+    assert len(two.lines) == 12 * 3 and of.signed_volume(two.surface) == pytest.approx(1 + 4 / 3 * np.pi, rel=0.1)
+    with pytest.raises(of.InvalidInput, match="the model has no faces"):
+        read_input(tmp_path / "curve.step")
+
+
+def test_loose_faces_of_iges_are_sewn(tmp_path):
+    gmsh.initialize(["test"], readConfigFiles=False, interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, 0, 0, 1, 2, 3)
+        gmsh.model.occ.synchronize()
+        gmsh.write(str(tmp_path / "box.iges"))
+    finally:
+        gmsh.finalize()
+    found = read_input(tmp_path / "box.iges", edge_length=0.5)
+    of.require_valid(found.surface)
+    assert of.signed_volume(found.surface) == pytest.approx(6) and len(found.lines) == 4 * (2 + 4 + 6)

@@ -2,6 +2,9 @@
 
 import gzip
 import json
+import os
+import resource
+import signal
 
 import meshio
 import numpy as np
@@ -226,3 +229,140 @@ def test_field_takes_every_kind_of_mesh(halved, tmp_path):
         convert_file(halved, tmp_path / f"a{suffix}")
         energies.append(of.compute_field(tmp_path / f"a{suffix}").record["energy"])
     assert np.ptp(energies) < 1e-9
+
+
+@pytest.mark.parametrize("values", [(0, 1), (-3, 7), (0, 2**31 - 1)])
+def test_every_number_is_a_region_in_every_format_that_holds_regions(tmp_path, values):
+    mesh = box_tets(2)
+    regions = np.where(halves(mesh) == 2, *values)
+    meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], cell_data={"region": [regions]}).write(tmp_path / "a.vtu")
+    assert np.array_equal(read_input(tmp_path / "a.vtu").regions, regions)
+    from_one = np.unique(regions, return_inverse=True)[1] + 1  # Gmsh's groups are positive
+    for suffix in VOLUMES:
+        done = convert_file(tmp_path / "a.vtu", tmp_path / f"b{suffix}")
+        assert np.array_equal(read_input(tmp_path / f"b{suffix}").regions, from_one if suffix == ".msh" else regions), suffix
+        assert any("numbered from 1" in note for note in done.notes) == (suffix == ".msh")
+    for name, form in of.frame_formats.items():
+        if form.holds_regions:
+            notes = of.write_frames(tmp_path / f"c.{name}", mesh, frames_at(mesh, "tets"), "tets", name, regions=regions)
+            assert np.array_equal(of.read_frames(tmp_path / f"c.{name}", format=name).regions, from_one if name == "msh" else regions), name
+            assert any("numbered from 1" in note for note in notes) == (name == "msh")
+
+
+def test_regions_and_features_that_do_not_fit_are_refused(tmp_path):
+    mesh, frames = box_tets(1), frames_at(box_tets(1), "tets")
+    for what in ({"regions": [2**31] * 6}, {"regions": [0.5] * 6}, {"regions": [1]}, {"features": [[0, 8]]}, {"features": [[0, -1]]}):
+        with pytest.raises(of.InvalidInput, match="32 bits|are needed|outside 0 .. 7"):
+            of.write_frames(tmp_path / "a.npz", mesh, frames, "tets", **what)
+    meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], cell_data={"region": [np.array([1, 2**40, 1, 1, 1, 1])]}).write(tmp_path / "a.vtu")
+    with pytest.raises(of.InvalidInput, match=r"tet 1 .* 1099511627776: numbers of regions have 32 bits"):
+        read_input(tmp_path / "a.vtu")
+
+
+@pytest.mark.parametrize("binary", [0, 1])
+@pytest.mark.parametrize("version", [2.2, 4.1])
+def test_what_gmsh_writes_comes_back_with_groups_lines_and_views_by_their_ids(tmp_path, version, binary):
+    import gmsh
+
+    gmsh.initialize(["test"], readConfigFiles=False, interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.add("two")
+        boxes = [(3, gmsh.model.occ.addBox(x, 0, 0, 1, 1, 1)) for x in (0, 1)]
+        gmsh.model.occ.fragment(boxes[:1], boxes[1:])
+        gmsh.model.occ.synchronize()
+        for solid, group in ((1, 11), (2, 7)):
+            gmsh.model.addPhysicalGroup(3, [solid], group, name="two words")
+        for name, value in (("Mesh.MeshSizeMax", 0.9), ("Mesh.SaveAll", 1), ("Mesh.MshFileVersion", version), ("Mesh.Binary", binary)):
+            gmsh.option.setNumber(name, value)
+        gmsh.model.mesh.generate(3)
+        tags = gmsh.model.mesh.getElementsByType(4)[0]
+        for k, name in enumerate(("frame_u", "frame_v", "frame_w")):
+            view, axis = gmsh.view.add(name), np.eye(3)[k]
+            values = [list(axis * (1 + i)) for i in range(len(tags))]
+            gmsh.view.addModelData(view, 0, "two", "ElementData", tags[::-1], values[::-1])
+            gmsh.view.write(view, str(tmp_path / "a.msh"), k > 0)
+        gmsh.write(str(tmp_path / "mesh.msh"))
+    finally:
+        gmsh.finalize()
+    found, plain = of.read_frames(tmp_path / "a.msh"), read_input(tmp_path / "mesh.msh")
+    assert found.where == "tets" and np.array_equal(found.lengths[:, 0], 1 + np.arange(len(tags)))
+    assert np.max(of.distance(found.frames, np.tile([1.0, 0, 0, 0], (len(tags), 1)))) < 1e-14
+    left = plain.tets.vertices[plain.tets.tets].mean(axis=1)[:, 0] < 1
+    groups = (11, 7) if version == 4.1 else (1, 2)  # saving all, Gmsh writes no groups in version 2
+    assert set(groups) == set(plain.regions) and len({*plain.regions[left]}) == len({*plain.regions[~left]}) == 1
+    lines = feature_lines(plain)
+    assert len(lines) >= 20 and (np.isin(plain.tets.vertices[lines], (0, 1, 2)).sum(axis=2) >= 2).all()
+
+
+def test_pieces_of_vtu_files_are_joined(tmp_path):
+    mesh = box_tets(1)
+    meshio.vtu.write(tmp_path / "a.vtu", meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], cell_data={"region": [halves(mesh)]}), binary=False)
+    text = (tmp_path / "a.vtu").read_text()
+    begin, end = text.index("<Piece"), text.index("</Piece>") + len("</Piece>")
+    moved = text[begin:end].replace("0.00000000000e+00", "5.00000000000e+00")
+    (tmp_path / "b.vtu").write_text(text[:end] + moved + text[end:])
+    found = read_input(tmp_path / "b.vtu")
+    assert (len(found.tets.tets), len(found.tets.vertices)) == (12, 16)
+    assert np.array_equal(found.regions, np.tile(halves(mesh), 2))
+
+
+TARGETS = (*VOLUMES, *SURFACES, ".stl", ".vtk.gz", ".fra", ".bfra", ".qtn", ".frame", ".npy", ".npz", ".pos", ".ff3", ".txt")
+
+
+@pytest.mark.parametrize("suffix", TARGETS)
+def test_a_full_disk_is_told_by_the_name_of_the_target_and_leaves_nothing(tmp_path, suffix):
+    of.write_frames(tmp_path / "a.vtu", box_tets(3), frames_at(box_tets(3), "vertices"))
+    (tmp_path / "out").mkdir()
+    before, how = resource.getrlimit(resource.RLIMIT_FSIZE), signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (600, before[1]))
+        with pytest.raises(of.IoError, match=rf"out/b\.({suffix.split('.')[1]}|node).* \(.*\)"):
+            convert_file(tmp_path / "a.vtu", tmp_path / "out" / f"b{suffix}")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, how)
+    assert not list((tmp_path / "out").iterdir())
+
+
+def test_pipes_and_devices_are_no_files_and_links_are_followed(tmp_path):
+    mesh = box_tets(1)
+    of.write_frames(tmp_path / "a.vtu", mesh, frames_at(mesh, "vertices"))
+    os.mkfifo(tmp_path / "pipe.vtu")
+    for path in (tmp_path / "pipe.vtu", "/dev/null"):
+        with pytest.raises(of.IoError, match="is no regular file"):
+            convert_file(tmp_path / "a.vtu", path, to_format="npy")
+    for name in ("pipe.vtu", "pipe.frame", "pipe.stl", "pipe.step"):
+        (tmp_path / name).exists() or os.mkfifo(tmp_path / name)
+        with pytest.raises(of.IoError, match="is a pipe or a device; save it to a file first"):
+            convert_file(tmp_path / name, tmp_path / ("b.npz" if name.endswith(("vtu", "frame")) else "b.ply"), mesh=tmp_path / "a.vtu")
+    (tmp_path / "link.npz").symlink_to(tmp_path / "true.npz")
+    convert_file(tmp_path / "a.vtu", tmp_path / "link.npz")
+    assert (tmp_path / "link.npz").is_symlink() and len(of.read_frames(tmp_path / "true.npz").frames) == 8
+    convert_file(tmp_path / "a.vtu", tmp_path / "a.vtu")
+    assert len(of.read_frames(tmp_path / "a.vtu").frames) == 8
+
+
+@pytest.mark.parametrize("name", ["with space.vtu", "-dash.vtu", "a.b.c.VTU", "quote'\"$.vtu", "überm äßig.vtu"])
+def test_any_name_will_do(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    of.write_frames(name, box_tets(1), frames_at(box_tets(1), "vertices"))
+    convert_file(name, f"{name}.ovmb.gz")
+    assert len(of.read_frames(f"{name}.ovmb.gz").frames) == 8
+
+
+def test_where_numbers_do_not_tell_the_place_of_frames_a_note_does(tmp_path):
+    """Eight vertices, eight tets: an octahedron's, about its axis, and a corner of one."""
+    ring = [2, 3, 4, 5]
+    points = [[0, 0, 1], [0, 0, -1], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 0], [0, 0, 3]]
+    tets = [[a, b, c, 6] for i, j in zip(ring, ring[1:] + ring[:1]) for a, b, c in ((0, i, j), (1, j, i))]
+    points, tets = np.array(points, float), np.array(tets)
+    tets[np.linalg.det(points[tets[:, 1:]] - points[tets[:, :1]]) < 0] = tets[np.linalg.det(points[tets[:, 1:]] - points[tets[:, :1]]) < 0][:, [0, 2, 1, 3]]
+    mesh = of.TetMesh(points[:7], tets[:7])
+    frames = frames_at(mesh, "vertices")
+    np.save(tmp_path / "a.npy", frames)
+    found = of.read_frames(tmp_path / "a.npy", mesh)
+    assert found.where == "vertices" and any("as many vertices as tets" in note for note in found.notes)
+    assert not of.read_frames(tmp_path / "a.npy", mesh, where="tets").notes
+    of.write_frames(tmp_path / "a.npz", mesh, frames)
+    assert not of.read_frames(tmp_path / "a.npz").notes

@@ -100,9 +100,9 @@ CASES = {
     "a.npz": [(b"PK", "no .npz file")],
     "a.ovmb": [(b"OVMB", "byte 0: 48 bytes are needed, 4 are left"), (bytes(60), "byte 0: not an OpenVolumeMesh")],
     "a.bfra": [(b"FRA 2\0" + struct.pack("<3i", 10**9, 9, 3), "byte 18: 0 bytes of numbers"), (b"FRA", "byte 0")],
-    "a.vtu": [("<VTKFile", "cannot be read as .vtu")],
-    "a.msh": [("$MeshFormat\n", "cannot be read as .msh")],
-    "a.vtk": [("# vtk", "cannot be read as .vtk")],
+    "a.vtu": [("<VTKFile", "line 1: no XML")],
+    "a.msh": [("$MeshFormat\n", r"line 1: ends before \$EndMeshFormat")],
+    "a.vtk": [("# vtk", "line 1: a legacy VTK file begins")],
 }
 
 

@@ -52,7 +52,11 @@ def read_frames(
     found = read_txt(path) if format is None and plain_name(path).endswith(".txt") else reader.read(path)
     if found.mesh is not None:  # the file is checked, and its own mesh is the one wanted unless another is given
         _core.require_valid(found.mesh)
-    return place(found, given, where)
+    result = place(found, given, where)
+    form = frame_formats[result.format]
+    if where is None and not form.holds_mesh and len(form.where) > 1 and result.mesh is not None and len(result.mesh.vertices) == len(result.mesh.tets):
+        result.notes.append(f"the mesh has as many vertices as tets: the frames are taken to be {'at the vertices' if result.where == 'vertices' else 'in the tets'}")
+    return result
 
 
 def write_frames(
@@ -86,7 +90,7 @@ def write_frames(
     if values.ndim != 2 or values.shape[1] != 4:
         raise InvalidInput(f"frames of shape {values.shape}; (n, 4) quaternions w x y z are needed", "bad_shape")
     values, _ = unit_quaternions(values, lambda i: "frames")
-    field = Field(mesh, values, where, _array(lengths, 3), _array(features, 2), _array(regions, None), dict(metadata or {}))
+    field = Field(mesh, values, where, _array(lengths, 3), _ids(features, 2, "features"), _ids(regions, None, "regions"), dict(metadata or {}))
     _require_fit(field, writer)
     if combed and at == "vertices":
         raise InvalidInput("combed frames sit in the tets; leave out at='vertices'", "unknown_option_value")
@@ -97,8 +101,7 @@ def write_frames(
         if getattr(field, name) is not None and not getattr(writer, f"holds_{name}"):
             notes.append(f"the {words} were left out: {writer.title} files hold none")
             setattr(field, name, None)
-    writer.write(path, field)
-    return notes
+    return notes + (writer.write(path, field) or [])
 
 
 def _comb(field: Field) -> list[str]:
@@ -130,6 +133,15 @@ def _array(values: ArrayLike | None, width: int | None) -> np.ndarray | None:
     return result
 
 
+def _ids(values: ArrayLike | None, width: int | None, name: str) -> np.ndarray | None:
+    result = _array(values, width)
+    if result is None or not result.size:
+        return result
+    if result.dtype.kind not in "iub" or int(result.max()) >= 2**31 or int(result.min()) < -(2**31):
+        raise InvalidInput(f"{name} are whole numbers of 32 bits, not {result.dtype} up to {result.max()}", "bad_ids")
+    return result
+
+
 def _require_fit(field: Field, writer: FrameFormat) -> None:
     if field.mesh is None:
         if writer.needs_mesh:
@@ -142,6 +154,11 @@ def _require_fit(field: Field, writer: FrameFormat) -> None:
         part = getattr(field, name)
         if part is not None and len(part) != wanted:
             raise InvalidInput(f"{len(part)} rows of {name}; {wanted} are needed", "bad_count")
+    if field.features is not None and field.features.size:
+        outside = ((field.features < 0) | (field.features >= len(field.mesh.vertices))).any(axis=1)
+        if outside.any():
+            bad = int(np.argmax(outside))
+            raise InvalidInput(f"feature edge {bad} (from 0) names a vertex outside 0 .. {len(field.mesh.vertices) - 1}", "index_out_of_range", [bad])
 
 
 def _move(field: Field, writer: FrameFormat, at: str | None) -> list[str]:

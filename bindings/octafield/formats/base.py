@@ -70,7 +70,7 @@ class Field:
 class FrameFormat:
     """A kind of file with frames.
 
-    where: the sites it can hold, the usual one first. read, write: None where that is not done. holds_mesh: the file has the tets,
+    where: the sites it can hold, the usual one first. read, write: None where that is not done; write may return notes. holds_mesh: the file has the tets,
     too. needs_mesh: writing takes one. holds: what is written per frame, with its order. precision: of what is written.
     exact: quaternions come back bit by bit. holds_lengths: of axes; as its readers take them, gradients of a map or, with holds_edges, edges of cells. source: where the layout was read.
     """
@@ -83,7 +83,7 @@ class FrameFormat:
     precision: str
     source: str
     read: Callable[[Path], FrameFile] | None = None
-    write: Callable[[Path, Field], None] | None = None
+    write: Callable[[Path, Field], list[str] | None] | None = None
     holds_mesh: bool = False
     needs_mesh: bool = False
     exact: bool = False

@@ -8,7 +8,7 @@ import numpy as np
 from .. import _core
 from ..errors import InvalidInput, IoError
 from .base import Field, FrameFile, from_axes
-from .files import plain_name, read_bytes, read_text, rows_of, table_of, write_whole
+from .files import head_of, plain_name, read_bytes, read_text, rows_of, table_of, write_all, write_whole
 from .rotations import axes_in_rows, axes_of
 from .text import _columns, _count, _require_count
 
@@ -16,18 +16,16 @@ _BINARY_HEAD = struct.Struct("<6siii")  # "FRA 2" and a zero byte; rows: tets; c
 
 
 def read_fra(path: Path) -> FrameFile:
-    text = read_text(path)
-    lines = text.split("\n", 2)
-    if lines[0].split() != ["FRA", "1"]:
-        raise IoError(f"{path}, line 1: 'FRA 1' is needed, not {lines[0].strip()[:40]!r}")
-    words = lines[1].split() if len(lines) > 1 else []
+    (head, counts), body, first = head_of(read_text(path), 2)
+    if head.split() != ["FRA", "1"]:
+        raise IoError(f"{path}, line 1: 'FRA 1' is needed, not {head[:40]!r}")
+    words = counts.split()
     if len(words) != 3:
         raise IoError(f"{path}, line 2: the number of tets, of vectors per tet and a type are needed")
     count, vectors, _ = (_count(word, f"{path}, line 2", "tets and vectors") for word in words)
     _require_three(vectors, f"{path}, line 2")
-    body = lines[2] if len(lines) > 2 else ""
-    rows, numbers = table_of(body, str(path), 3, first_line=3)
-    _require_count(len(rows), 3 * count, path, 3 + body.rstrip().count("\n"), "vectors")
+    rows, numbers = table_of(body, str(path), 3, first_line=first)
+    _require_count(len(rows), 3 * count, path, first + body.rstrip().count("\n"), "vectors")
     return from_axes(path, "fra", "tets", _columns(rows.reshape(-1, 9)), numbers[::3])
 
 
@@ -40,10 +38,13 @@ def write_fra(path: Path, field: Field) -> None:
     """And .perm beside it."""
     rows = axes_in_rows(field.frames, field.lengths).reshape(-1, 3)
     perm = permutations(field)
-    write_whole(path, [f"FRA 1\n{len(field.frames)} 3 1\n".encode(), *rows_of(rows)])
     stem = path.name[: plain_name(path).rindex(".fra")]
-    write_whole(
-        path.with_name(stem + ".perm"), [f"PERM 1\n{len(field.frames)} {len(perm)} 3\n".encode(), *rows_of(perm)]
+    beside = path.with_name(stem + ".perm")
+    write_all(
+        [
+            (path, [f"FRA 1\n{len(field.frames)} 3 1\n".encode(), *rows_of(rows)]),
+            (beside, [f"PERM 1\n{len(field.frames)} {len(perm)} 3\n".encode(), *rows_of(perm)]),
+        ]
     )
 
 

@@ -26,21 +26,27 @@ def read_bytes(path: str | Path) -> bytes:
     path = Path(path)
     if path.is_dir():
         raise IoError(f"{path}: is a folder; give a file")
-    if not path.is_file():
-        raise IoError(f"{path}: no such file")
+    require_file(path)
     try:
         data = path.read_bytes()
-        return gzip.decompress(data) if path.name.lower().endswith(".gz") else data
+        return gzip.decompress(data) if path.name.lower().endswith(".gz") or data.startswith(b"\x1f\x8b") else data
     except (gzip.BadGzipFile, EOFError, zlib.error) as error:
         raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
     except OSError as error:
         raise IoError(f"{path}: cannot be read ({error.strerror})") from error
 
 
+def require_file(path: Path) -> None:
+    if not path.exists():
+        raise IoError(f"{path}: no such file")
+    if not path.is_file():
+        raise IoError(f"{path}: is a pipe or a device; save it to a file first")
+
+
 def read_text(path: str | Path) -> str:
     data = read_bytes(path)
     try:
-        return data.decode("utf-8")
+        return data.decode("utf-8-sig")  # Windows programs begin with a mark
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise IoError(f"{path}, line {line}: no text (byte {error.start}); is it a binary file?") from error
@@ -48,14 +54,39 @@ def read_text(path: str | Path) -> str:
 
 def write_whole(path: str | Path, pieces: Iterable[bytes]) -> None:
     """Writes the pieces, packed where the name ends with .gz; the file appears only when complete."""
+    write_all([(path, pieces)])
+
+
+def write_all(files: Iterable[tuple[str | Path, Iterable[bytes]]]) -> None:
+    """Writes files that belong together: they appear when all of them are complete. Links are followed."""
+    staged: list[tuple[str, Path]] = []
+    try:
+        for path, pieces in files:
+            staged.append(_stage(Path(path), pieces))
+        while staged:
+            os.replace(*staged[0])
+            staged.pop(0)
+    except OSError as error:
+        if isinstance(error, IoError):
+            raise
+        raise IoError(f"{staged[0][1]}: cannot write there ({error.strerror})") from error
+    finally:
+        for staging, _ in staged:
+            os.unlink(staging)
+
+
+def _stage(path: Path, pieces: Iterable[bytes]) -> tuple[str, Path]:
+    """A complete file beside the place wanted, and that place."""
     require_utf8(path)
-    path = Path(path)
     if path.is_dir():
         raise IoError(f"{path}: is a folder; give a file")
+    if path.exists() and not path.is_file():
+        raise IoError(f"{path}: is no regular file; give the name of a file")
     staging = None
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, staging = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+        place = Path(os.path.realpath(path)) if path.is_symlink() else path
+        place.parent.mkdir(parents=True, exist_ok=True)
+        handle, staging = tempfile.mkstemp(prefix=f".{place.name}.", dir=place.parent)
         with os.fdopen(handle, "wb") as raw:
             if path.name.lower().endswith(".gz"):
                 with gzip.GzipFile(filename="", mode="wb", fileobj=raw, mtime=0) as packed:  # no name, no time: equal bytes
@@ -65,12 +96,25 @@ def write_whole(path: str | Path, pieces: Iterable[bytes]) -> None:
         umask = os.umask(0)
         os.umask(umask)
         os.chmod(staging, 0o666 & ~umask)
-        os.replace(staging, path)
-    except OSError as error:
-        raise IoError(f"{path}: cannot write there ({error.strerror})") from error
-    finally:
-        if staging is not None and os.path.exists(staging):
+        return staging, place
+    except BaseException as error:
+        if staging is not None:
             os.unlink(staging)
+        if isinstance(error, OSError) and not isinstance(error, IoError):
+            raise IoError(f"{path}: cannot write there ({error.strerror})") from error
+        raise
+
+
+def head_of(text: str, count: int) -> tuple[list[str], str, int]:
+    """The first `count` lines that are not blank, stripped; the text after them; the number of its first line."""
+    lines: list[str] = []
+    number = 1
+    while len(lines) < count and text:
+        line, _, text = text.partition("\n")
+        number += 1
+        if line.strip():
+            lines.append(line.strip())
+    return lines + [""] * (count - len(lines)), text, number
 
 
 def rows_of(table: np.ndarray, prefix: str = "") -> Iterable[bytes]:

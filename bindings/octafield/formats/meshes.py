@@ -9,9 +9,10 @@ from .. import _core
 from .._core import TriangleMesh
 from ..errors import InvalidInput, IoError
 from ..inputs import SURFACE_SUFFIXES, Input
+from ..output import vtp_bytes
 from .algohex import add_features
 from .base import Field
-from .files import plain_name, rows_of, write_whole
+from .files import plain_name, rows_of, write_all, write_whole
 from .ovm import write_ovm
 from .ovm_mesh import ovm_of_tets
 from .vtk import through_file
@@ -130,7 +131,7 @@ def _write_vtp(path: Path, parts: Parts, found: Input) -> list[str]:
     if parts.lines is not None:
         lines = np.asarray(found.lines)
         surface.lines = np.column_stack([np.full(len(lines), 2), lines]).ravel()
-    through_file(path, ".vtp", lambda plain: surface.save(plain))
+    write_whole(path, [vtp_bytes(surface)])
     notes = [] if parts.tets is None else [".vtp files hold triangles: the boundary of the tets was written"]
     return notes + _lost(".vtp", ("CAD faces", found.faces), ("regions", parts.regions))
 
@@ -147,15 +148,18 @@ def _write_tetgen(path: Path, suffix: str, parts: Parts) -> list[str]:
     beside = {kind: path.with_name(name[:cut] + kind + name[cut + len(suffix) :]) for kind in (".node", ".ele", ".face", ".edge")}
     ids = np.arange(len(parts.points))
     head = f"{len(parts.points)} 3 0 0\n".encode()
-    write_whole(beside[".node"], [head, *_numbered(ids, parts.points)])
     with_regions = [] if parts.regions is None else [np.asarray(parts.regions)]
     tets = np.column_stack([np.arange(len(parts.tets)), parts.tets, *with_regions])
-    write_whole(beside[".ele"], [f"{len(tets)} 4 {len(with_regions)}\n".encode(), *rows_of(tets)])
     faces = np.column_stack([np.arange(len(parts.triangles)), parts.triangles, parts.faces])
-    write_whole(beside[".face"], [f"{len(faces)} 1\n".encode(), *rows_of(faces)])
+    files = {
+        ".node": [head, *_numbered(ids, parts.points)],
+        ".ele": [f"{len(tets)} 4 {len(with_regions)}\n".encode(), *rows_of(tets)],
+        ".face": [f"{len(faces)} 1\n".encode(), *rows_of(faces)],
+    }
     if parts.lines is not None:
         lines = np.column_stack([np.arange(len(parts.lines)), parts.lines, np.ones(len(parts.lines), np.int64)])
-        write_whole(beside[".edge"], [f"{len(lines)} 1\n".encode(), *rows_of(lines)])
+        files[".edge"] = [f"{len(lines)} 1\n".encode(), *rows_of(lines)]
+    write_all([(beside[kind], pieces) for kind, pieces in files.items()])
     return [f"wrote {', '.join(p.name for kind, p in beside.items() if kind != '.edge' or parts.lines is not None)}"]
 
 

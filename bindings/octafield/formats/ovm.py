@@ -73,6 +73,11 @@ def _section(body: str, name: str, word: str, line: int) -> np.ndarray:
     if not head.strip().isdigit():
         raise IoError(f"{name}, line {first}: {word} is not followed by a count")
     width = {"vertices": 3, "edges": 2, "faces": 4, "polyhedra": 5}[word]
+    if word in ("faces", "polyhedra"):  # other numbers of sides come first: they are the likely defect
+        for offset, row in enumerate(rest.split("\n")):
+            sides = row.split(None, 1)[:1]
+            if sides and sides[0].isdigit() and sides[0] != str(width - 1):
+                raise IoError(f"{name}, line {first + 1 + offset}: {sides[0]} sides; meshes of tets have {width - 1}")
     rows, lines = table_of(rest, name, width, first_line=first + 1)
     if len(rows) != int(head):
         raise IoError(f"{name}, line {first + 1 + rest.rstrip().count(chr(10))}: {word} has {len(rows)} rows, not {int(head)}")
@@ -81,9 +86,6 @@ def _section(body: str, name: str, word: str, line: int) -> np.ndarray:
     ids = _ids(rows, name, lines)
     if word == "edges":
         return ids
-    wrong = np.flatnonzero(ids[:, 0] != width - 1)
-    if len(wrong):
-        raise IoError(f"{name}, line {lines[wrong[0]]}: {ids[wrong[0], 0]:g} sides; meshes of tets have {width - 1}")
     return ids[:, 1:]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..errors import IoError
 from .base import Field, FrameFile, from_axes, from_quaternions
-from .files import numbers_of, read_text, rows_of, table_of, words_per_line, write_whole
+from .files import head_of, numbers_of, read_text, rows_of, table_of, words_per_line, write_whole
 from .rotations import axes_in_rows
 
 
@@ -25,18 +25,20 @@ def write_arff(path: Path, field: Field) -> None:
 
 
 def read_mouette(path: Path) -> FrameFile:
-    text = read_text(path)
-    head, *rest = text.split("\n", 2)
-    if head.strip() != "FRAME":
-        raise IoError(f"{path}, line 1: FRAME is needed, not {head.strip()[:40]!r}")
-    count = _count(rest[0] if rest else "", f"{path}, line 2", "frames")
-    body = rest[1] if len(rest) > 1 else ""
+    (head, number), body, first = head_of(read_text(path), 2)
+    if head != "FRAME":
+        raise IoError(f"{path}, line 1: FRAME is needed, not {head[:40]!r}")
+    count = _count(number, f"{path}, line 2", "frames")
     ending = body.rstrip()
-    if ending.endswith("END"):
+    closed = ending.endswith("END")
+    if closed:
         body = ending[:-3]
-    rows, lines = table_of(body, str(path), 9, first_line=3)
-    _require_count(len(rows), count, path, 3 + body.rstrip().count("\n"), "frames")
-    return from_axes(path, "mouette", "tets", _columns(rows), lines)
+    rows, lines = table_of(body, str(path), 9, first_line=first)
+    _require_count(len(rows), count, path, first + body.rstrip().count("\n"), "frames")
+    result = from_axes(path, "mouette", "tets", _columns(rows), lines)
+    if not closed:
+        result.notes.append("the file does not end with END: its last number may be cut")
+    return result
 
 
 def write_mouette(path: Path, field: Field) -> None:
@@ -88,13 +90,13 @@ def write_qtn(path: Path, field: Field) -> None:
 
 
 def read_ff3(path: Path) -> FrameFile:
-    head, _, body = read_text(path).partition("\n")
+    (head,), body, first = head_of(read_text(path), 1)
     words = head.split()
     if len(words) != 2 or words[0] != "9":
-        raise IoError(f"{path}, line 1: '9 N' is needed (ASCII .ff3), not {head.strip()[:40]!r}; convert binary files with prog=mat_b2a")
+        raise IoError(f"{path}, line 1: '9 N' is needed (ASCII .ff3), not {head[:40]!r}; convert binary files with prog=mat_b2a")
     count = _count(words[1], f"{path}, line 1", "frames")
-    rows, lines = table_of(body, str(path), 9, first_line=2)
-    _require_count(len(rows), count, path, 2 + body.rstrip().count("\n"), "frames")
+    rows, lines = table_of(body, str(path), 9, first_line=first)
+    _require_count(len(rows), count, path, first + body.rstrip().count("\n"), "frames")
     return from_axes(path, "ff3", "tets", _columns(rows), lines)
 
 

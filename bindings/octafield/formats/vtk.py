@@ -5,9 +5,10 @@ from pathlib import Path
 import numpy as np
 
 from .. import _core
-from ..errors import InvalidInput
+from ..errors import InvalidInput, IoError
 from ..grids import MESHIO_SUFFIXES, grid_of_meshio, read_meshio
 from ..inputs import Input, input_of_grid, naming
+from ..output import scratch_folder, vtp_bytes
 from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4
 from .files import plain_name, write_whole
 from .rotations import axes_of
@@ -95,11 +96,13 @@ def write_vtu(path: Path, field: Field) -> None:
 
 def through_file(path: Path, suffix: str, write) -> None:
     """For writers that take a path: writes to a scratch file, then to the place wanted, packed where its name says so."""
-    from ..output import scratch_folder
-
     with scratch_folder() as folder:
         plain = folder / f"output{suffix}"
-        write(plain)
+        try:
+            write(plain)
+        except OSError as error:  # IoError, too
+            reason = error.strerror or str(error).partition(f"{plain}: ")[2].partition(";")[0]
+            raise IoError(f"{path}: cannot be written to a scratch file first ({reason}); is {folder.parent} full?") from error
         write_whole(path, [plain.read_bytes()])
 
 
@@ -113,7 +116,7 @@ def write_vtp(path: Path, field: Field) -> None:
         points.point_data[name] = np.ascontiguousarray(axes[:, :, k])
     points.point_data["quaternion"] = np.array(field.frames)
     points.add_field_data([CONVENTION], "convention")
-    through_file(path, ".vtp", lambda plain: points.save(plain))
+    write_whole(path, [vtp_bytes(points)])
 
 
 def sites(field: Field) -> np.ndarray:
@@ -122,7 +125,7 @@ def sites(field: Field) -> np.ndarray:
     return np.array(points if field.where == "vertices" else points[np.asarray(field.mesh.tets)].mean(axis=1))
 
 
-def write_msh(path: Path, field: Field) -> None:
+def write_msh(path: Path, field: Field) -> list[str]:
     """Version 2.2, binary, with vector views frame_u, frame_v, frame_w and the tensor view frame (axes one after the other)."""
     import meshio
 
@@ -131,12 +134,13 @@ def write_msh(path: Path, field: Field) -> None:
     axes = np.swapaxes(axes_of(field.frames), 1, 2)
     data = {name: np.ascontiguousarray(axes[:, k]) for k, name in enumerate(AXES)}
     data["frame"] = axes.reshape(-1, 9)
-    mesh, _ = msh_of(Parts.of_field(field))
+    mesh, notes = msh_of(Parts.of_field(field))
     if field.where == "vertices":
         mesh.point_data = data
     else:
         mesh.cell_data |= {name: _for_blocks(values, mesh) for name, values in data.items()}
     through_file(path, ".msh", lambda plain: meshio.gmsh.write(str(plain), mesh, "2.2", binary=True))
+    return notes
 
 
 def _for_blocks(values: np.ndarray, mesh) -> list[np.ndarray]:

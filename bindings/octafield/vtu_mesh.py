@@ -1,0 +1,217 @@
+"""VTK's XML files of unstructured grids (.vtu): text, base64 and raw, packed or not, in one or several pieces, errors with their line or byte.
+
+meshio reads these too, but of several pieces keeps the cells of the last alone, leaves out arrays that do not fit, and does
+not say where. Layout: VTK file formats, XML formats.
+"""
+
+import base64
+import binascii
+import lzma
+import re
+import zlib
+from dataclasses import dataclass, field
+from typing import Any
+from xml.parsers import expat
+
+import numpy as np
+
+from .errors import InvalidInput, IoError
+from .legacy_vtk import from_offsets, mesh_of_cells, whole_numbers
+
+_TYPES = {f"{sign}{8 * size}": f"{code}{size}" for sign, code in (("Int", "i"), ("UInt", "u")) for size in (1, 2, 4, 8)} | {"Float32": "f4", "Float64": "f8"}
+_UNPACK = {"vtkZLibDataCompressor": zlib.decompress, "vtkLZMADataCompressor": lzma.decompress}
+
+
+@dataclass
+class _Array:
+    """A DataArray. line: where it begins; text_line: where its text does."""
+
+    section: str
+    attributes: dict[str, str]
+    line: int
+    text_line: int = 0
+    text: list[str] = field(default_factory=list)
+
+
+@dataclass
+class _Piece:
+    points: int
+    cells: int
+    arrays: list[_Array] = field(default_factory=list)
+
+
+@dataclass
+class _File:
+    name: str
+    root: dict[str, str] = field(default_factory=dict)
+    pieces: list[_Piece] = field(default_factory=list)
+    appended: bytes = b""
+    raw: bool = False
+    appended_at: int = 0
+
+    def fail(self, line: int, what: str) -> IoError:
+        return IoError(f"{self.name}, line {line}: {what}")
+
+
+def read_vtu(data: bytes, name: str) -> Any:
+    """A meshio.Mesh."""
+    file = _parsed(data, name)
+    if not file.pieces:
+        raise IoError(f"{name}: holds no Piece of an UnstructuredGrid")
+    if any(file.root.get(key) not in known for key, known in (("byte_order", (None, "LittleEndian", "BigEndian")), ("header_type", (None, "UInt32", "UInt64")))):
+        raise IoError(f"{name}, line 1: byte_order {file.root.get('byte_order')!r} with header_type {file.root.get('header_type')!r} is not read")
+    if file.root.get("compressor") not in (None, "", *_UNPACK):
+        raise IoError(f"{name}: packed by {file.root['compressor']}, which is not read; save it with ZLib or not packed")
+    parts = [_piece(file, piece) for piece in file.pieces]
+    start = np.cumsum([0, *(len(part["points"]) for part in parts)])
+    ends = np.cumsum([0, *(len(part["numbers"]) for part in parts)])
+    join = lambda what: np.concatenate([part[what] for part in parts])  # noqa: E731
+    numbers = np.concatenate([part["numbers"] + first for part, first in zip(parts, start[:-1], strict=True)])
+    starts = np.concatenate([part["starts"] + first for part, first in zip(parts, ends[:-1], strict=True)])
+    data_of = {site: {key: _joined([part[site][key] for part in parts]) for key in parts[0][site] if all(key in p[site] for p in parts)} for site in ("PointData", "CellData")}
+    of_points, of_cells = ({key: values for key, values in data_of[site].items() if values is not None} for site in data_of)
+    return mesh_of_cells(join("points"), numbers, starts, join("sizes"), join("types"), of_points, of_cells, name)
+
+
+def _joined(parts: list[np.ndarray]) -> np.ndarray | None:
+    return np.concatenate(parts) if len({part.shape[1:] for part in parts}) == 1 else None
+
+
+def _parsed(data: bytes, name: str) -> _File:
+    file, path = _File(name), list[str]()
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        line = parser.CurrentLineNumber
+        if not path and tag != "VTKFile":
+            raise file.fail(line, f"<{tag[:40]}>; a .vtu file begins with <VTKFile>")
+        if not path:
+            file.root = attributes
+            if attributes.get("type") != "UnstructuredGrid":
+                raise InvalidInput(f"{name}, line {line}: VTKFile of type {attributes.get('type')}; UnstructuredGrid is needed: name the file by its type", "unsupported_cells")
+        path.append(tag)
+        if tag == "Piece":
+            points, cells = (attributes.get(key, "") for key in ("NumberOfPoints", "NumberOfCells"))
+            if not (re.fullmatch(r"\s*\d{1,15}\s*", points) and re.fullmatch(r"\s*\d{1,15}\s*", cells)):
+                raise file.fail(line, f"Piece with {points[:20]!r} points and {cells[:20]!r} cells: numbers are needed")
+            file.pieces.append(_Piece(int(points), int(cells)))
+        elif tag == "DataArray" and "Piece" in path and len(path) > 2:
+            file.pieces[-1].arrays.append(_Array(path[-2], attributes, line))
+
+    def end(tag: str) -> None:
+        path.pop()
+
+    def text(value: str) -> None:
+        if path and path[-1] == "DataArray" and "Piece" in path:
+            array = file.pieces[-1].arrays[-1]
+            array.text_line = array.text_line or parser.CurrentLineNumber
+            array.text.append(value)
+
+    parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = start, end, text
+    tail = re.search(rb"<AppendedData\b([^>]*)>\s*_", data)
+    try:
+        parser.Parse(data if tail is None else data[: tail.start()], tail is None)
+    except expat.ExpatError as error:
+        raise file.fail(error.lineno, f"no XML, or damaged ({expat.errors.messages[error.code]}); is the file cut?") from error
+    if tail is not None:
+        stop = data.rfind(b"</AppendedData>")
+        if stop < tail.end() or b"</VTKFile>" not in data[stop:]:
+            raise IoError(f"{name}, byte {len(data)}: ends within AppendedData: the file is cut; write or download it again")
+        file.appended, file.raw, file.appended_at = data[tail.end() : stop], b'"raw"' in tail[1], tail.end()
+    return file
+
+
+def _piece(file: _File, piece: _Piece) -> dict[str, Any]:
+    sections: dict[str, dict[str, tuple[_Array, np.ndarray]]] = {"Points": {}, "Cells": {}, "PointData": {}, "CellData": {}}
+    for array in piece.arrays:
+        if array.section in sections and array.attributes.get("type") in _TYPES:  # others are strings
+            sections[array.section][array.attributes.get("Name", "")] = array, _values(file, array)
+    if len(sections["Points"]) != 1:
+        raise IoError(f"{file.name}: a Piece has {len(sections['Points'])} arrays of Points; one is needed")
+    for key in ("connectivity", "offsets", "types"):
+        if key not in sections["Cells"]:
+            raise IoError(f"{file.name}: Cells have no array {key}")
+    ((array, points),) = sections["Points"].values()
+    _require_rows(file, array, points, piece.points)
+    if points.shape[1] != 3:
+        raise file.fail(array.line, f"Points have {points.shape[1]} components; 3 are needed")
+    cells = {key: (array, values.ravel()) for key, (array, values) in sections["Cells"].items()}
+    for key in ("offsets", "types"):
+        _require_rows(file, *cells[key], piece.cells)
+    places = {key: f"{file.name}, line {array.line}" for key, (array, _) in cells.items()}
+    numbers, types = (whole_numbers(cells[key][1], f"{places[key]}: {key}") for key in ("connectivity", "types"))
+    starts, sizes = from_offsets(np.concatenate([[0], cells["offsets"][1]]), len(numbers), places["offsets"])
+    for key, count in (("PointData", piece.points), ("CellData", piece.cells)):
+        for array, values in sections[key].values():
+            _require_rows(file, array, values, count)
+    data = {site: {key: values for key, (_, values) in sections[site].items()} for site in ("PointData", "CellData")}
+    return {"points": points.astype(float), "numbers": numbers, "starts": starts, "sizes": sizes, "types": types, **data}
+
+
+def _require_rows(file: _File, array: _Array, values: np.ndarray, count: int) -> None:
+    if len(values) != count:
+        raise file.fail(array.line, f"array {array.attributes.get('Name', '')} of {array.section} has {len(values)} rows; the Piece has {count}")
+
+
+def _values(file: _File, array: _Array) -> np.ndarray:
+    """(n, components)."""
+    name, how = array.attributes.get("Name", ""), array.attributes.get("format", "ascii")
+    if how == "ascii":
+        from .formats.files import numbers_of
+
+        values = numbers_of("".join(array.text), file.name, array.text_line or array.line)
+    elif how in ("binary", "appended"):
+        order = ">" if file.root.get("byte_order") == "BigEndian" else "<"
+        dtype = np.dtype(order + _TYPES[array.attributes["type"]])
+        content = _decoded(file, array, how, order)
+        if len(content) % dtype.itemsize:
+            raise file.fail(array.line, f"array {name} has {len(content)} bytes, of numbers with {dtype.itemsize}")
+        values = np.frombuffer(content, dtype).astype(dtype.newbyteorder("="))
+    else:
+        raise file.fail(array.line, f"array {name} in format {how[:20]!r}, which is not read")
+    width = array.attributes.get("NumberOfComponents") or "1"
+    if not re.fullmatch(r"\s*[1-9]\d{0,3}\s*", width) or len(values) % int(width):
+        raise file.fail(array.line, f"array {name} has {len(values)} numbers in rows of {width[:20]}")
+    return values.reshape(-1, int(width))
+
+
+def _decoded(file: _File, array: _Array, how: str, order: str) -> bytes:
+    """The bytes of an array: after a head of their number or, packed, of the blocks' sizes."""
+    name = array.attributes.get("Name", "")
+    head = np.dtype(order + ("u8" if file.root.get("header_type") == "UInt64" else "u4"))
+    raw, source = False, "".join("".join(array.text).split()).encode()
+    if how == "appended":
+        offset = array.attributes.get("offset", "")
+        if not re.fullmatch(r"\s*\d{1,18}\s*", offset) or int(offset) >= len(file.appended):
+            raise file.fail(array.line, f"array {name} at offset {offset[:20]!r} of {len(file.appended)} appended bytes")
+        raw, source = file.raw, file.appended[int(offset) :]
+    take = _take_raw if raw else _take_base64
+    try:
+        if not file.root.get("compressor"):
+            size = int(np.frombuffer(take(source, 0, head.itemsize), head)[0])
+            return take(source, 0, head.itemsize + size)[head.itemsize :]
+        count = int(np.frombuffer(take(source, 0, head.itemsize), head)[0])
+        sizes = np.frombuffer(take(source, 0, head.itemsize * (3 + count)), head)[3:].astype(np.int64)
+        begin = head.itemsize * (3 + count) if raw else 4 * -(-head.itemsize * (3 + count) // 3)  # the head is encoded by itself
+        ends = np.cumsum(sizes)
+        if (sizes < 0).any() or (len(ends) and ends[-1] > len(source)):
+            raise ValueError("blocks beyond the end")
+        packed = take(source, begin, int(ends[-1]) if len(ends) else 0)
+        return b"".join(_UNPACK[file.root["compressor"]](packed[e - s : e]) for s, e in zip(sizes, ends, strict=True))
+    except (ValueError, binascii.Error, zlib.error, lzma.LZMAError, EOFError, OverflowError) as error:
+        raise file.fail(array.line, f"array {name} is cut or damaged ({error})") from error
+
+
+def _take_raw(source: bytes, start: int, count: int) -> bytes:
+    if start + count > len(source):
+        raise ValueError(f"{count} bytes are needed, {max(len(source) - start, 0)} are left")
+    return source[start : start + count]
+
+
+def _take_base64(source: bytes, start: int, count: int) -> bytes:
+    """The first `count` bytes that are encoded from `start` on."""
+    characters = 4 * -(-count // 3)
+    if start + characters > len(source):
+        raise ValueError(f"{characters} characters are needed, {max(len(source) - start, 0)} are left")
+    return base64.b64decode(source[start : start + characters], validate=True)[:count]
