@@ -276,9 +276,9 @@ def test_repair_is_advised_only_where_it_may_help(tmp_path):
 def test_unpacked_input_goes_after_an_interrupt(tmp_path):
     scratch = tmp_path / "scratch"
     scratch.mkdir()
-    packed = tmp_path / "slow.vtk.gz"
+    packed = tmp_path / "slow.vtp.gz"  # VTK reads files only
     with gzip.open(packed, "wb", compresslevel=1) as file:
-        for _ in range(400):
+        for _ in range(200):
             file.write(b"0 " * 1_000_000)
     command = [sys.executable, "-m", "octafield.cli", "info", str(packed)]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env={**os.environ, "TMPDIR": str(scratch)})
