@@ -13,6 +13,7 @@ import algohex_reader as algohex
 import meshio
 import numpy as np
 import other_readers as readers
+import other_writers as writers
 import pyvista
 from scipy.spatial.transform import Rotation
 
@@ -132,7 +133,7 @@ def read(mesh: octafield.TetMesh, folder: Path) -> list[Row]:
         frames = frames_at(mesh, where)
         path = folder / f"theirs-{name}-{where}{suffix}"
         theirs = writer(path, frames)
-        ours = octafield.read_frames(path, mesh, name)
+        ours = octafield.read_frames(path, mesh, name, where=where if name == "geogram-centres" else None)
         assert ours.where == where
         expected = frames if theirs is None else theirs
         found.append(Row(name, where, "read", other, verdict(expected, ours.frames)))
@@ -142,6 +143,15 @@ def read(mesh: octafield.TetMesh, folder: Path) -> list[Row]:
     row("ff3", "tets", ".ff3", "numpy.savetxt", lambda p, q: np.savetxt(p, nine(q), fmt="%.17g", header=f"9 {len(q)}", comments=""))
     row("geogram", "tets", ".txt", "numpy.savetxt", lambda p, q: np.savetxt(p, nine(q).reshape(-1, 3), fmt="%.17g"))
     row("qtn", "tets", ".qtn", "numpy", lambda p, q: p.write_text(" ".join(map(repr, q.ravel().tolist())) + " ") and None)
+    points, tets = np.asarray(mesh.vertices), np.asarray(mesh.tets)
+    centres, parser = points[tets].mean(axis=1), "independent writer"
+    row("geogram-centres", "tets", ".txt", parser, lambda p, q: writers.geogram_centres(p, centres, axes(q)))
+    row("geogram-centres", "vertices", ".txt", parser, lambda p, q: writers.geogram_centres(p, points, axes(q)))
+    row("fra", "tets", ".fra", parser, lambda p, q: writers.fra(p, axes(q)))
+    row("bfra", "tets", ".bfra", parser, lambda p, q: writers.bfra(p, axes(q)))
+    for where, key, code, name in (("tets", "CProp", 3, "FrameFieldQuaternions"), ("vertices", "VProp", 0, "vertex quaternion")):
+        row("ovm", where, ".ovm", parser, lambda p, q, key=key: writers.ovm(p, points, tets, key, q))
+        row("ovmb", where, ".ovmb", parser, lambda p, q, code=code, name=name: writers.ovmb(p, points, tets, code, name, q))
     row("npy", "tets", ".npy", "numpy", np.save)
     row("npz", "vertices", ".npz", "numpy", lambda p, q: np.savez(p, frames=q, where="vertices"))
     row("mouette", "tets", ".frame", "mouette 1.2.8", lambda p, q: by_mouette(p, mesh, q, folder))
@@ -226,10 +236,13 @@ def put_on_page(begin: str, table: str) -> None:
 
 
 if __name__ == "__main__":
+    import mesh_table
     from conftest import box_tets
 
     with tempfile.TemporaryDirectory() as name:
         table = table_of(rows(box_tets(3), Path(name)))
     put_on_page(FORMATS_BEGIN, table_of_formats())
+        meshes = mesh_table.table_of(mesh_table.rows(Path(name)))
     put_on_page(BEGIN, table)
-    sys.stdout.write(table)
+    put_on_page(mesh_table.BEGIN, meshes)
+    sys.stdout.write(table + meshes)

@@ -121,8 +121,6 @@ def test_the_pipeline_runs_in_the_tets(tmp_path):
     grid = pyvista.read(tmp_path / "field.vtu")
     np.testing.assert_allclose(grid.cell_data["quaternion"], result.tet_frames, atol=1e-15)
     np.testing.assert_allclose(grid.cell_data["frame_w"], of.rotation_matrices(result.tet_frames)[:, :, 2], atol=1e-12)
-    with pytest.raises(of.InvalidInput, match="sampling"):
-        of.compare([write_cube(tmp_path)], tmp_path / "out", options=FieldOptions(sampling="tets"))
 
 
 def test_the_command_line_writes_tets_and_lengths(tmp_path):

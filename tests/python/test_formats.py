@@ -3,6 +3,7 @@
 import gzip
 from dataclasses import replace
 
+import mesh_table
 import numpy as np
 import other_readers as readers
 import pytest
@@ -31,6 +32,10 @@ def test_the_table_of_round_trips_in_the_docs_is_what_this_run_finds(mesh, tmp_p
     lines = on_page().splitlines()
     here = [line for line in lines if "|" not in line or available((line.split("|") + [""] * 4)[4].strip())]
     assert here == table_of(rows(mesh, tmp_path)).splitlines(), "PYTHONPATH=tests/python python tests/python/format_table.py"
+
+
+def test_the_table_of_mesh_round_trips_in_the_docs_is_what_this_run_finds(tmp_path):
+    assert on_page(mesh_table.BEGIN) == mesh_table.table_of(mesh_table.rows(tmp_path)), "PYTHONPATH=tests/python python tests/python/format_table.py"
 
 
 def test_the_list_of_formats_in_the_docs_is_that_of_the_program():
