@@ -241,8 +241,8 @@ if __name__ == "__main__":
 
     with tempfile.TemporaryDirectory() as name:
         table = table_of(rows(box_tets(3), Path(name)))
-    put_on_page(FORMATS_BEGIN, table_of_formats())
         meshes = mesh_table.table_of(mesh_table.rows(Path(name)))
+    put_on_page(FORMATS_BEGIN, table_of_formats())
     put_on_page(BEGIN, table)
     put_on_page(mesh_table.BEGIN, meshes)
     sys.stdout.write(table + meshes)
