@@ -18,10 +18,10 @@ from .errors import InvalidInput, IoError
 if TYPE_CHECKING:
     import pyvista
 
-_listeners: list[Callable[[Path, bool], None]] = []  # called with (path, alive) when a staging folder appears or goes, see supervise.py
+_listeners: list[Callable[[Path, bool], object]] = []  # called with (path, alive) when a staging folder appears or goes, see supervise.py
 
 
-def on_staging(listener: Callable[[Path, bool], None]) -> None:
+def on_staging(listener: Callable[[Path, bool], object]) -> None:
     """Has `listener(path, alive)` called whenever a staging folder is made or goes."""
     _listeners.append(listener)
 

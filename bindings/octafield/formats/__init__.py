@@ -31,7 +31,7 @@ frame_formats: Mapping[str, FrameFormat] = MappingProxyType(FORMATS)
 
 
 def read_frames(
-    path: str | Path, mesh: TetMesh | str | Path | None = None, format: str | None = None, *, where: str | None = None
+    path: str | Path, mesh: TetMesh | Input | str | Path | None = None, format: str | None = None, *, where: str | None = None
 ) -> FrameFile:
     """The frames of a file, as unit quaternions, with what else it holds.
 
