@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .records import Method, Problem, Results, Run, Setting
+from .records import Method, Problem, Results, Setting
 
 EQUAL = 1e-4  # relative: energies closer than this are not ranked
 
