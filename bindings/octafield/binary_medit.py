@@ -3,7 +3,10 @@
 meshio reads these too, but stops at keywords it does not know and takes files that end early as they are. Layout: libMeshb, sources/libmeshb7.c.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
+from numpy.typing import DTypeLike
 
 from .errors import IoError
 from .text_meshes import TextMesh
@@ -52,7 +55,7 @@ def read_binary_medit(data: bytes, name: str) -> TextMesh:
     return mesh
 
 
-def _keywords(data: bytes, name: str, word: str, place: str):
+def _keywords(data: bytes, name: str, word: str, place: str) -> Iterator[tuple[int, int, int]]:
     """Code, first byte after the head and last byte of each part of the file; every part tells where the next begins."""
     at, head = 8, 4 + np.dtype(place).itemsize
     while True:
@@ -70,7 +73,7 @@ def _keywords(data: bytes, name: str, word: str, place: str):
         at = following
 
 
-def _numbers(data: bytes, name: str, at: int, end: int, kind, count: int) -> np.ndarray:
+def _numbers(data: bytes, name: str, at: int, end: int, kind: DTypeLike, count: int) -> np.ndarray:
     size = np.dtype(kind).itemsize * count
     if size > end - at:
         raise IoError(f"{name}, byte {at}: {count} elements take {size} bytes, {end - at} are left of their keyword")

@@ -1,6 +1,7 @@
 """Captions of pictures: facts from the data, as sentences."""
 
 from fractions import Fraction
+from typing import Any
 
 from ._core import SurfaceSingularities
 
@@ -21,7 +22,7 @@ def of_surface(found: SurfaceSingularities) -> str:
     return f"The cross field has {points}; {sums}." + (" Points on the far side are hidden." if indices else "")
 
 
-def of_curves(record: dict) -> str:
+def of_curves(record: dict[str, Any]) -> str:
     """What the singular graph consists of."""
     kinds = record["singular_edges_by_turns"]
     names = {"+1": "valence 3", "-1": "valence 5", "+2": "valence 2", "-2": "valence 6", "complex": "complex"}
@@ -37,13 +38,13 @@ def of_curves(record: dict) -> str:
     return f"The field has {what} in {curves}, with {ends}." + (f" At {bad} it is unlike any hex mesh." if bad else "")
 
 
-def _not_meshable(record: dict) -> str:
+def _not_meshable(record: dict[str, Any]) -> str:
     counts = (("non_meshable_vertices", "place"), ("non_meshable_feature_edges", "feature edge"), ("non_meshable_corners", "corner"))
     parts = [counted(record[key], word) for key, word in counts if record.get(key)]
     return " and ".join(filter(None, [", ".join(parts[:-1]), *parts[-1:]]))
 
 
-def of_streamlines(record: dict) -> str:
+def of_streamlines(record: dict[str, Any]) -> str:
     """Where streamlines end."""
     names = {"singular": "at singular curves", "boundary": "on the surface", "closed": "of closed curves",
              "length": "at the greatest length", "stuck": "stuck", "seed": "at seeds"}  # fmt: skip

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 from .errors import InvalidInput
 from .given_fields import FieldSource, GivenField, given_fields
@@ -20,6 +21,9 @@ from .pipeline import FieldResult, Problem, prepare, run
 from .report import PAGE_FILE, Report, Run, write_report
 from .results import write_analysis, write_field_result
 from .whole import Whole
+
+if TYPE_CHECKING:
+    from .pictures import Picture
 
 ROWS_FILE = "results.json"
 _MOST_CURVES = 3  # pictures of singular curves per boundary treatment
@@ -35,10 +39,10 @@ class _Section:
     folder: Path
     options: FieldOptions
     several_seeds: bool
-    rows: list[dict] = field(default_factory=list)
-    pictures: dict[str, list] = field(default_factory=dict)
-    drawn: dict[str, set[tuple]] = field(default_factory=dict)
-    given: dict[str, dict] = field(default_factory=dict)
+    rows: list[dict[str, Any]] = field(default_factory=list)
+    pictures: "dict[str, list[Picture]]" = field(default_factory=dict)
+    drawn: dict[str, set[tuple[str, ...]]] = field(default_factory=dict)
+    given: dict[str, dict[str, Any]] = field(default_factory=dict)
 
     def new_folder(self, run: str) -> str:
         """Makes it; its name."""
@@ -51,7 +55,7 @@ class _Section:
 class Comparison:
     """rows: one record per run, in the order of the report. folder: where everything was written."""
 
-    rows: list[dict]
+    rows: list[dict[str, Any]]
     folder: Path
 
     def to_html(self) -> str:
@@ -95,7 +99,7 @@ def compare(
     _check(inputs, representations, boundaries, options)
     seeds = integer_in("seeds", seeds, 1, LARGEST_SEED - options.seed + 1)
     with staged_folder(output, ROWS_FILE) as folder:
-        rows: list[dict] = []
+        rows: list[dict[str, Any]] = []
         sections: list[_Section] = []
         # All are read before the first run: an unfit one should not cost the time of those before it.
         reports = [_labelled(progress, _short_name(source)) for source in inputs]
@@ -113,7 +117,7 @@ def compare(
                 if seed != options.seed:
                     whole.begins()
                 problem = prepare(meshed, seed, whole.labelled(name))
-                whole.prepared(len(meshed.tets.tets))
+                whole.prepared(len(meshed.volume().tets.tets))
                 _run_all(problem, section, steps, whole)
                 _add_given(problem, section, boundaries, given)
             sections.append(section)
@@ -177,7 +181,7 @@ def _add_given(problem: Problem, section: _Section, boundaries: Sequence[str], g
         section.rows += [{**row, "boundary": options["boundary"], "options": options} for options in chosen]
 
 
-def _row(record: dict, folder: str) -> dict:
+def _row(record: dict[str, Any], folder: str) -> dict[str, Any]:
     return {**record, "folder": folder, "files": [f"{folder}/{file}" for file in record["files"]]}
 
 
@@ -188,7 +192,7 @@ def _report(sections: list[_Section], folder: Path) -> Report:
     return Report(f"Frame fields on {names}", runs, pictures, files=(ROWS_FILE,))
 
 
-def _surface_pictures(problem: Problem) -> list:
+def _surface_pictures(problem: Problem) -> "list[Picture]":
     from . import pictures, scene  # brings VTK, which nothing else in the package needs when it is imported
 
     if not scene.can_draw():
@@ -197,7 +201,7 @@ def _surface_pictures(problem: Problem) -> list:
     return [pictures.surface_cross_field(problem)]
 
 
-def _volume_pictures(section: _Section, result: FieldResult, label: str) -> list:
+def _volume_pictures(section: _Section, result: FieldResult, label: str) -> "list[Picture]":
     """Of the first method with a boundary treatment: singular curves, frames on a cut, and streamlines once per input, since
     they differ little. Of another: singular curves where they differ in kind."""
     from . import pictures, scene
@@ -218,7 +222,7 @@ def _volume_pictures(section: _Section, result: FieldResult, label: str) -> list
     return [replace(picture, title=f"{picture.title} ({label})") for picture in chosen]
 
 
-def _pictures_of_given(name: str, result: AnalysedField) -> list:
+def _pictures_of_given(name: str, result: AnalysedField) -> "list[Picture]":
     from . import pictures, scene
 
     if not scene.can_draw() or not result.record["singular_edges"]:
@@ -227,7 +231,7 @@ def _pictures_of_given(name: str, result: AnalysedField) -> list:
     return [replace(picture, title=f"{picture.title} ({name})")]
 
 
-def _check(inputs: Sequence, representations: Sequence[str], boundaries: Sequence[str], options: FieldOptions) -> None:
+def _check(inputs: Sequence[Source], representations: Sequence[str], boundaries: Sequence[str], options: FieldOptions) -> None:
     if not inputs or not representations or not boundaries:
         raise InvalidInput(
             "a comparison needs at least one input, representation and boundary treatment", "nothing_to_compare"

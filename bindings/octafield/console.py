@@ -18,6 +18,7 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeEl
 
 from .errors import REPAIRABLE, Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from .output import write_json
+from .phases import Progress as Callback
 from .time_left import PhaseTimeLeft, words
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -127,7 +128,7 @@ def report_notes(record: dict[str, Any]) -> None:
 
 
 @contextlib.contextmanager
-def progress_bar(quiet: bool, whole: bool = False) -> Iterator:
+def progress_bar(quiet: bool, whole: bool = False) -> Iterator[Callback | None]:
     """Yields a progress callback; None when quiet. Draws on stderr when that is a terminal, else writes a plain line there now and
     then. whole: what is reported is one piece of work, whose text tells the time left itself; else phases, one after the other."""
     if quiet:
@@ -140,7 +141,7 @@ def progress_bar(quiet: bool, whole: bool = False) -> Iterator:
 
 
 @contextlib.contextmanager
-def _drawn(whole: bool) -> Iterator:
+def _drawn(whole: bool) -> Iterator[Callback]:
     columns = (
         SpinnerColumn(),
         TextColumn("{task.description}", markup=False),

@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from .errors import InvalidInput, IoError
-from .formats import FrameFile, find_format, read_frames, write_frames
+from .formats import FrameFile, read_frames, write_frames
 from .formats.files import plain_name
 from .formats.meshes import MESH_SUFFIXES, write_mesh
-from .formats.registry import FORMATS
+from .formats.registry import FORMATS, READERS, WRITERS, find_format
 from .inputs import SURFACE_SUFFIXES, Input, from_mesh, naming, read_input
 from .options import SIZES, require_one_of
 from .sizes import with_sizes
@@ -27,7 +28,7 @@ class Conversion:
     where: str | None = None
     deviation_deg: float = 0.0
     notes: list[str] = field(default_factory=list)
-    sizes: dict = field(default_factory=dict, repr=False)
+    sizes: dict[str, Any] = field(default_factory=dict, repr=False)
 
 
 def convert_file(
@@ -49,10 +50,10 @@ def convert_file(
     source, target = Path(source), Path(target)
     frames = _frames(source, mesh, from_format)
     if to_format is None and not _writes_frames(target) and not _is_mesh(target):
-        kinds = " ".join(sorted({*MESH_SUFFIXES, *(e for f in FORMATS.values() if f.write for e in f.extensions)}))
+        kinds = " ".join(sorted({*MESH_SUFFIXES, *(e for name in WRITERS for e in FORMATS[name].extensions)}))
         raise IoError(f"{target}: unknown kind of file; known are {kinds}, also .gz")
     if frames is not None and (to_format is not None or _writes_frames(target)):
-        curls: dict = {}
+        curls: dict[str, Any] = {}
         if sizes != "none":
             frames, curls = with_sizes(frames, find_format(target, to_format, to_write=True), "tets" if combed else at, sizes)
         notes = write_frames(
@@ -95,7 +96,7 @@ def _mesh_of(source: Path, frames: FrameFile | None, mesh: str | Path | None, ed
 
 def _frames(source: Path, mesh: str | Path | None, name: str | None) -> FrameFile | None:
     """None where the file is one of a mesh alone."""
-    if name is None and not any(f.read and f.owns(source) for f in FORMATS.values()):
+    if name is None and not any(FORMATS[known].owns(source) for known in READERS):
         return None
     if name is not None or not find_format(source, None).holds_mesh or not _is_mesh(source):
         return read_frames(source, mesh, name)
@@ -112,7 +113,7 @@ def _is_mesh(path: Path) -> bool:
 
 
 def _writes_frames(path: Path) -> bool:
-    return any(f.write and f.owns(path) for f in FORMATS.values())
+    return any(FORMATS[name].owns(path) for name in WRITERS)
 
 
 def _site_in_file(target: Path, name: str | None, where: str) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 from . import _core
 from .errors import InvalidInput
 from .formats import FrameFile, read_frames
+from .formats.base import mesh_of
 from .formats.files import plain_name
 from .formats.meshes import MESH_SUFFIXES
 from .imported import AnalysedField, analyse
@@ -39,7 +40,7 @@ def frames_at(found: FrameFile, where: str) -> np.ndarray:
         return found.frames
     move = _core.tet_frames if where == "tets" else _core.vertex_frames
     found.notes.append(f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around")
-    return np.asarray(move(found.mesh, found.frames))
+    return np.asarray(move(mesh_of(found), found.frames))
 
 
 def polish_file(source: str, start: Path, options: FieldOptions, progress: Progress | None = None) -> FieldResult:

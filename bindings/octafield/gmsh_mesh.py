@@ -9,16 +9,20 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .errors import IoError
 
+if TYPE_CHECKING:
+    import meshio
+
 _CUT = ": the file is cut or damaged; write or download it again"
 _CELLS = {15: ("vertex", 1), 1: ("line", 2), 2: ("triangle", 3), 3: ("quad", 4), 4: ("tetra", 4), 5: ("hexahedron", 8), 6: ("wedge", 6), 7: ("pyramid", 5)}
 _HIGHER = {8: 3, 9: 6, 10: 9, 11: 10, 12: 27, 13: 18, 14: 14, 16: 8, 17: 20, 18: 15, 19: 13, 20: 9, 21: 10, 22: 12, 23: 15, 24: 15, 25: 21, 26: 4, 27: 5,
            28: 6, 29: 20, 30: 35, 31: 56, 92: 64, 93: 125}  # fmt: skip
+_View = tuple[str, np.ndarray, np.ndarray]  # name, ids, values
 _VOLUME, _FLAT = {11, 29, 30, 31}, {9, 10, 16, 20, 21, 22, 23, 24, 25}
 
 
@@ -107,8 +111,8 @@ class _Elements:
     geometrical: np.ndarray
 
 
-def read_gmsh(data: bytes, name: str) -> Any:
-    """A meshio.Mesh with cell data gmsh:physical and gmsh:geometrical (0: none) and the views; where a view has no value: nan."""
+def read_gmsh(data: bytes, name: str) -> "meshio.Mesh":
+    """With cell data gmsh:physical and gmsh:geometrical (0: none) and the views; where a view has no value: nan."""
     sections = list(_sections(data.removeprefix(codecs.BOM_UTF8), name))
     version = _version(sections[0])
     order = sections[0].order
@@ -117,7 +121,7 @@ def read_gmsh(data: bytes, name: str) -> Any:
     wide = version >= 4
     physical: dict[tuple[int, int], int] = {}
     tags, points, runs = np.empty(0, np.int64), np.empty((0, 3)), list[_Elements]()
-    views: dict[str, list[tuple[str, np.ndarray, np.ndarray]]] = {"NodeData": [], "ElementData": []}
+    views: dict[str, list[_View]] = {"NodeData": [], "ElementData": []}
     for section in sections:
         if section.name == "Entities" and wide:
             physical = _entities(section)
@@ -258,8 +262,7 @@ def _elements4(section: _Section, physical: dict[tuple[int, int], int]) -> Itera
         yield _Elements(kind, table[:, 0], table[:, 1:], group, np.full(number, entity))
 
 
-def _view(section: _Section) -> tuple[str, np.ndarray, np.ndarray]:
-    """Name, ids, values."""
+def _view(section: _Section) -> _View:
     names = [section.line().strip('"') for _ in range(min(section.count("words"), 100))]
     for _ in range(min(section.count("real numbers"), 100)):
         section.line()
@@ -275,7 +278,7 @@ def _view(section: _Section) -> tuple[str, np.ndarray, np.ndarray]:
     return names[0], section._whole(np.ascontiguousarray(table[:, 0]), count * (1 + width)), table[:, 1:]
 
 
-def _mesh(name: str, tags: np.ndarray, points: np.ndarray, runs: list[_Elements], views: dict[str, list]) -> Any:
+def _mesh(name: str, tags: np.ndarray, points: np.ndarray, runs: list[_Elements], views: dict[str, list[_View]]) -> "meshio.Mesh":
     import meshio
 
     if len(np.unique(tags)) < len(tags):

@@ -1,9 +1,10 @@
 """Files of cells: what they hold as arrays, by our own readers (of .vtp VTK's), before any meaning is given to it."""
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -11,15 +12,20 @@ from .binary_medit import read_binary_medit
 from .errors import InvalidInput, IoError
 from .gmsh_mesh import read_gmsh
 from .legacy_vtk import read_legacy_vtk
-from .output import scratch_folder
+from .output import read_vtp, scratch_folder
 from .text_meshes import TextMesh, read_medit, read_tetgen
 from .vtu_mesh import read_vtu
+
+if TYPE_CHECKING:
+    import meshio
 
 GRID_SUFFIXES = (".vtk", ".vtu", ".vtp", ".msh", ".mesh", ".meshb", ".node", ".ele", ".ovm", ".ovmb")
 _READERS = {".vtk": read_legacy_vtk, ".vtu": read_vtu, ".msh": read_gmsh}
 MESHIO_SUFFIXES = tuple(_READERS)  # whose readers make objects of meshio's
 _SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
 LOWER = ("vertex", "line", "triangle")
+Blocks = list[tuple[str, np.ndarray]]  # meshio's cell type and the connectivity
+_Read = TypeVar("_Read")
 
 
 @dataclass
@@ -84,8 +90,7 @@ def _grid_of_text(mesh: TextMesh) -> Grid:
     return grid
 
 
-def read_meshio(path: Path, suffix: str):
-    """A meshio.Mesh."""
+def read_meshio(path: Path, suffix: str) -> "meshio.Mesh":
     return _READERS[suffix](_bytes(path), str(path))
 
 
@@ -105,7 +110,7 @@ def _reading(path: Path, suffix: str) -> Iterator[None]:
         raise IoError(f"{path}: cannot be read as {suffix} ({reason})") from error
 
 
-def grid_of_meshio(found) -> Grid:
+def grid_of_meshio(found: "meshio.Mesh") -> Grid:
     blocks = [(block.type, np.asarray(block.data)) for block in found.cells]
     entities = _entity_ids(found, ("CellEntityIds", "gmsh:geometrical"))
     return _grid(found.points, blocks, entities, _regions_of(found, entities))
@@ -121,9 +126,9 @@ def _ovm_grid(path: Path) -> Grid:
     for entity, name, kind, of in (("edge", "AlgoHex::FeatureEdges", "line", mesh.edges), ("face", "AlgoHex::FeatureFaces", "triangle", mesh.triangles())):
         tags = mesh.properties.get((entity, name))
         if tags is not None and tags.ndim == 1:
-            ids = tags[tags > 0].astype(np.int64)
+            marked = tags[tags > 0].astype(np.int64)
             blocks.append((kind, of[tags > 0]))
-            faces.append(ids if len(np.unique(ids)) > 1 else 0 * ids)  # one tag for the whole boundary tells no faces apart
+            faces.append(marked if len(np.unique(marked)) > 1 else 0 * marked)  # one tag for the whole boundary tells no faces apart
     regions = mesh.properties.get(("cell", "region"))
     ids = None if regions is None or regions.ndim != 1 else [regions.astype(np.int64), *faces[1:]]
     if not len(mesh.cells):
@@ -132,14 +137,12 @@ def _ovm_grid(path: Path) -> Grid:
 
 
 def _vtp_grid(path: Path) -> Grid:
-    import pyvista
-
     from .formats.files import read_bytes
 
     data = read_bytes(path)
     with _reading(path, ".vtp"), scratch_folder() as folder:
         (folder / "input.vtp").write_bytes(data)
-        found = _quietly(lambda: pyvista.read(folder / "input.vtp"))
+        found = _quietly(lambda: read_vtp(folder / "input.vtp"))
         flat = found.triangulate() if found.n_cells else found
         if not found.n_points:
             raise IoError(f"{path}: holds no points, or is damaged")
@@ -151,7 +154,7 @@ def _vtp_grid(path: Path) -> Grid:
         return _grid(np.asarray(flat.points, float), blocks, None, None)
 
 
-def _quietly(work):
+def _quietly(work: Callable[[], _Read]) -> _Read:
     """VTK writes about damaged files to stderr and goes on; what it read is tested instead."""
     from vtkmodules.vtkCommonCore import vtkObject
 
@@ -173,7 +176,7 @@ def _line_segments(cells: np.ndarray) -> np.ndarray:
     return np.concatenate(segments) if segments else np.empty((0, 2), np.int64)
 
 
-def _regions_of(found, entities: list[np.ndarray] | None) -> list[np.ndarray] | None:
+def _regions_of(found: "meshio.Mesh", entities: list[np.ndarray] | None) -> list[np.ndarray] | None:
     """Our own files: cell data region, where every number is one. Gmsh: physical volumes where all tets are in one, which is how a
     file says what belongs together (0: in none); else CAD volumes."""
     ours = _entity_ids(found, ("region",))
@@ -184,7 +187,7 @@ def _regions_of(found, entities: list[np.ndarray] | None) -> list[np.ndarray] | 
     return groups if of_tets and all((ids > 0).all() for ids in of_tets) else entities
 
 
-def _entity_ids(found, names: tuple[str, ...]) -> list[np.ndarray] | None:
+def _entity_ids(found: "meshio.Mesh", names: tuple[str, ...]) -> list[np.ndarray] | None:
     """Cell data of the first of these names, per block."""
     for name in names:
         if name in found.cell_data:
@@ -194,7 +197,7 @@ def _entity_ids(found, names: tuple[str, ...]) -> list[np.ndarray] | None:
 
 def _grid(
     points: np.ndarray,
-    blocks: list[tuple[str, np.ndarray]],
+    blocks: Blocks,
     entities: list[np.ndarray] | None,
     regions: list[np.ndarray] | None,
     creases: np.ndarray | None = None,
@@ -210,14 +213,15 @@ def _grid(
     return Grid(in_space, _joined(blocks), of_triangles, of_tets, creases)
 
 
-def _of_kind(kind: str, blocks: list[tuple[str, np.ndarray]], ids: list[np.ndarray]) -> np.ndarray | None:
+def _of_kind(kind: str, blocks: Blocks, ids: list[np.ndarray]) -> np.ndarray | None:
     chosen = [i for (name, data), i in zip(blocks, ids, strict=True) if name == kind and len(data)]
     return np.concatenate(chosen) if chosen else None
 
 
-def _split_sides(blocks: list[tuple[str, np.ndarray]], ids: list[np.ndarray] | None) -> tuple[list, list | None]:
+def _split_sides(blocks: Blocks, ids: list[np.ndarray] | None) -> tuple[Blocks, list[np.ndarray] | None]:
     """Quads as two triangles each, with the face of the quad."""
-    split, split_ids = [], []
+    split: Blocks = []
+    split_ids: list[np.ndarray] = []
     for number, (kind, data) in enumerate(blocks):
         if kind == "polygon" and data.ndim == 2:
             kind = {3: "triangle", 4: "quad"}.get(data.shape[1], kind)
@@ -228,7 +232,7 @@ def _split_sides(blocks: list[tuple[str, np.ndarray]], ids: list[np.ndarray] | N
     return split, split_ids if ids is not None else None
 
 
-def _joined(blocks: list[tuple[str, np.ndarray]]) -> dict[str, np.ndarray]:
+def _joined(blocks: Blocks) -> dict[str, np.ndarray]:
     """Connectivity per cell type. Blocks of one type differ in width for polygons only, which are merely counted."""
     cells: dict[str, list[np.ndarray]] = {}
     for kind, data in blocks:

@@ -85,7 +85,7 @@ def analyse(
     meshed = mesh if isinstance(mesh, MeshedInput) else prepare_mesh(mesh, options, progress=progress)
     if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):
         raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
-    values, options = fitting_frames(meshed.tets, frames, where), replace(options, sampling=where)
+    values, options = fitting_frames(meshed.volume().tets, frames, where), replace(options, sampling=where)
     found = judged(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
     found.record["options"] = asdict(options)
     return found

@@ -4,7 +4,7 @@ import contextlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,6 +17,13 @@ from .output import require_utf8
 
 SURFACE_SUFFIXES = (".stl", ".obj", ".off", ".ply")
 _VOLUMES = ("tetra", "hexahedron", "wedge", "pyramid", "penta", "voxel", "polyhedron")  # meshio's names begin so
+
+
+class TetPart(NamedTuple):
+    """Of an Input that has tets."""
+
+    tets: TetMesh
+    boundary: BoundarySurface
 
 
 @dataclass
@@ -49,6 +56,19 @@ class Input:
     @property
     def kind(self) -> str:
         return "surface" if self.tets is None else "tets"
+
+    def volume(self) -> TetPart:
+        """The tets and their surface. Raises InvalidInput where the input is a surface."""
+        if self.tets is None or self.boundary is None:
+            raise InvalidInput(f"{self.name}: holds triangles; tets are needed", "not_tets")
+        return TetPart(self.tets, self.boundary)
+
+    def features_of_tets(self) -> np.ndarray | None:
+        """(n, 2) feature edges given by the file, vertex ids of `tets`; None where it has no lines or they are not features."""
+        if self.lines is None or not self.lines_are_features():
+            return None
+        features: np.ndarray = np.asarray(self.volume().boundary.vertex_map)[self.lines]
+        return features
 
     def lines_are_features(self) -> bool:
         """Line cells mark features (none where all are seams) unless they list the edges of the mesh itself, as Medit
@@ -212,9 +232,9 @@ def with_regions(found: Any, regions: np.ndarray | None) -> Any:
 
 def _to_boundary(found: Input, new_id: np.ndarray) -> np.ndarray:
     """Surface vertex of each point of the file; -1: none."""
-    assert found.tets is not None and found.boundary is not None
-    to_boundary = np.full(len(found.tets.vertices), -1)
-    to_boundary[np.asarray(found.boundary.vertex_map)] = np.arange(len(found.surface.vertices))
+    tets, boundary = found.volume()
+    to_boundary = np.full(len(tets.vertices), -1)
+    to_boundary[np.asarray(boundary.vertex_map)] = np.arange(len(found.surface.vertices))
     result: np.ndarray = np.append(to_boundary, -1)[new_id]
     return result
 

@@ -6,12 +6,15 @@ meshio reads these too, but takes tables that end early as they are, knows no NO
 import codecs
 import re
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote
 
 import numpy as np
 
 from .errors import InvalidInput, IoError
+
+if TYPE_CHECKING:
+    import meshio
 
 _TYPES = {
     "bit": "u1", "unsigned_char": "u1", "char": "i1", "unsigned_short": "u2", "short": "i2", "unsigned_int": "u4", "int": "i4", "unsigned_long": "u8",
@@ -89,8 +92,7 @@ class _File:
             raise IoError(f"{self.place()}: {what} needs {count} bytes, {len(self.data) - self.at} are left")
 
 
-def read_legacy_vtk(data: bytes, name: str) -> Any:
-    """A meshio.Mesh."""
+def read_legacy_vtk(data: bytes, name: str) -> "meshio.Mesh":
     data = data.removeprefix(codecs.BOM_UTF8)
     file = _File(data, name)
     if not data.startswith(b"# vtk DataFile Version"):
@@ -204,7 +206,7 @@ def _skip_strings(file: _File, count: int) -> None:
         file.at += size + length
 
 
-def _mesh(file: _File, parts: dict[str, Any]) -> Any:
+def _mesh(file: _File, parts: dict[str, Any]) -> "meshio.Mesh":
     at, count, numbers, offsets = parts["CELLS"]
     types = parts["CELL_TYPES"]
     place = file.place(at)
@@ -226,8 +228,8 @@ Arrays = dict[str, np.ndarray]
 
 def mesh_of_cells(
     points: np.ndarray, numbers: np.ndarray, starts: np.ndarray, sizes: np.ndarray, types: np.ndarray, of_points: Arrays, of_cells: Arrays, place: str
-) -> Any:
-    """A meshio.Mesh with a block per run of cells of one kind. numbers: ids of all cells. starts, sizes: where each cell's are. Arrays: (n, components)."""
+) -> "meshio.Mesh":
+    """With a block per run of cells of one kind. numbers: ids of all cells. starts, sizes: where each cell's are. Arrays: (n, components)."""
     import meshio
 
     known = np.array([_SIZES.get(kind, -1) for kind in range(256)])[np.clip(types, 0, 255)]
@@ -245,7 +247,7 @@ def mesh_of_cells(
 def _kind(vtk_type: int) -> str:
     from meshio._vtk_common import vtk_to_meshio_type
 
-    return vtk_to_meshio_type.get(int(vtk_type), f"VTK type {vtk_type}")
+    return str(vtk_to_meshio_type.get(int(vtk_type), f"VTK type {vtk_type}"))
 
 
 def _extents(numbers: np.ndarray, types: np.ndarray, place: str) -> tuple[np.ndarray, np.ndarray]:

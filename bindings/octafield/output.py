@@ -11,14 +11,17 @@ import shutil
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .errors import InvalidInput, IoError
 
-_listeners: list[Callable[[Path, bool], None]] = []  # called with (path, alive) when a staging folder appears or goes, see supervise.py
+if TYPE_CHECKING:
+    import pyvista
+
+_listeners: list[Callable[[Path, bool], object]] = []  # called with (path, alive) when a staging folder appears or goes, see supervise.py
 
 
-def on_staging(listener: Callable[[Path, bool], None]) -> None:
+def on_staging(listener: Callable[[Path, bool], object]) -> None:
     """Has `listener(path, alive)` called whenever a staging folder is made or goes."""
     _listeners.append(listener)
 
@@ -104,8 +107,17 @@ def write_file(path: Path, content: bytes) -> None:
         raise IoError(f"{path}: cannot write there ({error.strerror})") from error
 
 
-def vtp_bytes(surface: Any) -> bytes:
-    """A .vtp file of a pyvista.PolyData, in memory: VTK's writers of files end the process where the disk is full."""
+def read_vtp(path: Path) -> "pyvista.PolyData":
+    import pyvista
+
+    found = pyvista.read(path)
+    if not isinstance(found, pyvista.PolyData):
+        raise IoError(f"{path}: holds neither a surface nor curves")
+    return found
+
+
+def vtp_bytes(surface: "pyvista.PolyData") -> bytes:
+    """A .vtp file in memory: VTK's writers of files end the process where the disk is full."""
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
     writer = vtkXMLPolyDataWriter()

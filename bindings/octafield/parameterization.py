@@ -62,7 +62,8 @@ class ParameterizationInput:
         h = np.array([e.holonomy for e in self.singular.edges], np.int32)
         g = np.asarray(self.combed.element)[first_tets_at(np.asarray(self.mesh.tets), ends)]
         product, inverse = np.asarray(_core.octahedral_product_table()), np.asarray(_core.octahedral_inverse_table())
-        return product[product[inverse[g], h], g]
+        conjugates: np.ndarray = product[product[inverse[g], h], g]
+        return conjugates
 
 
 def parameterization_input(
@@ -90,7 +91,7 @@ def with_parts(mesh: TetMesh, features: np.ndarray | None, regions: np.ndarray |
     found: Input = with_regions(from_mesh(mesh), regions)
     if features is not None:
         to_surface = np.full(len(mesh.vertices), -1)
-        to_surface[np.asarray(found.boundary.vertex_map)] = np.arange(len(found.surface.vertices))
+        to_surface[np.asarray(found.volume().boundary.vertex_map)] = np.arange(len(found.surface.vertices))
         found.lines, found.creases = to_surface[features].astype(np.int32), True
         if (found.lines < 0).any():
             raise InvalidInput("features name vertices that are not on the surface", "bad_features")

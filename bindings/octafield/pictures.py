@@ -8,7 +8,9 @@ import numpy as np
 import pyvista
 
 from . import _core, captions, scene
+from ._core import DirectionField, SingularGraph, TriangleMesh
 from .imported import AnalysedField
+from .output import read_vtp
 from .pipeline import Problem
 from .results import polylines
 
@@ -38,8 +40,8 @@ class Picture:
         """PNG for a page: no wider than a column needs, in few colours."""
         from PIL import Image
 
-        with Image.open(io.BytesIO(self.png)) as image:
-            image = image.convert("RGB")
+        with Image.open(io.BytesIO(self.png)) as shot:
+            image = shot.convert("RGB")
         image.thumbnail(PAGE_SIZE, Image.Resampling.LANCZOS)
         data = io.BytesIO()
         scene.fewer_colours(image, 128).save(data, "PNG", optimize=True)
@@ -98,15 +100,17 @@ def singular_scene(result: AnalysedField) -> pyvista.Plotter:
 
 def scene_from_files(surface_file: Path, singular_file: Path) -> pyvista.Plotter:
     """The same from surface.vtp and singular.vtp of a result; sharp edges in place of feature curves."""
-    surface, found = pyvista.read(surface_file), pyvista.read(singular_file)
-    points, curves = np.asarray(surface.points), {}
+    surface, found = read_vtp(surface_file), read_vtp(singular_file)
+    points = np.asarray(surface.points)
+    curves: dict[int, pyvista.PolyData | None] = {}
     radius = 0.0045 * scene.diagonal(points)
     if found.n_lines:
         of = np.array([_kind(int(t)) for t in np.asarray(found.cell_data["quarter_turns"])[found.n_verts :]])
         nodes = np.asarray(found.points)[np.asarray(found.point_data["node"], bool)]
         found.points = np.asarray(found.point_data["smoothed"])
         for kind in set(of):
-            curves[kind] = found.extract_cells(found.n_verts + np.flatnonzero(of == kind)).extract_surface(algorithm=None)
+            cells: np.ndarray = found.n_verts + np.flatnonzero(of == kind)
+            curves[kind] = found.extract_cells(cells).extract_surface(algorithm=None)
     shape = _glass(surface)
     sharp = surface.extract_feature_edges(35, boundary_edges=False, non_manifold_edges=False)
     if sharp.n_cells:
@@ -173,12 +177,12 @@ def frames_on_cut(result: AnalysedField) -> Picture:
 def _glass(surface: pyvista.PolyData) -> pyvista.Plotter:
     """The translucent surface."""
     shape = scene.plotter()
-    shape.enable_depth_peeling(8)
+    pyvista.Plotter.enable_depth_peeling(shape, 8)  # so called, its types are right
     shape.add_mesh(surface, color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
     return shape
 
 
-def _curves(graph) -> dict[int, pyvista.PolyData | None]:
+def _curves(graph: SingularGraph) -> dict[int, pyvista.PolyData | None]:
     points = np.asarray(_core.smoothed_curves(graph).points)
     return {kind: _polylines(graph, points, kind) for kind in TURNS}
 
@@ -207,7 +211,7 @@ def _three_quarter_view(shape: pyvista.Plotter, points: np.ndarray) -> None:
     scene.look(shape, points, -0.45 * along - 0.75 * across + 0.62 * up, up)
 
 
-def _crosses(mesh, field) -> pyvista.PolyData:
+def _crosses(mesh: TriangleMesh, field: DirectionField) -> pyvista.PolyData:
     corners = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
     normals = np.asarray(_core.triangle_normals(mesh))
     directions = np.asarray(_core.triangle_directions(mesh, field))
@@ -237,7 +241,8 @@ def _spread(points: np.ndarray, spacing: float) -> np.ndarray:
 
 def _spheres(centres: np.ndarray, radius: float) -> pyvista.PolyData:
     ball = pyvista.Sphere(radius=radius, theta_resolution=24, phi_resolution=24)
-    return pyvista.PolyData(centres).glyph(geom=ball, scale=False, orient=False)
+    balls: pyvista.PolyData = pyvista.PolyData(centres).glyph(geom=ball, scale=False, orient=False)
+    return balls
 
 
 def _beginning(points: np.ndarray, length: float) -> np.ndarray:
@@ -250,7 +255,7 @@ def _kind(turns: int) -> int:
     return turns if turns in (1, -1, 0) else 2
 
 
-def _polylines(graph, points: np.ndarray, kind: int) -> pyvista.PolyData | None:
+def _polylines(graph: SingularGraph, points: np.ndarray, kind: int) -> pyvista.PolyData | None:
     cells = [
         entry
         for curve, turns in zip(graph.curves, graph.curve_quarter_turns)
@@ -273,5 +278,6 @@ def _cubes(centres: np.ndarray, quaternions: np.ndarray, size: float) -> pyvista
     corners = np.array([[i, j, k] for k in (-1, 1) for j in (-1, 1) for i in (-1, 1)]) * (size / 2)
     faces = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
     points = centres[:, None, :] + np.einsum("nij,cj->nci", rotations, corners)
-    cells = faces[None] + 8 * np.arange(len(centres))[:, None, None]
-    return pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), cells.reshape(-1, 4))
+    cells: np.ndarray = faces[None] + 8 * np.arange(len(centres))[:, None, None]
+    cubes: pyvista.PolyData = pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), cells.reshape(-1, 4))
+    return cubes

@@ -2,17 +2,22 @@
 
 import io
 import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7b8794")
 TEXT = "#010203"  # stands for the page's text colour until the SVG is made
 
 
-def new_figure(width: float, height: float, columns: int = 1, **options):
-    """A figure in inches and its axes, (columns,) side by side; options of matplotlib's subplots."""
-    from matplotlib.figure import Figure
+def new_figure(width: float, height: float, columns: int = 1, *, sharex: bool = False, sharey: bool = False) -> "tuple[Figure, list[Axes]]":
+    """A figure in inches and its axes, side by side."""
+    import matplotlib.figure
 
-    figure = Figure(figsize=(width, height), layout="constrained")
-    every = figure.subplots(1, columns, squeeze=False, **options)[0]
+    figure = matplotlib.figure.Figure(figsize=(width, height), layout="constrained")
+    every: list[Axes] = list(figure.subplots(1, columns, squeeze=False, sharex=sharex, sharey=sharey)[0])
     for axes in every:
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
@@ -25,7 +30,7 @@ def new_figure(width: float, height: float, columns: int = 1, **options):
     return figure, every
 
 
-def to_svg(figure, label: str, salt: str = "") -> str:
+def to_svg(figure: "Figure", label: str, salt: str = "") -> str:
     """An <svg> element for HTML: no prolog, no namespaces (HTML has them built in), no metadata. label: what it shows, HTML.
     salt: unlike that of the other plots of the page, for their ids to be."""
     import matplotlib
@@ -55,5 +60,5 @@ def standalone(svg: str) -> str:
     return svg.replace("<svg", f'<svg {spaces} color="black" font-family="sans-serif" style="background: white"', 1)
 
 
-def _page_font(match: re.Match) -> str:
+def _page_font(match: re.Match[str]) -> str:
     return f"font-size: {match[1]}" if match[1] else "font-family: inherit"

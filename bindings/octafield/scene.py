@@ -3,10 +3,15 @@
 import ctypes
 import io
 import os
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._core import FeatureGraph, TriangleMesh
 from .errors import IoError
+
+if TYPE_CHECKING:
+    from PIL.Image import Image as Picture
 
 if not os.environ.get("DISPLAY"):  # before VTK picks a window: no attempt to reach an X server, no warning about it
     os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
@@ -42,7 +47,7 @@ def _loads(library: str) -> bool:
 def plotter() -> pyvista.Plotter:
     if not can_draw():
         raise IoError(NO_OPENGL, "no_opengl")
-    scene = pyvista.Plotter(off_screen=True, window_size=SIZE, lighting="none")
+    scene = pyvista.Plotter(off_screen=True, window_size=list(SIZE), lighting="none")
     for place, strength in (
         ((-0.6, 0.9, 0.7), 0.45),
         ((0.3, -0.1, 1.0), 0.55),
@@ -50,14 +55,16 @@ def plotter() -> pyvista.Plotter:
         scene.add_light(
             pyvista.Light(position=place, focal_point=(0, 0, 0), light_type="camera light", intensity=strength)
         )
-    scene.set_background("white")
+    scene.background_color = pyvista.Color("white")
     scene.enable_anti_aliasing("ssaa")
     return scene
 
 
-def surface_mesh(mesh) -> pyvista.PolyData:
+def surface_mesh(mesh: TriangleMesh) -> pyvista.PolyData:
     """A TriangleMesh for drawing."""
-    return pyvista.PolyData.from_regular_faces(np.asarray(mesh.vertices), np.asarray(mesh.triangles))
+    triangles: np.ndarray = np.asarray(mesh.triangles)
+    surface: pyvista.PolyData = pyvista.PolyData.from_regular_faces(np.asarray(mesh.vertices), triangles)
+    return surface
 
 
 def segments(starts: np.ndarray, ends: np.ndarray) -> pyvista.PolyData:
@@ -73,7 +80,9 @@ def add_body(scene: pyvista.Plotter, surface: pyvista.PolyData) -> None:
     scene.add_mesh(surface, color=BODY, smooth_shading=True, ambient=0.35, diffuse=0.8, specular=0)
 
 
-def add_features(scene: pyvista.Plotter, mesh, features, width: float = 4.0, behind=None) -> None:
+def add_features(
+    scene: pyvista.Plotter, mesh: TriangleMesh, features: FeatureGraph, width: float = 4.0, behind: tuple[np.ndarray, np.ndarray] | None = None
+) -> None:
     """Feature curves; `behind`: (normal, point) of a plane, only what lies behind it."""
     edges = np.asarray(features.edges)
     if not len(edges):
@@ -109,7 +118,8 @@ def _snapped(axis: np.ndarray) -> np.ndarray:
     nearest = np.abs(axis).argmax()
     if abs(axis[nearest]) < np.cos(np.radians(10)):
         return axis
-    return np.sign(axis[nearest]) * np.eye(3)[nearest]
+    along: np.ndarray = np.sign(axis[nearest]) * np.eye(3)[nearest]
+    return along
 
 
 def look(scene: pyvista.Plotter, points: np.ndarray, direction: np.ndarray, up: np.ndarray) -> None:
@@ -141,7 +151,7 @@ def render(scene: pyvista.Plotter) -> bytes:
     from PIL import Image, ImageChops
 
     try:
-        image = Image.fromarray(scene.screenshot(return_img=True))
+        image = Image.fromarray(np.asarray(scene.screenshot(return_img=True)))
     finally:
         scene.close()
     box = ImageChops.difference(image, Image.new("RGB", image.size, "white")).getbbox()
@@ -157,7 +167,7 @@ def render(scene: pyvista.Plotter) -> bytes:
     return data.getvalue()
 
 
-def fewer_colours(image, colours: int):
+def fewer_colours(image: "Picture", colours: int) -> "Picture":
     """`colours` that fit the picture best, found on every ninth pixel: the time is mostly theirs."""
     from PIL import Image
 
@@ -165,7 +175,7 @@ def fewer_colours(image, colours: int):
     reduced = image.quantize(palette=sample.quantize(colours, kmeans=1), dither=Image.Dither.NONE)
     background = np.array(reduced)[(np.array(image) == 255).all(axis=2)]
     if len(background):  # the mean of almost white colours would make it grey
-        values = reduced.getpalette()
+        values = reduced.getpalette() or []
         start = 3 * int(np.bincount(background).argmax())
         values[start : start + 3] = [255, 255, 255]
         reduced.putpalette(values)

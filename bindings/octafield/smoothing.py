@@ -1,5 +1,7 @@
 """The field of a run: by the whole recipe, or smoothed from frames that are given."""
 
+from typing import NotRequired, TypedDict
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -9,6 +11,15 @@ from .errors import InvalidInput
 from .imported import fitting_frames
 from .options import OF_A_START, FieldOptions
 from .phases import Progress, forward
+
+
+class _How(TypedDict):
+    representation: str
+    max_iterations: int
+    tolerance: float
+    threads: int
+    progress: Progress | None
+    solver: NotRequired[str]
 
 
 def smoothed_field(
@@ -21,14 +32,15 @@ def smoothed_field(
     progress: Progress | None,
 ) -> tuple[SmoothResult, int]:
     """The field and how many steps of the heat flow came before. where: what the frames are smoothed on."""
-    how = {
+    how: _How = {
         "representation": options.representation,
         "max_iterations": options.max_iterations,
         "tolerance": options.tolerance,
         "threads": options.threads,
         "progress": forward(progress, "smooth", 0.0, 1.0),
-        **({} if options.solver == "default" else {"solver": options.solver}),
     }
+    if options.solver != "default":
+        how["solver"] = options.solver
     if start is not None:
         return _core.smooth(where, held, fitting_frames(tets, start, options.sampling), **how), 0
     begin = "cross_field" if options.boundary == "none" else "constraints"

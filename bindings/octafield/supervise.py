@@ -11,6 +11,7 @@ import signal
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import FrameType
 
 from .output import on_staging
 
@@ -47,16 +48,13 @@ def run_supervised(work: Callable[[], int]) -> int:
     if os.WIFEXITED(status):
         return os.WEXITSTATUS(status)
     _remove_staging(reading)
-    number = os.WTERMSIG(status)
-    name = signal.Signals(number).name
-    hint = (
-        "most likely memory ran out" if number == signal.SIGKILL else "a defect of octafield: please report this input"
-    )
-    print(f"octafield: stopped by signal {name}; {hint}", file=sys.stderr, flush=True)
+    fatal = signal.Signals(os.WTERMSIG(status))
+    hint = "most likely memory ran out" if fatal == signal.SIGKILL else "a defect of octafield: please report this input"
+    print(f"octafield: stopped by signal {fatal.name}; {hint}", file=sys.stderr, flush=True)
     return DEFECT
 
 
-def _raise_interrupt(_number, _frame) -> None:
+def _raise_interrupt(_number: int, _frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 

@@ -2,6 +2,7 @@
 
 import sys
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
@@ -11,7 +12,7 @@ from .report.columns import terminal_table
 from .report.records import Results, Run
 
 
-def show_record(record: dict) -> None:
+def show_record(record: dict[str, Any]) -> None:
     facts = []
     for name, value in record.items():
         if name in ("alignment_deg", "feature_alignment_deg", "integrability", "lengths", "wall_seconds"):
@@ -23,13 +24,13 @@ def show_record(record: dict) -> None:
     _facts(record["input"], facts)
 
 
-def show_comparison(rows: list[dict]) -> None:
+def show_comparison(rows: list[dict[str, Any]]) -> None:
     table = terminal_table(Results([Run(row, Path(row["input"]).name) for row in rows]))
     cells = [[column.show(value) for column, value in zip(table.columns, line, strict=True)] for line in table.rows]
     _table([column.name for column in table.columns], cells, left=3)
 
 
-def show_info(record: dict) -> None:
+def show_info(record: dict[str, Any]) -> None:
     facts = [
         (name, f"{value:.8g}" if isinstance(value, float) else str(value))
         for name, value in record.items()
@@ -48,12 +49,13 @@ def show_info(record: dict) -> None:
     )
 
 
-def _fact(requirement: dict) -> str:
+def _fact(requirement: dict[str, Any]) -> str:
     """The message without the remedy, which has a column of its own."""
-    return requirement["message"].removesuffix(f"; {requirement['remedy']}") if requirement["remedy"] else requirement["message"]
+    message = str(requirement["message"])
+    return message.removesuffix(f"; {requirement['remedy']}") if requirement["remedy"] else message
 
 
-def show_doctor(record: dict) -> None:
+def show_doctor(record: dict[str, Any]) -> None:
     facts = [(name, str(value)) for name, value in {**record["versions"], **record["libraries"]}.items() if name != "vtk"]
     facts.append(("VTK of pictures", record["versions"]["vtk"]))
     facts += [("cores", str(record["cores"])), ("memory", f"{record['memory_gb']:g} GB")]
@@ -61,11 +63,14 @@ def show_doctor(record: dict) -> None:
     _table(["", "part", "what was found"], [[c["state"], c["name"], c["message"]] for c in record["checks"]], left=3)
 
 
-def show_registry(record: dict) -> None:
-    speed = lambda entry: "varies" if entry["speed"] is None else f"{entry['speed']:.6g}"
-    rows = [[r["name"], "yes" if r["rotates_linearly"] else "no", str(r["dimension"]), speed(r)] for r in record["representations"]]
+def show_registry(record: dict[str, Any]) -> None:
+    rows = [[r["name"], "yes" if r["rotates_linearly"] else "no", str(r["dimension"]), _speed(r)] for r in record["representations"]]
     _table(["representation", "rotates linearly", "numbers", "per radian"], rows, left=2)
-    _table(["metric", "measures", "per radian"], [[m["name"], m["description"], speed(m)] for m in record["metrics"]], left=2)
+    _table(["metric", "measures", "per radian"], [[m["name"], m["description"], _speed(m)] for m in record["metrics"]], left=2)
+
+
+def _speed(entry: dict[str, Any]) -> str:
+    return "varies" if entry["speed"] is None else f"{entry['speed']:.6g}"
 
 
 def _facts(title: str, facts: list[tuple[str, str]]) -> None:

@@ -127,10 +127,12 @@ def _marked(text: str, name: str, corners: int, base: int, count: int) -> tuple[
     width = max(len(first), 1 + corners + marked)
     table = _table(section, name, width, skip=2, count=rows)[:, : 1 + corners + marked]
     whole = _whole(table)
-    outside = np.ones(1, bool) if whole is None else ((whole[:, 1 : 1 + corners] < base)
-                                                     | (whole[:, 1 : 1 + corners] >= base + count)).any(axis=1)  # fmt: skip
-    if outside.any():
-        bad = int((~((np.abs(table) < 2**53) & (table == np.floor(table)))).any(axis=1).argmax()) if whole is None else int(outside.argmax())
+    if whole is None:
+        outside = ~((np.abs(table) < 2**53) & (table == np.floor(table))).all(axis=1)
+    else:
+        outside = ((whole[:, 1 : 1 + corners] < base) | (whole[:, 1 : 1 + corners] >= base + count)).any(axis=1)
+    if whole is None or outside.any():
+        bad = int(outside.argmax())
         line = _line_of_row(section, bad, width, skip=2)
         raise IoError(f"{name}, line {line}: row {bad + 1} of the {section.name} names a point outside {base} .. {base + count - 1}")
     ids = whole[:, 1 : 1 + corners]
@@ -169,7 +171,7 @@ def _sections(text: str, name: str) -> list[_Section]:
     return sections
 
 
-def _table(section: _Section, name: str, width: int, *, counted=True, whole=False, skip=1, count=None) -> np.ndarray:
+def _table(section: _Section, name: str, width: int, *, counted: bool = True, whole: bool = False, skip: int = 1, count: int | None = None) -> np.ndarray:
     """The rows of a section: after `skip` numbers, the first of them their count (unless it is given)."""
     try:
         numbers = np.fromstring(section.text, sep=" ")

@@ -56,7 +56,10 @@ class PhaseTimeLeft:
         if not self._seen:
             self._begin = now
         self._seen.append((now, fraction))
-        tells = lambda seen: now - seen[0] >= _LEAST_SECONDS and fraction - seen[1] >= _LEAST_FRACTION
+
+        def tells(seen: tuple[float, float]) -> bool:
+            return now - seen[0] >= _LEAST_SECONDS and fraction - seen[1] >= _LEAST_FRACTION
+
         if not tells(self._seen[0]):
             return None
         # The slope over the later half of the time so far: steps of one kind follow those of another.

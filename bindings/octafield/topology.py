@@ -28,4 +28,5 @@ def first_tets_at(tets: np.ndarray, edges: np.ndarray) -> np.ndarray:
     count = int(pairs.max(initial=0)) + 1
     keys, first = np.unique(pairs[:, 0] * count + pairs[:, 1], return_index=True)
     edges = np.asarray(edges).astype(np.int64)
-    return first[np.searchsorted(keys, edges[:, 0] * count + edges[:, 1])] // 6
+    tets_at: np.ndarray = first[np.searchsorted(keys, edges[:, 0] * count + edges[:, 1])] // 6
+    return tets_at

@@ -9,8 +9,9 @@ import binascii
 import lzma
 import re
 import zlib
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from xml.parsers import expat
 
 import numpy as np
@@ -18,8 +19,11 @@ import numpy as np
 from .errors import InvalidInput, IoError
 from .legacy_vtk import from_offsets, mesh_of_cells, whole_numbers
 
+if TYPE_CHECKING:
+    import meshio
+
 _TYPES = {f"{sign}{8 * size}": f"{code}{size}" for sign, code in (("Int", "i"), ("UInt", "u")) for size in (1, 2, 4, 8)} | {"Float32": "f4", "Float64": "f8"}
-_UNPACK = {"vtkZLibDataCompressor": zlib.decompress, "vtkLZMADataCompressor": lzma.decompress}
+_UNPACK: dict[str, Callable[[bytes], bytes]] = {"vtkZLibDataCompressor": zlib.decompress, "vtkLZMADataCompressor": lzma.decompress}
 
 
 @dataclass
@@ -53,8 +57,7 @@ class _File:
         return IoError(f"{self.name}, line {line}: {what}")
 
 
-def read_vtu(data: bytes, name: str) -> Any:
-    """A meshio.Mesh."""
+def read_vtu(data: bytes, name: str) -> "meshio.Mesh":
     file = _parsed(data, name)
     if not file.pieces:
         raise IoError(f"{name}: holds no Piece of an UnstructuredGrid")
@@ -65,12 +68,12 @@ def read_vtu(data: bytes, name: str) -> Any:
     parts = [_piece(file, piece) for piece in file.pieces]
     start = np.cumsum([0, *(len(part["points"]) for part in parts)])
     ends = np.cumsum([0, *(len(part["numbers"]) for part in parts)])
-    join = lambda what: np.concatenate([part[what] for part in parts])  # noqa: E731
+    points, sizes, types = (np.concatenate([part[what] for part in parts]) for what in ("points", "sizes", "types"))
     numbers = np.concatenate([part["numbers"] + first for part, first in zip(parts, start[:-1], strict=True)])
     starts = np.concatenate([part["starts"] + first for part, first in zip(parts, ends[:-1], strict=True)])
     data_of = {site: {key: _joined([part[site][key] for part in parts]) for key in parts[0][site] if all(key in p[site] for p in parts)} for site in ("PointData", "CellData")}
     of_points, of_cells = ({key: values for key, values in data_of[site].items() if values is not None} for site in data_of)
-    return mesh_of_cells(join("points"), numbers, starts, join("sizes"), join("types"), of_points, of_cells, name)
+    return mesh_of_cells(points, numbers, starts, sizes, types, of_points, of_cells, name)
 
 
 def _joined(parts: list[np.ndarray]) -> np.ndarray | None:

@@ -44,13 +44,12 @@ class Whole:
 
     def labelled(self, label: str) -> Progress | None:
         """For one run: its phases with this label, and the share of all runs in place of its own."""
-        if self._progress is None:
-            return None
-        return lambda phase, fraction, merit: self._tell(f"{label}: {phase}", merit)
+        progress = self._progress
+        return progress and (lambda phase, fraction, merit: self._tell(progress, f"{label}: {phase}", merit))
 
-    def _tell(self, what: str, merit: float) -> bool | None:
+    def _tell(self, progress: Progress, what: str, merit: float) -> bool | None:
         now = time.monotonic()
         if now - self._at >= _FORECAST_EVERY:
             self._left, self._at = self._forecast.left(now), now
         left = "" if self._left is None or self._done == self._total else f", {words(self._steady.follow(self._left, now))}"
-        return self._progress(f"{self._done} of {self._total}{left}: {what}", self._done / self._total, merit)
+        return progress(f"{self._done} of {self._total}{left}: {what}", self._done / self._total, merit)

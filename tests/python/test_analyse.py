@@ -91,6 +91,8 @@ def test_what_does_not_fit_is_refused(ball, tmp_path, box_surface):
         of.analyse(ball.tets, ball.frames, options=of.FieldOptions(split=True))
     with pytest.raises(of.InvalidInput, match="is a surface"):
         of.analyse(box_surface, ball.frames)
+    with pytest.raises(of.InvalidInput, match="was prepared with volume=False"):
+        of.analyse(of.prepare_mesh(box_surface, volume=False), ball.frames)
     with pytest.raises(of.InvalidInput, match="a start belongs to a tet mesh"):
         of.compute_field(box_surface, start=ball.frames)
     of.write_frames(tmp_path / "a.qtn", None, ball.frames, "tets")

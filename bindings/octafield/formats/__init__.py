@@ -21,7 +21,7 @@ from ..inputs import Input, read_input
 from .base import SITES, Field, FrameFile, FrameFormat
 from .files import plain_name
 from .placing import place
-from .registry import FORMATS, find_format
+from .registry import FORMATS, READERS, WRITERS, find_format
 from .rotations import axes_of, unit_quaternions
 from .text import read_txt
 
@@ -31,7 +31,7 @@ frame_formats: Mapping[str, FrameFormat] = MappingProxyType(FORMATS)
 
 
 def read_frames(
-    path: str | Path, mesh: TetMesh | str | Path | None = None, format: str | None = None, *, where: str | None = None
+    path: str | Path, mesh: TetMesh | Input | str | Path | None = None, format: str | None = None, *, where: str | None = None
 ) -> FrameFile:
     """The frames of a file, as unit quaternions, with what else it holds.
 
@@ -49,7 +49,7 @@ def read_frames(
         raise InvalidInput(f"a TetMesh or its file is needed, not {type(given).__name__}", "bad_type")
     if isinstance(given, Input) and given.tets is None:
         raise InvalidInput(f"{given.name}: holds triangles; frames need the tet mesh they belong to", "not_tets")
-    found = read_txt(path) if format is None and plain_name(path).endswith(".txt") else reader.read(path)
+    found = read_txt(path) if format is None and plain_name(path).endswith(".txt") else READERS[reader.name](path)
     if found.mesh is not None:  # the file is checked, and its own mesh is the one wanted unless another is given
         _core.require_valid(found.mesh)
     result = place(found, given, where)
@@ -101,7 +101,7 @@ def write_frames(
         if getattr(field, name) is not None and not getattr(writer, f"holds_{name}"):
             notes.append(f"the {words} were left out: {writer.title} files hold none")
             setattr(field, name, None)
-    return notes + (writer.write(path, field) or [])
+    return notes + (WRITERS[writer.name](path, field) or [])
 
 
 def _comb(field: Field) -> list[str]:

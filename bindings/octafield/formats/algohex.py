@@ -9,7 +9,7 @@ from ..errors import InvalidInput
 from ..inputs import read_input
 from ..topology import unique_triangles
 from .algohex_transitions import CUT, TRANSITIONS, VALENCES, far_transitions, inner_faces, transitions_of, valences_of
-from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4
+from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of
 from .files import plain_name
 from .ovm import read_ovm, write_ovm
 from .ovm_mesh import OvmMesh, ovm_of_tets
@@ -59,7 +59,7 @@ def _frames_in(path: Path, name: str, mesh: OvmMesh) -> FrameFile | None:
 
 
 def write(path: Path, field: Field) -> None:
-    mesh = ovm_of_tets(field.mesh.vertices, field.mesh.tets)
+    mesh = ovm_of_tets(mesh_of(field).vertices, mesh_of(field).tets)
     add_features(mesh, field)
     entity = _ENTITY[field.where]
     if plain_name(path).endswith(".ovmb"):
@@ -79,7 +79,7 @@ def write(path: Path, field: Field) -> None:
 def _add_transitions(mesh: OvmMesh, field: Field) -> None:
     """What AlgoHex's refined meshes hold beside the frames."""
     if field.combed is None:
-        edges = _core.singular_edges(field.mesh, field.frames).edges
+        edges = _core.singular_edges(mesh_of(field), field.frames).edges
         ends = np.array([(e.a, e.b) for e in edges], np.int64).reshape(-1, 2)
         holonomy = np.array([e.holonomy for e in edges], np.int64)
     else:
@@ -116,8 +116,8 @@ def _marked_edges(mesh: OvmMesh, features: np.ndarray) -> np.ndarray:
 
 
 def _face_tags(mesh: OvmMesh, field: Field, triangles: np.ndarray | None, faces: np.ndarray | None) -> np.ndarray:
-    _, of_tet = unique_triangles(field.mesh.tets)
-    on_surface = np.bincount(of_tet.ravel(), minlength=len(mesh.faces)) == 1
+    _, of_tet = unique_triangles(mesh_of(field).tets)
+    on_surface: np.ndarray = np.bincount(of_tet.ravel(), minlength=len(mesh.faces)) == 1
     if field.regions is not None:
         ids = np.repeat(np.asarray(field.regions), 4)
         low, high = np.full(len(mesh.faces), np.iinfo(np.int64).max), np.full(len(mesh.faces), np.iinfo(np.int64).min)
@@ -130,4 +130,5 @@ def _face_tags(mesh: OvmMesh, field: Field, triangles: np.ndarray | None, faces:
     ids = np.unique(both, axis=0, return_inverse=True)[1].ravel()
     of_triangle = np.zeros(ids.max() + 1, np.int64)
     of_triangle[ids[len(mesh.faces) :]] = np.where(faces > 0, faces, faces.max() + 1)
-    return np.where(on_surface, of_triangle[ids[: len(mesh.faces)]], 0).astype(np.int32)
+    tags: np.ndarray = np.where(on_surface, of_triangle[ids[: len(mesh.faces)]], 0).astype(np.int32)
+    return tags

@@ -4,7 +4,7 @@ import numpy as np
 
 from .. import _core
 from ..topology import first_tets_at
-from .base import Field
+from .base import Field, mesh_of
 from .ovm_mesh import OvmMesh
 from .rotations import axes_of
 
@@ -61,8 +61,8 @@ def valences_of(mesh: OvmMesh, field: Field, transitions: np.ndarray, ends: np.n
 
 
 def _inner_valences(field: Field, ends: np.ndarray, holonomy: np.ndarray) -> np.ndarray:
-    turn, points = np.asarray(_core.octahedral_group())[holonomy, 1:], np.asarray(field.mesh.vertices)
-    first = first_tets_at(np.asarray(field.mesh.tets), ends)
+    turn, points = np.asarray(_core.octahedral_group())[holonomy, 1:], np.asarray(mesh_of(field).vertices)
+    first = first_tets_at(np.asarray(mesh_of(field).tets), ends)
     along = np.einsum("nij,nj,ni->n", axes_of(field.frames[first]), turn, points[ends[:, 1]] - points[ends[:, 0]])
     quarter = np.where(along == 0, UNDETERMINED, np.where(along > 0, -1, 1))
     return np.where(holonomy >= 10, COMPLEX, np.where(holonomy <= 3, -2, quarter))
@@ -92,7 +92,8 @@ def _boundary_valences(mesh: OvmMesh, axes: np.ndarray, transitions: np.ndarray)
 
 def _half_edges(mesh: OvmMesh, half_faces: np.ndarray) -> np.ndarray:
     """(n, 3) of each half-face, which runs against its face where its id is odd."""
-    return mesh.faces[half_faces // 2] ^ (half_faces % 2)[:, None]
+    half_edges: np.ndarray = mesh.faces[half_faces // 2] ^ (half_faces % 2)[:, None]
+    return half_edges
 
 
 def _across_wedges(mesh: OvmMesh, own: np.ndarray, transitions: np.ndarray, start: np.ndarray, edge: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

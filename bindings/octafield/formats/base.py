@@ -9,8 +9,9 @@ import numpy as np
 
 from .. import _core
 from .._core import TetMesh
+from ..errors import InvalidInput
 from .files import plain_name
-from .rotations import frames_of_axes, unit_quaternions
+from .rotations import Place, frames_of_axes, unit_quaternions
 
 if TYPE_CHECKING:
     from ..parameterization import ParameterizationInput
@@ -61,9 +62,23 @@ class Field:
     metadata: dict[str, str] = field(default_factory=dict)
     combed: "ParameterizationInput | None" = None
 
+    def sites(self) -> np.ndarray:
+        """(n, 3): where each frame is, a vertex or the centroid of a tet."""
+        mesh = mesh_of(self)
+        points = np.array(mesh.vertices)
+        centroids: np.ndarray = points[np.asarray(mesh.tets)].mean(axis=1)
+        return points if self.where == "vertices" else centroids
+
     def matchings(self) -> _core.FaceMatchings:
         """Of frames in the tets, across all triangles between two of them."""
-        return _core.face_matchings(self.mesh, self.frames) if self.combed is None else self.combed.combed.faces
+        return _core.face_matchings(mesh_of(self), self.frames) if self.combed is None else self.combed.combed.faces
+
+
+def mesh_of(field: Field | FrameFile) -> TetMesh:
+    """Raises InvalidInput where there is none."""
+    if field.mesh is None:
+        raise InvalidInput("the frames need their mesh; give it", "no_mesh")
+    return field.mesh
 
 
 @dataclass(frozen=True)
@@ -138,5 +153,5 @@ def from_sh4(path: Path, name: str, where: str, values: np.ndarray) -> FrameFile
     return result
 
 
-def _place_of(path: Path, lines: np.ndarray | None) -> Callable[[int], str]:
+def _place_of(path: Path, lines: np.ndarray | None) -> Place:
     return lambda i: str(path) if lines is None else f"{path}, line {lines[i]}"

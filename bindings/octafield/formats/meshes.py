@@ -1,7 +1,9 @@
 """Meshes to files: surfaces and tets with feature edges, CAD faces and regions, as far as a format holds them."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,11 +13,14 @@ from ..errors import InvalidInput, IoError
 from ..inputs import SURFACE_SUFFIXES, Input
 from ..output import vtp_bytes
 from .algohex import add_features
-from .base import Field
+from .base import Field, mesh_of
 from .files import plain_name, rows_of, write_all, write_whole
 from .ovm import write_ovm
 from .ovm_mesh import ovm_of_tets
 from .vtk import through_file
+
+if TYPE_CHECKING:
+    import meshio
 
 BOTH_SUFFIXES = (".vtk", ".vtu", ".msh", ".mesh", ".meshb")  # of tets, or of triangles alone
 TETS_SUFFIXES = (".node", ".ele", ".ovm", ".ovmb")
@@ -40,7 +45,7 @@ def patches(triangles: np.ndarray, lines: np.ndarray | None) -> np.ndarray:
         low, high = np.sort(np.asarray(lines).astype(np.int64), axis=1).T
         cut = np.isin(key, low * count + high)
     graph = coo_array((np.ones((~cut).sum()), (first[~cut], second[~cut])), shape=(len(triangles), len(triangles)))
-    labels = connected_components(graph, directed=False)[1].astype(np.int64) + 1
+    labels: np.ndarray = connected_components(graph, directed=False)[1].astype(np.int64) + 1
     for triangle in np.unique(first[cut & (labels[first] == labels[second])]):
         labels[triangle] = labels.max() + 1
     return labels
@@ -70,13 +75,15 @@ class Parts:
             faces = np.maximum(found.faces, 0)
         if found.tets is None:
             return cls(np.asarray(found.surface.vertices), features, triangles, faces)
-        ids = np.asarray(found.boundary.vertex_map)
+        tets, boundary = found.volume()
+        ids = np.asarray(boundary.vertex_map)
         lines = None if features is None else ids[features]
-        return cls(np.asarray(found.tets.vertices), lines, ids[triangles], faces, np.asarray(found.tets.tets), found.regions)
+        return cls(np.asarray(tets.vertices), lines, ids[triangles], faces, np.asarray(tets.tets), found.regions)
 
     @classmethod
     def of_field(cls, field: Field) -> "Parts":
-        return cls(np.asarray(field.mesh.vertices), field.features, None, None, np.asarray(field.mesh.tets), field.regions)
+        mesh = mesh_of(field)
+        return cls(np.asarray(mesh.vertices), field.features, None, None, np.asarray(mesh.tets), field.regions)
 
     def blocks(self) -> list[tuple[str, np.ndarray, np.ndarray]]:
         """meshio's cell type, connectivity and entity ids (0: none), in the order that ARFF's reader of Medit files wants."""
@@ -100,15 +107,16 @@ def write_mesh(path: str | Path, found: Input) -> list[str]:
     if suffix in TETS_SUFFIXES and parts.tets is None:
         raise InvalidInput(f"{path}: {suffix} files hold tets, and {found.name} is a surface; write one of {' '.join((*SURFACE_SUFFIXES, *BOTH_SUFFIXES))}", "not_tets")
     if suffix in SURFACE_SUFFIXES:
-        surface = found.surface if not found.interface_triangles else _core.boundary_surface(found.tets).mesh
+        surface = found.surface if not found.interface_triangles else _core.boundary_surface(found.volume().tets).mesh
         return _write_surface(path, suffix, surface, parts, found)
     if suffix == ".vtp":
         return _write_vtp(path, parts, found)
     if suffix in (".node", ".ele"):
         return _write_tetgen(path, suffix, parts)
     if suffix in (".ovm", ".ovmb"):
-        mesh = ovm_of_tets(parts.points, parts.tets)
-        field = Field(found.tets, np.empty((0, 4)), "tets", features=parts.lines, regions=parts.regions)
+        tets = found.volume().tets
+        mesh = ovm_of_tets(tets.vertices, tets.tets)
+        field = Field(tets, np.empty((0, 4)), "tets", features=parts.lines, regions=parts.regions)
         add_features(mesh, field, parts.triangles, parts.faces)
         write_ovm(path, mesh)
         return []
@@ -127,7 +135,8 @@ def _write_surface(path: Path, suffix: str, surface: TriangleMesh, parts: Parts,
 def _write_vtp(path: Path, parts: Parts, found: Input) -> list[str]:
     import pyvista
 
-    surface = pyvista.PolyData.from_regular_faces(np.array(found.surface.vertices), np.array(found.surface.triangles))
+    triangles: np.ndarray = np.array(found.surface.triangles)
+    surface = pyvista.PolyData.from_regular_faces(np.array(found.surface.vertices), triangles)
     if parts.lines is not None:
         lines = np.asarray(found.lines)
         surface.lines = np.column_stack([np.full(len(lines), 2), lines]).ravel()
@@ -148,9 +157,10 @@ def _write_tetgen(path: Path, suffix: str, parts: Parts) -> list[str]:
     beside = {kind: path.with_name(name[:cut] + kind + name[cut + len(suffix) :]) for kind in (".node", ".ele", ".face", ".edge")}
     ids = np.arange(len(parts.points))
     head = f"{len(parts.points)} 3 0 0\n".encode()
-    with_regions = [] if parts.regions is None else [np.asarray(parts.regions)]
-    tets = np.column_stack([np.arange(len(parts.tets)), parts.tets, *with_regions])
-    faces = np.column_stack([np.arange(len(parts.triangles)), parts.triangles, parts.faces])
+    cells = {kind: (corners, numbers) for kind, corners, numbers in parts.blocks()}
+    with_regions = [] if parts.regions is None else [parts.regions]
+    tets = np.column_stack([np.arange(len(cells["tetra"][0])), cells["tetra"][0], *with_regions])
+    faces = np.column_stack([np.arange(len(cells["triangle"][0])), *cells["triangle"]])
     files = {
         ".node": [head, *_numbered(ids, parts.points)],
         ".ele": [f"{len(tets)} 4 {len(with_regions)}\n".encode(), *rows_of(tets)],
@@ -163,7 +173,7 @@ def _write_tetgen(path: Path, suffix: str, parts: Parts) -> list[str]:
     return [f"wrote {', '.join(p.name for kind, p in beside.items() if kind != '.edge' or parts.lines is not None)}"]
 
 
-def _numbered(ids: np.ndarray, points: np.ndarray):
+def _numbered(ids: np.ndarray, points: np.ndarray) -> Iterator[bytes]:
     for start in range(0, len(ids), 1 << 16):
         rows = zip(ids[start : start + (1 << 16)].tolist(), points[start : start + (1 << 16)].tolist(), strict=True)
         yield "".join("%d %r %r %r\n" % (i, *point) for i, point in rows).encode()
@@ -188,7 +198,7 @@ def _write_by_meshio(path: Path, suffix: str, parts: Parts) -> list[str]:
     return notes
 
 
-def _vtk_pieces(parts: Parts):
+def _vtk_pieces(parts: Parts) -> Iterator[bytes]:
     """Legacy version 2.0 in ASCII with one colour per cell, as Gmsh writes it and AlgoHex's reader wants it."""
     blocks = parts.blocks()
     counts = [len(cells) for _, cells, _ in blocks]
@@ -207,16 +217,17 @@ def _vtk_pieces(parts: Parts):
         yield from rows_of(ids[:, None])
 
 
-def _meshio_mesh(parts: Parts, name: str):
+def _meshio_mesh(parts: Parts, name: str) -> "meshio.Mesh":
     import meshio
 
     blocks = parts.blocks()
     return meshio.Mesh(parts.points, [(kind, cells) for kind, cells, _ in blocks], cell_data={name: [ids for *_, ids in blocks]})
 
 
-def msh_of(parts: Parts):
+def msh_of(parts: Parts) -> tuple["meshio.Mesh", list[str]]:
     """With Gmsh's physical groups: 1 for feature edges, 1 and up for regions; and notes."""
-    mesh, notes = _meshio_mesh(parts, "gmsh:geometrical"), []
+    mesh = _meshio_mesh(parts, "gmsh:geometrical")
+    notes: list[str] = []
     physical = [ids.copy() for ids in mesh.cell_data["gmsh:geometrical"]]
     for number, block in enumerate(mesh.cells):
         if block.type == "tetra" and physical[number].min(initial=1) < 1:

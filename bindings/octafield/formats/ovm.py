@@ -2,6 +2,7 @@
 properties. Layouts: docs/formats.md."""
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -44,7 +45,7 @@ def _read_text(path: Path) -> OvmMesh:
         raise IoError(f"{path}, line 1: an OVM text file begins with 'OVM ASCII'")
     line = 1
     parts: dict[str, np.ndarray] = {}
-    mesh = OvmMesh(*(np.empty((0, k)) for k in (3, 2, 3, 4)))
+    mesh = OvmMesh(np.empty((0, 3)), np.empty((0, 2)), np.empty((0, 3)), np.empty((0, 4)))
     at = 0
     foreign = False  # in the values of a property that is not read
     for (start, end, word, head), following in zip(heads, [*heads[1:], None], strict=True):
@@ -56,7 +57,7 @@ def _read_text(path: Path) -> OvmMesh:
                 missing = [s for s in _SECTIONS if s.lower() not in parts]
                 if missing:
                     raise IoError(f"{path}, line {line}: section {missing[0]} is missing")
-                mesh = OvmMesh(*(parts[s.lower()] for s in _SECTIONS))
+                mesh = OvmMesh(parts["vertices"], parts["edges"], parts["faces"], parts["polyhedra"])
         elif word in _KEYWORDS:
             foreign = not _take_property(mesh, head, body, path, line)
         elif word != "ovm" and not foreign:
@@ -116,7 +117,7 @@ def _take_property(mesh: OvmMesh, head: str, body: str, path: Path, line: int) -
     return True
 
 
-def _text_pieces(mesh: OvmMesh):
+def _text_pieces(mesh: OvmMesh) -> Iterator[bytes]:
     yield b"OVM ASCII\n"
     for section, table in zip(_SECTIONS, (mesh.vertices, mesh.edges, mesh.faces, mesh.cells), strict=True):
         yield f"{section}\n{len(table)}\n".encode()

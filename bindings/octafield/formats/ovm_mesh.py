@@ -30,7 +30,8 @@ class OvmMesh:
 
     def triangles(self) -> np.ndarray:
         """(f, 3) vertices of each face, in its order: where its half-edges begin."""
-        return self.edges[self.faces // 2, self.faces % 2]
+        starts: np.ndarray = self.edges[self.faces // 2, self.faces % 2]
+        return starts
 
 
 def ovm_of_tets(vertices: np.ndarray, tets: np.ndarray) -> OvmMesh:

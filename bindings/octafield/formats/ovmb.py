@@ -6,6 +6,7 @@ import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -43,7 +44,7 @@ class _Cursor:
         self.at += count
         return self.at - count
 
-    def unpack(self, layout: struct.Struct) -> tuple:
+    def unpack(self, layout: struct.Struct) -> tuple[Any, ...]:
         return layout.unpack_from(self.data, self.take(layout.size))
 
     def array(self, dtype: str, count: int) -> np.ndarray:
@@ -67,7 +68,8 @@ def read_binary(path: Path) -> OvmMesh:
     for what, count in zip(ENTITIES, counts, strict=False):
         if count > len(data):  # every element takes a byte or more
             raise IoError(f"{path}, byte 16: {count} elements of kind {what} in {len(data)} bytes")
-    mesh = OvmMesh(np.full((counts[0], 3), np.nan), *(np.full((n, k), -1) for n, k in zip(counts[1:], (2, 3, 4), strict=True)))
+    edges, faces, cells = (np.full((n, k), -1) for n, k in zip(counts[1:], (2, 3, 4), strict=True))
+    mesh = OvmMesh(np.full((counts[0], 3), np.nan), edges, faces, cells)
     directory: list[tuple[str, str, str]] = []
     while True:
         start = cursor.at

@@ -19,12 +19,13 @@ def place(found: FrameFile, given: Input | TetMesh | None, where: str | None) ->
         return replace(found, where=where or found.where)
     if isinstance(given, Input):
         found.regions = given.regions
-        if given.lines is not None and given.lines_are_features():
-            found.features = np.asarray(given.boundary.vertex_map)[given.lines]
+        features = given.features_of_tets()
+        if features is not None:
+            found.features = features
         found.notes += given.notes
     found.mesh = mesh
     if found.centres is not None:
-        return _by_centres(found, mesh, where)
+        return _by_centres(found, found.centres, mesh, where)
     counts = {"vertices": len(mesh.vertices), "tets": len(mesh.tets)}
     sites = [where] if where else sorted(counts, key=lambda site: site != found.where)
     for site in sites:
@@ -42,7 +43,7 @@ def place(found: FrameFile, given: Input | TetMesh | None, where: str | None) ->
     )
 
 
-def _by_centres(found: FrameFile, mesh: TetMesh, where: str | None) -> FrameFile:
+def _by_centres(found: FrameFile, centres: np.ndarray, mesh: TetMesh, where: str | None) -> FrameFile:
     """Each tet (or vertex) takes the frame whose centre is nearest, as geogram does."""
     from scipy.spatial import cKDTree
 
@@ -51,12 +52,12 @@ def _by_centres(found: FrameFile, mesh: TetMesh, where: str | None) -> FrameFile
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     for site in [where] if where else ["tets", "vertices"]:
         wanted = sites[site]
-        if len(wanted) == len(found.centres) and np.abs(wanted - found.centres).max(initial=0) <= _SAME_PLACE * size:
+        if len(wanted) == len(centres) and np.abs(wanted - centres).max(initial=0) <= _SAME_PLACE * size:
             return replace(found, where=site)
-    if not len(found.centres):
+    if not len(centres):
         raise InvalidInput(f"{found.path}: holds no frames", "bad_count")
     site = where or "tets"
-    far, nearest = cKDTree(found.centres).query(sites[site])
+    far, nearest = cKDTree(centres).query(sites[site])
     note = f"each of the {site} took the frame with the nearest centre, {far.max():.3g} away at most"
     lengths = None if found.lengths is None else found.lengths[nearest]
     return replace(found, frames=found.frames[nearest], lengths=lengths, where=site, notes=[*found.notes, note])

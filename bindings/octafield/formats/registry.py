@@ -93,10 +93,14 @@ FORMATS: dict[str, FrameFormat] = {
 }  # fmt: skip
 
 
+READERS = {name: form.read for name, form in FORMATS.items() if form.read is not None}
+WRITERS = {name: form.write for name, form in FORMATS.items() if form.write is not None}
+
+
 def find_format(path: str | Path, name: str | None, *, to_write: bool = False) -> FrameFormat:
     """By name, or by the file's extension."""
     what = "write" if to_write else "read"
-    known = {n: f for n, f in FORMATS.items() if getattr(f, what)}
+    known = {n: FORMATS[n] for n in (WRITERS if to_write else READERS)}
     if name is not None:
         if name not in known:
             raise InvalidInput(f"format {name!r} is not one of: {', '.join(known)}", "unknown_option_value")

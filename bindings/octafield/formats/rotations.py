@@ -1,5 +1,6 @@
 """Axes of frames in files: to unit quaternions and back, with what that changed."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from .. import _core
 from ..errors import InvalidInput
 
+Place = Callable[[int], str]  # where element i stands in the file, for messages
 _EXACT = 1e-12  # axes so close to orthonormal are taken as they are; the quaternion made of them is a unit one anyway
 _SINGULAR = 1e-6  # smallest over largest singular value of the unit axes
 
@@ -23,9 +25,9 @@ class FromAxes:
     left_handed: int
 
 
-def frames_of_axes(axes: np.ndarray, place) -> FromAxes:
+def frames_of_axes(axes: np.ndarray, place: Place) -> FromAxes:
     """The frames nearest to (n, 3, 3) triads, axes in the columns, each scaled to length 1 first (nearest: least sum of
-    squared differences, by the singular value decomposition). place(i): where triad i stands, for messages. Raises InvalidInput
+    squared differences, by the singular value decomposition). Raises InvalidInput
     where axes are zero, not finite or in one plane."""
     axes = np.array(axes, float).reshape(-1, 3, 3)
     finite = np.isfinite(axes).all(axis=(1, 2))
@@ -52,7 +54,7 @@ def frames_of_axes(axes: np.ndarray, place) -> FromAxes:
     return FromAxes(quaternions_of(nearest), lengths, deviation, int(left.sum()))
 
 
-def _nearest_rotations(unit: np.ndarray, place) -> tuple[np.ndarray, np.ndarray]:
+def _nearest_rotations(unit: np.ndarray, place: Place) -> tuple[np.ndarray, np.ndarray]:
     far = np.abs(np.swapaxes(unit, 1, 2) @ unit - np.eye(3)).max(axis=(1, 2)) > _EXACT
     rotations = unit.copy()
     if far.any():
@@ -88,10 +90,11 @@ def quaternions_of(rotations: np.ndarray) -> np.ndarray:
         products[:, i, j] = products[:, j, i] = value
     q = products[np.arange(len(r)), k]
     q /= np.linalg.norm(q, axis=1, keepdims=True)
-    return np.where(q[:, :1] < 0, -q, q)
+    upper: np.ndarray = np.where(q[:, :1] < 0, -q, q)
+    return upper
 
 
-def unit_quaternions(values: np.ndarray, place) -> tuple[np.ndarray, float]:
+def unit_quaternions(values: np.ndarray, place: Place) -> tuple[np.ndarray, float]:
     """(n, 4) numbers as unit quaternions, those within rounding of length 1 kept bit by bit; and the largest
     relative change of length."""
     values = np.array(values, float).reshape(-1, 4)

@@ -68,9 +68,7 @@ def read_geogram_centres(path: Path) -> FrameFile:
 
 
 def write_geogram_centres(path: Path, field: Field) -> None:
-    points = np.asarray(field.mesh.vertices)
-    centres = points if field.where == "vertices" else points[np.asarray(field.mesh.tets)].mean(axis=1)
-    write_whole(path, rows_of(np.hstack([centres, axes_in_rows(field.frames)])))
+    write_whole(path, rows_of(np.hstack([field.sites(), axes_in_rows(field.frames)])))
 
 
 def read_qtn(path: Path) -> FrameFile:

@@ -1,6 +1,8 @@
 """Frames in the arrays of mesh files: VTU, legacy VTK and Gmsh's views; and VTP for pictures."""
 
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -9,9 +11,12 @@ from ..errors import InvalidInput, IoError
 from ..grids import MESHIO_SUFFIXES, grid_of_meshio, read_meshio
 from ..inputs import Input, input_of_grid, naming
 from ..output import scratch_folder, vtp_bytes
-from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4
+from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of
 from .files import plain_name, write_whole
 from .rotations import axes_of
+
+if TYPE_CHECKING:
+    import meshio
 
 QUATERNIONS = ("quaternion", "frame_quaternion")  # w x y z
 AXES = ("frame_u", "frame_v", "frame_w")
@@ -46,8 +51,9 @@ def read_arrays(path: Path, name: str) -> FrameFile:
 def with_mesh(result: FrameFile, read: Input) -> FrameFile:
     """Adds what was read beside the frames."""
     result.mesh, result.regions = read.tets, read.regions
-    if read.lines is not None and read.lines_are_features():
-        result.features = np.asarray(read.boundary.vertex_map)[read.lines]
+    features = read.features_of_tets()
+    if features is not None:
+        result.features = features
     result.notes += read.notes
     return result
 
@@ -85,16 +91,21 @@ def read_msh(path: Path) -> FrameFile:
 
 def write_vtu(path: Path, field: Field) -> None:
     """As `octafield field` writes it; frames in tets are taken to the vertices as well."""
-    of_tets = field.where == "tets"
-    frames = _core.vertex_frames(field.mesh, field.frames) if of_tets else field.frames
-    more = {"tet_frames": field.frames} if of_tets else {}
-    if field.lengths is not None:
-        more["tet_lengths" if of_tets else "lengths"] = field.lengths
+    of_tets, mesh = field.where == "tets", mesh_of(field)
+    frames = _core.vertex_frames(mesh, field.frames) if of_tets else field.frames
+    lengths, regions = (() if part is None else part for part in (field.lengths, field.regions))
     metadata = {"convention": CONVENTION} | field.metadata
-    through_file(path, ".vtu", lambda plain: _core.write_field(plain, field.mesh, frames, metadata, () if field.regions is None else field.regions, **more))
+
+    def write(plain: Path) -> None:
+        if of_tets:
+            _core.write_field(plain, mesh, frames, metadata, regions, tet_frames=field.frames, tet_lengths=lengths)
+        else:
+            _core.write_field(plain, mesh, frames, metadata, regions, lengths=lengths)
+
+    through_file(path, ".vtu", write)
 
 
-def through_file(path: Path, suffix: str, write) -> None:
+def through_file(path: Path, suffix: str, write: Callable[[Path], None]) -> None:
     """For writers that take a path: writes to a scratch file, then to the place wanted, packed where its name says so."""
     with scratch_folder() as folder:
         plain = folder / f"output{suffix}"
@@ -110,19 +121,13 @@ def write_vtp(path: Path, field: Field) -> None:
     """A point per frame: at the vertices, or at the centroids of the tets."""
     import pyvista
 
-    points = pyvista.PolyData(sites(field))
+    points = pyvista.PolyData(field.sites())
     axes = axes_of(field.frames)
     for k, name in enumerate(AXES):
         points.point_data[name] = np.ascontiguousarray(axes[:, :, k])
     points.point_data["quaternion"] = np.array(field.frames)
     points.add_field_data([CONVENTION], "convention")
     write_whole(path, [vtp_bytes(points)])
-
-
-def sites(field: Field) -> np.ndarray:
-    """(n, 3): where each frame is."""
-    points = np.asarray(field.mesh.vertices)
-    return np.array(points if field.where == "vertices" else points[np.asarray(field.mesh.tets)].mean(axis=1))
 
 
 def write_msh(path: Path, field: Field) -> list[str]:
@@ -143,18 +148,18 @@ def write_msh(path: Path, field: Field) -> list[str]:
     return notes
 
 
-def _for_blocks(values: np.ndarray, mesh) -> list[np.ndarray]:
+def _for_blocks(values: np.ndarray, mesh: "meshio.Mesh") -> list[np.ndarray]:
     """Zeros for the cells that are no tets."""
     return [values if block.type == "tetra" else np.zeros((len(block.data), values.shape[1])) for block in mesh.cells]
 
 
 def write_pos(path: Path, field: Field) -> None:
     """Gmsh's parsed views: one of vectors at points per axis."""
-    points, axes = sites(field), axes_of(field.frames)
+    points, axes = field.sites(), axes_of(field.frames)
     write_whole(path, _pos_pieces(points, axes))
 
 
-def _pos_pieces(points: np.ndarray, axes: np.ndarray):
+def _pos_pieces(points: np.ndarray, axes: np.ndarray) -> Iterator[bytes]:
     for k, name in enumerate(AXES):
         yield f'View "{name}" {{\n'.encode()
         for start in range(0, len(points), 1 << 16):

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from .deviations import Deviations
 from .profiles import Line
@@ -20,16 +21,17 @@ class RunColumn(Column):
     page: bool = True
 
 
-def preparation_seconds(record: dict) -> float:
+def preparation_seconds(record: dict[str, Any]) -> float:
     """By the clock, of what the runs on an input share."""
-    return sum(record["wall_seconds"][phase] for phase in ("read", "mesh", "surface"))
+    seconds: float = sum(record["wall_seconds"][phase] for phase in ("read", "mesh", "surface"))
+    return seconds
 
 
-def record_column(head: str, form: str, meaning: str, group: str = "", key: str = "", **more) -> RunColumn:
+def record_column(head: str, form: str, meaning: str, group: str = "", key: str = "", **more: bool) -> RunColumn:
     """A number of the record; key: "name" or "name.inner"; none where the run has no field or the field no such number."""
 
-    def value(_results: Results, run: Run):
-        found = run.row if run.done else {}
+    def value(_results: Results, run: Run) -> object:
+        found: object = run.row if run.done else {}
         for part in key.split("."):
             found = found.get(part) if isinstance(found, dict) else None
         return found
@@ -96,10 +98,11 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
 def run_table(results: Results, runs: Sequence[Run], *, files: bool = False) -> Table:
     """A line per run, those on one problem together. files: with links to their files, for the page only."""
     runs = sorted(runs, key=lambda run: (results.rank(run), run.repeat))
-    columns = [column for column in RUN_COLUMNS if column.page]
-    rows = [[column.value(results, run) for column in columns] for run in runs]
+    of_page = [column for column in RUN_COLUMNS if column.page]
+    rows = [[column.value(results, run) for column in of_page] for run in runs]
+    columns: list[Column] = [*of_page]
     if files:
-        columns = [*columns, Column("files")]
+        columns.append(Column("files"))
         rows = [[*row, _links(run)] for row, run in zip(rows, runs, strict=True)]
     return Table("runs", columns, rows).without_dull("repeat", "state", *(["input", "seed"] if files else []))
 

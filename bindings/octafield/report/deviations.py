@@ -10,6 +10,7 @@ from .records import Method, Problem, Results, Run, Setting
 _MOST_ANGLES = 200_000_000  # of all pairs: some tens of seconds
 _FEWEST, _MOST = 500, 50_000  # vertices of a problem
 _MOST_DRAWN = 400_000  # angles to the first method, of one method
+_Pairs = list[list[list[float]]]  # of two methods: a figure per problem they have in common
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class Deviations:
 def deviations(results: Results) -> Deviations:
     """Of all pairs of methods, from the files of the runs; NaN and empty where these were not kept."""
     count = len(results.methods)
-    means, highs = ([[[] for _ in range(count)] for _ in range(count)] for _ in range(2))
+    means, highs = _no_pairs(count), _no_pairs(count)
     lines: dict[tuple[Setting, Method], list[tuple[float, float]]] = {}
     drawn: dict[Method, list[np.ndarray]] = {}
     sampled = False
@@ -61,20 +62,30 @@ def deviations(results: Results) -> Deviations:
                 if i == 0:
                     lines.setdefault((problem.setting, results.methods[j]), []).append(pair)
                     drawn.setdefault(results.methods[j], []).append(angles[:: -(-len(angles) // share)])
-    table = lambda parts: np.array([[0.0 if i == j else np.mean(p) if p else np.nan for j, p in enumerate(row)] for i, row in enumerate(parts)])  # noqa: E731
     return Deviations(
         results.methods,
-        table(means).reshape(count, count),
-        table(highs).reshape(count, count),
+        _averages(means),
+        _averages(highs),
         {key: tuple(np.mean(pairs, axis=0).tolist()) for key, pairs in lines.items()},
         {method: np.concatenate(parts) for method, parts in drawn.items()},
         sampled,
     )
 
 
+def _no_pairs(count: int) -> _Pairs:
+    return [[[] for _ in range(count)] for _ in range(count)]
+
+
+def _averages(pairs: _Pairs) -> np.ndarray:
+    """(M, M), NaN where there is nothing."""
+    rows = [[0.0 if i == j else np.mean(part) if part else np.nan for j, part in enumerate(row)] for i, row in enumerate(pairs)]
+    return np.array(rows, float).reshape(len(pairs), len(pairs))
+
+
 def angles_between(frames: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Degrees of the smallest rotations that take frames to others."""
-    return np.degrees(np.asarray(_core.distance(frames, others)))
+    angles: np.ndarray = np.degrees(np.asarray(_core.distance(frames, others)))
+    return angles
 
 
 def frames_of(run: Run) -> np.ndarray | None:
@@ -84,7 +95,7 @@ def frames_of(run: Run) -> np.ndarray | None:
     path = run.file("field.vtu")
     if path is None:
         return None
-    reader = pyvista.get_reader(path)
+    reader = pyvista.XMLUnstructuredGridReader(str(path))
     reader.disable_all_cell_arrays()
     reader.disable_all_point_arrays()
     reader.enable_point_array("quaternion")
@@ -98,7 +109,7 @@ def _frames_on(results: Results, problem: Problem, most: int) -> tuple[dict[int,
     for place, method in enumerate(results.methods):
         run = results.field(method, problem)
         frames = None if run is None else frames_of(run)
-        if frames is None or not len(frames) or mesh not in (None, run.row["mesh_sha256"]):
+        if run is None or frames is None or not len(frames) or mesh not in (None, run.row["mesh_sha256"]):
             continue
         mesh = run.row["mesh_sha256"]
         step = -(-len(frames) // most)

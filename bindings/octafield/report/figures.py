@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -9,6 +10,11 @@ from ..phases import PHASES
 from ..plots import PALETTE, TEXT, new_figure, to_svg
 from .profiles import Profile, energies, geometric_mean, ratios_to_best, smoothing_seconds
 from .records import Method, Problem, Results, Run
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
 # Okabe and Ito's colours, told apart with any colour vision, and two of Tol's; TEXT is black or white with the page.
 COLOURS = {
@@ -33,7 +39,7 @@ class Style:
     width: float
 
     @property
-    def line(self) -> dict:
+    def line(self) -> dict[str, Any]:
         return {"color": self.colour, "linestyle": self.dash, "linewidth": self.width}
 
 
@@ -65,8 +71,8 @@ def ratio_plot(results: Results, salt: str = "") -> str:
                 ratios = np.minimum(ratios[np.isfinite(ratios)], _LARGEST)
                 means.setdefault(method, []).extend(ratios)
                 largest = max(largest, ratios.max(initial=1))
-                dots = {"color": style[method].colour, "markersize": 5.5, "alpha": 0.75, "markeredgewidth": 0}
-                axes.plot(ratios, np.full(len(ratios), place + shift), marks[setting], **dots)
+                at, colour = np.full(len(ratios), place + shift), style[method].colour
+                axes.plot(ratios, at, marks[setting], color=colour, markersize=5.5, alpha=0.75, markeredgewidth=0)
         for place, method in enumerate(results.methods):
             mean = geometric_mean(np.array(means.get(method, [])))
             if mean is not None:
@@ -130,7 +136,8 @@ def convergence_plot(results: Results, problems: Sequence[Problem], salt: str = 
     methods = [m for m in results.methods if any(run.computed for p in problems if (run := results.field(m, p)))]
     style = styles(methods)
     figure, panels = new_figure(_WIDE if is_wide(results, problems) else _HALF, 3.5 + 0.24 * (1 + len(methods) // 8), len(problems), sharex=True, sharey=True)
-    longest, shared = 1, {}
+    longest = 1
+    shared: dict[str, Any] = {}
     for axes, problem in zip(panels, problems, strict=True):
         curves = {m: run.row["energy_history"] for m in methods if (run := results.field(m, problem)) is not None and run.computed}
         begin = _common(list(curves.values()))
@@ -148,7 +155,7 @@ def convergence_plot(results: Results, problems: Sequence[Problem], salt: str = 
     if longest > 300:
         panels[0].set_xscale("symlog", linthresh=10)
     else:
-        panels[0].xaxis.get_major_locator().set_params(integer=True)
+        panels[0].locator_params(axis="x", integer=True)
     panels[0].set_ylabel("energy E")
     _method_legend(figure, methods, [_handle(**shared, label="common to all")] if shared else [])
     return to_svg(figure, "energy against iteration", salt)
@@ -160,7 +167,7 @@ def _common(histories: list[list[float]]) -> int:
     return next((k for k, values in enumerate(steps) if len(set(values)) > 1), len(steps))
 
 
-def _curve(axes, history: list[float], first: int, **options) -> None:
+def _curve(axes: "Axes", history: list[float], first: int, **options: Any) -> None:
     places = np.unique(np.linspace(0, len(history) - 1, min(len(history), _MOST_POINTS)).astype(int))
     axes.plot(first + places, np.array(history)[places], **options)
 
@@ -182,7 +189,7 @@ def seconds_plot(labels: Sequence[str], runs: Sequence[Run], salt: str = "") -> 
     return to_svg(figure, "seconds per phase", salt)
 
 
-def _ratio_axis(axes, largest: float) -> None:
+def _ratio_axis(axes: "Axes", largest: float) -> None:
     """From 1; logarithmic where ratios are large, and never an axis full of rounding."""
     from matplotlib.ticker import ScalarFormatter
 
@@ -197,7 +204,7 @@ def _ratio_axis(axes, largest: float) -> None:
         axes.set_xlim(1 - 0.02 * (largest - 1), 1 + 1.05 * (largest - 1))
 
 
-def _method_legend(figure, methods: Sequence[Method], more: Sequence = ()) -> None:
+def _method_legend(figure: "Figure", methods: Sequence[Method], more: "Sequence[Line2D]" = ()) -> None:
     """A line per method where they are few; else colours of representations, then dashes of variants."""
     style = styles(methods)
     variants = list(dict.fromkeys(method.variant for method in methods))
@@ -212,13 +219,13 @@ def _method_legend(figure, methods: Sequence[Method], more: Sequence = ()) -> No
     _legend(figure, [*handles, *more])
 
 
-def _handle(**options):
-    from matplotlib.lines import Line2D
+def _handle(**options: Any) -> "Line2D":
+    import matplotlib.lines
 
-    return Line2D([], [], **options)
+    return matplotlib.lines.Line2D([], [], **options)
 
 
-def _legend(figure, handles: list) -> None:
-    widest = max(len(handle.get_label()) for handle in handles)
+def _legend(figure: "Figure", handles: "list[Line2D]") -> None:
+    widest = max(len(str(handle.get_label())) for handle in handles)
     columns = max(1, min(len(handles), int(figure.get_figwidth() / (0.6 + 0.085 * widest))))
     figure.legend(handles=handles, frameon=False, labelcolor=TEXT, loc="outside lower center", ncols=columns)

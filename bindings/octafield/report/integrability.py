@@ -1,5 +1,9 @@
 """Of runs with sizes along the axes: how far fields are from the gradients of a map, before and after; table and prose."""
 
+from typing import Any
+
+import numpy as np
+
 from .columns import RUN_COLUMNS, RunColumn, record_column
 from .profiles import geometric_mean
 from .records import Method, Results, Run
@@ -27,7 +31,7 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def sizes_of(run: Run) -> dict:
+def sizes_of(run: Run) -> dict[str, Any]:
     return run.row.get("sizes") or {} if run.done else {}
 
 
@@ -36,7 +40,7 @@ def _left(run: Run) -> float | None:
     found = sizes_of(run)
     if not found or found["curl_rms_before"] * run.row["edge_length"] < _NONE:
         return None
-    return 100 * found["curl_rms_after"] / found["curl_rms_before"]
+    return float(100 * found["curl_rms_after"] / found["curl_rms_before"])
 
 
 def integrability_table(results: Results) -> Table:
@@ -61,8 +65,9 @@ def _of_kind(results: Results, kind: str, cite: str) -> str:
     left: dict[Method, float] = {}
     for method in results.methods:
         shares = [share for run in curled if results.method(run) == method and (share := _left(run)) is not None]
-        if shares:
-            left[method] = geometric_mean(shares)
+        mean = geometric_mean(np.array(shares))
+        if mean is not None:
+            left[method] = mean
     over = f" on geometric mean over {counted(len(curled), 'run')}" if len(curled) > len(left) else ""
     ratios = sorted(sizes_of(run)["size_ratio"] for run in curled)
     ends = " to ".join(dict.fromkeys(f"{ratio:.3g}" for ratio in (ratios[0], ratios[-1])))

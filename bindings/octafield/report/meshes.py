@@ -3,12 +3,16 @@
 import html
 from collections.abc import Sequence
 from itertools import groupby
+from typing import TYPE_CHECKING, Any
 
 from . import figures, prose, scenes
 from .columns import failure_table, run_table
 from .page import Exhibits, paragraphs, picture
 from .profiles import lines
 from .records import Problem, Results, Run
+
+if TYPE_CHECKING:
+    from ..pictures import Picture
 
 CONVERGENCE = (
     "Dirichlet energy of the frames at the start (iteration 0) and after each step: rounds of diffusion and of Newton "
@@ -18,7 +22,7 @@ TIME = "Seconds by the clock per phase. Reading, meshing and the surface field a
 TURN = "Drag to turn all of them, arrow keys too; after a click the wheel scales. Curves are smoothed, and fainter at the back."
 
 
-def mesh_section(results: Results, exhibits: Exhibits, anchors: dict[str, str], name: str, pictures: Sequence) -> str:
+def mesh_section(results: Results, exhibits: Exhibits, anchors: dict[str, str], name: str, pictures: "Sequence[Picture]") -> str:
     """A page of its own where there are several inputs, with the runs on it. anchors: per input; pictures: of octafield.pictures."""
     runs, many = results.on(name), len(results.inputs) > 1
     fields = [run for run in runs if run.done]
@@ -68,7 +72,7 @@ def _links(anchors: dict[str, str], name: str) -> str:
     return f"<nav>{' '.join(found)}</nav>"
 
 
-def _picture(exhibits: Exhibits, shown) -> str:
+def _picture(exhibits: Exhibits, shown: "Picture") -> str:
     image, legend = picture(shown.small, shown.title, shown.legend)
     return exhibits.figure("", image, html.escape(shown.title), html.escape(shown.caption) + legend, "shot")
 
@@ -106,7 +110,7 @@ def _views(results: Results, exhibits: Exhibits, problems: Sequence[Problem], an
     return exhibits.figure("", content, "Singular curves", f'{TURN}<ul class="legend">{legend}</ul>', "turned")
 
 
-def _view(block: str, place: int, label: str, row: dict) -> str:
+def _view(block: str, place: int, label: str, row: dict[str, Any]) -> str:
     label = html.escape(label)
     what = f'tabindex="0" data-block="{block}" data-scene="{place}" role="img" aria-label="singular curves of {label}"'
     words = f"<b>{label}</b> E {row['energy']:.6g}, {row['singular_edges']:,} edges"

@@ -3,12 +3,15 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from .records import Method, Problem, Results, Run, Setting
+from .records import Method, Problem, Results, Setting
 
 EQUAL = 1e-4  # relative: energies closer than this are not ranked
+
+Values = Sequence[float] | np.ndarray  # one per problem
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,7 @@ class Profile:
         return float(self.share[np.searchsorted(self.ratio, ratio, side="right") - 1])
 
 
-def performance_profiles(values: Mapping[Method, Sequence[float]]) -> dict[Method, Profile]:
+def performance_profiles(values: Mapping[Method, Values]) -> dict[Method, Profile]:
     """Performance profiles (Dolan, More 2002). values: per method one positive number per problem, in the same order;
     infinite: not solved. Problems that no method solves are left out; so are those whose best value is 0."""
     result = {}
@@ -35,7 +38,7 @@ def performance_profiles(values: Mapping[Method, Sequence[float]]) -> dict[Metho
     return result
 
 
-def ratios_to_best(values: Mapping[Method, Sequence[float]]) -> dict[Method, np.ndarray]:
+def ratios_to_best(values: Mapping[Method, Values]) -> dict[Method, np.ndarray]:
     """Each value over the least of its problem; problems that no method solves, or with a least value of 0, are left out."""
     table = np.array([list(v) for v in values.values()], float)
     best = table.min(axis=0, initial=np.inf)
@@ -53,11 +56,11 @@ def smoothing_seconds(results: Results, problems: Sequence[Problem]) -> dict[Met
     return results.least(lambda row: row["cpu_seconds"]["smooth"] if "energy_history" in row else math.inf, problems)
 
 
-def _energy(row: dict) -> float:
+def _energy(row: dict[str, Any]) -> float:
     """Rounding is measured by that of frames, squared, and the size of the shape."""
     size = row["edge_length"] * math.sqrt(row["boundary_triangles"])
     energy = row["energy"]
-    return 0.0 if energy <= 1e-9 * size else energy
+    return 0.0 if energy <= 1e-9 * size else float(energy)
 
 
 @dataclass(frozen=True)
@@ -104,7 +107,7 @@ def lines(results: Results, problems: Sequence[Problem] | None = None) -> list[L
 
 def _line(
     results: Results, setting: Setting, method: Method, within: list[Problem],
-    energy: np.ndarray, best: np.ndarray, over: tuple[dict, dict], seconds: np.ndarray,
+    energy: np.ndarray, best: np.ndarray, over: tuple[dict[Method, np.ndarray], dict[Method, np.ndarray]], seconds: np.ndarray,
 ) -> Line:  # fmt: skip
     fields = [run.row for run in (results.field(method, p) for p in within) if run is not None]
     problems = sum(any(results.field(m, p) for m in results.methods) for p in within)
@@ -129,9 +132,9 @@ def _line(
     )
 
 
-def _total(fields: list[dict], key: str) -> int | None:
-    values = [row.get(key) for row in fields]
-    return sum(values) if values and all(value is not None for value in values) else None
+def _total(fields: list[dict[str, Any]], key: str) -> int | None:
+    values = [row[key] for row in fields if row.get(key) is not None]
+    return sum(values) if values and len(values) == len(fields) else None
 
 
 def geometric_mean(values: np.ndarray) -> float | None:

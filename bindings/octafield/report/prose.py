@@ -2,7 +2,8 @@
 
 import html
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import TypeVar
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from .words import counted, every, listed, named, sentence, spread, with_boundar
 
 COINCIDE = 0.01  # degrees: fields closer at 95 % of the vertices are called equal
 _MANY = 3  # names in a list before "and so many more"
+_Figure = TypeVar("_Figure", int, float)
 
 
 def scope(results: Results, open_runs: int, cite: str) -> str:
@@ -98,17 +100,17 @@ def _energy_in(setting: Setting, lines: list[Line], cite: str) -> str:
 
 def _ranking(where: str, complete: list[Line], problems: int, cite: str) -> list[str]:
     """Of methods with a field on every problem."""
-    ratio = {line.method: line.ratio for line in complete}
-    low, reach = min(ratio.values()), max(complete, key=lambda line: line.largest)
+    ratio, largest = _known({line.method: line.ratio for line in complete}), _known({line.method: line.largest for line in complete})
+    low, reach = min(ratio.values()), max(largest, key=lambda method: largest[method])
     lowest = [method for method, value in ratio.items() if value <= low * (1 + EQUAL)]
     others = {method: value for method, value in ratio.items() if method not in lowest}
     energy = next(line.energy for line in complete if line.ratio == low)
     if len(complete) == 1:
         return [f"{where}, only {named(lowest)} has a field on every problem {cite}"]
-    if not others and reach.largest <= 1 + EQUAL:
+    if not others and largest[reach] <= 1 + EQUAL:
         at = "" if energy is None else f", E = {energy:.6g}"
         return [f"{where}, {every(len(complete), 'method')} end at the same energy within 0.01 %{at} {cite}"]
-    farthest = f"single problems reach {reach.largest:.4f} ({named([reach.method])})"
+    farthest = f"single problems reach {largest[reach]:.4f} ({named([reach])})"
     if not others:
         return [f"{where}, {every(len(complete), 'method')} are equal on geometric mean, at {low:.4f} times the lowest of each problem; {farthest} {cite}"]
     have, same = _verb(len(lowest), "has", "have"), " (within 0.01 % of each other)" if len(lowest) > 1 else ""
@@ -120,6 +122,10 @@ def _ranking(where: str, complete: list[Line], problems: int, cite: str) -> list
     most = max(line.lowest for line in complete)
     tops = named([line.method for line in complete if line.lowest == most], _MANY)
     return [text, f"on {most} of {problems} problems the lowest energy, or one within 0.01 % of it, is that of {tops} {cite}"]
+
+
+def _known(values: Mapping[Method, _Figure | None]) -> dict[Method, _Figure]:
+    return {method: value for method, value in values.items() if value is not None}
 
 
 def _times(ratio: dict[Method, float]) -> str:
@@ -168,12 +174,12 @@ def graphs(lines: Sequence[Line], cite: str) -> list[str]:
             continue
         head = "the field has" if len(complete) == 1 and complete[0].problems == 1 else "the fields have"
         summed = f", summed over {counted(complete[0].problems, 'problem')}," if complete[0].problems > 1 else ""
-        edges = {line.method: line.singular_edges for line in complete}
-        bad = {line.method: line.non_meshable for line in complete}
+        edges = _known({line.method: line.singular_edges for line in complete})
+        bad = _known({line.method: line.non_meshable for line in complete})
         parts = [_amount(edges, "singular edge")]
         if any(edges.values()):
-            parts.append(_complex({line.method: line.complex_edges for line in complete}))
-        if all(value is not None for value in bad.values()):
+            parts.append(_complex(_known({line.method: line.complex_edges for line in complete})))
+        if len(bad) == len(complete):
             parts.append(f"and {_amount(bad, 'place')} that no hex mesh has")
         text.append(sentence(f"{with_boundary(setting)}, {head}{summed} {', '.join(parts)} {cite}"))
     return text
@@ -244,7 +250,7 @@ def times(results: Results, cite: str, ratios: str) -> str:
     alone = f" with {named(complete)}" if len(complete) == 1 < len(results.methods) else ""
     text = [f"smoothing takes {spread(total, '.3g')} processor seconds{alone}{_in_all(int(solved.sum()))} {cite}"]
     over = ratios_to_best(seconds)
-    slow = {method: geometric_mean(over[method]) for method in complete if len(over[method])}
+    slow = _known({method: geometric_mean(over[method]) for method in complete})
     if len(results.methods) > 1 and slow:
         text.append(f"relative to the fastest method on each problem that is a factor of {spread(slow, '.2f')} on geometric mean {ratios}")
     read = results.read()

@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,24 +22,24 @@ class Run:
     """row: the record (result.json; `state` failed or crashed where there is no field). input: its name on the page. folder:
     of the run's files; link: the same relative to the page."""
 
-    row: dict
+    row: dict[str, Any]
     input: str
     folder: Path | None = None
     link: str = ""
 
     @property
-    def options(self) -> dict:
+    def options(self) -> dict[str, Any]:
         return self.row.get("options") or {}
 
     @property
-    def choices(self) -> dict:
+    def choices(self) -> dict[str, Any]:
         """The options, and what is no option of FieldOptions: the start, and the name of a field that was read."""
         row = self.row
         return {**self.options, **{name: row[name] for name in ("representation", "boundary", "start") if name in row}}
 
     @property
     def state(self) -> str:
-        return self.row.get("state", "done")
+        return str(self.row.get("state", "done"))
 
     @property
     def done(self) -> bool:
@@ -51,11 +52,11 @@ class Run:
 
     @property
     def seed(self) -> int:
-        return self.options.get("seed", 0)
+        return int(self.options.get("seed", 0))
 
     @property
     def repeat(self) -> int:
-        return self.row.get("repeat", 0)
+        return int(self.row.get("repeat", 0))
 
     def file(self, name: str) -> Path | None:
         """A file of the run; None where it was not kept."""
@@ -147,14 +148,14 @@ class Results:
         of = [p for p in self.problems if p.input == name and p.setting == setting]
         return next((p for p in of if any(self.field(m, p) for m in self.methods)), None)
 
-    def least(self, value: Callable[[dict], float], problems: Sequence[Problem]) -> dict[Method, np.ndarray]:
+    def least(self, value: Callable[[dict[str, Any]], float], problems: Sequence[Problem]) -> dict[Method, np.ndarray]:
         """value(record) per method and problem, the least of the repeats; infinite without a field."""
         return {
             method: np.array([min((value(run.row) for run in self._fields.get((method, p), ())), default=math.inf) for p in problems], float)
             for method in self.methods
         }
 
-    def _method(self, options: dict) -> Method:
+    def _method(self, options: dict[str, Any]) -> Method:
         words = [_word(name, options.get(name)) for name in OF_METHODS[1:] if name in self._varying]
         return Method(str(options.get("representation", "unknown")), " ".join(filter(None, words)))
 

@@ -4,6 +4,7 @@ import html
 import json
 import re
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from .columns import input_table, run_table
 from .deviations import Deviations
@@ -13,6 +14,9 @@ from .meshes import mesh_section, runs_without_field
 from .page import Exhibits, page, paragraphs, resource
 from .profiles import Line
 from .records import Results
+
+if TYPE_CHECKING:
+    from ..pictures import Picture
 
 _PARTS = ("results", "inputs", "runs", "methods", "reproduction")
 
@@ -24,7 +28,7 @@ class Content:
     results: Results
     lines: list[Line]
     found: Deviations
-    pictures: dict[str, list]
+    pictures: "dict[str, list[Picture]]"
     title: str
     description: str
     open_runs: int

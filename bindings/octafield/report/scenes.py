@@ -12,10 +12,15 @@ import json
 import zlib
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..output import read_vtp
 from .records import Run
+
+if TYPE_CHECKING:
+    import pyvista
 
 STEPS = 16383
 LEGEND = (("#D55E00", "valence 3"), ("#0072B2", "valence 5"), ("#AA4499", "other singular curves"), ("#7b8794", "sharp edges and middle sections"))
@@ -23,27 +28,36 @@ KINDS = ("valence 3", "valence 5", "other", "nodes")
 _MOST_SURFACE_POINTS, _MOST_CURVE_POINTS = 5000, 30_000
 
 
+class _Files(NamedTuple):
+    surface: Path
+    curves: Path
+
+
 def encode(runs: Sequence[Run]) -> tuple[str, list[int | None]]:
     """The block of the runs on one mesh, and the place in it of each run; None where files were not kept. Empty without any.
     Runs with the same curves share a place."""
-    import pyvista
-
-    kept = [run.file("singular.vtp") is not None and run.file("surface.vtp") is not None for run in runs]
-    if not any(kept):
+    kept = [_files(run) for run in runs]
+    first = next((files for files in kept if files is not None), None)
+    if first is None:
         return "", [None] * len(runs)
-    surface = pyvista.read(runs[kept.index(True)].file("surface.vtp"))
+    surface = read_vtp(first.surface)
     low, high = np.array(surface.bounds).reshape(3, 2).T
     scale = STEPS / (high - low).max()
-    whole = lambda points: np.rint((np.asarray(points) - low) * scale).astype(np.int64)  # noqa: E731
+
+    def whole(points: np.ndarray) -> np.ndarray:
+        steps: np.ndarray = np.rint((np.asarray(points) - low) * scale).astype(np.int64)
+        return steps
+
     outline = [whole(line) for line in _thinned(_outline(surface), _MOST_SURFACE_POINTS)]
     places: list[int | None] = []
     known: dict[bytes, int] = {}
-    scenes, parts = [], [_deltas(outline)]
-    for run, there in zip(runs, kept, strict=True):
-        if not there:
+    scenes: list[dict[str, list[int]]] = []
+    parts = [_deltas(outline)]
+    for files in kept:
+        if files is None:
             places.append(None)
             continue
-        lines = {kind: [whole(line) for line in of] for kind, of in _curves(run.file("singular.vtp")).items()}
+        lines = {kind: [whole(line) for line in of] for kind, of in _curves(files.curves).items()}
         data = _deltas([line for kind in KINDS for line in lines[kind]])
         place = known.setdefault(data.tobytes(), len(scenes))
         places.append(place)
@@ -57,6 +71,11 @@ def encode(runs: Sequence[Run]) -> tuple[str, list[int | None]]:
     return base64.b64encode(zlib.compress(content, 9)).decode(), places
 
 
+def _files(run: Run) -> _Files | None:
+    surface, curves = run.file("surface.vtp"), run.file("singular.vtp")
+    return None if surface is None or curves is None else _Files(surface, curves)
+
+
 def _deltas(lines: list[np.ndarray]) -> np.ndarray:
     if not lines:
         return np.zeros(0, "<i2")
@@ -64,9 +83,7 @@ def _deltas(lines: list[np.ndarray]) -> np.ndarray:
 
 
 def _curves(path: Path) -> dict[str, list[np.ndarray]]:
-    import pyvista
-
-    found = pyvista.read(path)
+    found = read_vtp(path)
     curves: dict[str, list[np.ndarray]] = {kind: [] for kind in KINDS}
     if not found.n_lines:
         return curves
@@ -79,7 +96,7 @@ def _curves(path: Path) -> dict[str, list[np.ndarray]]:
     return curves
 
 
-def _outline(surface) -> list[np.ndarray]:
+def _outline(surface: "pyvista.PolyData") -> list[np.ndarray]:
     """Sharp edges, and where the surface crosses the three middle planes."""
     sharp = surface.extract_feature_edges(35, boundary_edges=False, non_manifold_edges=False)
     cuts = surface.slice_orthogonal().combine().extract_surface(algorithm=None)
@@ -92,7 +109,7 @@ def _thinned(lines: list[np.ndarray], most: int) -> list[np.ndarray]:
     return [line if len(line) < 3 * keep else np.concatenate([line[:-1:keep], line[-1:]]) for line in lines]
 
 
-def _polylines(poly) -> list[np.ndarray]:
+def _polylines(poly: "pyvista.PolyData") -> list[np.ndarray]:
     points, cells = np.asarray(poly.points), np.asarray(poly.lines)
     result, k = [], 0
     while k < len(cells):

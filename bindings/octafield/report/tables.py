@@ -3,9 +3,10 @@
 import csv
 import html
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 from urllib.parse import quote
 
 _LATEX = str.maketrans(
@@ -52,11 +53,11 @@ class Table:
 
     stem: str
     columns: Sequence[Column]
-    rows: Sequence[Sequence] = field(default_factory=list)
+    rows: Sequence[Sequence[object]] = field(default_factory=list)
 
     def without(self, *heads: str) -> "Table":
-        keep = lambda values: [value for c, value in zip(self.columns, values, strict=True) if c.head not in heads]  # noqa: E731
-        return Table(self.stem, keep(self.columns), [keep(row) for row in self.rows])
+        kept = [k for k, column in enumerate(self.columns) if column.head not in heads]
+        return Table(self.stem, [self.columns[k] for k in kept], [[row[k] for k in kept] for row in self.rows])
 
     def without_empty(self, *heads: str) -> "Table":
         """Without those of these columns that hold nothing."""
@@ -115,7 +116,7 @@ class Table:
         return [" & ".join(cells) + r" \\", "".join(rules)]
 
 
-def _latex_line(cells) -> str:
+def _latex_line(cells: Iterable[object]) -> str:
     return " & ".join(str(cell).translate(_LATEX) for cell in cells) + r" \\"
 
 
@@ -136,7 +137,7 @@ def _class(column: Column) -> str:
     return "" if column.form else ' class="text"'
 
 
-def write_records(path: Path, records: Sequence[dict]) -> None:
+def write_records(path: Path, records: Sequence[dict[str, Any]]) -> None:
     """One line per record: every number and word of it, see flatten."""
     flat = [flatten(record) for record in records]
     columns = list(dict.fromkeys(name for line in flat for name in line))
@@ -146,9 +147,9 @@ def write_records(path: Path, records: Sequence[dict]) -> None:
         writer.writerows(flat)
 
 
-def flatten(record: dict) -> dict:
+def flatten(record: dict[str, Any]) -> dict[str, Any]:
     """The record's numbers and words, nested ones as group_name; lists and versions are left out."""
-    flat = {}
+    flat: dict[str, Any] = {}
     for name, value in record.items():
         if name in ("alignment_deg", "feature_alignment_deg", "integrability", "sizes", "wall_seconds", "cpu_seconds"):
             flat |= {f"{name}_{key}": inner for key, inner in value.items()}

@@ -6,6 +6,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..plots import standalone
 from .columns import deviation_table, input_table, run_table, summary_table
@@ -15,6 +16,9 @@ from .profiles import lines
 from .records import Results, Run
 from .render import Content, render
 from .tables import Table, write_records
+
+if TYPE_CHECKING:
+    from ..pictures import Picture
 
 PAGE_FILE, RECORDS_FILE, TABLES, FIGURES = "report.html", "results.csv", "tables", "figures"
 
@@ -27,7 +31,7 @@ class Report:
 
     title: str
     runs: Sequence[Run]
-    pictures: dict[str, list] = field(default_factory=dict)
+    pictures: "dict[str, list[Picture]]" = field(default_factory=dict)
     description: str = ""
     open_runs: int = 0
     files: Sequence[str] = ()
@@ -39,12 +43,12 @@ def write_report(report: Report, folder: Path) -> list[str]:
     results = Results(report.runs)
     found = deviations(results)
     content = Content(results, lines(results), found, report.pictures, report.title, report.description, report.open_runs, "")
-    tables = (
+    tables = [
         summary_table(results, content.lines, found), deviation_table(found), input_table(results, content.anchors),
         run_table(results, results.runs),
-    )  # fmt: skip
+    ]  # fmt: skip
     sizes = integrability_table(results)
-    tables += (sizes,) if sizes.rows else ()
+    tables += [sizes] if sizes.rows else []
     (folder / TABLES).mkdir(exist_ok=True)
     names = []
     for table in tables:
@@ -52,7 +56,7 @@ def write_report(report: Report, folder: Path) -> list[str]:
     _replace(folder / RECORDS_FILE, lambda path: write_records(path, [run.row for run in report.runs]))
     content.links = _links([*report.files, RECORDS_FILE], names)
     text, plots = render(content)
-    _replace(folder / PAGE_FILE, lambda path: path.write_text(text, encoding="utf-8"))
+    _replace_text(folder / PAGE_FILE, text)
     return [PAGE_FILE, RECORDS_FILE, *names, *_write_plots(folder, plots)]
 
 
@@ -61,7 +65,7 @@ def _write_plots(folder: Path, plots: dict[str, str]) -> list[str]:
     for old in set((folder / FIGURES).glob("figure-*.svg")) - {folder / FIGURES / f"{name}.svg" for name in plots}:
         old.unlink()
     for name, plot in plots.items():
-        _replace(folder / FIGURES / f"{name}.svg", lambda path, plot=plot: path.write_text(standalone(plot), encoding="utf-8"))
+        _replace_text(folder / FIGURES / f"{name}.svg", standalone(plot))
     return [f"{FIGURES}/{name}.svg" for name in plots]
 
 
@@ -73,11 +77,18 @@ def _write_table(folder: Path, table: Table) -> list[str]:
 
 
 def _links(files: Sequence[str], tables: Sequence[str]) -> str:
-    linked = lambda name, text: f'<a href="{html.escape(name)}">{html.escape(text)}</a>'  # noqa: E731
-    records = ", ".join(linked(name, name) for name in files)
+    records = ", ".join(_link(name, name) for name in files)
     stems = [table.removesuffix(".csv") for table in tables if table.endswith(".csv")]
-    parts = [f"{stem.split('/')[-1]} ({linked(stem + '.csv', 'CSV')}, {linked(stem + '.tex', 'LaTeX')})" for stem in stems]
+    parts = [f"{stem.split('/')[-1]} ({_link(stem + '.csv', 'CSV')}, {_link(stem + '.tex', 'LaTeX')})" for stem in stems]
     return f"Records: {records}. Tables: {', '.join(parts)}"
+
+
+def _link(name: str, text: str) -> str:
+    return f'<a href="{html.escape(name)}">{html.escape(text)}</a>'
+
+
+def _replace_text(path: Path, text: str) -> None:
+    _replace(path, lambda partial: partial.write_text(text, encoding="utf-8"))
 
 
 def _replace(path: Path, write: Callable[[Path], object]) -> None:

@@ -12,11 +12,13 @@ import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from ..errors import IoError
 from .plan import Run
 
 WORKERS_LOG = "workers.log"
+Event = dict[str, Any]  # see worker.py
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,7 @@ class Ending:
     prepared: bool = False
     message: str = ""
 
-    def to_json(self) -> dict:
+    def to_json(self) -> dict[str, Any]:
         return asdict(self)
 
     def told(self) -> str:
@@ -45,7 +47,7 @@ class Ending:
 class Child:
     """tell(child, event): called from another thread for every event of worker.py; the last is {"event": "ended"}."""
 
-    def __init__(self, folder: Path, runs: list[Run], keep_fields: bool, limit: float, tell: Callable[["Child", dict], None]):
+    def __init__(self, folder: Path, runs: list[Run], keep_fields: bool, limit: float, tell: Callable[["Child", Event], None]):
         self.runs = list(runs)  # that are not finished, as far as its reader knows
         self._left = [run.key for run in runs]  # the same, as far as it has told
         self._limit, self._tell, self._message = limit, tell, ""
@@ -110,11 +112,10 @@ class Child:
 
     def _send(self, line: str) -> None:
         with contextlib.suppress(BrokenPipeError):  # it has died; the end of its events tells
-            self._process.stdin.write(line + "\n")
-            self._process.stdin.flush()
+            print(line, file=self._process.stdin, flush=True)
 
 
-def _parsed(line: str) -> dict | None:
+def _parsed(line: str) -> Event | None:
     try:
         event = json.loads(line)
     except ValueError:

@@ -14,15 +14,20 @@ import math
 import os
 import queue
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
 
 from ..errors import Error, InvalidInput, IoError
 from ..phases import octafield_version
-from .child import Child, Ending
+from .child import Child, Ending, Event
+from .dask_types import Client, Described, Future
 from .leader import Group, Leader
 from .memory import needed_mb
 from .plan import Run, mesh_of
+
+if TYPE_CHECKING:
+    from distributed import Worker
 
 _RESOURCE = "MB"
 _LEAST_TETS = 200_000  # that a group is first sent with memory for
@@ -37,11 +42,11 @@ def run_on_cluster(leader: Leader, scheduler: str, patience: float) -> None:
     """Raises IoError where the scheduler cannot be reached, is gone, or has no worker for what is left after `patience` seconds;
     InvalidInput where dask is not installed."""
     try:
-        from distributed import Client
+        import distributed
     except ImportError as error:
         raise InvalidInput("dask.distributed is not installed; pip install octafield[cluster]", "no_dask") from error
     with _silent(logging.getLogger("distributed")):
-        _lead(Client, leader, scheduler, patience)
+        _lead(cast("Callable[..., Client]", distributed.Client), leader, scheduler, patience)
 
 
 @contextlib.contextmanager
@@ -55,7 +60,7 @@ def _silent(logger: logging.Logger) -> Iterator[None]:
         logger.setLevel(level)
 
 
-def _lead(connect, leader: Leader, scheduler: str, patience: float) -> None:
+def _lead(connect: Callable[..., Client], leader: Leader, scheduler: str, patience: float) -> None:
     try:
         client = connect(scheduler, timeout=10, set_as_default=False)
     except (OSError, ValueError) as error:
@@ -68,19 +73,20 @@ def _lead(connect, leader: Leader, scheduler: str, patience: float) -> None:
 
 
 class _Cluster:
-    def __init__(self, leader: Leader, client, scheduler: str, patience: float):
+    def __init__(self, leader: Leader, client: Client, scheduler: str, patience: float):
         self.leader, self.client, self.scheduler, self.patience = leader, client, scheduler, patience
         self.topic = f"octafield-{os.uname().nodename}-{os.getpid()}-{time.monotonic_ns()}"
-        self.events: queue.SimpleQueue = queue.SimpleQueue()
+        self.events: queue.SimpleQueue[Event] = queue.SimpleQueue()
         self.groups: dict[int, tuple[Group, float]] = {}  # sent, with the megabytes they need
-        self.futures: dict[int, object] = {}
+        self.futures: dict[int, Future] = {}
         self.sent = 0
         self.connected = self.useful = time.monotonic()  # last time that it was so
         self.warned: set[str] = set()
 
     def run(self) -> None:
         self.client.subscribe_topic(self.topic, lambda event: self.events.put(event[1]))
-        looked, workers = -math.inf, []
+        looked = -math.inf
+        workers: list[Described] = []
         while self.leader.pending or self.groups:
             if time.monotonic() - looked >= _LOOK_EVERY:
                 workers, looked = self._look(), time.monotonic()
@@ -89,7 +95,7 @@ class _Cluster:
             with contextlib.suppress(queue.Empty):
                 self._on(self.events.get(timeout=1.0))
 
-    def _look(self) -> list[dict]:
+    def _look(self) -> list[Described]:
         """Workers of the scheduler. Raises where it has been gone, or has had no worker for what is left, for too long."""
         now = time.monotonic()
         workers = None
@@ -115,10 +121,11 @@ class _Cluster:
             self._no_worker(workers, too_large, largest)
         return workers
 
-    async def _workers(self) -> dict:
-        return (await self.client.scheduler.identity(n_workers=-1))["workers"]
+    async def _workers(self) -> dict[str, Described]:
+        known: dict[str, Described] = (await self.client.scheduler.identity(n_workers=-1))["workers"]
+        return known
 
-    def _no_worker(self, workers: list[dict], too_large: list[Group], largest: float) -> None:
+    def _no_worker(self, workers: list[Described], too_large: list[Group], largest: float) -> None:
         for future in self.futures.values():
             future.cancel()
         if not workers:
@@ -139,7 +146,7 @@ class _Cluster:
             self.warned.add(message)
             _log.warning("%s", message)
 
-    def _send(self, group: Group, workers: list[dict]) -> None:
+    def _send(self, group: Group, workers: list[Described]) -> None:
         tets = self.leader.costs.tets(mesh_of(group.runs[0]))
         if self.leader.costs.knows(mesh_of(group.runs[0])):
             mb = needed_mb(tets, group.runs)
@@ -158,7 +165,7 @@ class _Cluster:
         self.groups[group.number], self.futures[group.number] = (group, mb if declared else 0.0), future
         future.add_done_callback(lambda done: self.events.put({"event": "returned", "group": group.number, "future": done}))
 
-    def _on(self, event: dict) -> None:
+    def _on(self, event: Event) -> None:
         group, _ = self.groups.get(event["group"], (None, 0))
         if group is None:
             return
@@ -176,7 +183,7 @@ class _Cluster:
         if kind in ("progress", "finished"):
             self.leader.tell(f"{group.label} on {event['host']}" + (f": {event['phase']}" if kind == "progress" else ""))
 
-    def _on_returned(self, group: Group, future) -> None:
+    def _on_returned(self, group: Group, future: Future) -> None:
         from distributed import KilledWorker
 
         del self.groups[group.number], self.futures[group.number]
@@ -194,7 +201,7 @@ class _Cluster:
         if group.runs:
             self.leader.add(group, first=True)
 
-    def _settle(self, group: Group, answer: dict) -> None:
+    def _settle(self, group: Group, answer: dict[str, Any]) -> None:
         if answer["changed"]:
             self.leader.input_changed(group, answer["changed"])
         elif answer["tets"]:  # come back for more memory; costs know how many now
@@ -203,13 +210,13 @@ class _Cluster:
             self.leader.ended(group, Ending(**answer["ending"]))
 
 
-def _largest_mb(workers: list[dict]) -> float:
+def _largest_mb(workers: list[Described]) -> float:
     """That a worker declares; infinite where none declares any."""
     declared = [worker["resources"][_RESOURCE] for worker in workers if _RESOURCE in (worker.get("resources") or {})]
     return max(declared, default=math.inf)
 
 
-def _carry_out(content: dict) -> dict:
+def _carry_out(content: dict[str, Any]) -> dict[str, Any]:
     """On the worker. How it ended: {"ending": of the process, "changed": message of an input, "tets": needs memory for so many}."""
     from distributed import get_worker
 
@@ -222,16 +229,15 @@ def _carry_out(content: dict) -> dict:
 
 
 class _Task:
-    def __init__(self, content: dict, worker):
+    def __init__(self, content: dict[str, Any], worker: "Worker"):
         self.content, self.worker = content, worker
         self.key = worker.get_current_task()
         self.runs = [Run.from_json(run) for run in content["runs"]]
-        self.events: queue.SimpleQueue = queue.SimpleQueue()
+        self.events: queue.SimpleQueue[Event] = queue.SimpleQueue()
 
-    def run(self, folder: Path) -> dict:
-        answer = {"ending": None, "changed": "", "tets": 0}
-        tell = lambda _, event: self.events.put(event)
-        child = Child(folder, self.runs, self.content["keep_fields"], self.content["limit"], tell)
+    def run(self, folder: Path) -> dict[str, Any]:
+        answer: dict[str, Any] = {"ending": None, "changed": "", "tets": 0}
+        child = Child(folder, self.runs, self.content["keep_fields"], self.content["limit"], lambda _, event: self.events.put(event))
         self._tell({"event": "begins"})
         try:
             while True:
@@ -256,7 +262,7 @@ class _Task:
         finally:
             child.stop()
 
-    def _tell(self, event: dict) -> None:
+    def _tell(self, event: Event) -> None:
         self.worker.log_event(self.content["topic"], {**event, "group": self.content["group"], "host": os.uname().nodename})
 
     def _wanted(self) -> bool:

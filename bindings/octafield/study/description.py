@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import yaml
 from pydantic import (
@@ -24,6 +24,9 @@ from ..errors import Error, InvalidInput, IoError
 from ..options import FieldOptions, MeshOptions
 from .generators import GENERATORS
 
+if TYPE_CHECKING:
+    from pydantic_core import ErrorDetails
+
 _DEGREES = ("feature_angle", "feature_tolerance")  # radians in the options, degrees in files and on the command line
 _MESH = tuple(f.name for f in dataclasses.fields(MeshOptions))
 _RUN = tuple(f.name for f in dataclasses.fields(FieldOptions) if f.name not in (*_MESH, "seed", "threads"))
@@ -33,6 +36,7 @@ _OURS = ("folder", "text", "origin")  # attributes of a Study that its file does
 _TYPES = ("str", "bool", "int", "float")  # pydantic names the members of a union
 
 Scalar = str | bool | int | float
+Loc = tuple[str | int, ...]  # keys and numbers on the way to a part of the description
 
 
 class _Strict(BaseModel):
@@ -154,7 +158,7 @@ def parse(text: str, *, folder: str | Path = ".", name: str = "study") -> Study:
     return study
 
 
-def place(study: Study, loc: tuple) -> str:
+def place(study: Study, loc: Loc) -> str:
     """file:line of a part of the description."""
     tree = yaml.compose(study.text, Loader=yaml.SafeLoader)
     return f"{study.origin}:{_line(tree, loc)}" if tree else study.origin
@@ -176,7 +180,7 @@ def _converted(options: dict[str, Scalar]) -> dict[str, Any]:
 def _check_options(study: Study, tree: yaml.Node, name: str) -> None:
     """Every option by itself: combinations that cannot be run are failures of their runs."""
 
-    def check(loc: tuple, known: tuple[str, ...], options: dict, make) -> None:
+    def check(loc: Loc, known: tuple[str, ...], options: dict[str, Scalar], make: type[MeshOptions]) -> None:
         for key, value in options.items():
             try:
                 if key not in known:
@@ -220,9 +224,9 @@ def _refuse_repeated_keys(node: yaml.Node, name: str) -> None:
             _refuse_repeated_keys(value, name)
 
 
-def _line(node: yaml.Node, loc: tuple) -> int:
+def _line(node: yaml.Node, loc: Loc) -> int:
     """1-based line of the deepest node on the way that exists in the file."""
-    line = node.start_mark.line
+    line: int = node.start_mark.line
     for step in loc:
         if isinstance(node, yaml.MappingNode):
             found = [(key, value) for key, value in node.value if key.value == step]
@@ -235,7 +239,7 @@ def _line(node: yaml.Node, loc: tuple) -> int:
     return line + 1
 
 
-def _told(error: dict) -> str:
+def _told(error: ErrorDetails) -> str:
     where = ".".join(str(step) for step in error["loc"] if isinstance(step, str) and step[0] not in "#[" and step not in _TYPES)
     message = error["msg"].removeprefix("Value error, ")
     if error["type"] == "extra_forbidden":

@@ -12,7 +12,7 @@ from pathlib import Path
 from ..errors import InvalidInput, IoError
 from ..options import LARGEST_INT, integer_in
 from ..phases import Progress
-from .child import Child
+from .child import Child, Event
 from .description import Study
 from .leader import Group, Leader
 from .memory import needed_mb
@@ -86,7 +86,7 @@ class _Local:
     def __init__(self, leader: Leader, jobs: int, memory_mb: float):
         self.leader, self.slots, self.memory_mb = leader, jobs, memory_mb
         self.leader.forecast.slots = jobs
-        self.events: queue.SimpleQueue = queue.SimpleQueue()
+        self.events: queue.SimpleQueue[tuple[Child, Event]] = queue.SimpleQueue()
         self.active: dict[Child, _Job] = {}
 
     def run(self) -> None:
@@ -122,34 +122,33 @@ class _Local:
 
     def _start(self, group: Group) -> None:
         leader = self.leader
-        tell = lambda child, event: self.events.put((child, event))
-        child = Child(leader.store.folder, group.runs, leader.keep_fields, leader.limit, tell)
+        child = Child(leader.store.folder, group.runs, leader.keep_fields, leader.limit, lambda child, event: self.events.put((child, event)))
         self.active[child] = _Job(group, child, needed_mb(0, group.runs))
 
-    def _on_ready(self, job: _Job, _event: dict) -> None:
+    def _on_ready(self, job: _Job, _event: Event) -> None:
         self.leader.begins(job.group)
 
-    def _on_prepared(self, job: _Job, event: dict) -> None:
+    def _on_prepared(self, job: _Job, event: Event) -> None:
         self.leader.prepared(job.group, event["tets"], event["seconds"])
         job.memory_mb, job.waits = needed_mb(event["tets"], job.group.runs), True
 
-    def _on_progress(self, job: _Job, event: dict) -> None:
+    def _on_progress(self, job: _Job, event: Event) -> None:
         self.leader.tell(f"{job.group.label}: {event['phase']}")
 
-    def _on_finished(self, job: _Job, event: dict) -> None:
+    def _on_finished(self, job: _Job, event: Event) -> None:
         self.leader.finished(job.group, event["key"], event["seconds"], event["state"])
         self.leader.tell(job.group.label)
 
-    def _on_changed(self, job: _Job, event: dict) -> None:
+    def _on_changed(self, job: _Job, event: Event) -> None:
         self.leader.input_changed(job.group, event["message"])
 
-    def _on_unwritable(self, job: _Job, event: dict) -> None:
+    def _on_unwritable(self, job: _Job, event: Event) -> None:
         raise IoError(event["message"], "cannot_write")
 
-    def _on_broken(self, job: _Job, _event: dict) -> None:
+    def _on_broken(self, job: _Job, _event: Event) -> None:
         pass  # the child keeps the words for its end
 
-    def _on_ended(self, job: _Job, _event: dict) -> None:
+    def _on_ended(self, job: _Job, _event: Event) -> None:
         del self.active[job.child]
         if self.leader.ended(job.group, job.child.ending()):
             self.leader.add(job.group, first=True)

@@ -41,8 +41,11 @@ class Leader:
 
     def __init__(self, store: Store, study: Study, plan: list[Run], retry: bool, progress: Progress | None):
         self.store, self.keep_fields, self.limit = store, study.fields, study.limit or math.inf
-        self.total, self.computed, self.changed = len(plan), [], []
-        self._progress, self._attempts, self._steady = progress, {}, Steady()
+        self.total = len(plan)
+        self.computed: list[str] = []  # keys
+        self.changed: list[str] = []  # messages about inputs
+        self._attempts: dict[str, int] = {}  # by key
+        self._progress, self._steady = progress, Steady()
         self._left: float | None = None
         self._forecast_at = -math.inf
         self.costs = Costs(self.limit)

@@ -14,6 +14,7 @@ import tempfile
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from ..errors import InvalidInput, IoError
 from ..output import require_utf8, write_json
@@ -70,7 +71,7 @@ class Store:
     def run_folder(self, key: str) -> Path:
         return self.folder / RUNS / key
 
-    def record(self, key: str) -> dict | None:
+    def record(self, key: str) -> dict[str, Any] | None:
         """Of a finished run; None where it is not there or not whole."""
         try:
             record = json.loads((self.run_folder(key) / RECORD_FILE).read_text(encoding="utf-8"))
@@ -118,7 +119,7 @@ class Store:
         for key in keys:
             shutil.rmtree(self.run_folder(key), ignore_errors=True)
 
-    def entered(self) -> dict[str, dict]:
+    def entered(self) -> dict[str, dict[str, Any]]:
         """Records in the table by key."""
         return {key: json.loads(text) for key, text in self._rows("SELECT key, record FROM runs")}
 
@@ -128,8 +129,8 @@ class Store:
 
     def times(self) -> dict[str, tuple[int, float]]:
         """Tets and seconds of the runs that are done."""
-        number = lambda name: f"json_extract(record, '$.{name}')"
-        found = self._rows(f"SELECT key, {number('tets')}, {number('ended')} - {number('began')} FROM runs WHERE state = 'done'")
+        tets, began, ended = (f"json_extract(record, '$.{name}')" for name in ("tets", "began", "ended"))
+        found = self._rows(f"SELECT key, {tets}, {ended} - {began} FROM runs WHERE state = 'done'")
         return {key: (tets, seconds) for key, tets, seconds in found if tets is not None and seconds is not None}
 
     def digests(self) -> Digests:
@@ -145,7 +146,7 @@ class Store:
             with self._table() as table:
                 table.executemany("INSERT OR REPLACE INTO digests VALUES (?, ?, ?)", [(p, *kept) for p, kept in digests.fresh.items()])
 
-    def _rows(self, query: str) -> list[tuple]:
+    def _rows(self, query: str) -> list[tuple[Any, ...]]:
         """None where there is no table, or a file without one."""
         path = self.folder / TABLE_FILE
         if not path.is_file() or not path.stat().st_size:
@@ -219,7 +220,7 @@ class Store:
             raise IoError(f"{error.filename or self.folder}: cannot write there ({error.strerror or error})", "cannot_write") from error
 
 
-def write_record(folder: Path, run: Run, record: dict, state: str, message: str = "") -> None:
+def write_record(folder: Path, run: Run, record: dict[str, Any], state: str, message: str = "") -> None:
     """result.json: the record of `octafield field`, or the options alone, with what makes it this run."""
     identity = {"key": run.key, "input": run.name, "repeat": run.repeat, "state": state, "message": message}
     write_json(folder / RECORD_FILE, {"options": asdict(run.options), **record, **identity})

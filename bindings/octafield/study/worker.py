@@ -15,11 +15,16 @@ import time
 import traceback
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from .._core import TriangleMesh
 from ..errors import Error, InvalidInput
 from ..phases import Progress
-from .plan import Run, has_promised_content
+from .plan import Run, Source, has_promised_content
 from .store import LOG_FILE, Store, write_record
+
+if TYPE_CHECKING:
+    from ..pipeline import FieldResult
 
 _QUIET = 0.5  # seconds between reports
 Prepared = Callable[[int, float], None]  # called with the number of tets and the seconds it took before the first field
@@ -53,7 +58,7 @@ def execute(store: Store, runs: list[Run], keep_fields: bool, prepared: Prepared
             _write_failure(store, run, error, begin)
             finished(run.key, 0.0, "failed")
         return
-    prepared(len(meshed.tets.tets), time.perf_counter() - clock)
+    prepared(len(meshed.volume().tets.tets), time.perf_counter() - clock)
     for run in runs:
         begin, clock = time.time(), time.perf_counter()
         result = None
@@ -66,13 +71,13 @@ def execute(store: Store, runs: list[Run], keep_fields: bool, prepared: Prepared
         finished(run.key, time.perf_counter() - clock, "failed" if result is None else "done")
 
 
-def _surface(source):
+def _surface(source: Source) -> str | TriangleMesh:
     from .generators import generate
 
     return source if isinstance(source, str) else generate(source["generator"], **source["with"])
 
 
-def _write_run(store: Store, run: Run, result, keep_fields: bool, begin: float) -> None:
+def _write_run(store: Store, run: Run, result: "FieldResult", keep_fields: bool, begin: float) -> None:
     from ..results import write_field_result
 
     with store.new_run(run) as folder:
@@ -99,8 +104,12 @@ def main() -> None:
     die_with_parent()
     logging.disable()
     out = os.fdopen(int(sys.argv[1]), "w", buffering=1)
-    tell = lambda **event: print(json.dumps(event), file=out)
     job = json.loads(sys.stdin.readline())
+    reported = 0.0
+
+    def tell(**event: str | float) -> None:
+        print(json.dumps(event), file=out)
+
     tell(event="ready")
     runs = [Run.from_json(content) for content in job["runs"]]
 
@@ -110,13 +119,15 @@ def main() -> None:
             sys.exit(1)  # the leader is gone
 
     def report(phase: str, fraction: float, merit: float) -> None:
+        nonlocal reported
         now = time.monotonic()
-        if now - report.last > _QUIET:
-            report.last = now
+        if now - reported > _QUIET:
+            reported = now
             tell(event="progress", phase=phase, fraction=fraction)
 
-    report.last = 0.0
-    finished = lambda key, seconds, state: tell(event="finished", key=key, seconds=seconds, state=state)
+    def finished(key: str, seconds: float, state: str) -> None:
+        tell(event="finished", key=key, seconds=seconds, state=state)
+
     with contextlib.suppress(BrokenPipeError):
         try:
             execute(Store(Path(job["folder"])), runs, job["keep_fields"], prepared, finished, report)
