@@ -238,7 +238,10 @@ def _meshed(model: Model, size: float) -> dict[str, Any]:
     gmsh.option.setNumber("Mesh.MeshSizeMax", size)
     gmsh.model.mesh.generate(2)
     touching = _touching(gmsh, solids)
-    _note_solids(model, touching)
+    if touching:
+        model.notes.append(f"solids touch: Gmsh filled them with tets, {len(set(model.region.values()))} regions with their interfaces")
+    elif len(solids) > 1:
+        model.notes.append(f"{len(solids)} solids that do not touch")
     bounding = gmsh.model.getBoundary([(3, tag) for tag in solids], combined=not touching, oriented=False)
     faces = sorted({tag for _, tag in bounding or gmsh.model.getEntities(2)})
     curves = sorted({tag for _, tag in gmsh.model.getBoundary([(2, tag) for tag in faces], combined=False, oriented=False)})
@@ -279,13 +282,6 @@ def _touching(gmsh: Any, solids: list[int]) -> bool:
         of_each.append(np.unique(_elements(gmsh, faces, 2, _TRIANGLE)[0]))
     together = np.concatenate(of_each)
     return len(np.unique(together)) < len(together)
-
-
-def _note_solids(model: Model, touching: bool) -> None:
-    if touching:
-        model.notes.append(f"solids touch: Gmsh filled them with tets, {len(set(model.region.values()))} regions with their interfaces")
-    elif len(model.region) > 1:
-        model.notes.append(f"{len(model.region)} solids that do not touch")
 
 
 def _elements(gmsh: Any, entities: list[int], dimension: int, kind: int) -> tuple[Array, Array]:
