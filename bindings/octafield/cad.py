@@ -1,10 +1,15 @@
-"""CAD models as triangles, by Gmsh where it is installed: the model's curves are the feature edges."""
+"""CAD models, by Gmsh where it is installed: as triangles, or as tets where solids touch; the model's curves are the feature edges.
+
+Gmsh works in a process of its own (cad_worker.py): damaged models can crash it or keep it for ever.
+"""
 
 import contextlib
+import json
 import os
 import re
+import signal
+import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,138 +18,95 @@ import numpy as np
 from .errors import InvalidInput, IoError
 from .grids import Grid
 from .output import scratch_folder
+from .phases import Progress, announce
 
-CAD_SUFFIXES = (".step", ".stp", ".brep", ".iges", ".igs")
-_PARTS = 30  # edges along the diagonal of the bounding box, where no length is asked for
+_FORMATS = {".step": "step", ".stp": "step", ".brep": "brep", ".iges": "iges", ".igs": "iges"}
+CAD_SUFFIXES = tuple(_FORMATS)
+_WORKER = Path(__file__).with_name("cad_worker.py")
+_PAUSE = 0.1  # seconds between questions to the callback
 _NO_NUMBER = re.compile(rb"(?i)[(,\s]\s*([-+]?(?:nan|inf|infinity))\s*[,)\s]")  # on which Open CASCADE does not end
-_GMSH_TRIANGLE, _GMSH_LINE = 2, 1
 
 
-def read_cad(path: Path, suffix: str, edge_length: float) -> Grid:
-    """Triangles with their CAD face and lines along the curves between faces. The boundary of solids alone is meshed where there are any."""
-    try:
-        import gmsh
-    except (ImportError, OSError) as error:
-        raise InvalidInput(
-            f"{path}: CAD models are read by Gmsh, which is not here ({error}); pip install 'octafield[cad]'", "no_gmsh"
-        ) from error
+def read_cad(path: Path, suffix: str, edge_length: float, progress: Progress | None = None) -> Grid:
+    """Cells with their CAD face and lines along the curves between faces: triangles of the boundary of solids, where there are any, else of all faces;
+    where solids touch, tets with the number of their solid as region. progress: called with phase "read" while Gmsh works; may cancel."""
     if not path.is_file():
         raise IoError(f"{path}: no such file")
-    try:
-        with _model(gmsh), _plain(path, suffix) as plain:
-            _import(gmsh, path, plain)
-            gmsh.model.occ.synchronize()
-            if not gmsh.model.getEntities(3) and len(gmsh.model.getEntities(2)) > 1:  # IGES holds loose faces: with curves of their own they would not fit
-                with _printed([]):
-                    gmsh.model.occ.healShapes(tolerance=1e-8, fixDegenerated=False, fixSmallEdges=False, fixSmallFaces=False, sewFaces=True, makeSolids=True)
-                gmsh.model.occ.synchronize()
-            return _meshed(gmsh, path, edge_length)
-    except (InvalidInput, IoError):
-        raise
-    except Exception as error:  # Gmsh raises plain exceptions
-        raise IoError(f"{path}: Gmsh cannot read or mesh it ({' '.join(str(error).split())})") from error
-
-
-def _import(gmsh, path: Path, plain: Path) -> None:
-    """Open CASCADE, inside Gmsh, prints what it finds wrong and goes on with what is left, which may not end."""
-    found = _NO_NUMBER.search(content := plain.read_bytes())
-    if found:
-        raise IoError(f"{path}, line {content.count(10, 0, found.start(1)) + 1}: a coordinate is {found[1].decode()}; export it again")
-    said: list[str] = []
-    try:
-        with _printed(said):
-            gmsh.model.occ.importShapes(str(plain))
-    except Exception as error:
-        raise IoError(f"{path}: Gmsh cannot read it ({_first_defect(said) or ' '.join(str(error).split())}); export it again") from error
-    if defect := _first_defect(said):
-        raise IoError(f"{path}: damaged ({defect}); export it again")
-
-
-def _first_defect(said: list[str]) -> str:
-    found = re.search(r"\*{4} ERR \w+ : (.*?)\s*\*{4}", "".join(said))
-    return " ".join(found[1].split()) if found else ""
-
-
-@contextlib.contextmanager
-def _printed(said: list[str]) -> Iterator[None]:
-    """Collects what libraries print to the process's output, which belongs to the command."""
-    sys.stdout.flush()
-    try:
-        kept = os.dup(1)
-    except OSError:  # there is no output
-        yield
-        return
-    with tempfile.TemporaryFile() as file:
-        os.dup2(file.fileno(), 1)
+    if not 0 <= edge_length < float("inf"):
+        raise InvalidInput(f"{path}: the edge length must be positive, or 0 for one from the size of the model; not {edge_length}", "invalid_option")
+    with _scratch(path) as folder:
+        job = {"model": str(_plain(path, suffix, folder)), "format": _FORMATS[suffix], "edge_length": edge_length}
+        code = _run(path, job | {"folder": str(folder), "parent": os.getpid()}, folder, progress)
         try:
-            yield
-        finally:
-            os.dup2(kept, 1)
-            os.close(kept)
-            file.seek(0)
-            said.append(file.read().decode("utf-8", "replace"))
+            answer = json.loads((folder / "answer.json").read_bytes()) if code == 0 else None
+        except (OSError, ValueError):
+            answer = None
+        if answer is None:
+            raise IoError(f"{path}: {_ending(code, (folder / 'printed').read_text(errors='replace'))}", "reader_stopped")
+        if "error" in answer:
+            kind = InvalidInput if answer["error"] in ("no_gmsh", "no_faces", "invalid_option") else IoError
+            raise kind(f"{path}: {answer['message']}", answer["error"])
+        with np.load(folder / "grid.npz") as arrays:
+            cells = {kind: arrays[kind] for kind in ("triangle", "line", "tetra") if kind in arrays}
+            creases = np.ones(len(cells["line"]), bool) if "line" in cells else None
+            return Grid(arrays["points"], cells, arrays["faces"], arrays.get("regions"), creases, answer["notes"])
 
 
 @contextlib.contextmanager
-def _model(gmsh) -> Iterator[None]:
-    """A model of its own. Where the calling program has initialised Gmsh already, its options and current model are put back."""
-    ours = not gmsh.isInitialized()
-    if ours:
-        gmsh.initialize(["octafield"], readConfigFiles=False, interruptible=False)
-    numbers = ("General.Terminal", "Mesh.MeshSizeMin", "Mesh.MeshSizeMax", "General.NumThreads")
-    before = {name: gmsh.option.getNumber(name) for name in numbers}
-    current = None if ours else gmsh.model.getCurrent()
-    gmsh.option.setNumber("General.Terminal", 0)
-    gmsh.option.setNumber("General.NumThreads", 1)
-    gmsh.model.add("octafield input")
-    try:
-        yield
-    finally:
-        gmsh.model.remove()
-        for name, value in before.items():
-            gmsh.option.setNumber(name, value)
-        if ours:
-            gmsh.finalize()
-        elif current:
-            gmsh.model.setCurrent(current)
+def _scratch(path: Path) -> Iterator[Path]:
+    with contextlib.ExitStack() as stack:
+        try:
+            folder = stack.enter_context(scratch_folder())
+        except OSError as error:
+            raise IoError(f"{path}: there is no folder for temporary files ({error}); set TMPDIR") from error
+        yield folder
 
 
-@contextlib.contextmanager
-def _plain(path: Path, suffix: str) -> Iterator[Path]:
-    if not path.name.lower().endswith(".gz"):
-        yield path
-        return
+def _plain(path: Path, suffix: str, folder: Path) -> Path:
+    """A file that is not packed, without numbers that are none."""
     from .formats.files import read_bytes
 
-    with scratch_folder() as folder:
-        (folder / f"input{suffix}").write_bytes(read_bytes(path))
-        yield folder / f"input{suffix}"
+    content = read_bytes(path)
+    found = _NO_NUMBER.search(content)
+    if found:
+        raise IoError(f"{path}, line {content.count(10, 0, found.start(1)) + 1}: a coordinate is {found[1].decode()}; export it again")
+    if not path.name.lower().endswith(".gz"):
+        return path.absolute()
+    (folder / f"input{suffix}").write_bytes(content)
+    return folder / f"input{suffix}"
 
 
-def _meshed(gmsh, path: Path, edge_length: float) -> Grid:
-    solids = gmsh.model.getEntities(3)
-    faces = gmsh.model.getBoundary(solids, combined=True, oriented=False) if solids else gmsh.model.getEntities(2)
-    if not faces:
-        raise InvalidInput(f"{path}: the model has no faces")
-    box = np.array(gmsh.model.getBoundingBox(-1, -1)).reshape(2, 3)
-    size = edge_length if edge_length > 0 else float(np.linalg.norm(box[1] - box[0])) / _PARTS
-    gmsh.option.setNumber("Mesh.MeshSizeMin", size)
-    gmsh.option.setNumber("Mesh.MeshSizeMax", size)
-    gmsh.model.mesh.generate(2)
-    for _, solid in solids:
-        gmsh.model.mesh.setOutwardOrientation(solid)
-    tags, points, _ = gmsh.model.mesh.getNodes()
-    place = np.zeros(int(tags.max()) + 1, np.int64)
-    place[tags] = np.arange(len(tags))
-    curves = gmsh.model.getBoundary(faces, combined=False, oriented=False)
-    triangles, of_face = _elements(gmsh, [tag for _, tag in faces], 2, _GMSH_TRIANGLE)
-    lines, _ = _elements(gmsh, sorted({abs(tag) for _, tag in curves}), 1, _GMSH_LINE)
-    cells = {"triangle": place[triangles]} | ({"line": place[lines]} if len(lines) else {})
-    return Grid(points.reshape(-1, 3), cells, of_face, None, np.ones(len(lines), bool) if len(lines) else None)
+def _run(path: Path, job: dict[str, object], folder: Path, progress: Progress | None) -> int:
+    """Exit code, negative after a signal. No process is left, however this ends."""
+    if not sys.executable or getattr(sys, "frozen", False):
+        raise IoError(
+            f"{path}: CAD models are read in a process of their own, and this program does not tell which Python to start (sys.executable); "
+            "mesh it with Gmsh (gmsh -2 or -3) and give the .msh file", "no_python",
+        )  # fmt: skip
+    paths = os.pathsep.join(os.path.abspath(entry) for entry in sys.path)
+    with (folder / "printed").open("w+b") as printed:
+        try:
+            process = subprocess.Popen(
+                [sys.executable, "-P", str(_WORKER), json.dumps(job)],
+                stdin=subprocess.DEVNULL, stdout=printed, stderr=printed, env={**os.environ, "PYTHONPATH": paths},
+            )  # fmt: skip
+        except OSError as error:
+            raise IoError(f"{path}: cannot start {sys.executable} to read it ({error.strerror})", "cannot_start") from error
+        try:
+            while True:
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    return process.wait(_PAUSE)
+                announce(progress, "read")
+        finally:
+            process.kill()
+            process.wait()
 
 
-def _elements(gmsh, entities: list[int], dimension: int, kind: int) -> tuple[np.ndarray, np.ndarray]:
-    """(k, dimension + 1) node tags of the elements on the entities, and (k,) the entity of each."""
-    nodes = [gmsh.model.mesh.getElementsByType(kind, tag)[1].reshape(-1, dimension + 1).astype(np.int64) for tag in entities]
-    ids = [np.full(len(part), tag) for part, tag in zip(nodes, entities, strict=True)]
-    return (np.concatenate(nodes), np.concatenate(ids)) if nodes else (np.empty((0, dimension + 1), np.int64), np.empty(0, np.int64))
+def _ending(code: int, printed: str) -> str:
+    """What is to be told of a process that gave no answer."""
+    if code == -signal.SIGKILL:
+        return "Gmsh was stopped by signal SIGKILL, most likely because memory ran out; choose a larger edge length (--edge-length)"
+    if code < 0:
+        return f"Gmsh was stopped by signal {signal.Signals(-code).name}: the model is damaged, or Gmsh has a defect; export it again"
+    last = printed.strip().rpartition("\n")[2]
+    return f"Gmsh gave no answer (exit code {code}{': ' if last else ''}{last}); export it again, or mesh it elsewhere and give the mesh"

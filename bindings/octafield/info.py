@@ -62,7 +62,7 @@ def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict[str,
     elements (ids). options: as they would be given to the field; a surface is repaired (repair) and a tet mesh split (split) first.
     """
     try:
-        found = read_input(path, interfaces=options.interfaces)
+        found = read_input(path, interfaces=options.interfaces, edge_length=options.edge_length)
     except Error as error:  # the first requirement that can fail
         return _unread(str(path), error)
     with naming(found.name):

@@ -54,6 +54,11 @@ class Examined:
         """Whether the surface will get new triangles."""
         return self.found.tets is None and self.options.remesh
 
+    @property
+    def sized(self) -> bool:
+        """Whether the edge length is the user's to choose."""
+        return self.remade or (self.found.of_cad and self.found.tets is not None)
+
     @cached_property
     def diagonal(self) -> float:
         return float(_core.bounding_box_diagonal(self.found.surface.vertices))
@@ -148,7 +153,7 @@ def curvature(seen: Examined) -> Finding:
     worst = order[np.searchsorted(np.cumsum(areas[order]), _SHARE / 2 * areas.sum())]
     radius = float(1 / bend[worst])
     what = f"on {share:.0%} of the surface, where it is {radius:.3g} and less"
-    if seen.remade:
+    if seen.sized:
         return Finding(text, WARN, "coarse_for_curvature", f"edges of {seen.length:.3g} are longer than the radius of curvature {what}",
                        f"--edge-length {_rounded_down(radius)}")  # fmt: skip
     return Finding(text, WARN, "coarse_for_curvature", f"edges are longer than the radius of curvature {what}",
@@ -186,7 +191,8 @@ def triangle_shapes(seen: Examined) -> Finding:
         return Finding(text, PASS)
     return Finding(text, WARN, "thin_triangles",
                    f"{len(thin):,} triangles have an angle below {_LEAST_ANGLE:g} degrees, the least {angles.min():.2g} ({_few(thin)})",
-                   "leave out --no-remesh" if seen.found.tets is None else "mesh the volume anew from a better surface", tuple(thin.tolist()))  # fmt: skip
+                   "another --edge-length" if seen.sized else "leave out --no-remesh" if seen.found.tets is None else "mesh the volume anew from a better surface",
+                   tuple(thin.tolist()))  # fmt: skip
 
 
 def tet_shapes(seen: Examined) -> Finding:
@@ -199,8 +205,8 @@ def tet_shapes(seen: Examined) -> Finding:
     return Finding(text, WARN, "slivers",
                    f"{len(bad):,} of {len(low):,} tets have a dihedral angle below {_LEAST_DIHEDRAL:g} or above {180 - _LEAST_DIHEDRAL:g} degrees, "
                    f"the least {np.nanmin(low):.2g}, the largest {np.nanmax(high):.4g} ({_few(bad)})",
-                   "make the volume mesh anew from its surface (octafield.boundary_surface, octafield.tetrahedralize); "
-                   "energies near such tets mean little", tuple(bad.tolist()))  # fmt: skip
+                   "another --edge-length" if seen.sized else
+                   "make the volume mesh anew from its surface (octafield.boundary_surface, octafield.tetrahedralize); energies near such tets mean little", tuple(bad.tolist()))  # fmt: skip
 
 
 def locking(seen: Examined) -> Finding:
@@ -225,10 +231,10 @@ def memory(seen: Examined, tets: int) -> Finding:
     if needed < 0.8 * there:
         return Finding(text, PASS)
     remedy = f"a machine with {needed / 800:,.0f} GB, or a coarser mesh"
-    if seen.found.tets is None:
-        base, per_tet = estimates.memory_mb(0), (needed - estimates.memory_mb(0)) / tets
-        fit = 0.7 * there - base
-        coarser = estimates.edge_length_for(seen.found.surface, fit / per_tet) if fit > 0 else 0.0
+    base, per_tet = estimates.memory_mb(0), (needed - estimates.memory_mb(0)) / tets
+    fit = (0.7 * there - base) / per_tet
+    if fit > 0 and (seen.sized or seen.found.tets is None):
+        coarser = estimates.edge_length_for(seen.found.surface, fit) if seen.found.tets is None else seen.length * (tets / fit) ** (1 / 3)
         remedy = f"--edge-length {_rounded_up(coarser)}" if coarser > seen.length else remedy
     return Finding(text, WARN, "memory", f"about {tets:,} tets need {needed / 1000:,.1f} GB of this machine's {there / 1000:.1f}", remedy)
 

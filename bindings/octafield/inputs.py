@@ -14,6 +14,7 @@ from .cad import CAD_SUFFIXES, read_cad
 from .errors import GeometryError, InvalidInput, IoError, SolverError
 from .grids import GRID_SUFFIXES, LOWER, Grid, read_grid
 from .output import require_utf8
+from .phases import Progress
 
 SURFACE_SUFFIXES = (".stl", ".obj", ".off", ".ply")
 _VOLUMES = ("tetra", "hexahedron", "wedge", "pyramid", "penta", "voxel", "polyhedron")  # meshio's names begin so
@@ -34,7 +35,7 @@ class Input:
     region of each tet, where there are several; surface and boundary then hold the interfaces between them too, as the
     last `interface_triangles`. touches: the boundary of the tets touches itself at edges or vertices. lines: (n, 2) feature edges given by the file, vertex ids of `surface`; None when it has
     no line cells. creases: the file tells that they are. faces: CAD face of each triangle of `surface`, -1 where the file tells none.
-    file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file. notes: what was changed in reading (tets turned over, unused
+    file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file. of_cad: meshed here, at the edge length asked for. notes: what was changed in reading (tets turned over, unused
     points dropped), one sentence each.
     """
 
@@ -51,6 +52,7 @@ class Input:
     faces: np.ndarray | None = None
     file_points: np.ndarray | None = None
     points_in_file: int = 0
+    of_cad: bool = False
     notes: list[str] = field(default_factory=list)
 
     @property
@@ -78,11 +80,11 @@ class Input:
         return self.creases or len(self.lines) < 0.5 * 1.5 * len(self.surface.triangles)
 
 
-def read_input(path: str | Path, *, interfaces: bool = True, edge_length: float = 0.0) -> Input:
+def read_input(path: str | Path, *, interfaces: bool = True, edge_length: float = 0.0, progress: Progress | None = None) -> Input:
     """Reads a surface (STL, OBJ, OFF, PLY, .vtp; STEP, BREP and IGES by Gmsh where it is installed) or a tet mesh (.vtk, .vtu, Gmsh .msh, Medit
     .mesh and .meshb, OpenVolumeMesh .ovm and .ovmb, TetGen .node or .ele with the other beside it, and .face and .edge where there; triangles
     alone are a surface), each also as .gz. Raises IoError naming the file, and the line in text, InvalidInput where it holds neither tets nor
-    triangles. interfaces: see MeshOptions. edge_length: of the triangles on a CAD model (0: from its size)."""
+    triangles. interfaces: see MeshOptions. edge_length: of the triangles on a CAD model, or tets in it (0: from its size). progress: asked while Gmsh reads one; may cancel."""
     path = Path(path)
     require_utf8(path)
     if path.is_dir():
@@ -90,7 +92,7 @@ def read_input(path: str | Path, *, interfaces: bool = True, edge_length: float 
     if path.exists() and not path.is_file():
         raise IoError(f"{path}: is a pipe or a device; save it to a file first")
     with naming(str(path)):
-        return _read(path, interfaces, edge_length)
+        return _read(path, interfaces, edge_length, progress)
 
 
 @contextlib.contextmanager
@@ -104,21 +106,22 @@ def naming(name: str) -> Iterator[None]:
         raise type(error)(f"{name}: {error}", error.kind, error.elements) from error
 
 
-def _read(path: Path, interfaces: bool, edge_length: float) -> Input:
+def _read(path: Path, interfaces: bool, edge_length: float, progress: Progress | None) -> Input:
     suffix = _suffix(path)
     if suffix in SURFACE_SUFFIXES:
         return Input(str(path), _core.read_surface(path))
-    if suffix in CAD_SUFFIXES:
-        return _surface_input(str(path), read_cad(path, suffix, edge_length))
-    if suffix not in GRID_SUFFIXES:
+    if suffix not in (*GRID_SUFFIXES, *CAD_SUFFIXES):
         surfaces, tets, cad = (" ".join(known) for known in (SURFACE_SUFFIXES, GRID_SUFFIXES, CAD_SUFFIXES))
         raise IoError(
             f"{path}: unknown kind of file; known are surfaces ({surfaces}), tet meshes ({tets}) and CAD models ({cad}), also .gz"
         )
-    grid = read_grid(path, suffix)
+    of_cad = suffix in CAD_SUFFIXES
+    grid = read_cad(path, suffix, edge_length, progress) if of_cad else read_grid(path, suffix)
     if not interfaces:
         grid.regions = None
-    return input_of_grid(str(path), grid)
+    found = input_of_grid(str(path), grid)
+    found.of_cad = of_cad
+    return found
 
 
 def input_of_grid(name: str, grid: Grid) -> Input:

@@ -110,7 +110,7 @@ def read_sound(
         elif isinstance(source, (TriangleMesh, TetMesh)):
             found = from_mesh(source)
         else:
-            found = read_input(source, interfaces=options.interfaces, edge_length=options.edge_length)
+            found = read_input(source, interfaces=options.interfaces, edge_length=options.edge_length, progress=progress)
         with naming(found.name):
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):
@@ -162,7 +162,7 @@ def prepare_mesh(
             locking=source.locking,
         )
         if found.tets is not None:
-            _note_unused(meshed, options)
+            _note_unused(meshed, options, found.of_cad)
         else:
             if options.remesh:
                 _remesh(meshed, options, progress, volume)
@@ -298,8 +298,8 @@ def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) 
     meshed.boundary_features = meshed.features
 
 
-def _note_unused(meshed: MeshedInput, options: MeshOptions) -> None:
-    if options.edge_length > 0:
+def _note_unused(meshed: MeshedInput, options: MeshOptions, of_cad: bool) -> None:
+    if options.edge_length > 0 and not of_cad:
         meshed.notes.append("the edge length was ignored: tet meshes are kept as they are")
     if options.repair:
         meshed.notes.append("repair was ignored: it works on surfaces only")

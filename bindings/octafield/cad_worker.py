@@ -1,0 +1,299 @@
+"""The part of cad.py that runs in a process of its own: Gmsh and Open CASCADE, which damaged models can crash or hang.
+
+A program, not a module of the package: it imports Gmsh and NumPy alone, which halves its start. Its one argument is a JSON object: model (path), format
+(Gmsh's name of it), edge_length (0: from the size), folder and parent (process id). In the folder it leaves answer.json ({"notes": [...]}, or {"error":
+kind, "message": ...}) and grid.npz with the arrays of a Grid; what Open CASCADE prints goes to the standard output, a file that it also reads.
+"""
+
+import ctypes
+import json
+import os
+import re
+import resource
+import signal
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+Array = np.ndarray[Any, Any]
+Entity = tuple[int, int]  # dimension and tag
+
+PARTS = 30  # edges along the diagonal of the bounding box, where no length is asked for
+_CLOSE = 1e-6  # diagonals: what lies nearer is the same point of two solids or faces
+_MOST = 5e7  # triangles or tets, as of remeshing
+_LINE, _TRIANGLE, _TET = 1, 2, 4  # Gmsh's numbers of elements
+
+
+class Refused(Exception):
+    """A model that cannot be used. kind: of the error."""
+
+    def __init__(self, kind: str, message: str):
+        super().__init__(message)
+        self.kind = kind
+
+
+@dataclass
+class Model:
+    """What is current in Gmsh. region: of each solid. notes: what was found and changed."""
+
+    gmsh: Any
+    diagonal: float
+    region: dict[int, int]
+    notes: list[str] = field(default_factory=list)
+
+
+def main() -> None:
+    job = json.loads(sys.argv[1])
+    _become_a_part_of(job["parent"])
+    try:
+        answer = _answer(job)
+    except Refused as error:
+        answer = {"error": error.kind, "message": str(error)}
+    except Exception as error:  # Gmsh raises plain exceptions
+        answer = {"error": "unreadable", "message": f"Gmsh cannot read or mesh it ({' '.join(str(error).split()) or type(error).__name__})"}
+    Path(job["folder"], "answer.json").write_text(json.dumps(answer))
+    os._exit(0)  # libraries that end may crash too
+
+
+def _become_a_part_of(parent: int) -> None:
+    """Ends with the process that started it, which alone decides on Ctrl-C; a crash leaves no core file."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    try:
+        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+    except (OSError, AttributeError):
+        pass  # not Linux
+    if os.getppid() != parent:
+        os._exit(1)
+
+
+def _answer(job: dict[str, Any]) -> dict[str, Any]:
+    try:
+        import gmsh
+    except (ImportError, OSError) as error:
+        raise Refused("no_gmsh", f"CAD models are read by Gmsh, which is not here ({error}); pip install 'octafield[cad]'") from error
+    gmsh.initialize(["octafield"], readConfigFiles=False, interruptible=False)
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.option.setNumber("General.NumThreads", 1)
+    _import(gmsh, job["model"], job["format"])
+    model = _with_solids(gmsh)
+    arrays = _meshed(model, job["edge_length"] or model.diagonal / PARTS)
+    np.savez(Path(job["folder"], "grid.npz"), **arrays)
+    return {"notes": model.notes}
+
+
+def _import(gmsh: Any, path: str, kind: str) -> None:
+    """Open CASCADE prints what it finds wrong and goes on with what is left, which may not end."""
+    try:
+        gmsh.model.occ.importShapes(path, format=kind)
+    except Exception as error:
+        raise Refused("unreadable", f"Gmsh cannot read it ({_first_defect() or ' '.join(str(error).split())}); export it again") from error
+    if defect := _first_defect():
+        raise Refused("unreadable", f"damaged ({defect}); export it again")
+    gmsh.model.occ.synchronize()
+
+
+def _first_defect() -> str:
+    said = os.pread(1, os.fstat(1).st_size, 0).decode("utf-8", "replace")
+    found = re.search(r"\*{4} ERR \w+ : (.*?)\s*\*{4}", said)
+    return " ".join(found[1].split()) if found else ""
+
+
+def _with_solids(gmsh: Any) -> Model:
+    """With the solids of the file, or those that its faces enclose; solids that touch share faces, curves and points then."""
+    solids = gmsh.model.getEntities(3)
+    if not solids and not gmsh.model.getEntities(2):
+        raise Refused("no_faces", "the model has no faces; export its solids or surfaces")
+    box = np.array(gmsh.model.getBoundingBox(-1, -1)).reshape(2, 3)
+    model = Model(gmsh, float(np.linalg.norm(box[1] - box[0])), {tag: number for number, (_, tag) in enumerate(solids, 1)})
+    gmsh.option.setNumber("Geometry.ToleranceBoolean", _CLOSE * model.diagonal)
+    if not solids:
+        _enclose(model, box)
+    elif len(solids) > 1:
+        _make_conformal(model)
+    return model
+
+
+def _make_conformal(model: Model) -> None:
+    gmsh = model.gmsh
+    boxes = np.array([gmsh.model.getBoundingBox(3, tag) for tag in model.region])
+    low, high = boxes[:, :3] - _CLOSE * model.diagonal, boxes[:, 3:] + _CLOSE * model.diagonal
+    meets = np.array([int((low <= high[i]).all(axis=1)[(low[i] <= high).all(axis=1)].sum()) > 1 for i in range(len(boxes))])
+    near = [(3, tag) for tag, close in zip(model.region, meets, strict=True) if close]
+    if not near:
+        return
+    numbers, count = [model.region.pop(tag) for _, tag in near], len(model.region) + len(near)
+    try:
+        _, images = gmsh.model.occ.fragment(near, [])
+    except Exception as error:
+        reason = " ".join(str(error).split())
+        raise Refused("not_conformal", f"its solids cannot be made to share their faces ({reason}); export them one by one, or fused") from error
+    gmsh.model.occ.synchronize()
+    owners: dict[int, list[int]] = {}
+    for number, image in zip(numbers, images, strict=True):
+        for _, tag in image:
+            owners.setdefault(tag, []).append(number)
+    alone = {number: image[0][1] for number, image in zip(numbers, images, strict=True) if len(image) == 1}
+    shared: dict[tuple[int, ...], int] = {}
+    for tag, of in owners.items():
+        whole = next((number for number in of if alone.get(number) == tag), None)  # a solid that lies inside others
+        if whole is None and len(of) > 1:
+            whole = shared.setdefault(tuple(of), count + len(shared) + 1)
+        model.region[tag] = of[0] if whole is None else whole
+    if any(len(of) > 1 for of in owners.values()):
+        new = f", here {', '.join(map(str, shared.values()))}" if shared else ""
+        model.notes.append(f"solids overlap: one that lies inside another is cut out of it, any other overlap is a region of its own{new}")
+
+
+def _enclose(model: Model, box: Array) -> None:
+    """Loose faces, as IGES holds them, are sewn and made the boundary of what they enclose; where that is nothing, they stay faces."""
+    gmsh = model.gmsh
+    gmsh.model.occ.healShapes(tolerance=_CLOSE * model.diagonal, fixDegenerated=False, fixSmallEdges=False, fixSmallFaces=False, sewFaces=True, makeSolids=False)
+    gmsh.model.occ.synchronize()
+    shells = _shells(gmsh)
+    one = len(shells) == 1 and not gmsh.model.getBoundary(gmsh.model.getEntities(2), combined=True) and not _has_twins(model)
+    solids = [gmsh.model.occ.addVolume([gmsh.model.occ.addSurfaceLoop(shell)]) for shell in shells]  # repairs poles, which sewing loses
+    gmsh.model.occ.synchronize()
+    faces = gmsh.model.getBoundary([(3, tag) for tag in solids], combined=False, oriented=False)
+    if one:
+        model.region = {solids[0]: 1}
+    else:
+        gmsh.model.occ.remove([(3, tag) for tag in solids])
+    gmsh.model.occ.remove(sorted(set(gmsh.model.getEntities(2)) - set(faces)), recursive=True)
+    gmsh.model.occ.synchronize()
+    if not one:
+        _fill(model, box, faces)
+
+
+def _shells(gmsh: Any) -> list[list[int]]:
+    """Faces that are joined by curves."""
+    left, shells = {tag for _, tag in gmsh.model.getEntities(2)}, []
+    while left:
+        shell = [min(left)]
+        left.remove(shell[0])
+        for face in shell:  # grows
+            for curve in gmsh.model.getAdjacencies(2, face)[1]:
+                more = left.intersection(gmsh.model.getAdjacencies(1, curve)[0].tolist())
+                left -= more
+                shell += sorted(more)
+        shells.append(shell)
+    return shells
+
+
+def _fill(model: Model, box: Array, faces: list[Entity]) -> None:
+    """Splits a larger box at the faces: of its pieces, those behind an odd number of faces are solids."""
+    gmsh = model.gmsh
+    around = gmsh.model.occ.addBox(*(box[0] - model.diagonal), *(box[1] - box[0] + 2 * model.diagonal))
+    _, images = gmsh.model.occ.fragment([(3, around)], faces)
+    gmsh.model.occ.synchronize()
+    kept = {tag for image in images[1:] for dimension, tag in image if dimension == 2}
+    depth = _depths(gmsh, kept)
+    solids = sorted(tag for tag, crossed in depth.items() if crossed % 2)
+    useful = {tag for _, tag in gmsh.model.getBoundary([(3, tag) for tag in solids], combined=False, oriented=False)}
+    if solids and kept - useful:
+        model.notes.append(f"{len(kept - useful)} of the {len(kept)} faces enclose nothing, so that all stay a surface; where solids are meant, export them as solids")
+        solids = []
+    elif any(crossed and crossed % 2 == 0 for crossed in depth.values()):
+        model.notes.append("the file holds faces and no solids: what lies behind an even number of them is taken as empty")
+    model.region = {tag: number for number, tag in enumerate(solids, 1)}
+    gmsh.model.occ.remove([(3, tag) for tag in depth if tag not in solids])
+    gmsh.model.occ.remove([entity for entity in gmsh.model.getEntities(2) if entity[1] not in kept], recursive=True)
+    gmsh.model.occ.synchronize()
+
+
+def _has_twins(model: Model) -> bool:
+    """Whether two curves between the same points run close together: shells that touch there, of which sewing joined the wrong faces."""
+    middles: dict[tuple[int, ...], list[Array]] = {}
+    for _, curve in model.gmsh.model.getEntities(1):
+        middle = np.array(model.gmsh.model.occ.getCenterOfMass(1, curve))
+        others = middles.setdefault(tuple(sorted(model.gmsh.model.getAdjacencies(1, curve)[1].tolist())), [])
+        if any(np.linalg.norm(middle - other) < _CLOSE * model.diagonal for other in others):
+            return True
+        others.append(middle)
+    return False
+
+
+def _depths(gmsh: Any, faces: set[int]) -> dict[int, int]:
+    """How many faces lie between each solid and the outermost, which has others around it."""
+    beside = {tag: [int(face) for face in gmsh.model.getAdjacencies(3, tag)[1]] for _, tag in gmsh.model.getEntities(3)}
+    waiting = [tag for tag, around in beside.items() if not faces.issuperset(around)]
+    depth = dict.fromkeys(waiting, 0)
+    for tag in waiting:  # grows
+        for face in faces.intersection(beside[tag]):
+            for other in map(int, gmsh.model.getAdjacencies(2, face)[0]):
+                if other not in depth:
+                    depth[other] = depth[tag] + 1
+                    waiting.append(other)
+    return depth
+
+
+def _meshed(model: Model, size: float) -> dict[str, Any]:
+    """Triangles of the boundary of solids, where there are any; where some touch, tets."""
+    gmsh, solids = model.gmsh, list(model.region)
+    _require_few(gmsh, 2, size, 3**0.5 / 4 * size**2)
+    gmsh.option.setNumber("Mesh.MeshSizeMin", size)
+    gmsh.option.setNumber("Mesh.MeshSizeMax", size)
+    gmsh.model.mesh.generate(2)
+    touching = _touching(gmsh, solids)
+    if touching:
+        model.notes.append(f"solids touch: Gmsh filled them with tets, {len(set(model.region.values()))} regions with their interfaces")
+    elif len(solids) > 1:
+        model.notes.append(f"{len(solids)} solids that do not touch")
+    bounding = gmsh.model.getBoundary([(3, tag) for tag in solids], combined=not touching, oriented=False)
+    faces = sorted({tag for _, tag in bounding or gmsh.model.getEntities(2)})
+    curves = sorted({tag for _, tag in gmsh.model.getBoundary([(2, tag) for tag in faces], combined=False, oriented=False)})
+    if touching:
+        _require_few(gmsh, 3, size, size**3 / 72**0.5)
+        gmsh.model.mesh.generate(3)
+    else:
+        for tag in solids:
+            gmsh.model.mesh.setOutwardOrientation(tag)
+    cells = {"triangle": _elements(gmsh, faces, 2, _TRIANGLE), "line": _elements(gmsh, curves, 1, _LINE)}
+    if touching:
+        cells["tetra"] = _elements(gmsh, solids, 3, _TET)
+    tags, points, _ = gmsh.model.mesh.getNodes()
+    place = np.zeros(int(tags.max()) + 1, np.int64)
+    place[tags] = np.arange(len(tags))
+    arrays: dict[str, Any] = {kind: place[nodes] for kind, (nodes, _) in cells.items() if len(nodes)}
+    arrays |= {"points": points.reshape(-1, 3), "faces": cells["triangle"][1]}
+    if touching:
+        arrays["regions"] = np.array([model.region[tag] for tag in cells["tetra"][1].tolist()])
+    return arrays
+
+
+def _require_few(gmsh: Any, dimension: int, size: float, of_one: float) -> None:
+    """of_one: area of a triangle or volume of a tet of that size."""
+    expected = sum(abs(gmsh.model.occ.getMass(dimension, tag)) for _, tag in gmsh.model.getEntities(dimension)) / of_one
+    if expected > _MOST:
+        what = {2: "triangles", 3: "tets"}[dimension]
+        raise Refused("invalid_option", f"an edge length of {size:.3g} would give about {expected:.2g} {what}; choose a larger one (--edge-length)")
+
+
+def _touching(gmsh: Any, solids: list[int]) -> bool:
+    """Whether two solids share a point of the mesh."""
+    if len(solids) < 2:
+        return False
+    of_each = []
+    for solid in solids:
+        faces = [tag for _, tag in gmsh.model.getBoundary([(3, solid)], oriented=False)]
+        of_each.append(np.unique(_elements(gmsh, faces, 2, _TRIANGLE)[0]))
+    together = np.concatenate(of_each)
+    return len(np.unique(together)) < len(together)
+
+
+def _elements(gmsh: Any, entities: list[int], dimension: int, kind: int) -> tuple[Array, Array]:
+    """(k, dimension + 1) node tags of the elements on the entities, and (k,) the entity of each."""
+    nodes = [gmsh.model.mesh.getElementsByType(kind, tag)[1].reshape(-1, dimension + 1).astype(np.int64) for tag in entities]
+    empty = next((tag for tag, part in zip(entities, nodes, strict=True) if dimension > 1 and not len(part)), None)
+    if empty is not None:
+        what = {2: "face", 3: "solid"}[dimension]
+        raise Refused("not_meshed", f"Gmsh cannot mesh {what} {empty} of the model; choose another edge length (--edge-length), or export it again")
+    ids = [np.full(len(part), tag) for part, tag in zip(nodes, entities, strict=True)]
+    return (np.concatenate(nodes), np.concatenate(ids)) if nodes else (np.empty((0, dimension + 1), np.int64), np.empty(0, np.int64))
+
+
+if __name__ == "__main__":
+    main()
