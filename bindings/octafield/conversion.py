@@ -6,7 +6,7 @@ from typing import Any
 
 from .errors import InvalidInput, IoError
 from .formats import FrameFile, read_frames, write_frames
-from .formats.files import plain_name
+from .files import plain_name
 from .formats.meshes import MESH_SUFFIXES, write_mesh
 from .formats.registry import FORMATS, READERS, WRITERS, find_format
 from .inputs import SURFACE_SUFFIXES, Input, from_mesh, naming, read_input

@@ -9,7 +9,7 @@ from . import _core
 from .errors import InvalidInput
 from .formats import FrameFile, read_frames
 from .formats.base import mesh_of
-from .formats.files import plain_name
+from .files import plain_name
 from .formats.meshes import MESH_SUFFIXES
 from .imported import AnalysedField, analyse
 from .meshing import prepare_mesh

@@ -10,9 +10,9 @@ import numpy as np
 
 from . import _core
 from ._core import BoundarySurface, TetMesh, TriangleMesh
-from .cad import CAD_SUFFIXES, read_cad
+from .meshes.cad import CAD_SUFFIXES, read_cad
 from .errors import GeometryError, InvalidInput, IoError, SolverError
-from .grids import GRID_SUFFIXES, LOWER, Grid, read_grid
+from .meshes.grids import GRID_SUFFIXES, LOWER, Grid, read_grid
 from .output import require_utf8
 from .phases import Progress
 

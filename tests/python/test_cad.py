@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import octafield as of
-from octafield import cad
+from octafield.meshes import cad
 from octafield.conversion import convert_file
 from octafield.info import examine
 from octafield.inputs import read_input
@@ -184,7 +184,8 @@ worker.main()
 """
 READER = """import sys
 from pathlib import Path
-from octafield import cad, inputs
+from octafield import inputs
+from octafield.meshes import cad
 cad._WORKER = Path("sleeper.py")
 inputs.read_input(sys.argv[1])
 """

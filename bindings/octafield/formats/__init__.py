@@ -19,7 +19,7 @@ from .._core import TetMesh
 from ..errors import InvalidInput
 from ..inputs import Input, read_input
 from .base import SITES, Field, FrameFile, FrameFormat
-from .files import plain_name
+from ..files import plain_name
 from .placing import place
 from .registry import FORMATS, READERS, WRITERS, find_format
 from .rotations import axes_of, unit_quaternions

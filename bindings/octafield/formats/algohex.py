@@ -10,7 +10,7 @@ from ..inputs import read_input
 from ..topology import unique_triangles
 from .algohex_transitions import CUT, TRANSITIONS, VALENCES, far_transitions, inner_faces, transitions_of, valences_of
 from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of
-from .files import plain_name
+from ..files import plain_name
 from .ovm import read_ovm, write_ovm
 from .ovm_mesh import OvmMesh, ovm_of_tets
 from .rotations import axes_of

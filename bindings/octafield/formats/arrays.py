@@ -9,7 +9,7 @@ import numpy as np
 from .._core import TetMesh
 from ..errors import InvalidInput, IoError
 from .base import SITES, Field, FrameFile, from_axes, from_quaternions
-from .files import read_bytes, write_whole
+from ..files import read_bytes, write_whole
 
 _UNITS = {1: "read_array_header_1_0", 2: "read_array_header_2_0"}
 

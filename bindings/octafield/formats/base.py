@@ -10,7 +10,7 @@ import numpy as np
 from .. import _core
 from .._core import TetMesh
 from ..errors import InvalidInput
-from .files import plain_name
+from ..files import plain_name
 from .rotations import Place, frames_of_axes, unit_quaternions
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ import numpy as np
 from .. import _core
 from ..errors import InvalidInput, IoError
 from .base import Field, FrameFile, from_axes
-from .files import head_of, plain_name, read_bytes, read_text, rows_of, table_of, write_all, write_whole
+from ..files import head_of, plain_name, read_bytes, read_text, rows_of, table_of, write_all, write_whole
 from .rotations import axes_in_rows, axes_of
 from .text import _columns, _count, _require_count
 

@@ -14,7 +14,7 @@ from ..inputs import SURFACE_SUFFIXES, Input
 from ..output import vtp_bytes
 from .algohex import add_features
 from .base import Field, mesh_of
-from .files import plain_name, rows_of, write_all, write_whole
+from ..files import plain_name, rows_of, write_all, write_whole
 from .ovm import write_ovm
 from .ovm_mesh import ovm_of_tets
 from .vtk import through_file

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InvalidInput, IoError
-from .files import plain_name, read_text, rows_of, table_of, write_whole
+from ..files import plain_name, read_text, rows_of, table_of, write_whole
 from .ovm_mesh import ENTITIES, OvmMesh
 from .ovmb import binary_pieces, read_binary
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import IoError
-from .files import read_bytes
+from ..files import read_bytes
 from .ovm_mesh import ENTITIES, OvmMesh
 
 _MAGIC = b"OVMB\n\r\n\xff"

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..errors import IoError
 from .base import Field, FrameFile, from_axes, from_quaternions
-from .files import head_of, numbers_of, read_text, rows_of, table_of, words_per_line, write_whole
+from ..files import head_of, numbers_of, read_text, rows_of, table_of, words_per_line, write_whole
 from .rotations import axes_in_rows
 
 

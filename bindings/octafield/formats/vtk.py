@@ -8,11 +8,11 @@ import numpy as np
 
 from .. import _core
 from ..errors import InvalidInput, IoError
-from ..grids import MESHIO_SUFFIXES, grid_of_meshio, read_meshio
+from ..meshes.grids import MESHIO_SUFFIXES, grid_of_meshio, read_meshio
 from ..inputs import Input, input_of_grid, naming
 from ..output import scratch_folder, vtp_bytes
 from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of
-from .files import plain_name, write_whole
+from ..files import plain_name, write_whole
 from .rotations import axes_of
 
 if TYPE_CHECKING:

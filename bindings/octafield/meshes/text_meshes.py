@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .errors import IoError
+from ..errors import IoError
 
 # Section: meshio's name of the cells and how many vertices one has. Every row ends with a reference.
 _MEDIT_CELLS = {

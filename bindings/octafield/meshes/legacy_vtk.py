@@ -11,7 +11,8 @@ from urllib.parse import unquote
 
 import numpy as np
 
-from .errors import InvalidInput, IoError
+from ..errors import InvalidInput, IoError
+from ..files import numbers_of
 
 if TYPE_CHECKING:
     import meshio
@@ -64,8 +65,6 @@ class _File:
         return numbers.reshape(count, width)
 
     def _text(self, what: str, count: int) -> np.ndarray:
-        from .formats.files import numbers_of
-
         found = _NEXT_WORD.search(self.data, max(self.at - 1, 0))
         start, self.at = self.at, len(self.data) if found is None else found.start() + 1
         first = self.data.count(10, 0, start) + 1

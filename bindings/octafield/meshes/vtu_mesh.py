@@ -16,7 +16,8 @@ from xml.parsers import expat
 
 import numpy as np
 
-from .errors import InvalidInput, IoError
+from ..errors import InvalidInput, IoError
+from ..files import numbers_of
 from .legacy_vtk import from_offsets, mesh_of_cells, whole_numbers
 
 if TYPE_CHECKING:
@@ -161,8 +162,6 @@ def _values(file: _File, array: _Array) -> np.ndarray:
     """(n, components)."""
     name, how = array.attributes.get("Name", ""), array.attributes.get("format", "ascii")
     if how == "ascii":
-        from .formats.files import numbers_of
-
         values = numbers_of("".join(array.text), file.name, array.text_line or array.line)
     elif how in ("binary", "appended"):
         order = ">" if file.root.get("byte_order") == "BigEndian" else "<"

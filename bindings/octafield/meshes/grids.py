@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from .binary_medit import read_binary_medit
-from .errors import InvalidInput, IoError
+from ..errors import InvalidInput, IoError
+from ..files import read_bytes, read_text
 from .gmsh_mesh import read_gmsh
 from .legacy_vtk import read_legacy_vtk
-from .output import read_vtp, scratch_folder
+from ..output import read_vtp, scratch_folder
 from .text_meshes import TextMesh, read_medit, read_tetgen
 from .vtu_mesh import read_vtu
 
@@ -59,14 +60,10 @@ def read_grid(path: Path, suffix: str) -> Grid:
 
 
 def _text(path: Path) -> str:
-    from .formats.files import read_text
-
     return read_text(path)
 
 
 def _bytes(path: Path) -> bytes:
-    from .formats.files import read_bytes
-
     return read_bytes(path)
 
 
@@ -94,11 +91,6 @@ def read_meshio(path: Path, suffix: str) -> "meshio.Mesh":
     return _READERS[suffix](_bytes(path), str(path))
 
 
-def place_in(data: bytes, at: int) -> str:
-    """Bytes where the file is binary."""
-    return f"byte {at}" if b"\0" in data else f"line {data.count(10, 0, max(at - 1, 0)) + 1}"
-
-
 @contextlib.contextmanager
 def _reading(path: Path, suffix: str) -> Iterator[None]:
     try:
@@ -118,8 +110,8 @@ def grid_of_meshio(found: "meshio.Mesh") -> Grid:
 
 def _ovm_grid(path: Path) -> Grid:
     """Feature edges and faces are those that AlgoHex marks; regions: cell property region."""
-    from .formats.ovm import read_ovm
-    from .formats.ovm_mesh import tets_of_ovm
+    from ..formats.ovm import read_ovm
+    from ..formats.ovm_mesh import tets_of_ovm
 
     mesh = read_ovm(path)
     blocks, faces = [("tetra", tets_of_ovm(mesh, str(path)))], [np.zeros(len(mesh.cells), np.int64)]
@@ -137,8 +129,6 @@ def _ovm_grid(path: Path) -> Grid:
 
 
 def _vtp_grid(path: Path) -> Grid:
-    from .formats.files import read_bytes
-
     data = read_bytes(path)
     with _reading(path, ".vtp"), scratch_folder() as folder:
         (folder / "input.vtp").write_bytes(data)

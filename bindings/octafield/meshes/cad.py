@@ -15,10 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
-from .errors import InvalidInput, IoError
+from ..errors import InvalidInput, IoError
+from ..files import read_bytes
 from .grids import Grid
-from .output import scratch_folder
-from .phases import Progress, announce
+from ..output import scratch_folder
+from ..phases import Progress, announce
 
 _FORMATS = {".step": "step", ".stp": "step", ".brep": "brep", ".iges": "iges", ".igs": "iges"}
 CAD_SUFFIXES = tuple(_FORMATS)
@@ -64,8 +65,6 @@ def _scratch(path: Path) -> Iterator[Path]:
 
 def _plain(path: Path, suffix: str, folder: Path) -> Path:
     """A file that is not packed, without numbers that are none."""
-    from .formats.files import read_bytes
-
     content = read_bytes(path)
     found = _NO_NUMBER.search(content)
     if found:

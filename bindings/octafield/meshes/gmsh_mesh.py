@@ -5,99 +5,23 @@ ids, and does not say where a file is damaged. Layout: Gmsh reference manual, MS
 """
 
 import codecs
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .errors import IoError
+from ..errors import IoError
+from .gmsh_sections import Section, sections, version_of
 
 if TYPE_CHECKING:
     import meshio
 
-_CUT = ": the file is cut or damaged; write or download it again"
 _CELLS = {15: ("vertex", 1), 1: ("line", 2), 2: ("triangle", 3), 3: ("quad", 4), 4: ("tetra", 4), 5: ("hexahedron", 8), 6: ("wedge", 6), 7: ("pyramid", 5)}
 _HIGHER = {8: 3, 9: 6, 10: 9, 11: 10, 12: 27, 13: 18, 14: 14, 16: 8, 17: 20, 18: 15, 19: 13, 20: 9, 21: 10, 22: 12, 23: 15, 24: 15, 25: 21, 26: 4, 27: 5,
            28: 6, 29: 20, 30: 35, 31: 56, 92: 64, 93: 125}  # fmt: skip
 _View = tuple[str, np.ndarray, np.ndarray]  # name, ids, values
 _VOLUME, _FLAT = {11, 29, 30, 31}, {9, 10, 16, 20, 21, 22, 23, 24, 25}
-
-
-@dataclass
-class _Section:
-    """What stands between $Name and $EndName; reads forward. at: byte. order: of bytes; "" in text."""
-
-    name: str
-    data: bytes
-    at: int
-    end: int
-    order: str
-    file: str
-    taken: int = 0
-
-    @cached_property
-    def _numbers(self) -> np.ndarray:
-        from .formats.files import numbers_of
-
-        self.first_line = self.data.count(10, 0, self.at) + 1
-        self.text = self.data[self.at : self.end].decode("utf-8", "replace")
-        return numbers_of(self.text, self.file, self.first_line)
-
-    def place(self) -> str:
-        """Of the next number, or of the last one read where there is none."""
-        if self.order or "_numbers" not in vars(self):
-            return f"{self.file}, " + (f"byte {self.at}" if self.order else f"line {self.data.count(10, 0, self.at) + 1}")
-        from .formats.files import words_per_line
-
-        ends = np.cumsum(words_per_line(self.text))
-        return f"{self.file}, line {self.first_line + int(np.searchsorted(ends, min(self.taken, ends[-1] - 1), side='right'))}"
-
-    def line(self) -> str:
-        """The next that is not blank."""
-        line = b""
-        while not line.strip() and self.at < self.end:
-            stop = self.data.find(b"\n", self.at, self.end)
-            start, self.at = self.at, self.end if stop < 0 else stop + 1
-            line = self.data[start : self.at]
-        return line.decode("utf-8", "replace").strip()
-
-    def count(self, what: str) -> int:
-        """From a line of text."""
-        place, line = self.place(), self.line()
-        if not re.fullmatch(r"\d{1,15}", line):
-            raise IoError(f"{place}: ${self.name}: the number of {what} is needed, not {line[:40]!r}")
-        return int(line)
-
-    def take(self, kind: str, count: int) -> np.ndarray:
-        """kind: of the number in binary files."""
-        if self.order:
-            dtype = np.dtype(self.order + kind)
-            if count > (self.end - self.at) // dtype.itemsize:
-                raise IoError(f"{self.place()}: ${self.name} ends early: {count} numbers of {dtype.itemsize} bytes are needed, {self.end - self.at} bytes are left")
-            self.at += count * dtype.itemsize
-            return np.frombuffer(self.data, dtype, count, self.at - count * dtype.itemsize)
-        numbers = self._numbers
-        if count > len(numbers) - self.taken:
-            raise IoError(f"{self.place()}: ${self.name} ends early: {count} numbers are needed, {len(numbers) - self.taken} are left")
-        self.taken += count
-        result = numbers[self.taken - count : self.taken]
-        return result if kind == "f8" else self._whole(result, count)
-
-    def _whole(self, numbers: np.ndarray, count: int) -> np.ndarray:
-        bad = np.flatnonzero(~((numbers == np.floor(numbers)) & (np.abs(numbers) < 2**53)))
-        if len(bad):
-            self.taken += int(bad[0]) - count
-            raise IoError(f"{self.place()}: ${self.name} holds a number that is no id")
-        return numbers.astype(np.int64)
-
-    def size(self, kind: str, what: str) -> int:
-        place, value = self.place(), int(self.take(kind, 1)[0])
-        if not 0 <= value < 2**53:
-            raise IoError(f"{place}: ${self.name}: the number of {what} is {value}")
-        return value
 
 
 @dataclass
@@ -113,16 +37,16 @@ class _Elements:
 
 def read_gmsh(data: bytes, name: str) -> "meshio.Mesh":
     """With cell data gmsh:physical and gmsh:geometrical (0: none) and the views; where a view has no value: nan."""
-    sections = list(_sections(data.removeprefix(codecs.BOM_UTF8), name))
-    version = _version(sections[0])
-    order = sections[0].order
-    for section in sections:
+    parts = list(sections(data.removeprefix(codecs.BOM_UTF8), name))
+    version = version_of(parts[0])
+    order = parts[0].order
+    for section in parts:
         section.order = order
     wide = version >= 4
     physical: dict[tuple[int, int], int] = {}
     tags, points, runs = np.empty(0, np.int64), np.empty((0, 3)), list[_Elements]()
     views: dict[str, list[_View]] = {"NodeData": [], "ElementData": []}
-    for section in sections:
+    for section in parts:
         if section.name == "Entities" and wide:
             physical = _entities(section)
         elif section.name == "Nodes" and not len(points):
@@ -136,42 +60,7 @@ def read_gmsh(data: bytes, name: str) -> "meshio.Mesh":
     return _mesh(name, tags, points, runs, views)
 
 
-def _sections(data: bytes, name: str) -> Iterator[_Section]:
-    from .grids import place_in
-
-    if not data.startswith((b"$MeshFormat", b"$Comments")):
-        raise IoError(f"{name}, line 1: a Gmsh .msh file begins with $MeshFormat")
-    opened, begin, end = None, 0, 0
-    for found in re.finditer(rb"^\$(End)?([A-Z][A-Za-z]{3,})[ \t]*\r?$", data, re.MULTILINE):
-        end, closing, section = found.end(), bool(found[1]), found[2].decode()
-        if closing and section != opened:
-            raise IoError(f"{name}, {place_in(data, end)}: $End{section} closes {f'${opened}' if opened else 'nothing'}{_CUT}")
-        if opened and not closing:
-            raise IoError(f"{name}, {place_in(data, end)}: ${section} begins before $End{opened}{_CUT}")
-        if closing and section != "Comments":
-            yield _Section(section, data, begin, found.start(), "", name)
-        opened, begin = (None if closing else section), end + 1
-    if opened or data[end:].strip():
-        raise IoError(f"{name}, {place_in(data, len(data))}: ends {f'before $End{opened}' if opened else 'within the head of a section'}{_CUT}")
-
-
-def _version(head: _Section) -> float:
-    """Sets the order of bytes of binary files."""
-    place, words = head.place(), head.line().split()
-    if head.name != "MeshFormat" or len(words) != 3 or words[1] not in ("0", "1") or not re.fullmatch(r"\d(\.\d)?", words[0]):
-        raise IoError(f"{place}: $MeshFormat holds a version, 0 or 1 and a size; not {' '.join(words)[:40]!r}")
-    version = float(words[0])
-    if not (2 <= version < 3 or version == 4.1) or words[2] != "8":
-        raise IoError(f"{place}: version {words[0]} with numbers of {words[2][:9]} bytes; 2, 2.2 and 4.1 with 8 are read: write it with Gmsh -format msh41")
-    if words[1] == "1":
-        one = head.data[head.at : head.at + 4]
-        head.order = {b"\1\0\0\0": "<", b"\0\0\0\1": ">"}.get(one, "")
-        if not head.order:
-            raise IoError(f"{head.file}, byte {head.at}: the number 1 in binary is needed after the version, not {one.hex(' ')}")
-    return version
-
-
-def _nodes2(section: _Section) -> tuple[np.ndarray, np.ndarray]:
+def _nodes2(section: Section) -> tuple[np.ndarray, np.ndarray]:
     count = section.count("nodes") if section.order else section.size("i4", "nodes")
     if section.order:
         rows = _rows(section, count, np.dtype([("id", section.order + "i4"), ("at", section.order + "f8", 3)]))
@@ -180,11 +69,11 @@ def _nodes2(section: _Section) -> tuple[np.ndarray, np.ndarray]:
     return section._whole(np.ascontiguousarray(table[:, 0]), 4 * count), table[:, 1:]
 
 
-def _rows(section: _Section, count: int, dtype: np.dtype) -> np.ndarray:
+def _rows(section: Section, count: int, dtype: np.dtype) -> np.ndarray:
     return np.frombuffer(section.take("u1", count * dtype.itemsize).tobytes(), dtype)
 
 
-def _nodes4(section: _Section) -> tuple[np.ndarray, np.ndarray]:
+def _nodes4(section: Section) -> tuple[np.ndarray, np.ndarray]:
     blocks, *_ = (section.size("u8", "nodes") for _ in range(4))
     tags, points = [np.empty(0, np.int64)], [np.empty((0, 3))]
     for _ in range(blocks):
@@ -196,7 +85,7 @@ def _nodes4(section: _Section) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate(tags), np.concatenate(points).astype(float)
 
 
-def _entities(section: _Section) -> dict[tuple[int, int], int]:
+def _entities(section: Section) -> dict[tuple[int, int], int]:
     """The first physical group of each entity that has one, by dimension and tag."""
     found = {}
     for dimension, count in enumerate([section.size("u8", "entities") for _ in range(4)]):
@@ -211,14 +100,14 @@ def _entities(section: _Section) -> dict[tuple[int, int], int]:
     return found
 
 
-def _width(section: _Section, place: str, kind: int) -> int:
+def _width(section: Section, place: str, kind: int) -> int:
     width = _CELLS[kind][1] if kind in _CELLS else _HIGHER.get(kind)
     if width is None:
         raise IoError(f"{place}: elements of type {kind}, which is not read")
     return width
 
 
-def _elements2(section: _Section) -> Iterator[_Elements]:
+def _elements2(section: Section) -> Iterator[_Elements]:
     count = section.count("elements") if section.order else section.size("i4", "elements")
     rows: list[list[int]] = []
     while count > 0:
@@ -251,7 +140,7 @@ def _run(kind: int, table: np.ndarray, tags: int) -> _Elements:
     return _Elements(kind, table[:, 0], table[:, 1 + tags :], table[:, 1] if tags > 0 else none, table[:, 2] if tags > 1 else none)
 
 
-def _elements4(section: _Section, physical: dict[tuple[int, int], int]) -> Iterator[_Elements]:
+def _elements4(section: Section, physical: dict[tuple[int, int], int]) -> Iterator[_Elements]:
     blocks, *_ = (section.size("u8", "elements") for _ in range(4))
     for _ in range(blocks):
         place = section.place()
@@ -262,7 +151,7 @@ def _elements4(section: _Section, physical: dict[tuple[int, int], int]) -> Itera
         yield _Elements(kind, table[:, 0], table[:, 1:], group, np.full(number, entity))
 
 
-def _view(section: _Section) -> _View:
+def _view(section: Section) -> _View:
     names = [section.line().strip('"') for _ in range(min(section.count("words"), 100))]
     for _ in range(min(section.count("real numbers"), 100)):
         section.line()

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import DTypeLike
 
-from .errors import IoError
+from ..errors import IoError
 from .text_meshes import TextMesh
 
 _DIMENSION, _VERTICES, _RIDGES, _END = 3, 4, 14, 54

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import IoError
-from ..output import require_utf8
+from .errors import IoError
+from .output import require_utf8
 
 _ROWS_AT_ONCE = 1 << 16
 
@@ -161,3 +161,8 @@ def words_per_line(text: str) -> np.ndarray:
     ends = np.flatnonzero(data == 10)
     before = np.searchsorted(np.flatnonzero(begins), ends)
     return np.diff(before, prepend=0)
+
+
+def place_in(data: bytes, at: int) -> str:
+    """Bytes where the file is binary."""
+    return f"byte {at}" if b"\0" in data else f"line {data.count(10, 0, max(at - 1, 0)) + 1}"
