@@ -290,7 +290,7 @@ def models(tmp_path_factory):
         "face": (two_boxes(1), all_three), "near": (two_boxes(1 + 1e-6), (".step",)), "edge": (two_boxes(1, 1), all_three), "vertex": (two_boxes(1, 1, 1), both),
         "apart": (two_boxes(3), all_three), "partial": (box_on_larger, all_three), "overlap": (two_boxes(0.5, 0.5, 0.5), all_three), "same": (two_boxes(0), both),
         "inside": (ball_in_box, all_three), "filled": (ball_in_hole(0.3), (".step",)), "loose": (ball_in_hole(0.15), all_three), "shells": (shells(1), all_three),
-        "shells_apart": (shells(2), both), "sheet": (box_and_sheet, (".iges",)), "open": (open_box, both), "three": (pair_and_one, (".step",)),
+        "shells_apart": (shells(2), both), "sheet": (box_and_sheet, all_three), "open": (open_box, both), "three": (pair_and_one, (".step",)),
         "ball": (lambda occ: occ.addSphere(0, 0, 0, 1), all_three), "cone": (lambda occ: occ.addCone(0, 0, 0, 0, 0, 1, 0, 1), (".iges",)),
         "curve": (lambda occ: occ.addCircle(0, 0, 0, 1), (".step",)), "slab": (lambda occ: occ.addBox(0, 0, 0, 1, 2, 3), (".iges",)),
     }  # fmt: skip
@@ -375,6 +375,13 @@ def test_faces_that_enclose_nothing_are_not_dropped(models, name):
     record = examine(models / name, of.MeshOptions(edge_length=0.4))
     failed = {r["requirement"]: r["message"] for r in record["requirements"] if r["state"] == "fail"}
     assert list(failed) == ["closed"] and any("enclose nothing" in note and "export them as solids" in note for note in record["notes"])
+
+
+@pytest.mark.parametrize("suffix", [".step", ".brep"])
+def test_faces_beside_solids_are_left_out_and_told(models, suffix):
+    found = read_input(models / f"sheet{suffix}", edge_length=0.5)
+    assert of.signed_volume(found.surface) == pytest.approx(1) and np.asarray(found.surface.vertices)[:, 0].max() == pytest.approx(1)
+    assert any("bound no solid were left out: 1" in note for note in found.notes)
 
 
 def test_loose_faces_of_iges_are_sewn(models):

@@ -88,7 +88,7 @@ def _answer(job: dict[str, Any]) -> dict[str, Any]:
 def _import(gmsh: Any, path: str, kind: str) -> None:
     """Open CASCADE prints what it finds wrong and goes on with what is left, which may not end."""
     try:
-        gmsh.model.occ.importShapes(path, format=kind)
+        gmsh.model.occ.importShapes(path, highestDimOnly=False, format=kind)
     except Exception as error:
         raise Refused("unreadable", f"Gmsh cannot read it ({_first_defect() or ' '.join(str(error).split())}); export it again") from error
     if defect := _first_defect():
@@ -104,17 +104,30 @@ def _first_defect() -> str:
 
 def _with_solids(gmsh: Any) -> Model:
     """With the solids of the file, or those that its faces enclose; solids that touch share faces, curves and points then."""
+    left_out = _drop_loose(gmsh)
     solids = gmsh.model.getEntities(3)
     if not solids and not gmsh.model.getEntities(2):
         raise Refused("no_faces", "the model has no faces; export its solids or surfaces")
     box = np.array(gmsh.model.getBoundingBox(-1, -1)).reshape(2, 3)
     model = Model(gmsh, float(np.linalg.norm(box[1] - box[0])), {tag: number for number, (_, tag) in enumerate(solids, 1)})
+    model.notes += [f"faces that bound no solid were left out: {left_out}"] * (left_out > 0)
     gmsh.option.setNumber("Geometry.ToleranceBoolean", _CLOSE * model.diagonal)
     if not solids:
         _enclose(model, box)
     elif len(solids) > 1:
         _make_conformal(model)
     return model
+
+
+def _drop_loose(gmsh: Any) -> int:
+    """Removes what bounds nothing: points, curves and, beside solids, faces. How many faces."""
+    faces = 0
+    for dimension in (2, 1, 0) if gmsh.model.getEntities(3) else (1, 0):
+        loose = [entity for entity in gmsh.model.getEntities(dimension) if not len(gmsh.model.getAdjacencies(*entity)[0])]
+        faces += len(loose) * (dimension == 2)
+        gmsh.model.occ.remove(loose, recursive=True)
+        gmsh.model.occ.synchronize()
+    return faces
 
 
 def _make_conformal(model: Model) -> None:
