@@ -72,3 +72,10 @@ def test_samplings_are_compared_on_cubes_and_fields(tmp_path):
     ball, cube = fields
     assert int(ball["singular edges, vertices"]) > 0 and float(cube["E, tets"]) < 1e-9
     assert float(lengths[0]["objective, free lengths"]) < float(lengths[0]["E, unit lengths"])
+
+
+def test_sizes_take_as_many_steps_on_finer_cubes():
+    done = subprocess.run([sys.executable, ROOT / "studies" / "benchmarks" / "sizes.py", "6", "12"], capture_output=True, text=True, timeout=100, check=True)
+    coarse, fine = ([cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines()[2:])
+    assert coarse[:2] == ["6", "1,296"] and fine[:2] == ["12", "10,368"]
+    assert int(fine[2]) < 20 and int(fine[4]) < 20
