@@ -3,6 +3,7 @@
 import gzip
 import os
 import tempfile
+import warnings
 import zlib
 from collections.abc import Iterable
 from pathlib import Path
@@ -129,8 +130,8 @@ def rows_of(table: np.ndarray, prefix: str = "") -> Iterable[bytes]:
 def numbers_of(text: str, name: str, first_line: int = 1) -> np.ndarray:
     """All numbers of a text; IoError with the line of the first word that is none. first_line: number of its first."""
     try:
-        return np.fromstring(text, sep=" ") if text.strip() else np.empty(0)
-    except (ValueError, DeprecationWarning):
+        return parsed_numbers(text)
+    except ValueError:
         pass
     for offset, line in enumerate(text.split("\n")):
         for word in line.split():
@@ -140,6 +141,18 @@ def numbers_of(text: str, name: str, first_line: int = 1) -> np.ndarray:
             except ValueError:
                 raise IoError(f"{name}, line {first_line + offset}: no number: {word[:40]!r}") from None
     raise IoError(f"{name}, line {first_line}: numbers separated by blanks are needed")
+
+
+def parsed_numbers(text: str) -> np.ndarray:
+    """All numbers of a text; ValueError where a word is none. Before NumPy 2.3 that was a warning, and what followed was lost."""
+    if not text.strip():
+        return np.empty(0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", DeprecationWarning)
+        try:
+            return np.fromstring(text, sep=" ")
+        except DeprecationWarning as error:
+            raise ValueError(str(error)) from error
 
 
 def table_of(text: str, name: str, width: int, first_line: int = 1) -> tuple[np.ndarray, np.ndarray]:

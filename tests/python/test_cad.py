@@ -21,7 +21,7 @@ from octafield.inputs import read_input
 
 
 @contextlib.contextmanager
-def session():
+def opened_gmsh():
     gmsh.initialize(["test"], readConfigFiles=False, interruptible=False)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
@@ -32,7 +32,7 @@ def session():
 
 def write_models(folder, models):
     """models: what draws each, by name, and its suffixes."""
-    with session() as occ:
+    with opened_gmsh() as occ:
         for name, (draw, suffixes) in models.items():
             gmsh.model.add(name)
             draw(occ)
@@ -75,8 +75,8 @@ def test_a_field_is_computed_in_a_model(part):
     assert result.record["feature_alignment_deg"]["max"] < 1e-6
 
 
-def test_the_callers_session_of_gmsh_stays_as_it_was(part):
-    with session():
+def test_what_the_caller_has_in_gmsh_stays_as_it_was(part):
+    with opened_gmsh():
         gmsh.option.setNumber("Mesh.MeshSizeMax", 7.0)
         gmsh.model.add("mine")
         read_input(part / "part.brep", edge_length=0.3)

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 import octafield
 from octafield import frame_formats, read_frames, write_frames
+from octafield.files import numbers_of, parsed_numbers
 from octafield.inputs import read_input
 
 READ = [name for name, form in frame_formats.items() if form.read and form.write]
@@ -170,3 +171,17 @@ def test_damaged_vtp_surfaces_are_refused(tmp_path, box_surface):
         (tmp_path / "b.vtp").write_bytes(data[:cut])
         with pytest.raises(octafield.Error, match="b.vtp"):
             read_input(tmp_path / "b.vtp")
+
+
+def test_numbers_after_a_bad_word_are_not_lost_where_numpy_only_warns(monkeypatch):
+    """As NumPy before 2.3 does."""
+
+    def warns(text, sep):
+        warnings.warn("string or file could not be read to its end due to unmatched data", DeprecationWarning, stacklevel=1)
+        return np.array([1.0])
+
+    monkeypatch.setattr(np, "fromstring", warns)
+    with pytest.raises(ValueError, match="read to its end"):
+        parsed_numbers("1 x 3")
+    with pytest.raises(octafield.IoError, match="a.qtn, line 2: no number: 'x'"):
+        numbers_of("1\nx 3", "a.qtn")

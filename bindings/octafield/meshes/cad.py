@@ -17,9 +17,9 @@ import numpy as np
 
 from ..errors import InvalidInput, IoError
 from ..files import read_bytes
-from .grids import Grid
 from ..output import scratch_folder
 from ..phases import Progress, announce
+from .grids import Grid
 
 _FORMATS = {".step": "step", ".stp": "step", ".brep": "brep", ".iges": "iges", ".igs": "iges"}
 CAD_SUFFIXES = tuple(_FORMATS)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import IoError
+from ..files import parsed_numbers
 
 # Section: meshio's name of the cells and how many vertices one has. Every row ends with a reference.
 _MEDIT_CELLS = {
@@ -174,11 +175,9 @@ def _sections(text: str, name: str) -> list[_Section]:
 def _table(section: _Section, name: str, width: int, *, counted: bool = True, whole: bool = False, skip: int = 1, count: int | None = None) -> np.ndarray:
     """The rows of a section: after `skip` numbers, the first of them their count (unless it is given)."""
     try:
-        numbers = np.fromstring(section.text, sep=" ")
-    except ValueError:
-        numbers = None
-    if numbers is None:
-        raise IoError(_defect(section, name, f"no number in {section.name}"))
+        numbers = parsed_numbers(section.text)
+    except ValueError as error:
+        raise IoError(_defect(section, name, f"no number in {section.name}")) from error
     if not counted:
         skip, count = 0, 1
     if count is None:
