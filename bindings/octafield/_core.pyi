@@ -601,6 +601,7 @@ class SingularTriangle:
     holonomy: int
     quarter_turns: int
     boundary: bool
+    undecided: bool
     def __init__(
         self,
         a: int = ...,
@@ -610,6 +611,7 @@ class SingularTriangle:
         quarter_turns: int = ...,
         boundary: bool = ...,
         point: ArrayLike = ...,
+        undecided: bool = ...,
     ) -> None: ...
     @property
     def point(self) -> Float64s: ...
@@ -619,6 +621,7 @@ class SingularTriangle:
 class SingularGraph:
     length: float
     complex_triangles: int
+    undecided_triangles: int
     def __init__(
         self,
         triangles: Sequence[SingularTriangle] = ...,
@@ -628,6 +631,7 @@ class SingularGraph:
         nodes: ArrayLike = ...,
         length: float = ...,
         complex_triangles: int = ...,
+        undecided_triangles: int = ...,
     ) -> None: ...
     @property
     def triangles(self) -> list[SingularTriangle]: ...
@@ -690,14 +694,28 @@ class SingularEdge:
     b: int
     holonomy: int
     quarter_turns: int
-    def __init__(self, a: int = ..., b: int = ..., holonomy: int = ..., quarter_turns: int = ...) -> None: ...
+    valence: int
+    undecided: bool
+    def __init__(
+        self,
+        a: int = ...,
+        b: int = ...,
+        holonomy: int = ...,
+        quarter_turns: int = ...,
+        valence: int = ...,
+        undecided: bool = ...,
+    ) -> None: ...
 
 class SingularEdges:
     complex_edges: int
+    undecided_edges: int
+    tied_triangles: int
     def __init__(
         self,
         edges: Sequence[SingularEdge] = ...,
         complex_edges: int = ...,
+        undecided_edges: int = ...,
+        tied_triangles: int = ...,
         graph: SingularGraph = ...,
         vertices: ArrayLike = ...,
     ) -> None: ...
@@ -802,6 +820,7 @@ def write_field(
     tet_lengths: ArrayLike = ...,
     point_data: Mapping[str, ArrayLike] = ...,
     cell_data: Mapping[str, ArrayLike] = ...,
+    features: ArrayLike = ...,
 ) -> None: ...
 def write_singular_graph(
     path: Path, graph: SingularGraph, metadata: Mapping[str, str] = ..., meshability: Meshability | None = None
@@ -820,6 +839,9 @@ class SingularVertex:
     one_axis: bool
     meshable: bool
     junction: int
+    valence1: int
+    valence7: int
+    valence8: int
     def __init__(
         self,
         point: int = ...,
@@ -833,6 +855,9 @@ class SingularVertex:
         one_axis: bool = ...,
         meshable: bool = ...,
         junction: int = ...,
+        valence1: int = ...,
+        valence7: int = ...,
+        valence8: int = ...,
     ) -> None: ...
 
 class SingularEnd:
@@ -861,6 +886,9 @@ class SingularJunction:
     valence6: int
     complex: int
     meshable: bool
+    valence1: int
+    valence7: int
+    valence8: int
     def __init__(
         self,
         vertices: int = ...,
@@ -870,6 +898,9 @@ class SingularJunction:
         valence6: int = ...,
         complex: int = ...,
         meshable: bool = ...,
+        valence1: int = ...,
+        valence7: int = ...,
+        valence8: int = ...,
     ) -> None: ...
 
 class Meshability:
@@ -1012,8 +1043,14 @@ class FeatureTangents:
     @tangent.setter
     def tangent(self, value: ArrayLike) -> None: ...
 
-def hex_vertex_exists(valence3: int, valence5: int, valence6: int = ...) -> bool: ...
+def hex_vertex_exists(valence3: int, valence5: int, valence6: int = ..., valence7: int = ..., valence8: int = ...) -> bool: ...
 def local_meshability(mesh: TetMesh, frames: ArrayLike, graph: SingularGraph) -> Meshability: ...
+def tet_meshability(
+    mesh: TetMesh, surface: BoundarySurface, features: FeatureGraph, of_tets: ArrayLike, singular: SingularEdges, *, threads: int = 0
+) -> Meshability: ...
+def tet_boundary_meshability(
+    mesh: TetMesh, boundary: BoundarySurface, features: FeatureGraph, of_tets: ArrayLike, *, threads: int = 0
+) -> BoundaryMeshability: ...
 def boundary_meshability(
     mesh: TetMesh, boundary: BoundarySurface, features: FeatureGraph, frames: ArrayLike, *, threads: int = 0
 ) -> BoundaryMeshability: ...
@@ -1320,6 +1357,31 @@ class LockingSplit:
     @left.setter
     def left(self, value: ArrayLike) -> None: ...
 
+class SingularSplit:
+    added_vertices: int
+    def __init__(
+        self,
+        mesh: TetMesh = ...,
+        parent: ArrayLike = ...,
+        edges: ArrayLike = ...,
+        left: ArrayLike = ...,
+        added_vertices: int = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> TetMesh: ...
+    @property
+    def parent(self) -> Int32s: ...
+    @parent.setter
+    def parent(self, value: ArrayLike) -> None: ...
+    @property
+    def edges(self) -> Int32s: ...
+    @edges.setter
+    def edges(self, value: ArrayLike) -> None: ...
+    @property
+    def left(self) -> Int32s: ...
+    @left.setter
+    def left(self, value: ArrayLike) -> None: ...
+
 class VertexConstraints:
     def __init__(
         self,
@@ -1349,4 +1411,5 @@ def region_surface(mesh: TetMesh, regions: ArrayLike) -> RegionSurface: ...
 def cut_into_sheets(surface: TriangleMesh) -> Sheets: ...
 def find_locking(mesh: TetMesh, surface: BoundarySurface) -> LockingElements: ...
 def split_locking(mesh: TetMesh, surface: BoundarySurface) -> LockingSplit: ...
+def split_between_singular(mesh: TetMesh, surface: BoundarySurface, of_tets: ArrayLike, *, threads: int = 0) -> SingularSplit: ...
 def with_constraints(base: BoundaryConstraints, given: VertexConstraints) -> BoundaryConstraints: ...

@@ -59,8 +59,8 @@ def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0, streamlin
         "energy": energy,
         "energy_unit_speed": _core.unit_speed_factor * energy,
         **_singular_record(graph),
-        **_meshability_record(meshability),
-        **_boundary_record(at_boundary),
+        **meshability_record(meshability),
+        **boundary_record(at_boundary),
         "alignment_deg": degrees(alignment),
         "feature_alignment_deg": degrees(feature_alignment),
         "integrability": {
@@ -86,13 +86,14 @@ def _singular_record(graph: SingularGraph) -> dict[str, Any]:
         "singular_curves": len(graph.curves),
         "singular_nodes": len(graph.nodes),
         "complex_edges": int(graph.complex_triangles),
+        "undecided_edges": int(graph.undecided_triangles),
         "singular_edges_by_turns": {
             f"{t:+d}" if t else "complex": turns.count(t) for t in sorted(set(turns), reverse=True)
         },
     }
 
 
-def _meshability_record(found: Meshability) -> dict[str, Any]:
+def meshability_record(found: Meshability) -> dict[str, Any]:
     counts = Counter(_type(vertex) for vertex in found.vertices if vertex.kind != "boundary_end")
     return {
         "non_meshable_vertices": found.non_meshable_vertices,
@@ -106,7 +107,7 @@ def _meshability_record(found: Meshability) -> dict[str, Any]:
     }
 
 
-def _boundary_record(found: BoundaryMeshability) -> dict[str, Any]:
+def boundary_record(found: BoundaryMeshability) -> dict[str, Any]:
     """hexahedra_at_features: how many feature edges have how many, by the frames of their ends where these agree."""
     numbers = Counter(_hexahedra(wedge) for wedge in found.wedges)
     return {
@@ -127,9 +128,8 @@ def _hexahedra(wedge: FeatureWedge) -> str:
 
 def _type(vertex: SingularVertex) -> str:
     """The valences of the singular edges at a vertex: "3 3 5 5"."""
-    return " ".join(
-        ["2"] * vertex.valence2 + ["3"] * vertex.valence3 + ["5"] * vertex.valence5 + ["6"] * vertex.valence6 + ["complex"] * vertex.complex
-    )
+    counts = {str(valence): getattr(vertex, f"valence{valence}") for valence in (1, 2, 3, 5, 6, 7, 8)} | {"complex": vertex.complex}
+    return " ".join(word for word, count in counts.items() for _ in range(count))
 
 
 def degrees(angles: np.ndarray) -> dict[str, float]:

@@ -59,7 +59,7 @@ def to_pyvista(
 
     AnalysedField, FieldResult: point data frame_u, frame_v, frame_w (the axes, unit vectors) and quaternion (w x y z); cell data of the same names where
     the field lives in the tets, and region where there are several. SurfaceFieldResult: point data direction. SingularGraph: one polyline per curve with cell data
-    quarter_turns (+1: valence 3, -1: valence 5, 0: complex). Streamlines: one polyline each with cell data length. Raises
+    quarter_turns (+1: valence 3, -1: valence 5, 4 less the valence in general; 0: complex). Streamlines: one polyline each with cell data length. Raises
     InvalidInput for anything else.
 
         >>> import octafield

@@ -139,8 +139,8 @@ class SurfaceFieldOptions(MeshOptions):
 class FieldOptions(MeshOptions):
     """Of a frame field in a volume.
 
-    sampling: where the frames live, "vertices" or "tets" (octafield.tet_sampling; constraints, energy, singular edges
-        and alignment are those of the tets then, and meshability and integrability are left out).
+    sampling: where the frames live, "vertices" or "tets" (octafield.tet_sampling; constraints, energy, singular edges,
+        alignment and meshability are those of the tets then, and integrability is left out).
     boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none", or "start"
         (frames on the surface held at those of the start that compute_field is given).
     feature_tolerance: radians; a vertex on a feature keeps its whole frame when one frame fits all its normals and

@@ -143,8 +143,8 @@ void bind_boundary(py::module_& m) {
                 });
         },
         "mesh"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
-        "Singular curves of (m, 4) frames in the tets, from the holonomy round every edge inside, as SingularEdges. "
-        "The same result at any thread count.");
+        "Singular curves of (m, 4) frames in the tets, from the holonomy round every edge inside, lifted to the binary "
+        "octahedral group, as SingularEdges. The same result at any thread count.");
 }
 
 }  // namespace
@@ -193,7 +193,13 @@ void bind_sampling_types(py::module_& m) {
         .field("holonomy", &SingularEdge::holonomy,
                "Element number of the octahedral group, in the frame of the lowest tet at the edge.")
         .field("quarter_turns", &SingularEdge::quarter_turns,
-               "Quarter turns about the edge: +1 valence 3, -1 valence 5, 2 a half turn, 0 complex (in no hex mesh).")
+               "Quarter turns about the curve, modulo 8: +1 valence 3, -1 valence 5, +2 valence 2, -2 valence 6, -3 valence 7, "
+               "-4 valence 8, +3 valence 1, 0 complex (in no hex mesh).")
+        .field("valence", &SingularEdge::valence,
+               "Hexahedra round the edge, by the turn about the edge itself; -1: complex, or about an axis at right angles "
+               "to it.")
+        .field("undecided", &SingularEdge::undecided,
+               "Whether chance decides: two matchings are equally near, or the axis is at right angles to the curve.")
         .finish([](const SingularEdge& e) {
             return std::to_string(e.a) + ", " + std::to_string(e.b) + ", " + count(e.quarter_turns, "quarter turn");
         });
@@ -201,6 +207,9 @@ void bind_sampling_types(py::module_& m) {
     Record<SingularEdges>(m, "SingularEdges", "Singular edges of a frame field that lives in the tets.")
         .field("edges", &SingularEdges::edges, "List of SingularEdge in the order of (a, b).")
         .field("complex_edges", &SingularEdges::complex_edges, "Number of edges with a complex singularity.")
+        .field("undecided_edges", &SingularEdges::undecided_edges, "Number of edges that are undecided.")
+        .field("tied_triangles", &SingularEdges::tied_triangles,
+               "Triangles between two tets across which two matchings are equally near.")
         .field(
             "graph", &SingularEdges::graph,
             "SingularGraph of their curves: no triangles, points at vertices, nodes where other than two meet inside.")

@@ -203,13 +203,15 @@ void bind_files(py::module_& m) {
         "write_field",
         [](const std::filesystem::path& path, const TetMesh& mesh, const ArrayLike& frames, const Metadata& metadata,
            const ArrayLike& regions, const ArrayLike& tet_frames, const ArrayLike& lengths,
-           const ArrayLike& tet_lengths, const NamedArrayLikes& point_data, const NamedArrayLikes& cell_data) {
+           const ArrayLike& tet_lengths, const NamedArrayLikes& point_data, const NamedArrayLikes& cell_data,
+           const ArrayLike& features) {
             run_interruptible([path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames"),
                                ids = from_python<std::vector<Index>>(regions, "regions"),
                                more = FieldArrays{from_python<Quaternions>(tet_frames, "tet_frames"),
                                                   from_python<Points>(lengths, "lengths"),
                                                   from_python<Points>(tet_lengths, "tet_lengths"),
-                                                  named_arrays(point_data), named_arrays(cell_data)}](Job&) mutable {
+                                                  named_arrays(point_data), named_arrays(cell_data),
+                                                  from_python<Edges>(features, "features")}](Job&) mutable {
                 check(mesh, false);
                 check_unit(rows, mesh.vertices.rows(), "frames");
                 if (more.tet_frames.rows() > 0) check_unit(more.tet_frames, mesh.tets.rows(), "tet_frames");
@@ -222,14 +224,15 @@ void bind_files(py::module_& m) {
         },
         "path"_a, "mesh"_a, "frames"_a, "metadata"_a = Metadata{}, "regions"_a = py::tuple(), py::kw_only(),
         "tet_frames"_a = py::tuple(), "lengths"_a = py::tuple(), "tet_lengths"_a = py::tuple(),
-        "point_data"_a = NamedArrayLikes{}, "cell_data"_a = NamedArrayLikes{},
+        "point_data"_a = NamedArrayLikes{}, "cell_data"_a = NamedArrayLikes{}, "features"_a = py::tuple(),
         "Write a .vtu file with point data frame_u, frame_v, frame_w (unit axes), quaternion (w x y z), sh4 (9) and "
         "boundary (0/1). frames: (n, 4); "
         "metadata: words written as field data; regions: (m,) ids written as cell data region, or none; "
         "tet_frames: (m, 4) frames written as cell data under the same names, or none; lengths: (n, 3) point data "
         "frame_lengths, or none, and tet_lengths: (m, 3) cell data; point_data, cell_data: other arrays by name, (n,) "
         "or "
-        "(n, k), a row per vertex or tet. Raises IoError.");
+        "(n, k), a row per vertex or tet; features: (k, 2) feature edges, written as field data feature_edges. Raises "
+        "IoError.");
     m.def(
         "write_singular_graph",
         [](const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata,

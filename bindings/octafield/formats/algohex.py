@@ -80,15 +80,12 @@ def _add_transitions(mesh: OvmMesh, field: Field) -> None:
     """What AlgoHex's refined meshes hold beside the frames."""
     if field.combed is None:
         edges = _core.singular_edges(mesh_of(field), field.frames).edges
-        ends = np.array([(e.a, e.b) for e in edges], np.int64).reshape(-1, 2)
-        holonomy = np.array([e.holonomy for e in edges], np.int64)
     else:
-        parts = field.combed.arrays()
-        ends, holonomy = parts["singular_edges"].astype(np.int64), parts["singular_holonomy"]
+        edges, parts = field.combed.singular.edges, field.combed.arrays()
         mesh.properties[CUT] = np.zeros(len(mesh.faces), np.int32)
         mesh.properties[CUT][inner_faces(mesh)] = parts["cut"]
     mesh.properties[TRANSITIONS] = transitions_of(mesh, field.matchings())
-    mesh.properties[VALENCES] = valences_of(mesh, field, mesh.properties[TRANSITIONS], ends, holonomy)
+    mesh.properties[VALENCES] = valences_of(mesh, field, mesh.properties[TRANSITIONS], edges)
 
 
 def add_features(mesh: OvmMesh, field: Field, triangles: np.ndarray | None = None, faces: np.ndarray | None = None) -> None:
