@@ -62,7 +62,7 @@ FORMATS: dict[str, FrameFormat] = {
         FrameFormat(
             "vtu", (".vtu",), "VTK XML", ("vertices", "tets"),
             "arrays quaternion (w x y z), frame_u, frame_v, frame_w, sh4", _BITS, "VTK itself, meshio", vtk.read_vtu, vtk.write_vtu,
-            holds_mesh=True, exact=True, needs_mesh=True, holds_lengths=True, holds_regions=True,
+            holds_mesh=True, exact=True, needs_mesh=True, holds_lengths=True, holds_features=True, holds_regions=True,
         ),
         FrameFormat(
             "vtk", (".vtk",), "VTK legacy", ("vertices", "tets"), "the arrays of vtu", _BITS, "meshio", vtk.read_vtk, None,

@@ -93,14 +93,14 @@ def write_vtu(path: Path, field: Field) -> None:
     """As `octafield field` writes it; frames in tets are taken to the vertices as well."""
     of_tets, mesh = field.where == "tets", mesh_of(field)
     frames = _core.vertex_frames(mesh, field.frames) if of_tets else field.frames
-    lengths, regions = (() if part is None else part for part in (field.lengths, field.regions))
+    lengths, regions, features = (() if part is None else part for part in (field.lengths, field.regions, field.features))
     metadata = {"convention": CONVENTION} | field.metadata
 
     def write(plain: Path) -> None:
         if of_tets:
-            _core.write_field(plain, mesh, frames, metadata, regions, tet_frames=field.frames, tet_lengths=lengths)
+            _core.write_field(plain, mesh, frames, metadata, regions, tet_frames=field.frames, tet_lengths=lengths, features=features)
         else:
-            _core.write_field(plain, mesh, frames, metadata, regions, lengths=lengths)
+            _core.write_field(plain, mesh, frames, metadata, regions, lengths=lengths, features=features)
 
     through_file(path, ".vtu", write)
 

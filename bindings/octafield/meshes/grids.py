@@ -15,7 +15,7 @@ from .gmsh_mesh import read_gmsh
 from .legacy_vtk import read_legacy_vtk
 from ..output import read_vtp, scratch_folder
 from .text_meshes import TextMesh, read_medit, read_tetgen
-from .vtu_mesh import read_vtu
+from .vtu_mesh import FEATURES, read_vtu
 
 if TYPE_CHECKING:
     import meshio
@@ -105,7 +105,13 @@ def _reading(path: Path, suffix: str) -> Iterator[None]:
 def grid_of_meshio(found: "meshio.Mesh") -> Grid:
     blocks = [(block.type, np.asarray(block.data)) for block in found.cells]
     entities = _entity_ids(found, ("CellEntityIds", "gmsh:geometrical"))
-    return _grid(found.points, blocks, entities, _regions_of(found, entities))
+    regions, creases = _regions_of(found, entities), None
+    features = found.field_data.get(FEATURES)
+    if np.ndim(features) == 2:  # a physical group of Gmsh by that name is a pair
+        creases = np.repeat([False, True], [sum(len(data) for kind, data in blocks if kind == "line"), len(features)])
+        blocks.append(("line", np.asarray(features)))
+        entities, regions = ([*ids, np.zeros(len(features), np.int64)] if ids is not None else None for ids in (entities, regions))
+    return _grid(found.points, blocks, entities, regions, creases)
 
 
 def _ovm_grid(path: Path) -> Grid:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     import meshio
 
 _TYPES = {f"{sign}{8 * size}": f"{code}{size}" for sign, code in (("Int", "i"), ("UInt", "u")) for size in (1, 2, 4, 8)} | {"Float32": "f4", "Float64": "f8"}
+FEATURES = "feature_edges"  # field data of octafield's own files: pairs of ids of points
 _UNPACK: dict[str, Callable[[bytes], bytes]] = {"vtkZLibDataCompressor": zlib.decompress, "vtkLZMADataCompressor": lzma.decompress}
 
 
@@ -50,6 +51,7 @@ class _File:
     name: str
     root: dict[str, str] = field(default_factory=dict)
     pieces: list[_Piece] = field(default_factory=list)
+    features: _Array | None = None  # field data
     appended: bytes = b""
     raw: bool = False
     appended_at: int = 0
@@ -74,7 +76,13 @@ def read_vtu(data: bytes, name: str) -> "meshio.Mesh":
     starts = np.concatenate([part["starts"] + first for part, first in zip(parts, ends[:-1], strict=True)])
     data_of = {site: {key: _joined([part[site][key] for part in parts]) for key in parts[0][site] if all(key in p[site] for p in parts)} for site in ("PointData", "CellData")}
     of_points, of_cells = ({key: values for key, values in data_of[site].items() if values is not None} for site in data_of)
-    return mesh_of_cells(points, numbers, starts, sizes, types, of_points, of_cells, name)
+    mesh = mesh_of_cells(points, numbers, starts, sizes, types, of_points, of_cells, name)
+    if file.features is not None and len(parts) == 1:
+        edges = _values(file, file.features)
+        if edges.shape[1] != 2 or (edges < 0).any() or (edges >= len(points)).any():
+            raise file.fail(file.features.line, f"{FEATURES}: pairs of ids of the {len(points)} points are needed")
+        mesh.field_data[FEATURES] = whole_numbers(edges, f"{name}: {FEATURES}")
+    return mesh
 
 
 def _joined(parts: list[np.ndarray]) -> np.ndarray | None:
@@ -82,7 +90,7 @@ def _joined(parts: list[np.ndarray]) -> np.ndarray | None:
 
 
 def _parsed(data: bytes, name: str) -> _File:
-    file, path = _File(name), list[str]()
+    file, path, reading = _File(name), list[str](), list[_Array]()  # reading: the array that text belongs to, or none
     parser = expat.ParserCreate()
     parser.buffer_text = True
 
@@ -102,13 +110,19 @@ def _parsed(data: bytes, name: str) -> _File:
             file.pieces.append(_Piece(int(points), int(cells)))
         elif tag == "DataArray" and "Piece" in path and len(path) > 2:
             file.pieces[-1].arrays.append(_Array(path[-2], attributes, line))
+            reading[:] = file.pieces[-1].arrays[-1:]
+        elif tag == "DataArray" and "FieldData" in path and attributes.get("Name") == FEATURES and attributes.get("type") in _TYPES:
+            file.features = _Array("FieldData", attributes, line)
+            reading[:] = [file.features]
+        else:
+            reading.clear()
 
     def end(tag: str) -> None:
         path.pop()
 
     def text(value: str) -> None:
-        if path and path[-1] == "DataArray" and "Piece" in path:
-            array = file.pieces[-1].arrays[-1]
+        if path and path[-1] == "DataArray" and reading:
+            array = reading[-1]
             array.text_line = array.text_line or parser.CurrentLineNumber
             array.text.append(value)
 
