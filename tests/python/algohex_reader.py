@@ -94,7 +94,7 @@ def check_transitions(mesh: Mesh) -> None:
 
 def check_valences(mesh: Mesh) -> dict:
     """Every edge; how many inside are regular, of quarter turns (three, too), of half turns, of whole turns, complex, and of each valence, and how many of the boundary are not 0."""
-    around, counts = mesh.around(), dict.fromkeys(("regular", "quarter", "half", "whole", "complex", "boundary"), 0)
+    around, counts = mesh.around(), dict.fromkeys(("regular", "quarter", "half", "complex", "boundary"), 0)
     for edge, valence in enumerate(mesh.valence):
         here = around[2 * edge]
         outer = [h for h in here if h ^ 1 not in mesh.cell_of]
@@ -116,7 +116,7 @@ def check_valences(mesh: Mesh) -> dict:
             counts["complex"] += 1
         elif valence == 4:
             assert turn == 0 and np.isclose(turned[0], -1)
-            counts["whole"] += 1
+            counts["whole"] = counts.get("whole", 0) + 1
         elif valence == UNDETERMINED:
             assert turn <= 9 and abs(along) < 1e-5
         else:  # valence 3: a quarter turn about the edge as one goes round it, right-handed; valence 5: back

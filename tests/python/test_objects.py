@@ -49,7 +49,7 @@ def objects(field, tmp_path_factory):
         of.principal_directions(surface, field.features), of.locate_points(tets, [[0, 0, 0.5], [9, 9, 9]]), of.smoothed_curves(field.singular_graph),
         of.frame_field(tets, field.constraints, max_steps=2, max_iterations=2), of.vertex_sampling(tets), of.tet_sampling(tets),
         of.Sampling(of.tet_sampling(tets).stiffness, of.tet_sampling(tets).mass, 1, 1, 2, "tets"),
-        of.singular_edges(tets, in_tets.tet_frames), of.singular_graph(tets, of.random_rotations(len(frames))),
+        of.singular_edges(tets, in_tets.tet_frames), of.split_between_singular(tets, boundary, in_tets.tet_frames), of.singular_graph(tets, of.random_rotations(len(frames))),
         of.local_meshability(tets, of.random_rotations(len(frames)), of.singular_graph(tets, of.random_rotations(len(frames)))),
         of.boundary_meshability(tets, boundary, field.features, of.random_rotations(len(frames))),
         of.boundary_meshability(box.tets, box.boundary, box.features, of.random_rotations(len(box.tets.vertices))),
