@@ -14,6 +14,7 @@
 
 #include "field_fixtures.hpp"
 #include "octafield/error.hpp"
+#include "octafield/frames/octahedral_lift.hpp"
 #include "tet_fixtures.hpp"
 
 namespace octafield::volume {
@@ -191,6 +192,31 @@ TEST_P(TurnsRoundAColumn, DoNotDependOnTheFortyEightNamesOfAFrame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ModuloEight, TurnsRoundAColumn, ::testing::Values(-4, -3, -2, -1, 1, 2, 3));
+
+TEST(LiftedMatching, ProductsAndInversesAreThoseOfTheQuaternionsWithTheirSign) {
+    const auto& group = frames::binary_octahedral_group();
+    for (int a = 0; a < 48; ++a) {
+        EXPECT_TRUE(group[frames::lifted_inverse(a)].isApprox(group[a].conjugate(), 1e-14));
+        for (int b = 0; b < 48; ++b) {
+            const Quaternion product = group[a] * group[b];
+            EXPECT_GT(group[frames::lifted_product(a, b)].dot(product), 1 - 1e-14);
+        }
+    }
+}
+
+TEST(LiftedMatching, IsTheNearestOfTheFortyEightQuaternionsAndATieOnlyWhereTwoAreEquallyNear) {
+    const Quaternions rows = frames::random_rotations(200, 3);
+    for (Eigen::Index i = 0; i + 1 < rows.rows(); ++i) {
+        const Quaternion p = frames::from_wxyz(rows.row(i)), q = frames::from_wxyz(rows.row(i + 1));
+        const auto [element, tie] = frames::lifted_matching(p, q);
+        EXPECT_FALSE(tie);
+        EXPECT_EQ(element % 24, frames::matching(p, q));
+        for (const Quaternion& o : frames::binary_octahedral_group())
+            EXPECT_LE((p * o).dot(q), (p * frames::binary_octahedral_group()[element]).dot(q) + 1e-14);
+        EXPECT_TRUE(frames::lifted_matching(p, p * frames::exp({std::numbers::pi / 4 + 1e-8, 0, 0})).tie);
+        EXPECT_FALSE(frames::lifted_matching(p, p * frames::exp({std::numbers::pi / 4 + 1e-5, 0, 0})).tie);
+    }
+}
 
 TEST(SingularEdges, AreUndecidedWhereAStepIsATie) {
     Fan f = fan(2, 1);
