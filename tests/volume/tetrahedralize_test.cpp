@@ -12,6 +12,7 @@
 #include "../surface/mesh_fixtures.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/read_write.hpp"
+#include "tetgen_run.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -160,6 +161,19 @@ Exception caught(const Call& call, const std::string& kind) {
     }
     ADD_FAILURE() << "no error of kind " << kind;
     return Exception("");
+}
+
+TEST(TetgenReason, PassesNothingOnOfWhatTetgenPrints) {
+    const std::string aborted =
+        "python: /build/tetgen-Xy12/tetgen-1.5.0/tetgen.cxx:13523: tetgenmesh::interresult "
+        "tetgenmesh::finddirection(...): Assertion `(farsh != NULL)' failed.\nAborted (core dumped)";
+    EXPECT_EQ(tetgen_reason(aborted), "it stopped at a check of its own");
+    EXPECT_EQ(tetgen_reason("Error:  Out of memory.\n"), "memory ran out");
+    EXPECT_EQ(tetgen_reason("Found two facets intersect each other.\n  1st: [12, 13, 14] #5\n"),
+              "it found parts of the surface that cross");
+    for (const std::string& printed : {aborted, std::string("/home/someone/tetgen.cxx(12): bad"), std::string()})
+        for (const char* foreign : {"/", "tetgen", ".cxx", "Assertion", "core", "`"})
+            EXPECT_EQ(tetgen_reason(printed).find(foreign), std::string::npos) << tetgen_reason(printed);
 }
 
 TEST(TetrahedralizeRefuses, SelfIntersectionsNamingTriangles) {

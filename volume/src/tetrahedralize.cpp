@@ -99,26 +99,18 @@ void orient(TetMesh& mesh) {
         if (volumes[t] < 0) std::swap(mesh.tets(t, 2), mesh.tets(t, 3));
 }
 
-[[noreturn]] void throw_failed(const std::string& what) {
-    throw GeometryError(what + "; remesh the surface with better shaped triangles, or raise edge_length",
-                        "tetgen_failed");
-}
+// Why a run gave nothing to use. Another run may.
+struct Failed {
+    std::string why;
+};
 
 TetMesh run_checked(const TriangleMesh& mesh, const TetgenParameters& parameters, const Progress& progress) {
     TetgenOutcome outcome = run_tetgen(mesh, parameters, progress);
-    if (!outcome.finished) {
-        // The usual reason. TetGen's own report is in its own numbering, so the triangles are found again here.
-        for (const surface::Defect& defect : surface::find_defects(mesh))
-            throw GeometryError("TetGen could not fill the surface: " + defect.message,
-                                defect.kind == "self_intersection" ? "tetgen_self_intersection" : "tetgen_failed",
-                                defect.elements);
-        throw_failed("TetGen could not fill the surface" +
-                     (outcome.printed.empty() ? "" : " (" + outcome.printed + ")"));
-    }
+    if (!outcome.finished) throw Failed{outcome.reason};
     TetMesh& result = outcome.mesh;
-    if (result.tets.rows() == 0) throw_failed("TetGen found no interior");
+    if (result.tets.rows() == 0) throw Failed{"it found no interior"};
     if (result.vertices.rows() < mesh.vertices.rows() || result.vertices.topRows(mesh.vertices.rows()) != mesh.vertices)
-        throw_failed("TetGen did not keep the surface's vertices");
+        throw Failed{"it did not keep the surface's vertices"};
     orient(result);
     return std::move(result);
 }
@@ -171,15 +163,68 @@ void require_surface_kept(const TetMesh& result, const TriangleMesh& mesh) {
     const BoundarySurface boundary = boundary_surface(result);
     Triangles triangles = boundary.mesh.triangles;
     for (Index& v : triangles.reshaped()) v = boundary.vertex_map[v];
-    if (oriented_triangles(triangles) == oriented_triangles(mesh.triangles)) return;
-    throw_failed(
-        "the boundary of TetGen's mesh is not the surface given: components may lie inside one another without being a "
-        "cavity");
+    if (oriented_triangles(triangles) != oriented_triangles(mesh.triangles))
+        throw Failed{
+            "the boundary of its mesh is not the surface given; components may lie inside one another without being a "
+            "cavity"};
+}
+
+// A way to run TetGen. turned: the surface is turned in space first, so that what is aligned with the axes, coplanar or
+// cocircular in its arithmetic no longer is.
+struct Attempt {
+    const char* what;
+    bool turned;
+    double tolerance, ratio_factor, volume_factor;
+};
+
+constexpr Attempt kAttempts[] = {
+    {"", false, 0, 1, 1},
+    {"turned in space", true, 0, 1, 1},
+    {"with a tolerance of 1e-12 for coplanar points", false, 1e-12, 1, 1},
+    {"with slightly other bounds on shape and size", false, 0, 1.1, 0.8},
+    {"turned in space, with slightly other bounds on shape and size", true, 1e-10, 1.2, 1.25},
+    {"with wide bounds on the shape of tets", false, 1e-6, 1.6, 1},
+};
+
+Eigen::Matrix3d turn() {
+    return Eigen::AngleAxisd(0.7316, Eigen::Vector3d(0.3713, -0.6127, 0.6977).normalized()).toRotationMatrix();
+}
+
+TetMesh fill(const TriangleMesh& mesh, const TetgenParameters& asked, const Attempt& attempt,
+             const Progress& progress) {
+    TetgenParameters parameters = asked;
+    parameters.tolerance = attempt.tolerance;
+    parameters.radius_edge_ratio *= attempt.ratio_factor;
+    parameters.max_volume *= attempt.volume_factor;
+    TriangleMesh turned = mesh;
+    if (attempt.turned) turned.vertices = mesh.vertices * turn().transpose();
+    if (has_cavity(turned)) parameters.holes = cavity_points(turned, progress);
+    TetMesh result = run_checked(turned, parameters, progress);
+    require_surface_kept(result, turned);
+    if (attempt.turned) {
+        result.vertices = (result.vertices * turn()).eval();
+        result.vertices.topRows(mesh.vertices.rows()) = mesh.vertices;
+    }
+    try {
+        require_valid(result);
+    } catch (const GeometryError&) {
+        throw Failed{"it made tets without volume"};
+    }
+    return result;
+}
+
+// The usual reason. TetGen's own report is in its own numbering, so the triangles are found again here.
+void require_no_crossing(const TriangleMesh& mesh) {
+    for (const surface::Defect& defect : surface::find_defects(mesh))
+        throw GeometryError("the surface cannot be filled with tets: " + defect.message,
+                            defect.kind == "self_intersection" ? "tetgen_self_intersection" : "tetgen_failed",
+                            defect.elements);
 }
 
 }  // namespace
 
-TetMesh tetrahedralize(const TriangleMesh& mesh, const TetrahedralizeOptions& options, const Progress& progress) {
+TetMesh tetrahedralize(const TriangleMesh& mesh, const TetrahedralizeOptions& options, const Progress& progress,
+                       std::vector<std::string>* notes) {
     require_options(options);
     surface::require_valid(mesh, {.closed = true, .self_intersection = false});
     require_all_vertices_used(mesh);
@@ -190,13 +235,24 @@ TetMesh tetrahedralize(const TriangleMesh& mesh, const TetrahedralizeOptions& op
     parameters.radius_edge_ratio = options.radius_edge_ratio;
     parameters.min_dihedral = options.min_dihedral * 180 / std::numbers::pi;
     parameters.max_volume = largest_tet(unit, options.edge_length * scale);
-    if (has_cavity(unit)) parameters.holes = cavity_points(unit, progress);
 
-    TetMesh result = run_checked(unit, parameters, progress);
-    require_surface_kept(result, unit);
-    result.vertices /= scale;
-    require_valid(result);
-    return result;
+    std::string why;
+    for (const Attempt& attempt : kAttempts) {
+        try {
+            TetMesh result = fill(unit, parameters, attempt, progress);
+            result.vertices /= scale;
+            if (!why.empty() && notes)
+                notes->push_back("TetGen could not fill the surface at first (" + why + "); it could " + attempt.what);
+            return result;
+        } catch (const Failed& failed) {
+            if (!why.empty()) continue;
+            why = failed.why;
+            require_no_crossing(mesh);
+        }
+    }
+    throw GeometryError("TetGen could not fill the surface, in " + std::to_string(std::size(kAttempts)) + " ways (" +
+                            why + "); remesh it with other edge lengths, or raise edge_length",
+                        "tetgen_failed");
 }
 
 }  // namespace octafield::volume
