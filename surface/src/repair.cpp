@@ -7,6 +7,7 @@
 #include "deviation.hpp"
 #include "fill_holes.hpp"
 #include "flat_triangles.hpp"
+#include "half_edges.hpp"
 #include "merge_points.hpp"
 #include "near_points.hpp"
 #include "octafield/error.hpp"
@@ -102,6 +103,7 @@ private:
 
     void mend() {
         note(drop_repeating_a_vertex(mesh_.triangles), "removed ", "triangle", " that used a vertex twice");
+        if (repeats_vertex(mesh_.triangles, 0)) return;  // all do; nothing would be left
         note(drop_repeated(mesh_.triangles), "removed ", "triangle", " on the same three vertices as another");
         note(drop_fins(mesh_.triangles), "removed ", "dangling triangle",
              " (one side on an edge of three or more triangles, two free)");
@@ -155,6 +157,7 @@ private:
         const double alpha = options_.wrap_alpha > 0 ? options_.wrap_alpha : diagonal / kWrapParts;
         const double offset = options_.wrap_offset > 0 ? options_.wrap_offset : alpha / kOffsetParts;
         TriangleMesh wrapped = alpha_wrap(input, alpha, offset);
+        if (wrapped.triangles.rows() == 0) return;  // nothing has area
         const std::string sizes = "alpha " + short_number(alpha) + ", offset " + short_number(offset);
         const double thickness = 2 * signed_volume(wrapped) / triangle_areas(wrapped).sum();
         if (thickness < std::max(kThinInAlphas * alpha, kThinInOffsets * offset)) {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "surface_mesh.hpp"
+#include "triangle_tests.hpp"
 
 namespace octafield::surface {
 
@@ -12,11 +13,13 @@ TriangleMesh alpha_wrap(const TriangleMesh& mesh, double alpha, double offset) {
     std::vector<Kernel::Point_3> points;
     std::vector<std::array<std::size_t, 3>> faces;
     for (const auto point : mesh.vertices.rowwise()) points.emplace_back(point[0], point[1], point[2]);
-    for (const auto t : mesh.triangles.rowwise())
-        faces.push_back(
-            {static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2])});
+    for (Index t = 0; t < mesh.triangles.rows(); ++t)
+        if (!is_degenerate(mesh, t))
+            faces.push_back({static_cast<std::size_t>(mesh.triangles(t, 0)),
+                             static_cast<std::size_t>(mesh.triangles(t, 1)),
+                             static_cast<std::size_t>(mesh.triangles(t, 2))});
     SurfaceMesh surface;
-    CGAL::alpha_wrap_3(points, faces, alpha, offset, surface);
+    if (!faces.empty()) CGAL::alpha_wrap_3(points, faces, alpha, offset, surface);
     return to_triangle_mesh(surface);
 }
 

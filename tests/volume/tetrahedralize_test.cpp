@@ -10,9 +10,9 @@
 #include <set>
 
 #include "../surface/mesh_fixtures.hpp"
+#include "fill_surface.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/read_write.hpp"
-#include "tetgen_run.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -161,6 +161,19 @@ Exception caught(const Call& call, const std::string& kind) {
     }
     ADD_FAILURE() << "no error of kind " << kind;
     return Exception("");
+}
+
+// What a failure of TetGen leads to: each way must keep what the first one promises.
+TEST(FillSurface, EveryWayKeepsTheSurfaceAndItsCavities) {
+    const TriangleMesh hollow = together(cube_surface(3), moved(flipped(icosphere(1, 0.3)), 0.5, 0.5, 0.5));
+    TetgenParameters asked;
+    asked.radius_edge_ratio = 1.3;
+    asked.max_volume = 0.01;
+    ASSERT_GE(attempts().size(), 3u);
+    for (const Attempt& attempt : attempts()) {
+        SCOPED_TRACE(attempt.what);
+        expect_fills(fill_surface(hollow, asked, attempt, {}), hollow);
+    }
 }
 
 TEST(TetgenReason, PassesNothingOnOfWhatTetgenPrints) {
