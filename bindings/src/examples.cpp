@@ -52,6 +52,14 @@ constexpr Example of_meshes[] = {
     >>> box.triangles = box.triangles[1:]
     >>> octafield.repair(box)
     RepairResult(8 vertices, 12 triangles, box [0, 1] x [0, 1] x [0, 1], 1 action))"},
+    {"advise_repair", R"(
+    >>> box = generate("box")
+    >>> box.triangles = box.triangles[1:]
+    >>> octafield.advise_repair(box)
+    RepairAdvice(safe, 1 action))"},
+    {"coordinate_precision", R"(
+    >>> float(octafield.coordinate_precision([[0, 0, 1], [0.1, 0, 0.123456789]]))  # nine digits
+    1e-08)"},
     {"detect_features", R"(
     >>> features = octafield.detect_features(generate("box"), angle=np.radians(40))
     >>> len(features.edges), len(features.corners)
