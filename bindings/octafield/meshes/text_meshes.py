@@ -191,7 +191,10 @@ def _table(section: _Section, name: str, width: int, *, counted: bool = True, wh
         have = max(0, len(numbers) - skip) // width
         last = section.line + section.text.rstrip().count("\n")
         raise IoError(f"{name}, line {last}: {section.name} ends after {have} of {count} rows of {width} numbers")
-    rows = numbers[skip : skip + count * width].reshape(count, width)
+    if len(numbers) > skip + count * width:
+        line = _line_of_row(section, count, width, skip)
+        raise IoError(f"{name}, line {line}: {section.name} goes on after the {count} rows of {width} numbers that its head announces; correct the count")
+    rows = numbers[skip:].reshape(count, width)
     if not whole:
         return rows
     ids = _whole(rows)
