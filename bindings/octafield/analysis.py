@@ -52,7 +52,7 @@ def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0, streamlin
     alignment = np.asarray(_core.alignment_angles(boundary, features, frames))
     feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
     energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
-    size = float(np.linalg.norm(np.ptp(np.asarray(tets.vertices), axis=0)))
+    size = _core.shape_size(boundary.mesh)
     seeds = _core.spread_points(tets, streamlines)
     lines = _core.frame_streamlines(tets, frames, seeds, max_length=2 * size, threads=threads) if len(seeds) else []
     record = {

@@ -116,7 +116,7 @@ class SurfaceFieldOptions(MeshOptions):
     boundary: how the field follows the rim of an open surface, "strong", "weak" (singular points may sit there), "none".
     least_feature_angle: radians; feature edges inside the surface that bend by less are not followed (0: all are).
     curvature: pull towards the lines of curvature, 0 (none) or more; symmetry must be even. 1 lets the field follow
-        them over lengths of a tenth of the bounding-box diagonal, 100 over a hundredth; where the two principal
+        them over lengths of a tenth of octafield.shape_size, 100 over a hundredth; where the two principal
         curvatures are alike it pulls less (weight = curvature * octafield.principal_directions().anisotropy).
     """
 

@@ -46,6 +46,11 @@ void bind_elementary(py::module_& m) {
                 "(V, 3) unit vertex normals, weighted by the areas of the incident triangles.");
     def_of_mesh(m, "mean_edge_length", mean_edge_length,
                 "Mean length of the edges, input unit. Needs at least one triangle.", true);
+    def_of_mesh(m, "shape_size", shape_size,
+                "The size that default lengths are fractions of, input unit: 3 times the root mean square distance of the "
+                "surface from its centroid, about the diagonal of a box, whichever way the surface lies. Needs at least "
+                "one triangle.",
+                true);
     def_of_mesh(m, "euler_characteristic", euler_characteristic,
                 "V - E + F over the vertices in use. Raises GeometryError where edge_topology does.");
     m.def(

@@ -37,7 +37,7 @@ class MetricProblem {
 public:
     MetricProblem(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                   Scheme scheme, const SmoothOptions& options)
-        : length_(sampling.box_diagonal),
+        : length_(sampling.size),
           field(start, std::move(scheme), options.threads),
           problem_(problem_options(field)) {
         // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
