@@ -23,6 +23,7 @@ from ._core import (
     BoundaryMeshability,
     BoundarySurface,
     CombedField,
+    CombedVertices,
     Defect,
     DirectionConstraints,
     DirectionField,
@@ -43,6 +44,7 @@ from ._core import (
     RemeshResult,
     RepairResult,
     Representation,
+    SampledFrames,
     ScaledIntegrability,
     SectorNormals,
     SingularEnd,
@@ -73,7 +75,10 @@ from ._core import (
     boundary_surface,
     bounding_box_diagonal,
     closest_representative,
+    axes_agree,
     comb,
+    comb_vertices,
+    interpolate_frames,
     convert,
     core_energy,
     detect_features,
@@ -244,6 +249,7 @@ from .conversion import Conversion, convert_file
 from .formats import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
 from .imported import AnalysedField, analyse
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
+from .probes import sample_frames, slice_frames
 from .interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
 from .meshing import MeshedInput
 from .parameterization import ParameterizationInput, parameterization_input
@@ -274,6 +280,7 @@ __all__ = [
     "BoundarySurface",
     "Cancelled",
     "CombedField",
+    "CombedVertices",
     "Comparison",
     "Defect",
     "DirectionConstraints",
@@ -307,6 +314,7 @@ __all__ = [
     "RemeshResult",
     "RepairResult",
     "Representation",
+    "SampledFrames",
     "ScaledIntegrability",
     "SectorNormals",
     "Sheets",
@@ -342,7 +350,12 @@ __all__ = [
     "boundary_surface",
     "bounding_box_diagonal",
     "closest_representative",
+    "axes_agree",
     "comb",
+    "comb_vertices",
+    "interpolate_frames",
+    "sample_frames",
+    "slice_frames",
     "compare",
     "compute_field",
     "compute_surface_field",
