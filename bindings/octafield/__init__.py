@@ -23,6 +23,7 @@ from ._core import (
     BoundaryMeshability,
     BoundarySurface,
     CombedField,
+    CombedVertices,
     Defect,
     DirectionConstraints,
     DirectionField,
@@ -44,6 +45,7 @@ from ._core import (
     RepairAdvice,
     RepairResult,
     Representation,
+    SampledFrames,
     ScaledIntegrability,
     SectorNormals,
     SingularEnd,
@@ -76,7 +78,10 @@ from ._core import (
     bounding_box_diagonal,
     shape_size,
     closest_representative,
+    axes_agree,
     comb,
+    comb_vertices,
+    interpolate_frames,
     convert,
     coordinate_precision,
     core_energy,
@@ -252,6 +257,7 @@ from .conversion import Conversion, convert_file
 from .formats import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
 from .imported import AnalysedField, analyse
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
+from .probes import sample_frames, slice_frames
 from .interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
 from .meshing import MeshedInput
 from .parameterization import ParameterizationInput, parameterization_input
@@ -282,6 +288,7 @@ __all__ = [
     "BoundarySurface",
     "Cancelled",
     "CombedField",
+    "CombedVertices",
     "Comparison",
     "Defect",
     "DirectionConstraints",
@@ -316,6 +323,7 @@ __all__ = [
     "RepairAdvice",
     "RepairResult",
     "Representation",
+    "SampledFrames",
     "ScaledIntegrability",
     "SectorNormals",
     "Sheets",
@@ -354,7 +362,12 @@ __all__ = [
     "bounding_box_diagonal",
     "shape_size",
     "closest_representative",
+    "axes_agree",
     "comb",
+    "comb_vertices",
+    "interpolate_frames",
+    "sample_frames",
+    "slice_frames",
     "compare",
     "compute_field",
     "compute_surface_field",

@@ -61,6 +61,10 @@ def compare(
     ] = None,
     sampling: Sampling = _FIELD.sampling,
     seeds: Annotated[int, typer.Option(metavar="K", help="Seeds per run: --seed and the K - 1 numbers after it.")] = 1,
+    starts: Annotated[
+        str,
+        typer.Option(metavar="A,B", autocompletion=lists(("sh4", "independent")), help="sh4: from its minimum; independent: each method for itself, from a linear solve (random for seeds above 0)."),
+    ] = "sh4",
     features: Features = _FIELD.features,
     feature_angle: FeatureAngle = ANGLE,
     edge_length: EdgeLength = _FIELD.edge_length,
@@ -102,6 +106,7 @@ def compare(
                 representations=chosen,
                 boundaries=_listed(boundaries),
                 seeds=seeds,
+                starts=_listed(starts),
                 options=options,
                 fields=named_files(fields or []),
                 progress=progress,

@@ -273,6 +273,15 @@ constexpr Example of_volume_fields[] = {
     {"locate_points", R"(
     >>> octafield.locate_points(octafield.tetrahedralize(generate("box")), [[0.5, 0.5, 0.5], [9, 9, 9]])
     LocatedPoints(2 points, 1 outside))"},
+    {"interpolate_frames", R"(
+    >>> tets = octafield.tetrahedralize(generate("box"))
+    >>> octafield.interpolate_frames(tets, octafield.random_rotations(len(tets.vertices)), [[0.5, 0.5, 0.5], [9, 9, 9]])
+    SampledFrames(2 frames, 1 outside))"},
+    {"comb_vertices", R"(
+    >>> tets = octafield.tetrahedralize(generate("box"))
+    >>> mixed = octafield.octahedral_group()[np.arange(len(tets.vertices)) % 24]  # one frame, all labels
+    >>> octafield.comb_vertices(tets, mixed).agree.min(), octafield.axes_agree(tets, mixed).min()
+    (1, 0))"},
     {"frame_streamlines", R"(
     >>> tets = octafield.tetrahedralize(generate("box"))
     >>> same = np.tile([1.0, 0, 0, 0], (len(tets.vertices), 1))

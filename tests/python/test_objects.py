@@ -46,7 +46,7 @@ def objects(field, tmp_path_factory):
         boundary, of.region_surface(tets, two), of.cut_into_sheets(of.region_surface(tets, two).surface.mesh),
         of.split_locking(tets, boundary), of.find_defects(open_box), of.repair(open_box), of.advise_repair(open_box), of.remesh(generate("box"), of.detect_features(generate("box"))),
         of.edge_topology(surface), of.feature_tangents(surface, field.features), of.sector_normals(surface, field.features),
-        of.principal_directions(surface, field.features), of.locate_points(tets, [[0, 0, 0.5], [9, 9, 9]]), of.smoothed_curves(field.singular_graph),
+        of.principal_directions(surface, field.features), of.locate_points(tets, [[0, 0, 0.5], [9, 9, 9]]), of.sample_frames(field, [[0, 0, 0.5]]), of.comb_vertices(tets, field.frames), of.smoothed_curves(field.singular_graph),
         of.frame_field(tets, field.constraints, max_steps=2, max_iterations=2), of.vertex_sampling(tets), of.tet_sampling(tets),
         of.Sampling(of.tet_sampling(tets).stiffness, of.tet_sampling(tets).mass, 1, 1, 2, "tets"),
         of.singular_edges(tets, in_tets.tet_frames), of.split_between_singular(tets, boundary, in_tets.tet_frames), of.singular_graph(tets, of.random_rotations(len(frames))),

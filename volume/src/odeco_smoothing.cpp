@@ -71,7 +71,7 @@ SmoothResult smooth_odeco_lengths(const Sampling& sampling, const BoundaryConstr
     add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / sampling.size);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
     hold_lengths(problem, field, constraints, length_manifolds);
-    SmoothResult result = solve_with_ceres(problem, field.quaternions(), sampling.size, chosen, progress);
+    SmoothResult result = solve_with_ceres(problem, field.quaternions(), sampling, chosen, progress);
     result.lengths = field.lengths();
     return result;
 }

@@ -40,7 +40,7 @@ SmoothResult smooth_with_ceres(const Sampling& sampling, const BoundaryConstrain
     ceres::Problem problem(problem_options(field));
     add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / length);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
-    return solve_with_ceres(problem, field.quaternions(), length, options, progress);
+    return solve_with_ceres(problem, field.quaternions(), sampling, options, progress);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 QUATERNIONS = ("quaternion", "frame_quaternion")  # w x y z
 AXES = ("frame_u", "frame_v", "frame_w")
-CONVENTION = "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4"
+CONVENTION = "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per vertex: interpolate sh4, or axes only in cells with axes_agree 1"
 
 
 def read_arrays(path: Path, name: str) -> FrameFile:
