@@ -124,6 +124,24 @@ def test_a_key_is_the_hash_of_content_options_repeat_and_version(monkeypatch):
     assert not has_promised_content(second)
 
 
+def test_runs_are_grouped_by_mesh_and_cross_field_and_come_back_from_json():
+    text = "{name: k, inputs: [{generator: box}, {generator: ball}], runs: {representation: [sh4, su2], sampling: [vertices, tets]}, seeds: 2}"
+    runs = study.plan(study.parse(text))
+    assert [Run.from_json(json.loads(json.dumps(run.to_json()))) for run in runs] == runs
+    groups = PLAN.groups(runs)
+    assert sum(groups, []) == runs and [{(run.name, run.options.seed) for run in group} for group in groups] == [
+        {(name, seed)} for name in ("box", "ball") for seed in (0, 1)
+    ]
+    assert [len({f(run) for run in runs}) for f in (PLAN.mesh_of, PLAN.method_of)] == [2, 4]
+    (finer,) = study.plan(study.parse("{name: k, inputs: [{generator: box}], mesh: {edge_length: 0.2}}"))
+    assert PLAN.mesh_of(finer) != PLAN.mesh_of(runs[0]) and finer.group != runs[0].group and PLAN.method_of(finer) == PLAN.method_of(runs[0])
+    assert has_promised_content(replace(runs[0], source="no such file")) is False
+    skipping = text[:-1] + ", skip: [{input: INPUT, representation: su2}]}"
+    assert len(study.plan(study.parse(skipping.replace("INPUT", "b*x")))) == len(runs) - 4
+    with pytest.raises(InvalidInput, match="no input is called 'cube'; there are: ball, box"):
+        study.plan(study.parse(skipping.replace("INPUT", "cube")))
+
+
 # ---- rows and orders ----
 
 MEDIT = """MeshVersionFormatted 2
