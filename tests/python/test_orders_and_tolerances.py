@@ -49,6 +49,15 @@ def test_energy_at_unit_speed_is_that_of_frames_that_move_by_one_per_radian(mesh
     assert result.record["energy_unit_speed"] == pytest.approx(0.15 * result.record["energy"], rel=1e-12)
 
 
+def test_singular_edges_of_frames_in_tets_are_counted_by_turns_from_the_highest_on(mesh):
+    frames = random_frames(len(mesh.tets))
+    turns = [edge.quarter_turns for edge in of.singular_edges(mesh, frames).edges]
+    record = of.analyse(mesh, frames, "tets").record
+    assert len(set(turns)) > 2 and 0 in turns
+    names = ["complex" if turn == 0 else f"+{turn}" if turn > 0 else str(turn) for turn in sorted(set(turns))[::-1]]
+    assert list(record["singular_edges_by_turns"].items()) == [(name, turns.count(0 if name == "complex" else int(name))) for name in names]
+
+
 def test_size_ratio_is_the_largest_over_the_smallest_size(mesh):
     x, y, _ = np.asarray(mesh.vertices).T
     frames = np.asarray(of.quaternion_exp(np.column_stack([0 * x, 0.3 * y, 1.5 * y])))
