@@ -50,7 +50,8 @@ def test_own_round_trips_keep_the_frames_and_the_bits_where_promised(mesh, tmp_p
         if not (form.read and form.write):
             continue
         frames = frames_at(mesh, where)
-        assert write_frames(name_of(tmp_path, name, packed), mesh, frames, where, name) == []
+        none_given = ["no feature edges were given: the file marks none"] if frame_formats[name].holds_features else []
+        assert write_frames(name_of(tmp_path, name, packed), mesh, frames, where, name) == none_given
         found = read_frames(name_of(tmp_path, name, packed), None if form.holds_mesh else mesh, name)
         assert found.where == where and found.format == name and found.deviation == 0 and found.left_handed == 0
         assert np.array_equal(found.frames, frames) if form.exact else np.max(octafield.distance(found.frames, frames)) < 2e-15
