@@ -49,6 +49,15 @@ def test_energy_at_unit_speed_is_that_of_frames_that_move_by_one_per_radian(mesh
     assert result.record["energy_unit_speed"] == pytest.approx(0.15 * result.record["energy"], rel=1e-12)
 
 
+def test_singular_edges_of_frames_in_tets_are_counted_by_turns_from_the_highest_on(mesh):
+    frames = random_frames(len(mesh.tets))
+    turns = [edge.quarter_turns for edge in of.singular_edges(mesh, frames).edges]
+    record = of.analyse(mesh, frames, "tets").record
+    assert len(set(turns)) > 2 and 0 in turns
+    names = ["complex" if turn == 0 else f"+{turn}" if turn > 0 else str(turn) for turn in sorted(set(turns))[::-1]]
+    assert list(record["singular_edges_by_turns"].items()) == [(name, turns.count(0 if name == "complex" else int(name))) for name in names]
+
+
 def test_size_ratio_is_the_largest_over_the_smallest_size(mesh):
     x, y, _ = np.asarray(mesh.vertices).T
     frames = np.asarray(of.quaternion_exp(np.column_stack([0 * x, 0.3 * y, 1.5 * y])))
@@ -122,6 +131,24 @@ def test_a_key_is_the_hash_of_content_options_repeat_and_version(monkeypatch):
     assert has_promised_content(second)
     monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.1.1")
     assert not has_promised_content(second)
+
+
+def test_runs_are_grouped_by_mesh_and_cross_field_and_come_back_from_json():
+    text = "{name: k, inputs: [{generator: box}, {generator: ball}], runs: {representation: [sh4, su2], sampling: [vertices, tets]}, seeds: 2}"
+    runs = study.plan(study.parse(text))
+    assert [Run.from_json(json.loads(json.dumps(run.to_json()))) for run in runs] == runs
+    groups = PLAN.groups(runs)
+    assert sum(groups, []) == runs and [{(run.name, run.options.seed) for run in group} for group in groups] == [
+        {(name, seed)} for name in ("box", "ball") for seed in (0, 1)
+    ]
+    assert [len({f(run) for run in runs}) for f in (PLAN.mesh_of, PLAN.method_of)] == [2, 4]
+    (finer,) = study.plan(study.parse("{name: k, inputs: [{generator: box}], mesh: {edge_length: 0.2}}"))
+    assert PLAN.mesh_of(finer) != PLAN.mesh_of(runs[0]) and finer.group != runs[0].group and PLAN.method_of(finer) == PLAN.method_of(runs[0])
+    assert has_promised_content(replace(runs[0], source="no such file")) is False
+    skipping = text[:-1] + ", skip: [{input: INPUT, representation: su2}]}"
+    assert len(study.plan(study.parse(skipping.replace("INPUT", "b*x")))) == len(runs) - 4
+    with pytest.raises(InvalidInput, match="no input is called 'cube'; there are: ball, box"):
+        study.plan(study.parse(skipping.replace("INPUT", "cube")))
 
 
 # ---- rows and orders ----
