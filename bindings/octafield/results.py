@@ -189,7 +189,7 @@ def _metadata(record: dict[str, Any]) -> dict[str, str]:
         "mesh_sha256": record["mesh_sha256"],
         "options": json.dumps(options),
         "energy": repr(record["energy"]),
-        "convention": "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4",
+        "convention": "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per vertex: interpolate sh4, or axes only in cells with axes_agree 1",
     }
 
 

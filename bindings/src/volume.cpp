@@ -58,25 +58,32 @@ void bind_meshes(py::module_& m) {
     m.def(
         "tetrahedralize",
         [](const TriangleMesh& mesh, double radius_edge_ratio, double min_dihedral, double edge_length,
-           const std::optional<ProgressCallable>& progress) {
+           std::optional<py::list> notes, const std::optional<ProgressCallable>& progress) {
             const TetrahedralizeOptions options{.radius_edge_ratio = finite(radius_edge_ratio, "radius_edge_ratio"),
                                                 .min_dihedral = finite(min_dihedral, "min_dihedral"),
                                                 .edge_length = finite(edge_length, "edge_length")};
-            return run_interruptible(
+            auto [tets, said] = run_interruptible(
                 [mesh = mesh, options](Job& job) {
                     check(mesh);
-                    return tetrahedralize(mesh, options, job.progress());
+                    std::vector<std::string> said;
+                    TetMesh tets = tetrahedralize(mesh, options, job.progress(), &said);
+                    return std::pair(std::move(tets), std::move(said));
                 },
                 progress);
+            if (notes)
+                for (const std::string& note : said) notes->append(note);
+            return tets;
         },
         "mesh"_a, py::kw_only(), "radius_edge_ratio"_a = defaults.radius_edge_ratio,
-        "min_dihedral"_a = defaults.min_dihedral, "edge_length"_a = defaults.edge_length, "progress"_a = py::none(),
+        "min_dihedral"_a = defaults.min_dihedral, "edge_length"_a = defaults.edge_length, "notes"_a = py::none(),
+        "progress"_a = py::none(),
         "Tetrahedra inside a valid closed surface by TetGen (Si 2015), as a TetMesh whose first vertices are the "
         "surface's and whose boundary "
         "is exactly its triangles. radius_edge_ratio: bound on circumradius over shortest edge, at least 1; "
         "min_dihedral: radians, 0 "
         "means TetGen's default; edge_length: interior target, input unit, 0 means the surface's mean. Raises "
-        "GeometryError with TetGen's reason.");
+        "GeometryError where TetGen fails in several ways (kind tetgen_failed); where one of the later ways helped, a "
+        "sentence on it is appended to notes, a list.");
     m.def(
         "require_valid",
         [](const TetMesh& mesh) {

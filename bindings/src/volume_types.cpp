@@ -73,7 +73,10 @@ void bind_results(py::module_& m) {
                "Whether the last step lowered the energy by less than the tolerance.")
         .field("message", &SmoothResult::message, "Why the solver stopped.")
         .field("energy_history", &SmoothResult::energy_history,
-               "float64 objectives at the start and after each accepted or rejected step.")
+               "float64 energies (of sh4, whatever was minimised) at the start and after each accepted or rejected step.")
+        .field("objective_history", &SmoothResult::objective_history,
+               "float64 objectives at the same steps; of frame_field, where something else than sh4's energy is "
+               "minimised, of that last part only, the last steps of energy_history.")
         .field("lengths", &SmoothResult::lengths,
                "(n, 3) float64 lengths of the frames' axes where odeco_lengths was minimised; else no rows.")
         .finish([](const SmoothResult& r) {

@@ -110,11 +110,11 @@ def test_own_files_come_back_without_notes_and_byte_by_byte(tmp_path, cylinder):
 
 def test_transitions_that_lead_elsewhere_are_told(tmp_path, cylinder):
     of.write_frames(tmp_path / "a.ovmb", cylinder.tets, cylinder.frames, at="tets")
-    mesh = read_ovm(tmp_path / "a.ovmb")
+    mesh = read_ovm(tmp_path / "a.ovmb", binary=True)
     values = np.array(mesh.properties["halfface", "HalffaceTransiton"])
     inner = np.flatnonzero(values >= 0)[:3]
     values[inner] = of.octahedral_product_table()[values[inner], 4]
     mesh.properties["halfface", "HalffaceTransiton"] = values
     mesh.kinds = {key: kind for key, kind in mesh.kinds.items() if kind == "Quaternion"}
-    write_ovm(tmp_path / "b.ovmb", mesh)
+    write_ovm(tmp_path / "b.ovmb", mesh, binary=True)
     assert any("at 3 half-faces" in note for note in of.read_frames(tmp_path / "b.ovmb").notes)

@@ -139,7 +139,7 @@ def test_the_command_line_writes_tets_and_lengths(tmp_path):
 
 def test_a_sampling_of_ones_own_matrix_is_used_by_every_solver(box):
     made = of.tet_sampling(box)
-    own = of.Sampling(made.stiffness.tocsr(), made.mass, made.body_radius, made.edge_length, made.box_diagonal, "tets")
+    own = of.Sampling(made.stiffness.tocsr(), made.mass, made.body_radius, made.edge_length, made.size, "tets")
     assert repr(own) == repr(made) and (own.stiffness != made.stiffness).nnz == 0
     start = of.random_rotations(len(own))
     held = of.BoundaryConstraints(np.zeros(len(own), int), np.zeros((len(own), 3)), np.tile([1.0, 0, 0, 0], (len(own), 1)), np.zeros(len(own), int))

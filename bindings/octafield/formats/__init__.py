@@ -22,7 +22,7 @@ from .._core import TetMesh
 from ..errors import InvalidInput
 from ..inputs import Input, read_input
 from .base import SITES, Field, FrameFile, FrameFormat
-from ..files import plain_name
+from ..files import plain_name, reading
 from .placing import place
 from .registry import FORMATS, READERS, WRITERS, find_format
 from .rotations import axes_of, unit_quaternions
@@ -36,6 +36,7 @@ __all__ = ["FrameFile", "FrameFormat", "frame_formats", "read_frames", "write_fr
 frame_formats: Mapping[str, FrameFormat] = MappingProxyType(FORMATS)
 
 
+@np.errstate(all="ignore")  # what is not finite is refused by name, without NumPy's warning before
 def read_frames(
     path: str | Path, mesh: TetMesh | Input | str | Path | None = None, format: str | None = None, *, where: str | None = None
 ) -> FrameFile:
@@ -55,7 +56,9 @@ def read_frames(
         raise InvalidInput(f"a TetMesh or its file is needed, not {type(given).__name__}", "bad_type")
     if isinstance(given, Input) and given.tets is None:
         raise InvalidInput(f"{given.name}: holds triangles; frames need the tet mesh they belong to", "not_tets")
-    found = read_txt(path) if format is None and plain_name(path).endswith(".txt") else READERS[reader.name](path)
+    read = read_txt if format is None and plain_name(path).endswith(".txt") else READERS[reader.name]
+    with reading(path, reader.name):
+        found = read(path)
     if found.mesh is not None:  # the file is checked, and its own mesh is the one wanted unless another is given
         _core.require_valid(found.mesh)
     result = place(found, given, where)

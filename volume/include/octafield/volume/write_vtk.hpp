@@ -32,8 +32,10 @@ struct FieldArrays {
 };
 
 // .vtu with point data: frame_u, frame_v, frame_w (unit axes), quaternion (w x y z, named components), sh4 (9, named
-// -4..4), boundary (0/1), and cell data region where `regions` holds an id per tet. frames: (n, 4) unit quaternions
-// w x y z.
+// -4..4), boundary (0/1), and cell data axes_agree (0/1: combing.hpp) and region where `regions` holds an id per tet.
+// frames: (n, 4) unit quaternions w x y z. Axes are labelled vertex by vertex, as these quaternions are: what is
+// interpolated from frame_u, frame_v, frame_w or quaternion (slices, clips, stream tracers) mixes axes where axes_agree
+// is 0. Give frames of comb_vertices, so that such tets are few; sh4 may be interpolated everywhere (sample_frames).
 void write_field(const std::filesystem::path& path, const TetMesh& mesh, const Quaternions& frames,
                  const Metadata& metadata = {}, const std::vector<Index>& regions = {}, const FieldArrays& more = {});
 
