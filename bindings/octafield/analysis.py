@@ -62,15 +62,15 @@ def analyse(
     unserved = unserved_sectors(meshed, sectors, feature_tolerance)
     feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
     energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
-    size = float(np.linalg.norm(np.ptp(np.asarray(tets.vertices), axis=0)))
+    size = _core.shape_size(boundary.mesh)
     seeds = _core.spread_points(tets, streamlines)
     lines = _core.frame_streamlines(tets, frames, seeds, max_length=2 * size, threads=threads) if len(seeds) else []
     record = {
         "energy": energy,
         "energy_unit_speed": _core.unit_speed_factor * energy,
         **_singular_record(graph),
-        **_meshability_record(meshability),
-        **_boundary_record(at_boundary),
+        **meshability_record(meshability),
+        **boundary_record(at_boundary),
         "alignment_deg": {**degrees(alignment), "held_max": degrees(alignment[~unserved])["max"]},
         "unserved_vertices": len(np.unique(np.asarray(sectors.vertex)[unserved])),
         "feature_alignment_deg": degrees(feature_alignment),
@@ -97,13 +97,14 @@ def _singular_record(graph: SingularGraph) -> dict[str, Any]:
         "singular_curves": len(graph.curves),
         "singular_nodes": len(graph.nodes),
         "complex_edges": int(graph.complex_triangles),
+        "undecided_edges": int(graph.undecided_triangles),
         "singular_edges_by_turns": {
             f"{t:+d}" if t else "complex": turns.count(t) for t in sorted(set(turns), reverse=True)
         },
     }
 
 
-def _meshability_record(found: Meshability) -> dict[str, Any]:
+def meshability_record(found: Meshability) -> dict[str, Any]:
     counts = Counter(_type(vertex) for vertex in found.vertices if vertex.kind != "boundary_end")
     return {
         "non_meshable_vertices": found.non_meshable_vertices,
@@ -117,7 +118,7 @@ def _meshability_record(found: Meshability) -> dict[str, Any]:
     }
 
 
-def _boundary_record(found: BoundaryMeshability) -> dict[str, Any]:
+def boundary_record(found: BoundaryMeshability) -> dict[str, Any]:
     """hexahedra_at_features: how many feature edges have how many, by the frames of their ends where these agree."""
     numbers = Counter(_hexahedra(wedge) for wedge in found.wedges)
     return {
@@ -138,9 +139,8 @@ def _hexahedra(wedge: FeatureWedge) -> str:
 
 def _type(vertex: SingularVertex) -> str:
     """The valences of the singular edges at a vertex: "3 3 5 5"."""
-    return " ".join(
-        ["2"] * vertex.valence2 + ["3"] * vertex.valence3 + ["5"] * vertex.valence5 + ["6"] * vertex.valence6 + ["complex"] * vertex.complex
-    )
+    counts = {str(valence): getattr(vertex, f"valence{valence}") for valence in (1, 2, 3, 5, 6, 7, 8)} | {"complex": vertex.complex}
+    return " ".join(word for word, count in counts.items() for _ in range(count))
 
 
 def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolerance: float) -> np.ndarray:

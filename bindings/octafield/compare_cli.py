@@ -13,6 +13,7 @@ from .cli_options import (
     InputFiles,
     Interfaces,
     Json,
+    MaxHoleEdges,
     Output,
     Quiet,
     Remesh,
@@ -26,6 +27,8 @@ from .cli_options import (
     choices,
     mesh_options,
     named_files,
+    WrapAlpha,
+    WrapOffset,
 )
 from .completion import lists
 from .console import carry_out, log
@@ -67,6 +70,9 @@ def compare(
     edge_length: EdgeLength = _FIELD.edge_length,
     remesh: Remesh = _FIELD.remesh,
     repair: Repair = _FIELD.repair,
+    max_hole_edges: MaxHoleEdges = _FIELD.max_hole_edges,
+    wrap_alpha: WrapAlpha = _FIELD.wrap_alpha,
+    wrap_offset: WrapOffset = _FIELD.wrap_offset,
     interfaces: Interfaces = _FIELD.interfaces,
     split: Split = _FIELD.split,
     sizes: Sizes = _FIELD.sizes,
@@ -88,8 +94,9 @@ def compare(
             seed=seed,
             threads=threads,
             **mesh_options(
-                features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split
-            ),
+                features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split,
+                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset,
+            ),  # fmt: skip
         )
         chosen = COMPARED if representations == "all" else _listed(representations)
         with console.progress_bar(quiet, whole=True) as progress:

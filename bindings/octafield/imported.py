@@ -40,7 +40,8 @@ class AnalysedField:
     of that name asks.
 
     A field that lives in the tets is tet_frames, (m, 4), and so are singular_graph (of singular_edges), alignment (per triangle and tet beside it) and
-    lengths; frames is the field taken to the vertices, meshability and integrability are None; sizes are those of frames."""
+    lengths, meshability and boundary_meshability are those of the tets; frames is the field taken to the vertices, integrability is None; sizes are those of
+    frames. feature_edges: (k, 2) ids of tets' vertices."""
 
     surface: TriangleMesh
     features: FeatureGraph
@@ -58,6 +59,7 @@ class AnalysedField:
     tet_frames: np.ndarray | None = None
     lengths: np.ndarray | None = None
     sizes: Sizes | None = None
+    feature_edges: np.ndarray | None = None
 
     def __repr__(self) -> str:
         return display.analysed_line(self)
@@ -114,7 +116,7 @@ def judged(
             of_tets = analyse_tets(meshed, _core.tet_sampling(tets), frames, options.threads)
             figures = of_tets.record
             parts = {"frames": combed(tets, of_tets.frames, None, options.threads)[0], "tet_frames": frames, "singular_graph": of_tets.singular.graph}
-            parts |= {name: getattr(of_tets, name) for name in ("alignment", "feature_alignment")}
+            parts |= {name: getattr(of_tets, name) for name in ("alignment", "feature_alignment", "meshability", "boundary_meshability")}
         else:
             found = analyse_frames(meshed, frames, options.threads, options.streamlines, options.feature_tolerance)
             figures = found.record
@@ -132,8 +134,18 @@ def judged(
         **figures,
         **sizes_entry,
     }
+    _, boundary, features = meshed.volume()
+    feature_edges = np.asarray(boundary.vertex_map)[np.asarray(features.edges)].astype(np.int32).reshape(-1, 2)
     return AnalysedField(
-        surface=meshed.surface, features=meshed.features, tets=tets, regions=meshed.regions, lengths=lengths, sizes=sizes, record=record, **parts
+        surface=meshed.surface,
+        features=meshed.features,
+        tets=tets,
+        regions=meshed.regions,
+        lengths=lengths,
+        sizes=sizes,
+        record=record,
+        feature_edges=feature_edges,
+        **parts,
     )
 
 

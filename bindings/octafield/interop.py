@@ -62,7 +62,7 @@ def to_pyvista(
     the field lives in the tets, axes_agree (1 or 0), and region where there are several. Axes are labelled vertex by vertex: slices, clips, probes and
     stream tracers of VTK interpolate them, and mix different axes in the tets where axes_agree is 0. Threshold these away, or use
     octafield.slice_frames, sample_frames and frame_streamlines, which interpolate sh4 or match the axes. SurfaceFieldResult: point data direction. SingularGraph: one polyline per curve with cell data
-    quarter_turns (+1: valence 3, -1: valence 5, 0: complex). Streamlines: one polyline each with cell data length. Raises
+    quarter_turns (+1: valence 3, -1: valence 5, 4 less the valence in general; 0: complex). Streamlines: one polyline each with cell data length. Raises
     InvalidInput for anything else.
 
         >>> import octafield

@@ -56,6 +56,8 @@ def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str,
         more["tet_frames"] = result.tet_frames
     if result.lengths is not None:
         more["lengths" if result.tet_frames is None else "tet_lengths"] = result.lengths
+    if result.feature_edges is not None:
+        more["features"] = result.feature_edges
     points, cells = sizes_arrays(result.sizes, result.tet_frames)
     _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions, point_data=points, cell_data=cells, **more)
     _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)

@@ -20,6 +20,7 @@ import pyvista  # noqa: E402
 
 # Okabe and Ito's palette, told apart with any colour vision.
 BLUE, VERMILLION, GREEN, PURPLE, SKY, ORANGE = "#0072B2", "#D55E00", "#009E73", "#AA4499", "#56B4E9", "#E69F00"
+BROWN, GREY = "#8C510A", "#7B8794"
 INK, CURVE, CROSS, BODY = "#1b1f24", "#20262d", "#3f5d7d", "#d9dfe6"
 
 SIZE = (1200, 900)  # of windows; widths of lines are for it

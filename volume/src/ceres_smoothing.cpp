@@ -35,7 +35,7 @@ public:
 
     // Ceres keeps `frames` at its best state (update_state_every_iteration).
     void add(double cost) {
-        result_.objective_history.push_back(sampling_.box_diagonal * cost);
+        result_.objective_history.push_back(sampling_.size * cost);
         result_.energy_history.push_back(dirichlet_energy(sampling_, frames_, options_.threads));
     }
 
@@ -120,7 +120,7 @@ SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quater
                           "smoothing");
 
     result.frames = quaternions;
-    result.objective = sampling.box_diagonal * summary.final_cost;
+    result.objective = sampling.size * summary.final_cost;
     // A line search reports neither a start at a minimum nor the step after which it is content.
     if (result.objective_history.empty() || result.objective_history.back() != result.objective)
         reporter.add(summary.final_cost);

@@ -24,7 +24,7 @@ void set_manifolds(ceres::Problem& problem, Quaternions& quaternions, const Boun
 ceres::Problem::Options problem_options(ceres::EvaluationCallback& field);
 
 // Everything of the result but the sh4 energy at its end. `quaternions` are the problem's parameters; Ceres' cost is the
-// objective at unit size (Sampling::box_diagonal).
+// objective at unit size (Sampling::size).
 SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quaternions, const Sampling& sampling,
                               const SmoothOptions& options, const Progress& progress);
 

@@ -41,7 +41,7 @@ public:
           field(start, std::move(scheme), options.threads),
           problem_(problem_options(field)) {
         // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
-        add_costs(problem_, field, dirichlet_blocks(sampling), 1 / sampling.box_diagonal);
+        add_costs(problem_, field, dirichlet_blocks(sampling), 1 / sampling.size);
         set_manifolds(problem_, field.quaternions(), constraints, manifolds_);
     }
 

@@ -34,7 +34,7 @@ template <frames::Representation R>
 SmoothResult smooth_with_ceres(const Sampling& sampling, const BoundaryConstraints& constraints,
                                const Quaternions& start, const SmoothOptions& options, const Progress& progress) {
     // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
-    const double length = sampling.box_diagonal;
+    const double length = sampling.size;
     EmbeddedField<R> field(start, options.threads);
     Manifolds manifolds;
     ceres::Problem problem(problem_options(field));

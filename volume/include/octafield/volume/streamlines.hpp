@@ -38,7 +38,7 @@ struct FrameStreamlineSeed {
 };
 
 struct FrameStreamlineOptions {
-    double max_length = 0;  // input unit, from the seed each way; 0: 4 bounding-box diagonals
+    double max_length = 0;  // input unit, from the seed each way; 0: 4 times the surface's shape_size
     bool both_ways = true;  // against the direction as well
     // A curve that comes back to its seed so near, in the same direction, is closed. Input unit; 0: a tenth of the
     // longest edge at a vertex of the seed's tet.

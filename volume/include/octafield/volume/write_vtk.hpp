@@ -28,6 +28,7 @@ struct FieldArrays {
     Points tet_lengths{};      // (m, 3): cell data frame_lengths
     // Other arrays by name, a row per vertex and per tet.
     std::map<std::string, Rows<double, Eigen::Dynamic>> point_data{}, cell_data{};
+    Edges features{};  // (k, 2) feature edges, vertex ids: field data feature_edges
 };
 
 // .vtu with point data: frame_u, frame_v, frame_w (unit axes), quaternion (w x y z, named components), sh4 (9, named

@@ -1,0 +1,123 @@
+"""How far a result of any_part.py is from its input: volume, topology, distance of the surfaces, alignment; and pictures to look at."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyvista
+import vtk
+from any_part_inputs import Case
+
+import octafield
+
+VOLUME, FAR, ANGLE = 0.01, 0.01, 10.0  # relative; of the size; degrees
+SAMPLES = 5000
+_TELLS = re.compile(r"repair|fill|wrap|merge|flatten|detail|coarse|deviat|lost|left out|perturb|moved|finer|away", re.IGNORECASE)
+
+
+def words_of(record: dict[str, Any]) -> str:
+    """What the record says of its own result, "" where it says nothing."""
+    told = record.get("verdict")
+    parts = []
+    if isinstance(told, dict) and told.get("state", told.get("verdict", "fine")) not in ("fine", "pass"):
+        parts.append(f"verdict: {told.get('state', told.get('verdict'))}")
+    elif isinstance(told, str) and not told.startswith("fine"):
+        parts.append(f"verdict: {told}")
+    parts += [note for note in record["notes"] if _TELLS.search(note)]
+    return "; ".join(parts)
+
+
+def distances(points: np.ndarray, surface: pyvista.PolyData) -> tuple[np.ndarray, np.ndarray]:
+    """To the nearest point of a surface, and the ids of the triangles there."""
+    ids, nearest = surface.find_closest_cell(points, return_closest_point=True)
+    return np.linalg.norm(points - nearest, axis=1), np.asarray(ids)
+
+
+def samples(mesh: pyvista.PolyData) -> np.ndarray:
+    """Vertices and centres of triangles, an even share of them."""
+    points = np.concatenate([mesh.points, mesh.cell_centers().points]).astype(float)
+    return points[:: max(1, len(points) // SAMPLES)]
+
+
+def axis_angles(result: pyvista.PolyData, volume: pyvista.UnstructuredGrid, normals: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+    """Degrees between normals (k, 3) and the nearest axis of the frame at the chosen vertices of the surface."""
+    locator = vtk.vtkStaticPointLocator()
+    locator.SetDataSet(volume)
+    locator.BuildLocator()
+    ids = np.array([locator.FindClosestPoint(p) for p in result.points[chosen]], int)
+    axes = np.asarray(octafield.rotation_matrices(np.asarray(volume.point_data["quaternion"], float)[ids]))
+    cosines = np.abs(np.einsum("nck,nc->nk", axes, normals)).max(axis=1)
+    return np.degrees(np.arccos(np.clip(cosines, 0, 1)))
+
+
+def judge(case: Case, path: Path, output: Path, record: dict[str, Any]) -> dict[str, Any]:
+    """Figures of a row, and `wrong`: which of the four bounds are broken."""
+    volume = pyvista.read(output / "field.vtu")
+    result = pyvista.read(output / "surface.vtp")
+    faces = np.asarray(result.faces.reshape(-1, 4)[:, 1:])
+    mesh = octafield.TriangleMesh(np.asarray(result.points, float), faces.astype(np.int32))
+    source = octafield.read_surface(path) if path.suffix != ".vtp" else None
+    wrong, size = [], float(np.linalg.norm(np.ptp(result.points, axis=0)))
+    found_volume = float(octafield.signed_volume(mesh))
+    euler = int(octafield.euler_characteristic(mesh))
+    row: dict[str, Any] = {"tets": record["tets"], "energy": record["energy"], "singular": record["singular_edges"], "euler": euler}
+    if case.volume is not None:
+        row["volume %"] = 100 * (found_volume / case.volume - 1)
+        if abs(row["volume %"]) > 100 * VOLUME:
+            wrong.append(f"volume {row['volume %']:+.2g} %")
+    if case.euler is not None and euler != case.euler:
+        wrong.append(f"Euler characteristic {euler}, not {case.euler}")
+    if source is None:
+        return row | {"wrong": "; ".join(wrong)}
+    triangles = np.asarray(source.triangles)
+    given = pyvista.PolyData.from_regular_faces(np.asarray(source.vertices), triangles[_with_area(source)])
+    there, nearest = distances(np.asarray(result.points, float), given)
+    back = distances(samples(given), result)[0] if case.sound else np.zeros(1)
+    row["far %"] = 100 * float(max(np.quantile(there, 0.999), np.quantile(back, 0.999))) / size
+    if row["far %"] > 100 * FAR and case.sound:
+        wrong.append(f"surfaces {row['far %']:.2g} % of the size apart")
+    away = np.ones(len(result.points), bool)
+    features = output / "features.vtp"
+    if features.exists() and (lines := pyvista.read(features)).n_points:
+        near = vtk.vtkStaticPointLocator()
+        near.SetDataSet(lines)
+        near.BuildLocator()
+        gap = [np.linalg.norm(np.subtract(lines.points[near.FindClosestPoint(p)], p)) for p in result.points]
+        away = np.array(gap) > 0.5 * record["edge_length"]
+    normals = np.asarray(given.compute_normals(cell_normals=True, point_normals=False, consistent_normals=False)["Normals"])[nearest]
+    if away.any():
+        angles = axis_angles(result, volume, normals[away].astype(float), away)
+        row["angle 95 %"] = float(np.quantile(angles, 0.95))
+        if row["angle 95 %"] > ANGLE:
+            wrong.append(f"axes {row['angle 95 %']:.3g} degrees off at 5 % of the vertices")
+    _picture(result, output)
+    return row | {"wrong": "; ".join(wrong)}
+
+
+def _with_area(mesh: octafield.TriangleMesh) -> np.ndarray:
+    return np.asarray(octafield.triangle_areas(mesh)) > 0
+
+
+def _picture(result: pyvista.PolyData, output: Path) -> None:
+    plotter = pyvista.Plotter(off_screen=True, window_size=(320, 320))
+    plotter.add_mesh(result, color="lightgrey", show_edges=True, line_width=0.3)
+    singular = pyvista.read(output / "singular.vtp")
+    if singular.n_points:
+        plotter.add_mesh(singular, color="red", line_width=2)
+    plotter.add_text(output.parent.name[-34:], font_size=6)
+    plotter.screenshot(output.parent / "picture.png")
+    plotter.close()
+
+
+def contact_sheet(folder: Path) -> None:
+    """Every picture of the runs, eight in a row, as contact.png."""
+    from PIL import Image
+
+    pictures = sorted(folder.glob("runs/*/picture.png"))
+    if not pictures:
+        return
+    sheet = Image.new("RGB", (8 * 320, -(-len(pictures) // 8) * 320), "white")
+    for k, path in enumerate(pictures):
+        sheet.paste(Image.open(path), (k % 8 * 320, k // 8 * 320))
+    sheet.save(folder / "contact.png")
