@@ -151,7 +151,7 @@ def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolera
     tangents = np.cross(normal, np.eye(3)[np.abs(normal).argmin(axis=1)])  # any will do: on features the normals decide
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
     directions = tangents[np.searchsorted(vertex, np.arange(len(boundary.mesh.vertices)))]
-    held = _core.boundary_constraints(len(tets.vertices), boundary, features, directions, mode="fixed", feature_tolerance=feature_tolerance)
+    held = _core.boundary_constraints(len(tets.vertices), boundary, features, directions, mode="aligned", feature_tolerance=feature_tolerance)
     loose = np.asarray(held.kind)[np.asarray(boundary.vertex_map)] != 2
     several = np.bincount(vertex, minlength=len(loose)) > 1
     found: np.ndarray = (loose & several)[vertex]

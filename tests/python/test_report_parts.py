@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 import pyvista
 from PIL import Image
-from pipeline_fixtures import write_sphere
+from pipeline_fixtures import write_cube, write_sphere
 from report_pages import elements, page_of, record
 
-from octafield import scene
+from octafield import compute_field, from_pyvista, scene
 from octafield.compare import compare
 from octafield.options import COMPARED, SOLVERS, FieldOptions
 from octafield.report import Run, figures, scenes
@@ -211,3 +211,11 @@ def test_plots_keep_the_text_of_their_axes(tmp_path):
 def test_the_page_is_for_light_and_dark(tmp_path):
     page = page_of(tmp_path, [("a", record())])
     assert "prefers-color-scheme: dark" in page and "currentColor" in page and "#010203" not in page
+
+
+def test_vertices_that_no_frame_serves_are_counted_and_left_out_of_the_held_alignment(tmp_path):
+    prism = pyvista.Cylinder(radius=1, height=1, resolution=8).clean().triangulate()
+    octagon = compute_field(from_pyvista(prism), FieldOptions(edge_length=0.3, streamlines=0)).record
+    assert octagon["alignment_deg"]["max"] > 20 and octagon["alignment_deg"]["held_max"] < 2 and octagon["unserved_vertices"] > 8
+    cube = compute_field(write_cube(tmp_path), FieldOptions(edge_length=0.5, streamlines=0)).record
+    assert cube["unserved_vertices"] == 0 and cube["alignment_deg"]["held_max"] == cube["alignment_deg"]["max"]
