@@ -6,6 +6,26 @@ BUILD_DIR=build/release
 
 say() { printf '\n== %s\n' "$*" >&2; }
 
+# Runs a build, its output in build/build.log: every 10 seconds how many of Ninja's steps are done and the time. A failure shows the log's end.
+build_with_progress() {
+    local log=build/build.log line start=$SECONDS next=0 took left
+    mkdir -p build
+    if ! "$@" 2>&1 | while IFS= read -r line; do
+        printf '%s\n' "$line" >&3
+        [[ $line =~ ^[[:space:]]*\[([0-9]+)/([0-9]+)\] ]] || continue
+        took=$((SECONDS - start))
+        if [ "$took" -ge "$next" ] || [ "${BASH_REMATCH[1]}" = "${BASH_REMATCH[2]}" ]; then
+            next=$((took + 10)) left=$((took * (BASH_REMATCH[2] - BASH_REMATCH[1]) / BASH_REMATCH[1]))
+            printf '   [%d/%d] %d:%02d, about %d:%02d left\n' "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" \
+                $((took / 60)) $((took % 60)) $((left / 60)) $((left % 60)) >&2
+        fi
+    done 3>"$log"; then
+        tail -n 60 "$log" >&2
+        echo "the build failed; all of its output is in $log" >&2
+        return 1
+    fi
+}
+
 install_system_packages() {
     local wanted missing=() package
     wanted=$(sed 's/#.*//' scripts/packages.txt)
@@ -30,8 +50,8 @@ make_venv() {
     for file in "$@"; do
         stamp=.venv/.$(basename "$file")
         cmp -s "$file" "$stamp" && continue
-        say "installing $file"
-        .venv/bin/python -m pip install -q --disable-pip-version-check -r "$file" >&2
+        say "downloading and installing the packages of $file (minutes, the first time)"
+        build_with_progress .venv/bin/python -m pip install -v --disable-pip-version-check -r "$file" >&2
         cp "$file" "$stamp"
     done
 }
@@ -45,7 +65,7 @@ install_octafield() {
     fi
     say "building octafield"
     touch "$stamp.new"
-    .venv/bin/python -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps --config-settings=build-dir="$BUILD_DIR" . >&2
+    .venv/bin/python -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps --config-settings=build-dir="$BUILD_DIR" .
     mv "$stamp.new" "$stamp"
 }
 

@@ -9,7 +9,7 @@ if [ "${1:-}" = --sanitize ]; then
     say "building with sanitizers"
     cmake -S . -B build/sanitize -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DOCTAFIELD_PYTHON=OFF -DOCTAFIELD_TESTS=ON \
         -DOCTAFIELD_SANITIZE=address,undefined -DOCTAFIELD_CONSUMER_TEST=OFF >/dev/null
-    cmake --build build/sanitize
+    build_with_progress cmake --build build/sanitize
     ctest --test-dir build/sanitize --output-on-failure -j "$jobs"
     exit
 fi
@@ -18,8 +18,8 @@ make_venv requirements-test.txt requirements-docs.txt
 install_octafield
 say "building the C++ tests and benchmarks"
 cmake -S . -B "$BUILD_DIR" -DOCTAFIELD_TESTS=ON -DOCTAFIELD_BENCHMARKS=ON >/dev/null
-cmake --build "$BUILD_DIR"
+build_with_progress cmake --build "$BUILD_DIR"
 say "C++ tests"
 ctest --test-dir "$BUILD_DIR" --output-on-failure -j "$jobs"
 say "Python tests"
-.venv/bin/python -m pytest -q
+.venv/bin/python -m pytest -q --durations=20

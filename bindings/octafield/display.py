@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .errors import IoError
+from .errors import InvalidInput, IoError
 
 if TYPE_CHECKING:
     import pyvista
@@ -104,6 +105,19 @@ def scene_of(result: AnalysedField) -> pyvista.Plotter:
     return shape
 
 
+def _require_display(folder: Path) -> None:
+    """VTK without a display ends the process, or says nothing at all."""
+    import pyvista
+
+    words = f"there is no display to open a window on; write a picture: octafield view {folder} -o curves.png"
+    if sys.platform != "linux":
+        return
+    if not os.environ.get("DISPLAY"):
+        raise InvalidInput(words, "no_display")
+    if not pyvista.system_supports_plotting():
+        raise InvalidInput(f"the display {os.environ['DISPLAY']} cannot be opened; {words.partition('; ')[2]}", "no_display")
+
+
 def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
     """Shows the singular curves that `octafield field` wrote, in a window, or writes them to a PNG; what it did, for --json."""
     from .pictures import scene_from_files
@@ -115,6 +129,7 @@ def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
     shape = scene_from_files(*files)
     record = {"folder": str(folder), "files": [path.name for path in files], "picture": picture and str(picture)}
     if picture is None:
+        _require_display(folder)
         shape.off_screen = False
         shape.show(title=f"octafield: {folder}")
         return record

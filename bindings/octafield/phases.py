@@ -1,7 +1,9 @@
 """Seconds per phase, peak memory and versions: the figures every record carries."""
 
 import contextlib
+import functools
 import importlib.metadata
+import os
 import platform
 import resource
 import time
@@ -71,6 +73,22 @@ def versions() -> dict[str, str]:
             found[package] = "not installed"
     found["platform"] = platform.platform()
     return found
+
+
+def machine() -> dict[str, str | int | float]:
+    """What times depend on: the processor's model, cores this process may use, and how many processes ran or waited in the
+    last minute (load; this one included)."""
+    return {"cpu": _processor(), "cores": len(os.sched_getaffinity(0)), "load": round(os.getloadavg()[0], 2)}
+
+
+@functools.cache
+def _processor() -> str:
+    with contextlib.suppress(OSError):
+        for line in Path("/proc/cpuinfo").read_text().splitlines():
+            name, _, value = line.partition(":")
+            if name.strip() == "model name":
+                return value.strip()
+    return platform.processor() or platform.machine()
 
 
 def libraries() -> dict[str, str]:

@@ -1,7 +1,8 @@
 """The files of one run: field, singular curves, features and corners, streamlines, surface field, its singular points and separatrices, record."""
 
+import contextlib
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +12,7 @@ from . import _core
 from ._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetMesh
 from .imported import AnalysedField
 from .output import vtp_bytes, write_file, write_json
-from .phases import PhaseClock, Progress, announce
+from .phases import PeakMemory, PhaseClock, Progress, announce
 from .pipeline import FieldResult, SurfaceFieldResult
 from .sizes import sizes_arrays
 
@@ -28,7 +29,7 @@ def write_field_result(result: FieldResult, folder: Path, progress: Progress | N
     announce(progress, "write")
     metadata = _metadata(result.record)
     clock = _clock(result.record)
-    with clock.phase("write"):
+    with clock.phase("write"), _peak(result.record):
         _write_volume_files(result, folder, metadata)
         _write_surface_files(result, folder, metadata)
     result.record["files"] = [*(name for name in FIELD_FILES if (folder / name).exists()), RECORD_FILE]
@@ -41,7 +42,7 @@ def write_analysis(result: AnalysedField, folder: Path, progress: Progress | Non
 
     announce(progress, "write")
     metadata = _metadata(result.record)
-    with _clock(result.record).phase("write"):
+    with _clock(result.record).phase("write"), _peak(result.record):
         _write_volume_files(result, folder, metadata)
         surface = pyvista.PolyData.from_regular_faces(np.array(result.surface.vertices), np.array(result.surface.triangles, int))
         _save(surface, folder / SURFACE_FILES[0], metadata)
@@ -70,7 +71,7 @@ def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str,
 def write_surface_result(result: SurfaceFieldResult, folder: Path, progress: Progress | None = None) -> None:
     announce(progress, "write")
     metadata = _metadata(result.record)
-    with _clock(result.record).phase("write"):
+    with _clock(result.record).phase("write"), _peak(result.record):
         _write_surface_files(result, folder, metadata)
     result.record["files"] = [*SURFACE_FILES, RECORD_FILE]
     write_json(folder / RECORD_FILE, result.record)
@@ -191,6 +192,14 @@ def _metadata(record: dict[str, Any]) -> dict[str, str]:
         "energy": repr(record["energy"]),
         "convention": "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per vertex: interpolate sh4, or axes only in cells with axes_agree 1",
     }
+
+
+@contextlib.contextmanager
+def _peak(record: dict[str, Any]) -> Iterator[None]:
+    """The record's peak memory, that of writing included."""
+    memory = PeakMemory()
+    yield
+    record["peak_mb"] = max(record["peak_mb"], round(memory.megabytes(), 1))
 
 
 def _clock(record: dict[str, Any]) -> PhaseClock:

@@ -24,7 +24,7 @@ from .errors import Cancelled, InvalidInput
 from .inputs import naming
 from .meshing import MeshedInput, Source, prepare_mesh
 from .options import METHODS, SurfaceFieldOptions
-from .phases import PeakMemory, PhaseClock, Progress, StopNote, forward, octafield_version, versions
+from .phases import PeakMemory, PhaseClock, Progress, StopNote, forward, machine, octafield_version, versions
 
 
 @dataclass(repr=False)
@@ -166,6 +166,7 @@ def common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dic
         "cpu_seconds": clock.cpu,
         "peak_mb": round(peak_mb, 1),
         "versions": versions(),
+        "machine": machine(),
     }
 
 

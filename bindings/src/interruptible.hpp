@@ -3,6 +3,7 @@
 // The work runs in its own thread and owns everything it touches; the calling thread waits without the GIL and looks
 // for signals every 50 ms. On a signal the work is asked to stop through its progress callback; if it does not within
 // half a second it is abandoned: it runs on by itself, touches nothing of Python, and its memory goes when it ends.
+// When Python ends, what daemon threads compute is cancelled or abandoned likewise.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -54,7 +55,6 @@ private:
     std::mutex mutex_;
     std::condition_variable ended_;
     bool finished_ = false;
-    bool abandoned_ = false;
     std::exception_ptr error_;
 };
 

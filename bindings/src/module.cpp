@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "bind.hpp"
+#include "gil.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/operators.hpp"
 
@@ -63,5 +64,6 @@ PYBIND11_MODULE(_core, module) {
     bind_parameterization(module);
     bind_frame_streamlines(module);
     bind_volume_input(module);
+    bind_end();
     add_examples(module);
 }

@@ -9,6 +9,7 @@
 
 #include "arrays.hpp"
 #include "checks.hpp"
+#include "gil.hpp"
 #include "interruptible.hpp"
 #include "octafield/parallel.hpp"
 
@@ -130,7 +131,7 @@ Output for_rows(std::int64_t n, int threads, Output output, Body body, std::int6
         return std::move(output);
     };
     if (n > 4 * rows_per_thread) return run_interruptible(std::move(work));
-    const py::gil_scoped_release release;
+    const WithoutGil free;
     Job job;
     return work(job);
 }

@@ -309,3 +309,12 @@ def test_view_draws_the_folder_of_a_field_and_refuses_others(tmp_path):
     assert (tmp_path / "curves.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     assert "surface.vtp: no such file" in octafield("view", tmp_path, "-o", tmp_path / "x.png", check=2).stderr
     assert not (tmp_path / "x.png").exists()
+
+
+@pytest.mark.parametrize(("display", "words"), [("", "there is no display"), (":987", "the display :987 cannot be opened")])
+def test_view_without_a_display_says_so_and_names_the_way_to_a_picture(tmp_path, monkeypatch, display, words):
+    monkeypatch.setenv("DISPLAY", display)
+    for name in ("surface", "singular"):
+        pyvista.Sphere().save(tmp_path / f"{name}.vtp")
+    errors = octafield("view", tmp_path, check=2).stderr
+    assert words in errors and "-o curves.png" in " ".join(errors.split()), errors

@@ -73,9 +73,11 @@ def _reproduction(content: Content, exhibits: Exhibits) -> str:
     varying = list(dict.fromkeys(name for o in options for name in o if name not in common))
     row = next((run.row for run in runs if "versions" in run.row), {})
     software = ", ".join(f"{name} {value}" for name, value in row.get("versions", {}).items())
+    machine = row.get("machine")
+    where = f" on {html.escape(str(machine['cpu']))}, {machine['cores']} cores, load {machine['load']}" if machine else ""
     differ = f" The runs differ in {html.escape(', '.join(varying).replace('_', ' '))}." if varying else ""
     text = (
-        f"Computed with {html.escape(software)}. Hashes of the meshes are in {exhibits.cite('inputs').strip('()')}; the options of a run are "
+        f"Computed with {html.escape(software)}{where}. Hashes of the meshes are in {exhibits.cite('inputs').strip('()')}; the options of a run are "
         f"in its record (<code>result.json</code>), and <code>octafield.FieldOptions(**record[\"options\"])</code> makes them again.{differ} "
         "The same version, input, options and seed give the same field at any number of threads."
     )

@@ -21,7 +21,7 @@ from pydantic import (
 )
 
 from ..errors import Error, InvalidInput, IoError
-from ..options import FieldOptions, MeshOptions
+from ..options import FieldOptions, MeshOptions, did_you_mean
 from .generators import GENERATORS
 
 if TYPE_CHECKING:
@@ -184,7 +184,7 @@ def _check_options(study: Study, tree: yaml.Node, name: str) -> None:
         for key, value in options.items():
             try:
                 if key not in known:
-                    raise InvalidInput(f"no option {key!r}; there are: {', '.join(known)}", "bad_study")
+                    raise InvalidInput(f"no option {key!r}; there are: {', '.join(known)}{did_you_mean(key, known)}", "bad_study")
                 make(**_converted({key: value}))
             except (Error, TypeError) as error:
                 raise InvalidInput(f"{name}:{_line(tree, (*loc, key))}: {error}", "bad_study") from error
@@ -239,11 +239,18 @@ def _line(node: yaml.Node, loc: Loc) -> int:
     return line + 1
 
 
+def _keys_beside(loc: Loc) -> list[str]:
+    """What a key may be at the place of one that is not known."""
+    models: dict[Any, type[BaseModel]] = {"#file": FromFile, "#generator": Generated}
+    model = next((models[step] for step in loc if step in models), Study)
+    return [field.alias or name for name, field in model.model_fields.items() if name not in _OURS]
+
+
 def _told(error: ErrorDetails) -> str:
     where = ".".join(str(step) for step in error["loc"] if isinstance(step, str) and step[0] not in "#[" and step not in _TYPES)
     message = error["msg"].removeprefix("Value error, ")
     if error["type"] == "extra_forbidden":
-        return f"{where}: no such key"
+        return f"{where}: no such key{did_you_mean(str(error['loc'][-1]), _keys_beside(error['loc']))}"
     if error["type"] == "missing":
         return f"{where} is missing"
     return f"{where}: {message}"

@@ -1,0 +1,79 @@
+"""Python ends while threads compute: a quiet exit with the status that was asked for, never an abort."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+SETUP = """
+import sys, threading, time
+sys.path.insert(0, {tests!r})
+import numpy as np
+import octafield as of
+from conftest import box_tets, icosphere
+def forever(call):
+    def work():
+        while True:
+            call()
+    return work
+def start(call):
+    thread = threading.Thread(target=forever(call), daemon=True)
+    thread.start()
+    return thread
+ball, box = icosphere(4), box_tets(12)
+none = of.FeatureGraph()
+n = len(box.vertices)
+frames = of.random_rotations(n, 1)
+free = of.BoundaryConstraints([0] * n, np.zeros((n, 3)), frames, [0] * n, [])
+vectors = np.random.default_rng(1).normal(size=(20_000, 6))
+some = vectors[:300]  # short enough to be computed in the calling thread
+thread = start(lambda: {call})
+print("ready", flush=True)
+"""
+
+CALLS = {
+    "direction_field": "of.direction_field(ball, none)",
+    "direction_field_calls_back": "of.direction_field(ball, none, progress=lambda *_: True)",
+    "smooth": "of.smooth(box, free, frames, tolerance=0, max_iterations=1000)",
+    "smooth_calls_back": "of.smooth(box, free, frames, tolerance=0, max_iterations=1000, progress=lambda *_: True)",
+    "smooth_sleeps_in_its_callback": "of.smooth(box, free, frames, max_iterations=1000, progress=lambda *_: time.sleep(5))",
+    "tetrahedralize": "of.tetrahedralize(ball, edge_length=0.05)",
+    "remesh": "of.remesh(ball, none, edge_length=0.05)",
+    "rows": "of.su2_project(vectors)",
+    "few_rows": "of.su2_project(some)",
+}
+ENDS = ("", "sys.exit(7)", "raise SystemExit(7)")
+
+
+def ended(call, end, delay, tests, interrupt=False):
+    """(exit status, stderr) of a process that ends `delay` seconds after its thread began."""
+    text = SETUP.format(tests=str(tests), call=CALLS[call]) + (
+        "thread.join()\n" if interrupt else f"time.sleep({delay})\n{end}\n"
+    )
+    process = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               start_new_session=True)  # fmt: skip
+    try:
+        assert process.stdout.readline() == "ready\n", process.communicate()[1]
+        if interrupt:
+            time.sleep(delay)
+            os.killpg(process.pid, signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    return process.returncode, errors
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_python_ends_quietly_while_a_thread_computes(call, request):
+    for delay, end in zip((0.02, 0.2), ENDS, strict=False):
+        status, errors = ended(call, end, delay, request.path.parent)
+        assert (status, errors) == (7 if end else 0, "")
+
+
+@pytest.mark.parametrize("call", ["direction_field", "smooth_calls_back", "remesh"])
+def test_ctrl_c_while_a_thread_is_joined_ends_by_the_signal(call, request):
+    status, errors = ended(call, "", 0.2, request.path.parent, interrupt=True)
+    assert status == -signal.SIGINT and errors.splitlines()[-1] == "KeyboardInterrupt" and "terminate" not in errors
