@@ -28,6 +28,8 @@ from any_part_inputs import Case, collect, unpacked
 from any_part_judge import contact_sheet, judge, words_of
 from study_output import markdown_table, write_csv
 
+import octafield
+
 HEADER = ["input", "source", "triangles", "info", "default", "kind", "steps", "result", "wrong", "told", "tets", "energy", "singular", "volume %",
           "euler", "far %", "angle 95 %", "seconds", "message"]  # fmt: skip
 MOST_STEPS = 3
@@ -137,9 +139,15 @@ PAGE = """# Any part
 
 Sixty surfaces through `octafield field`: parts made by rule (thin walls, needles, high genus, noise, scans with holes), files that broke something
 once, and what pyvista ships. Where a field is refused by default, the options that the message names are added, without a look at the part.
-What counts as wrong, and how it is found: [studies/any_part.py](study_scripts.md), which writes this page. Seconds are of a machine with other work; the time limit of a try was {limit:.0f} s.
+What counts as wrong, and how it is found: [studies/any_part.py](study_scripts.md), which writes this page. Seconds are on the clock, as the machine was; the limit of one command was {limit:.0f} s. The program was octafield {version}, commit {commit}.
 
 """
+
+
+def commit() -> str:
+    """Of the source tree, with a + where it has changes beside it."""
+    words = ["git", "-C", str(Path(__file__).parent), "describe", "--always", "--dirty=+", "--abbrev=8"]
+    return subprocess.run(words, capture_output=True, text=True).stdout.strip() or "unknown"
 
 
 def main() -> int:
@@ -168,7 +176,7 @@ def main() -> int:
         write_csv(a.output / "table.csv", HEADER, [[row[key] for key in HEADER] for row in rows], quiet=True)
         (a.output / "summary.md").write_text(summary(rows))
     if a.page:
-        a.page.write_text(PAGE.format(limit=a.limit) + summary(rows))
+        a.page.write_text(PAGE.format(limit=a.limit, version=octafield.__version__, commit=commit()) + summary(rows))
     contact_sheet(a.output)
     print(summary(rows).split("\n\n|")[0])
     return int(any(verdict(row) == "SILENT" for row in rows))
