@@ -10,7 +10,7 @@ and it is tried again, three times at most. Nothing is chosen by hand.
 A result is wrong where, of the file's body: the volume differs by more than 1 %, the Euler characteristic differs, the
 surface lies further than 1 % of the size away (either way), or one axis is more than 10 degrees from the input's
 normal at more than 5 % of the surface's vertices away from features. A wrong result whose record says so (its verdict
-is not fine, or a note tells of a repair, a loss or a coarse place) is "told"; without a word it is "SILENT".
+is not fine, or a note tells of a loss, a filled hole or a coarse place) is "told"; without a word it is "SILENT".
 
 Writes table.csv, summary.md (--page: a page of the documentation with it), pictures in contact.png. Exit code 1 where a result is silently wrong.
 """
@@ -95,7 +95,7 @@ def run_case(case: Case, folder: Path, limit: float) -> dict[str, Any]:
     if code == 0:
         record = json.loads((output / "result.json").read_text())
         row |= judge(case, unpacked(case.path, folder), output, record)
-        row["told"] = words_of(record) if row["wrong"] else ""
+        row["told"] = words_of(record, row["wrong"]) if row["wrong"] else ""
     return row
 
 

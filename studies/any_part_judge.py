@@ -14,19 +14,19 @@ import octafield
 
 VOLUME, FAR, ANGLE = 0.01, 0.01, 10.0  # relative; of the size; degrees
 SAMPLES = 5000
-_TELLS = re.compile(r"repair|fill|wrap|merge|flatten|detail|coarse|deviat|lost|left out|perturb|moved|finer|away", re.IGNORECASE)
+# What a note has to speak of to tell of a changed shape, and of axes that are off. That triangles were turned or points merged excuses neither.
+_SHAPE = re.compile(r"fill|wrap|remov|flatten|detail|coarse|deviat|lost|left out|perturb|moved|finer|away", re.IGNORECASE)
+_AXES = re.compile(r"flatten|detail|coarse|finer|axes|normals", re.IGNORECASE)
 
 
-def words_of(record: dict[str, Any]) -> str:
-    """What the record says of its own result, "" where it says nothing."""
-    told = record.get("verdict")
-    parts = []
-    if isinstance(told, dict) and told.get("state", told.get("verdict", "fine")) not in ("fine", "pass"):
-        parts.append(f"verdict: {told.get('state', told.get('verdict'))}")
-    elif isinstance(told, str) and not told.startswith("fine"):
-        parts.append(f"verdict: {told}")
-    parts += [note for note in record["notes"] if _TELLS.search(note)]
-    return "; ".join(parts)
+def words_of(record: dict[str, Any], wrong: str) -> str:
+    """What the record says of what is wrong with its result, "" where it says nothing. A verdict that is not fine tells of anything."""
+    told = record.get("verdict") or {}
+    state = told if isinstance(told, str) else str(told.get("state", told.get("verdict", "fine")))
+    if not state.startswith(("fine", "pass")):
+        return f"verdict: {state}"
+    needed = _AXES if wrong.startswith("axes") else _SHAPE
+    return "; ".join(note for note in record["notes"] if needed.search(note))
 
 
 def distances(points: np.ndarray, surface: pyvista.PolyData) -> tuple[np.ndarray, np.ndarray]:
