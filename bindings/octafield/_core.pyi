@@ -214,11 +214,30 @@ class Defect:
     def elements(self, value: ArrayLike) -> None: ...
 
 class RepairResult:
-    def __init__(self, mesh: TriangleMesh = ..., actions: Sequence[str] = ...) -> None: ...
+    def __init__(self, mesh: TriangleMesh = ..., actions: Sequence[str] = ..., largest_move: float = ...) -> None: ...
     @property
     def mesh(self) -> TriangleMesh: ...
     @property
     def actions(self) -> list[str]: ...
+    @property
+    def largest_move(self) -> float: ...
+    @largest_move.setter
+    def largest_move(self, value: float) -> None: ...
+
+class RepairAdvice:
+    def __init__(self, level: str = ..., actions: Sequence[str] = ..., left: Sequence[Defect] = ..., not_tried: str = ...) -> None: ...
+    @property
+    def level(self) -> str: ...
+    @level.setter
+    def level(self, value: str) -> None: ...
+    @property
+    def actions(self) -> list[str]: ...
+    @property
+    def left(self) -> list[Defect]: ...
+    @property
+    def not_tried(self) -> str: ...
+    @not_tried.setter
+    def not_tried(self, value: str) -> None: ...
 
 class RemeshResult:
     def __init__(self, mesh: TriangleMesh = ..., features: FeatureGraph = ...) -> None: ...
@@ -384,6 +403,7 @@ class Streamline:
 
 def edge_topology(mesh: TriangleMesh) -> EdgeTopology: ...
 def bounding_box_diagonal(points: ArrayLike) -> float: ...
+def shape_size(mesh: TriangleMesh) -> float: ...
 def signed_volume(mesh: TriangleMesh) -> float: ...
 def triangle_areas(mesh: TriangleMesh) -> Float64s: ...
 def triangle_normals(mesh: TriangleMesh) -> Float64s: ...
@@ -400,13 +420,27 @@ def require_valid(mesh: TetMesh) -> None: ...
 def repair(
     mesh: TriangleMesh,
     *,
-    merge_vertices: bool = ...,
-    remove_degenerate: bool = ...,
-    remove_fins: bool = ...,
-    orient: bool = ...,
-    fill_holes: bool = ...,
+    level: str = ...,
+    closed: bool = ...,
+    merge_tolerance: float = ...,
+    small_hole_edges: int = ...,
     max_hole_edges: int = ...,
+    wrap_alpha: float = ...,
+    wrap_offset: float = ...,
 ) -> RepairResult: ...
+def advise_repair(
+    mesh: TriangleMesh,
+    *,
+    level: str = ...,
+    closed: bool = ...,
+    merge_tolerance: float = ...,
+    small_hole_edges: int = ...,
+    max_hole_edges: int = ...,
+    wrap_alpha: float = ...,
+    wrap_offset: float = ...,
+    most_triangles: int = ...,
+) -> RepairAdvice: ...
+def coordinate_precision(points: ArrayLike) -> float: ...
 def detect_features(mesh: TriangleMesh, *, angle: float = ..., corner_angle: float = ...) -> FeatureGraph: ...
 def feature_graph(mesh: TriangleMesh, edges: ArrayLike, *, corner_angle: float = ...) -> FeatureGraph: ...
 def remesh(
@@ -573,6 +607,7 @@ class SmoothResult:
         converged: bool = ...,
         message: str = ...,
         energy_history: ArrayLike = ...,
+        objective_history: ArrayLike = ...,
         lengths: ArrayLike = ...,
     ) -> None: ...
     @property
@@ -583,6 +618,10 @@ class SmoothResult:
     def energy_history(self) -> Float64s: ...
     @energy_history.setter
     def energy_history(self, value: ArrayLike) -> None: ...
+    @property
+    def objective_history(self) -> Float64s: ...
+    @objective_history.setter
+    def objective_history(self, value: ArrayLike) -> None: ...
     @property
     def lengths(self) -> Float64s: ...
     @lengths.setter
@@ -601,6 +640,7 @@ class SingularTriangle:
     holonomy: int
     quarter_turns: int
     boundary: bool
+    undecided: bool
     def __init__(
         self,
         a: int = ...,
@@ -610,6 +650,7 @@ class SingularTriangle:
         quarter_turns: int = ...,
         boundary: bool = ...,
         point: ArrayLike = ...,
+        undecided: bool = ...,
     ) -> None: ...
     @property
     def point(self) -> Float64s: ...
@@ -619,6 +660,7 @@ class SingularTriangle:
 class SingularGraph:
     length: float
     complex_triangles: int
+    undecided_triangles: int
     def __init__(
         self,
         triangles: Sequence[SingularTriangle] = ...,
@@ -628,6 +670,7 @@ class SingularGraph:
         nodes: ArrayLike = ...,
         length: float = ...,
         complex_triangles: int = ...,
+        undecided_triangles: int = ...,
     ) -> None: ...
     @property
     def triangles(self) -> list[SingularTriangle]: ...
@@ -652,6 +695,7 @@ def tetrahedralize(
     radius_edge_ratio: float = ...,
     min_dihedral: float = ...,
     edge_length: float = ...,
+    notes: list[str] | None = None,
     progress: Progress | None = None,
 ) -> TetMesh: ...
 def tet_volumes(mesh: TetMesh) -> Float64s: ...
@@ -668,7 +712,7 @@ class Sampling:
         mass: ArrayLike,
         body_radius: float,
         edge_length: float,
-        box_diagonal: float,
+        size: float,
         sites: str = ...,
     ) -> None: ...
     @property
@@ -682,7 +726,7 @@ class Sampling:
     @property
     def edge_length(self) -> float: ...
     @property
-    def box_diagonal(self) -> float: ...
+    def size(self) -> float: ...
     def __len__(self) -> int: ...
 
 class SingularEdge:
@@ -690,14 +734,28 @@ class SingularEdge:
     b: int
     holonomy: int
     quarter_turns: int
-    def __init__(self, a: int = ..., b: int = ..., holonomy: int = ..., quarter_turns: int = ...) -> None: ...
+    valence: int
+    undecided: bool
+    def __init__(
+        self,
+        a: int = ...,
+        b: int = ...,
+        holonomy: int = ...,
+        quarter_turns: int = ...,
+        valence: int = ...,
+        undecided: bool = ...,
+    ) -> None: ...
 
 class SingularEdges:
     complex_edges: int
+    undecided_edges: int
+    tied_triangles: int
     def __init__(
         self,
         edges: Sequence[SingularEdge] = ...,
         complex_edges: int = ...,
+        undecided_edges: int = ...,
+        tied_triangles: int = ...,
         graph: SingularGraph = ...,
         vertices: ArrayLike = ...,
     ) -> None: ...
@@ -802,6 +860,7 @@ def write_field(
     tet_lengths: ArrayLike = ...,
     point_data: Mapping[str, ArrayLike] = ...,
     cell_data: Mapping[str, ArrayLike] = ...,
+    features: ArrayLike = ...,
 ) -> None: ...
 def write_singular_graph(
     path: Path, graph: SingularGraph, metadata: Mapping[str, str] = ..., meshability: Meshability | None = None
@@ -820,6 +879,9 @@ class SingularVertex:
     one_axis: bool
     meshable: bool
     junction: int
+    valence1: int
+    valence7: int
+    valence8: int
     def __init__(
         self,
         point: int = ...,
@@ -833,6 +895,9 @@ class SingularVertex:
         one_axis: bool = ...,
         meshable: bool = ...,
         junction: int = ...,
+        valence1: int = ...,
+        valence7: int = ...,
+        valence8: int = ...,
     ) -> None: ...
 
 class SingularEnd:
@@ -861,6 +926,9 @@ class SingularJunction:
     valence6: int
     complex: int
     meshable: bool
+    valence1: int
+    valence7: int
+    valence8: int
     def __init__(
         self,
         vertices: int = ...,
@@ -870,6 +938,9 @@ class SingularJunction:
         valence6: int = ...,
         complex: int = ...,
         meshable: bool = ...,
+        valence1: int = ...,
+        valence7: int = ...,
+        valence8: int = ...,
     ) -> None: ...
 
 class Meshability:
@@ -1012,8 +1083,14 @@ class FeatureTangents:
     @tangent.setter
     def tangent(self, value: ArrayLike) -> None: ...
 
-def hex_vertex_exists(valence3: int, valence5: int, valence6: int = ...) -> bool: ...
+def hex_vertex_exists(valence3: int, valence5: int, valence6: int = ..., valence7: int = ..., valence8: int = ...) -> bool: ...
 def local_meshability(mesh: TetMesh, frames: ArrayLike, graph: SingularGraph) -> Meshability: ...
+def tet_meshability(
+    mesh: TetMesh, surface: BoundarySurface, features: FeatureGraph, of_tets: ArrayLike, singular: SingularEdges, *, threads: int = 0
+) -> Meshability: ...
+def tet_boundary_meshability(
+    mesh: TetMesh, boundary: BoundarySurface, features: FeatureGraph, of_tets: ArrayLike, *, threads: int = 0
+) -> BoundaryMeshability: ...
 def boundary_meshability(
     mesh: TetMesh, boundary: BoundarySurface, features: FeatureGraph, frames: ArrayLike, *, threads: int = 0
 ) -> BoundaryMeshability: ...
@@ -1062,6 +1139,22 @@ class CombedField:
     def cut(self) -> UInt8s: ...
     @cut.setter
     def cut(self, value: ArrayLike) -> None: ...
+
+class CombedVertices:
+    parts: int
+    def __init__(self, frames: ArrayLike = ..., element: ArrayLike = ..., agree: ArrayLike = ..., parts: int = ...) -> None: ...
+    @property
+    def frames(self) -> Float64s: ...
+    @frames.setter
+    def frames(self, value: ArrayLike) -> None: ...
+    @property
+    def element(self) -> UInt8s: ...
+    @element.setter
+    def element(self, value: ArrayLike) -> None: ...
+    @property
+    def agree(self) -> UInt8s: ...
+    @agree.setter
+    def agree(self, value: ArrayLike) -> None: ...
 
 class AlignmentTables:
     def __init__(
@@ -1187,6 +1280,8 @@ class AxisScales:
     def after(self) -> ScaledIntegrability: ...
 
 def face_matchings(mesh: TetMesh, of_tets: ArrayLike, *, threads: int = 0) -> FaceMatchings: ...
+def comb_vertices(mesh: TetMesh, frames: ArrayLike, *, threads: int = 0) -> CombedVertices: ...
+def axes_agree(mesh: TetMesh, frames: ArrayLike, *, threads: int = 0) -> UInt8s: ...
 def comb(mesh: TetMesh, of_tets: ArrayLike, *, threads: int = 0) -> CombedField: ...
 def alignment_tables(
     mesh: TetMesh, surface: BoundarySurface, features: FeatureGraph, combed: CombedField
@@ -1228,7 +1323,29 @@ class LocatedPoints:
     @weights.setter
     def weights(self, value: ArrayLike) -> None: ...
 
-def locate_points(mesh: TetMesh, points: ArrayLike) -> LocatedPoints: ...
+class SampledFrames:
+    def __init__(self, frames: ArrayLike = ..., confidence: ArrayLike = ..., tet: ArrayLike = ..., distance: ArrayLike = ...) -> None: ...
+    @property
+    def frames(self) -> Float64s: ...
+    @frames.setter
+    def frames(self, value: ArrayLike) -> None: ...
+    @property
+    def confidence(self) -> Float64s: ...
+    @confidence.setter
+    def confidence(self, value: ArrayLike) -> None: ...
+    @property
+    def tet(self) -> Int32s: ...
+    @tet.setter
+    def tet(self, value: ArrayLike) -> None: ...
+    @property
+    def distance(self) -> Float64s: ...
+    @distance.setter
+    def distance(self, value: ArrayLike) -> None: ...
+
+def locate_points(mesh: TetMesh, points: ArrayLike, *, threads: int = 0) -> LocatedPoints: ...
+def interpolate_frames(
+    mesh: TetMesh, frames: ArrayLike, points: ArrayLike, *, tolerance: float = ..., threads: int = 0
+) -> SampledFrames: ...
 def spread_points(mesh: TetMesh, count: int) -> Float64s: ...
 def frame_streamlines(
     mesh: TetMesh,
@@ -1320,6 +1437,31 @@ class LockingSplit:
     @left.setter
     def left(self, value: ArrayLike) -> None: ...
 
+class SingularSplit:
+    added_vertices: int
+    def __init__(
+        self,
+        mesh: TetMesh = ...,
+        parent: ArrayLike = ...,
+        edges: ArrayLike = ...,
+        left: ArrayLike = ...,
+        added_vertices: int = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> TetMesh: ...
+    @property
+    def parent(self) -> Int32s: ...
+    @parent.setter
+    def parent(self, value: ArrayLike) -> None: ...
+    @property
+    def edges(self) -> Int32s: ...
+    @edges.setter
+    def edges(self, value: ArrayLike) -> None: ...
+    @property
+    def left(self) -> Int32s: ...
+    @left.setter
+    def left(self, value: ArrayLike) -> None: ...
+
 class VertexConstraints:
     def __init__(
         self,
@@ -1349,4 +1491,5 @@ def region_surface(mesh: TetMesh, regions: ArrayLike) -> RegionSurface: ...
 def cut_into_sheets(surface: TriangleMesh) -> Sheets: ...
 def find_locking(mesh: TetMesh, surface: BoundarySurface) -> LockingElements: ...
 def split_locking(mesh: TetMesh, surface: BoundarySurface) -> LockingSplit: ...
+def split_between_singular(mesh: TetMesh, surface: BoundarySurface, of_tets: ArrayLike, *, threads: int = 0) -> SingularSplit: ...
 def with_constraints(base: BoundaryConstraints, given: VertexConstraints) -> BoundaryConstraints: ...

@@ -17,11 +17,13 @@ from ._core import (
     FrameStreamline,
     Integrability,
     Meshability,
+    SectorNormals,
     SingularGraph,
     SingularVertex,
     SurfaceSingularities,
     VertexConstraints,
 )
+from .defaults import default_of
 from .meshing import MeshedInput
 
 
@@ -40,8 +42,14 @@ class FieldAnalysis:
     record: dict[str, Any]
 
 
-def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0, streamlines: int = 0) -> FieldAnalysis:
-    """streamlines: number of seeds, three curves each."""
+def analyse(
+    meshed: MeshedInput,
+    frames: np.ndarray,
+    threads: int = 0,
+    streamlines: int = 0,
+    feature_tolerance: float = default_of("boundary_constraints", "feature_tolerance"),
+) -> FieldAnalysis:
+    """streamlines: number of seeds, three curves each. feature_tolerance: radians, of the constraints."""
     tets, boundary, features = meshed.volume()
     graph = _core.singular_graph(tets, frames, threads=threads)
     meshability = _core.local_meshability(tets, frames, graph)
@@ -50,18 +58,21 @@ def analyse(meshed: MeshedInput, frames: np.ndarray, threads: int = 0, streamlin
     )
     integrability = _core.integrability(tets, frames, threads=threads)
     alignment = np.asarray(_core.alignment_angles(boundary, features, frames))
+    sectors = _core.sector_normals(boundary.mesh, features)
+    unserved = unserved_sectors(meshed, sectors, feature_tolerance)
     feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
     energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
-    size = float(np.linalg.norm(np.ptp(np.asarray(tets.vertices), axis=0)))
+    size = _core.shape_size(boundary.mesh)
     seeds = _core.spread_points(tets, streamlines)
     lines = _core.frame_streamlines(tets, frames, seeds, max_length=2 * size, threads=threads) if len(seeds) else []
     record = {
         "energy": energy,
         "energy_unit_speed": _core.unit_speed_factor * energy,
         **_singular_record(graph),
-        **_meshability_record(meshability),
-        **_boundary_record(at_boundary),
-        "alignment_deg": degrees(alignment),
+        **meshability_record(meshability),
+        **boundary_record(at_boundary),
+        "alignment_deg": {**degrees(alignment), "held_max": degrees(alignment[~unserved])["max"]},
+        "unserved_vertices": len(np.unique(np.asarray(sectors.vertex)[unserved])),
         "feature_alignment_deg": degrees(feature_alignment),
         "integrability": {
             name: getattr(integrability, name) for name in ("jump_rms", "jump_max", "twist_rms", "twist_max")
@@ -86,13 +97,14 @@ def _singular_record(graph: SingularGraph) -> dict[str, Any]:
         "singular_curves": len(graph.curves),
         "singular_nodes": len(graph.nodes),
         "complex_edges": int(graph.complex_triangles),
+        "undecided_edges": int(graph.undecided_triangles),
         "singular_edges_by_turns": {
             f"{t:+d}" if t else "complex": turns.count(t) for t in sorted(set(turns), reverse=True)
         },
     }
 
 
-def _meshability_record(found: Meshability) -> dict[str, Any]:
+def meshability_record(found: Meshability) -> dict[str, Any]:
     counts = Counter(_type(vertex) for vertex in found.vertices if vertex.kind != "boundary_end")
     return {
         "non_meshable_vertices": found.non_meshable_vertices,
@@ -106,7 +118,7 @@ def _meshability_record(found: Meshability) -> dict[str, Any]:
     }
 
 
-def _boundary_record(found: BoundaryMeshability) -> dict[str, Any]:
+def boundary_record(found: BoundaryMeshability) -> dict[str, Any]:
     """hexahedra_at_features: how many feature edges have how many, by the frames of their ends where these agree."""
     numbers = Counter(_hexahedra(wedge) for wedge in found.wedges)
     return {
@@ -127,9 +139,23 @@ def _hexahedra(wedge: FeatureWedge) -> str:
 
 def _type(vertex: SingularVertex) -> str:
     """The valences of the singular edges at a vertex: "3 3 5 5"."""
-    return " ".join(
-        ["2"] * vertex.valence2 + ["3"] * vertex.valence3 + ["5"] * vertex.valence5 + ["6"] * vertex.valence6 + ["complex"] * vertex.complex
-    )
+    counts = {str(valence): getattr(vertex, f"valence{valence}") for valence in (1, 2, 3, 5, 6, 7, 8)} | {"complex": vertex.complex}
+    return " ".join(word for word, count in counts.items() for _ in range(count))
+
+
+def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolerance: float) -> np.ndarray:
+    """(k,) true: at a vertex where smooth sectors meet and no frame fits all their normals and the tangents within the tolerance, so that constraints do not
+    hold the normals (octafield.boundary_constraints): the field may be off by up to 45 degrees there, whatever the method."""
+    tets, boundary, features = meshed.volume()
+    vertex, normal = np.asarray(sectors.vertex), np.asarray(sectors.normal)
+    tangents = np.cross(normal, np.eye(3)[np.abs(normal).argmin(axis=1)])  # any will do: on features the normals decide
+    tangents /= np.linalg.norm(tangents, axis=1)[:, None]
+    directions = tangents[np.searchsorted(vertex, np.arange(len(boundary.mesh.vertices)))]
+    held = _core.boundary_constraints(len(tets.vertices), boundary, features, directions, mode="fixed", feature_tolerance=feature_tolerance)
+    loose = np.asarray(held.kind)[np.asarray(boundary.vertex_map)] != 2
+    several = np.bincount(vertex, minlength=len(loose)) > 1
+    found: np.ndarray = (loose & several)[vertex]
+    return found
 
 
 def degrees(angles: np.ndarray) -> dict[str, float]:

@@ -25,14 +25,14 @@ def of_surface(found: SurfaceSingularities) -> str:
 def of_curves(record: dict[str, Any]) -> str:
     """What the singular graph consists of."""
     kinds = record["singular_edges_by_turns"]
-    names = {"+1": "valence 3", "-1": "valence 5", "+2": "valence 2", "-2": "valence 6", "complex": "complex"}
+    names = {f"{turns:+d}": f"valence {4 - turns}" for turns in range(-4, 4)} | {"complex": "complex"}
     parts = ", ".join(f"{count} {names.get(kind, f'{kind} quarter turns')}" for kind, count in kinds.items())
     if not parts:
         return "The field has no singular edges."
     what = f"{counted(record['singular_edges'], 'singular edge')} ({parts})"
     curves = f"{counted(record['singular_curves'], 'curve')} of total length {record['singular_length']:.4g}"
     ends = counted(record["singular_nodes"], "node")
-    if "singular_boundary_ends" in record:  # not of frames in tets
+    if "singular_boundary_ends" in record:  # not of older records of frames in tets
         ends += f" and {counted(record['singular_boundary_ends'], 'end')} on the surface"
     bad = _not_meshable(record)
     return f"The field has {what} in {curves}, with {ends}." + (f" At {bad} it is unlike any hex mesh." if bad else "")

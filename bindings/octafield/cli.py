@@ -16,6 +16,7 @@ from .cli_options import (
     InputFile,
     Interfaces,
     Json,
+    MaxHoleEdges,
     Output,
     Quiet,
     Remesh,
@@ -28,6 +29,8 @@ from .cli_options import (
     Verbose,
     choices,
     mesh_options,
+    WrapAlpha,
+    WrapOffset,
 )
 from .completion import words
 from .console import carry_out, log
@@ -101,6 +104,9 @@ def field(
     edge_length: EdgeLength = _FIELD.edge_length,
     remesh: Remesh = _FIELD.remesh,
     repair: Repair = _FIELD.repair,
+    max_hole_edges: MaxHoleEdges = _FIELD.max_hole_edges,
+    wrap_alpha: WrapAlpha = _FIELD.wrap_alpha,
+    wrap_offset: WrapOffset = _FIELD.wrap_offset,
     interfaces: Interfaces = _FIELD.interfaces,
     split: Split = _FIELD.split,
     rounds: Annotated[int, typer.Option(metavar="K", help="Rounds of diffusion and polish.")] = _FIELD.rounds,
@@ -137,7 +143,10 @@ def field(
             sizes=sizes,
             seed=seed,
             threads=threads,
-            **mesh_options(features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split),
+            **mesh_options(
+                features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split,
+                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset,
+            ),  # fmt: skip
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             result = compute_field(input, options, progress) if start is None else polish_file(input, start, options, progress)
@@ -184,6 +193,9 @@ def surface_field(
     edge_length: EdgeLength = _SURFACE.edge_length,
     remesh: Remesh = _SURFACE.remesh,
     repair: Repair = _SURFACE.repair,
+    max_hole_edges: MaxHoleEdges = _SURFACE.max_hole_edges,
+    wrap_alpha: WrapAlpha = _SURFACE.wrap_alpha,
+    wrap_offset: WrapOffset = _SURFACE.wrap_offset,
     seed: Seed = _SURFACE.seed,
     json: Json = None,
     quiet: Quiet = False,
@@ -205,7 +217,10 @@ def surface_field(
             least_feature_angle=math.radians(least_feature_angle),
             curvature=curvature,
             seed=seed,
-            **mesh_options(features, feature_angle, edge_length, remesh, repair),
+            **mesh_options(
+                features, feature_angle, edge_length, remesh, repair,
+                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset,
+            ),  # fmt: skip
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             result = compute_surface_field(input, options, progress)

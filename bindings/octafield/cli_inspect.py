@@ -7,7 +7,9 @@ from typing import Annotated
 import typer
 
 from . import console, tables
-from .cli_options import EdgeLength, FeatureAngle, Features, InputFile, Interfaces, Json, Quiet, Remesh, Repair, Split, Verbose
+from .cli_options import (
+    EdgeLength, FeatureAngle, Features, InputFile, Interfaces, Json, MaxHoleEdges, Quiet, Remesh, Repair, Split, Verbose, WrapAlpha, WrapOffset,
+)  # fmt: skip
 from .console import carry_out, log
 from .errors import InvalidInput
 from .options import MeshOptions
@@ -26,6 +28,9 @@ def info(
     edge_length: EdgeLength = _MESH.edge_length,
     remesh: Remesh = _MESH.remesh,
     repair: Repair = _MESH.repair,
+    max_hole_edges: MaxHoleEdges = _MESH.max_hole_edges,
+    wrap_alpha: WrapAlpha = _MESH.wrap_alpha,
+    wrap_offset: WrapOffset = _MESH.wrap_offset,
     interfaces: Interfaces = _MESH.interfaces,
     split: Split = _MESH.split,
     json: Json = None,
@@ -45,6 +50,9 @@ def info(
             repair=repair,
             interfaces=interfaces,
             split=split,
+            max_hole_edges=max_hole_edges,
+            wrap_alpha=wrap_alpha,
+            wrap_offset=wrap_offset,
         )
         record = examine(input, options)
         if json:
@@ -52,9 +60,10 @@ def info(
         unread = record["requirements"][0]["state"] != PASS
         if json != "-" and not quiet and not unread:
             tables.show_info(record)
-        for note in record["notes"]:
-            log.info("%s: %s", record["input"], note)
         failure = first_failure(record)
+        if not failure or repair not in ("default", "none"):  # an error is one line; the document has the notes
+            for note in record["notes"]:
+                log.info("%s: %s", record["input"], note)
         if failure:
             message = failure["message"] if str(input) in failure["message"] else f"{input}: {failure['message']}"
             raise InvalidInput(message, failure["kind"], failure["elements"])

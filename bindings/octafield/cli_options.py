@@ -9,7 +9,7 @@ import typer
 
 from .completion import words
 from .errors import InvalidInput
-from .options import FEATURES, SAMPLINGS, SIZES, MeshOptions
+from .options import FEATURES, REPAIRS, SAMPLINGS, SIZES, MeshOptions
 
 ANGLE = round(math.degrees(MeshOptions().feature_angle), 6)
 
@@ -32,7 +32,7 @@ def named_files(words: Iterable[str]) -> dict[str, Path]:
 
 
 def mesh_options(
-    features: str, feature_angle: float, edge_length: float, remesh: bool, repair: bool, **others: bool
+    features: str, feature_angle: float, edge_length: float, remesh: bool, repair: str, **others: Any
 ) -> dict[str, Any]:
     return {
         **others,
@@ -68,7 +68,15 @@ EdgeLength = Annotated[
     float, typer.Option(metavar="LENGTH", help="Target edge length of remeshing, input unit; 0: from the size.")
 ]
 Remesh = Annotated[bool, typer.Option("--remesh/--no-remesh", help="Remesh a surface, or keep its triangles.")]
-Repair = Annotated[bool, typer.Option("--repair", help="Repair a surface first; every action is reported.")]
+Repair = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(REPAIRS), autocompletion=words(REPAIRS), help="Repair a surface first, up to this level; every action is reported. Default: merge for STL."
+    ),
+]
+MaxHoleEdges = Annotated[int, typer.Option(metavar="N", help="--repair fill leaves larger holes open; 0: no bound.")]
+WrapAlpha = Annotated[float, typer.Option(metavar="LENGTH", help="--repair wrap bridges gaps narrower than this; 0: from the size.")]
+WrapOffset = Annotated[float, typer.Option(metavar="LENGTH", help="--repair wrap lies so far outside; 0: from alpha.")]
 Interfaces = Annotated[
     bool, typer.Option("--interfaces/--no-interfaces", help="Follow the interfaces between regions of a tet mesh.")
 ]

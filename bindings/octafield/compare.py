@@ -19,6 +19,7 @@ from .output import staged_folder, write_json
 from .phases import Progress, announce
 from .pipeline import FieldResult, Problem, prepare, run
 from .report import PAGE_FILE, Report, Run, write_report
+from .report.records import INDEPENDENT
 from .results import write_analysis, write_field_result
 from .whole import Whole
 
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from .pictures import Picture
 
 ROWS_FILE = "results.json"
+STARTS = ("sh4", "independent")
 _MOST_CURVES = 3  # pictures of singular curves per boundary treatment
 
 
@@ -77,11 +79,15 @@ def compare(
     representations: Sequence[str] = COMPARED,
     boundaries: Sequence[str] = ("fixed", "aligned"),
     seeds: int = 1,
+    starts: Sequence[str] = STARTS[:1],
     options: FieldOptions = FieldOptions(),
     fields: Mapping[str, FieldSource] = MappingProxyType({}),
     progress: Progress | None = None,
 ) -> Comparison:
     """Every representation with every boundary treatment and `seeds` seeds (options.seed and following) on each input.
+
+    starts: "sh4" (from the minimum of sh4's energy, options.rounds of it) or "independent" (no step in sh4: each minimises its own objective from one
+    linear solve, or for seeds other than 0 from a random field; rounds 0), or both, a row each.
 
     Each input is read and meshed once. `options` gives everything else. fields: by name, files of frames (read_frames) or
     (n, 4) arrays on the vertices (sampling "tets": the tets) of the only input, a tet mesh; each stands beside the others as it
@@ -96,7 +102,7 @@ def compare(
         [('fixed', 0), ('aligned', 0)]
     """
     inputs = [inputs] if isinstance(inputs, Source) else list(inputs)
-    _check(inputs, representations, boundaries, options)
+    _check(inputs, representations, boundaries, starts)
     seeds = integer_in("seeds", seeds, 1, LARGEST_SEED - options.seed + 1)
     with staged_folder(output, ROWS_FILE) as folder:
         rows: list[dict[str, Any]] = []
@@ -105,7 +111,7 @@ def compare(
         reports = [_labelled(progress, _short_name(source)) for source in inputs]
         sound = [read_sound(source, options, progress=report) for source, report in zip(inputs, reports, strict=True)]
         given = given_fields(sound, fields, options)
-        steps = _steps(representations, boundaries, given)
+        steps = _steps(representations, boundaries, starts, given)
         whole = Whole(progress, len(inputs) * seeds, [step.representation for step in steps])
         for number, source in enumerate(inputs):
             name = _unique([s.name for s in sections], _short_name(source), " ")
@@ -130,20 +136,28 @@ def compare(
 
 @dataclass(frozen=True)
 class _Step:
-    """A field to compute. start: the given field it is smoothed from."""
+    """A field to compute. start: the given field it is smoothed from. independent: without rounds in sh4 before."""
 
     representation: str
     boundary: str
     start: GivenField | None = None
+    independent: bool = False
 
     @property
     def method(self) -> str:
-        return self.representation if self.start is None else f"{self.representation} from {self.start.name}"
+        if self.start is not None:
+            return f"{self.representation} from {self.start.name}"
+        return f"{self.representation} {INDEPENDENT}" if self.independent else self.representation
+
+    def options(self, common: FieldOptions, seed: int) -> FieldOptions:
+        rounds = 0 if self.independent else common.rounds
+        return replace(common, representation=self.representation, boundary=self.boundary, rounds=rounds, seed=seed)
 
 
-def _steps(representations: Sequence[str], boundaries: Sequence[str], given: Sequence[GivenField]) -> list[_Step]:
-    starts = [*((name, None) for name in representations), *((representations[0], one) for one in given)]
-    return [_Step(name, boundary, start) for name, start in starts for boundary in boundaries]
+def _steps(representations: Sequence[str], boundaries: Sequence[str], starts: Sequence[str], given: Sequence[GivenField]) -> list[_Step]:
+    methods: list[tuple[str, GivenField | None, bool]] = [(name, None, start == STARTS[1]) for start in starts for name in representations]
+    methods += [(representations[0], one, False) for one in given]
+    return [_Step(name, boundary, start, independent) for name, start, independent in methods for boundary in boundaries]
 
 
 def _run_all(problem: Problem, section: _Section, steps: Sequence[_Step], whole: Whole) -> None:
@@ -153,8 +167,7 @@ def _run_all(problem: Problem, section: _Section, steps: Sequence[_Step], whole:
     for step in steps:
         label = f"{step.method}, {step.boundary}" + (f", seed {problem.seed}" if section.several_seeds else "")
         report = whole.labelled(f"{section.name}, {label}")
-        chosen = replace(section.options, representation=step.representation, boundary=step.boundary, seed=problem.seed)
-        result = run(problem, chosen, report, start=None if step.start is None else step.start.frames)
+        result = run(problem, step.options(section.options, problem.seed), report, start=None if step.start is None else step.start.frames)
         result.record["label"] = label
         if step.start is not None:
             result.record["start"] = step.start.name
@@ -231,16 +244,18 @@ def _pictures_of_given(name: str, result: AnalysedField) -> "list[Picture]":
     return [replace(picture, title=f"{picture.title} ({name})")]
 
 
-def _check(inputs: Sequence[Source], representations: Sequence[str], boundaries: Sequence[str], options: FieldOptions) -> None:
-    if not inputs or not representations or not boundaries:
+def _check(inputs: Sequence[Source], representations: Sequence[str], boundaries: Sequence[str], starts: Sequence[str]) -> None:
+    if not inputs or not representations or not boundaries or not starts:
         raise InvalidInput(
-            "a comparison needs at least one input, representation and boundary treatment", "nothing_to_compare"
+            "a comparison needs at least one input, representation, boundary treatment and start", "nothing_to_compare"
         )
+    for start in starts:
+        require_one_of("start", start, STARTS)
     for representation in representations:
         require_one_of("representation", representation, REPRESENTATIONS)
     for boundary in boundaries:
         require_one_of("boundary", boundary, BOUNDARIES)
-    for what, values in (("representations", representations), ("boundaries", boundaries)):
+    for what, values in (("representations", representations), ("boundaries", boundaries), ("starts", starts)):
         if len(set(values)) < len(values):
             raise InvalidInput(f"{what}: each may be named once only", "repeated_value")
 

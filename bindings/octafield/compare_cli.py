@@ -13,6 +13,7 @@ from .cli_options import (
     InputFiles,
     Interfaces,
     Json,
+    MaxHoleEdges,
     Output,
     Quiet,
     Remesh,
@@ -26,6 +27,8 @@ from .cli_options import (
     choices,
     mesh_options,
     named_files,
+    WrapAlpha,
+    WrapOffset,
 )
 from .completion import lists
 from .console import carry_out, log
@@ -58,11 +61,18 @@ def compare(
     ] = None,
     sampling: Sampling = _FIELD.sampling,
     seeds: Annotated[int, typer.Option(metavar="K", help="Seeds per run: --seed and the K - 1 numbers after it.")] = 1,
+    starts: Annotated[
+        str,
+        typer.Option(metavar="A,B", autocompletion=lists(("sh4", "independent")), help="sh4: from its minimum; independent: each method for itself, from a linear solve (random for seeds above 0)."),
+    ] = "sh4",
     features: Features = _FIELD.features,
     feature_angle: FeatureAngle = ANGLE,
     edge_length: EdgeLength = _FIELD.edge_length,
     remesh: Remesh = _FIELD.remesh,
     repair: Repair = _FIELD.repair,
+    max_hole_edges: MaxHoleEdges = _FIELD.max_hole_edges,
+    wrap_alpha: WrapAlpha = _FIELD.wrap_alpha,
+    wrap_offset: WrapOffset = _FIELD.wrap_offset,
     interfaces: Interfaces = _FIELD.interfaces,
     split: Split = _FIELD.split,
     sizes: Sizes = _FIELD.sizes,
@@ -84,8 +94,9 @@ def compare(
             seed=seed,
             threads=threads,
             **mesh_options(
-                features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split
-            ),
+                features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split,
+                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset,
+            ),  # fmt: skip
         )
         chosen = COMPARED if representations == "all" else _listed(representations)
         with console.progress_bar(quiet, whole=True) as progress:
@@ -95,6 +106,7 @@ def compare(
                 representations=chosen,
                 boundaries=_listed(boundaries),
                 seeds=seeds,
+                starts=_listed(starts),
                 options=options,
                 fields=named_files(fields or []),
                 progress=progress,

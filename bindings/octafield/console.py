@@ -16,7 +16,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from .errors import REPAIRABLE, Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
+from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from .output import write_json
 from .phases import Progress as Callback
 from .time_left import PhaseTimeLeft, words
@@ -43,8 +43,7 @@ def error_code(error: BaseException) -> int:
         _say("interrupted")
         return INTERRUPTED
     if isinstance(error, (InvalidInput, GeometryError, IoError)):
-        hint = " (option --repair does this)" if error.kind in REPAIRABLE and "repair the mesh" in str(error) else ""
-        _say(f"error: {error}{hint}")
+        _say(f"error: {error}")
         return BAD_INPUT
     if isinstance(error, SolverError) and error.kind in _OPTION_AT_FAULT:
         _say(f"error: {error}")

@@ -1,11 +1,15 @@
 """From one kind of file to another: meshes, and fields with their meshes."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from . import _core
 from .errors import InvalidInput, IoError
 from .formats import FrameFile, read_frames, write_frames
+from .formats.base import FrameFormat, frames_at, mesh_of
 from .files import plain_name
 from .formats.meshes import MESH_SUFFIXES, write_mesh
 from .formats.registry import FORMATS, READERS, WRITERS, find_format
@@ -42,10 +46,13 @@ def convert_file(
     combed: bool = False,
     edge_length: float = 0.0,
     sizes: str = "none",
+    cell_edge: float | str | None = None,
+    split_singular: bool = False,
 ) -> Conversion:
     """Reads a mesh or a field, writes the other file. mesh: of the frames, where their file has none. from_format, to_format: names of
     octafield.frame_formats, where the extensions do not tell. at: "vertices" or "tets", where the frames shall be. combed: as of write_frames. edge_length: of triangles on CAD
-    models. sizes: "isotropic" or "axes" (see octafield.FieldOptions): lengths of the axes, where the file can hold them."""
+    models. sizes: "isotropic" or "axes" (see octafield.FieldOptions): lengths of the axes, where the file can hold them. cell_edge: as of write_frames. split_singular: edges inside
+    between singular vertices are split first (octafield.split_between_singular), and the frames are those of the tets."""
     require_one_of("sizes", sizes, SIZES)
     source, target = Path(source), Path(target)
     frames = _frames(source, mesh, from_format)
@@ -53,20 +60,44 @@ def convert_file(
         kinds = " ".join(sorted({*MESH_SUFFIXES, *(e for name in WRITERS for e in FORMATS[name].extensions)}))
         raise IoError(f"{target}: unknown kind of file; known are {kinds}, also .gz")
     if frames is not None and (to_format is not None or _writes_frames(target)):
+        if split_singular:
+            frames = _split(frames, find_format(target, to_format, to_write=True), at)
         curls: dict[str, Any] = {}
         if sizes != "none":
             frames, curls = with_sizes(frames, find_format(target, to_format, to_write=True), "tets" if combed else at, sizes)
         notes = write_frames(
             target, frames.mesh, frames.frames, frames.where, to_format, at=at, lengths=frames.lengths, features=frames.features, regions=frames.regions,
-            combed=combed,
+            combed=combed, cell_edge=cell_edge,
         )  # fmt: skip
         written = "tets" if combed else at or _site_in_file(target, to_format, frames.where)
         count, cells = (0, 0) if frames.mesh is None else (len(frames.mesh.vertices), len(frames.mesh.tets))
         number = len(frames.frames) if written == frames.where else {"vertices": count, "tets": cells}[written]
         return Conversion(str(source), str(target), "field", count, cells, number, written, _degrees(frames.deviation), frames.notes + notes, sizes=curls)
-    if not _is_mesh(target) or to_format is not None or (frames is None and at is not None) or combed or sizes != "none":
+    if not _is_mesh(target) or to_format is not None or (frames is None and at is not None) or combed or sizes != "none" or cell_edge is not None or split_singular:
         raise InvalidInput(f"{source}: holds no frames to write" if frames is None else f"{target}: cannot hold frames", "no_frames")
     return _convert_mesh(source, target, frames, mesh, edge_length)
+
+
+def _split(found: FrameFile, writer: FrameFormat, at: str | None) -> FrameFile:
+    if not writer.holds_mesh:
+        raise InvalidInput(
+            f"splitting makes another mesh, and {writer.title} files hold none; write .vtu or .ovmb first and convert that", "option_not_used"
+        )
+    if at == "vertices":
+        raise InvalidInput("singular edges are split by frames in the tets; leave out 'vertices'", "unknown_option_value")
+    mesh, frames, notes = mesh_of(found), frames_at(found, "tets"), list(found.notes)
+    surface = _core.boundary_surface(mesh) if found.regions is None else _core.region_surface(mesh, found.regions).surface
+    split = _core.split_between_singular(mesh, surface, frames)
+    parent = np.asarray(split.parent)
+    notes.append(
+        f"{len(split.edges) - len(split.left)} edges inside between singular vertices were split: {split.added_vertices} vertices and "
+        f"{len(parent) - len(mesh.tets)} tets more" + (f"; {len(split.left)} are left, in tets too flat to split" if len(split.left) else "")
+    )
+    lengths = found.lengths if found.where == "tets" else None
+    return replace(
+        found, mesh=split.mesh, frames=frames[parent], where="tets", notes=notes, centres=None,
+        lengths=None if lengths is None else lengths[parent], regions=None if found.regions is None else np.asarray(found.regions)[parent],
+    )  # fmt: skip
 
 
 def _convert_mesh(source: Path, target: Path, frames: FrameFile | None, mesh: str | Path | None, edge_length: float) -> Conversion:

@@ -5,18 +5,6 @@ from collections.abc import Iterable
 __all__ = ["Cancelled", "Error", "GeometryError", "InvalidInput", "IoError", "SolverError"]
 
 
-# Kinds that octafield.repair can do something about.
-REPAIRABLE = (
-    "degenerate_triangle",
-    "soup",
-    "duplicate_vertex",
-    "non_manifold_edge",
-    "inconsistent_orientation",
-    "not_closed",
-    "inside_out",
-)
-
-
 class Error(Exception):
     """Base class of all errors of octafield: what was wrong, where, and what to do.
 

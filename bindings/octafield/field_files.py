@@ -3,12 +3,9 @@
 import math
 from pathlib import Path
 
-import numpy as np
-
-from . import _core
 from .errors import InvalidInput
 from .formats import FrameFile, read_frames
-from .formats.base import mesh_of
+from .formats.base import frames_at
 from .files import plain_name
 from .formats.meshes import MESH_SUFFIXES
 from .imported import AnalysedField, analyse
@@ -32,15 +29,6 @@ def analyse_file(
     result.record |= {"field": str(field), "field_format": found.format, "deviation_deg": math.degrees(found.deviation)}
     result.record["notes"] += [note for note in found.notes if note not in result.record["notes"]]
     return result
-
-
-def frames_at(found: FrameFile, where: str) -> np.ndarray:
-    """The frames of a file with a mesh, taken to the vertices or the tets if they are not there; a note tells."""
-    if found.where == where:
-        return found.frames
-    move = _core.tet_frames if where == "tets" else _core.vertex_frames
-    found.notes.append(f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around")
-    return np.asarray(move(mesh_of(found), found.frames))
 
 
 def polish_file(source: str, start: Path, options: FieldOptions, progress: Progress | None = None) -> FieldResult:

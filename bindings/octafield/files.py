@@ -1,16 +1,17 @@
 """Bytes of a file in and out: packed or not, written whole or not at all, and numbers of text with the line of a defect."""
 
+import contextlib
 import gzip
 import os
 import tempfile
 import warnings
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
 
-from .errors import IoError
+from .errors import Error, IoError
 from .output import require_utf8
 
 _ROWS_AT_ONCE = 1 << 16
@@ -35,6 +36,18 @@ def read_bytes(path: str | Path) -> bytes:
         raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
     except OSError as error:
         raise IoError(f"{path}: cannot be read ({error.strerror})") from error
+
+
+@contextlib.contextmanager
+def reading(path: Path, kind: str) -> Iterator[None]:
+    """Whatever a reader stumbles over becomes an IoError that names the file."""
+    try:
+        yield
+    except Error:
+        raise
+    except Exception as error:
+        reason = " ".join(str(error).split())[:300] or type(error).__name__
+        raise IoError(f"{path}: cannot be read as {kind} ({reason})") from error
 
 
 def require_file(path: Path) -> None:

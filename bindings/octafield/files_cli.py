@@ -11,6 +11,7 @@ from . import console, tables
 from .cli_options import EdgeLength, FeatureAngle, Features, Interfaces, Json, Quiet, Sizes, Threads, Verbose, choices
 from .completion import words
 from .console import carry_out, log
+from .errors import InvalidInput
 from .options import SAMPLINGS, SIZES, FieldOptions
 
 _FIELD = FieldOptions()
@@ -35,6 +36,8 @@ def convert(
     combed: Annotated[bool, typer.Option("--combed", help="Axes correspond by number across all triangles but a cut; .npz gets all that a parameterization asks for.")] = False,
     edge_length: EdgeLength = 0.0,
     sizes: Annotated[str, typer.Option(metavar="|".join(SIZES), autocompletion=words(SIZES), help="Lengths of the axes that leave least curl, into the file.")] = _FIELD.sizes,
+    cell_edge: Annotated[str | None, typer.Option(metavar="LENGTH|auto", help="Edge of the cells to make, into the lengths of axes; auto: the mean edge of the tets.")] = None,
+    split_singular: Annotated[bool, typer.Option("--split-singular", help="Split inner edges that join singular vertices without being singular.")] = False,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -45,7 +48,8 @@ def convert(
         from .conversion import convert_file
 
         done = convert_file(
-            input, output, mesh=mesh, from_format=source, to_format=target, at=at, combed=combed, edge_length=edge_length, sizes=sizes
+            input, output, mesh=mesh, from_format=source, to_format=target, at=at, combed=combed, edge_length=edge_length, sizes=sizes,
+            cell_edge=_cell_edge(cell_edge), split_singular=split_singular,
         )
         for note in done.notes:
             log.info("%s: %s", input, note)
@@ -54,6 +58,15 @@ def convert(
         log.info("wrote %s", output)
 
     carry_out(work, quiet, verbose, json)
+
+
+def _cell_edge(text: str | None) -> float | str | None:
+    if text is None or text == "auto":
+        return text
+    try:
+        return float(text)
+    except ValueError:
+        raise InvalidInput(f"--cell-edge {text!r} is neither a length nor 'auto'", "option_out_of_range") from None
 
 
 def analyse(

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .errors import InvalidInput
-from .field_files import frames_at
+from .formats.base import frames_at
 from .formats import read_frames
 from .imported import fitting_frames
 from .meshing import SoundInput

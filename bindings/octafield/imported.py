@@ -19,7 +19,7 @@ from .formats.rotations import unit_quaternions
 from .meshing import MeshedInput, Source, prepare_mesh
 from .options import FieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce
-from .sizes import Sizes, sizes_of_run
+from .sizes import Sizes, axis_order, sizes_of_run
 from .surface_pipeline import common_record
 from .tet_analysis import analyse_tets
 
@@ -33,13 +33,15 @@ _OF_ANALYSIS = ("singular_graph", "alignment", "feature_alignment", "meshability
 
 @dataclass(repr=False, kw_only=True)
 class AnalysedField:
-    """A frame field and what it is judged by. frames: (n, 4) unit quaternions w x y z, per tet vertex. alignment: radians, per boundary vertex and
+    """A frame field and what it is judged by. frames: (n, 4) unit quaternions w x y z, per tet vertex; their axes
+    are named so that neighbours agree but across a cut (octafield.comb_vertices). alignment: radians, per boundary vertex and
     smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: the JSON object of the command line. regions: (m,) ids of
     the tets where the mesh has several. lengths: (n, 3) of the frames' axes, where they have any. sizes: an IsotropicScale or AxisScales, as the option
     of that name asks.
 
     A field that lives in the tets is tet_frames, (m, 4), and so are singular_graph (of singular_edges), alignment (per triangle and tet beside it) and
-    lengths; frames is the field taken to the vertices, meshability and integrability are None; sizes are those of frames."""
+    lengths, meshability and boundary_meshability are those of the tets; frames is the field taken to the vertices, integrability is None; sizes are those of
+    frames. feature_edges: (k, 2) ids of tets' vertices."""
 
     surface: TriangleMesh
     features: FeatureGraph
@@ -57,6 +59,7 @@ class AnalysedField:
     tet_frames: np.ndarray | None = None
     lengths: np.ndarray | None = None
     sizes: Sizes | None = None
+    feature_edges: np.ndarray | None = None
 
     def __repr__(self) -> str:
         return display.analysed_line(self)
@@ -99,19 +102,23 @@ def judged(
     memory: PeakMemory,
     progress: Progress | None,
     about: Mapping[str, Any] = MappingProxyType({}),
+    lengths: np.ndarray | None = None,
 ) -> AnalysedField:
-    """frames: where options.sampling has them. about: what the record tells of how the field was made."""
+    """frames, lengths: where options.sampling has them; the axes of those at vertices are named anew, so that neighbours agree but across a cut. about: what the
+    record tells of how the field was made."""
     tets = meshed.volume().tets
     parts: dict[str, Any]
     with clock.phase("analyse"):
         announce(progress, "analyse")
+        if options.sampling == "vertices":
+            frames, lengths = combed(tets, frames, lengths, options.threads)
         if options.sampling == "tets":
             of_tets = analyse_tets(meshed, _core.tet_sampling(tets), frames, options.threads)
             figures = of_tets.record
-            parts = {"frames": of_tets.frames, "tet_frames": frames, "singular_graph": of_tets.singular.graph}
-            parts |= {name: getattr(of_tets, name) for name in ("alignment", "feature_alignment")}
+            parts = {"frames": combed(tets, of_tets.frames, None, options.threads)[0], "tet_frames": frames, "singular_graph": of_tets.singular.graph}
+            parts |= {name: getattr(of_tets, name) for name in ("alignment", "feature_alignment", "meshability", "boundary_meshability")}
         else:
-            found = analyse_frames(meshed, frames, options.threads, options.streamlines)
+            found = analyse_frames(meshed, frames, options.threads, options.streamlines, options.feature_tolerance)
             figures = found.record
             parts = {"frames": frames, **{name: getattr(found, name) for name in _OF_ANALYSIS}}
     sizes, sizes_entry = sizes_of_run(tets, parts["frames"], options, clock, progress)
@@ -127,7 +134,25 @@ def judged(
         **figures,
         **sizes_entry,
     }
-    return AnalysedField(surface=meshed.surface, features=meshed.features, tets=tets, regions=meshed.regions, sizes=sizes, record=record, **parts)
+    _, boundary, features = meshed.volume()
+    feature_edges = np.asarray(boundary.vertex_map)[np.asarray(features.edges)].astype(np.int32).reshape(-1, 2)
+    return AnalysedField(
+        surface=meshed.surface,
+        features=meshed.features,
+        tets=tets,
+        regions=meshed.regions,
+        lengths=lengths,
+        sizes=sizes,
+        record=record,
+        feature_edges=feature_edges,
+        **parts,
+    )
+
+
+def combed(tets: TetMesh, frames: np.ndarray, lengths: np.ndarray | None, threads: int) -> tuple[np.ndarray, np.ndarray | None]:
+    """Frames at the vertices by octafield.comb_vertices, and the lengths of their axes in the new order."""
+    found = _core.comb_vertices(tets, frames, threads=threads)
+    return np.asarray(found.frames), None if lengths is None else np.take_along_axis(lengths, axis_order(np.asarray(found.element)), axis=1)
 
 
 def fitting_frames(tets: TetMesh, frames: ArrayLike, where: str) -> np.ndarray:

@@ -10,14 +10,15 @@ import numpy as np
 
 from . import _core, estimates, info_checks
 from ._core import TetMesh
-from .errors import REPAIRABLE, Error
+from .errors import Error
 from .info_checks import FAIL, NOT_TESTED, PASS, WARN, Examined, Finding
 from .info_measures import radius_ratios
 from .inputs import Input, naming, read_input
 from .locking import split_on_request
-from .meshing import TOUCHING, find_features, possible_remedy
+from .meshing import TOUCHING, find_features
 from .options import MeshOptions
 from .phases import octafield_version
+from .repairing import advise, message_with_remedy, repair_surface
 
 __all__ = ["FAIL", "NOT_TESTED", "PASS", "WARN", "examine", "first_failure"]
 
@@ -66,10 +67,7 @@ def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict[str,
     except Error as error:  # the first requirement that can fail
         return _unread(str(path), error)
     with naming(found.name):
-        if options.repair and found.tets is None:
-            repaired = _core.repair(found.surface)
-            found.surface = repaired.mesh
-            found.notes += [f"repair: {action}" for action in repaired.actions]
+        repair_surface(found, options)
         whole = found.surface
         if found.interface_triangles:
             assert found.tets is not None
@@ -126,6 +124,7 @@ def _defects(found: Input, options: MeshOptions) -> list[Finding]:
             if defects.pop(kind, None):
                 found.touches = True
                 found.notes.append(f"the boundary touches itself ({kind}); the field is computed all the same")
+    advice = advise(found, options) if defects and found.tets is None else None
     listed = []
     for requirement in REQUIREMENTS:
         if requirement.kinds == ("self_intersection",) and not test_crossings:
@@ -135,10 +134,8 @@ def _defects(found: Input, options: MeshOptions) -> list[Finding]:
         if not broken:
             listed.append(Finding(requirement.text, state))
             continue
-        message = possible_remedy(broken[0].message, found, options)
+        message = message_with_remedy(broken[0].message, broken[0].kind, found, options, advice=advice)
         remedy = message.partition("; ")[2]
-        if found.tets is None and not options.repair and broken[0].kind in REPAIRABLE:
-            remedy = "--repair" if "repair the mesh" in message else f"--repair, or {remedy}"
         elements = tuple(int(i) for d in broken for i in d.elements)
         listed.append(Finding(requirement.text, state, broken[0].kind, message, remedy, elements))
     return listed

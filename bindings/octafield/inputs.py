@@ -35,7 +35,7 @@ class Input:
     region of each tet, where there are several; surface and boundary then hold the interfaces between them too, as the
     last `interface_triangles`. touches: the boundary of the tets touches itself at edges or vertices. lines: (n, 2) feature edges given by the file, vertex ids of `surface`; None when it has
     no line cells. creases: the file tells that they are. faces: CAD face of each triangle of `surface`, -1 where the file tells none.
-    file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file. of_cad: meshed here, at the edge length asked for. notes: what was changed in reading (tets turned over, unused
+    file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file; file_tets: (m,) of the tets among those of the file. of_cad: meshed here, at the edge length asked for. notes: what was changed in reading (tets turned over, unused
     points dropped), one sentence each.
     """
 
@@ -51,6 +51,7 @@ class Input:
     touches: bool = False
     faces: np.ndarray | None = None
     file_points: np.ndarray | None = None
+    file_tets: np.ndarray | None = None
     points_in_file: int = 0
     of_cad: bool = False
     notes: list[str] = field(default_factory=list)
@@ -80,6 +81,7 @@ class Input:
         return self.creases or len(self.lines) < 0.5 * 1.5 * len(self.surface.triangles)
 
 
+@np.errstate(all="ignore")
 def read_input(path: str | Path, *, interfaces: bool = True, edge_length: float = 0.0, progress: Progress | None = None) -> Input:
     """Reads a surface (STL, OBJ, OFF, PLY, .vtp; STEP, BREP and IGES by Gmsh where it is installed) or a tet mesh (.vtk, .vtu, Gmsh .msh, Medit
     .mesh and .meshb, OpenVolumeMesh .ovm and .ovmb, TetGen .node or .ele with the other beside it, and .face and .edge where there; triangles
@@ -124,6 +126,7 @@ def _read(path: Path, interfaces: bool, edge_length: float, progress: Progress |
     return found
 
 
+@np.errstate(all="ignore")  # what is not finite is refused by name, without NumPy's warning before
 def input_of_grid(name: str, grid: Grid) -> Input:
     cells = grid.cells
     _refuse({kind: len(c) for kind, c in cells.items() if kind.startswith(_VOLUMES) and kind != "tetra"})
@@ -152,6 +155,7 @@ def _refuse(counts: dict[str, int]) -> None:
         )
 
 
+@np.errstate(all="ignore")
 def from_mesh(mesh: TriangleMesh | TetMesh) -> Input:
     """Input made from a mesh in memory."""
     if isinstance(mesh, TriangleMesh):
@@ -197,14 +201,14 @@ def _tet_input(name: str, grid: Grid) -> Input:
     if len(points_used) < len(points):
         notes.append(f"{len(points) - len(points_used)} points that no tet uses were left out")
     origin = points_used[tets[:, 0]]
-    with np.errstate(invalid="ignore", over="ignore"):  # points that are not finite are refused below
-        inverted = np.linalg.det(points_used[tets[:, 1:]] - origin[:, None, :]) < 0
+    inverted = np.linalg.det(points_used[tets[:, 1:]] - origin[:, None, :]) < 0
     if inverted.any():
         tets[inverted] = tets[inverted][:, [0, 1, 3, 2]]
         notes.append(f"{int(inverted.sum())} of {len(tets)} tets were turned over to positive volume")
     mesh = TetMesh(points_used, tets.astype(np.int32))
     _core.require_valid(mesh)
     found = Input(name, TriangleMesh(), mesh, notes=notes, file_points=np.flatnonzero(new_id >= 0), points_in_file=len(points))
+    found.file_tets = np.arange(len(tets)) if grid.file_tets is None else grid.file_tets
     with_regions(found, grid.regions)
     lines = _to_boundary(found, new_id)
     if grid.faces is not None:

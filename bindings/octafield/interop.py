@@ -5,7 +5,7 @@
     >>> result = octafield.compute_field(generate("box"))
     >>> grid = octafield.to_pyvista(result)  # tets with the axes of the frames
     >>> sorted(grid.point_data)
-    ['frame_u', 'frame_v', 'frame_w', 'quaternion']
+    ['frame_u', 'frame_v', 'frame_w', 'quaternion', 'sh4']
     >>> tets = octafield.from_pyvista(grid)  # back: a TetMesh (or TriangleMesh)
     >>> len(tets.tets) == len(result.tets.tets)
     True
@@ -31,6 +31,7 @@ from . import _core
 from ._core import BoundarySurface, FrameStreamline, SingularGraph, Streamline, TetMesh, TriangleMesh
 from .errors import InvalidInput
 from .imported import AnalysedField
+from .probes import put_frames
 from .surface_pipeline import SurfaceFieldResult
 from .results import polylines
 
@@ -57,9 +58,11 @@ def to_pyvista(
 ) -> pyvista.PolyData | pyvista.UnstructuredGrid:
     """A dataset of pyvista: triangles or tets with the arrays of results, the curves of a singular graph, or streamlines.
 
-    AnalysedField, FieldResult: point data frame_u, frame_v, frame_w (the axes, unit vectors) and quaternion (w x y z); cell data of the same names where
-    the field lives in the tets, and region where there are several. SurfaceFieldResult: point data direction. SingularGraph: one polyline per curve with cell data
-    quarter_turns (+1: valence 3, -1: valence 5, 0: complex). Streamlines: one polyline each with cell data length. Raises
+    AnalysedField, FieldResult: point data frame_u, frame_v, frame_w (the axes, unit vectors), quaternion (w x y z) and sh4 (9); cell data of the same names where
+    the field lives in the tets, axes_agree (1 or 0), and region where there are several. Axes are labelled vertex by vertex: slices, clips, probes and
+    stream tracers of VTK interpolate them, and mix different axes in the tets where axes_agree is 0. Threshold these away, or use
+    octafield.slice_frames, sample_frames and frame_streamlines, which interpolate sh4 or match the axes. SurfaceFieldResult: point data direction. SingularGraph: one polyline per curve with cell data
+    quarter_turns (+1: valence 3, -1: valence 5, 4 less the valence in general; 0: complex). Streamlines: one polyline each with cell data length. Raises
     InvalidInput for anything else.
 
         >>> import octafield
@@ -93,10 +96,8 @@ def to_pyvista(
         if value.tet_frames is not None:
             sites.append((grid.cell_data, value.tet_frames))
         for data, frames in sites:
-            axes = np.asarray(_core.rotation_matrices(frames))
-            for k, name in enumerate(("frame_u", "frame_v", "frame_w")):
-                data[name] = np.ascontiguousarray(axes[:, :, k])
-            data["quaternion"] = np.array(frames)
+            put_frames(data, frames)
+        grid.cell_data["axes_agree"] = np.asarray(_core.axes_agree(value.tets, value.frames))
         if value.regions is not None:
             grid.cell_data["region"] = np.asarray(value.regions)
         return grid

@@ -1,7 +1,6 @@
 """From an input to the surface, its features and the tets inside: the part that all runs of a comparison share."""
 
 import hashlib
-import re
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -15,6 +14,7 @@ from .inputs import Input, from_mesh, naming, read_input
 from .locking import split_on_request
 from .options import MeshOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
+from .repairing import message_with_remedy, repair_surface
 
 Array = np.ndarray[Any, Any]
 Source = str | Path | TriangleMesh | TetMesh
@@ -77,8 +77,8 @@ class Volume(NamedTuple):
     boundary_features: FeatureGraph
 
 
-def load_surface(path: str | Path, *, repair: bool = False) -> TriangleMesh:
-    """Reads a closed surface and raises GeometryError, InvalidInput or IoError naming the defect unless it is sound."""
+def load_surface(path: str | Path, *, repair: str = "default") -> TriangleMesh:
+    """Reads a closed surface, repaired up to a level (MeshOptions.repair), and raises GeometryError, InvalidInput or IoError naming the defect unless it is sound."""
     with naming(str(path)):
         return _sound(read_input(path), MeshOptions(repair=repair), closed=True).surface
 
@@ -167,35 +167,19 @@ def prepare_mesh(
             if options.remesh:
                 _remesh(meshed, options, progress, volume)
             if volume:
-                _fill(meshed, progress, options)
+                _fill_or_refine(meshed, progress, options)
     meshed.peak_mb = max(source.peak_mb, memory.megabytes())
     return meshed
 
 
 def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
-    """Repairs on request, then raises unless the surface is sound; drops unused vertices after that."""
-    if options.repair and found.tets is None:
-        repaired = _core.repair(found.surface, fill_holes=closed)  # the rim of an open surface is no hole
-        if found.lines is not None and repaired.actions:
-            raise InvalidInput(
-                f"{found.name}: needs repair, which would lose the feature lines of the file; repair the mesh first"
-            )
-        found.surface = repaired.mesh
-        found.notes += [f"repair: {action}" for action in repaired.actions]
+    """Repairs as far as the level says, then raises unless the surface is sound."""
+    repair_surface(found, options, closed)
     if found.tets is not None:
         # Tets of positive volume rarely cross, and the test is slow. Interfaces are sound where the tets are.
         _require_valid(found, options, self_intersection=False)
-        return found
-    _require_valid(found, options, closed=closed)
-    used = np.zeros(len(found.surface.vertices), bool)
-    used[np.asarray(found.surface.triangles)] = True
-    if not used.all():
-        new_id = np.cumsum(used) - 1
-        triangles = new_id[np.asarray(found.surface.triangles)].astype(np.int32)
-        found.surface = TriangleMesh(np.asarray(found.surface.vertices)[used], triangles)
-        found.notes.append(f"{int((~used).sum())} vertices that no triangle uses were left out")
-        if found.lines is not None:
-            found.lines = new_id[found.lines].astype(np.int32)
+    else:
+        _require_valid(found, options, closed=closed)
     return found
 
 
@@ -211,7 +195,8 @@ def _require_valid(found: Input, options: MeshOptions, **tests: bool) -> None:
                 raise
             _accept_touching(found, surface)
     except GeometryError as error:
-        raise GeometryError(possible_remedy(str(error), found, options), error.kind, error.elements) from error
+        message = message_with_remedy(str(error), error.kind, found, options, tests.get("closed", True))
+        raise GeometryError(message, error.kind, error.elements) from error
 
 
 def _accept_touching(found: Input, surface: TriangleMesh) -> None:
@@ -227,18 +212,6 @@ def _accept_touching(found: Input, surface: TriangleMesh) -> None:
         f"the boundary touches itself at {len(sheets.cuts)} edges and {len(alone)} other vertices; these edges are "
         "features, the vertices corners"
     )
-
-
-def possible_remedy(message: str, found: Input, options: MeshOptions) -> str:
-    """The message of a defect without the advice to repair where that was done already, or is not for tets."""
-    if found.tets is None and not options.repair:
-        return message
-    fact = re.sub(r"; (repair the mesh|remove the extra triangles).*", "", message, flags=re.DOTALL)
-    if fact == message:
-        return message
-    mesh = "the surface" if found.tets is None else "the tet mesh"
-    done = "repair could not remove this; " if found.tets is None else ""
-    return f"{fact}; {done}correct {mesh} where it was made"
 
 
 def find_features(found: Input, options: MeshOptions, sheets: Sheets | None) -> tuple[FeatureGraph, str]:
@@ -286,10 +259,35 @@ def _remesh(meshed: MeshedInput, options: MeshOptions, progress: Progress | None
     meshed.surface, meshed.features = result.mesh, result.features
 
 
+def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) -> None:
+    """Where TetGen fails in all its ways, other triangles of the same surface may do, unless these are to be kept."""
+    try:
+        return _fill(meshed, progress, options)
+    except GeometryError as error:
+        if error.kind not in ("tetgen_failed", "tetgen_self_intersection"):
+            raise
+        if not options.remesh:
+            fact = str(error).partition("; ")[0]
+            raise GeometryError(f"{fact}; leave out --no-remesh, so that other triangles can be tried", error.kind, error.elements) from error
+        failed = error
+    surface, features, length = meshed.surface, meshed.features, float(_core.mean_edge_length(meshed.surface))
+    for shorter in (0.8, 0.6):
+        try:
+            result = _core.remesh(surface, features, edge_length=shorter * length)
+            meshed.surface, meshed.features = result.mesh, result.features
+            _fill(meshed, progress, options)
+        except GeometryError:
+            continue
+        meshed.notes.append(f"TetGen could not fill the surface with edges of {length:.3g}; it could with edges of {shorter * length:.3g}")
+        return
+    fact = str(failed).partition("; ")[0]
+    raise GeometryError(f"{fact}; nor with edges of {0.8 * length:.3g} and {0.6 * length:.3g}; try another --edge-length", failed.kind, failed.elements) from failed
+
+
 def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) -> None:
     announce(progress, "mesh", 0.7)
     count = len(meshed.surface.vertices)
-    meshed.tets = _core.tetrahedralize(meshed.surface)
+    meshed.tets = _core.tetrahedralize(meshed.surface, notes=meshed.notes)
     meshed.boundary = _core.boundary_surface(meshed.tets)
     if not np.array_equal(np.asarray(meshed.boundary.vertex_map), np.arange(count)):
         raise GeometryError("the tet mesh does not keep the vertices of the surface; please report this input")
@@ -301,5 +299,5 @@ def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) 
 def _note_unused(meshed: MeshedInput, options: MeshOptions, of_cad: bool) -> None:
     if options.edge_length > 0 and not of_cad:
         meshed.notes.append("the edge length was ignored: tet meshes are kept as they are")
-    if options.repair:
+    if options.repair not in ("default", "none"):
         meshed.notes.append("repair was ignored: it works on surfaces only")

@@ -98,8 +98,8 @@ def describe(value: Any) -> tuple[str, Mapping[str, Any] | list[Mapping[str, Any
 def _facts_of_arrays(value: TriangleMesh | TetMesh | SingularGraph) -> dict[str, Any]:
     if isinstance(value, SingularGraph):
         turns = np.asarray(value.curve_quarter_turns)
-        kinds = {"valence 3": 1, "valence 5": -1, "complex": 0}
-        counts = {name: int((turns == number).sum()) for name, number in kinds.items()}
+        kinds = {f"valence {4 - number}": number for number in (3, 2, 1, -1, -2, -3, -4)} | {"complex": 0}
+        counts = {name: int((turns == number).sum()) for name, number in kinds.items() if number in (1, -1, 0) or number in turns}
         return {"curves": len(value.curves), **counts, "nodes": len(value.nodes), "length": float(value.length)}
     points = np.asarray(value.vertices)
     cells = {"tets": len(value.tets)} if isinstance(value, TetMesh) else {"triangles": len(value.triangles)}

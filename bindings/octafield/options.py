@@ -21,6 +21,8 @@ OF_A_START = "start"  # a treatment of the boundary that needs frames to start f
 SAMPLINGS = ("vertices", "tets")
 SIZES = ("none", "isotropic", "axes")
 FEATURES = ("default", "file", "angle", "none")
+REPAIR_LEVELS = ("none", "merge", "safe", "fill", "resolve", "wrap")  # each does what those before it do
+REPAIRS = ("default", *REPAIR_LEVELS)
 LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
 LARGEST_SYMMETRY = 1000  # largest_symmetry of direction_field.hpp
 METHODS = {"gl": "ginzburg_landau", "mbo": "mbo", "eigen": "eigenvector"}
@@ -66,7 +68,10 @@ class MeshOptions:
     feature_angle: radians in (0, pi), between the normals of two triangles at a feature edge.
     edge_length: target of surface remeshing, input unit; 0: a fixed fraction of the bounding-box diagonal (see remesh).
     remesh: False keeps the triangles of a surface. Tet meshes are always kept as they are.
-    repair: repairs a surface before it is tested (octafield.repair); each action is recorded.
+    repair: level of the repair of a surface before it is tested (octafield.repair), each action recorded; "default": "merge" for STL,
+        "none" otherwise. True stands for "safe", False for "none".
+    max_hole_edges: level "fill" leaves holes of more edges open; 0: no bound.
+    wrap_alpha, wrap_offset: of level "wrap", input unit; 0: 1/50 of the bounding-box diagonal, and 1/20 of that.
     interfaces: triangles between tets of different regions of the file hold the field as the boundary does.
     split: splits edges, triangles and tets inside that join the surface to itself (octafield.split_locking).
     """
@@ -75,16 +80,25 @@ class MeshOptions:
     feature_angle: float = default_of("detect_features", "angle")
     edge_length: float = 0.0
     remesh: bool = True
-    repair: bool = False
+    repair: str = "default"
     interfaces: bool = True
     split: bool = False
+    max_hole_edges: int = 0
+    wrap_alpha: float = 0.0
+    wrap_offset: float = 0.0
 
     def __repr__(self) -> str:
         return display.options_line(self)
 
     def __post_init__(self) -> None:
         require_one_of("features", self.features, FEATURES)
-        for name in ("remesh", "repair", "interfaces", "split"):
+        if isinstance(self.repair, (bool, np.bool_)):
+            object.__setattr__(self, "repair", "safe" if self.repair else "none")
+        require_one_of("repair", self.repair, REPAIRS)
+        _make_integer(self, "max_hole_edges", 0, LARGEST_INT, " (0: no bound)")
+        for name in ("wrap_alpha", "wrap_offset"):
+            _require(math.isfinite(getattr(self, name)) and getattr(self, name) >= 0, f"{name.replace('_', ' ')} must be positive (0: default)")
+        for name in ("remesh", "interfaces", "split"):
             value = getattr(self, name)
             _require(isinstance(value, (bool, np.bool_)), f"{name} must be true or false, not {value!r}")
             object.__setattr__(self, name, bool(value))
@@ -102,7 +116,7 @@ class SurfaceFieldOptions(MeshOptions):
     boundary: how the field follows the rim of an open surface, "strong", "weak" (singular points may sit there), "none".
     least_feature_angle: radians; feature edges inside the surface that bend by less are not followed (0: all are).
     curvature: pull towards the lines of curvature, 0 (none) or more; symmetry must be even. 1 lets the field follow
-        them over lengths of a tenth of the bounding-box diagonal, 100 over a hundredth; where the two principal
+        them over lengths of a tenth of octafield.shape_size, 100 over a hundredth; where the two principal
         curvatures are alike it pulls less (weight = curvature * octafield.principal_directions().anisotropy).
     """
 
@@ -139,8 +153,8 @@ class SurfaceFieldOptions(MeshOptions):
 class FieldOptions(MeshOptions):
     """Of a frame field in a volume.
 
-    sampling: where the frames live, "vertices" or "tets" (octafield.tet_sampling; constraints, energy, singular edges
-        and alignment are those of the tets then, and meshability and integrability are left out).
+    sampling: where the frames live, "vertices" or "tets" (octafield.tet_sampling; constraints, energy, singular edges,
+        alignment and meshability are those of the tets then, and integrability is left out).
     boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none", or "start"
         (frames on the surface held at those of the start that compute_field is given).
     feature_tolerance: radians; a vertex on a feature keeps its whole frame when one frame fits all its normals and

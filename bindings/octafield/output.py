@@ -110,6 +110,9 @@ def write_file(path: Path, content: bytes) -> None:
 def read_vtp(path: Path) -> "pyvista.PolyData":
     import pyvista
 
+    from .meshes.vtp_mesh import read_vtp as checked
+
+    checked(Path(path).read_bytes(), str(path))  # VTK ends the process where a count is wrong
     found = pyvista.read(path)
     if not isinstance(found, pyvista.PolyData):
         raise IoError(f"{path}: holds neither a surface nor curves")

@@ -21,7 +21,9 @@ CUT = "#f6ecd6"
 TURNS = {
     1: (scene.VERMILLION, "valence 3 (index +1/4)"),
     -1: (scene.BLUE, "valence 5 (index \N{MINUS SIGN}1/4)"),
-    2: (scene.GREEN, "valence 2 or 6 (index \N{PLUS-MINUS SIGN}1/2)"),
+    2: (scene.GREEN, "valence 2 (index +1/2)"),
+    -2: (scene.BROWN, "valence 6 (index \N{MINUS SIGN}1/2)"),
+    3: (scene.GREY, "valence 1, 7 or 8 (index +3/4, \N{MINUS SIGN}3/4, \N{MINUS SIGN}1)"),
     0: (scene.PURPLE, "complex: no hex mesh has it"),
 }
 
@@ -252,7 +254,7 @@ def _beginning(points: np.ndarray, length: float) -> np.ndarray:
 
 
 def _kind(turns: int) -> int:
-    return turns if turns in (1, -1, 0) else 2
+    return turns if turns in (2, 1, 0, -1, -2) else 3
 
 
 def _polylines(graph: SingularGraph, points: np.ndarray, kind: int) -> pyvista.PolyData | None:

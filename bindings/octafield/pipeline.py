@@ -175,8 +175,7 @@ def run(
         **{name: getattr(options, name) for name in ("representation", "solver", "boundary")},
         "seed": problem.seed,
     }
-    found = judged(meshed, np.asarray(smoothed.frames), options, clock, memory, progress, about)
-    found.lengths = lengths
+    found = judged(meshed, np.asarray(smoothed.frames), options, clock, memory, progress, about, lengths)
     found.record |= {
         **({} if lengths is None else {"lengths": spread(lengths)}),
         "peak_mb": max(found.record["peak_mb"], round(problem.peak_mb, 1)),
@@ -187,6 +186,7 @@ def run(
         "converged": bool(smoothed.converged),
         "stop_reason": smoothed.message,
         "energy_history": [float(e) for e in smoothed.energy_history],
+        "objective_history": [float(e) for e in smoothed.objective_history],
         "surface_field": {
             "singular_points": counts_by_index(problem.singularities),
             "epsilon": problem.direction_field.epsilon,

@@ -2,7 +2,7 @@
 
 import io
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -12,12 +12,12 @@ PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7
 TEXT = "#010203"  # stands for the page's text colour until the SVG is made
 
 
-def new_figure(width: float, height: float, columns: int = 1, *, sharex: bool = False, sharey: bool = False) -> "tuple[Figure, list[Axes]]":
-    """A figure in inches and its axes, side by side."""
+def new_figure(width: float, height: float, columns: int = 1, *, rows: int = 1, sharex: bool = False, sharey: bool | Literal["row"] = False) -> "tuple[Figure, list[Axes]]":
+    """A figure in inches and its axes, row by row."""
     import matplotlib.figure
 
     figure = matplotlib.figure.Figure(figsize=(width, height), layout="constrained")
-    every: list[Axes] = list(figure.subplots(1, columns, squeeze=False, sharex=sharex, sharey=sharey)[0])
+    every: list[Axes] = list(figure.subplots(rows, columns, squeeze=False, sharex=sharex, sharey=sharey).flat)
     for axes in every:
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)

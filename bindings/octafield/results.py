@@ -56,6 +56,8 @@ def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str,
         more["tet_frames"] = result.tet_frames
     if result.lengths is not None:
         more["lengths" if result.tet_frames is None else "tet_lengths"] = result.lengths
+    if result.feature_edges is not None:
+        more["features"] = result.feature_edges
     points, cells = sizes_arrays(result.sizes, result.tet_frames)
     _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions, point_data=points, cell_data=cells, **more)
     _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
@@ -187,7 +189,7 @@ def _metadata(record: dict[str, Any]) -> dict[str, str]:
         "mesh_sha256": record["mesh_sha256"],
         "options": json.dumps(options),
         "energy": repr(record["energy"]),
-        "convention": "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4",
+        "convention": "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per vertex: interpolate sh4, or axes only in cells with axes_agree 1",
     }
 
 

@@ -20,10 +20,12 @@ import pyvista  # noqa: E402
 
 # Okabe and Ito's palette, told apart with any colour vision.
 BLUE, VERMILLION, GREEN, PURPLE, SKY, ORANGE = "#0072B2", "#D55E00", "#009E73", "#AA4499", "#56B4E9", "#E69F00"
+BROWN, GREY = "#8C510A", "#7B8794"
 INK, CURVE, CROSS, BODY = "#1b1f24", "#20262d", "#3f5d7d", "#d9dfe6"
 
-SIZE = (1200, 900)
-MOST_BYTES = 400_000
+SIZE = (1200, 900)  # of windows; widths of lines are for it
+PICTURE = (2000, 1500)  # pixels of pictures before they are cropped
+MOST_BYTES = 2_500_000
 
 
 NO_OPENGL = "pictures need the library EGL or OSMesa (Debian: apt-get install libegl1 libosmesa6)"
@@ -150,6 +152,10 @@ def render(scene: pyvista.Plotter) -> bytes:
     """The picture as PNG, cropped to what is not background; fewer colours where it would be above the bound."""
     from PIL import Image, ImageChops
 
+    for actor in scene.renderer.actors.values():
+        if isinstance(actor, pyvista.Actor):
+            actor.prop.line_width *= PICTURE[0] / SIZE[0]
+    scene.window_size = list(PICTURE)
     try:
         image = Image.fromarray(np.asarray(scene.screenshot(return_img=True)))
     finally:
@@ -157,11 +163,11 @@ def render(scene: pyvista.Plotter) -> bytes:
     box = ImageChops.difference(image, Image.new("RGB", image.size, "white")).getbbox()
     if box:
         image = image.crop(
-            (max(box[0] - 20, 0), max(box[1] - 20, 0), min(box[2] + 20, SIZE[0]), min(box[3] + 20, SIZE[1]))
+            (max(box[0] - 20, 0), max(box[1] - 20, 0), min(box[2] + 20, PICTURE[0]), min(box[3] + 20, PICTURE[1]))
         )
     for colours in (0, 256, 64):
         data = io.BytesIO()
-        (fewer_colours(image, colours) if colours else image).save(data, "PNG", optimize=True)
+        (fewer_colours(image, colours) if colours else image).save(data, "PNG")
         if data.tell() <= MOST_BYTES:
             break
     return data.getvalue()

@@ -62,10 +62,15 @@ def sizes_arrays(found: Sizes | None, tet_frames: np.ndarray | None) -> tuple[di
 
 def log_scales_of(found: AxisScales, tet_frames: np.ndarray) -> np.ndarray:
     """(m, 3): found.log_scales for the axes of other frames in the tets, which are matched to found.of_tets."""
-    group = np.abs(np.rint(axes_of(np.asarray(_core.octahedral_group()))))
-    # R1 o is close to R2: axis j of the second is, up to sign, the axis of the first where column j of o is not 0.
-    order = group.argmax(axis=1)[np.asarray(_core.matching(np.asarray(found.of_tets), tet_frames)).reshape(-1)]
+    order = axis_order(np.asarray(_core.matching(np.asarray(found.of_tets), tet_frames)).reshape(-1))
     return np.take_along_axis(np.asarray(found.log_scales), order, axis=1)
+
+
+def axis_order(elements: np.ndarray) -> np.ndarray:
+    """(n, 3): which axis of R is, up to sign, the axis j of R o, for (n,) elements o of the octahedral group: where column j of o is not 0."""
+    group = np.abs(np.rint(axes_of(np.asarray(_core.octahedral_group()))))
+    found: np.ndarray = group.argmax(axis=1)[elements]
+    return found
 
 
 def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str) -> tuple[FrameFile, dict[str, Any]]:

@@ -1,5 +1,4 @@
-"""What a field whose frames live in the tets is judged by. Meshability and integrability are defined for frames at
-vertices and left out."""
+"""What a field whose frames live in the tets is judged by. Integrability is defined for frames at vertices and left out."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -7,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._core import Sampling, SingularEdges
-from .analysis import degrees
+from ._core import BoundaryMeshability, Meshability, Sampling, SingularEdges
+from .analysis import boundary_record, degrees, meshability_record
 from .meshing import MeshedInput
 
 
@@ -21,6 +20,8 @@ class TetFieldAnalysis:
     singular: SingularEdges
     alignment: np.ndarray
     feature_alignment: np.ndarray
+    meshability: Meshability
+    boundary_meshability: BoundaryMeshability
     record: dict[str, Any]
 
 
@@ -31,6 +32,8 @@ def analyse_tets(meshed: MeshedInput, sampling: Sampling, of_tets: np.ndarray, t
     alignment = np.asarray(_core.tet_alignment_angles(tets, boundary, of_tets))
     feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
     energy = float(_core.dirichlet_energy(sampling, of_tets, threads=threads))
+    meshability = _core.tet_meshability(tets, boundary, features, of_tets, found, threads=threads)
+    at_boundary = _core.tet_boundary_meshability(tets, boundary, features, of_tets, threads=threads)
     turns = [int(edge.quarter_turns) for edge in found.edges]
     record = {
         "energy": energy,
@@ -41,10 +44,14 @@ def analyse_tets(meshed: MeshedInput, sampling: Sampling, of_tets: np.ndarray, t
         "singular_curves": len(found.graph.curves),
         "singular_nodes": len(found.graph.nodes),
         "complex_edges": int(found.complex_edges),
+        "undecided_edges": int(found.undecided_edges),
+        "tied_triangles": int(found.tied_triangles),
         "singular_edges_by_turns": {
             f"{t:+d}" if t else "complex": turns.count(t) for t in sorted(set(turns), reverse=True)
         },
+        **meshability_record(meshability),
+        **boundary_record(at_boundary),
         "alignment_deg": degrees(alignment),
         "feature_alignment_deg": degrees(feature_alignment),
     }
-    return TetFieldAnalysis(frames, found, alignment, feature_alignment, record)
+    return TetFieldAnalysis(frames, found, alignment, feature_alignment, meshability, at_boundary, record)

@@ -8,6 +8,7 @@
 #include "octafield/volume/integrability.hpp"
 #include "octafield/volume/meshability.hpp"
 #include "octafield/volume/smoothed_curves.hpp"
+#include "octafield/volume/tet_meshability.hpp"
 
 namespace octafield::bindings {
 
@@ -19,10 +20,11 @@ using surface::TriangleMesh;
 namespace {
 
 void bind_meshability(py::module_& m) {
-    m.def("hex_vertex_exists", &hex_vertex_exists, "valence3"_a, "valence5"_a, "valence6"_a = 0,
-          "Whether a hex mesh has an interior vertex with so many edges of valence 3, 5 and 6, the others regular: a "
+    m.def("hex_vertex_exists", &hex_vertex_exists, "valence3"_a, "valence5"_a, "valence6"_a = 0, "valence7"_a = 0,
+          "valence8"_a = 0,
+          "Whether a hex mesh has an interior vertex with so many edges of valence 3, 5, 6, 7 and 8, the others regular: a "
           "triangulation of the sphere with corners of these degrees. Exact up to 12 edges in all; beyond, which takes "
-          "valence 6, true means that no count forbids it.");
+          "valence 6, and with valence 7 or 8, true means that no count forbids it.");
     m.def(
         "local_meshability",
         [](const TetMesh& mesh, const ArrayLike& frames, const SingularGraph& graph) {
@@ -36,10 +38,44 @@ void bind_meshability(py::module_& m) {
         "mesh"_a, "frames"_a, "graph"_a,
         "Necessary conditions for a hex mesh where the curves of singular_graph(mesh, frames) end (Liu et al. 2018; "
         "Liu, Bommes 2023), as a Meshability. A field that meets them all may still have no hex mesh.");
+    m.def(
+        "tet_meshability",
+        [](const TetMesh& mesh, const BoundarySurface& surface, const FeatureGraph& features, const ArrayLike& of_tets,
+           const SingularEdges& singular, int threads) {
+            threads_option(threads);
+            return run_interruptible([=, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
+                check(mesh, false);
+                check(surface, static_cast<Index>(mesh.vertices.rows()));
+                check_unit(rows, mesh.tets.rows(), "of_tets");
+                check(singular.graph);
+                FeatureGraph checked = features;
+                check(checked, surface.mesh);
+                return tet_meshability(mesh, surface, checked, rows, singular, threads);
+            });
+        },
+        "mesh"_a, "surface"_a, "features"_a, "of_tets"_a, "singular"_a, py::kw_only(), "threads"_a = 0,
+        "The same for (m, 4) frames in the tets and their singular_edges(mesh, of_tets).");
 }
 
 void bind_boundary_meshability(py::module_& m) {
     m.attr("no_number") = no_number;
+    m.def(
+        "tet_boundary_meshability",
+        [](const TetMesh& mesh, const BoundarySurface& boundary, const FeatureGraph& features, const ArrayLike& of_tets,
+           int threads) {
+            threads_option(threads);
+            return run_interruptible([=, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
+                check(mesh, false);
+                check_unit(rows, mesh.tets.rows(), "of_tets");
+                check(boundary, static_cast<Index>(mesh.vertices.rows()));
+                FeatureGraph checked = features;
+                check(checked, boundary.mesh);
+                return tet_boundary_meshability(mesh, boundary, checked, rows, threads);
+            });
+        },
+        "mesh"_a, "boundary"_a, "features"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
+        "boundary_meshability for (m, 4) frames in the tets, carried through the tets between two triangles of the "
+        "surface: one number of hexahedra per wedge.");
     m.def(
         "boundary_meshability",
         [](const TetMesh& mesh, const BoundarySurface& boundary, const FeatureGraph& features, const ArrayLike& frames,

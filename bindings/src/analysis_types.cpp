@@ -39,6 +39,9 @@ void bind_meshability_types(py::module_& m) {
         .field("meshable", &SingularVertex::meshable,
                "Whether the necessary conditions hold: a hex mesh has a vertex with these edges.")
         .field("junction", &SingularVertex::junction, "Place in Meshability.junctions.")
+        .field("valence1", &SingularVertex::valence1, "Ends here of curves of +3 quarter turns, which no hex mesh has.")
+        .field("valence7", &SingularVertex::valence7, "Ends here of curves of -3 quarter turns; of frames in tets.")
+        .field("valence8", &SingularVertex::valence8, "Ends here of curves of -4 quarter turns; of frames in tets.")
         .finish([](const SingularVertex& v) {
             return to_word(v.kind) + (v.meshable ? ", meshable" : ", not meshable") + ", valence3 " +
                    std::to_string(v.valence3) + ", valence5 " + std::to_string(v.valence5) + ", valence6 " +
@@ -48,7 +51,7 @@ void bind_meshability_types(py::module_& m) {
     Record<SingularEnd>(m, "SingularEnd", "One end of a curve of a singular graph.")
         .field("vertex", &SingularEnd::vertex, "Place in Meshability.vertices.")
         .field("curve", &SingularEnd::curve, "Place in SingularGraph.curves.")
-        .field("quarter_turns", &SingularEnd::quarter_turns, "Of the curve: 1 valence 3, -1 5, 2 2, -2 6, 0 complex.")
+        .field("quarter_turns", &SingularEnd::quarter_turns, "Of the curve: 4 - its valence; 0 complex.")
         .field("axis", &SingularEnd::axis,
                "(3,) float64: unit axis of the frames about which they turn, away from the vertex; 0 where complex.")
         .field("angle", &SingularEnd::angle,
@@ -68,6 +71,9 @@ void bind_meshability_types(py::module_& m) {
         .field("complex", &SingularJunction::complex, "Complex curves inside it; none leaves it.")
         .field("meshable", &SingularJunction::meshable,
                "Whether a hex mesh has a vertex with these edges, once the complex curves are shrunk.")
+        .field("valence1", &SingularJunction::valence1, "Ends there of curves of +3 quarter turns, which no hex mesh has.")
+        .field("valence7", &SingularJunction::valence7, "Ends there of curves of -3 quarter turns; of frames in tets.")
+        .field("valence8", &SingularJunction::valence8, "Ends there of curves of -4 quarter turns; of frames in tets.")
         .finish([](const SingularJunction& j) {
             return count(j.vertices, "vertex", "vertices") + (j.meshable ? ", meshable" : ", not meshable");
         });
@@ -80,7 +86,7 @@ void bind_meshability_types(py::module_& m) {
                "(curves, 2) int32: vertices at the first and last point of each curve; -1, -1: closed without one.")
         .field("non_meshable_vertices", &Meshability::non_meshable_vertices, "Vertices that no hex mesh has.")
         .field("non_meshable_junctions", &Meshability::non_meshable_junctions, "Junctions that no hex mesh has.")
-        .field("non_meshable_curves", &Meshability::non_meshable_curves, "Curves that are complex or of valence 2.")
+        .field("non_meshable_curves", &Meshability::non_meshable_curves, "Curves that are complex or of valence 2 or 1.")
         .field("closed_curves", &Meshability::closed_curves, "Closed curves without a vertex.")
         .field("boundary_ends", &Meshability::boundary_ends, "Ends of curves on the boundary.")
         .field("boundary_ends_about_normal", &Meshability::boundary_ends_about_normal,

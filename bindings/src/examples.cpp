@@ -52,6 +52,14 @@ constexpr Example of_meshes[] = {
     >>> box.triangles = box.triangles[1:]
     >>> octafield.repair(box)
     RepairResult(8 vertices, 12 triangles, box [0, 1] x [0, 1] x [0, 1], 1 action))"},
+    {"advise_repair", R"(
+    >>> box = generate("box")
+    >>> box.triangles = box.triangles[1:]
+    >>> octafield.advise_repair(box)
+    RepairAdvice(safe, 1 action))"},
+    {"coordinate_precision", R"(
+    >>> float(octafield.coordinate_precision([[0, 0, 1], [0.1, 0, 0.123456789]]))  # nine digits
+    1e-08)"},
     {"detect_features", R"(
     >>> features = octafield.detect_features(generate("box"), angle=np.radians(40))
     >>> len(features.edges), len(features.corners)
@@ -96,6 +104,9 @@ constexpr Example of_meshes[] = {
     {"mean_edge_length", R"(
     >>> round(octafield.mean_edge_length(generate("box")), 3)  # 12 edges and 6 diagonals
     1.138)"},
+    {"shape_size", R"(
+    >>> round(octafield.shape_size(generate("box")) / 3**0.5, 2)  # of the diagonal
+    1.12)"},
     {"bounding_box_diagonal", R"(
     >>> octafield.bounding_box_diagonal([[0, 0, 0], [1, 2, 2]])
     3.0)"},
@@ -231,7 +242,7 @@ constexpr Example of_volume_fields[] = {
     {"Sampling", R"(
     >>> import scipy.sparse
     >>> path = scipy.sparse.csr_array([[1, -1, 0], [-1, 2, -1], [0, -1, 1.0]])  # three sites in a row
-    >>> sampling = octafield.Sampling(path, [1, 1, 1], body_radius=1, edge_length=1, box_diagonal=2)
+    >>> sampling = octafield.Sampling(path, [1, 1, 1], body_radius=1, edge_length=1, size=2)
     >>> octafield.dirichlet_energy(sampling, octafield.random_rotations(1).repeat(3, axis=0))
     0.0)"},
     {"singular_graph", R"(
@@ -262,6 +273,15 @@ constexpr Example of_volume_fields[] = {
     {"locate_points", R"(
     >>> octafield.locate_points(octafield.tetrahedralize(generate("box")), [[0.5, 0.5, 0.5], [9, 9, 9]])
     LocatedPoints(2 points, 1 outside))"},
+    {"interpolate_frames", R"(
+    >>> tets = octafield.tetrahedralize(generate("box"))
+    >>> octafield.interpolate_frames(tets, octafield.random_rotations(len(tets.vertices)), [[0.5, 0.5, 0.5], [9, 9, 9]])
+    SampledFrames(2 frames, 1 outside))"},
+    {"comb_vertices", R"(
+    >>> tets = octafield.tetrahedralize(generate("box"))
+    >>> mixed = octafield.octahedral_group()[np.arange(len(tets.vertices)) % 24]  # one frame, all labels
+    >>> octafield.comb_vertices(tets, mixed).agree.min(), octafield.axes_agree(tets, mixed).min()
+    (1, 0))"},
     {"frame_streamlines", R"(
     >>> tets = octafield.tetrahedralize(generate("box"))
     >>> same = np.tile([1.0, 0, 0, 0], (len(tets.vertices), 1))

@@ -1,10 +1,14 @@
 // Curves along the axes of frame fields in tet meshes, and where they begin.
 #include "octafield/volume/streamlines.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "checks.hpp"
 #include "interruptible.hpp"
+#include "octafield/volume/sample_frames.hpp"
 #include "record.hpp"
 
 namespace octafield::bindings {
@@ -17,16 +21,35 @@ namespace {
 void bind_points(py::module_& m) {
     m.def(
         "locate_points",
-        [](const TetMesh& mesh, const ArrayLike& points) {
+        [](const TetMesh& mesh, const ArrayLike& points, int threads) {
+            threads_option(threads);
             return run_interruptible([=, rows = from_python<Points>(points, "points")](Job&) {
                 check(mesh, false);
                 check_vectors(rows, rows.rows(), "points", "point");
-                return locate_points(mesh, rows);
+                return locate_points(mesh, rows, threads);
             });
         },
-        "mesh"_a, "points"_a,
+        "mesh"_a, "points"_a, py::kw_only(), "threads"_a = 0,
         "The tet that holds each of (n, 3) points and its barycentric coordinates there, as "
         "LocatedPoints. Of several tets the one it lies deepest in.");
+    m.def(
+        "interpolate_frames",
+        [](const TetMesh& mesh, const ArrayLike& frames, const ArrayLike& points, double tolerance, int threads) {
+            threads_option(threads);
+            if (std::isnan(tolerance)) throw InvalidInput("tolerance is not a number", "option_out_of_range");
+            return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
+                                      at = from_python<Points>(points, "points")](Job&) mutable {
+                check(mesh, false);
+                check_unit(rows, mesh.vertices.rows(), "frames");
+                check_vectors(at, at.rows(), "points", "point");
+                return sample_frames(mesh, rows, at, {.tolerance = tolerance, .threads = threads});
+            });
+        },
+        "mesh"_a, "frames"_a, "points"_a, py::kw_only(), "tolerance"_a = SampleOptions{}.tolerance, "threads"_a = 0,
+        "What octafield.sample_frames does, on (n, 4) frames at the vertices of a tet mesh and (k, 3) points: their sh4 "
+        "vectors are interpolated linearly in the tet that holds a point, and projected to the nearest frame, as "
+        "SampledFrames. tolerance: points no farther outside have the frame of the mesh's nearest point (input unit; "
+        "below 0: a millionth of the bounding-box diagonal; infinity: all points).");
     m.def(
         "spread_points",
         [](const TetMesh& mesh, int count) {
@@ -69,7 +92,7 @@ void bind_lines(py::module_& m) {
         "closing_distance"_a = defaults.closing_distance, "threads"_a = 0,
         "Curves along the axes of (n, 4) frames at the vertices of a tet mesh, as a list of FrameStreamline: one per "
         "point along the axis nearest to its direction, or three, one per axis, where no directions are given. "
-        "max_length: input unit, from the seed each way, 0 means 4 diagonals of the bounding box; both_ways: against "
+        "max_length: input unit, from the seed each way, 0 means 4 times octafield.shape_size; both_ways: against "
         "the direction as well; closing_distance: a curve that comes back to its seed so near is closed, 0 means a "
         "tenth of an edge. A curve ends at the boundary and a tet before a singular curve that turns its axis. The "
         "same bits at any thread count. Raises InvalidInput naming the points outside the mesh.");
@@ -99,6 +122,21 @@ void bind_frame_streamline_types(py::module_& m) {
         .finish([](const LocatedPoints& p) {
             return count(p.weights.rows(), "point") + ", " +
                    std::to_string(std::count(p.tet.begin(), p.tet.end(), -1)) + " outside";
+        });
+
+    Record<SampledFrames>(m, "SampledFrames", "A frame field at points.")
+        .field("frames", &SampledFrames::frames,
+               "(k, 4) float64 unit quaternions w x y z, NaN outside; of the 24 the nearest to the frame of the tet's "
+               "vertex of largest weight.")
+        .field("confidence", &SampledFrames::confidence,
+               "(k,) float64: norm of the interpolated sh4 vector, 1 where the tet's frames are equal, near 0 at "
+               "singular curves, where the frame means little; 0 outside.")
+        .field("tet", &SampledFrames::tet, "(k,) int32; -1: outside the mesh.")
+        .field("distance", &SampledFrames::distance,
+               "(k,) float64, input unit: from the point to the mesh, 0 inside; infinity: outside.")
+        .finish([](const SampledFrames& s) {
+            return count(s.frames.rows(), "frame") + ", " +
+                   std::to_string(std::count(s.tet.begin(), s.tet.end(), -1)) + " outside";
         });
 }
 

@@ -1,4 +1,6 @@
 // What parameterizations ask of a frame field: matchings, combed axes, boundary conditions, sizes.
+#include <algorithm>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "checks.hpp"
@@ -42,6 +44,19 @@ void bind_combing_types(py::module_& m) {
             std::ptrdiff_t cut = 0;
             for (const auto c : field.cut) cut += c;
             return count(field.frames.rows(), "tet") + ", " + count(cut, "triangle") + " cut";
+        });
+
+    Record<CombedVertices>(
+        m, "CombedVertices",
+        "A field at the vertices whose axes correspond by number and sign but across a cut that singular curves end.")
+        .field("frames", &CombedVertices::frames,
+               "(n, 4) float64 quaternions w x y z: q o, with signs that agree where the axes do.")
+        .field("element", &CombedVertices::element, "(n,) uint8: o, an element of the octahedral group.")
+        .field("agree", &CombedVertices::agree, "(m,) uint8: axes_agree of `frames`.")
+        .field("parts", &CombedVertices::parts, "Parts of the mesh that edges connect.")
+        .finish([](const CombedVertices& field) {
+            const std::ptrdiff_t cut = std::count(field.agree.begin(), field.agree.end(), 0);
+            return count(field.frames.rows(), "frame") + ", axes agree in all tets but " + std::to_string(cut);
         });
 
     Record<AlignmentTables>(m, "AlignmentTables",
@@ -126,6 +141,33 @@ void bind_combing(py::module_& m) {
         },
         "mesh"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
         "Matchings of (m, 4) frames in the tets across every triangle between two, as FaceMatchings.");
+    m.def(
+        "comb_vertices",
+        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+            threads_option(threads);
+            return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+                check(mesh, false);
+                check_unit(rows, mesh.vertices.rows(), "frames");
+                return comb_vertices(mesh, rows, threads);
+            });
+        },
+        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "Representatives of (n, 4) frames at the vertices, so that axes of neighbours correspond by number and sign but "
+        "across a cut that ends at the singular curves that turn them, as CombedVertices. Results of octafield are "
+        "combed already. A combed field stays as it is.");
+    m.def(
+        "axes_agree",
+        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+            threads_option(threads);
+            return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+                check(mesh, false);
+                check_unit(rows, mesh.vertices.rows(), "frames");
+                return axes_agree(mesh, rows, threads);
+            }));
+        },
+        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "(m,) uint8 per tet, 1: the axes of its four frames, (n, 4) at the vertices, correspond by number and sign, so "
+        "that each may be interpolated by itself; 0: use sample_frames there.");
     m.def(
         "comb",
         [](const TetMesh& mesh, const ArrayLike& of_tets, int threads) {

@@ -26,31 +26,31 @@ std::shared_ptr<Sampling> made(const TetMesh& mesh, Sampling (*make)(const TetMe
 
 // Checked here, for functions trust what a Sampling says.
 std::shared_ptr<Sampling> from_matrix(SparseMatrix stiffness, const ArrayLike& mass, double body_radius,
-                                      double edge_length, double box_diagonal, const std::string& sites) {
+                                      double edge_length, double size, const std::string& sites) {
     const auto refuse = [](const std::string& message, const char* kind) { throw InvalidInput(message, kind); };
     Sampling made{.sites = from_word<Sites>(sites, "sites"),
                   .stiffness = std::move(stiffness),
                   .mass = from_python<Eigen::VectorXd>(mass, "mass"),
                   .body_radius = finite(body_radius, "body_radius"),
                   .edge_length = finite(edge_length, "edge_length"),
-                  .box_diagonal = finite(box_diagonal, "box_diagonal"),
+                  .size = finite(size, "size"),
                   .elements = nullptr};
     SparseMatrix& matrix = made.stiffness;
     const Eigen::Index n = made.mass.size();
     matrix.makeCompressed();
     if (n == 0 || matrix.rows() != n || matrix.cols() != n)
         refuse("stiffness: expected a matrix of shape (n, n) for the n > 0 entries of mass", "wrong_shape");
-    if (!(made.body_radius > 0 && made.edge_length > 0 && made.box_diagonal > 0))
-        refuse("body_radius, edge_length and box_diagonal must be positive", "bad_option");
+    if (!(made.body_radius > 0 && made.edge_length > 0 && made.size > 0))
+        refuse("body_radius, edge_length and size must be positive", "bad_option");
     if (!made.mass.allFinite() || !(made.mass.array() >= 0).all() || !(made.mass.sum() > 0))
         refuse("mass: entries must be finite, not negative, and not all 0", "bad_mass");
     const Eigen::Map<const Eigen::ArrayXd> entries(matrix.valuePtr(), matrix.nonZeros());
     if (!entries.allFinite()) refuse("stiffness: an entry is not finite", "non_finite");
-    const double size = entries.size() ? entries.abs().maxCoeff() : 0;
+    const double largest = entries.size() ? entries.abs().maxCoeff() : 0;
     const SparseMatrix skew = matrix - SparseMatrix(matrix.transpose());
-    if (skew.nonZeros() && skew.coeffs().abs().maxCoeff() > 1e-12 * size)
+    if (skew.nonZeros() && skew.coeffs().abs().maxCoeff() > 1e-12 * largest)
         refuse("stiffness: the matrix is not symmetric", "not_symmetric");
-    if ((matrix * Eigen::VectorXd::Ones(n)).cwiseAbs().maxCoeff() > 1e-9 * size)
+    if ((matrix * Eigen::VectorXd::Ones(n)).cwiseAbs().maxCoeff() > 1e-9 * largest)
         refuse("stiffness: rows must sum to 0, so that constant fields have no energy", "rows_sum");
     for (Eigen::Index column = 0; column < n; ++column)
         for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry)
@@ -69,7 +69,7 @@ py::tuple reduced(const py::object& self) {
                               py::make_tuple(TetMesh(*sampling->elements)));
     return py::make_tuple(py::type::of(self), py::make_tuple(sampling->stiffness, own(Eigen::VectorXd(sampling->mass)),
                                                              sampling->body_radius, sampling->edge_length,
-                                                             sampling->box_diagonal, to_word(sampling->sites)));
+                                                             sampling->size, to_word(sampling->sites)));
 }
 
 void bind_samplings(py::module_& m) {
@@ -143,8 +143,8 @@ void bind_boundary(py::module_& m) {
                 });
         },
         "mesh"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
-        "Singular curves of (m, 4) frames in the tets, from the holonomy round every edge inside, as SingularEdges. "
-        "The same result at any thread count.");
+        "Singular curves of (m, 4) frames in the tets, from the holonomy round every edge inside, lifted to the binary "
+        "octahedral group, as SingularEdges. The same result at any thread count.");
 }
 
 }  // namespace
@@ -154,10 +154,10 @@ void bind_sampling_types(py::module_& m) {
         m, "Sampling",
         "Where the frames of a field live and how they are coupled; made by vertex_sampling and tet_sampling, or from "
         "a matrix of your own.")
-        .def(py::init(&from_matrix), "stiffness"_a, "mass"_a, "body_radius"_a, "edge_length"_a, "box_diagonal"_a,
+        .def(py::init(&from_matrix), "stiffness"_a, "mass"_a, "body_radius"_a, "edge_length"_a, "size"_a,
              "sites"_a = "vertices",
              "stiffness: (n, n) scipy.sparse matrix (any format), symmetric, rows sum to 0, entries off the diagonal "
-             "not positive; mass: (n,) not negative, cubed input unit; body_radius, edge_length, box_diagonal: see the "
+             "not positive; mass: (n,) not negative, cubed input unit; body_radius, edge_length, size: see the "
              "fields; sites: \"vertices\" or \"tets\". Raises InvalidInput.")
         .def_property_readonly(
             "sites", [](const Sampling& s) { return to_word(s.sites); }, "\"vertices\" or \"tets\".")
@@ -174,7 +174,7 @@ void bind_sampling_types(py::module_& m) {
             "edge_length", [](const Sampling& s) { return s.edge_length; },
             "Mean edge of the boundary, input unit: the unit of diffuse's last_time.")
         .def_property_readonly(
-            "box_diagonal", [](const Sampling& s) { return s.box_diagonal; },
+            "size", [](const Sampling& s) { return s.size; },
             "Of the mesh's bounding box, input unit: the unit that solvers scale by.")
         .def("__reduce__", &reduced)
         .def("__len__", &Sampling::count)
@@ -193,7 +193,13 @@ void bind_sampling_types(py::module_& m) {
         .field("holonomy", &SingularEdge::holonomy,
                "Element number of the octahedral group, in the frame of the lowest tet at the edge.")
         .field("quarter_turns", &SingularEdge::quarter_turns,
-               "Quarter turns about the edge: +1 valence 3, -1 valence 5, 2 a half turn, 0 complex (in no hex mesh).")
+               "Quarter turns about the curve, modulo 8: +1 valence 3, -1 valence 5, +2 valence 2, -2 valence 6, -3 valence 7, "
+               "-4 valence 8, +3 valence 1, 0 complex (in no hex mesh).")
+        .field("valence", &SingularEdge::valence,
+               "Hexahedra round the edge, by the turn about the edge itself; -1: complex, or about an axis at right angles "
+               "to it.")
+        .field("undecided", &SingularEdge::undecided,
+               "Whether chance decides: two matchings are equally near, or the axis is at right angles to the curve.")
         .finish([](const SingularEdge& e) {
             return std::to_string(e.a) + ", " + std::to_string(e.b) + ", " + count(e.quarter_turns, "quarter turn");
         });
@@ -201,6 +207,9 @@ void bind_sampling_types(py::module_& m) {
     Record<SingularEdges>(m, "SingularEdges", "Singular edges of a frame field that lives in the tets.")
         .field("edges", &SingularEdges::edges, "List of SingularEdge in the order of (a, b).")
         .field("complex_edges", &SingularEdges::complex_edges, "Number of edges with a complex singularity.")
+        .field("undecided_edges", &SingularEdges::undecided_edges, "Number of edges that are undecided.")
+        .field("tied_triangles", &SingularEdges::tied_triangles,
+               "Triangles between two tets across which two matchings are equally near.")
         .field(
             "graph", &SingularEdges::graph,
             "SingularGraph of their curves: no triangles, points at vertices, nodes where other than two meet inside.")

@@ -46,6 +46,11 @@ void bind_elementary(py::module_& m) {
                 "(V, 3) unit vertex normals, weighted by the areas of the incident triangles.");
     def_of_mesh(m, "mean_edge_length", mean_edge_length,
                 "Mean length of the edges, input unit. Needs at least one triangle.", true);
+    def_of_mesh(m, "shape_size", shape_size,
+                "The size that default lengths are fractions of, input unit: 3 times the root mean square distance of the "
+                "surface from its centroid, about the diagonal of a box, whichever way the surface lies. Needs at least "
+                "one triangle.",
+                true);
     def_of_mesh(m, "euler_characteristic", euler_characteristic,
                 "V - E + F over the vertices in use. Raises GeometryError where edge_topology does.");
     m.def(
@@ -115,30 +120,69 @@ void bind_validation(py::module_& m) {
         "and options. Tet meshes: kinds empty, index_out_of_range, non_finite_vertex, inverted_tet.");
 
     const RepairOptions defaults;
+    const auto options_of = [](const std::string& level, bool closed, double merge_tolerance, int small_hole_edges,
+                               int max_hole_edges, double wrap_alpha, double wrap_offset) {
+        return RepairOptions{.level = repair_level(level),
+                             .closed = closed,
+                             .merge_tolerance = merge_tolerance,
+                             .small_hole_edges = small_hole_edges,
+                             .max_hole_edges = max_hole_edges,
+                             .wrap_alpha = wrap_alpha,
+                             .wrap_offset = wrap_offset};
+    };
     m.def(
         "repair",
-        [](const TriangleMesh& mesh, bool merge_vertices, bool remove_degenerate, bool remove_fins, bool orient,
-           bool fill_holes, int max_hole_edges) {
-            const RepairOptions options{.merge_vertices = merge_vertices,
-                                        .remove_degenerate = remove_degenerate,
-                                        .remove_fins = remove_fins,
-                                        .orient = orient,
-                                        .fill_holes = fill_holes,
-                                        .max_hole_edges = max_hole_edges};
+        [options_of](const TriangleMesh& mesh, const std::string& level, bool closed, double merge_tolerance,
+                     int small_hole_edges, int max_hole_edges, double wrap_alpha, double wrap_offset) {
+            const RepairOptions options = options_of(level, closed, merge_tolerance, small_hole_edges, max_hole_edges,
+                                                     wrap_alpha, wrap_offset);
             return run_interruptible([=](Job&) {
                 check(mesh, false);
                 return surface::repair(mesh, options);
             });
         },
-        "mesh"_a, py::kw_only(), "merge_vertices"_a = defaults.merge_vertices,
-        "remove_degenerate"_a = defaults.remove_degenerate, "remove_fins"_a = defaults.remove_fins,
-        "orient"_a = defaults.orient, "fill_holes"_a = defaults.fill_holes,
-        "max_hole_edges"_a = defaults.max_hole_edges,
-        "Safe repairs, each one reported, as a RepairResult; no vertex moves. merge_vertices: bit-equal points become "
-        "one; "
-        "remove_degenerate: triangles of zero area and repeated ones; remove_fins: single triangles hanging on a "
-        "non-manifold edge; orient: consistently, outward; fill_holes: of at most "
-        "max_hole_edges edges. Self-intersections are left for find_defects to name.");
+        "mesh"_a, py::kw_only(), "level"_a = "safe", "closed"_a = defaults.closed,
+        "merge_tolerance"_a = defaults.merge_tolerance, "small_hole_edges"_a = defaults.small_hole_edges,
+        "max_hole_edges"_a = defaults.max_hole_edges, "wrap_alpha"_a = defaults.wrap_alpha,
+        "wrap_offset"_a = defaults.wrap_offset,
+        "Repairs up to a level, each one reported, as a RepairResult; a sound mesh comes back as it is. level: \"none\"; "
+        "\"merge\": coinciding points become one, and points of open edges nearer than merge_tolerance (input unit; "
+        "negative: twice coordinate_precision of the points; 0: equal points only); \"safe\": also repeated, flat and "
+        "dangling triangles, tiny open pieces, T-junctions, orientation, holes of at most small_hole_edges edges, unused "
+        "points; \"fill\": also holes of at most max_hole_edges edges (0: any), smoothly; \"resolve\": also triangles that "
+        "cross; \"wrap\": what is still unsound is replaced by an alpha wrap (Portaneri et al. 2022) that bridges gaps "
+        "narrower than wrap_alpha (0: 1/50 of the bounding box's diagonal) and lies wrap_offset outside (0: 1/20 of "
+        "that), input unit. Up to fill no vertex moves, except into another one by merging. closed: False keeps the rims "
+        "of an open surface. What is left is for find_defects to name. Raises InvalidInput.");
+    m.def(
+        "advise_repair",
+        [options_of](const TriangleMesh& mesh, const std::string& level, bool closed, double merge_tolerance,
+                     int small_hole_edges, int max_hole_edges, double wrap_alpha, double wrap_offset,
+                     Index most_triangles) {
+            const RepairOptions options = options_of(level, closed, merge_tolerance, small_hole_edges, max_hole_edges,
+                                                     wrap_alpha, wrap_offset);
+            return run_interruptible([=](Job&) {
+                check(mesh, false);
+                return surface::advise_repair(mesh, options, most_triangles);
+            });
+        },
+        "mesh"_a, py::kw_only(), "level"_a = "none", "closed"_a = defaults.closed,
+        "merge_tolerance"_a = defaults.merge_tolerance, "small_hole_edges"_a = defaults.small_hole_edges,
+        "max_hole_edges"_a = defaults.max_hole_edges, "wrap_alpha"_a = defaults.wrap_alpha,
+        "wrap_offset"_a = defaults.wrap_offset, "most_triangles"_a = 200000,
+        "The first level of repair above level that makes a mesh sound, as a RepairAdvice. The levels are tried in turn on "
+        "a copy and validated; resolve and wrap are left out above most_triangles. mesh: what level has made already. "
+        "Other options as of repair. Raises InvalidInput.");
+    m.def(
+        "coordinate_precision",
+        [](const ArrayLike& points) {
+            auto rows = from_python<Points>(points, "points");
+            return run_interruptible([rows = std::move(rows)](Job&) { return coordinate_precision(rows); });
+        },
+        "points"_a,
+        "The precision that (n, 3) points themselves show, input unit: spacing of float32 at the largest magnitude where "
+        "all coordinates are such numbers; the last decimal there where all have at most 15 significant digits (6 at "
+        "least are assumed); else 8 roundings of doubles. 0 without points.");
 }
 
 void bind_features(py::module_& m) {

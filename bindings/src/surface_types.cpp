@@ -58,8 +58,19 @@ void bind_results(py::module_& m) {
     Record<RepairResult>(m, "RepairResult", "A repaired mesh and what was done to it.")
         .field("mesh", &RepairResult::mesh, "The repaired TriangleMesh.")
         .field("actions", &RepairResult::actions, "One sentence per action; an empty list: nothing was needed.")
+        .field("largest_move", &RepairResult::largest_move,
+               "Input unit: no point of one surface is farther from the other, holes filled apart; 0: no vertex moved.")
         .finish([](const RepairResult& r) {
             return repr_mesh(r.mesh) + ", " + count(static_cast<std::ptrdiff_t>(r.actions.size()), "action");
+        });
+
+    Record<RepairAdvice>(m, "RepairAdvice", "Which level of repair makes a mesh sound.")
+        .field("level", &RepairAdvice::level, "Word of the level; \"none\": no level does, or none is needed.")
+        .field("actions", &RepairAdvice::actions, "What it and the levels before it do, one sentence each.")
+        .field("left", &RepairAdvice::left, "Defects that are left where no level does.")
+        .field("not_tried", &RepairAdvice::not_tried, "Why levels were left out; empty: all were tried.")
+        .finish([](const RepairAdvice& a) {
+            return a.level + ", " + count(static_cast<std::ptrdiff_t>(a.actions.size()), "action");
         });
 
     Record<RemeshResult>(m, "RemeshResult", "A remeshed surface and its features.")

@@ -58,25 +58,32 @@ void bind_meshes(py::module_& m) {
     m.def(
         "tetrahedralize",
         [](const TriangleMesh& mesh, double radius_edge_ratio, double min_dihedral, double edge_length,
-           const std::optional<ProgressCallable>& progress) {
+           std::optional<py::list> notes, const std::optional<ProgressCallable>& progress) {
             const TetrahedralizeOptions options{.radius_edge_ratio = finite(radius_edge_ratio, "radius_edge_ratio"),
                                                 .min_dihedral = finite(min_dihedral, "min_dihedral"),
                                                 .edge_length = finite(edge_length, "edge_length")};
-            return run_interruptible(
+            auto [tets, said] = run_interruptible(
                 [mesh = mesh, options](Job& job) {
                     check(mesh);
-                    return tetrahedralize(mesh, options, job.progress());
+                    std::vector<std::string> said;
+                    TetMesh tets = tetrahedralize(mesh, options, job.progress(), &said);
+                    return std::pair(std::move(tets), std::move(said));
                 },
                 progress);
+            if (notes)
+                for (const std::string& note : said) notes->append(note);
+            return tets;
         },
         "mesh"_a, py::kw_only(), "radius_edge_ratio"_a = defaults.radius_edge_ratio,
-        "min_dihedral"_a = defaults.min_dihedral, "edge_length"_a = defaults.edge_length, "progress"_a = py::none(),
+        "min_dihedral"_a = defaults.min_dihedral, "edge_length"_a = defaults.edge_length, "notes"_a = py::none(),
+        "progress"_a = py::none(),
         "Tetrahedra inside a valid closed surface by TetGen (Si 2015), as a TetMesh whose first vertices are the "
         "surface's and whose boundary "
         "is exactly its triangles. radius_edge_ratio: bound on circumradius over shortest edge, at least 1; "
         "min_dihedral: radians, 0 "
         "means TetGen's default; edge_length: interior target, input unit, 0 means the surface's mean. Raises "
-        "GeometryError with TetGen's reason.");
+        "GeometryError where TetGen fails in several ways (kind tetgen_failed); where one of the later ways helped, a "
+        "sentence on it is appended to notes, a list.");
     m.def(
         "require_valid",
         [](const TetMesh& mesh) {
@@ -203,13 +210,15 @@ void bind_files(py::module_& m) {
         "write_field",
         [](const std::filesystem::path& path, const TetMesh& mesh, const ArrayLike& frames, const Metadata& metadata,
            const ArrayLike& regions, const ArrayLike& tet_frames, const ArrayLike& lengths,
-           const ArrayLike& tet_lengths, const NamedArrayLikes& point_data, const NamedArrayLikes& cell_data) {
+           const ArrayLike& tet_lengths, const NamedArrayLikes& point_data, const NamedArrayLikes& cell_data,
+           const ArrayLike& features) {
             run_interruptible([path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames"),
                                ids = from_python<std::vector<Index>>(regions, "regions"),
                                more = FieldArrays{from_python<Quaternions>(tet_frames, "tet_frames"),
                                                   from_python<Points>(lengths, "lengths"),
                                                   from_python<Points>(tet_lengths, "tet_lengths"),
-                                                  named_arrays(point_data), named_arrays(cell_data)}](Job&) mutable {
+                                                  named_arrays(point_data), named_arrays(cell_data),
+                                                  from_python<Edges>(features, "features")}](Job&) mutable {
                 check(mesh, false);
                 check_unit(rows, mesh.vertices.rows(), "frames");
                 if (more.tet_frames.rows() > 0) check_unit(more.tet_frames, mesh.tets.rows(), "tet_frames");
@@ -222,14 +231,15 @@ void bind_files(py::module_& m) {
         },
         "path"_a, "mesh"_a, "frames"_a, "metadata"_a = Metadata{}, "regions"_a = py::tuple(), py::kw_only(),
         "tet_frames"_a = py::tuple(), "lengths"_a = py::tuple(), "tet_lengths"_a = py::tuple(),
-        "point_data"_a = NamedArrayLikes{}, "cell_data"_a = NamedArrayLikes{},
+        "point_data"_a = NamedArrayLikes{}, "cell_data"_a = NamedArrayLikes{}, "features"_a = py::tuple(),
         "Write a .vtu file with point data frame_u, frame_v, frame_w (unit axes), quaternion (w x y z), sh4 (9) and "
         "boundary (0/1). frames: (n, 4); "
         "metadata: words written as field data; regions: (m,) ids written as cell data region, or none; "
         "tet_frames: (m, 4) frames written as cell data under the same names, or none; lengths: (n, 3) point data "
         "frame_lengths, or none, and tet_lengths: (m, 3) cell data; point_data, cell_data: other arrays by name, (n,) "
         "or "
-        "(n, k), a row per vertex or tet. Raises IoError.");
+        "(n, k), a row per vertex or tet; features: (k, 2) feature edges, written as field data feature_edges. Raises "
+        "IoError.");
     m.def(
         "write_singular_graph",
         [](const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata,

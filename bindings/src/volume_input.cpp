@@ -60,6 +60,18 @@ void bind_types(py::module_& m) {
                    ", " + count(static_cast<std::ptrdiff_t>(s.left.size()), "tet") + " left";
         });
 
+    Record<SingularSplit>(m, "SingularSplit",
+                          "A tet mesh whose edges between singular vertices were split, and how.")
+        .field("mesh", &SingularSplit::mesh, "TetMesh, old vertices first, with their ids.")
+        .field("parent", &SingularSplit::parent, "(m,) int32: old tet that each tet is part of, whose frame it keeps.")
+        .field("edges", &SingularSplit::edges, "(e, 2) int32 edges of the old mesh that were to be split.")
+        .field("left", &SingularSplit::left, "(l, 2) int32 edges of these that are still there: the tets are too flat.")
+        .field("added_vertices", &SingularSplit::added_vertices, "Number of new vertices.")
+        .finish([](const SingularSplit& s) {
+            return count(s.mesh.tets.rows(), "tet") + ", " + count(s.added_vertices, "new vertex", "new vertices") +
+                   ", " + count(s.left.rows(), "edge") + " left";
+        });
+
     Record<VertexConstraints>(m, "VertexConstraints",
                               "Constraints of the user's own; row i of each array belongs to vertices[i].")
         .field("vertices", &VertexConstraints::vertices, "(k,) int32 tet-mesh ids, each once.")
@@ -123,6 +135,21 @@ void bind_volume_input(py::module_& m) {
         "mesh"_a, "surface"_a,
         "Splits those edges at their midpoints, triangles and tets at their centres, as a LockingSplit. The surface "
         "keeps its vertices and triangles; every tet of the result has a vertex inside, but for those too flat.");
+    m.def(
+        "split_between_singular",
+        [](const TetMesh& mesh, const BoundarySurface& surface, const ArrayLike& of_tets, int threads) {
+            threads_option(threads);
+            return run_interruptible(
+                [mesh = mesh, surface = surface, threads, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
+                    check(mesh);
+                    check(surface, static_cast<Index>(mesh.vertices.rows()));
+                    check_unit(rows, mesh.tets.rows(), "of_tets");
+                    return split_between_singular(mesh, surface, rows, threads);
+                });
+        },
+        "mesh"_a, "surface"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
+        "Splits edges inside that join two vertices of singular edges without being singular, at their midpoints, as a "
+        "SingularSplit; of_tets[split.parent] are the frames of its tets. Singular edges and surface stay as they are.");
     m.def(
         "with_constraints",
         [](const BoundaryConstraints& base, const VertexConstraints& given) {

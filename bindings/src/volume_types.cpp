@@ -73,7 +73,10 @@ void bind_results(py::module_& m) {
                "Whether the last step lowered the energy by less than the tolerance.")
         .field("message", &SmoothResult::message, "Why the solver stopped.")
         .field("energy_history", &SmoothResult::energy_history,
-               "float64 objectives at the start and after each accepted or rejected step.")
+               "float64 energies (of sh4, whatever was minimised) at the start and after each accepted or rejected step.")
+        .field("objective_history", &SmoothResult::objective_history,
+               "float64 objectives at the same steps; of frame_field, where something else than sh4's energy is "
+               "minimised, of that last part only, the last steps of energy_history.")
         .field("lengths", &SmoothResult::lengths,
                "(n, 3) float64 lengths of the frames' axes where odeco_lengths was minimised; else no rows.")
         .finish([](const SmoothResult& r) {
@@ -99,9 +102,12 @@ void bind_results(py::module_& m) {
         .field("holonomy", &SingularTriangle::holonomy,
                "Element number of the octahedral group, in the frame of vertex a.")
         .field("quarter_turns", &SingularTriangle::quarter_turns,
-               "Quarter turns about the curve: +1 valence 3, -1 valence 5, 2 a half turn, 0 complex (in no hex mesh).")
+               "Quarter turns about the curve, modulo 8: +1 valence 3, -1 valence 5, +2 valence 2, -2 valence 6, 0 complex (in "
+               "no hex mesh).")
         .field("boundary", &SingularTriangle::boundary, "Whether it lies on the boundary of the mesh.")
         .field("point", &SingularTriangle::point, "(3,) float64: where the linear sh4 interpolant is shortest.")
+        .field("undecided", &SingularTriangle::undecided,
+               "Whether chance decides: two matchings are equally near, or the axis is at right angles to the curve.")
         .finish([](const SingularTriangle& t) {
             return std::to_string(t.a) + ", " + std::to_string(t.b) + ", " + std::to_string(t.c) + ", " +
                    count(t.quarter_turns, "quarter turn");
@@ -120,6 +126,7 @@ void bind_results(py::module_& m) {
         .field("length", &SingularGraph::length, "Total length of the curves, input unit.")
         .field("complex_triangles", &SingularGraph::complex_triangles,
                "Number of triangles with a complex singularity.")
+        .field("undecided_triangles", &SingularGraph::undecided_triangles, "Number of triangles that are undecided.")
         .finish([](const SingularGraph& g) {
             return count(static_cast<std::ptrdiff_t>(g.triangles.size()), "triangle") + ", " +
                    count(static_cast<std::ptrdiff_t>(g.curves.size()), "curve") + ", " +

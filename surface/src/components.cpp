@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace octafield::surface::detail {
@@ -11,6 +12,21 @@ Index root_of(std::vector<Index>& parent, Index e) {
     while (parent[e] != e) e = parent[e] = parent[parent[e]];
     return e;
 }
+
+// Of a part, as shape_size: with the masses of edges at their midpoints it is the same number.
+struct Moments {
+    explicit Moments(const Eigen::Vector3d& place) : origin(place) {}
+    void add(const Eigen::Vector3d& point, double by) {
+        mass += by;
+        first += by * (point - origin);
+        second += by * (point - origin).squaredNorm();
+    }
+    double size() const {
+        return mass > 0 ? 3 * std::sqrt(std::max(0.0, second / mass - (first / mass).squaredNorm())) : 0;
+    }
+    Eigen::Vector3d origin, first = Eigen::Vector3d::Zero();
+    double mass = 0, second = 0;
+};
 
 }  // namespace
 
@@ -24,21 +40,23 @@ Components components(const TriangleMesh& mesh, const EdgeTopology& topology, co
     }
     Components result;
     result.of_edge.resize(parent.size());
-    std::vector<Eigen::AlignedBox3d> boxes;
+    std::vector<Moments> moments;
     for (Index e = 0; e < masses.size(); ++e) {
         if (parent[e] == e) {
-            result.of_edge[e] = static_cast<Index>(boxes.size());
-            boxes.emplace_back();
+            result.of_edge[e] = static_cast<Index>(moments.size());
+            moments.emplace_back(mesh.vertices.row(topology.edges(e, 0)).transpose());
             result.areas.push_back(0);
         } else {
             result.of_edge[e] = result.of_edge[root_of(parent, e)];
         }
         const Index c = result.of_edge[e];
         result.areas[c] += masses[e];
-        for (int k = 0; k < 2; ++k) boxes[c].extend(mesh.vertices.row(topology.edges(e, k)).transpose());
+        const Eigen::RowVector3d ends =
+            mesh.vertices.row(topology.edges(e, 0)) + mesh.vertices.row(topology.edges(e, 1));
+        moments[c].add(ends.transpose() / 2, masses[e]);
     }
-    for (const auto& box : boxes) result.diagonals.push_back(box.diagonal().norm());
-    result.anchored.assign(boxes.size(), false);
+    for (const Moments& of_part : moments) result.sizes.push_back(of_part.size());
+    result.anchored.assign(moments.size(), false);
     return result;
 }
 

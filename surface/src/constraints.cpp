@@ -167,7 +167,7 @@ void add_guide(const TriangleMesh& mesh, const EdgeTopology& topology, int symme
                            "wrong_size");
     const Points normals = triangle_normals(mesh);
     const Eigen::VectorXd areas = triangle_areas(mesh);
-    const double length = guide.length > 0 ? guide.length : bounding_box_diagonal(mesh.vertices) / 10;
+    const double length = guide.length > 0 ? guide.length : shape_size(mesh) / 10;
     if (!std::isnormal(length * length))
         throw InvalidInput("the length of a guide field, " + short_number(length) +
                                ", is beyond double precision when squared; choose one between the edge length and the "

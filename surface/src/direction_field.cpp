@@ -48,10 +48,10 @@ void require_usable(const TriangleMesh& mesh, const DirectionFieldOptions& optio
 }
 
 // Of the components that nothing aligns, the only ones that a large epsilon makes vanish; infinity if there are none.
-double smallest_free_diagonal(const Components& components) {
+double smallest_free_size(const Components& components) {
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < components.size(); ++c)
-        if (!components.anchored[c]) smallest = std::min(smallest, components.diagonals[c]);
+        if (!components.anchored[c]) smallest = std::min(smallest, components.sizes[c]);
     return smallest;
 }
 
@@ -93,8 +93,8 @@ Eigen::VectorXd chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& top
     }
     double epsilon = options.epsilon;
     if (epsilon == 0)
-        epsilon = std::min({2 * mean, bounding_box_diagonal(mesh.vertices) / 10,
-                            std::max(smallest_free_diagonal(components) / 10, mean / 4)});
+        epsilon = std::min({2 * mean, shape_size(mesh) / 10,
+                            std::max(smallest_free_size(components) / 10, mean / 4)});
     else
         require_not_below_edges(options, epsilon, mean);
     if (!is_scale(epsilon, mean))
@@ -121,7 +121,7 @@ void require_not_collapsed(const DirectionField& field, const Components& compon
     throw SolverError("the direction field vanishes on " + std::to_string(triangles.size()) + " triangles (" +
                           first_few(triangles) + "): epsilon, " + short_number(field.epsilon) +
                           ", is too large against the connected part of the surface they form; choose a smaller "
-                          "epsilon, 1/10 of that part's bounding-box diagonal or less",
+                          "epsilon, 1/10 of that part's size (shape_size) or less",
                       "epsilon_too_large", triangles);
 }
 
@@ -130,7 +130,7 @@ constexpr double stage_tolerance = 1e-4;  // of residual and energy, before the 
 
 // Coherence lengths, one (E) array after the other, the last as given.
 std::vector<Eigen::VectorXd> continuation(const Eigen::VectorXd& epsilon, double first, const Components& components) {
-    const double widest = *std::max_element(components.diagonals.begin(), components.diagonals.end()) / 10;
+    const double widest = *std::max_element(components.sizes.begin(), components.sizes.end()) / 10;
     if (first == 0 || first > widest) first = widest;
     const double fall = first / epsilon.minCoeff();
     const int steps = fall > 1 ? static_cast<int>(std::ceil(std::log(fall) / std::log(continuation_ratio) - 1e-9)) : 0;
@@ -139,7 +139,7 @@ std::vector<Eigen::VectorXd> continuation(const Eigen::VectorXd& epsilon, double
         const double least = first * std::pow(fall, -static_cast<double>(i) / steps);
         stages.push_back(epsilon);
         for (Eigen::Index e = 0; e < epsilon.size(); ++e)
-            stages.back()[e] = std::max(epsilon[e], std::min(least, components.diagonals[components.of_edge[e]] / 10));
+            stages.back()[e] = std::max(epsilon[e], std::min(least, components.sizes[components.of_edge[e]] / 10));
     }
     stages.push_back(epsilon);
     return stages;

@@ -127,11 +127,11 @@ EvenStreamlineOptions with_defaults(const TriangleMesh& mesh, EvenStreamlineOpti
         if (!(length >= 0) || !std::isfinite(length))
             throw InvalidInput("spacing and min_length must be lengths, or 0 for the default");
     if (!(options.stop_ratio > 0 && options.stop_ratio <= 1)) throw InvalidInput("stop_ratio must be in (0, 1]");
-    const double diagonal = bounding_box_diagonal(mesh.vertices);
-    if (options.spacing == 0) options.spacing = diagonal / 60;
+    const double size = shape_size(mesh);
+    if (options.spacing == 0) options.spacing = size / 60;
     if (options.min_length == 0) options.min_length = options.spacing;
-    if (options.spacing < 1e-5 * diagonal)
-        throw InvalidInput("the spacing of streamlines must be at least 1e-5 of the bounding-box diagonal",
+    if (options.spacing < 1e-5 * size)
+        throw InvalidInput("the spacing of streamlines must be at least 1e-5 of the size (shape_size)",
                            "spacing_too_small");
     return options;
 }

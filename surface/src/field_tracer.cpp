@@ -43,8 +43,8 @@ FieldTracer::FieldTracer(const ChartedField& field, const FeatureGraph& features
       singularities_(singularities),
       stop_at_features_(options.stop_at_features),
       is_feature_(feature_flags(features, field.topology())) {
-    const double edge = mean_edge_length(field.mesh()), diagonal = bounding_box_diagonal(field.mesh().vertices);
-    max_length_ = options.max_length > 0 ? options.max_length : 4 * diagonal;
+    const double edge = mean_edge_length(field.mesh()), size = shape_size(field.mesh());
+    max_length_ = options.max_length > 0 ? options.max_length : 4 * size;
     singular_radius_ = options.singular_radius > 0 ? options.singular_radius : edge / 2;
     close_radius_ = edge / 10;
     least_headway_ = 1e-4 * edge;

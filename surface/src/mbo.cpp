@@ -12,7 +12,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-// Diffusion lengths sqrt(t) of the first level, in diagonals of the component, and of the last, in local edge lengths.
+// Diffusion lengths sqrt(t) of the first level, in sizes of the component, and of the last, in local edge lengths.
 constexpr double first_length = 0.25, last_length = 1.5;
 constexpr double most_fall = 25;  // of the time step, from one level to the next
 constexpr int first_iterations = 16, iterations_per_level = 10;
@@ -29,7 +29,7 @@ public:
     explicit Levels(const Problem& problem) : first_(problem.masses.size()), last_(problem.masses.size()) {
         double fall = 1;
         for (Eigen::Index e = 0; e < first_.size(); ++e) {
-            const double size = first_length * problem.components.diagonals[problem.components.of_edge[e]];
+            const double size = first_length * problem.components.sizes[problem.components.of_edge[e]];
             const double mass = problem.masses[e];
             // Equilateral triangles of edge length h have m_e = h^2 / (2 sqrt(3)).
             const double shortest = std::min(last_length * last_length * 2 * std::sqrt(3.0) * mass, size * size);

@@ -146,7 +146,7 @@ PrincipalDirections principal_directions(const TriangleMesh& mesh, const Feature
     const Sectors sectors = smooth_sectors(mesh, topology, detail::feature_flags(features, topology));
     const std::vector<Vector> normals = sector_normals(mesh, sectors);
     const std::vector<Average> averages = sector_tensors(mesh, sectors, normals);
-    const double flat = 1 / bounding_box_diagonal(mesh.vertices);
+    const double flat = 1 / shape_size(mesh);
 
     const Index count = static_cast<Index>(mesh.triangles.rows());
     PrincipalDirections result;

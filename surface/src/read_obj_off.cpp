@@ -11,8 +11,9 @@ using Words = std::vector<std::string_view>;
 void add_vertex_words(MeshBuilder& builder, const Words& words, std::size_t first, std::int64_t line) {
     double values[3] = {};
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto value = first + k < words.size() ? to_double(words[first + k]) : std::nullopt;
-        if (!value) builder.fail("a vertex needs three numbers", line);
+        const std::string_view word = first + k < words.size() ? words[first + k] : std::string_view();
+        const auto value = to_double(word);
+        if (!value) builder.fail("a vertex needs three numbers" + instead_of(word), line);
         values[k] = *value;
     }
     builder.add_vertex(values[0], values[1], values[2], line);
@@ -22,7 +23,8 @@ void add_vertex_words(MeshBuilder& builder, const Words& words, std::size_t firs
 std::int64_t obj_vertex_id(const MeshBuilder& builder, std::string_view word, std::int64_t line) {
     const auto id = to_integer(word.substr(0, word.find('/')));
     if (!id || *id == 0)
-        builder.fail("a face needs vertex numbers; they begin at 1 (or, counted back from the last, at -1)", line);
+        builder.fail("a face needs vertex numbers that begin at 1 (or, counted back from the last, at -1)" + instead_of(word),
+                     line);
     if (*id > 0) return *id - 1;
     if (*id < -builder.vertex_count()) builder.fail("a face counts back to before the first vertex", line);
     return builder.vertex_count() + *id;
@@ -57,7 +59,10 @@ OffCounts parse_off_header(TextCursor& cursor, const MeshBuilder& builder) {
             builder.fail("the numbers of vertices and faces are missing", cursor.line());
     }
     const auto vertices = to_integer(words[0]), faces = words.size() > 1 ? to_integer(words[1]) : std::nullopt;
-    if (!vertices || !faces) builder.fail("the numbers of vertices and faces expected", cursor.line());
+    if (!vertices || !faces)
+        builder.fail("the numbers of vertices and faces expected" +
+                         instead_of(!vertices ? words[0] : words.size() > 1 ? words[1] : std::string_view()),
+                     cursor.line());
     builder.check_announced(*vertices, "vertices", 6, cursor.bytes_left() + 1, cursor.line());
     builder.check_announced(*faces, "faces", 8, cursor.bytes_left() + 1, cursor.line());
     return {*vertices, *faces};
@@ -102,7 +107,7 @@ TriangleMesh parse_off(const std::string& bytes, const std::string& file) {
         ids.clear();
         for (std::int64_t k = 1; k <= *size; ++k) {
             const auto id = to_integer(words[k]);
-            if (!id) builder.fail("a face needs vertex numbers", cursor.line());
+            if (!id) builder.fail("a face needs vertex numbers" + instead_of(words[k]), cursor.line());
             ids.push_back(*id);
         }
         builder.add_polygon(ids, cursor.line());

@@ -60,12 +60,13 @@ private:
                 has_format = true;
             } else if (words[0] == "element" && words.size() == 3) {
                 const auto count = to_integer(words[2]);
-                if (!count || *count < 0) header_.fail("the number of elements is not a number", cursor_.line());
+                if (!count || *count < 0)
+                    header_.fail("the number of elements must be a whole number" + instead_of(words[2]), cursor_.line());
                 elements_.push_back({std::string(words[1]), *count, {}});
             } else if (words[0] == "property" && !elements_.empty()) {
                 elements_.back().properties.push_back(parse_property(words));
             } else if (words[0] != "comment" && words[0] != "obj_info") {
-                header_.fail("unknown header line", cursor_.line());
+                header_.fail("a line of the header expected" + instead_of(words[0]), cursor_.line());
             }
         }
         if (!has_format) header_.fail("the header names no format");
@@ -79,7 +80,7 @@ private:
         } else if (name == "binary_big_endian") {
             encoding_ = Encoding::big_endian;
         } else {
-            header_.fail("unknown format", cursor_.line());
+            header_.fail("ascii, binary_little_endian or binary_big_endian expected" + instead_of(name), cursor_.line());
         }
     }
 
@@ -172,7 +173,7 @@ private:
             const auto word = cursor_.next_word();
             if (word.empty()) builder_->fail("the file ends within its data; it is truncated", place());
             const auto value = to_double(word);
-            if (!value) builder_->fail("a number expected", place());
+            if (!value) builder_->fail("a number expected" + instead_of(word), place());
             return *value;
         }
         switch (type) {

@@ -61,7 +61,7 @@ public:
 
     TriangleMesh parse() {
         for (auto word = cursor_.next_word(); !word.empty(); word = cursor_.next_word()) {
-            if (!equals_ignoring_case(word, "solid")) builder_.fail("solid expected", cursor_.line());
+            if (!equals_ignoring_case(word, "solid")) builder_.fail("solid expected" + instead_of(word), cursor_.line());
             cursor_.skip_line();  // the name, any words
             parse_solid();
         }
@@ -74,7 +74,7 @@ private:
             const auto word = cursor_.next_word();
             if (equals_ignoring_case(word, "endsolid")) return cursor_.skip_line();
             if (word.empty()) builder_.fail("the file ends before endsolid; it is truncated", cursor_.line());
-            if (!equals_ignoring_case(word, "facet")) builder_.fail("facet or endsolid expected", cursor_.line());
+            if (!equals_ignoring_case(word, "facet")) builder_.fail("facet or endsolid expected" + instead_of(word), cursor_.line());
             parse_facet();
         }
     }
@@ -99,13 +99,14 @@ private:
         const auto word = cursor_.next_word();
         if (equals_ignoring_case(word, keyword)) return;
         std::string what(keyword);
-        what += word.empty() ? " expected, but the file ends; it is truncated" : " expected";
+        what += word.empty() ? " expected, but the file ends; it is truncated" : " expected" + instead_of(word);
         builder_.fail(what, cursor_.line());
     }
 
     double number() {
-        const auto value = to_double(cursor_.next_word());
-        if (!value) builder_.fail("a vertex needs three numbers", cursor_.line());
+        const auto word = cursor_.next_word();
+        const auto value = to_double(word);
+        if (!value) builder_.fail("a vertex needs three numbers" + instead_of(word), cursor_.line());
         return *value;
     }
 

@@ -150,7 +150,7 @@ Topology topology_of(const TriangleMesh& mesh) {
 // Why the result is unusable; none if it is sound.
 std::optional<std::string> fault(const RemeshResult& result, const Topology& wanted) {
     const auto defects = find_defects(result.mesh, {.closed = wanted.closed});
-    if (!defects.empty()) return defects.front().message;
+    if (!defects.empty()) return defects.front().message.substr(0, defects.front().message.find("; "));
     if (topology_of(result.mesh) != wanted) return "holes or pieces of the surface were lost";
     return std::nullopt;
 }

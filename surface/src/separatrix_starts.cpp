@@ -89,7 +89,8 @@ std::vector<SeparatrixStart> starts_in_triangle(const ChartedField& field, const
     const Complex zero = exact + 1e-3 * (middle - exact);      // so that it does not lie on a side
     const double size = 1.5 * std::sqrt(field.twice_area(t));  // edge length of an equilateral triangle
     Complex sum = 0;
-    for (const PatchValue& value : values_round(field, tracer, t, zero, 0.4 * size, 1.6 * size))
+    const auto is_feature = [&](Index edge) { return tracer.is_feature(edge); };
+    for (const PatchValue& value : values_round(field, is_feature, t, zero, 0.4 * size, 1.6 * size))
         sum += value.weight * value.f * std::polar(1.0, -point.index_times_symmetry * std::arg(value.at - zero));
     std::vector<SeparatrixStart> starts;
     for (const double phi : even_angles(std::arg(sum), count, 2 * pi)) {

@@ -1,18 +1,24 @@
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 #include <unordered_map>
+#include <utility>
 
 #include "boundary_indices.hpp"
+#include "charted_field.hpp"
 #include "crouzeix_raviart.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/surface_singularities.hpp"
+#include "singular_place.hpp"
 #include "vertex_fans.hpp"
 
 namespace octafield::surface {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr double crease_angle = 40 * pi / 180;
+constexpr double most_defect = 0.15;  // radians
 
 // The integer that `turns` is but for rounding.
 int whole(double turns) {
@@ -98,6 +104,63 @@ int vertex_index(int symmetry, const std::vector<detail::CornerLink>& links, con
     return whole(sum / (2 * pi));
 }
 
+// Edges that the plane of the triangles round a point must not go over: creases, where the surface has no plane, and
+// edges that the field follows exactly, as along features, on whose other side it is another field.
+std::vector<bool> barriers(const TriangleMesh& mesh, const DirectionField& field) {
+    const Points normals = triangle_normals(mesh);
+    std::vector<bool> result(field.values.size());
+    for (Index e = 0; e < field.values.size(); ++e) {
+        const auto beside = field.topology.edge_triangles.row(e);
+        const bool held = field.values[e].imag() == 0 && std::abs(field.values[e].real()) == 1;
+        result[e] = held || beside.minCoeff() < 0 ||
+                    normals.row(beside[0]).dot(normals.row(beside[1])) < std::cos(crease_angle);
+    }
+    return result;
+}
+
+// Vertices where a point may be near rather than at the vertex: inside, smooth, of no feature. At the tip of a cone the
+// angle defect holds the point.
+std::vector<Index> smooth_corners(const std::vector<detail::CornerLink>& links, const detail::VertexFans& fans,
+                                  const std::vector<bool>& is_barrier, Index vertices) {
+    std::vector<Index> first(vertices, -1);
+    for (const auto& fan : fans.fans) {
+        double sum = 0;
+        bool smooth = fan.closed;
+        for (Index i = fan.first; i < fan.last; ++i) {
+            sum += links[fans.corners[i]].angle;
+            smooth = smooth && !is_barrier[links[fans.corners[i]].first];
+        }
+        if (smooth && std::abs(2 * pi - sum) < most_defect) first[fan.vertex] = fans.corners[fan.first];
+    }
+    return first;
+}
+
+// Moves the points inside to where the field round them says; they keep their places where it does not tell.
+void place_points(const TriangleMesh& mesh, const DirectionField& field, const std::vector<detail::CornerLink>& links,
+                  const detail::VertexFans& fans, std::vector<SurfaceSingularity>& points) {
+    if (std::all_of(points.begin(), points.end(), [](const auto& point) { return point.boundary; })) return;
+    const detail::ChartedField charted(mesh, field, links);
+    const std::vector<bool> is_barrier = barriers(mesh, field);
+    const std::vector<Index> corners = smooth_corners(links, fans, is_barrier, static_cast<Index>(mesh.vertices.rows()));
+    for (SurfaceSingularity& point : points) {
+        const Index corner = point.vertex >= 0 ? corners[point.vertex] : 3 * point.triangle;
+        if (corner < 0) continue;
+        const Index t = corner / 3;
+        const detail::Complex at = charted.lower(t, point.position);
+        // A little inside, so that a straight line from it passes no vertex.
+        const detail::Complex inside = at + 1e-3 * (charted.centroid(t) - at);
+        const auto place = detail::fitted_place(
+            charted, [&](Index e) { return is_barrier[e]; }, {t, inside}, point.index_times_symmetry);
+        if (!place) continue;
+        point.position = charted.lift(place->triangle, place->at);
+        point.triangle = place->triangle;
+        point.vertex = -1;
+    }
+    std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.vertex, a.triangle) < std::pair(b.vertex, b.triangle);
+    });
+}
+
 }  // namespace
 
 SurfaceSingularities surface_singularities(const TriangleMesh& mesh, const DirectionField& field) {
@@ -125,6 +188,7 @@ SurfaceSingularities surface_singularities(const TriangleMesh& mesh, const Direc
     for (std::size_t f = 0; f < fans.fans.size(); ++f)
         add(mesh.vertices.row(fans.fans[f].vertex), indices[f], -1, fans.fans[f].vertex, !fans.fans[f].closed);
     cancel_pairs(mesh, found.points);
+    place_points(mesh, field, links, fans, found.points);
 
     int sum = 0;
     for (const SurfaceSingularity& point : found.points) sum += point.index_times_symmetry;

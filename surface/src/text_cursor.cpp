@@ -3,6 +3,7 @@
 #include <locale.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <charconv>
 #include <new>
 #include <string>
@@ -79,6 +80,19 @@ std::optional<std::int64_t> to_integer(std::string_view word) {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     return error == std::errc() && end == word.data() + word.size() ? std::optional(value) : std::nullopt;
+}
+
+std::string instead_of(std::string_view word) {
+    if (word.empty()) return ", but the line or file ends";
+    constexpr std::size_t most = 40;
+    std::string shown(word.substr(0, most));
+    for (char& c : shown)
+        if (c < ' ' || c > '~') c = '?';
+    std::string text = ", not \"" + shown + (word.size() > most ? "..." : "") + "\"";
+    std::string with_points(word);
+    std::ranges::replace(with_points, ',', '.');
+    if (with_points != word && to_double(with_points)) text += " (a decimal comma; points are needed)";
+    return text;
 }
 
 }  // namespace octafield::surface

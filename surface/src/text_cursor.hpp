@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,5 +36,9 @@ private:
 // The whole word as a number; none if it is anything else. "nan" and "inf" are numbers here.
 std::optional<double> to_double(std::string_view word);
 std::optional<std::int64_t> to_integer(std::string_view word);
+
+// ", not \"-1,5\" (a decimal comma; points are needed)": the word that was found instead, for messages. Long words are
+// cut, bytes that are no printable ASCII shown as '?'; empty: ", but the line or file ends".
+std::string instead_of(std::string_view word);
 
 }  // namespace octafield::surface

@@ -1,6 +1,8 @@
 #include "octafield/surface/triangle_mesh.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "half_edges.hpp"
@@ -56,6 +58,28 @@ EdgeTopology edge_topology(const TriangleMesh& mesh) {
 double bounding_box_diagonal(const Points& points) {
     if (points.rows() == 0) return 0;
     return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+}
+
+double shape_size(const TriangleMesh& mesh) {
+    // The rule of the edges' midpoints is exact for squares of coordinates.
+    if (mesh.triangles.rows() == 0) return 0;
+    const Eigen::RowVector3d origin = mesh.vertices.row(mesh.triangles(0, 0));
+    const double unit = bounding_box_diagonal(mesh.vertices);
+    if (!(unit > 0)) return 0;
+    double area = 0, square = 0;
+    Eigen::RowVector3d first = Eigen::RowVector3d::Zero();
+    const Eigen::VectorXd areas = triangle_areas(mesh) / unit / unit;
+    for (Index t = 0; t < areas.size(); ++t) {
+        area += areas[t];
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::RowVector3d ends =
+                mesh.vertices.row(mesh.triangles(t, k)) + mesh.vertices.row(mesh.triangles(t, (k + 1) % 3));
+            const Eigen::RowVector3d middle = (ends / 2 - origin) / unit;
+            first += areas[t] / 3 * middle;
+            square += areas[t] / 3 * middle.squaredNorm();
+        }
+    }
+    return area > 0 ? 3 * unit * std::sqrt(std::max(0.0, square / area - (first / area).squaredNorm())) : 0;
 }
 
 double signed_volume(const TriangleMesh& mesh) {

@@ -55,24 +55,24 @@ bool is_degenerate(const TriangleMesh& mesh, Index t) {
     return CGAL::collinear(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2));
 }
 
-std::vector<Index> intersecting_triangles(const TriangleMesh& mesh) {
+std::vector<Index> intersecting_triangles(const TriangleMesh& mesh, Index first) {
     std::vector<Box> boxes;
     boxes.reserve(mesh.triangles.rows());
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
         if (!is_degenerate(mesh, t)) boxes.emplace_back(triangle(mesh, t).bbox(), t);
-    std::vector<const Box*> pointers;  // the algorithm sorts these instead of the boxes
+    std::vector<const Box*> pointers, later;  // the algorithm sorts these instead of the boxes
     pointers.reserve(boxes.size());
-    for (const Box& box : boxes) pointers.push_back(&box);
+    for (const Box& box : boxes) (box.info() < first ? pointers : later).push_back(&box);
     // A byte per triangle, as there may be far more pairs than triangles.
     std::vector<char> marked(mesh.triangles.rows(), 0);
     const std::ptrdiff_t cutoff = 2000;  // as CGAL's self_intersections: plain scans below this many boxes
-    CGAL::box_self_intersection_d(
-        pointers.begin(), pointers.end(),
-        [&](const Box* a, const Box* b) {
-            char &at_a = marked[a->info()], &at_b = marked[b->info()];
-            if (!(at_a && at_b) && intersect(mesh, a->info(), b->info())) at_a = at_b = 1;
-        },
-        cutoff);
+    const auto mark = [&](const Box* a, const Box* b) {
+        char &at_a = marked[a->info()], &at_b = marked[b->info()];
+        if (!(at_a && at_b) && intersect(mesh, a->info(), b->info())) at_a = at_b = 1;
+    };
+    CGAL::box_self_intersection_d(later.begin(), later.end(), mark, cutoff);
+    if (!pointers.empty() && !later.empty())
+        CGAL::box_intersection_d(later.begin(), later.end(), pointers.begin(), pointers.end(), mark, cutoff);
     std::vector<Index> found;
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
         if (marked[t]) found.push_back(t);

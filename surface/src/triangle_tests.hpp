@@ -11,7 +11,7 @@ namespace octafield::surface {
 bool is_degenerate(const TriangleMesh& mesh, Index triangle);
 
 // Ascending ids of triangles that meet another one anywhere but at shared vertices and edges. Degenerate triangles are
-// not looked at. O(n log n + pairs of overlapping boxes).
-std::vector<Index> intersecting_triangles(const TriangleMesh& mesh);
+// not looked at. O(n log n + pairs of overlapping boxes). first: only pairs with a triangle from this number on count.
+std::vector<Index> intersecting_triangles(const TriangleMesh& mesh, Index first = 0);
 
 }  // namespace octafield::surface

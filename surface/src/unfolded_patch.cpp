@@ -27,8 +27,8 @@ constexpr std::size_t most_triangles = 200;
 
 }  // namespace
 
-std::vector<PatchValue> values_round(const ChartedField& field, const FieldTracer& tracer, Index t, Complex centre,
-                                     double inner, double outer) {
+std::vector<PatchValue> values_round(const ChartedField& field, const std::function<bool(Index)>& is_barrier,
+                                     Index t, Complex centre, double inner, double outer) {
     std::vector<PatchValue> ring, middle;
     std::vector<Unfolded> queue = {{t, 1, 0}};
     std::set<Index> seen = {t};
@@ -45,7 +45,7 @@ std::vector<PatchValue> values_round(const ChartedField& field, const FieldTrace
             if (distance > inner && distance < outer) ring.push_back(value);
             if (next == 0) middle.push_back(value);
             const ChartedField::Side there = field.across({here.triangle, k});
-            if (there.triangle < 0 || tracer.is_feature(field.topology().triangle_edges(here.triangle, k)) ||
+            if (there.triangle < 0 || is_barrier(field.topology().triangle_edges(here.triangle, k)) ||
                 queue.size() == most_triangles || distance_to_segment(centre, point(0), point(1)) > outer)
                 continue;
             if (seen.insert(there.triangle).second) queue.push_back(beyond(field, here, k, there));

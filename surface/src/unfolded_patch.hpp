@@ -1,6 +1,7 @@
 // The triangles round a point, unfolded into one plane.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "field_tracer.hpp"
@@ -13,10 +14,10 @@ struct PatchValue {
     double weight;  // a third of the triangle's area
 };
 
-// At edge midpoints between the two radii round `centre`, which lies in triangle t. Features and the boundary are not
-// crossed. Midpoints appear once for each of their triangles. If there are none, those of triangle t.
-std::vector<PatchValue> values_round(const ChartedField& field, const FieldTracer& tracer, Index t, Complex centre,
-                                     double inner, double outer);
+// At edge midpoints between the two radii round `centre`, which lies in triangle t. The boundary and edges for which
+// `is_barrier` holds are not crossed. Midpoints appear once for each of their triangles. If there are none, those of triangle t.
+std::vector<PatchValue> values_round(const ChartedField& field, const std::function<bool(Index)>& is_barrier,
+                                     Index t, Complex centre, double inner, double outer);
 
 // From `place` straight ahead for `length`, less where a feature or the boundary is in the way. Moves the place, and
 // adds the end of each segment and its triangle.

@@ -7,6 +7,7 @@
 #include "merge_points.hpp"
 #include "octafield/error.hpp"
 #include "shells.hpp"
+#include "short_number.hpp"
 #include "triangle_tests.hpp"
 
 namespace octafield::surface {
@@ -15,6 +16,10 @@ namespace {
 std::string plural(std::size_t count, const std::string& noun, const std::string& nouns) {
     return std::to_string(count) + " " + (count == 1 ? noun : nouns);
 }
+
+// Whether a repair level does it has to be tried; those who have tried say more.
+constexpr const char* kRemedy =
+    "; correct the surface where it was made, or see which level of repair makes it sound (octafield info)";
 
 std::string first_few_edges(const std::vector<Index>& ends) {
     std::string text;
@@ -111,6 +116,16 @@ private:
         if (!elements.empty()) defects_.push_back({kind, element, std::move(elements), std::move(message)});
     }
 
+    // Where the first of them is, for those who look at the surface.
+    std::string at_vertex(const std::vector<Index>& vertices) const {
+        if (vertices.empty()) return {};
+        const auto point = mesh_.vertices.row(vertices.front());
+        return " at (" + short_number(point[0]) + ", " + short_number(point[1]) + ", " + short_number(point[2]) + ")";
+    }
+    std::string at_triangle(const std::vector<Index>& triangles) const {
+        return triangles.empty() ? std::string() : at_vertex({mesh_.triangles(triangles.front(), 0)});
+    }
+
     void test_numbers() {
         auto out = triangles_where(mesh_, [&](Index t) {
             return mesh_.triangles.row(t).minCoeff() < 0 || mesh_.triangles.row(t).maxCoeff() >= mesh_.vertices.rows();
@@ -132,7 +147,7 @@ private:
         const bool has_flat = !flat.empty();
         add("degenerate_triangle", "triangle", flat,
             plural(flat.size(), "triangle has", "triangles have") + " no area: triangle " + first_few(flat) +
-                "; repair the mesh to remove them");
+                ", the first" + at_triangle(flat) + kRemedy);
         const std::vector<HalfEdge> sides = sorted_half_edges(mesh_.triangles);
         const EdgeDefects edges = edge_defects(sides);
         auto duplicates = duplicate_vertices(mesh_);
@@ -141,13 +156,12 @@ private:
             auto all = triangles_where(mesh_, [](Index) { return true; });
             add("soup", "triangle", all,
                 "no two of the " + std::to_string(all.size()) +
-                    " triangles share an edge, although points coincide (a triangle soup); repair the mesh to merge "
-                    "the points");
+                    " triangles share an edge, although points coincide (a triangle soup)" + kRemedy);
             return;
         }
         add("duplicate_vertex", "vertex", duplicates,
             plural(duplicates.size(), "vertex coincides", "vertices coincide") + " with an earlier one: vertex " +
-                first_few(duplicates) + "; repair the mesh to merge them");
+                first_few(duplicates) + ", the first" + at_vertex(duplicates) + kRemedy);
         test_edges(sides, edges);
         if (options_.self_intersection && !has_flat && !has_duplicates) test_self_intersection();
     }
@@ -157,35 +171,35 @@ private:
         add("non_manifold_edge", "edge", edges.non_manifold,
             "more than 2 triangles share " + plural(edges.non_manifold.size() / 2, "edge", "edges") + " (vertices " +
                 first_few_edges(edges.non_manifold) +
-                "); remove the extra triangles (repair removes single dangling ones)");
+                ", the first" + at_vertex(edges.non_manifold) + ")" + kRemedy);
         add("inconsistent_orientation", "edge", edges.inconsistent,
             plural(edges.inconsistent.size() / 2, "edge has", "edges have") +
                 " triangles of opposite orientation (vertices " + first_few_edges(edges.inconsistent) +
-                "); repair the mesh to orient them alike");
+                ", the first" + at_vertex(edges.inconsistent) + ")" + kRemedy);
         if (options_.closed)
             add("not_closed", "edge", edges.boundary,
                 "the surface is not closed: " + plural(edges.boundary.size() / 2, "edge has", "edges have") +
                     " one triangle only (vertices " + first_few_edges(edges.boundary) +
-                    "); repair the mesh to fill holes, or close it where it was made");
+                    ", the first" + at_vertex(edges.boundary) + ")" + kRemedy);
         if (!sound_before || !edges.non_manifold.empty()) return;
         auto vertices = non_manifold_vertices(mesh_, sides);
         add("non_manifold_vertex", "vertex", vertices,
             "separate parts of the surface touch at " + plural(vertices.size(), "vertex", "vertices") + ": vertex " +
-                first_few(vertices) + "; move the parts apart or join them");
+                first_few(vertices) + ", the first" + at_vertex(vertices) + kRemedy);
         if (!defects_.empty()) return;
         auto wrong = wrong_way_triangles(mesh_, sides);
         add("inside_out", "triangle", wrong,
             std::to_string(wrong.size()) +
                 " triangles belong to shells that face the wrong way (outer shells must face outward, the shells of "
                 "cavities into the cavity): triangle " +
-                first_few(wrong) + "; repair the mesh to reverse them");
+                first_few(wrong) + ", the first" + at_triangle(wrong) + kRemedy);
     }
 
     void test_self_intersection() {
         auto found = intersecting_triangles(mesh_);
         add("self_intersection", "triangle", found,
             std::to_string(found.size()) + " triangles cross or touch others: triangle " + first_few(found) +
-                "; correct the surface where it was made (repair does not move anything)");
+                ", the first" + at_triangle(found) + kRemedy);
     }
 
     const TriangleMesh& mesh_;

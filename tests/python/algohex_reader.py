@@ -92,8 +92,8 @@ def check_transitions(mesh: Mesh) -> None:
         assert PRODUCT[t][mesh.transition[half_face ^ 1]] == 0
 
 
-def check_valences(mesh: Mesh) -> dict[str, int]:
-    """Every edge; how many inside are regular, of quarter turns, of half turns, complex, and how many of the boundary are not 0."""
+def check_valences(mesh: Mesh) -> dict:
+    """Every edge; how many inside are regular, of quarter turns (three, too), of half turns, of whole turns, complex, and of each valence, and how many of the boundary are not 0."""
     around, counts = mesh.around(), dict.fromkeys(("regular", "quarter", "half", "complex", "boundary"), 0)
     for edge, valence in enumerate(mesh.valence):
         here = around[2 * edge]
@@ -103,23 +103,40 @@ def check_valences(mesh: Mesh) -> dict[str, int]:
             assert valence == boundary_valence(mesh, edge, start), edge
             counts["boundary"] += valence != 0
             continue
-        cell, turn = once_round(mesh, edge, min(here, key=lambda h: mesh.cell_of[h ^ 1]))  # AlgoHex begins where its iterator does
+        start = min(here, key=lambda h: mesh.cell_of[h ^ 1])  # AlgoHex begins where its iterator does
+        cell, turn = once_round(mesh, edge, start)
         along = mesh.direction(edge) @ matrix(mesh.frames[cell]) @ TRANSITIONS[turn][1:]
+        turned = carried_round(mesh, edge, start)  # AlgoHex adds up the angles of the steps: so many quarters about the edge
+        quarters = 4 * np.arccos(np.clip(turned[0], -1, 1)) / np.pi * np.sign(turned[1:] @ mesh.direction(edge))
         if valence == 0:
-            assert turn == 0
+            assert turn == 0 and np.isclose(turned[0], 1)
             counts["regular"] += 1
         elif valence == COMPLEX:
             assert turn >= 10
             counts["complex"] += 1
-        elif abs(valence) == 2:
-            assert 1 <= turn <= 3
-            counts["half"] += 1
+        elif valence == 4:
+            assert turn == 0 and np.isclose(turned[0], -1)
+            counts["whole"] = counts.get("whole", 0) + 1
         elif valence == UNDETERMINED:
-            assert 4 <= turn <= 9 and abs(along) < 1e-12
+            assert turn <= 9 and abs(along) < 1e-5
         else:  # valence 3: a quarter turn about the edge as one goes round it, right-handed; valence 5: back
-            assert 4 <= turn <= 9 and valence == (-1 if along > 0 else 1)
-            counts["quarter"] += 1
+            assert turn <= 9 and np.isclose(valence, -quarters)
+            counts["half" if turn <= 3 else "quarter"] += 1
+            counts["valence", valence] = counts.get(("valence", valence), 0) + 1
     return counts
+
+
+def carried_round(mesh: Mesh, edge: int, start: int) -> np.ndarray:
+    """The quaternion in space by which the frame of the cell before the first half-face comes back turned: of its 48 quaternions each cell
+    takes the one nearest to that of the cell before."""
+    first = mesh.frames[mesh.cell_of[start ^ 1]]
+    here, carried = start, first
+    while True:
+        names = [product(mesh.frames[mesh.cell_of[here]], sign * o) for o in TRANSITIONS for sign in (1, -1)]
+        carried = max(names, key=lambda q: float(q @ carried))
+        here = mesh.beside(here, edge) ^ 1
+        if here == start:
+            return product(carried, first * [1, -1, -1, -1])
 
 
 def once_round(mesh: Mesh, edge: int, start: int) -> tuple[int, int]:

@@ -41,11 +41,18 @@ def test_random_frames_have_edges_of_every_kind(tmp_path, combed):
     mesh = box_tets(3)
     of.write_frames(tmp_path / "a.ovmb", mesh, frames_at(mesh, "tets"), "tets", combed=combed)
     counts = checked(tmp_path / "a.ovmb")
-    assert min(counts.values()) > 0
+    assert min(counts[kind] for kind in ("regular", "quarter", "half", "complex", "boundary")) > 0
     of.write_frames(tmp_path / "a.ovm", mesh, frames_at(mesh, "tets"), "tets", combed=combed)
     text, binary = readers.ovm_text(tmp_path / "a.ovm"), readers.ovm_binary(tmp_path / "a.ovmb")
     for key in (("HFProp", "HalffaceTransiton"), ("EProp", "edge_valance"), ("FProp", "AlgoHex::FeatureFaces")):
         assert np.array_equal(text[key], binary[key])
+
+
+def test_valence_2_and_6_are_told_apart(tmp_path):
+    mesh = box_tets(5)
+    of.write_frames(tmp_path / "a.ovmb", mesh, of.random_rotations(len(mesh.tets), 2), "tets")
+    counts = checked(tmp_path / "a.ovmb")
+    assert min(counts.get(("valence", valence), 0) for valence in (-2, -1, 1, 2)) > 0
 
 
 def test_a_cylinder_has_four_curves_of_valence_3_and_a_rim_of_one_hexahedron(tmp_path, cylinder):
@@ -103,11 +110,11 @@ def test_own_files_come_back_without_notes_and_byte_by_byte(tmp_path, cylinder):
 
 def test_transitions_that_lead_elsewhere_are_told(tmp_path, cylinder):
     of.write_frames(tmp_path / "a.ovmb", cylinder.tets, cylinder.frames, at="tets")
-    mesh = read_ovm(tmp_path / "a.ovmb")
+    mesh = read_ovm(tmp_path / "a.ovmb", binary=True)
     values = np.array(mesh.properties["halfface", "HalffaceTransiton"])
     inner = np.flatnonzero(values >= 0)[:3]
     values[inner] = of.octahedral_product_table()[values[inner], 4]
     mesh.properties["halfface", "HalffaceTransiton"] = values
     mesh.kinds = {key: kind for key, kind in mesh.kinds.items() if kind == "Quaternion"}
-    write_ovm(tmp_path / "b.ovmb", mesh)
+    write_ovm(tmp_path / "b.ovmb", mesh, binary=True)
     assert any("at 3 half-faces" in note for note in of.read_frames(tmp_path / "b.ovmb").notes)

@@ -116,7 +116,9 @@ def test_the_pipeline_runs_in_the_tets(tmp_path):
     assert record["energy"] == of.dirichlet_energy(of.tet_sampling(result.tets), result.tet_frames)
     assert record["alignment_deg"]["max"] < 25 and record["singular_edges"] > 0
     assert sum(record["singular_edges_by_turns"].values()) == record["singular_edges"]
-    assert result.meshability is None and "non_meshable_vertices" not in record
+    assert result.integrability is None and result.meshability.non_meshable_vertices == record["non_meshable_vertices"]
+    assert record["non_meshable_junctions"] == 0  # the curves of a ball: eight corners of a cube, each with its end
+    assert record["singular_boundary_ends"] == record["singular_boundary_ends_about_normal"] == 8
     write_field_result(result, tmp_path)
     grid = pyvista.read(tmp_path / "field.vtu")
     np.testing.assert_allclose(grid.cell_data["quaternion"], result.tet_frames, atol=1e-15)
@@ -137,7 +139,7 @@ def test_the_command_line_writes_tets_and_lengths(tmp_path):
 
 def test_a_sampling_of_ones_own_matrix_is_used_by_every_solver(box):
     made = of.tet_sampling(box)
-    own = of.Sampling(made.stiffness.tocsr(), made.mass, made.body_radius, made.edge_length, made.box_diagonal, "tets")
+    own = of.Sampling(made.stiffness.tocsr(), made.mass, made.body_radius, made.edge_length, made.size, "tets")
     assert repr(own) == repr(made) and (own.stiffness != made.stiffness).nnz == 0
     start = of.random_rotations(len(own))
     held = of.BoundaryConstraints(np.zeros(len(own), int), np.zeros((len(own), 3)), np.tile([1.0, 0, 0, 0], (len(own), 1)), np.zeros(len(own), int))

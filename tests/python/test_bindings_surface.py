@@ -80,7 +80,7 @@ def test_a_hole_is_found_and_filled(box_surface):
     result = of.repair(open_mesh)
     assert of.find_defects(result.mesh) == [] and len(result.actions) == 1
     assert of.signed_volume(result.mesh) == pytest.approx(1)
-    assert of.find_defects(of.repair(open_mesh, fill_holes=False).mesh) != []
+    assert of.find_defects(of.repair(open_mesh, closed=False).mesh) != []
 
 
 def test_broken_arrays_are_named_as_defects_and_nothing_crashes():

@@ -50,7 +50,8 @@ def test_own_round_trips_keep_the_frames_and_the_bits_where_promised(mesh, tmp_p
         if not (form.read and form.write):
             continue
         frames = frames_at(mesh, where)
-        assert write_frames(name_of(tmp_path, name, packed), mesh, frames, where, name) == []
+        none_given = ["no feature edges were given: the file marks none"] if frame_formats[name].holds_features else []
+        assert write_frames(name_of(tmp_path, name, packed), mesh, frames, where, name) == none_given
         found = read_frames(name_of(tmp_path, name, packed), None if form.holds_mesh else mesh, name)
         assert found.where == where and found.format == name and found.deviation == 0 and found.left_handed == 0
         assert np.array_equal(found.frames, frames) if form.exact else np.max(octafield.distance(found.frames, frames)) < 2e-15
@@ -254,14 +255,18 @@ def test_any_rotation_goes_through_nine_numbers(tmp_path_factory, values):
     assert np.array_equal(read_frames(path.with_suffix(".qtn")).frames, q)
 
 
-def test_a_hundred_thousand_lines_take_seconds(tmp_path):
-    import time
+def test_lines_are_written_and_read_without_a_call_each(tmp_path):
+    """Files of a hundred thousand lines take no longer than numpy needs."""
+    import sys
 
-    q = np.tile(octafield.random_rotations(1000, 1), (100, 1))
-    start = time.perf_counter()
-    write_frames(tmp_path / "a.txt", None, q)
-    assert len(read_frames(tmp_path / "a.txt").frames) == len(q)
-    assert time.perf_counter() - start < 20
+    q, calls = np.tile(octafield.random_rotations(1000, 1), (20, 1)), []
+    sys.setprofile(lambda frame, event, argument: calls.append(event))
+    try:
+        write_frames(tmp_path / "a.txt", None, q)
+        found = read_frames(tmp_path / "a.txt")
+    finally:
+        sys.setprofile(None)
+    assert len(found.frames) == len(q) and len(calls) < len(q) / 2
 
 
 def test_writers_refuse_what_does_not_fit(mesh, tmp_path):

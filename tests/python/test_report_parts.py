@@ -10,6 +10,7 @@ import zlib
 import numpy as np
 import pytest
 import pyvista
+from PIL import Image
 from pipeline_fixtures import write_sphere
 from report_pages import elements, page_of, record
 
@@ -30,6 +31,14 @@ def fields(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scene, "can_draw", lambda: False)
         return compare(write_sphere(folder), folder / "out", representations=("sh4", "geodesic"), options=FieldOptions(edge_length=0.4))
+
+
+@pytest.fixture(scope="module")
+def all_methods(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("all_methods")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(scene, "can_draw", lambda: False)
+        return compare(write_sphere(folder), folder / "out", representations=(*COMPARED, "odeco_lengths"), boundaries=("aligned",), options=FieldOptions(edge_length=0.4))
 
 
 def runs_of(comparison) -> list[Run]:
@@ -152,6 +161,39 @@ def test_twenty_one_methods_are_told_apart_by_colour_and_dash():
     results = Results([Run(row, name) for name, row in rows])
     found = figures.styles(results.methods)
     assert len(found) == 21 and len({(s.colour, s.dash) for s in found.values()}) == 21
+
+
+def test_convergence_ends_with_the_energy_of_the_tables_for_every_method(all_methods):
+    results = Results([Run(row, "sphere") for row in all_methods.rows])
+    (case,) = results.cases
+    curves = figures.convergence(results, case)
+    assert [m.name for m in curves] == [row["representation"] for row in all_methods.rows] and len(curves) > 6
+    for row, curve in zip(all_methods.rows, curves.values(), strict=True):
+        assert curve.energy[-1] == pytest.approx(row["energy"], rel=1e-9)
+        assert curve.own[0] == 1 and len(curve.own) == len(curve.energy) - curve.begin
+        assert curve.own[-1] * row["objective_history"][0] == pytest.approx(row["objective"], rel=1e-9)
+        assert curve.energy[curve.begin] == pytest.approx(curves[results.methods[0]].energy[-1 if curve.begin else 0], rel=1e-2)  # about where sh4 ended
+
+
+def test_independent_starts_are_rows_of_their_own_without_a_step_in_sh4(tmp_path):
+    options = FieldOptions(edge_length=0.4)
+    found = compare(write_sphere(tmp_path), tmp_path / "out", representations=("sh4", "su2"), boundaries=("aligned",), starts=("sh4", "independent"), options=options)  # fmt: skip
+    assert [(row["representation"], row["options"]["rounds"], row["diffusion_steps"] > 0) for row in found.rows] == [
+        ("sh4", options.rounds, True), ("su2", options.rounds, True), ("sh4", 0, False), ("su2", 0, False)]  # fmt: skip
+    assert [m.name for m in Results([Run(row, "s") for row in found.rows]).methods] == ["sh4", "su2", "sh4 independent start", "su2 independent start"]
+    alone = found.rows[3]
+    assert len(alone["energy_history"]) == len(alone["objective_history"]) == alone["iterations"] + 1
+
+
+def test_pictures_are_files_of_two_thousand_pixels(tmp_path):
+    if not scene.can_draw():
+        pytest.skip("no OpenGL")
+    found = compare(write_sphere(tmp_path), tmp_path / "out", representations=("sh4",), boundaries=("aligned",), options=FieldOptions(edge_length=0.4))
+    files = sorted((found.folder / "figures").glob("*.png"))
+    assert len(files) >= 3 and {f"figures/{file.name}" for file in files} <= set(found.rows[0]["files"])
+    for file in files:
+        with Image.open(file) as image:
+            assert 1200 < max(image.size) <= 2000
 
 
 def test_every_input_has_a_section_and_plots_share_no_ids(tmp_path):

@@ -1,5 +1,6 @@
 """What a report says is what its rows hold, whatever these are."""
 
+import csv
 import re
 
 import numpy as np
@@ -167,6 +168,41 @@ def test_problems_that_no_method_solves_count_for_nothing(tmp_path):
     assert "sh4 has the lowest energy, E = 1; the other ends at 2.0000 times that" in text
     assert "of 1 problem with an energy above zero" in text and "on 2 problems" in text.split(".")[0]
     assert "Left out" not in text and "Not ranked" not in text
+
+
+def test_seeds_are_no_problems_their_mean_and_spread_are_told(tmp_path):
+    records = [("part", record(m, energy=e, seed=k)) for m, of in (("sh4", (1.0, 3.0)), ("su2", (2.0, 4.0))) for k, e in enumerate(of)]
+    page = page_of(tmp_path, records)
+    text = " ".join(prose(page, references=False))
+    assert "4 runs on 1 problem" in text and "and 2 seeds" in text and "means over its seeds" in text
+    assert "sh4 has the lowest energy, E = 2; the other ends at 1.5000 times that" in text
+    assert "Performance profiles. " not in page.split('id="methods"')[0]  # of a single problem there are none
+    head, sh4, su2 = (line.split(",") for line in (tmp_path / "tables" / "summary.csv").read_text().splitlines())
+    assert [line[head.index("energy E")] for line in (sh4, su2)] == ["2.0", "3.0"]
+    spread = [float(line[head.index("energy seeds %")]) for line in (sh4, su2)]
+    assert spread == pytest.approx([100 * 2**0.5 / 2, 100 * 2**0.5 / 3])
+
+
+def test_a_seed_without_a_field_leaves_its_problem_unsolved(tmp_path):
+    records = [("part", record(m, energy=1.0, seed=k, state="failed" if (m, k) == ("su2", 1) else "done")) for m in ("sh4", "su2") for k in (0, 1)]
+    text = " ".join(prose(page_of(tmp_path, records), references=False))
+    assert "only sh4 has a field on every problem" in text
+
+
+def test_where_methods_start_and_what_they_are_judged_by_is_told(tmp_path):
+    text = " ".join(prose(page_of(tmp_path, [("a", record(m)) for m in ("sh4", "su2")]), references=False))
+    assert "Every method starts from the minimum that was found of sh4's energy; all are judged by sh4's energy E" in text
+    text = " ".join(prose(page_of(tmp_path, [("a", record(m, rounds=k)) for m in ("sh4", "su2") for k in (2, 0)]), references=False))
+    assert "2 variants (default and independent start)" in text and "those called “independent start” from one linear solve" in text
+    text = " ".join(prose(page_of(tmp_path, [("a", record(m, rounds=0)) for m in ("sh4", "su2")]), references=False))
+    assert "Every method starts for itself, from one linear solve" in text
+
+
+def test_edges_that_no_frame_serves_are_explained_and_left_out_of_what_is_held(tmp_path):
+    page = page_of(tmp_path, [("nut", record(alignment_deg={"median": 0.0, "max": 45.0, "held_max": 0.5}, unserved_vertices=12))])
+    assert "At 12 vertices on edges between faces no frame serves all faces that meet" in page
+    (line,) = csv.DictReader((tmp_path / "tables" / "runs.csv").open())
+    assert line["alignment, deg held, max"] == "0.5" and line["alignment, deg unserved"] == "12" and "45.0" not in line.values()
 
 
 def test_nothing_but_failures_is_a_report_too(tmp_path):

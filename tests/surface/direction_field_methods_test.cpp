@@ -80,12 +80,43 @@ TEST(DiffusedField, EndsBelowItsDiffusedStateAndNeverRisesAfterIt) {
     EXPECT_LT(field.dirichlet_energy, 0.99 * history[history.size() / 2]);
 }
 
+// A prism with `around` sides, open at both ends: its sides unroll into a plane, its rims into straight lines.
+TriangleMesh tube(int around, int rings, double height) {
+    std::vector<Vector> points;
+    std::vector<Eigen::Vector3i> triangles;
+    for (int j = 0; j <= rings; ++j)
+        for (int i = 0; i < around; ++i)
+            points.emplace_back(std::cos(2 * pi * i / around), std::sin(2 * pi * i / around), height * j / rings);
+    for (int j = 0; j < rings; ++j)
+        for (int i = 0; i < around; ++i) {
+            const int a = j * around + i, b = j * around + (i + 1) % around;
+            triangles.insert(triangles.end(), {{a, b, b + around}, {a, b + around, a + around}});
+        }
+    return make_mesh(points, triangles);
+}
+
 TEST(DiffusedField, AParallelFieldIsFound) {
-    // A flat square with free boundary, and a cylinder whose rims are followed: energy 0 and that of the chords.
-    const TriangleMesh square = plate(8, [](double, double) { return true; });
-    for (const auto method : {mbo, eigenvector})
+    // On a flat square with free boundary, and on a tube whose rims are followed, along and round it.
+    const TriangleMesh square = plate(8, [](double, double) { return true; }), open = tube(20, 6, 1.5);
+    for (const auto method : {mbo, eigenvector}) {
         EXPECT_NEAR(direction_field(square, {}, {.method = method, .boundary = Alignment::none}).dirichlet_energy, 0,
                     1e-9);
+        const DirectionField field = direction_field(open, {}, {.method = method});
+        EXPECT_NEAR(field.dirichlet_energy, 0, 1e-9);
+        EXPECT_TRUE(surface_singularities(open, field).points.empty());
+        const auto along = prescribed(
+            open, 4, [](auto&) -> Vector { return Vector::UnitZ(); },
+            [](const Vector& x) -> Vector {  // of the side on which the midpoint lies, or of both where they meet
+                return {x.x(), x.y(), 0};
+            });
+        for (Index e = 0; e < field.values.size(); ++e) {
+            const Vector low = open.vertices.row(field.topology.edges(e, 0)),
+                         high = open.vertices.row(field.topology.edges(e, 1));
+            const bool diagonal = low.z() != high.z() && low.head<2>() != high.head<2>();
+            if (diagonal) continue;
+            EXPECT_NEAR(std::abs(field.values[e] - along.values[e]), 0, 1e-5) << e;
+        }
+    }
 }
 
 // Beaufort, thesis section 3.9: no singular point once epsilon is small. The energy is that of the curvature lines.

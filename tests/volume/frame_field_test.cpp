@@ -30,6 +30,23 @@ TEST(FrameField, IsNeverAboveItsParts) {
     EXPECT_GT(result.diffusion_steps, diffused.iterations);
 }
 
+TEST(FrameField, EndsItsHistoryWithTheEnergyOfItsFrames) {
+    const TetMesh mesh = jittered_cube(6, 0.2, 1);
+    const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::axis, smooth_field(mesh));
+    for (const char* representation : {"sh4", "su2", "geodesic", "odeco_lengths"})
+        for (const int rounds : {0, 1, 3}) {
+            FrameFieldOptions options;
+            options.smooth.representation = representation;
+            options.rounds = rounds;
+            const SmoothResult result = frame_field(mesh, constraints, options).smooth;
+            EXPECT_NEAR(result.energy_history.back(), result.energy, 1e-9 * result.energy) << representation << rounds;
+            EXPECT_NEAR(result.objective_history.back(), result.objective, 1e-9 * result.objective) << representation;
+            EXPECT_LE(result.objective_history.size(), result.energy_history.size());
+            const bool whole = result.objective_history.size() == result.energy_history.size();
+            EXPECT_TRUE(rounds > 0 || whole) << representation;
+        }
+}
+
 TEST(FrameField, DoesNotDependOnTheSeedWhereTheFieldIsSmooth) {
     const TetMesh mesh = jittered_cube(6, 0.2, 2);
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));

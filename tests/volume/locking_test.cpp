@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
+#include "field_fixtures.hpp"
+#include "octafield/frames/quaternion.hpp"
 #include "octafield/volume/regions.hpp"
+#include "octafield/volume/tet_singularities.hpp"
 #include "tet_fixtures.hpp"
 
 namespace octafield::volume {
@@ -121,6 +125,73 @@ TEST(SplitLocking, LeavesAMeshWithoutSuchTetsAsItIs) {
     EXPECT_EQ(split.mesh.tets, star.tets);
     EXPECT_EQ(split.added_vertices, 0);
     EXPECT_TRUE(split.found.tets.empty());
+}
+
+// Two curves of valence 3 and 5 side by side, which zigzag, and frames that lean: many edges join singular vertices.
+class BetweenSingular : public ::testing::Test {
+protected:
+    using EdgeSet = std::set<std::array<Index, 2>>;
+
+    static EdgeSet joining(const TetMesh& mesh, const SingularEdges& singular) {
+        std::set<Index> on_singular;
+        EdgeSet kept, found;
+        for (const SingularEdge& e : singular.edges) {
+            on_singular.insert({e.a, e.b});
+            kept.insert({e.a, e.b});
+        }
+        const BoundarySurface surface = boundary_surface(mesh);
+        for (const auto t : surface.mesh.triangles.rowwise())
+            for (int k = 0; k < 3; ++k) {
+                const auto [low, high] = std::minmax({surface.vertex_map[t[k]], surface.vertex_map[t[(k + 1) % 3]]});
+                kept.insert({low, high});
+            }
+        for (const auto t : mesh.tets.rowwise())
+            for (int i = 0; i < 4; ++i)
+                for (int j = 0; j < 4; ++j)
+                    if (t[i] < t[j] && on_singular.contains(t[i]) && on_singular.contains(t[j]) &&
+                        !kept.contains({t[i], t[j]}))
+                        found.insert({t[i], t[j]});
+        return found;
+    }
+
+    TetMesh mesh = testing::kuhn_grid(8, 6, 6, 0.15, {1, 2, -1});
+    Quaternions frames = testing::sample_in_tets(mesh, [](const frames::Vector3& x) {
+        const auto angle = [&](double at) { return std::atan2(x.y() - 2.41 - 0.5 * (x.z() + 1), x.x() - at); };
+        return frames::exp({0.1, -0.2, 0.1}) * frames::exp({0, 0, (angle(1.52) - angle(1.73)) / 4});
+    });
+    SingularEdges before = singular_edges(mesh, frames);
+    SingularSplit split = split_between_singular(mesh, boundary_surface(mesh), frames);
+    Quaternions of_children = frames(split.parent, Eigen::all);
+    SingularEdges after = singular_edges(split.mesh, of_children);
+};
+
+TEST_F(BetweenSingular, NoEdgeInsideIsLeftThatJoinsSingularVerticesWithoutBeingSingular) {
+    EXPECT_GT(joining(mesh, before).size(), 3u);
+    EXPECT_EQ(joining(mesh, before).size(), static_cast<std::size_t>(split.edges.rows()));
+    EXPECT_EQ(split.left.rows(), 0);
+    EXPECT_TRUE(joining(split.mesh, after).empty());
+    EXPECT_EQ(split.added_vertices, split.edges.rows());
+}
+
+TEST_F(BetweenSingular, TheSingularEdgesAndTheSurfaceStay) {
+    ASSERT_EQ(after.edges.size(), before.edges.size());
+    for (std::size_t i = 0; i < before.edges.size(); ++i) {
+        EXPECT_EQ(after.edges[i].a, before.edges[i].a);
+        EXPECT_EQ(after.edges[i].b, before.edges[i].b);
+        EXPECT_EQ(after.edges[i].quarter_turns, before.edges[i].quarter_turns);
+        EXPECT_EQ(after.edges[i].valence, before.edges[i].valence);
+    }
+    EXPECT_EQ(after.vertices, before.vertices);
+    EXPECT_EQ(after.graph.curves, before.graph.curves);
+    EXPECT_EQ(boundary_triangles(split.mesh), boundary_triangles(mesh));
+}
+
+TEST_F(BetweenSingular, EveryTetIsPartOfItsParent) {
+    const Eigen::VectorXd volumes = tet_volumes(split.mesh), old = tet_volumes(mesh);
+    EXPECT_GT(volumes.minCoeff(), 0);
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(old.size());
+    for (Eigen::Index t = 0; t < volumes.size(); ++t) sums[split.parent[t]] += volumes[t];
+    EXPECT_LT((sums - old).cwiseAbs().maxCoeff(), 1e-14);
 }
 
 }  // namespace

@@ -212,7 +212,7 @@ TEST(OdecoLengths, AreSmoothedInTetsToo) {
     const SmoothResult result = smooth(tet_sampling(mesh), tet_boundary_constraints(mesh, surface, directions),
                                        frames::random_rotations(mesh.tets.rows(), 8), with_lengths());
     EXPECT_EQ(result.lengths.rows(), mesh.tets.rows());
-    EXPECT_LT(result.objective, result.energy_history.front());
+    EXPECT_LT(result.objective, result.objective_history.front());
 }
 
 TEST(OdecoLengths, RefuseWhatHoldsNoneAndWhatIsNoLength) {

@@ -115,6 +115,31 @@ TEST(Smooth, NeverRaisesTheEnergyAndReportsTheOneOfTheTables) {
     EXPECT_NEAR(result.energy, dirichlet_energy(mesh, result.frames), 1e-12 * result.energy);
 }
 
+// Whatever is minimised, by whatever solver: E of the frames beside the objective, from the start to what is returned.
+TEST(Smooth, HistoriesBeginAtTheStartAndEndWithWhatIsReturned) {
+    const TetMesh mesh = jittered_cube(4, 0.2, 7);
+    const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));
+    const Quaternions start = initial_frames(mesh, constraints);
+    for (const std::string& name : smooth_representations())
+        for (const SmoothSolver solver :
+             {SmoothSolver::automatic, SmoothSolver::levenberg_marquardt, SmoothSolver::lbfgs}) {
+            SmoothOptions options;
+            options.representation = name;
+            options.solver = solver;
+            options.max_iterations = 12;
+            const SmoothResult result = smooth(mesh, constraints, start, options);
+            const std::string where = name + " " + std::to_string(static_cast<int>(solver));
+            ASSERT_EQ(result.energy_history.size(), result.objective_history.size()) << where;
+            EXPECT_NEAR(result.energy_history.front(), dirichlet_energy(mesh, start), 1e-9 * result.energy) << where;
+            EXPECT_NEAR(result.energy_history.back(), dirichlet_energy(mesh, result.frames), 1e-9 * result.energy)
+                << where;
+            EXPECT_NEAR(result.objective_history.back(), result.objective, 1e-9 * result.objective) << where;
+            options.max_iterations = 0;
+            const SmoothResult at_start = smooth(mesh, constraints, start, options);
+            EXPECT_NEAR(result.objective_history.front(), at_start.objective, 1e-9 * at_start.objective) << where;
+        }
+}
+
 TEST(Smooth, IsStationary) {
     const TetMesh mesh = jittered_cube(5, 0.2, 9);
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));

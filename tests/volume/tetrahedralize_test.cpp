@@ -10,6 +10,7 @@
 #include <set>
 
 #include "../surface/mesh_fixtures.hpp"
+#include "fill_surface.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/read_write.hpp"
 
@@ -160,6 +161,32 @@ Exception caught(const Call& call, const std::string& kind) {
     }
     ADD_FAILURE() << "no error of kind " << kind;
     return Exception("");
+}
+
+// What a failure of TetGen leads to: each way must keep what the first one promises.
+TEST(FillSurface, EveryWayKeepsTheSurfaceAndItsCavities) {
+    const TriangleMesh hollow = together(cube_surface(3), moved(flipped(icosphere(1, 0.3)), 0.5, 0.5, 0.5));
+    TetgenParameters asked;
+    asked.radius_edge_ratio = 1.3;
+    asked.max_volume = 0.01;
+    ASSERT_GE(attempts().size(), 3u);
+    for (const Attempt& attempt : attempts()) {
+        SCOPED_TRACE(attempt.what);
+        expect_fills(fill_surface(hollow, asked, attempt, {}), hollow);
+    }
+}
+
+TEST(TetgenReason, PassesNothingOnOfWhatTetgenPrints) {
+    const std::string aborted =
+        "python: /build/tetgen-Xy12/tetgen-1.5.0/tetgen.cxx:13523: tetgenmesh::interresult "
+        "tetgenmesh::finddirection(...): Assertion `(farsh != NULL)' failed.\nAborted (core dumped)";
+    EXPECT_EQ(tetgen_reason(aborted), "it stopped at a check of its own");
+    EXPECT_EQ(tetgen_reason("Error:  Out of memory.\n"), "memory ran out");
+    EXPECT_EQ(tetgen_reason("Found two facets intersect each other.\n  1st: [12, 13, 14] #5\n"),
+              "it found parts of the surface that cross");
+    for (const std::string& printed : {aborted, std::string("/home/someone/tetgen.cxx(12): bad"), std::string()})
+        for (const char* foreign : {"/", "tetgen", ".cxx", "Assertion", "core", "`"})
+            EXPECT_EQ(tetgen_reason(printed).find(foreign), std::string::npos) << tetgen_reason(printed);
 }
 
 TEST(TetrahedralizeRefuses, SelfIntersectionsNamingTriangles) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include "boundary_star.hpp"
 #include "octafield/error.hpp"
 #include "octafield/parallel.hpp"
+#include "octafield/volume/tet_meshability.hpp"
 #include "require_frames.hpp"
 #include "turn_counter.hpp"
 
@@ -50,10 +52,14 @@ std::vector<Index> ring(const BoundarySurface& surface, const BoundaryStars& sta
     return ids;
 }
 
+// Quadrilaterals in the fan of triangles (v, link[i], link[i + 1]).
+using CountQuadrilaterals = std::function<std::optional<int>(Index v, const std::vector<Index>& link)>;
+
 class CornerJudge {
 public:
-    CornerJudge(const BoundarySurface& surface, const TurnCounter& counter, const std::vector<FeatureWedge>& wedges,
-                std::vector<EdgeKey> keys, const std::vector<std::uint8_t>& corner)
+    CornerJudge(const BoundarySurface& surface, const CountQuadrilaterals& counter,
+                const std::vector<FeatureWedge>& wedges, std::vector<EdgeKey> keys,
+                const std::vector<std::uint8_t>& corner)
         : surface_(surface), counter_(counter), keys_(std::move(keys)), corner_(corner) {
         for (const FeatureWedge& w : wedges) by_edge_.emplace(EdgeKey{w.a, w.b}, &w);
     }
@@ -73,7 +79,7 @@ public:
             link.push_back(surface_.vertex_map[ring[i]]);
             if (!is_feature(ring[i])) continue;
             count_edge(b, ring[i], corner);
-            const std::optional<int> quadrilaterals = counter_.quadrilaterals(corner.vertex, link);
+            const std::optional<int> quadrilaterals = counter_(corner.vertex, link);
             ++corner.sectors;
             corner.unclear_sectors += !quadrilaterals;
             corner.empty_sectors += quadrilaterals && *quadrilaterals < 1;
@@ -101,7 +107,7 @@ private:
     }
 
     const BoundarySurface& surface_;
-    const TurnCounter& counter_;
+    const CountQuadrilaterals& counter_;
     const std::vector<EdgeKey> keys_;
     const std::vector<std::uint8_t>& corner_;
     std::multimap<EdgeKey, const FeatureWedge*> by_edge_;
@@ -155,7 +161,8 @@ std::vector<SurfaceCrossing> find_crossings(const BoundarySurface& surface, cons
 
 std::vector<SurfaceCorner> find_corners(const BoundarySurface& surface, const BoundaryStars& stars,
                                         const surface::FeatureGraph& features, const std::vector<EdgeKey>& keys,
-                                        const TurnCounter& counter, const std::vector<FeatureWedge>& wedges) {
+                                        const CountQuadrilaterals& counter,
+                                        const std::vector<FeatureWedge>& wedges) {
     std::vector<std::uint8_t> is_corner(stars.vertex_count(), 0);
     for (const Index v : features.corners) is_corner[v] = 1;
     const CornerJudge judge(surface, counter, wedges, keys, is_corner);
@@ -167,6 +174,24 @@ std::vector<SurfaceCorner> find_corners(const BoundarySurface& surface, const Bo
         if (const auto corner = judge.judge(v, neighbours)) corners.push_back(*corner);
     }
     return corners;
+}
+
+void add_totals(BoundaryMeshability& result) {
+    for (const FeatureWedge& w : result.wedges) result.non_meshable_wedges += !w.meshable;
+    for (const SurfaceCrossing& c : result.crossings) result.non_meshable_crossings += c.hexahedra < 1;
+    for (const SurfaceCorner& c : result.corners) result.non_meshable_corners += !c.meshable;
+}
+
+// All edges of the surface, by tet-mesh ids.
+std::vector<EdgeKey> surface_keys(const BoundarySurface& surface) {
+    std::vector<EdgeKey> keys;
+    for (const auto triangle : surface.mesh.triangles.rowwise())
+        for (int k = 0; k < 3; ++k)
+            keys.push_back(
+                std::minmax({surface.vertex_map[triangle[k]], surface.vertex_map[triangle[(k + 1) % 3]]}));
+    std::sort(keys.begin(), keys.end());
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    return keys;
 }
 
 }  // namespace
@@ -186,10 +211,32 @@ BoundaryMeshability boundary_meshability(const TetMesh& mesh, const BoundarySurf
     parallel_for(static_cast<std::int64_t>(wedges.size()), threads,
                  [&](std::int64_t i) { result.wedges[i] = counter.judge(wedges[i]); });
     result.crossings = find_crossings(surface, stars, keys, counter);
-    result.corners = find_corners(surface, stars, features, keys, counter, result.wedges);
-    for (const FeatureWedge& w : result.wedges) result.non_meshable_wedges += !w.meshable;
-    for (const SurfaceCrossing& c : result.crossings) result.non_meshable_crossings += c.hexahedra < 1;
-    for (const SurfaceCorner& c : result.corners) result.non_meshable_corners += !c.meshable;
+    result.corners = find_corners(
+        surface, stars, features, keys,
+        [&](Index v, const std::vector<Index>& link) { return counter.quadrilaterals(v, link); }, result.wedges);
+    add_totals(result);
+    return result;
+}
+
+BoundaryMeshability tet_boundary_meshability(const TetMesh& mesh, const BoundarySurface& surface,
+                                             const surface::FeatureGraph& features, const Quaternions& of_tets,
+                                             int threads) {
+    require_valid(mesh);
+    require_frames(of_tets, mesh.tets.rows());
+    require_fitting(mesh, surface, features);
+    const std::vector<EdgeKey> keys = feature_keys(surface, features);
+    const std::vector<Wedge> wedges = surface_wedges(mesh, surface, surface_keys(surface), threads);
+    const TetTurnCounter counter(mesh, of_tets, wedges);
+    BoundaryMeshability result;
+    for (const Wedge& w : wedges)
+        if (std::binary_search(keys.begin(), keys.end(), EdgeKey{w.a, w.b}))
+            result.wedges.push_back(counter.judge(w));
+        else if (const int hexahedra = counter.hexahedra(w); hexahedra != 2)
+            result.crossings.push_back({w.a, w.b, hexahedra});
+    result.corners = find_corners(
+        surface, BoundaryStars(surface.mesh, features), features, keys,
+        [&](Index v, const std::vector<Index>& link) { return counter.quadrilaterals(v, link); }, result.wedges);
+    add_totals(result);
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include <glog/logging.h>
 
 #include "octafield/library_threads.hpp"
+#include "octafield/volume/operators.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -16,25 +17,38 @@ constexpr Index cholesky_limit = 10000;
 // Passes energies on, keeps the history, and stops the solver when the caller wishes.
 class Reporter final : public ceres::IterationCallback {
 public:
-    Reporter(const SmoothOptions& options, double energy_scale, const Progress& progress, SmoothResult& result)
-        : options_(options), scale_(energy_scale), progress_(progress), result_(result) {}
+    Reporter(const SmoothOptions& options, const Sampling& sampling, const Quaternions& frames,
+             const Progress& progress, SmoothResult& result)
+        : options_(options), sampling_(sampling), frames_(frames), progress_(progress), result_(result) {}
 
     ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
-        auto& history = result_.energy_history;
         // The summary of a rejected step may hold the cost of what was rejected.
-        const bool rejected = !step.step_is_successful && !history.empty();
-        const double energy = rejected ? history.back() : scale_ * step.cost;
-        history.push_back(energy);
+        const bool rejected = !step.step_is_successful && !result_.objective_history.empty();
+        if (rejected)
+            repeat();
+        else
+            add(step.cost);
         const double fraction = options_.max_iterations > 0 ? double(step.iteration) / options_.max_iterations : 1;
-        cancelled = !report(progress_, "smooth", fraction, energy);
+        cancelled = !report(progress_, "smooth", fraction, result_.objective_history.back());
         return cancelled ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    }
+
+    // Ceres keeps `frames` at its best state (update_state_every_iteration).
+    void add(double cost) {
+        result_.objective_history.push_back(sampling_.size * cost);
+        result_.energy_history.push_back(dirichlet_energy(sampling_, frames_, options_.threads));
     }
 
     bool cancelled = false;
 
 private:
+    void repeat() {
+        for (auto* history : {&result_.objective_history, &result_.energy_history}) history->push_back(history->back());
+    }
+
     const SmoothOptions& options_;
-    double scale_;
+    const Sampling& sampling_;
+    const Quaternions& frames_;
     const Progress& progress_;
     SmoothResult& result_;
 };
@@ -88,15 +102,16 @@ ceres::Problem::Options problem_options(ceres::EvaluationCallback& field) {
     return options;
 }
 
-SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quaternions, double energy_scale,
+SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quaternions, const Sampling& sampling,
                               const SmoothOptions& options, const Progress& progress) {
     calm_library_threads();
     FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres would log is in the exception
 
     SmoothResult result;
-    Reporter reporter(options, energy_scale, progress, result);
+    Reporter reporter(options, sampling, quaternions, progress, result);
     ceres::Solver::Options o = solver_options(options, static_cast<Index>(quaternions.rows()));
     o.callbacks.push_back(&reporter);
+    o.update_state_every_iteration = true;
     ceres::Solver::Summary summary;
     ceres::Solve(o, &problem, &summary);
     if (summary.termination_type == ceres::FAILURE)
@@ -104,10 +119,11 @@ SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quater
                               "; look for degenerate tets (octafield info), or try linear_solver=conjugate_gradients",
                           "smoothing");
 
-    // A line search that starts at a minimum makes no report.
-    if (result.energy_history.empty()) result.energy_history.push_back(energy_scale * summary.final_cost);
     result.frames = quaternions;
-    result.objective = energy_scale * summary.final_cost;
+    result.objective = sampling.size * summary.final_cost;
+    // A line search reports neither a start at a minimum nor the step after which it is content.
+    if (result.objective_history.empty() || result.objective_history.back() != result.objective)
+        reporter.add(summary.final_cost);
     result.iterations = std::max<int>(0, static_cast<int>(summary.iterations.size()) - 1);
     result.converged = !reporter.cancelled && summary.termination_type == ceres::CONVERGENCE;
     result.message = reporter.cancelled ? "cancelled" : summary.message;

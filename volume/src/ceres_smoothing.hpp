@@ -23,9 +23,9 @@ void set_manifolds(ceres::Problem& problem, Quaternions& quaternions, const Boun
 
 ceres::Problem::Options problem_options(ceres::EvaluationCallback& field);
 
-// Everything of the result but the sh4 energy. `quaternions` are the problem's parameters; `energy_scale` turns Ceres'
-// cost into the objective.
-SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quaternions, double energy_scale,
+// Everything of the result but the sh4 energy at its end. `quaternions` are the problem's parameters; Ceres' cost is the
+// objective at unit size (Sampling::size).
+SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quaternions, const Sampling& sampling,
                               const SmoothOptions& options, const Progress& progress);
 
 }  // namespace octafield::volume

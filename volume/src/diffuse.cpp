@@ -90,6 +90,7 @@ SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constr
     }
     record(laplacian.multiply(field, before, options.threads) / 2, field);
     projector.twist(best, result.frames);
+    result.objective_history = result.energy_history;
     return result;
 }
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <tuple>
 
-#include "octafield/frames/octahedral_group.hpp"
+#include "octafield/frames/octahedral_lift.hpp"
 #include "octafield/parallel.hpp"
 
 namespace octafield::volume {
@@ -30,6 +30,19 @@ std::vector<std::uint8_t> triangle_matchings(const TriangleTable& table, const Q
         if (table.sides(t, 1) < 0) return;
         const auto frame = [&](int side) { return frames::from_wxyz(of_tets.row(table.sides(t, side) / 4)); };
         result[t] = static_cast<std::uint8_t>(frames::matching(frame(0), frame(1)));
+    });
+    return result;
+}
+
+LiftedMatchings lifted_matchings(const TriangleTable& table, const Quaternions& of_tets, int threads) {
+    const std::size_t count = table.triangles.rows();
+    LiftedMatchings result{std::vector<std::uint8_t>(count, 0), std::vector<std::uint8_t>(count, 0)};
+    parallel_for(table.triangles.rows(), threads, [&](std::int64_t t) {
+        if (table.sides(t, 1) < 0) return;
+        const auto frame = [&](int side) { return frames::from_wxyz(of_tets.row(table.sides(t, side) / 4)); };
+        const auto [element, tie] = frames::lifted_matching(frame(0), frame(1));
+        result.element[t] = static_cast<std::uint8_t>(element);
+        result.tie[t] = tie;
     });
     return result;
 }
@@ -64,13 +77,14 @@ EdgeLoop edge_loop(std::span<const TetAtEdge> tets, const TriangleTable& table,
         if (table.sides(at->triangle, 1) < 0) return {};
         const bool forward = table.sides(at->triangle, 0) / 4 == at->tet;
         const int m = matching[at->triangle];
-        product = frames::octahedral_product(product, forward ? m : frames::octahedral_inverse(m));
+        product = frames::lifted_product(product, forward ? m : frames::lifted_inverse(m));
         const Index enter = at->leave;
         at = std::find_if(tets.begin(), tets.end(), [&](const TetAtEdge& t) { return t.enter == enter; });
         if (at == tets.end()) return {};
         if (at == tets.begin() && step + 1 != tets.size()) return {};  // two fans that touch in this edge
     }
-    return {true, frames::octahedral_inverse(product)};
+    const int lift = frames::lifted_inverse(product);
+    return {true, frames::holonomy_of(lift), lift};
 }
 
 }  // namespace octafield::volume

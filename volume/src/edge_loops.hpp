@@ -14,6 +14,12 @@ namespace octafield::volume {
 // it agree, also in a tie; 0 on the boundary. of_tets: unit quaternions.
 std::vector<std::uint8_t> triangle_matchings(const TriangleTable& table, const Quaternions& of_tets, int threads);
 
+// The same lifted to the binary octahedral group (frames/octahedral_lift.hpp), and the triangles where they are a tie.
+struct LiftedMatchings {
+    std::vector<std::uint8_t> element, tie;
+};
+LiftedMatchings lifted_matchings(const TriangleTable& table, const Quaternions& of_tets, int threads);
+
 // A tet at the edge ab, a < b: the way round a -> b (right-handed) enters it through the triangle with vertex `enter`
 // and leaves it through the one with vertex `leave`.
 struct TetAtEdge {
@@ -27,9 +33,10 @@ std::vector<TetAtEdge> tets_at_edges(const TetMesh& mesh, const TriangleTable& t
 struct EdgeLoop {
     bool closed = false;  // one loop of tets: the edge is inside the mesh
     int holonomy = 0;     // the frame of the lowest tet comes back as q h; 0 where not closed
+    int lift = 0;         // the same in the binary octahedral group, where the matchings are lifted; else not meant
 };
 
-// tets: those at one edge.
+// tets: those at one edge. matching: of triangle_matchings, or lifted ones.
 EdgeLoop edge_loop(std::span<const TetAtEdge> tets, const TriangleTable& table,
                    const std::vector<std::uint8_t>& matching);
 

@@ -18,6 +18,7 @@ constexpr double rough_tolerance = 1e-3;
 // Of diffusions from a random start, over those from the linear one: what is left of the noise's longest waves would
 // choose the curves of thin shapes at random.
 constexpr double random_start_time = 5;
+constexpr double rounding = 1e-9;  // of one energy summed in two ways
 
 void require_sound(const FrameFieldOptions& options) {
     if (options.rounds < 0) throw InvalidInput("rounds is negative; give 0 or more", "bad_option");
@@ -72,6 +73,10 @@ FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints
         if (next.energy < best.energy) best = next;
         return next.message != "cancelled";
     };
+    // After a round that ended above an earlier one.
+    const auto return_to_best = [&] {
+        if (!history.empty() && history.back() > best.energy * (1 + rounding)) history.push_back(best.energy);
+    };
     bool going = true;
     for (int round = 0; round < options.rounds && going; ++round) {
         const double begin = round / parts, end = (round + 1) / parts, middle = 0.6 * begin + 0.4 * end;
@@ -86,20 +91,20 @@ FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints
         diffusion.keep_best = false;
     }
     best.frames = reordered(best.frames, inverse_order(order));
-    if (going && (!second_order || options.rounds == 0)) {
+    const bool own_objective = going && (!second_order || options.rounds == 0);
+    if (own_objective) {
         SmoothResult final =
             smooth(sampling, constraints, best.frames, last, part(progress, options.rounds / parts, 1));
-        if (!history.empty() && final.energy_history.front() > 0) {
-            const double scale = best.energy / final.energy_history.front();
-            for (double& energy : final.energy_history) energy *= scale;
-        }
+        return_to_best();
         best.energy = std::numeric_limits<double>::infinity();  // its own objective decides
         keep(final);
     } else if (!going) {
         best.converged = false;
         best.message = "cancelled";
     }
+    if (!own_objective) return_to_best();
     best.iterations = iterations;
+    if (!own_objective) best.objective_history = history;
     best.energy_history = std::move(history);
     return result;
 }

@@ -45,7 +45,7 @@ std::vector<FrameStreamline> frame_streamlines(const TetMesh& mesh, const Quater
     std::vector<FrameStreamline> lines(seeds.size());
     if (seeds.empty()) return lines;
     FrameStreamlineOptions used = options;
-    if (used.max_length == 0) used.max_length = 4 * surface::bounding_box_diagonal(mesh.vertices);
+    if (used.max_length == 0) used.max_length = 4 * surface::shape_size(boundary_surface(mesh).mesh);
     const TriangleTable table = triangle_table(mesh, threads);
     const FrameTracer tracer(mesh, frames, table, used);
     parallel_for(

@@ -1,6 +1,7 @@
 // The vertices a hex mesh can have, by the valences of their edges.
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 
 #include "octafield/error.hpp"
@@ -28,11 +29,17 @@ constexpr Type types[]{
 
 }  // namespace
 
-bool hex_vertex_exists(int valence3, int valence5, int valence6) {
-    if (valence3 < 0 || valence5 < 0 || valence6 < 0)
+bool hex_vertex_exists(int valence3, int valence5, int valence6, int valence7, int valence8) {
+    if (std::min({valence3, valence5, valence6, valence7, valence8}) < 0)
         throw InvalidInput("hex_vertex_exists takes numbers of edges, but got " + std::to_string(valence3) + ", " +
-                               std::to_string(valence5) + ", " + std::to_string(valence6) + "; give 0 or more",
+                               std::to_string(valence5) + ", " + std::to_string(valence6) + ", " +
+                               std::to_string(valence7) + ", " + std::to_string(valence8) + "; give 0 or more",
                            "option_out_of_range");
+    if (valence7 > 0 || valence8 > 0) {
+        const std::int64_t regular =
+            12 + std::int64_t{valence7} + 2 * std::int64_t{valence8} - 3 * std::int64_t{valence3} - valence5;
+        return regular >= 0 && regular % 2 == 0;
+    }
     if (valence3 > 4 || valence5 > 12) return false;
     const int twice_regular = 12 - 3 * valence3 - valence5;
     if (twice_regular < 0 || twice_regular % 2 != 0) return false;

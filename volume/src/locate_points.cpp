@@ -2,12 +2,14 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <unordered_map>
 
 #include "octafield/error.hpp"
 #include "octafield/frames/quaternion.hpp"
+#include "octafield/parallel.hpp"
 #include "octafield/volume/streamlines.hpp"
 
 namespace octafield::volume {
@@ -17,6 +19,7 @@ using Eigen::Vector3d;
 using Cell = Eigen::Vector3i;
 
 constexpr double inside_tolerance = 1e-9;  // of a barycentric coordinate
+constexpr Eigen::Index tets_in_block = 4096;
 
 Eigen::Vector4d barycentric(const TetMesh& mesh, Eigen::Index t, const Vector3d& p) {
     const auto corner = [&](int k) -> Vector3d { return mesh.vertices.row(mesh.tets(t, k)).transpose(); };
@@ -77,6 +80,34 @@ private:
     std::vector<Index> begin_, ids_;
 };
 
+// Per point the tet of a range that it lies deepest in, and how deep; -1: none holds it.
+struct Deepest {
+    std::vector<double> depth;
+    std::vector<Index> tet;
+};
+
+Deepest deepest(const TetMesh& mesh, const Points& points, const PointGrid& grid, Eigen::Index begin,
+                Eigen::Index end) {
+    Deepest result{std::vector<double>(points.rows(), -inside_tolerance), std::vector<Index>(points.rows(), -1)};
+    for (Eigen::Index t = begin; t < end; ++t) {
+        Eigen::Array3d low = mesh.vertices.row(mesh.tets(t, 0)).transpose(), high = low;
+        for (int k = 1; k < 4; ++k) {
+            const Eigen::Array3d p = mesh.vertices.row(mesh.tets(t, k)).transpose();
+            low = low.min(p), high = high.max(p);
+        }
+        const double slack = 1e-8 * (high - low).maxCoeff();
+        grid.in_box(low - slack, high + slack, [&](Index i) {
+            const Vector3d p = points.row(i).transpose();
+            if ((p.array() < low - slack).any() || (p.array() > high + slack).any()) return;
+            const double depth = barycentric(mesh, t, p).minCoeff();
+            if (depth < result.depth[i] || (depth == result.depth[i] && result.tet[i] >= 0)) return;
+            result.depth[i] = depth;
+            result.tet[i] = static_cast<Index>(t);
+        });
+    }
+    return result;
+}
+
 Vector3d centre(const TetMesh& mesh, Eigen::Index t) {
     Vector3d sum = Vector3d::Zero();
     for (int k = 0; k < 4; ++k) sum += mesh.vertices.row(mesh.tets(t, k)).transpose();
@@ -110,31 +141,29 @@ std::vector<Index> take_apart(const Points& centres, double distance) {
 
 }  // namespace
 
-LocatedPoints locate_points(const TetMesh& mesh, const Points& points) {
+LocatedPoints locate_points(const TetMesh& mesh, const Points& points, int threads) {
     require_valid(mesh);
     if (!points.allFinite()) throw InvalidInput("points must be finite numbers", "not_finite");
     LocatedPoints result{std::vector<Index>(points.rows(), -1), Rows<double, 4>::Zero(points.rows(), 4)};
     if (points.rows() == 0) return result;
-    std::vector<double> depth(points.rows(), -inside_tolerance);
     const PointGrid grid(points);
-    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
-        Eigen::Array3d low = mesh.vertices.row(mesh.tets(t, 0)).transpose(), high = low;
-        for (int k = 1; k < 4; ++k) {
-            const Eigen::Array3d p = mesh.vertices.row(mesh.tets(t, k)).transpose();
-            low = low.min(p), high = high.max(p);
-        }
-        const double slack = 1e-8 * (high - low).maxCoeff();
-        grid.in_box(low - slack, high + slack, [&](Index i) {
-            const Vector3d p = points.row(i).transpose();
-            if ((p.array() < low - slack).any() || (p.array() > high + slack).any()) return;
-            const Eigen::Vector4d w = barycentric(mesh, t, p);
-            if (w.minCoeff() < depth[i] || (w.minCoeff() == depth[i] && result.tet[i] >= 0)) return;
-            depth[i] = w.minCoeff();
-            result.tet[i] = static_cast<Index>(t);
-            const Eigen::Vector4d inside = w.cwiseMax(0);
-            result.weights.row(i) = (inside / inside.sum()).transpose();
-        });
-    }
+    // Blocks of tets on their own, then the deepest of theirs, the lowest tet of equals: the same in any number.
+    const std::int64_t count = std::clamp<std::int64_t>(mesh.tets.rows() / tets_in_block, 1, thread_count(threads));
+    std::vector<Deepest> found(count);
+    parallel_for(
+        count, threads,
+        [&](std::int64_t k) {
+            found[k] = deepest(mesh, points, grid, mesh.tets.rows() * k / count, mesh.tets.rows() * (k + 1) / count);
+        },
+        1);
+    parallel_for(points.rows(), threads, [&](std::int64_t i) {
+        double depth = -std::numeric_limits<double>::infinity();
+        for (const Deepest& block : found)
+            if (block.tet[i] >= 0 && block.depth[i] > depth) depth = block.depth[i], result.tet[i] = block.tet[i];
+        if (result.tet[i] < 0) return;
+        const Eigen::Vector4d inside = barycentric(mesh, result.tet[i], points.row(i).transpose()).cwiseMax(0);
+        result.weights.row(i) = (inside / inside.sum()).transpose();
+    });
     return result;
 }
 

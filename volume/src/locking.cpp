@@ -6,6 +6,7 @@
 #include <string>
 
 #include "octafield/error.hpp"
+#include "octafield/volume/tet_singularities.hpp"
 #include "triangle_table.hpp"
 
 namespace octafield::volume {
@@ -154,19 +155,16 @@ public:
         }
     }
 
-    LockingSplit result(const TetMesh& mesh, const Found& found) const {
-        LockingSplit split{.mesh = {Points(points_.size(), 3), Tets(tets_.size(), 4)},
-                           .parent = parent_,
-                           .found = elements(found),
-                           .added_vertices = static_cast<Index>(points_.size() - mesh.vertices.rows()),
-                           .left = find().tets};
-        for (std::size_t v = 0; v < points_.size(); ++v) split.mesh.vertices.row(v) = points_[v].transpose();
+    TetMesh mesh() const {
+        TetMesh mesh{Points(points_.size(), 3), Tets(tets_.size(), 4)};
+        for (std::size_t v = 0; v < points_.size(); ++v) mesh.vertices.row(v) = points_[v].transpose();
         for (std::size_t t = 0; t < tets_.size(); ++t)
-            for (int k = 0; k < 4; ++k) split.mesh.tets(t, k) = tets_[t][k];
-        return split;
+            for (int k = 0; k < 4; ++k) mesh.tets(t, k) = tets_[t][k];
+        return mesh;
     }
 
     const TetList& tets() const { return tets_; }
+    const std::vector<Index>& parent() const { return parent_; }
 
 private:
     template <std::size_t Size>
@@ -234,7 +232,43 @@ LockingSplit split_locking(const TetMesh& mesh, const BoundarySurface& surface) 
     for (const Index t : splitter.find().tets) tets.push_back(key_of(splitter.tets()[t], whole[0]));
     sort_unique(tets);
     splitter.split(tets, whole);
-    return splitter.result(mesh, found);
+    LockingSplit result{.mesh = splitter.mesh(),
+                        .parent = splitter.parent(),
+                        .found = elements(found),
+                        .added_vertices = 0,
+                        .left = splitter.find().tets};
+    result.added_vertices = static_cast<Index>(result.mesh.vertices.rows() - mesh.vertices.rows());
+    return result;
+}
+
+SingularSplit split_between_singular(const TetMesh& mesh, const BoundarySurface& surface, const Quaternions& of_tets,
+                                     int threads) {
+    const SingularEdges singular = singular_edges(mesh, of_tets, threads);
+    Surface held = surface_of(mesh, surface);
+    std::vector<std::uint8_t> on_singular(mesh.vertices.rows(), 0);
+    std::vector<Key<2>> kept = held.edges;
+    for (const SingularEdge& e : singular.edges) {
+        kept.push_back({e.a, e.b});
+        on_singular[e.a] = on_singular[e.b] = 1;
+    }
+    sort_unique(kept);
+    std::vector<Key<2>> keys;
+    for (const auto& tet : list_of(mesh.tets))
+        for (const auto& corners : edge_corners)
+            if (const Key<2> key = key_of(tet, corners);
+                on_singular[key[0]] && on_singular[key[1]] && !contains(kept, key))
+                keys.push_back(key);
+    sort_unique(keys);
+    Splitter splitter(mesh, std::move(held));
+    splitter.split(keys, edge_corners);
+    std::vector<Key<2>> left;
+    for (const auto& tet : splitter.tets())
+        for (const auto& corners : edge_corners)
+            if (const Key<2> key = key_of(tet, corners); contains(keys, key)) left.push_back(key);
+    sort_unique(left);
+    SingularSplit result{splitter.mesh(), splitter.parent(), rows_of(keys), rows_of(left), 0};
+    result.added_vertices = static_cast<Index>(result.mesh.vertices.rows() - mesh.vertices.rows());
+    return result;
 }
 
 }  // namespace octafield::volume

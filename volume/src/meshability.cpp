@@ -1,9 +1,6 @@
 #include "octafield/volume/meshability.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
 #include <string>
 
 #include "axis_numbers.hpp"
@@ -11,6 +8,7 @@
 #include "octafield/frames/octahedral_group.hpp"
 #include "octafield/volume/smoothed_curves.hpp"
 #include "require_frames.hpp"
+#include "singular_vertices.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -53,70 +51,10 @@ bool turns_about_normal(const TetMesh& mesh, const Quaternions& frames, const Si
     return t.quarter_turns != 0 && nearest == turned;
 }
 
-// Points where a curve ends, with a number each. A closed curve that passes its first point with one type ends nowhere.
-struct Ends {
-    std::vector<Index> vertex_of_point;  // -1: none
-    std::vector<std::uint8_t> is_node;
-    std::vector<Index> points;  // ascending
-};
-
-bool on_boundary(const SingularGraph& graph, Index point) {
-    return point < static_cast<Index>(graph.triangles.size()) && graph.triangles[point].boundary;
-}
-
-Ends find_ends(const SingularGraph& graph) {
-    Ends ends{std::vector<Index>(graph.points.rows(), -1), std::vector<std::uint8_t>(graph.points.rows(), 0), {}};
-    for (const Index p : graph.nodes) ends.is_node[p] = 1;
-    for (const auto& curve : graph.curves)
-        for (const Index p : {curve.front(), curve.back()})
-            if (curve.front() != curve.back() || ends.is_node[p] || on_boundary(graph, p)) ends.vertex_of_point[p] = 0;
-    for (Index p = 0; p < graph.points.rows(); ++p) {
-        if (ends.vertex_of_point[p] < 0) continue;
-        ends.vertex_of_point[p] = static_cast<Index>(ends.points.size());
-        ends.points.push_back(p);
-    }
-    return ends;
-}
-
-template <class Counted>
-void count_curve(Counted& at, int quarter_turns) {
-    ++(quarter_turns == 1    ? at.valence3
-       : quarter_turns == -1 ? at.valence5
-       : quarter_turns == 2  ? at.valence2
-                             : at.valence6);
-}
-
-std::vector<SingularVertex> make_vertices(const TetMesh& mesh, const Quaternions& frames, const SingularGraph& graph,
-                                          const Ends& ends) {
-    std::vector<SingularVertex> vertices;
-    for (const Index p : ends.points) {
-        SingularVertex v{};
-        v.point = p;
-        v.kind = ends.is_node[p]         ? SingularVertexKind::node
-                 : on_boundary(graph, p) ? SingularVertexKind::boundary_end
-                                         : SingularVertexKind::change;
-        v.about_normal =
-            v.kind == SingularVertexKind::boundary_end && turns_about_normal(mesh, frames, graph.triangles[p]);
-        v.junction = -1;
-        vertices.push_back(v);
-    }
-    for (std::size_t c = 0; c < graph.curves.size(); ++c)
-        for (const Index p : {graph.curves[c].front(), graph.curves[c].back()})
-            if (const Index v = ends.vertex_of_point[p]; v < 0)
-                continue;
-            else if (graph.curve_quarter_turns[c] == 0)
-                ++vertices[v].complex;
-            else
-                count_curve(vertices[v], graph.curve_quarter_turns[c]);
-    return vertices;
-}
-
-// Direction of a smoothed curve at one end, over three of its segments, but not beyond its middle.
-Vector3 end_direction(const Points& smoothed, const std::vector<Index>& curve, bool backwards) {
-    const std::size_t step = std::clamp<std::size_t>((curve.size() - 1) / 2, 1, 3);
-    const Index from = backwards ? curve.back() : curve.front();
-    const Index to = backwards ? curve[curve.size() - 1 - step] : curve[step];
-    return (smoothed.row(to) - smoothed.row(from)).transpose();
+std::vector<std::uint8_t> boundary_points(const SingularGraph& graph) {
+    std::vector<std::uint8_t> on_boundary(graph.points.rows(), 0);
+    for (std::size_t t = 0; t < graph.triangles.size(); ++t) on_boundary[t] = graph.triangles[t].boundary;
+    return on_boundary;
 }
 
 // Where a curve leaves one of its ends: the first triangle of its type, and the axis of the frame of the triangle's
@@ -144,8 +82,6 @@ Leaving leave(const SingularGraph& graph, const VertexAxes& axes, const Points& 
     return {};
 }
 
-double angle_between(const Vector3& a, const Vector3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 // The axes of the curves at a node, as axes of the lowest vertex of its tet. Two of the triangles have that vertex; the
 // way from others to it matters only where the frames turn about several axes.
 bool all_about_one_axis(const SingularGraph& graph, const VertexAxes& axes, std::vector<Leaving>& leaving) {
@@ -161,21 +97,20 @@ bool all_about_one_axis(const SingularGraph& graph, const VertexAxes& axes, std:
                        [&](const Leaving& l) { return l.axis % 3 == leaving.front().axis % 3; });
 }
 
-// Whether every curve that comes along the axis can go on as one of its type.
-bool curves_pass(const std::vector<Leaving>& leaving, const std::vector<int>& turns) {
-    std::array<int, 5> more{};  // leaving along the axis, less those against it, by quarter turns + 2
-    for (std::size_t i = 0; i < leaving.size(); ++i) more[turns[i] + 2] += leaving[i].axis < 3 ? 1 : -1;
-    return std::all_of(more.begin(), more.end(), [](int m) { return m == 0; });
+std::vector<int> axes_of(const std::vector<Leaving>& leaving) {
+    std::vector<int> axes;
+    for (const Leaving& l : leaving) axes.push_back(l.axis);
+    return axes;
 }
 
 void judge(const SingularGraph& graph, const VertexAxes& axes, std::vector<Leaving> leaving,
            const std::vector<int>& turns, SingularVertex& v) {
     v.one_axis = v.kind == SingularVertexKind::node && !leaving.empty() && all_about_one_axis(graph, axes, leaving);
-    v.meshable = v.complex == 0 && v.valence2 == 0;
+    v.meshable = all_curves_meshable(v);
     if (v.kind == SingularVertexKind::boundary_end)
         v.meshable &= v.about_normal;
     else
-        v.meshable &= v.one_axis ? curves_pass(leaving, turns) : hex_vertex_exists(v.valence3, v.valence5, v.valence6);
+        v.meshable &= v.one_axis ? curves_pass(axes_of(leaving), turns) : hex_vertex_exists(v);
 }
 
 // Lists the ends of the curves and judges the vertices by them.
@@ -205,82 +140,18 @@ void find_curve_ends(const Quaternions& frames, const SingularGraph& graph, Mesh
     }
 }
 
-// Sets of vertices joined by complex curves.
-class Components {
-public:
-    explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-    Index root(Index v) {
-        while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-        return v;
-    }
-    void join(Index v, Index w) {
-        const Index a = root(v), b = root(w);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<Index> parent_;
-};
-
-void find_junctions(const SingularGraph& graph, Meshability& result) {
-    auto& vertices = result.vertices;
-    Components components(vertices.size());
-    const auto is_inside = [&](std::size_t c) {
-        return graph.curve_quarter_turns[c] == 0 && result.curve_ends(c, 0) >= 0;
-    };
-    for (std::size_t c = 0; c < graph.curves.size(); ++c)
-        if (is_inside(c)) components.join(result.curve_ends(c, 0), result.curve_ends(c, 1));
-    std::vector<bool> reaches_boundary;
-    for (Index v = 0; v < static_cast<Index>(vertices.size()); ++v) {
-        const Index root = components.root(v);  // the lowest vertex of the junction
-        if (root == v) {
-            vertices[v].junction = static_cast<Index>(result.junctions.size());
-            result.junctions.push_back({0, 0, 0, 0, 0, 0, vertices[v].meshable});
-            reaches_boundary.push_back(false);
-        }
-        vertices[v].junction = vertices[root].junction;
-        SingularJunction& junction = result.junctions[vertices[v].junction];
-        ++junction.vertices;
-        junction.valence2 += vertices[v].valence2;
-        junction.valence3 += vertices[v].valence3;
-        junction.valence5 += vertices[v].valence5;
-        junction.valence6 += vertices[v].valence6;
-        if (vertices[v].kind == SingularVertexKind::boundary_end) reaches_boundary[vertices[v].junction] = true;
-    }
-    for (std::size_t c = 0; c < graph.curves.size(); ++c)
-        if (is_inside(c)) ++result.junctions[vertices[result.curve_ends(c, 0)].junction].complex;
-    for (std::size_t j = 0; j < result.junctions.size(); ++j) {
-        SingularJunction& junction = result.junctions[j];
-        if (junction.vertices == 1) continue;
-        junction.meshable = !reaches_boundary[j] && junction.complex == junction.vertices - 1 &&
-                            junction.valence2 == 0 &&
-                            hex_vertex_exists(junction.valence3, junction.valence5, junction.valence6);
-    }
-}
-
 }  // namespace
 
 Meshability local_meshability(const TetMesh& mesh, const Quaternions& frames, const SingularGraph& graph) {
     require_frames(frames, mesh.vertices.rows());
     require_fitting(mesh, graph);
-    const Ends ends = find_ends(graph);
-    Meshability result;
-    result.vertices = make_vertices(mesh, frames, graph, ends);
-    result.curve_ends.resize(static_cast<Eigen::Index>(graph.curves.size()), 2);
-    for (std::size_t c = 0; c < graph.curves.size(); ++c) {
-        result.curve_ends(c, 0) = ends.vertex_of_point[graph.curves[c].front()];
-        result.curve_ends(c, 1) = ends.vertex_of_point[graph.curves[c].back()];
-        result.closed_curves += result.curve_ends(c, 0) < 0;
-    }
+    Meshability result = singular_vertices(graph, boundary_points(graph));
+    for (SingularVertex& v : result.vertices)
+        v.about_normal = v.kind == SingularVertexKind::boundary_end &&
+                         turns_about_normal(mesh, frames, graph.triangles[v.point]);
     find_curve_ends(frames, graph, result);
     find_junctions(graph, result);
-    for (const int turns : graph.curve_quarter_turns) result.non_meshable_curves += turns == 0 || turns == 2;
-    for (const SingularVertex& v : result.vertices) {
-        result.non_meshable_vertices += !v.meshable;
-        result.boundary_ends += v.kind == SingularVertexKind::boundary_end;
-        result.boundary_ends_about_normal += v.about_normal;
-    }
-    for (const SingularJunction& j : result.junctions) result.non_meshable_junctions += !j.meshable;
+    add_totals(graph, result);
     return result;
 }
 

@@ -37,20 +37,20 @@ class MetricProblem {
 public:
     MetricProblem(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                   Scheme scheme, const SmoothOptions& options)
-        : length_(sampling.box_diagonal),
+        : sampling_(sampling),
           field(start, std::move(scheme), options.threads),
           problem_(problem_options(field)) {
         // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
-        add_costs(problem_, field, dirichlet_blocks(sampling), 1 / length_);
+        add_costs(problem_, field, dirichlet_blocks(sampling), 1 / sampling.size);
         set_manifolds(problem_, field.quaternions(), constraints, manifolds_);
     }
 
     SmoothResult solve(const SmoothOptions& options, const Progress& progress) {
-        return solve_with_ceres(problem_, field.quaternions(), length_, options, progress);
+        return solve_with_ceres(problem_, field.quaternions(), sampling_, options, progress);
     }
 
 private:
-    double length_;
+    const Sampling& sampling_;
     Manifolds manifolds_;
 
 public:
@@ -79,8 +79,9 @@ SmoothResult smooth_frozen(const Sampling& sampling, const BoundaryConstraints& 
         round.max_iterations = std::min(steps_per_round, options.max_iterations - result.iterations);
         const SmoothResult step = problem.solve(round, progress);
         // Objectives of a metric re-evaluated: that of the last field is only known if it starts one more round.
-        result.objective = step.energy_history.empty() ? step.objective : step.energy_history.front();
-        result.energy_history.push_back(result.objective);
+        result.objective = step.objective_history.front();
+        result.objective_history.push_back(result.objective);
+        result.energy_history.push_back(step.energy_history.front());
         result.message = step.message;
         const double gain = result.objective - step.objective;
         result.converged =

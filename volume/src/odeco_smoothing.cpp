@@ -68,10 +68,10 @@ SmoothResult smooth_odeco_lengths(const Sampling& sampling, const BoundaryConstr
     LengthManifolds length_manifolds{ceres::SubsetManifold(3, {0}), ceres::SubsetManifold(3, {1}),
                                      ceres::SubsetManifold(3, {2})};
     ceres::Problem problem(problem_options(field));
-    add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / sampling.box_diagonal);
+    add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / sampling.size);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
     hold_lengths(problem, field, constraints, length_manifolds);
-    SmoothResult result = solve_with_ceres(problem, field.quaternions(), sampling.box_diagonal, chosen, progress);
+    SmoothResult result = solve_with_ceres(problem, field.quaternions(), sampling, chosen, progress);
     result.lengths = field.lengths();
     return result;
 }

@@ -67,7 +67,7 @@ Sampling reordered(const Sampling& sampling, const std::vector<Index>& order) {
     result.sites = sampling.sites;
     result.body_radius = sampling.body_radius;
     result.edge_length = sampling.edge_length;
-    result.box_diagonal = sampling.box_diagonal;
+    result.size = sampling.size;
     result.mass = reordered_rows(sampling.mass, order);
     result.stiffness.resize(sampling.stiffness.rows(), sampling.stiffness.cols());
     result.stiffness.reserve(sampling.stiffness.nonZeros());

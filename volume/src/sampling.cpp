@@ -21,7 +21,7 @@ Sampling sampling_of(const TetMesh& mesh) {
     Sampling sampling;
     sampling.body_radius = 3 * tet_volumes(mesh).sum() / surface::triangle_areas(boundary).sum();
     sampling.edge_length = surface::mean_edge_length(boundary);
-    sampling.box_diagonal = surface::bounding_box_diagonal(mesh.vertices);
+    sampling.size = surface::shape_size(boundary);
     return sampling;
 }
 

@@ -1,6 +1,5 @@
 #include "singular_curves.hpp"
 
-#include <cstdint>
 #include <numeric>
 
 namespace octafield::volume {
@@ -8,8 +7,12 @@ namespace {
 
 class Chainer {
 public:
-    Chainer(const std::vector<Segment>& segments, Index point_count)
-        : segments_(segments), begin_(point_count + 1, 0), incident_(2 * segments.size()), used_(segments.size(), 0) {
+    Chainer(const std::vector<Segment>& segments, Index point_count, const std::vector<std::uint8_t>& ends)
+        : segments_(segments),
+          ends_(ends),
+          begin_(point_count + 1, 0),
+          incident_(2 * segments.size()),
+          used_(segments.size(), 0) {
         for (const Segment& s : segments)
             for (const Index p : s.ends) ++begin_[p + 1];
         std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -31,7 +34,7 @@ public:
 
 private:
     bool is_end(Index p) const {
-        return begin_[p + 1] - begin_[p] != 2 ||
+        return (!ends_.empty() && ends_[p]) || begin_[p + 1] - begin_[p] != 2 ||
                segments_[incident_[begin_[p]]].type != segments_[incident_[begin_[p] + 1]].type;
     }
 
@@ -50,6 +53,7 @@ private:
     }
 
     const std::vector<Segment>& segments_;
+    const std::vector<std::uint8_t>& ends_;
     std::vector<Index> begin_, incident_;  // segments at each point
     std::vector<std::uint8_t> used_;
     CurveSet set_;
@@ -57,8 +61,9 @@ private:
 
 }  // namespace
 
-CurveSet chain_segments(const std::vector<Segment>& segments, Index point_count) {
-    return Chainer(segments, point_count).run();
+CurveSet chain_segments(const std::vector<Segment>& segments, Index point_count,
+                        const std::vector<std::uint8_t>& ends) {
+    return Chainer(segments, point_count, ends).run();
 }
 
 }  // namespace octafield::volume

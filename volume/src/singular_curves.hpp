@@ -1,6 +1,7 @@
 // Chains segments between points into maximal curves.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "octafield/arrays.hpp"
@@ -19,6 +20,8 @@ struct CurveSet {
 
 // Every segment lies in exactly one curve. Curves end at points where other than two segments meet or the type changes.
 // In the order of their first points; closed ones without such a point come last, from their lowest segment. Linear.
-CurveSet chain_segments(const std::vector<Segment>& segments, Index point_count);
+// ends: per point, 1: curves end here in any case; empty: none.
+CurveSet chain_segments(const std::vector<Segment>& segments, Index point_count,
+                        const std::vector<std::uint8_t>& ends = {});
 
 }  // namespace octafield::volume

@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-#include "octafield/frames/octahedral_group.hpp"
+#include "octafield/frames/octahedral_lift.hpp"
 #include "octafield/frames/sh4.hpp"
 #include "octafield/parallel.hpp"
 #include "quarter_turns.hpp"
@@ -23,21 +23,12 @@ using frames::Sh4;
 // With m_uv the matching (q_u m_uv near q_v), q_a goes on as q_b m_ab^-1, then q_c m_bc^-1 m_ab^-1, so h = (m_ab m_bc
 // m_ca)^-1. Every edge is matched from its lower to its higher vertex: triangles that share it then agree, also in a
 // tie, and the holonomies of a tet's four faces multiply to the identity, so no tet has exactly one singular face.
-int holonomy(const Quaternion& a, const Quaternion& b, const Quaternion& c) {
+// Lifted: three smallest steps are less than a whole turn in all, so 0 means no turn. tie: at one of the edges.
+frames::LiftedMatching holonomy(const Quaternion& a, const Quaternion& b, const Quaternion& c) {
+    const auto ab = frames::lifted_matching(a, b), bc = frames::lifted_matching(b, c), ac = frames::lifted_matching(a, c);
     const int round_trip =
-        frames::octahedral_product(frames::octahedral_product(frames::matching(a, b), frames::matching(b, c)),
-                                   frames::octahedral_inverse(frames::matching(a, c)));
-    return frames::octahedral_inverse(round_trip);
-}
-
-// Axis, in a's own axes, about which the frame of a turns forward on its way round the triangle. A half turn may go
-// either way: the quaternion of the path, one smallest step after the other, knows which.
-Eigen::Vector3d forward_axis(int element, const Quaternion& a, const Quaternion& b, const Quaternion& c) {
-    const Eigen::Vector3d axis = frames::octahedral_group()[element].vec();
-    if (frames::octahedral_class(element) != frames::OctahedralClass::half_turn) return axis;
-    const Quaternion at_c = frames::closest_representative(c, frames::closest_representative(b, a));
-    const Quaternion back = frames::closest_representative(a, at_c);
-    return (a.conjugate() * back).vec().dot(axis) < 0 ? Eigen::Vector3d(-axis) : axis;
+        frames::lifted_product(frames::lifted_product(ab.element, bc.element), frames::lifted_inverse(ac.element));
+    return {frames::lifted_inverse(round_trip), ab.tie || bc.tie || ac.tie};
 }
 
 // Point of the closed segment [p, q] nearest the origin, as a parameter.
@@ -73,7 +64,7 @@ Eigen::Vector3d shortest_interpolant(const std::array<Sh4::Vector, 3>& a) {
 
 // All but the quarter turns, which need the curve.
 SingularTriangle describe(const TetMesh& mesh, const Quaternions& frames, const TriangleTable& table, Index t,
-                          int element) {
+                          int lift) {
     std::array<Eigen::Vector3d, 3> p;
     std::array<Sh4::Vector, 3> a;
     for (int k = 0; k < 3; ++k) {
@@ -82,7 +73,7 @@ SingularTriangle describe(const TetMesh& mesh, const Quaternions& frames, const 
     }
     SingularTriangle s;
     s.a = table.triangles(t, 0), s.b = table.triangles(t, 1), s.c = table.triangles(t, 2);
-    s.holonomy = element;
+    s.holonomy = frames::holonomy_of(lift);
     s.quarter_turns = 0;
     s.boundary = table.sides(t, 1) < 0;
     const Eigen::Vector3d weights = shortest_interpolant(a);
@@ -140,8 +131,10 @@ DualGraph join_in_tets(const TetMesh& mesh, const TriangleTable& table, const st
     return dual;
 }
 
+// lifts: holonomies of the singular triangles.
 void set_quarter_turns(const TetMesh& mesh, const Quaternions& frames, const DualGraph& dual,
-                       const std::vector<Eigen::Vector3d>& points, SingularGraph& graph) {
+                       const std::vector<Eigen::Vector3d>& points, const std::vector<std::uint8_t>& lifts,
+                       SingularGraph& graph) {
     // From the point before the triangle to the point after it, along its positive normal: steadier than the normal, which a zigzag of
     // triangles tosses about.
     std::vector<Eigen::Vector3d> along(graph.triangles.size(), Eigen::Vector3d::Zero());
@@ -153,10 +146,11 @@ void set_quarter_turns(const TetMesh& mesh, const Quaternions& frames, const Dua
             const Eigen::Vector3d a = mesh.vertices.row(s.a), b = mesh.vertices.row(s.b), c = mesh.vertices.row(s.c);
             along[i] = (b - a).cross(c - a);
         }
-        const Quaternion a = frames::from_wxyz(frames.row(s.a)), b = frames::from_wxyz(frames.row(s.b)),
-                         c = frames::from_wxyz(frames.row(s.c));
-        s.quarter_turns = quarter_turns(s.holonomy, a * forward_axis(s.holonomy, a, b, c), along[i]);
+        const Turn turn = turn_of(lifts[i], frames::from_wxyz(frames.row(s.a)));
+        s.quarter_turns = quarter_turns(turn, along[i]);
+        s.undecided |= across(turn, along[i]);
         graph.complex_triangles += s.quarter_turns == 0;
+        graph.undecided_triangles += s.undecided;
     }
 }
 
@@ -178,10 +172,12 @@ SingularGraph singular_graph(const TetMesh& mesh, const Quaternions& frames, int
     require_frames(frames, mesh.vertices.rows());
     const TriangleTable table = triangle_table(mesh, threads);
     const Eigen::Index count = table.triangles.rows();
-    std::vector<std::uint8_t> holonomies(count);
+    std::vector<std::uint8_t> holonomies(count), ties(count), lifts;
     parallel_for(count, threads, [&](std::int64_t t) {
         const auto q = [&](int k) -> Quaternion { return frames::from_wxyz(frames.row(table.triangles(t, k))); };
-        holonomies[t] = static_cast<std::uint8_t>(holonomy(q(0), q(1), q(2)));
+        const auto [element, tie] = holonomy(q(0), q(1), q(2));
+        holonomies[t] = static_cast<std::uint8_t>(element);
+        ties[t] = tie;
     });
 
     SingularGraph graph;
@@ -190,11 +186,13 @@ SingularGraph singular_graph(const TetMesh& mesh, const Quaternions& frames, int
     for (Eigen::Index t = 0; t < count; ++t) {
         if (holonomies[t] == 0) continue;
         singular_number[t] = static_cast<Index>(graph.triangles.size());
+        lifts.push_back(holonomies[t]);
         graph.triangles.push_back(describe(mesh, frames, table, static_cast<Index>(t), holonomies[t]));
+        graph.triangles.back().undecided = ties[t] != 0;
         points.push_back(graph.triangles.back().point);
     }
     const DualGraph dual = join_in_tets(mesh, table, singular_number, graph, points);
-    set_quarter_turns(mesh, frames, dual, points, graph);
+    set_quarter_turns(mesh, frames, dual, points, lifts, graph);
     const std::vector<Segment> segments = typed_segments(dual, graph);
     CurveSet set = chain_segments(segments, static_cast<Index>(points.size()));
     graph.curves = std::move(set.curves);

@@ -34,13 +34,13 @@ template <frames::Representation R>
 SmoothResult smooth_with_ceres(const Sampling& sampling, const BoundaryConstraints& constraints,
                                const Quaternions& start, const SmoothOptions& options, const Progress& progress) {
     // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
-    const double length = sampling.box_diagonal;
+    const double length = sampling.size;
     EmbeddedField<R> field(start, options.threads);
     Manifolds manifolds;
     ceres::Problem problem(problem_options(field));
     add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / length);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
-    return solve_with_ceres(problem, field.quaternions(), length, options, progress);
+    return solve_with_ceres(problem, field.quaternions(), sampling, options, progress);
 }
 
 }  // namespace

@@ -25,11 +25,12 @@ public:
 
     // Positive about b - a from the beginning's triangle into its tet, or nothing.
     Wedge from(const Beginning& beginning) const {
-        Wedge wedge{beginning.a, beginning.b, {}};
+        Wedge wedge{beginning.a, beginning.b, {}, {}};
         Index first = -1, second = -1;
         std::tie(first, second) = across(beginning.row, beginning.tet, wedge.a, wedge.b);
         if (!positive(wedge.a, wedge.b, first, second)) return wedge;
         wedge.link = {first, second};
+        wedge.tets = {beginning.tet};
         Eigen::Index row = row_opposite(beginning.tet, first);
         Index tet = beginning.tet;
         while (!on_surface_[row]) {
@@ -37,6 +38,7 @@ public:
             const Index next = across(row, tet, wedge.a, wedge.b).second;
             row = row_opposite(tet, wedge.link.back());
             wedge.link.push_back(next);
+            wedge.tets.push_back(tet);
         }
         return wedge;
     }

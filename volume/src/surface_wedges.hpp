@@ -12,6 +12,7 @@ namespace octafield::volume {
 struct Wedge {
     Index a, b;               // tet-mesh ids, a < b
     std::vector<Index> link;  // tet-mesh ids; consecutive ones share a tet with a and b
+    std::vector<Index> tets;  // these, one less
 };
 
 // Those at the given edges (tet-mesh ids, lower first; sorted). Ordered by a, b, and the first triangle. Throws

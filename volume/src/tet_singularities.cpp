@@ -1,10 +1,10 @@
 #include "octafield/volume/tet_singularities.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "edge_loops.hpp"
-#include "octafield/frames/octahedral_group.hpp"
 #include "quarter_turns.hpp"
 #include "require_frames.hpp"
 #include "singular_curves.hpp"
@@ -15,8 +15,7 @@ namespace {
 
 // The curve runs from the vertex before an edge to the one after it where it goes on in one edge alone: steadier than
 // the edge, which may run across a curve that no edges follow.
-void set_quarter_turns(const TetMesh& mesh, const Quaternions& of_tets, const std::vector<Index>& first_tets,
-                       std::vector<SingularEdge>& edges) {
+void set_quarter_turns(const TetMesh& mesh, const std::vector<Turn>& turns, std::vector<SingularEdge>& edges) {
     std::vector<std::array<Index, 2>> neighbours(mesh.vertices.rows(), {-1, -1});
     std::vector<Index> degree(mesh.vertices.rows(), 0);
     for (const SingularEdge& e : edges)
@@ -28,13 +27,13 @@ void set_quarter_turns(const TetMesh& mesh, const Quaternions& of_tets, const st
     };
     for (std::size_t i = 0; i < edges.size(); ++i) {
         SingularEdge& e = edges[i];
-        const Eigen::Vector3d along =
-            (mesh.vertices.row(beyond(e.b, e.a)) - mesh.vertices.row(beyond(e.a, e.b))).transpose();
-        const Eigen::Vector3d axis =
-            frames::from_wxyz(of_tets.row(first_tets[i])) * frames::octahedral_group()[e.holonomy].vec();
-        e.quarter_turns = quarter_turns(e.holonomy, axis, along);
-        // The two ways of a half turn come to the same frames in every tet.
-        if (e.quarter_turns == -2) e.quarter_turns = 2;
+        const auto way = [&](Index from, Index to) -> Eigen::Vector3d {
+            return (mesh.vertices.row(to) - mesh.vertices.row(from)).transpose();
+        };
+        const Eigen::Vector3d along = way(beyond(e.a, e.b), beyond(e.b, e.a)), edge = way(e.a, e.b);
+        e.quarter_turns = quarter_turns(turns[i], along);
+        e.undecided |= across(turns[i], along);
+        if (turns[i].size > 0 && !across(turns[i], edge)) e.valence = 4 - quarter_turns(turns[i], edge);
     }
 }
 
@@ -58,7 +57,9 @@ void add_curves(const TetMesh& mesh, SingularEdges& result) {
     for (const Index v : boundary_surface(mesh).vertex_map) on_boundary[v] = 1;
     for (const Index v : result.vertices)
         if (degree[v] != 2 && !on_boundary[v]) graph.nodes.push_back(number[v]);
-    CurveSet set = chain_segments(segments, static_cast<Index>(result.vertices.size()));
+    std::vector<std::uint8_t> ends;
+    for (const Index v : result.vertices) ends.push_back(on_boundary[v]);
+    CurveSet set = chain_segments(segments, static_cast<Index>(result.vertices.size()), ends);
     graph.curves = std::move(set.curves);
     graph.curve_quarter_turns = std::move(set.types);
 }
@@ -70,15 +71,19 @@ SingularEdges singular_edges(const TetMesh& mesh, const Quaternions& of_tets, in
     require_frames(of_tets, mesh.tets.rows());
     const TriangleTable table = triangle_table(mesh, threads);
     const std::vector<TetAtEdge> tets = tets_at_edges(mesh, table, threads);
+    const LiftedMatchings matchings = lifted_matchings(table, of_tets, threads);
     SingularEdges result;
-    std::vector<Index> first_tets;
-    for_each_edge_loop(tets, table, triangle_matchings(table, of_tets, threads),
-                       [&](std::size_t first, std::size_t, const EdgeLoop& loop) {
-                           if (loop.holonomy == 0) return;
-                           result.edges.push_back({tets[first].a, tets[first].b, loop.holonomy, 0});
-                           first_tets.push_back(tets[first].tet);
-                       });
-    set_quarter_turns(mesh, of_tets, first_tets, result.edges);
+    std::vector<Turn> turns;
+    for_each_edge_loop(tets, table, matchings.element, [&](std::size_t first, std::size_t last, const EdgeLoop& loop) {
+        if (loop.lift == 0) return;
+        const auto tied = [&](const TetAtEdge& at) { return matchings.tie[at.triangle] != 0; };
+        result.edges.push_back({tets[first].a, tets[first].b, loop.holonomy, 0});
+        result.edges.back().undecided = std::any_of(&tets[first], &tets[last - 1] + 1, tied);
+        turns.push_back(turn_of(loop.lift, frames::from_wxyz(of_tets.row(tets[first].tet))));
+    });
+    set_quarter_turns(mesh, turns, result.edges);
+    for (const SingularEdge& e : result.edges) result.undecided_edges += e.undecided;
+    for (const std::uint8_t tie : matchings.tie) result.tied_triangles += tie;
     add_curves(mesh, result);
     return result;
 }

@@ -4,6 +4,7 @@
 #include <tetgen.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 
 #include "isolated_process.hpp"
@@ -38,6 +39,7 @@ tetgenbehavior switches(const TetgenParameters& parameters) {
     tetgenbehavior b;
     char text[] = "pYMBFzQ";
     b.parse_commandline(text);
+    if (parameters.tolerance > 0) b.epsilon = parameters.tolerance;
     if (!parameters.refine) return b;
     b.quality = 1;
     b.minratio = parameters.radius_edge_ratio;
@@ -69,15 +71,19 @@ TetMesh read_mesh(const std::vector<std::byte>& bytes) {
     return mesh;
 }
 
-// The last lines TetGen printed, on one line.
-std::string last_words(std::string printed) {
-    constexpr std::size_t most = 200;
-    std::replace(printed.begin(), printed.end(), '\n', ' ');
-    while (!printed.empty() && printed.back() == ' ') printed.pop_back();
-    return printed.size() > most ? "..." + printed.substr(printed.size() - most) : printed;
-}
-
 }  // namespace
+
+std::string tetgen_reason(const std::string& printed) {
+    std::string lower = printed;
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto says = [&](const char* words) { return lower.find(words) != std::string::npos; };
+    if (says("out of memory") || says("bad_alloc")) return "memory ran out";
+    if (says("intersect")) return "it found parts of the surface that cross";
+    if (says("too small") || says("small feature") || says("very close") || says("degenerate"))
+        return "it found parts of the surface too close to each other for its arithmetic";
+    if (says("assert") || says("bug")) return "it stopped at a check of its own";
+    return "it stopped without a reason";
+}
 
 TetgenOutcome run_tetgen(const surface::TriangleMesh& mesh, const TetgenParameters& parameters,
                          const Progress& progress) {
@@ -95,7 +101,7 @@ TetgenOutcome run_tetgen(const surface::TriangleMesh& mesh, const TetgenParamete
     if (run.finished)
         outcome.mesh = read_mesh(run.result);
     else
-        outcome.printed = last_words(std::move(run.printed));
+        outcome.reason = tetgen_reason(run.printed);
     return outcome;
 }
 

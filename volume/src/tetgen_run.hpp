@@ -15,14 +15,19 @@ struct TetgenParameters {
     double radius_edge_ratio = 0;        // -q
     double min_dihedral = 0;             // -q, degrees; 0: TetGen's default
     double max_volume = 0;               // -a
+    double tolerance = 0;                // -T, for coplanarity; 0: TetGen's default
     std::vector<Eigen::Vector3d> holes;  // one point in each cavity
 };
 
 struct TetgenOutcome {
     bool finished = false;
     TetMesh mesh;         // when finished: the surface's vertices first; tets in either orientation
-    std::string printed;  // TetGen's last words otherwise
+    std::string reason;   // why not, otherwise: a clause for messages ("it stopped at a check of its own")
 };
+
+// What TetGen printed before it ended, in words for users: of its texts nothing is passed on, as they hold the names of
+// its sources and paths of the machine that compiled it.
+std::string tetgen_reason(const std::string& printed);
 
 // TetGen 1.5 of Debian frees its memory twice when it reports an error, and it asserts on its own faults: either ends
 // the process. So it runs in a copy of the process. Surface triangles are kept (-Y). Throws Cancelled, SolverError.

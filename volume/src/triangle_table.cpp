@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "folded_tets.hpp"
 #include "octafield/error.hpp"
 #include "octafield/parallel.hpp"
 
@@ -77,6 +78,7 @@ TriangleTable triangle_table(const TetMesh& mesh, int threads) {
             }
             table.tet_triangles(e.side / 4, e.side % 4) = static_cast<Index>(t);
         }
+    require_unfolded(mesh, table);
     return table;
 }
 

@@ -17,7 +17,8 @@ struct TriangleTable {
 };
 
 // Near linear: bucketed by lowest vertex, then sorted inside the buckets. Ids must be in range. Throws GeometryError
-// (kind "non_manifold_face") where three tets share a triangle. The same result at any thread count.
+// (kind "non_manifold_face") where three tets share a triangle, and (kinds "folded_tet", "inverted_tet") where two lie
+// on the same side of one, see folded_tets.hpp. The same result at any thread count.
 TriangleTable triangle_table(const TetMesh& mesh, int threads = 0);
 
 }  // namespace octafield::volume

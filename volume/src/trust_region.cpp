@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "field_model.hpp"
 #include "octafield/frames/registry.hpp"
+#include "octafield/volume/operators.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -33,7 +35,8 @@ class Solver {
 public:
     Solver(const Sampling& sampling, const BoundaryConstraints& constraints, const SmoothOptions& options,
            const Progress& progress)
-        : laplacian_(sampling),
+        : sampling_(sampling),
+          laplacian_(sampling),
           model_(laplacian_, constraints, options.threads),
           options_(options),
           progress_(progress),
@@ -67,6 +70,12 @@ private:
         });
     }
 
+    // Of sh4, as every history has it.
+    double sh4_energy(const Quaternions& frames) const {
+        return std::is_same_v<R, frames::Sh4> ? energy_ : dirichlet_energy(sampling_, frames, options_.threads);
+    }
+
+    const Sampling& sampling_;
     BlockLaplacian laplacian_;
     FieldModel<R> model_;
     const SmoothOptions& options_;
@@ -152,7 +161,8 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
     result.frames = start;
     energy_ = model_.evaluate(result.frames);
     model_.linearise(result.frames);
-    result.energy_history.push_back(energy_);
+    result.objective_history.push_back(energy_);
+    result.energy_history.push_back(sh4_energy(result.frames));
     result.message = "max_iterations reached";
 
     const double first_gradient = gradient_norm();
@@ -184,13 +194,15 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
         if (ratio < 0.25) radius = step.length * std::clamp(lowest_along_step(energy - energy_), least_cut, 0.25);
         if (ratio > 0.75 && step.at_edge) radius = std::min(2 * radius, largest_radius * root_);
         const bool small = !step.at_edge && step.decrease < options_.tolerance * energy_;
-        if (energy < energy_ && ratio > 0.05) {
+        const bool better = energy < energy_ && ratio > 0.05;
+        if (better) {
             result.frames = next;
             energy_ = energy;
             model_.linearise(result.frames);
             accepted.push_back(energy);
         }
-        result.energy_history.push_back(energy_);
+        result.objective_history.push_back(energy_);
+        result.energy_history.push_back(better ? sh4_energy(result.frames) : result.energy_history.back());
         at_minimum = small || are_slow(accepted);
         if (at_minimum) break;
     }

@@ -1,6 +1,7 @@
 #include "turn_counter.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -59,20 +60,45 @@ int nearest_of_residue(int residue, double measured) {
     return residue + 4 * static_cast<int>(std::lround((measured - residue) / 4));
 }
 
-}  // namespace
-
-double TurnCounter::angle(const Wedge& wedge) const {
+double wedge_angle(const TetMesh& mesh, const Wedge& wedge) {
+    const auto from_a = [&](Index v) -> Vector3 { return (mesh.vertices.row(v) - mesh.vertices.row(wedge.a)).transpose(); };
     double sum = 0;
     for (std::size_t i = 0; i + 1 < wedge.link.size(); ++i)
-        sum += std::abs(
-            angle_about(p(wedge.b) - p(wedge.a), p(wedge.link[i]) - p(wedge.a), p(wedge.link[i + 1]) - p(wedge.a)));
+        sum += std::abs(angle_about(from_a(wedge.b), from_a(wedge.link[i]), from_a(wedge.link[i + 1])));
     return sum;
 }
 
+// Normals of the first and last triangle, out of the wedge.
+std::pair<Vector3, Vector3> outward_normals(const TetMesh& mesh, const Wedge& wedge) {
+    const auto from_a = [&](Index v) -> Vector3 { return (mesh.vertices.row(v) - mesh.vertices.row(wedge.a)).transpose(); };
+    const Vector3 edge = from_a(wedge.b);
+    return {from_a(wedge.link.front()).cross(edge), edge.cross(from_a(wedge.link.back()))};
+}
+
+// A sector of the surface round v: the fan of triangles (v, link[i], link[i + 1]), counter-clockwise from outside.
+struct Sector {
+    double angle = 0;
+    Vector3 mean = Vector3::Zero();  // of the normals, weighted by angle
+    std::vector<Vector3> normals;    // unit, per triangle
+};
+
+Sector sector_of(const TetMesh& mesh, Index v, const std::vector<Index>& link) {
+    const auto from_v = [&](Index w) -> Vector3 { return (mesh.vertices.row(w) - mesh.vertices.row(v)).transpose(); };
+    Sector sector;
+    for (std::size_t i = 0; i + 1 < link.size(); ++i) {
+        sector.normals.push_back(from_v(link[i]).cross(from_v(link[i + 1])).normalized());
+        const double part = angle_about(sector.normals.back(), from_v(link[i]), from_v(link[i + 1]));
+        sector.angle += part;
+        sector.mean += part * sector.normals.back();
+    }
+    return sector;
+}
+
+}  // namespace
+
 int TurnCounter::hexahedra(const Wedge& wedge, Index v, double angle, bool round_the_link) const {
     const Vector3 edge = p(wedge.b) - p(wedge.a);
-    const Vector3 first = (p(wedge.link.front()) - p(wedge.a)).cross(edge);  // normals out of the wedge
-    const Vector3 last = edge.cross(p(wedge.link.back()) - p(wedge.a));
+    const auto [first, last] = outward_normals(mesh_, wedge);
     const int normal = axes_.nearest(v, first);
     Carried carried(axes_, v, nearest_across(axes_, v, edge, normal), normal, edge);
     const int tangent = carried.about;
@@ -87,30 +113,21 @@ int TurnCounter::hexahedra(const Wedge& wedge, Index v, double angle, bool round
 }
 
 std::optional<int> TurnCounter::quadrilaterals(Index v, const std::vector<Index>& link) const {
-    const auto normal_of = [&](std::size_t i) -> Vector3 {
-        return (p(link[i]) - p(v)).cross(p(link[i + 1]) - p(v)).normalized();
-    };
-    double angle = 0;
-    Vector3 mean = Vector3::Zero();
-    for (std::size_t i = 0; i + 1 < link.size(); ++i) {
-        const double part = angle_about(normal_of(i), p(link[i]) - p(v), p(link[i + 1]) - p(v));
-        angle += part;
-        mean += part * normal_of(i);
-    }
-    const int normal = axes_.nearest(link.front(), normal_of(0));
+    const Sector sector = sector_of(mesh_, v, link);
+    const int normal = axes_.nearest(link.front(), sector.normals.front());
     Carried carried(axes_, link.front(), normal, nearest_across(axes_, link.front(), p(link.front()) - p(v), normal),
-                    mean);
+                    sector.mean);
     for (std::size_t i = 1; i < link.size(); ++i) carried.to(link[i]);
     const Index end = link.back();
-    if (carried.about != axes_.nearest(end, normal_of(link.size() - 2))) return std::nullopt;
+    if (carried.about != axes_.nearest(end, sector.normals.back())) return std::nullopt;
     const auto turns =
         quarter_turns(carried.about, carried.across, nearest_across(axes_, end, p(end) - p(v), carried.about));
     if (!turns) return std::nullopt;
-    return nearest_of_residue(*turns, (angle - carried.turn) / quarter);
+    return nearest_of_residue(*turns, (sector.angle - carried.turn) / quarter);
 }
 
 FeatureWedge TurnCounter::judge(const Wedge& wedge) const {
-    const double size = angle(wedge);
+    const double size = wedge_angle(mesh_, wedge);
     FeatureWedge result{wedge.a,
                         wedge.b,
                         size,
@@ -132,6 +149,65 @@ int TurnCounter::hexahedra(Index v, Index w, const Vector3& normal_v, const Vect
     const bool convex = angle_about(about, normal_v, normal_w) > 0;
     if (carried == opposite_axis(there)) return convex ? 0 : 4;
     return about.dot(from.cross(to)) > 0 ? 1 : 3;
+}
+
+TetTurnCounter::TetTurnCounter(const TetMesh& mesh, const Quaternions& of_tets, const std::vector<Wedge>& wedges)
+    : mesh_(mesh), axes_(of_tets) {
+    for (const Wedge& w : wedges)
+        if (const auto [at, added] = by_edge_.try_emplace({w.a, w.b}, &w); !added) at->second = nullptr;
+}
+
+const Wedge* TetTurnCounter::wedge_at(Index v, Index w) const {
+    const auto found = by_edge_.find(std::minmax(v, w));
+    return found == by_edge_.end() ? nullptr : found->second;
+}
+
+FeatureWedge TetTurnCounter::judge(const Wedge& wedge) const {
+    const Vector3 edge = p(wedge.b) - p(wedge.a);
+    const auto [first, last] = outward_normals(mesh_, wedge);
+    const double size = wedge_angle(mesh_, wedge);
+    const Index start = wedge.tets.front(), end = wedge.tets.back();
+    const int normal = axes_.nearest(start, first), normal_there = axes_.nearest(end, last);
+    Carried carried(axes_, start, nearest_across(axes_, start, edge, normal), normal, edge);
+    for (std::size_t i = 1; i < wedge.tets.size(); ++i) carried.to(wedge.tets[i]);
+    const auto turns = quarter_turns(carried.about, carried.across, normal_there);
+    const bool told = turns && carried.about == nearest_across(axes_, end, edge, normal_there);
+    // Normals are half a turn more than the wedge apart.
+    const int number = told ? nearest_of_residue((*turns + 2) % 4, (size - carried.turn) / quarter) : no_number;
+    return {wedge.a, wedge.b, size, number, number, number, told && number >= 1};
+}
+
+int TetTurnCounter::hexahedra(const Wedge& wedge) const {
+    const auto [first, last] = outward_normals(mesh_, wedge);
+    const Index end = wedge.tets.back();
+    int carried = axes_.nearest(wedge.tets.front(), first);
+    for (std::size_t i = 1; i < wedge.tets.size(); ++i)
+        carried = axes_.carried(wedge.tets[i - 1], wedge.tets[i], carried);
+    const int there = axes_.nearest(end, last);
+    if (carried == there) return 2;
+    if (carried == opposite_axis(there)) return wedge_angle(mesh_, wedge) < 2 * quarter ? 0 : 4;
+    return (p(wedge.b) - p(wedge.a)).dot(axes_.direction(end, carried).cross(axes_.direction(end, there))) > 0 ? 3 : 1;
+}
+
+std::optional<int> TetTurnCounter::quadrilaterals(Index v, const std::vector<Index>& link) const {
+    const Sector sector = sector_of(mesh_, v, link);
+    const Wedge* wedge = wedge_at(v, link.front());
+    if (!wedge) return std::nullopt;
+    Index tet = wedge->link.front() == link[1] ? wedge->tets.front() : wedge->tets.back();
+    const int normal = axes_.nearest(tet, sector.normals.front());
+    Carried carried(axes_, tet, normal, nearest_across(axes_, tet, p(link.front()) - p(v), normal), sector.mean);
+    for (std::size_t i = 1; i + 1 < link.size(); ++i) {
+        if (!(wedge = wedge_at(v, link[i]))) return std::nullopt;
+        std::vector<Index> way = wedge->tets;
+        if (wedge->link.front() != link[i - 1]) std::reverse(way.begin(), way.end());
+        for (std::size_t k = 1; k < way.size(); ++k) carried.to(way[k]);
+        tet = way.back();
+    }
+    if (carried.about != axes_.nearest(tet, sector.normals.back())) return std::nullopt;
+    const auto turns = quarter_turns(carried.about, carried.across,
+                                     nearest_across(axes_, tet, p(link.back()) - p(v), carried.about));
+    if (!turns) return std::nullopt;
+    return nearest_of_residue(*turns, (sector.angle - carried.turn) / quarter);
 }
 
 }  // namespace octafield::volume

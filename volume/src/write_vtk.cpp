@@ -23,6 +23,7 @@
 
 #include "octafield/frames/sh4.hpp"
 #include "octafield/temporary_file.hpp"
+#include "octafield/volume/combing.hpp"
 #include "octafield/volume/smoothed_curves.hpp"
 #include "require_frames.hpp"
 
@@ -214,8 +215,18 @@ void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& f
     if (!regions.empty())
         add_array<vtkIntArray>(grid->GetCellData(), "region", 1, mesh.tets.rows(),
                                [&](Eigen::Index i) { return one(regions[i]); });
+    const std::vector<std::uint8_t> agree = axes_agree(mesh, frames);
+    add_array<vtkUnsignedCharArray>(grid->GetCellData(), "axes_agree", 1, mesh.tets.rows(),
+                                    [&](Eigen::Index i) { return one(agree[i]); });
     add_named(grid->GetPointData(), more.point_data, mesh.vertices.rows(), "vertex");
     add_named(grid->GetCellData(), more.cell_data, mesh.tets.rows(), "tet");
+    for (Eigen::Index e = 0; e < more.features.rows(); ++e)
+        if (more.features.row(e).minCoeff() < 0 || more.features.row(e).maxCoeff() >= mesh.vertices.rows())
+            throw InvalidInput("feature edge " + std::to_string(e) + " names a vertex that the mesh does not have",
+                               "index_out_of_range", {static_cast<Index>(e)});
+    if (more.features.rows() > 0)  // not as cells: those are the tets
+        add_array<vtkIntArray>(grid->GetFieldData(), "feature_edges", 2, more.features.rows(),
+                               [&](Eigen::Index i) { return more.features.row(i); });
     add_metadata(grid, metadata);
     write<vtkXMLUnstructuredGridWriter>(path, grid.Get());
 }

@@ -7,9 +7,12 @@
 Formats and their layouts: docs/formats.md, octafield.frame_formats.
 """
 
+import math
+import numbers
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,17 +22,21 @@ from .._core import TetMesh
 from ..errors import InvalidInput
 from ..inputs import Input, read_input
 from .base import SITES, Field, FrameFile, FrameFormat
-from ..files import plain_name
+from ..files import plain_name, reading
 from .placing import place
 from .registry import FORMATS, READERS, WRITERS, find_format
 from .rotations import axes_of, unit_quaternions
 from .text import read_txt
+
+if TYPE_CHECKING:
+    from ..imported import AnalysedField
 
 __all__ = ["FrameFile", "FrameFormat", "frame_formats", "read_frames", "write_frames"]
 
 frame_formats: Mapping[str, FrameFormat] = MappingProxyType(FORMATS)
 
 
+@np.errstate(all="ignore")  # what is not finite is refused by name, without NumPy's warning before
 def read_frames(
     path: str | Path, mesh: TetMesh | Input | str | Path | None = None, format: str | None = None, *, where: str | None = None
 ) -> FrameFile:
@@ -49,7 +56,9 @@ def read_frames(
         raise InvalidInput(f"a TetMesh or its file is needed, not {type(given).__name__}", "bad_type")
     if isinstance(given, Input) and given.tets is None:
         raise InvalidInput(f"{given.name}: holds triangles; frames need the tet mesh they belong to", "not_tets")
-    found = read_txt(path) if format is None and plain_name(path).endswith(".txt") else READERS[reader.name](path)
+    read = read_txt if format is None and plain_name(path).endswith(".txt") else READERS[reader.name]
+    with reading(path, reader.name):
+        found = read(path)
     if found.mesh is not None:  # the file is checked, and its own mesh is the one wanted unless another is given
         _core.require_valid(found.mesh)
     result = place(found, given, where)
@@ -61,7 +70,7 @@ def read_frames(
 
 def write_frames(
     path: str | Path,
-    mesh: TetMesh | None,
+    mesh: "TetMesh | AnalysedField | None",
     frames: ArrayLike,
     where: str = "vertices",
     format: str | None = None,
@@ -72,6 +81,7 @@ def write_frames(
     regions: ArrayLike | None = None,
     metadata: Mapping[str, str] | None = None,
     combed: bool = False,
+    cell_edge: float | str | None = None,
 ) -> list[str]:
     """Writes (n, 4) frames to a file that appears only when complete, packed where the name ends with .gz.
 
@@ -79,9 +89,16 @@ def write_frames(
     the file; None: where they are, if the format has that; else they are taken there by vertex_frames or tet_frames. lengths: (n, 3) of the axes.
     features: (k, 2) feature edges, vertex ids. regions: (m,) of the tets. metadata: words for .vtu. combed: the frames go to the
     tets and are combed (octafield.comb): axes correspond by number and sign across all triangles but a cut; .npz then holds all of
-    octafield.parameterization_input, .ovmb and .ovm the cut, .perm its matchings. mesh: None where the format needs none. Returns notes on what was changed
-    or left out. Raises InvalidInput and IoError.
+    octafield.parameterization_input, .ovmb and .ovm the cut, .perm its matchings. mesh: None where the format needs none; a result of compute_field or analyse
+    gives its features and regions, too, where these are None. cell_edge: edge length of the cells that a mesher shall make, input unit, or "auto", the mean edge
+    of the tets: the axes are divided by it (.fra, .bfra: densities of cells) or multiplied (.ff3: edges of cells), on top of their lengths. Returns notes on what
+    was changed or left out. Raises InvalidInput and IoError.
     """
+    if mesh is not None and not isinstance(mesh, TetMesh):
+        if not hasattr(mesh, "feature_edges"):
+            raise InvalidInput(f"a TetMesh or a result that has one is needed, not {type(mesh).__name__}", "bad_type")
+        features, regions = (mesh.feature_edges if features is None else features), (mesh.regions if regions is None else regions)
+        mesh = mesh.tets
     path = Path(path)
     _require_site(where)
     _require_site(at)
@@ -97,11 +114,37 @@ def write_frames(
     notes = _move(field, writer, "tets" if combed else at)
     if combed:
         notes += _comb(field)
+    if cell_edge is not None:
+        notes += _take_cell_edge(field, writer, cell_edge)
     for name, words in (("lengths", "lengths of the axes"), ("features", "feature edges"), ("regions", "regions")):
         if getattr(field, name) is not None and not getattr(writer, f"holds_{name}"):
             notes.append(f"the {words} were left out: {writer.title} files hold none")
             setattr(field, name, None)
+    if field.features is None and features is None and writer.holds_features:
+        notes.append("no feature edges were given: the file marks none")
     return notes + (WRITERS[writer.name](path, field) or [])
+
+
+def _take_cell_edge(field: Field, writer: FrameFormat, cell_edge: float | str) -> list[str]:
+    if not writer.holds_lengths:
+        raise InvalidInput(f"{writer.title} files hold no lengths of axes, so no size of cells; leave out the cell edge", "option_not_used")
+    edge = cell_edge
+    if edge == "auto":
+        if field.mesh is None:
+            raise InvalidInput("the mean edge is that of the mesh; give it, or a length", "no_mesh")
+        edge = mean_edge(field.mesh)
+    if isinstance(edge, bool) or not isinstance(edge, numbers.Real) or not (math.isfinite(edge) and edge > 0):
+        raise InvalidInput(f"the cell edge must be a positive length or 'auto', not {cell_edge!r}", "option_out_of_range")
+    lengths = np.ones((len(field.frames), 3)) if field.lengths is None else np.asarray(field.lengths, float)
+    field.lengths = lengths * edge if writer.holds_edges else lengths / edge
+    return [f"the axes are {'edges' if writer.holds_edges else 'densities'} of cells with edges of {float(edge):.6g}" + (", the mean edge of the tets" if cell_edge == "auto" else "")]
+
+
+def mean_edge(mesh: TetMesh) -> float:
+    """Length of the edges of the tets, each counted once."""
+    tets, points = np.asarray(mesh.tets), np.asarray(mesh.vertices)
+    edges = np.unique(np.sort(tets[:, [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]].reshape(-1, 2), axis=1), axis=0)
+    return float(np.linalg.norm(points[edges[:, 1]] - points[edges[:, 0]], axis=1).mean())
 
 
 def _comb(field: Field) -> list[str]:

@@ -6,11 +6,11 @@ import numpy as np
 
 from .. import _core
 from ..errors import InvalidInput
-from ..inputs import read_input
+from ..inputs import input_of_grid, naming
+from ..meshes.grids import grid_of_ovm
 from ..topology import unique_triangles
 from .algohex_transitions import CUT, TRANSITIONS, VALENCES, far_transitions, inner_faces, transitions_of, valences_of
 from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of
-from ..files import plain_name
 from .ovm import read_ovm, write_ovm
 from .ovm_mesh import OvmMesh, ovm_of_tets
 from .rotations import axes_of
@@ -22,21 +22,32 @@ _ENTITY = {"tets": "cell", "vertices": "vertex"}
 FEATURES = {"vertex": "AlgoHex::FeatureVertices", "edge": "AlgoHex::FeatureEdges", "face": "AlgoHex::FeatureFaces"}
 
 
-def read(path: Path) -> FrameFile:
+def read_text(path: Path) -> FrameFile:
+    return _read(path, "ovm")
+
+
+def read_binary(path: Path) -> FrameFile:
+    return _read(path, "ovmb")
+
+
+def _read(path: Path, name: str) -> FrameFile:
     """Of the cells, or of the vertices where the cells have none."""
-    name = "ovmb" if plain_name(path).endswith(".ovmb") else "ovm"
-    mesh = read_ovm(path)
+    mesh = read_ovm(path, binary=name == "ovmb")
     result = _frames_in(path, name, mesh)
     if result is None:
         known = ", ".join(sorted(f"{entity} {key}" for entity, key in mesh.properties)) or "none"
         raise InvalidInput(f"{path}: holds no frames that are known (properties: {known})", "no_frames")
-    found = read_input(path)
+    with naming(str(path)):
+        found = input_of_grid(str(path), grid_of_ovm(mesh, path))
     if result.where == "vertices":
         for part in ("frames", "lengths"):
             if getattr(result, part) is not None:
                 setattr(result, part, getattr(result, part)[found.file_points])
     if result.where == "tets":
         result.notes += far_transitions(mesh, result.frames)
+        for part in ("frames", "lengths"):
+            if getattr(result, part) is not None:
+                setattr(result, part, getattr(result, part)[found.file_tets])
     if mesh.skipped:
         result.notes.append(f"properties of other types were left out: {', '.join(mesh.skipped[:5])}")
     return with_mesh(result, found)
@@ -58,11 +69,19 @@ def _frames_in(path: Path, name: str, mesh: OvmMesh) -> FrameFile | None:
     return None
 
 
-def write(path: Path, field: Field) -> None:
+def write_text(path: Path, field: Field) -> None:
+    _write(path, field, binary=False)
+
+
+def write_binary(path: Path, field: Field) -> None:
+    _write(path, field, binary=True)
+
+
+def _write(path: Path, field: Field, *, binary: bool) -> None:
     mesh = ovm_of_tets(mesh_of(field).vertices, mesh_of(field).tets)
     add_features(mesh, field)
     entity = _ENTITY[field.where]
-    if plain_name(path).endswith(".ovmb"):
+    if binary:
         key = entity, _BINARY_NAME[field.where]
         mesh.properties[key] = field.frames[:, [1, 2, 3, 0]]
         mesh.kinds[key] = "Quaternion"
@@ -73,22 +92,19 @@ def write(path: Path, field: Field) -> None:
             mesh.properties[entity, name] = np.ascontiguousarray(axes[:, :, k])
     if field.where == "tets":
         _add_transitions(mesh, field)
-    write_ovm(path, mesh)
+    write_ovm(path, mesh, binary=binary)
 
 
 def _add_transitions(mesh: OvmMesh, field: Field) -> None:
     """What AlgoHex's refined meshes hold beside the frames."""
     if field.combed is None:
         edges = _core.singular_edges(mesh_of(field), field.frames).edges
-        ends = np.array([(e.a, e.b) for e in edges], np.int64).reshape(-1, 2)
-        holonomy = np.array([e.holonomy for e in edges], np.int64)
     else:
-        parts = field.combed.arrays()
-        ends, holonomy = parts["singular_edges"].astype(np.int64), parts["singular_holonomy"]
+        edges, parts = field.combed.singular.edges, field.combed.arrays()
         mesh.properties[CUT] = np.zeros(len(mesh.faces), np.int32)
         mesh.properties[CUT][inner_faces(mesh)] = parts["cut"]
     mesh.properties[TRANSITIONS] = transitions_of(mesh, field.matchings())
-    mesh.properties[VALENCES] = valences_of(mesh, field, mesh.properties[TRANSITIONS], ends, holonomy)
+    mesh.properties[VALENCES] = valences_of(mesh, field, mesh.properties[TRANSITIONS], edges)
 
 
 def add_features(mesh: OvmMesh, field: Field, triangles: np.ndarray | None = None, faces: np.ndarray | None = None) -> None:

@@ -1,10 +1,11 @@
 """Transitions across half-faces and valences of edges as AlgoHex keeps them. Conventions and their sources: docs/formats.md."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from .. import _core
-from ..topology import first_tets_at
-from .base import Field, mesh_of
+from .base import Field
 from .ovm_mesh import OvmMesh
 from .rotations import axes_of
 
@@ -48,24 +49,18 @@ def far_transitions(mesh: OvmMesh, frames: np.ndarray) -> list[str]:
     return [f"{TRANSITIONS[1]} does not lead to the closest axes at {far} half-faces; octafield goes by the frames alone"] if far else []
 
 
-def valences_of(mesh: OvmMesh, field: Field, transitions: np.ndarray, ends: np.ndarray, holonomy: np.ndarray) -> np.ndarray:
-    """(e,) hexahedra at each edge less 4, on the boundary less 2. ends: (k, 2) of the edges inside with a turn; holonomy: (k,) of their lowest
-    tet's frame."""
+def valences_of(mesh: OvmMesh, field: Field, transitions: np.ndarray, singular: Sequence[_core.SingularEdge]) -> np.ndarray:
+    """(e,) hexahedra at each edge less 4, on the boundary less 2. singular: edges inside with a turn."""
     result = np.zeros(len(mesh.edges), np.int32)
     count = len(mesh.vertices)
+    ends = np.array([(e.a, e.b) for e in singular], np.int64).reshape(-1, 2)
     place = np.searchsorted(mesh.edges[:, 0] * count + mesh.edges[:, 1], ends[:, 0] * count + ends[:, 1])
-    result[place] = _inner_valences(field, ends, holonomy)
+    hexahedra = np.array([e.valence for e in singular], np.int64)
+    complex_or_across = np.where([e.quarter_turns == 0 for e in singular], COMPLEX, UNDETERMINED)
+    result[place] = np.where(hexahedra < 0, complex_or_across, hexahedra - 4)
     edges, values = _boundary_valences(mesh, axes_of(field.frames), transitions)
     result[edges] = values
     return result
-
-
-def _inner_valences(field: Field, ends: np.ndarray, holonomy: np.ndarray) -> np.ndarray:
-    turn, points = np.asarray(_core.octahedral_group())[holonomy, 1:], np.asarray(mesh_of(field).vertices)
-    first = first_tets_at(np.asarray(mesh_of(field).tets), ends)
-    along = np.einsum("nij,nj,ni->n", axes_of(field.frames[first]), turn, points[ends[:, 1]] - points[ends[:, 0]])
-    quarter = np.where(along == 0, UNDETERMINED, np.where(along > 0, -1, 1))
-    return np.where(holonomy >= 10, COMPLEX, np.where(holonomy <= 3, -2, quarter))
 
 
 def _boundary_valences(mesh: OvmMesh, axes: np.ndarray, transitions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -81,6 +81,15 @@ def mesh_of(field: Field | FrameFile) -> TetMesh:
     return field.mesh
 
 
+def frames_at(found: FrameFile, where: str) -> np.ndarray:
+    """The frames of a file with a mesh, taken to the vertices or the tets if they are not there; a note tells."""
+    if found.where == where:
+        return found.frames
+    move = _core.tet_frames if where == "tets" else _core.vertex_frames
+    found.notes.append(f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around")
+    return np.asarray(move(mesh_of(found), found.frames))
+
+
 @dataclass(frozen=True)
 class FrameFormat:
     """A kind of file with frames.

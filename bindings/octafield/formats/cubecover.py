@@ -38,7 +38,7 @@ def write_fra(path: Path, field: Field) -> None:
     """And .perm beside it."""
     rows = axes_in_rows(field.frames, field.lengths).reshape(-1, 3)
     perm = permutations(field)
-    stem = path.name[: plain_name(path).rindex(".fra")]
+    stem = path.name[: len(plain_name(path).removesuffix(".fra"))]
     beside = path.with_name(stem + ".perm")
     write_all(
         [

@@ -118,7 +118,7 @@ def write_mesh(path: str | Path, found: Input) -> list[str]:
         mesh = ovm_of_tets(tets.vertices, tets.tets)
         field = Field(tets, np.empty((0, 4)), "tets", features=parts.lines, regions=parts.regions)
         add_features(mesh, field, parts.triangles, parts.faces)
-        write_ovm(path, mesh)
+        write_ovm(path, mesh, binary=suffix == ".ovmb")
         return []
     return _write_by_meshio(path, suffix, parts)
 

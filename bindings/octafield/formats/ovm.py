@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InvalidInput, IoError
-from ..files import plain_name, read_text, rows_of, table_of, write_whole
+from ..files import read_text, rows_of, table_of, write_whole
 from .ovm_mesh import ENTITIES, OvmMesh
 from .ovmb import binary_pieces, read_binary
 
@@ -20,8 +20,8 @@ _WIDTHS = {"int": 1, "unsigned": 1, "short": 1, "long": 1, "unsigned_int": 1, "d
 _TEXT_TYPE = {("i", 1): "int", ("f", 1): "double", ("f", 2): "vec2d", ("f", 3): "vec3d", ("f", 4): "vec4d"}
 
 
-def read_ovm(path: Path) -> OvmMesh:
-    mesh = read_binary(path) if plain_name(path).endswith(".ovmb") else _read_text(path)
+def read_ovm(path: Path, *, binary: bool) -> OvmMesh:
+    mesh = read_binary(path) if binary else _read_text(path)
     for what, ids, limit in (
         ("edge", mesh.edges, len(mesh.vertices)),
         ("face", mesh.faces, 2 * len(mesh.edges)),
@@ -34,8 +34,8 @@ def read_ovm(path: Path) -> OvmMesh:
     return mesh
 
 
-def write_ovm(path: Path, mesh: OvmMesh) -> None:
-    write_whole(path, binary_pieces(mesh) if plain_name(path).endswith(".ovmb") else _text_pieces(mesh))
+def write_ovm(path: Path, mesh: OvmMesh, *, binary: bool) -> None:
+    write_whole(path, binary_pieces(mesh) if binary else _text_pieces(mesh))
 
 
 def _read_text(path: Path) -> OvmMesh:

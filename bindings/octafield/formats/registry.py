@@ -46,14 +46,14 @@ FORMATS: dict[str, FrameFormat] = {
         FrameFormat(
             "ovm", (".ovm",), "OpenVolumeMesh text", ("tets", "vertices"),
             "properties quaternion (vec4d, w x y z), frame_u, frame_v, frame_w (vec3d)", _SHORTEST,
-            "OpenVolumeMesh: src/OpenVolumeMesh/FileManager/FileManagerT_impl.hh", algohex.read, algohex.write,
+            "OpenVolumeMesh: src/OpenVolumeMesh/FileManager/FileManagerT_impl.hh", algohex.read_text, algohex.write_text,
             holds_mesh=True, needs_mesh=True, exact=True, holds_features=True, holds_regions=True,
         ),
         FrameFormat(
             "ovmb", (".ovmb",), "OpenVolumeMesh binary, AlgoHex", ("tets", "vertices"),
             "property FrameFieldQuaternions or vertex quaternion (Quaternion: x y z w)", _BITS,
             "OpenVolumeMesh: src/OpenVolumeMesh/IO/detail/ovmb_format.hh, ovmb_codec.cc; cgg-bern/AlgoHex: PropertyCodecsSHCoeffs.hh",
-            algohex.read, algohex.write, holds_mesh=True, needs_mesh=True, exact=True, holds_features=True, holds_regions=True,
+            algohex.read_binary, algohex.write_binary, holds_mesh=True, needs_mesh=True, exact=True, holds_features=True, holds_regions=True,
         ),
         FrameFormat(
             "ff3", (".ff3",), "MetricDrivenFrame3D, ASCII", ("tets",), "9 numbers per line: " + _AXES, _SHORTEST,
@@ -62,7 +62,7 @@ FORMATS: dict[str, FrameFormat] = {
         FrameFormat(
             "vtu", (".vtu",), "VTK XML", ("vertices", "tets"),
             "arrays quaternion (w x y z), frame_u, frame_v, frame_w, sh4", _BITS, "VTK itself, meshio", vtk.read_vtu, vtk.write_vtu,
-            holds_mesh=True, exact=True, needs_mesh=True, holds_lengths=True, holds_regions=True,
+            holds_mesh=True, exact=True, needs_mesh=True, holds_lengths=True, holds_features=True, holds_regions=True,
         ),
         FrameFormat(
             "vtk", (".vtk",), "VTK legacy", ("vertices", "tets"), "the arrays of vtu", _BITS, "meshio", vtk.read_vtk, None,

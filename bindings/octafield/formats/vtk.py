@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _core
 from ..errors import InvalidInput, IoError
-from ..meshes.grids import MESHIO_SUFFIXES, grid_of_meshio, read_meshio
+from ..meshes.grids import grid_of_cells, read_cells
 from ..inputs import Input, input_of_grid, naming
 from ..output import scratch_folder, vtp_bytes
 from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of
@@ -20,19 +20,19 @@ if TYPE_CHECKING:
 
 QUATERNIONS = ("quaternion", "frame_quaternion")  # w x y z
 AXES = ("frame_u", "frame_v", "frame_w")
-CONVENTION = "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4"
+CONVENTION = "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per vertex: interpolate sh4, or axes only in cells with axes_agree 1"
 
 
 def read_arrays(path: Path, name: str) -> FrameFile:
     """The frames of a mesh file's cell data, or of its point data where the cells have none."""
-    suffix = next(s for s in MESHIO_SUFFIXES if plain_name(path).endswith(s))
-    found = read_meshio(path, suffix)
+    found = read_cells(path, f".{name}")
     blocks = [block.type for block in found.cells]
     if "tetra" not in blocks:
         raise InvalidInput(f"{path}: holds no tetrahedra", "not_tets")
     with naming(str(path)):
-        read = input_of_grid(str(path), grid_of_meshio(found))
+        read = input_of_grid(str(path), grid_of_cells(found))
     of_tets = {key: np.concatenate([np.asarray(v) for kind, v in zip(blocks, values, strict=True) if kind == "tetra"]) for key, values in found.cell_data.items()}
+    of_tets = {key: values[read.file_tets] for key, values in of_tets.items()}
     of_points = {key: np.asarray(values)[read.file_points] for key, values in found.point_data.items()}
     for where, data in (("tets", of_tets), ("vertices", of_points)):
         result = _frames_in(path, name, where, data)
@@ -93,14 +93,14 @@ def write_vtu(path: Path, field: Field) -> None:
     """As `octafield field` writes it; frames in tets are taken to the vertices as well."""
     of_tets, mesh = field.where == "tets", mesh_of(field)
     frames = _core.vertex_frames(mesh, field.frames) if of_tets else field.frames
-    lengths, regions = (() if part is None else part for part in (field.lengths, field.regions))
+    lengths, regions, features = (() if part is None else part for part in (field.lengths, field.regions, field.features))
     metadata = {"convention": CONVENTION} | field.metadata
 
     def write(plain: Path) -> None:
         if of_tets:
-            _core.write_field(plain, mesh, frames, metadata, regions, tet_frames=field.frames, tet_lengths=lengths)
+            _core.write_field(plain, mesh, frames, metadata, regions, tet_frames=field.frames, tet_lengths=lengths, features=features)
         else:
-            _core.write_field(plain, mesh, frames, metadata, regions, lengths=lengths)
+            _core.write_field(plain, mesh, frames, metadata, regions, lengths=lengths, features=features)
 
     through_file(path, ".vtu", write)
 

@@ -15,15 +15,18 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import InvalidInput, IoError
+from .. import _core
+from ..errors import Cancelled, Error, InvalidInput, IoError
 from ..files import read_bytes
 from ..output import scratch_folder
 from ..phases import Progress, announce
+from .cad_worker import WAYS
 from .grids import Grid
 
 _FORMATS = {".step": "step", ".stp": "step", ".brep": "brep", ".iges": "iges", ".igs": "iges"}
 CAD_SUFFIXES = tuple(_FORMATS)
 _WORKER = Path(__file__).with_name("cad_worker.py")
+_OF_MESHING = ("degenerate_triangle", "non_manifold_edge", "self_intersection")  # defects that another mesh may not have
 _PAUSE = 0.1  # seconds between questions to the callback
 _NO_NUMBER = re.compile(rb"(?i)[(,\s]\s*([-+]?(?:nan|inf|infinity))\s*[,)\s]")  # on which Open CASCADE does not end
 
@@ -35,8 +38,30 @@ def read_cad(path: Path, suffix: str, edge_length: float, progress: Progress | N
         raise IoError(f"{path}: no such file")
     if not 0 <= edge_length < float("inf"):
         raise InvalidInput(f"{path}: the edge length must be positive, or 0 for one from the size of the model; not {edge_length}", "invalid_option")
+    grid, fault = _meshed(path, suffix, edge_length, 0, progress)
+    if fault is None:
+        assert grid is not None
+        return grid
+    for number, way in enumerate(WAYS[1:], 1):
+        try:
+            other, again = _meshed(path, suffix, edge_length, number, progress)
+        except Error as error:
+            if isinstance(error, Cancelled):
+                raise
+            continue
+        if other is not None and again is None:
+            other.notes.append(f"Gmsh's first mesh could not be used ({fault}); made again: {way.name}")
+            return other
+    if grid is None:
+        raise IoError(f"{path}: {fault}; {len(WAYS)} ways to mesh it were tried", "not_meshed")
+    grid.notes.append(f"Gmsh was asked in {len(WAYS)} ways; none gave triangles that can be used ({fault})")
+    return grid
+
+
+def _meshed(path: Path, suffix: str, edge_length: float, way: int, progress: Progress | None) -> tuple[Grid | None, str | None]:
+    """The mesh, None where Gmsh gave none for the model it could read, and what is wrong with it. way: number in WAYS."""
     with _scratch(path) as folder:
-        job = {"model": str(_plain(path, suffix, folder)), "format": _FORMATS[suffix], "edge_length": edge_length}
+        job = {"model": str(_plain(path, suffix, folder)), "format": _FORMATS[suffix], "edge_length": edge_length, "way": way}
         code = _run(path, job | {"folder": str(folder), "parent": os.getpid()}, folder, progress)
         try:
             answer = json.loads((folder / "answer.json").read_bytes()) if code == 0 else None
@@ -44,13 +69,26 @@ def read_cad(path: Path, suffix: str, edge_length: float, progress: Progress | N
             answer = None
         if answer is None:
             raise IoError(f"{path}: {_ending(code, (folder / 'printed').read_text(errors='replace'))}", "reader_stopped")
+        if answer.get("error") == "not_meshed":
+            return None, answer["message"]
         if "error" in answer:
             kind = InvalidInput if answer["error"] in ("no_gmsh", "no_faces", "invalid_option") else IoError
             raise kind(f"{path}: {answer['message']}", answer["error"])
         with np.load(folder / "grid.npz") as arrays:
             cells = {kind: arrays[kind] for kind in ("triangle", "line", "tetra") if kind in arrays}
             creases = np.ones(len(cells["line"]), bool) if "line" in cells else None
-            return Grid(arrays["points"], cells, arrays["faces"], arrays.get("regions"), creases, answer["notes"])
+            grid = Grid(arrays["points"], cells, arrays["faces"], arrays.get("regions"), creases, answer["notes"])
+    return grid, _fault(grid)
+
+
+def _fault(grid: Grid) -> str | None:
+    """Of triangles alone: what makes them no surface. Its rim may be open."""
+    if "tetra" in grid.cells or "triangle" not in grid.cells:
+        return None
+    used, triangles = np.unique(grid.cells["triangle"], return_inverse=True)
+    surface = _core.TriangleMesh(grid.points[used], triangles.reshape(-1, 3).astype(np.int32))
+    defect = next((found for found in _core.find_defects(surface, closed=False) if found.kind in _OF_MESHING), None)
+    return defect.message.partition("; ")[0] if defect else None
 
 
 @contextlib.contextmanager
@@ -107,5 +145,5 @@ def _ending(code: int, printed: str) -> str:
         return "Gmsh was stopped by signal SIGKILL, most likely because memory ran out; choose a larger edge length (--edge-length)"
     if code < 0:
         return f"Gmsh was stopped by signal {signal.Signals(-code).name}: the model is damaged, or Gmsh has a defect; export it again"
-    last = printed.strip().rpartition("\n")[2]
+    last = re.sub(r"\S*[/\\]\S*", "", printed.strip().rpartition("\n")[2]).strip()  # paths are of no use to anyone
     return f"Gmsh gave no answer (exit code {code}{': ' if last else ''}{last}); export it again, or mesh it elsewhere and give the mesh"

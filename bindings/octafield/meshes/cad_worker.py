@@ -27,6 +27,29 @@ _MOST = 5e7  # triangles or tets, as of remeshing
 _LINE, _TRIANGLE, _TET = 1, 2, 4  # Gmsh's numbers of elements
 
 
+@dataclass(frozen=True)
+class Way:
+    """One way to mesh a model: Gmsh's options, whether small edges and faces are healed away first, factor of the edge length,
+    and least edge length allowed where the model bends, as a share of it."""
+
+    name: str
+    options: dict[str, float] = field(default_factory=dict)
+    heal: bool = False
+    size: float = 1.0
+    least: float = 1.0
+
+
+# The first is taken; the others where its triangles cannot be used (cad.py).
+WAYS = (
+    Way("Gmsh's default"),
+    Way("Delaunay triangulation", {"Mesh.Algorithm": 5}),
+    Way("edges that adapt to curvature", {"Mesh.MeshSizeFromCurvature": 12}, least=0.2),
+    Way("its MeshAdapt algorithm", {"Mesh.Algorithm": 1}),
+    Way("small edges and faces of the model healed", heal=True),
+    Way("edges half as long, adapted to curvature", {"Mesh.Algorithm": 5, "Mesh.MeshSizeFromCurvature": 16}, size=0.5, least=0.2),
+)
+
+
 class Refused(Exception):
     """A model that cannot be used. kind: of the error."""
 
@@ -80,7 +103,17 @@ def _answer(job: dict[str, Any]) -> dict[str, Any]:
     gmsh.option.setNumber("General.NumThreads", 1)
     _import(gmsh, job["model"], job["format"])
     model = _with_solids(gmsh)
-    arrays = _meshed(model, job["edge_length"] or model.diagonal / PARTS)
+    way = WAYS[job.get("way", 0)]
+    if way.heal:
+        _heal(model)
+    for name, value in way.options.items():
+        gmsh.option.setNumber(name, value)
+    try:
+        arrays = _meshed(model, way.size * (job["edge_length"] or model.diagonal / PARTS), way.least)
+    except Refused:
+        raise
+    except Exception as error:
+        raise Refused("not_meshed", f"Gmsh cannot mesh it ({' '.join(str(error).split())}); choose another edge length (--edge-length), or export it again") from error
     np.savez(Path(job["folder"], "grid.npz"), **arrays)
     return {"notes": model.notes}
 
@@ -243,11 +276,22 @@ def _depths(gmsh: Any, faces: set[int]) -> dict[int, int]:
     return depth
 
 
-def _meshed(model: Model, size: float) -> dict[str, Any]:
+def _heal(model: Model) -> None:
+    """May number faces and solids anew; where the solids do not come through, the model stays as it was meshed before."""
+    gmsh, count = model.gmsh, len(model.region)
+    gmsh.model.occ.healShapes(tolerance=_CLOSE * model.diagonal, fixDegenerated=True, fixSmallEdges=True, fixSmallFaces=True, sewFaces=False, makeSolids=False)
+    gmsh.model.occ.synchronize()
+    solids = sorted(tag for _, tag in gmsh.model.getEntities(3))
+    if len(solids) != count:
+        raise Refused("not_meshed", "healing the model loses solids")
+    model.region = dict(zip(solids, (model.region[tag] for tag in sorted(model.region)), strict=True))
+
+
+def _meshed(model: Model, size: float, least: float = 1.0) -> dict[str, Any]:
     """Triangles of the boundary of solids, where there are any; where some touch, tets."""
     gmsh, solids = model.gmsh, list(model.region)
     _require_few(gmsh, 2, size, 3**0.5 / 4 * size**2)
-    gmsh.option.setNumber("Mesh.MeshSizeMin", size)
+    gmsh.option.setNumber("Mesh.MeshSizeMin", least * size)
     gmsh.option.setNumber("Mesh.MeshSizeMax", size)
     gmsh.model.mesh.generate(2)
     touching = _touching(gmsh, solids)

@@ -7,21 +7,19 @@ ids, and does not say where a file is damaged. Layout: Gmsh reference manual, MS
 import codecs
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from ..errors import IoError
+from .cell_mesh import Block, CellMesh
+from .gmsh_entities import Entities, entities, partitioned
 from .gmsh_sections import Section, sections, version_of
-
-if TYPE_CHECKING:
-    import meshio
 
 _CELLS = {15: ("vertex", 1), 1: ("line", 2), 2: ("triangle", 3), 3: ("quad", 4), 4: ("tetra", 4), 5: ("hexahedron", 8), 6: ("wedge", 6), 7: ("pyramid", 5)}
 _HIGHER = {8: 3, 9: 6, 10: 9, 11: 10, 12: 27, 13: 18, 14: 14, 16: 8, 17: 20, 18: 15, 19: 13, 20: 9, 21: 10, 22: 12, 23: 15, 24: 15, 25: 21, 26: 4, 27: 5,
            28: 6, 29: 20, 30: 35, 31: 56, 92: 64, 93: 125}  # fmt: skip
 _View = tuple[str, np.ndarray, np.ndarray]  # name, ids, values
-_VOLUME, _FLAT = {11, 29, 30, 31}, {9, 10, 16, 20, 21, 22, 23, 24, 25}
+_VOLUME, _FLAT, _CURVE = {11, 29, 30, 31}, {9, 20, 21, 22, 23, 24, 25}, {8, 26, 27, 28}
+_QUADRATIC = {10: "quad9", 12: "hexahedron27", 13: "wedge18", 14: "pyramid14", 16: "quad8", 17: "hexahedron20", 18: "wedge15", 19: "pyramid13", 92: "hexahedron64", 93: "hexahedron125"}
 
 
 @dataclass
@@ -35,7 +33,7 @@ class _Elements:
     geometrical: np.ndarray
 
 
-def read_gmsh(data: bytes, name: str) -> "meshio.Mesh":
+def read_gmsh(data: bytes, name: str) -> CellMesh:
     """With cell data gmsh:physical and gmsh:geometrical (0: none) and the views; where a view has no value: nan."""
     parts = list(sections(data.removeprefix(codecs.BOM_UTF8), name))
     version = version_of(parts[0])
@@ -43,16 +41,20 @@ def read_gmsh(data: bytes, name: str) -> "meshio.Mesh":
     for section in parts:
         section.order = order
     wide = version >= 4
-    physical: dict[tuple[int, int], int] = {}
+    told: Entities = {}
     tags, points, runs = np.empty(0, np.int64), np.empty((0, 3)), list[_Elements]()
     views: dict[str, list[_View]] = {"NodeData": [], "ElementData": []}
     for section in parts:
         if section.name == "Entities" and wide:
-            physical = _entities(section)
+            told |= entities(section)
+        elif section.name == "PartitionedEntities" and wide:
+            told |= partitioned(section, told)
         elif section.name == "Nodes" and not len(points):
             tags, points = (_nodes4 if wide else _nodes2)(section)
+        elif section.name == "ParametricNodes" and not wide and not len(points):
+            tags, points = _parametric_nodes(section)
         elif section.name == "Elements" and not runs:  # Gmsh writes them again before every view that is appended
-            runs = list(_elements4(section, physical) if wide else _elements2(section))
+            runs = list(_elements4(section, told) if wide else _elements2(section))
         elif section.name in views:
             views[section.name].append(_view(section))
     if not len(points):
@@ -85,19 +87,18 @@ def _nodes4(section: Section) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate(tags), np.concatenate(points).astype(float)
 
 
-def _entities(section: Section) -> dict[tuple[int, int], int]:
-    """The first physical group of each entity that has one, by dimension and tag."""
-    found = {}
-    for dimension, count in enumerate([section.size("u8", "entities") for _ in range(4)]):
-        for _ in range(count):
-            tag = int(section.take("i4", 1)[0])
-            section.take("f8", 6 if dimension else 3)
-            groups = section.take("i4", section.size("u8", "groups"))
-            if len(groups):
-                found[dimension, tag] = int(groups[0])
-            if dimension:
-                section.take("i4", section.size("u8", "boundaries"))
-    return found
+def _parametric_nodes(section: Section) -> tuple[np.ndarray, np.ndarray]:
+    """Version 2: after the coordinates, dimension and tag of the CAD entity and, on curves and faces, a parameter or two."""
+    count = section.count("nodes") if section.order else section.size("i4", "nodes")
+    if count > section.end - section.at:
+        raise IoError(f"{section.place()}: $ParametricNodes ends early: {count} nodes do not fit in {section.end - section.at} bytes")
+    ids, points = np.empty(count, np.int64), np.empty((count, 3))
+    for row in range(count):
+        ids[row] = section.take("i4", 1)[0]
+        points[row] = section.take("f8", 3)
+        dimension = int(section.take("i4", 2)[0])
+        section.take("f8", dimension if dimension in (1, 2) else 0)
+    return ids, points
 
 
 def _width(section: Section, place: str, kind: int) -> int:
@@ -140,15 +141,16 @@ def _run(kind: int, table: np.ndarray, tags: int) -> _Elements:
     return _Elements(kind, table[:, 0], table[:, 1 + tags :], table[:, 1] if tags > 0 else none, table[:, 2] if tags > 1 else none)
 
 
-def _elements4(section: Section, physical: dict[tuple[int, int], int]) -> Iterator[_Elements]:
+def _elements4(section: Section, told: Entities) -> Iterator[_Elements]:
     blocks, *_ = (section.size("u8", "elements") for _ in range(4))
     for _ in range(blocks):
         place = section.place()
         dimension, entity, kind = section.take("i4", 3).tolist()
         number, width = section.size("u8", "elements"), 1 + _width(section, place, kind)
         table = section.take("u8", number * width).reshape(number, width).astype(np.int64)
-        group = np.full(number, physical.get((dimension, entity), 0))
-        yield _Elements(kind, table[:, 0], table[:, 1:], group, np.full(number, entity))
+        group, parent = told.get((dimension, entity), (0, entity))
+        if parent is not None:  # else between partitions
+            yield _Elements(kind, table[:, 0], table[:, 1:], np.full(number, group), np.full(number, parent))
 
 
 def _view(section: Section) -> _View:
@@ -167,9 +169,7 @@ def _view(section: Section) -> _View:
     return names[0], section._whole(np.ascontiguousarray(table[:, 0]), count * (1 + width)), table[:, 1:]
 
 
-def _mesh(name: str, tags: np.ndarray, points: np.ndarray, runs: list[_Elements], views: dict[str, list[_View]]) -> "meshio.Mesh":
-    import meshio
-
+def _mesh(name: str, tags: np.ndarray, points: np.ndarray, runs: list[_Elements], views: dict[str, list[_View]]) -> CellMesh:
     if len(np.unique(tags)) < len(tags):
         raise IoError(f"{name}: two nodes have the same number")
     cells = []
@@ -178,18 +178,21 @@ def _mesh(name: str, tags: np.ndarray, points: np.ndarray, runs: list[_Elements]
         if (nodes < 0).any():
             bad = int(np.argmax((nodes < 0).any(axis=1)))
             raise IoError(f"{name}: element {run.ids[bad]} names node {run.nodes[bad][nodes[bad] < 0][0]}, which is not there")
-        cells.append((_kind(run.kind), nodes))
+        cells.append(Block(_kind(run.kind), nodes))
     ids = np.concatenate([run.ids for run in runs]) if runs else np.empty(0, np.int64)
     ends = np.cumsum([len(run.ids) for run in runs])[:-1]
     of_points = {key: _placed(values, _rows_of(tags, where), len(tags)) for key, where, values in views["NodeData"]}
     of_cells = {key: np.split(_placed(values, _rows_of(ids, where), len(ids)), ends) for key, where, values in views["ElementData"]}
     of_cells["gmsh:physical"], of_cells["gmsh:geometrical"] = [run.physical for run in runs], [run.geometrical for run in runs]
-    return meshio.Mesh(points, cells, point_data=of_points, cell_data=of_cells if runs else {})
+    return CellMesh(points, cells, of_points, of_cells if runs else {})
 
 
 def _kind(kind: int) -> str:
-    """The names that meshio has for what is used; others begin with what they are made of."""
-    return _CELLS[kind][0] if kind in _CELLS else f"{'tetra' if kind in _VOLUME else 'triangle' if kind in _FLAT else 'hexahedron'} of Gmsh's type {kind}"
+    """meshio's names; of what is not used, one that begins with what it is made of."""
+    if kind in _CELLS:
+        return _CELLS[kind][0]
+    plain = "tetra" if kind in _VOLUME else "triangle" if kind in _FLAT else "line" if kind in _CURVE else ""
+    return f"{plain}{_HIGHER[kind]}" if plain else _QUADRATIC.get(kind, f"hexahedron of Gmsh's type {kind}")
 
 
 def _rows_of(known: np.ndarray, wanted: np.ndarray) -> np.ndarray:

@@ -1,54 +1,54 @@
 """Files of cells: what they hold as arrays, by our own readers (of .vtp VTK's), before any meaning is given to it."""
 
-import contextlib
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .binary_medit import read_binary_medit
+from .cell_mesh import Block, Blocks, CellMesh, first_of_equal, linear
 from ..errors import InvalidInput, IoError
-from ..files import read_bytes, read_text
+from ..files import read_bytes, read_text, reading
 from .gmsh_mesh import read_gmsh
 from .legacy_vtk import read_legacy_vtk
-from ..output import read_vtp, scratch_folder
 from .text_meshes import TextMesh, read_medit, read_tetgen
+from .vtp_mesh import read_vtp
 from .vtu_mesh import read_vtu
 
 if TYPE_CHECKING:
-    import meshio
+    from ..formats.ovm_mesh import OvmMesh
 
 GRID_SUFFIXES = (".vtk", ".vtu", ".vtp", ".msh", ".mesh", ".meshb", ".node", ".ele", ".ovm", ".ovmb")
 _READERS = {".vtk": read_legacy_vtk, ".vtu": read_vtu, ".msh": read_gmsh}
-MESHIO_SUFFIXES = tuple(_READERS)  # whose readers make objects of meshio's
+CELL_SUFFIXES = tuple(_READERS)  # whose readers give a CellMesh
 _SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
 LOWER = ("vertex", "line", "triangle")
-Blocks = list[tuple[str, np.ndarray]]  # meshio's cell type and the connectivity
-_Read = TypeVar("_Read")
 
 
 @dataclass
 class Grid:
     """Points, connectivity per meshio cell type, and, where the file tells, the CAD face of each triangle, the region
-    of each tet and which lines are creases (all, where it does not). notes: what is odd about the file."""
+    of each tet and which lines are creases (all, where it does not). file_tets: (m,) of each tet its number among those of the file. notes: what
+    is odd about the file."""
 
     points: np.ndarray
     cells: dict[str, np.ndarray]
     faces: np.ndarray | None = None
     regions: np.ndarray | None = None
     creases: np.ndarray | None = None
+    file_tets: np.ndarray | None = None
     notes: list[str] = field(default_factory=list)
 
 
 def read_grid(path: Path, suffix: str) -> Grid:
     """Whatever a reader stumbles over becomes an IoError."""
-    if suffix == ".vtp":
-        return _vtp_grid(path)
-    with _reading(path, suffix):
-        if suffix in MESHIO_SUFFIXES:
-            return grid_of_meshio(read_meshio(path, suffix))
+    with reading(path, suffix):
+        if suffix == ".vtp":
+            found = read_vtp(_bytes(path), str(path))
+            return _grid(found.points, [(block.type, block.data) for block in found.cells], None, None)
+        if suffix in CELL_SUFFIXES:
+            return grid_of_cells(read_cells(path, suffix))
         if suffix == ".meshb":
             return _grid_of_text(read_binary_medit(_bytes(path), str(path)))
         if suffix == ".mesh":
@@ -56,7 +56,9 @@ def read_grid(path: Path, suffix: str) -> Grid:
         if suffix in (".node", ".ele"):
             files = _tetgen_files(path, suffix)
             return _grid_of_text(read_tetgen({kind: (_text(file), str(file)) for kind, file in files.items()}))
-        return _ovm_grid(path)
+        from ..formats.ovm import read_ovm
+
+        return grid_of_ovm(read_ovm(path, binary=suffix == ".ovmb"), path)
 
 
 def _text(path: Path) -> str:
@@ -83,37 +85,36 @@ def _tetgen_files(path: Path, suffix: str) -> dict[str, Path]:
 
 def _grid_of_text(mesh: TextMesh) -> Grid:
     grid = _grid(mesh.points, mesh.cells, mesh.references, mesh.references, mesh.ridges)
-    grid.notes = mesh.notes
+    grid.notes += mesh.notes
     return grid
 
 
-def read_meshio(path: Path, suffix: str) -> "meshio.Mesh":
-    return _READERS[suffix](_bytes(path), str(path))
+def read_cells(path: Path, suffix: str) -> CellMesh:
+    """Whatever the reader stumbles over becomes an IoError."""
+    with reading(path, suffix):
+        found = _READERS[suffix](_bytes(path), str(path))
+        blocks, found.notes = linear([(block.type, block.data) for block in found.cells])
+        found.cells = [Block(kind, data) for kind, data in blocks]
+        return found
 
 
-@contextlib.contextmanager
-def _reading(path: Path, suffix: str) -> Iterator[None]:
-    try:
-        yield
-    except (InvalidInput, IoError):
-        raise
-    except Exception as error:  # whatever parsers run into
-        reason = " ".join(str(error).split()) or type(error).__name__
-        raise IoError(f"{path}: cannot be read as {suffix} ({reason})") from error
-
-
-def grid_of_meshio(found: "meshio.Mesh") -> Grid:
-    blocks = [(block.type, np.asarray(block.data)) for block in found.cells]
+def grid_of_cells(found: CellMesh) -> Grid:
+    blocks = [(block.type, block.data) for block in found.cells]
     entities = _entity_ids(found, ("CellEntityIds", "gmsh:geometrical"))
-    return _grid(found.points, blocks, entities, _regions_of(found, entities))
+    regions, creases = _regions_of(found, entities), None
+    if found.features is not None:
+        creases = np.repeat([False, True], [sum(len(data) for kind, data in blocks if kind == "line"), len(found.features)])
+        blocks.append(("line", found.features))
+        entities, regions = ([*ids, np.zeros(len(found.features), np.int64)] if ids is not None else None for ids in (entities, regions))
+    grid = _grid(found.points, blocks, entities, regions, creases)
+    grid.notes += found.notes
+    return grid
 
 
-def _ovm_grid(path: Path) -> Grid:
+def grid_of_ovm(mesh: "OvmMesh", path: Path) -> Grid:
     """Feature edges and faces are those that AlgoHex marks; regions: cell property region."""
-    from ..formats.ovm import read_ovm
     from ..formats.ovm_mesh import tets_of_ovm
 
-    mesh = read_ovm(path)
     blocks, faces = [("tetra", tets_of_ovm(mesh, str(path)))], [np.zeros(len(mesh.cells), np.int64)]
     for entity, name, kind, of in (("edge", "AlgoHex::FeatureEdges", "line", mesh.edges), ("face", "AlgoHex::FeatureFaces", "triangle", mesh.triangles())):
         tags = mesh.properties.get((entity, name))
@@ -128,56 +129,22 @@ def _ovm_grid(path: Path) -> Grid:
     return _grid(mesh.vertices, blocks, faces, ids)
 
 
-def _vtp_grid(path: Path) -> Grid:
-    data = read_bytes(path)
-    with _reading(path, ".vtp"), scratch_folder() as folder:
-        (folder / "input.vtp").write_bytes(data)
-        found = _quietly(lambda: read_vtp(folder / "input.vtp"))
-        flat = found.triangulate() if found.n_cells else found
-        if not found.n_points:
-            raise IoError(f"{path}: holds no points, or is damaged")
-        sides = np.asarray(flat.faces)
-        blocks = [("triangle", sides.reshape(-1, 4)[:, 1:])] if len(sides) else []
-        lines = _line_segments(np.asarray(found.lines))
-        if len(lines):
-            blocks.append(("line", lines))
-        return _grid(np.asarray(flat.points, float), blocks, None, None)
-
-
-def _quietly(work: Callable[[], _Read]) -> _Read:
-    """VTK writes about damaged files to stderr and goes on; what it read is tested instead."""
-    from vtkmodules.vtkCommonCore import vtkObject
-
-    shown = vtkObject.GetGlobalWarningDisplay()
-    vtkObject.GlobalWarningDisplayOff()
-    try:
-        return work()
-    finally:
-        vtkObject.SetGlobalWarningDisplay(shown)
-
-
-def _line_segments(cells: np.ndarray) -> np.ndarray:
-    """(k, 2) of VTK's polylines: a count and the points of each."""
-    segments, at = [], 0
-    while at < len(cells):
-        ids = cells[at + 1 : at + 1 + cells[at]]
-        segments.append(np.column_stack([ids[:-1], ids[1:]]))
-        at += 1 + cells[at]
-    return np.concatenate(segments) if segments else np.empty((0, 2), np.int64)
-
-
-def _regions_of(found: "meshio.Mesh", entities: list[np.ndarray] | None) -> list[np.ndarray] | None:
+def _regions_of(found: CellMesh, entities: list[np.ndarray] | None) -> list[np.ndarray] | None:
     """Our own files: cell data region, where every number is one. Gmsh: physical volumes where all tets are in one, which is how a
-    file says what belongs together (0: in none); else CAD volumes."""
+    file says what belongs together (0: in none), and none in several; else CAD volumes."""
     ours = _entity_ids(found, ("region",))
     if ours is not None:
         return ours
     groups = _entity_ids(found, ("gmsh:physical",))
     of_tets = [] if groups is None else [ids for block, ids in zip(found.cells, groups, strict=True) if block.type == "tetra"]
-    return groups if of_tets and all((ids > 0).all() for ids in of_tets) else entities
+    if not of_tets or not all((ids > 0).all() for ids in of_tets):
+        return entities
+    tets = np.sort(np.concatenate([block.data for block in found.cells if block.type == "tetra"]), axis=1)
+    several = len(first_of_equal(np.column_stack([tets, -1 - np.concatenate(of_tets)]))) > len(first_of_equal(tets))
+    return entities if several and entities is not None else groups
 
 
-def _entity_ids(found: "meshio.Mesh", names: tuple[str, ...]) -> list[np.ndarray] | None:
+def _entity_ids(found: CellMesh, names: tuple[str, ...]) -> list[np.ndarray] | None:
     """Cell data of the first of these names, per block."""
     for name in names:
         if name in found.cell_data:
@@ -193,6 +160,7 @@ def _grid(
     creases: np.ndarray | None = None,
 ) -> Grid:
     """Blocks of one type joined. An entity 0 or below, as in Gmsh files without geometry, is no CAD face."""
+    blocks, notes = linear(blocks)
     in_space = np.zeros((len(points), 3))
     in_space[:, : points.shape[1]] = points
     faces = None if entities is None else [np.where(ids > 0, ids, -1) for ids in entities]
@@ -200,7 +168,29 @@ def _grid(
     if not any(kind == "tetra" and len(data) for kind, data in blocks):
         blocks, faces = _split_sides(blocks, faces)
     of_triangles = None if faces is None else _of_kind("triangle", blocks, faces)
-    return Grid(in_space, _joined(blocks), of_triangles, of_tets, creases)
+    return _without_repeats(Grid(in_space, _joined(blocks), of_triangles, of_tets, creases, notes=notes))
+
+
+def _without_repeats(grid: Grid) -> Grid:
+    """Each tet once, the first of those with the same vertices. Without tets, each triangle once, where it is there again in the same sense."""
+    if "tetra" in grid.cells:
+        kind, keys, ids = "tetra", grid.cells["tetra"], grid.regions
+    elif "triangle" in grid.cells:
+        cells = grid.cells["triangle"]
+        sense = (cells[:, 0] < cells[:, 1]).astype(int) + (cells[:, 1] < cells[:, 2]) + (cells[:, 2] < cells[:, 0]) == 2
+        kind, keys, ids = "triangle", np.column_stack([np.sort(cells, axis=1), -1 - sense.astype(np.int64)]), grid.faces
+    else:
+        return grid
+    kept, count = first_of_equal(keys), len(keys)
+    if kind == "tetra":
+        grid.file_tets = kept
+    if len(kept) == count:
+        return grid
+    grid.notes.append(f"{count - len(kept)} of {count} {'tets' if kind == 'tetra' else 'triangles'} are in the file twice or more (as in groups of Gmsh that overlap): each was taken once")
+    grid.cells[kind] = grid.cells[kind][kept]
+    if ids is not None:
+        setattr(grid, "regions" if kind == "tetra" else "faces", ids[kept])
+    return grid
 
 
 def _of_kind(kind: str, blocks: Blocks, ids: list[np.ndarray]) -> np.ndarray | None:

@@ -6,16 +6,14 @@ meshio reads these too, but takes tables that end early as they are, knows no NO
 import codecs
 import re
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from urllib.parse import unquote
 
 import numpy as np
 
 from ..errors import InvalidInput, IoError
 from ..files import numbers_of
-
-if TYPE_CHECKING:
-    import meshio
+from .cell_mesh import Block, CellMesh
 
 _TYPES = {
     "bit": "u1", "unsigned_char": "u1", "char": "i1", "unsigned_short": "u2", "short": "i2", "unsigned_int": "u4", "int": "i4", "unsigned_long": "u8",
@@ -91,7 +89,7 @@ class _File:
             raise IoError(f"{self.place()}: {what} needs {count} bytes, {len(self.data) - self.at} are left")
 
 
-def read_legacy_vtk(data: bytes, name: str) -> "meshio.Mesh":
+def read_legacy_vtk(data: bytes, name: str) -> CellMesh:
     data = data.removeprefix(codecs.BOM_UTF8)
     file = _File(data, name)
     if not data.startswith(b"# vtk DataFile Version"):
@@ -205,7 +203,7 @@ def _skip_strings(file: _File, count: int) -> None:
         file.at += size + length
 
 
-def _mesh(file: _File, parts: dict[str, Any]) -> "meshio.Mesh":
+def _mesh(file: _File, parts: dict[str, Any]) -> CellMesh:
     at, count, numbers, offsets = parts["CELLS"]
     types = parts["CELL_TYPES"]
     place = file.place(at)
@@ -227,26 +225,24 @@ Arrays = dict[str, np.ndarray]
 
 def mesh_of_cells(
     points: np.ndarray, numbers: np.ndarray, starts: np.ndarray, sizes: np.ndarray, types: np.ndarray, of_points: Arrays, of_cells: Arrays, place: str
-) -> "meshio.Mesh":
+) -> CellMesh:
     """With a block per run of cells of one kind. numbers: ids of all cells. starts, sizes: where each cell's are. Arrays: (n, components)."""
-    import meshio
-
     known = np.array([_SIZES.get(kind, -1) for kind in range(256)])[np.clip(types, 0, 255)]
     wrong = np.flatnonzero((known >= 0) & (sizes != known))
     if len(wrong):
         raise IoError(f"{place}: cell {wrong[0]} (from 0) of type {types[wrong[0]]} has {sizes[wrong[0]]} vertices, not {known[wrong[0]]}")
     breaks = np.flatnonzero((np.diff(types) != 0) | (np.diff(sizes) != 0)) + 1
     chunks = [c for c in np.split(np.arange(len(types)), breaks) if len(c)]
-    blocks = [(_kind(types[c[0]]), numbers[starts[c][:, None] + np.arange(sizes[c[0]])]) for c in chunks]
+    blocks = [Block(_kind(types[c[0]]), numbers[starts[c][:, None] + np.arange(sizes[c[0]])]) for c in chunks]
     flat_points, flat_cells = ({key: v[:, 0] if v.shape[1] == 1 else v for key, v in arrays.items()} for arrays in (of_points, of_cells))
     split = {key: [values[c] for c in chunks] for key, values in flat_cells.items()}
-    return meshio.Mesh(points, blocks, point_data=flat_points, cell_data=split if chunks else {})
+    return CellMesh(points, blocks, flat_points, split if chunks else {})
 
 
 def _kind(vtk_type: int) -> str:
     from meshio._vtk_common import vtk_to_meshio_type
 
-    return str(vtk_to_meshio_type.get(int(vtk_type), f"VTK type {vtk_type}"))
+    return "voxel" if vtk_type == 11 else str(vtk_to_meshio_type.get(int(vtk_type), f"VTK type {vtk_type}"))
 
 
 def _extents(numbers: np.ndarray, types: np.ndarray, place: str) -> tuple[np.ndarray, np.ndarray]:

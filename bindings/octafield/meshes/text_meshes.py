@@ -22,6 +22,16 @@ _MEDIT_CELLS = {
     "Pyramids": ("pyramid", 5),
     "Hexahedra": ("hexahedron", 8),
     "Hexaedra": ("hexahedron", 8),
+    "EdgesP2": ("line3", 3),
+    "TrianglesP2": ("triangle6", 6),
+    "QuadrilateralsQ2": ("quad9", 9),
+    "TetrahedraP2": ("tetra10", 10),
+    "PrismsP2": ("wedge18", 18),
+    "PyramidsP2": ("pyramid14", 14),
+    "HexahedraQ2": ("hexahedron27", 27),
+    "EdgesP3": ("line4", 4),
+    "TrianglesP3": ("triangle10", 10),
+    "TetrahedraP3": ("tetra20", 20),
 }
 
 
@@ -66,9 +76,9 @@ def read_medit(text: str, name: str) -> TextMesh:
         mesh.cells.append((kind, rows[:, :corners] - 1))
         mesh.references.append(rows[:, corners])
         _require_ids(section, name, rows[:, :corners], 1, len(mesh.points))
-    if "Ridges" in found and "Edges" in found:
+    if "Ridges" in found and "Edges" in found and not any(name.startswith("EdgesP") for name in found):
         mesh.ridges = _table(found["Ridges"], name, 1, whole=True).ravel() - 1
-        lines = sum(len(cells) for kind, cells in mesh.cells if kind == "line")
+        lines = sum(len(cells) for kind, cells in mesh.cells if kind.startswith("line"))
         _require_ids(found["Ridges"], name, mesh.ridges[:, None] + 1, 1, lines)
     return mesh
 
@@ -87,15 +97,19 @@ def read_tetgen(files: dict[str, tuple[str, str]]) -> TextMesh:
         row = wrong[0]
         raise IoError(f"{node_name}: row {row + 1} of the points has number {nodes[row, 0]:g}; number them in order")
     _finite(_Section("points", _without_comments(node_text), 1), node_name, nodes[:, 1:4], nodes.shape[1], skip=4)
-    tets = _headed(ele_text, ele_name, "tets", (4, "vertices per tet"))
+    tets = _headed(ele_text, ele_name, "tets", (4, "vertices per tet"), quadratic=10)
+    width = tets.shape[1]
+    quadratic = int(_without_comments(ele_text).split(None, 2)[1]) == 10
+    if quadratic:  # four corners, then points on the six edges
+        tets = np.delete(tets, slice(5, 11), axis=1)
     ids = _whole(tets[:, 1:5])
     if ids is None:
         bad = int(np.argmin(((np.abs(tets[:, 1:5]) < 2**53) & (tets[:, 1:5] == np.floor(tets[:, 1:5]))).all(axis=1)))
-        line = _line_of_row(_Section("", _without_comments(ele_text), 1), bad, tets.shape[1], skip=3)
+        line = _line_of_row(_Section("", _without_comments(ele_text), 1), bad, width, skip=3)
         raise IoError(f"{ele_name}, line {line}: a vertex id is no whole number")
     outside = np.flatnonzero(((ids < base) | (ids >= base + len(nodes))).any(axis=1))
     if len(outside):
-        line = _line_of_row(_Section("", _without_comments(ele_text), 1), outside[0], tets.shape[1], skip=3)
+        line = _line_of_row(_Section("", _without_comments(ele_text), 1), outside[0], width, skip=3)
         raise IoError(
             f"{ele_name}, line {line}: a tet names a point outside {base} .. {base + len(nodes) - 1}, "
             f"the ids of {node_name}"
@@ -105,9 +119,11 @@ def read_tetgen(files: dict[str, tuple[str, str]]) -> TextMesh:
     if tets.shape[1] > 5 and whole is not None:
         regions = whole.ravel()
     mesh = TextMesh(nodes[:, 1:4], [("tetra", ids - base)], [regions])
+    if quadratic:
+        mesh.notes.append(f"cells of higher order were read by their corners, with straight edges: {len(tets)} of type tetra")
     for suffix, kind, corners in ((".face", "triangle", 3), (".edge", "line", 2)):
         if suffix in files:
-            cells, markers = _marked(*files[suffix], corners, base, len(nodes))
+            cells, markers = _marked(*files[suffix], corners, base, len(nodes), corners * (corners - 1) // 2 if quadratic else 0)
             if kind == "line" and (markers != 0).any():
                 cells, markers = cells[markers != 0], markers[markers != 0]
             elif len(np.unique(markers[markers > 0])) < 2:
@@ -117,8 +133,9 @@ def read_tetgen(files: dict[str, tuple[str, str]]) -> TextMesh:
     return mesh
 
 
-def _marked(text: str, name: str, corners: int, base: int, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Vertex ids and markers (0: none) of a .face or .edge file. Rows may end with more than the header tells."""
+def _marked(text: str, name: str, corners: int, base: int, count: int, middles: int) -> tuple[np.ndarray, np.ndarray]:
+    """Vertex ids and markers (0: none) of a .face or .edge file. Rows may end with more than the header tells. middles: points on edges, which
+    may stand after the corners of cells of second order."""
     section = _Section("faces" if corners == 3 else "edges", _without_comments(text), 1)
     try:
         rows, marked = (int(word) for word in section.text.split(None, 2)[:2])
@@ -126,7 +143,10 @@ def _marked(text: str, name: str, corners: int, base: int, count: int) -> tuple[
         raise IoError(f"{name}: does not begin with the number of {section.name} and whether they have markers") from None
     first = next((line.split() for line in section.text.strip().split("\n")[1:] if line.strip()), [])
     width = max(len(first), 1 + corners + marked)
-    table = _table(section, name, width, skip=2, count=rows)[:, : 1 + corners + marked]
+    table = _table(section, name, width, skip=2, count=rows)
+    if middles and width >= 1 + corners + middles + marked:
+        table = np.delete(table, slice(1 + corners, 1 + corners + middles), axis=1)
+    table = table[:, : 1 + corners + marked]
     whole = _whole(table)
     if whole is None:
         outside = ~((np.abs(table) < 2**53) & (table == np.floor(table))).all(axis=1)
@@ -140,8 +160,8 @@ def _marked(text: str, name: str, corners: int, base: int, count: int) -> tuple[
     return ids, whole[:, 1 + corners] if marked else np.zeros(rows, np.int64)
 
 
-def _headed(text: str, name: str, what: str, second: tuple[int, str]) -> np.ndarray:
-    """Rows of a TetGen file with id, coordinates or vertices, attributes and markers."""
+def _headed(text: str, name: str, what: str, second: tuple[int, str], quadratic: int = 0) -> np.ndarray:
+    """Rows of a TetGen file with id, coordinates or vertices, attributes and markers. second: of the head; quadratic: what it may be, too."""
     section = _Section(what, _without_comments(text), 1)
     first = section.text.split(None, 4)[:4] if what == "points" else section.text.split(None, 3)[:3]
     try:
@@ -150,7 +170,7 @@ def _headed(text: str, name: str, what: str, second: tuple[int, str]) -> np.ndar
         header = []
     if len(header) < (4 if what == "points" else 3):
         raise IoError(f"{name}: does not begin with the number of {what} and what each row holds")
-    if header[1] != second[0]:
+    if header[1] not in (second[0], quadratic or second[0]):
         raise IoError(f"{name}: {second[1]} is {header[1]}; {second[0]} is needed")
     return _table(section, name, 1 + header[1] + sum(header[2:]), skip=len(header), count=header[0])
 
@@ -191,7 +211,10 @@ def _table(section: _Section, name: str, width: int, *, counted: bool = True, wh
         have = max(0, len(numbers) - skip) // width
         last = section.line + section.text.rstrip().count("\n")
         raise IoError(f"{name}, line {last}: {section.name} ends after {have} of {count} rows of {width} numbers")
-    rows = numbers[skip : skip + count * width].reshape(count, width)
+    if len(numbers) > skip + count * width:
+        line = _line_of_row(section, count, width, skip)
+        raise IoError(f"{name}, line {line}: {section.name} goes on after the {count} rows of {width} numbers that its head announces; correct the count")
+    rows = numbers[skip:].reshape(count, width)
     if not whole:
         return rows
     ids = _whole(rows)

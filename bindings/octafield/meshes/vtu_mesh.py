@@ -11,19 +11,18 @@ import re
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from xml.parsers import expat
 
 import numpy as np
 
 from ..errors import InvalidInput, IoError
 from ..files import numbers_of
+from .cell_mesh import CellMesh
 from .legacy_vtk import from_offsets, mesh_of_cells, whole_numbers
 
-if TYPE_CHECKING:
-    import meshio
-
-_TYPES = {f"{sign}{8 * size}": f"{code}{size}" for sign, code in (("Int", "i"), ("UInt", "u")) for size in (1, 2, 4, 8)} | {"Float32": "f4", "Float64": "f8"}
+NUMBERS = {f"{sign}{8 * size}": f"{code}{size}" for sign, code in (("Int", "i"), ("UInt", "u")) for size in (1, 2, 4, 8)} | {"Float32": "f4", "Float64": "f8"}
+FEATURES = "feature_edges"  # field data of octafield's own files: pairs of ids of points
 _UNPACK: dict[str, Callable[[bytes], bytes]] = {"vtkZLibDataCompressor": zlib.decompress, "vtkLZMADataCompressor": lzma.decompress}
 
 
@@ -39,17 +38,17 @@ class _Array:
 
 
 @dataclass
-class _Piece:
-    points: int
-    cells: int
+class Piece:
+    counts: dict[str, int]
     arrays: list[_Array] = field(default_factory=list)
 
 
 @dataclass
-class _File:
+class File:
     name: str
     root: dict[str, str] = field(default_factory=dict)
-    pieces: list[_Piece] = field(default_factory=list)
+    pieces: list[Piece] = field(default_factory=list)
+    features: _Array | None = None  # field data
     appended: bytes = b""
     raw: bool = False
     appended_at: int = 0
@@ -58,14 +57,8 @@ class _File:
         return IoError(f"{self.name}, line {line}: {what}")
 
 
-def read_vtu(data: bytes, name: str) -> "meshio.Mesh":
-    file = _parsed(data, name)
-    if not file.pieces:
-        raise IoError(f"{name}: holds no Piece of an UnstructuredGrid")
-    if any(file.root.get(key) not in known for key, known in (("byte_order", (None, "LittleEndian", "BigEndian")), ("header_type", (None, "UInt32", "UInt64")))):
-        raise IoError(f"{name}, line 1: byte_order {file.root.get('byte_order')!r} with header_type {file.root.get('header_type')!r} is not read")
-    if file.root.get("compressor") not in (None, "", *_UNPACK):
-        raise IoError(f"{name}: packed by {file.root['compressor']}, which is not read; save it with ZLib or not packed")
+def read_vtu(data: bytes, name: str) -> CellMesh:
+    file = parsed(data, name, "UnstructuredGrid", ("NumberOfPoints", "NumberOfCells"))
     parts = [_piece(file, piece) for piece in file.pieces]
     start = np.cumsum([0, *(len(part["points"]) for part in parts)])
     ends = np.cumsum([0, *(len(part["numbers"]) for part in parts)])
@@ -74,41 +67,55 @@ def read_vtu(data: bytes, name: str) -> "meshio.Mesh":
     starts = np.concatenate([part["starts"] + first for part, first in zip(parts, ends[:-1], strict=True)])
     data_of = {site: {key: _joined([part[site][key] for part in parts]) for key in parts[0][site] if all(key in p[site] for p in parts)} for site in ("PointData", "CellData")}
     of_points, of_cells = ({key: values for key, values in data_of[site].items() if values is not None} for site in data_of)
-    return mesh_of_cells(points, numbers, starts, sizes, types, of_points, of_cells, name)
+    mesh = mesh_of_cells(points, numbers, starts, sizes, types, of_points, of_cells, name)
+    if file.features is not None and len(parts) == 1:
+        edges = values_of(file, file.features)
+        if edges.shape[1] != 2 or (edges < 0).any() or (edges >= len(points)).any():
+            raise file.fail(file.features.line, f"{FEATURES}: pairs of ids of the {len(points)} points are needed")
+        mesh.features = whole_numbers(edges, f"{name}: {FEATURES}")
+    return mesh
 
 
 def _joined(parts: list[np.ndarray]) -> np.ndarray | None:
     return np.concatenate(parts) if len({part.shape[1:] for part in parts}) == 1 else None
 
 
-def _parsed(data: bytes, name: str) -> _File:
-    file, path = _File(name), list[str]()
+def parsed(data: bytes, name: str, kind: str, counted: tuple[str, ...]) -> File:
+    """The arrays of a VTKFile of this type, not yet decoded. counted: attributes of its Pieces with their numbers; none: 0, but for the first."""
+    file, path, reading = File(name), list[str](), list[_Array]()  # reading: the array that text belongs to, or none
     parser = expat.ParserCreate()
     parser.buffer_text = True
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         line = parser.CurrentLineNumber
         if not path and tag != "VTKFile":
-            raise file.fail(line, f"<{tag[:40]}>; a .vtu file begins with <VTKFile>")
+            raise file.fail(line, f"<{tag[:40]}>; a file of VTK's begins with <VTKFile>")
         if not path:
             file.root = attributes
-            if attributes.get("type") != "UnstructuredGrid":
-                raise InvalidInput(f"{name}, line {line}: VTKFile of type {attributes.get('type')}; UnstructuredGrid is needed: name the file by its type", "unsupported_cells")
+            if attributes.get("type") != kind:
+                raise InvalidInput(f"{name}, line {line}: VTKFile of type {attributes.get('type')}; {kind} is needed: name the file by its type", "unsupported_cells")
         path.append(tag)
         if tag == "Piece":
-            points, cells = (attributes.get(key, "") for key in ("NumberOfPoints", "NumberOfCells"))
-            if not (re.fullmatch(r"\s*\d{1,15}\s*", points) and re.fullmatch(r"\s*\d{1,15}\s*", cells)):
-                raise file.fail(line, f"Piece with {points[:20]!r} points and {cells[:20]!r} cells: numbers are needed")
-            file.pieces.append(_Piece(int(points), int(cells)))
+            numbers = {key: attributes.get(key, "" if key == counted[0] or len(counted) == 2 else "0") for key in counted}
+            for key, number in numbers.items():
+                if not re.fullmatch(r"\s*\d{1,15}\s*", number):
+                    raise file.fail(line, f"Piece with {key} {number[:20]!r}: a number is needed")
+            file.pieces.append(Piece({key: int(number) for key, number in numbers.items()}))
         elif tag == "DataArray" and "Piece" in path and len(path) > 2:
             file.pieces[-1].arrays.append(_Array(path[-2], attributes, line))
+            reading[:] = file.pieces[-1].arrays[-1:]
+        elif tag == "DataArray" and "FieldData" in path and attributes.get("Name") == FEATURES and attributes.get("type") in NUMBERS:
+            file.features = _Array("FieldData", attributes, line)
+            reading[:] = [file.features]
+        else:
+            reading.clear()
 
     def end(tag: str) -> None:
         path.pop()
 
     def text(value: str) -> None:
-        if path and path[-1] == "DataArray" and "Piece" in path:
-            array = file.pieces[-1].arrays[-1]
+        if path and path[-1] == "DataArray" and reading:
+            array = reading[-1]
             array.text_line = array.text_line or parser.CurrentLineNumber
             array.text.append(value)
 
@@ -123,49 +130,60 @@ def _parsed(data: bytes, name: str) -> _File:
         if stop < tail.end() or b"</VTKFile>" not in data[stop:]:
             raise IoError(f"{name}, byte {len(data)}: ends within AppendedData: the file is cut; write or download it again")
         file.appended, file.raw, file.appended_at = data[tail.end() : stop], b'"raw"' in tail[1], tail.end()
+    if not file.pieces:
+        raise IoError(f"{name}: holds no Piece of {'an' if kind[0] in 'AEIOU' else 'a'} {kind}")
+    if any(file.root.get(key) not in known for key, known in (("byte_order", (None, "LittleEndian", "BigEndian")), ("header_type", (None, "UInt32", "UInt64")))):
+        raise IoError(f"{name}, line 1: byte_order {file.root.get('byte_order')!r} with header_type {file.root.get('header_type')!r} is not read")
+    if file.root.get("compressor") not in (None, "", *_UNPACK):
+        raise IoError(f"{name}: packed by {file.root['compressor']}, which is not read; save it with ZLib or not packed")
     return file
 
 
-def _piece(file: _File, piece: _Piece) -> dict[str, Any]:
+def _piece(file: File, piece: Piece) -> dict[str, Any]:
     sections: dict[str, dict[str, tuple[_Array, np.ndarray]]] = {"Points": {}, "Cells": {}, "PointData": {}, "CellData": {}}
     for array in piece.arrays:
-        if array.section in sections and array.attributes.get("type") in _TYPES:  # others are strings
-            sections[array.section][array.attributes.get("Name", "")] = array, _values(file, array)
-    if len(sections["Points"]) != 1:
-        raise IoError(f"{file.name}: a Piece has {len(sections['Points'])} arrays of Points; one is needed")
+        if array.section in sections and array.attributes.get("type") in NUMBERS:  # others are strings
+            sections[array.section][array.attributes.get("Name", "")] = array, values_of(file, array)
     for key in ("connectivity", "offsets", "types"):
         if key not in sections["Cells"]:
             raise IoError(f"{file.name}: Cells have no array {key}")
-    ((array, points),) = sections["Points"].values()
-    _require_rows(file, array, points, piece.points)
-    if points.shape[1] != 3:
-        raise file.fail(array.line, f"Points have {points.shape[1]} components; 3 are needed")
+    points = points_of(file, piece, list(sections["Points"].values()))
     cells = {key: (array, values.ravel()) for key, (array, values) in sections["Cells"].items()}
     for key in ("offsets", "types"):
-        _require_rows(file, *cells[key], piece.cells)
+        require_rows(file, *cells[key], piece.counts["NumberOfCells"])
     places = {key: f"{file.name}, line {array.line}" for key, (array, _) in cells.items()}
     numbers, types = (whole_numbers(cells[key][1], f"{places[key]}: {key}") for key in ("connectivity", "types"))
     starts, sizes = from_offsets(np.concatenate([[0], cells["offsets"][1]]), len(numbers), places["offsets"])
-    for key, count in (("PointData", piece.points), ("CellData", piece.cells)):
+    for key, count in (("PointData", piece.counts["NumberOfPoints"]), ("CellData", piece.counts["NumberOfCells"])):
         for array, values in sections[key].values():
-            _require_rows(file, array, values, count)
+            require_rows(file, array, values, count)
     data = {site: {key: values for key, (_, values) in sections[site].items()} for site in ("PointData", "CellData")}
-    return {"points": points.astype(float), "numbers": numbers, "starts": starts, "sizes": sizes, "types": types, **data}
+    return {"points": points, "numbers": numbers, "starts": starts, "sizes": sizes, "types": types, **data}
 
 
-def _require_rows(file: _File, array: _Array, values: np.ndarray, count: int) -> None:
+def points_of(file: File, piece: Piece, arrays: list[tuple[_Array, np.ndarray]]) -> np.ndarray:
+    if len(arrays) != 1:
+        raise IoError(f"{file.name}: a Piece has {len(arrays)} arrays of Points; one is needed")
+    array, points = arrays[0]
+    require_rows(file, array, points, piece.counts["NumberOfPoints"])
+    if points.shape[1] != 3:
+        raise file.fail(array.line, f"Points have {points.shape[1]} components; 3 are needed")
+    return points.astype(float)
+
+
+def require_rows(file: File, array: _Array, values: np.ndarray, count: int) -> None:
     if len(values) != count:
         raise file.fail(array.line, f"array {array.attributes.get('Name', '')} of {array.section} has {len(values)} rows; the Piece has {count}")
 
 
-def _values(file: _File, array: _Array) -> np.ndarray:
+def values_of(file: File, array: _Array) -> np.ndarray:
     """(n, components)."""
     name, how = array.attributes.get("Name", ""), array.attributes.get("format", "ascii")
     if how == "ascii":
         values = numbers_of("".join(array.text), file.name, array.text_line or array.line)
     elif how in ("binary", "appended"):
         order = ">" if file.root.get("byte_order") == "BigEndian" else "<"
-        dtype = np.dtype(order + _TYPES[array.attributes["type"]])
+        dtype = np.dtype(order + NUMBERS[array.attributes["type"]])
         content = _decoded(file, array, how, order)
         if len(content) % dtype.itemsize:
             raise file.fail(array.line, f"array {name} has {len(content)} bytes, of numbers with {dtype.itemsize}")
@@ -178,7 +196,7 @@ def _values(file: _File, array: _Array) -> np.ndarray:
     return values.reshape(-1, int(width))
 
 
-def _decoded(file: _File, array: _Array, how: str, order: str) -> bytes:
+def _decoded(file: File, array: _Array, how: str, order: str) -> bytes:
     """The bytes of an array: after a head of their number or, packed, of the blocks' sizes."""
     name = array.attributes.get("Name", "")
     head = np.dtype(order + ("u8" if file.root.get("header_type") == "UInt64" else "u4"))

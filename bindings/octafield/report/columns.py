@@ -27,6 +27,12 @@ def preparation_seconds(record: dict[str, Any]) -> float:
     return seconds
 
 
+def held_alignment(record: dict[str, Any]) -> float:
+    """The largest angle where a frame can serve all faces; of older records, anywhere."""
+    angles: dict[str, float] = record["alignment_deg"]
+    return angles.get("held_max", angles["max"])
+
+
 def record_column(head: str, form: str, meaning: str, group: str = "", key: str = "", **more: bool) -> RunColumn:
     """A number of the record; key: "name" or "name.inner"; none where the run has no field or the field no such number."""
 
@@ -55,6 +61,7 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
     record_column("tets", ",d", "tetrahedra", key="tets", page=False),
     record_column("E", ".6g", "Dirichlet energy of the final frames in sh4; compare on one mesh only", "energy", "energy"),
     record_column("unit speed", ".6g", "3/20 of E: of an embedding in which a frame turning by 1 radian moves by 1", "energy", "energy_unit_speed"),
+    record_column("own", ".6g", "what the method itself minimised, for its last field; compare with the same method only", "energy", "objective", terminal=False),
     record_column("edges", ",d", "triangles round which the frames turn: edges of the dual mesh on singular curves", "singular", "singular_edges"),
     record_column("length", ".4g", "of the singular curves, unit of the input", "singular", "singular_length"),
     record_column("complex", ",d", "singular edges whose rotation keeps no axis of the frame; no hex mesh has them", "singular", "complex_edges"),
@@ -73,7 +80,11 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
         "non-meshable features", "non_meshable_corners", terminal=False,
     ),
     record_column("median", ".2f", "angle between surface normal and nearest frame axis, over boundary vertices and their smooth sectors", _DEG, "alignment_deg.median"),
-    record_column("max", ".2f", "its maximum", _DEG, "alignment_deg.max"),
+    RunColumn(
+        "held, max", ".2f", "its maximum, but for vertices where faces meet that no frame serves all (normals neither parallel nor at right angles)",
+        _DEG, lambda _, run: held_alignment(run.row) if run.done else None,
+    ),
+    record_column("unserved", ",d", "how many vertices such edges and corners have; one face is off by up to 45 degrees there, whatever the method", _DEG, "unserved_vertices", terminal=False),
     record_column(
         "features", ".2f", "largest angle between a feature curve and the nearest frame axis, corners included",
         _DEG, "feature_alignment_deg.max", terminal=False,
@@ -144,28 +155,30 @@ def summary_table(results: Results, lines: list[Line], found: Deviations) -> Tab
     columns = (
         Column("boundary", "", "fixed: frames held at the surface cross field; aligned: one axis on the normal, twist free; none: free"),
         Column("method", "", "what the frames were smoothed as, and how where methods differ in that; or the name given to a field that was read"),
-        Column("solved", "d", "problems (input, boundary and seed) with a field"), Column("of", "d", "problems"),
-        Column("E", ".6g", "Dirichlet energy of the final frames in sh4, on the only problem with a field", "energy"),
+        Column("solved", "d", "problems (input and boundary) with a field for every seed"), Column("of", "d", "problems"),
+        Column("E", ".6g", "Dirichlet energy of the final frames in sh4, on the only problem with a field; mean over seeds", "energy"),
+        Column("seeds %", ".3g", "standard deviation of E over the seeds of a problem, per cent of its mean; mean over problems", "energy"),
+        Column("own", ".6g", "what the method itself minimised, for its last field; mean over seeds; compare with the same method only", "energy"),
         Column("over lowest", ".4f", "to the lowest energy of all methods on the problem, geometric mean; problems without energy are left out", "energy"),
         Column("at most", ".4f", "the largest of these ratios", "energy"),
         Column("lowest on", "d", "problems on which no method has an energy lower by more than a hundredth of a per cent", "energy"),
-        Column("edges", ",d", "singular edges, sum over the problems solved", "singular"),
+        Column("edges", ",d", "singular edges, sum over the problems solved (means over seeds)", "singular"),
         Column("complex", ",d", "singular edges that no hex mesh has", "singular"),
         Column("non-meshable", ",d", "places of the singular graph that no hex mesh has (a necessary condition)", "singular"),
         Column("mean", ".2f", "angle between the frames and those of the first method, mean over vertices and problems", f"deg to {first}"),
         Column("95 %", ".2f", "95th percentile over vertices, mean over problems", f"deg to {first}"),
-        Column("sum", ".3g", "processor seconds of constraints, start and smoothing, on the problems solved", "CPU seconds"),
+        Column("sum", ".3g", "processor seconds of constraints, start and smoothing, on the problems solved; means over seeds", "CPU seconds"),
         Column("over fastest", ".2f", "to the fastest method on the problem, geometric mean", "CPU seconds"),
     )  # fmt: skip
     rows = []
     for line in lines:
         angles = (0.0, 0.0) if line.method == results.methods[0] and found.lines else found.lines.get((line.setting, line.method), (None, None))
         rows.append((
-            line.setting.name, line.method.name, line.solved, line.asked, line.energy, line.ratio, line.largest, line.lowest,
+            line.setting.name, line.method.name, line.solved, line.asked, line.energy, None if line.spread is None else 100 * line.spread, line.own, line.ratio, line.largest, line.lowest,
             line.singular_edges, line.complex_edges, line.non_meshable, *angles, line.seconds, line.slowdown,
         ))  # fmt: skip
     alone = ("over lowest", "at most", "lowest on", "mean", "95 %", "over fastest") if len(results.methods) < 2 else ()
-    return Table("summary", columns, rows).without(*alone).without_empty("E")
+    return Table("summary", columns, rows).without(*alone).without_empty("E", "seeds %", "own")
 
 
 def failure_table(results: Results, runs: Sequence[Run]) -> Table:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _core
-from .records import Method, Problem, Results, Run, Setting
+from .records import Case, Method, Results, Run, Setting
 
 _MOST_ANGLES = 200_000_000  # of all pairs: some tens of seconds
 _FEWEST, _MOST = 500, 50_000  # vertices of a problem
@@ -44,11 +44,11 @@ def deviations(results: Results) -> Deviations:
     lines: dict[tuple[Setting, Method], list[tuple[float, float]]] = {}
     drawn: dict[Method, list[np.ndarray]] = {}
     sampled = False
-    budget = _MOST_ANGLES // max(1, count * (count - 1) // 2 * len(results.problems))
+    budget = _MOST_ANGLES // max(1, count * (count - 1) // 2 * len(results.cases))
     most = int(np.clip(budget, _FEWEST, _MOST))
-    share = max(_FEWEST, _MOST_DRAWN // max(1, len(results.problems)))
-    for problem in results.problems if count > 1 else ():
-        frames, skipped = _frames_on(results, problem, most)
+    share = max(_FEWEST, _MOST_DRAWN // max(1, len(results.cases)))
+    for case in results.cases if count > 1 else ():
+        frames, skipped = _frames_on(results, case, most)
         sampled |= skipped
         for i in frames:
             for j in frames:
@@ -60,7 +60,7 @@ def deviations(results: Results) -> Deviations:
                     part[i][j].append(value)
                     part[j][i].append(value)
                 if i == 0:
-                    lines.setdefault((problem.setting, results.methods[j]), []).append(pair)
+                    lines.setdefault((case.setting, results.methods[j]), []).append(pair)
                     drawn.setdefault(results.methods[j], []).append(angles[:: -(-len(angles) // share)])
     return Deviations(
         results.methods,
@@ -102,12 +102,12 @@ def frames_of(run: Run) -> np.ndarray | None:
     return np.asarray(reader.read().point_data["quaternion"], float)
 
 
-def _frames_on(results: Results, problem: Problem, most: int) -> tuple[dict[int, np.ndarray], bool]:
+def _frames_on(results: Results, case: Case, most: int) -> tuple[dict[int, np.ndarray], bool]:
     """Frames per place of a method, at no more than `most` vertices; whether some were left out. All on one mesh."""
     found: dict[int, np.ndarray] = {}
     mesh, step = None, 1
     for place, method in enumerate(results.methods):
-        run = results.field(method, problem)
+        run = results.field(method, case)
         frames = None if run is None else frames_of(run)
         if run is None or frames is None or not len(frames) or mesh not in (None, run.row["mesh_sha256"]):
             continue

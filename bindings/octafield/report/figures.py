@@ -9,7 +9,7 @@ import numpy as np
 from ..phases import PHASES
 from ..plots import PALETTE, TEXT, new_figure, to_svg
 from .profiles import Profile, energies, geometric_mean, ratios_to_best, smoothing_seconds
-from .records import Method, Problem, Results, Run
+from .records import Case, Method, Results, Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 # Okabe and Ito's colours, told apart with any colour vision, and two of Tol's; TEXT is black or white with the page.
 COLOURS = {
     "sh4": "#0072B2", "tensor4": "#56B4E9", "su2": "#D55E00", "odeco": "#009E73", "sh469": "#E69F00", "geodesic": "#CC79A7",
-    "su2_midpoint": TEXT, "odeco_lengths": "#999933", "su2_geodesic": "#AA3355", "su2_symmetric": "#7b8794", "su2_frozen": "#A58A1F",
+    "su2_midpoint": TEXT, "odeco_lengths": "#882255", "su2_geodesic": "#AA3355", "su2_symmetric": "#7b8794", "su2_frozen": "#A58A1F",
 }  # fmt: skip
-_OF_OTHERS = ("#AA4499", "#44AA99", "#882255", "#6699CC")  # fields that were read
+_OF_OTHERS = ("#AA4499", "#44AA99", "#999933", "#6699CC")  # fields that were read
 _DASHES, _MARKS = ("-", "--", ":", "-."), ("o", "s", "^", "D", "v", "P")
 _WIDE, _HALF = 12.4, 6.4  # inches: the whole width of the page, half of it
 _GREY = "#8a939d"
@@ -126,39 +126,67 @@ def deviation_plot(angles: Mapping[Method, np.ndarray], first: Method, salt: str
     return to_svg(figure, "angles between fields", salt)
 
 
-def is_wide(results: Results, problems: Sequence[Problem]) -> bool:
+def is_wide(results: Results, cases: Sequence[Case]) -> bool:
     """Whether the plot of convergence takes the whole width."""
-    return len(problems) > 1 or len(results.methods) > 8
+    return len(cases) > 1 or len(results.methods) > 8
 
 
-def convergence_plot(results: Results, problems: Sequence[Problem], salt: str = "") -> str:
-    """Energy against iteration, a panel per problem on common axes."""
-    methods = [m for m in results.methods if any(run.computed for p in problems if (run := results.field(m, p)))]
+@dataclass(frozen=True)
+class Convergence:
+    """Of one run. energy: E at the start and after each step. own: what was minimised over its first value, from iteration `begin` on."""
+
+    energy: list[float]
+    own: list[float]
+    begin: int
+
+
+def convergence(results: Results, case: Case) -> dict[Method, Convergence]:
+    """What the plot shows."""
+    found = {}
+    for method in results.methods:
+        run = results.field(method, case)
+        if run is None or not run.computed:
+            continue
+        energy, own = run.row["energy_history"], run.row.get("objective_history", [])
+        scaled = [value / own[0] for value in own] if own and own[0] > 0 else []
+        found[method] = Convergence(energy, scaled, max(0, len(energy) - len(scaled)))
+    return found
+
+
+def convergence_plot(results: Results, cases: Sequence[Case], salt: str = "") -> str:
+    """Energy against iteration, below it the methods' own objectives; a column per case on common axes."""
+    every = [convergence(results, case) for case in cases]
+    methods = [m for m in results.methods if any(m in curves for curves in every)]
     style = styles(methods)
-    figure, panels = new_figure(_WIDE if is_wide(results, problems) else _HALF, 3.5 + 0.24 * (1 + len(methods) // 8), len(problems), sharex=True, sharey=True)
+    height = 5.6 + 0.24 * (1 + len(methods) // 8)
+    figure, panels = new_figure(_WIDE if is_wide(results, cases) else _HALF, height, len(cases), rows=2, sharex=True, sharey="row")
+    above, below = panels[: len(cases)], panels[len(cases) :]
     longest = 1
     shared: dict[str, Any] = {}
-    for axes, problem in zip(panels, problems, strict=True):
-        curves = {m: run.row["energy_history"] for m in methods if (run := results.field(m, problem)) is not None and run.computed}
-        begin = _common(list(curves.values()))
+    for upper, lower, case, curves in zip(above, below, cases, every, strict=True):
+        begin = _common([curve.energy for curve in curves.values()])
         if begin > 1:
             shared |= {"color": _GREY, "linewidth": 2.4}
-            _curve(axes, next(iter(curves.values()))[:begin], 0, **shared)
-        for method, history in curves.items():
-            longest = max(longest, len(history))
+            _curve(upper, next(iter(curves.values())).energy[:begin], 0, **shared)
+        for method, curve in curves.items():
+            longest = max(longest, len(curve.energy))
             mark = {"marker": style[method].mark, "markevery": [-1], "markersize": 5 + style[method].width / 2}
-            _curve(axes, history[max(0, begin - 1) :], max(0, begin - 1), **style[method].line, **mark)
-        axes.set_xlabel("iteration")
-        axes.grid(alpha=0.25, linewidth=0.6)
-        if len(problems) > 1:
-            axes.set_title(problem.setting.name, fontsize=10)
+            _curve(upper, curve.energy[max(0, begin - 1) :], max(0, begin - 1), **style[method].line, **mark)
+            if curve.own:
+                _curve(lower, curve.own, curve.begin, **style[method].line, **mark)
+        lower.set_xlabel("iteration")
+        for axes in (upper, lower):
+            axes.grid(alpha=0.25, linewidth=0.6)
+        if len(cases) > 1:
+            upper.set_title(case.setting.name, fontsize=10)
     if longest > 300:
         panels[0].set_xscale("symlog", linthresh=10)
     else:
         panels[0].locator_params(axis="x", integer=True)
-    panels[0].set_ylabel("energy E")
+    above[0].set_ylabel("energy E")
+    below[0].set_ylabel("own objective / its start")
     _method_legend(figure, methods, [_handle(**shared, label="common to all")] if shared else [])
-    return to_svg(figure, "energy against iteration", salt)
+    return to_svg(figure, "energy, and own objectives over their start, against iteration", salt)
 
 
 def _common(histories: list[list[float]]) -> int:

@@ -30,7 +30,7 @@ class Front:
     def text(self, exhibits: Exhibits, open_runs: int) -> str:
         """The section: paragraphs, each with what it refers to."""
         results, cite = self.results, exhibits.cite
-        scope = f"{prose.scope(results, open_runs, cite('runs'))} {prose.meshes(results, cite('inputs'))}"
+        scope = f"{prose.scope(results, open_runs, cite('runs'))} {prose.meshes(results, cite('inputs'))} {prose.starts(results, cite('summary', 'runs'))}".strip()
         both, matrix = cite("summary", "ratios"), cite("matrix", "boxes")
         energy = [*prose.energy(self.lines, both or cite("runs"))]
         if self.energy_profiles:
@@ -54,7 +54,7 @@ def make_front(results: Results, lines: list[Line], found: Deviations, exhibits:
     front = Front(results, lines, found)
     if not any(run.done for run in results.runs):
         return front
-    caption = "One line per boundary treatment and method, over all inputs and seeds."
+    caption = "One line per boundary treatment and method, over all inputs; seeds of one input count once, by their mean."
     if found.pairs():
         caption += f" Angles are to the fields of {html.escape(results.methods[0].name)}."
     front.summary = exhibits.table("summary", summary_table(results, lines, found), "Methods", caption)

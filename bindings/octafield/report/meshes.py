@@ -9,14 +9,15 @@ from . import figures, prose, scenes
 from .columns import failure_table, run_table
 from .page import Exhibits, paragraphs, picture
 from .profiles import lines
-from .records import Problem, Results, Run
+from .records import Case, Results, Run
 
 if TYPE_CHECKING:
     from ..pictures import Picture
 
 CONVERGENCE = (
-    "Dirichlet energy of the frames at the start (iteration 0) and after each step: rounds of diffusion and of Newton "
-    "steps in sh4, then, where something else is smoothed, what that minimises, scaled to begin where sh4 ended. A mark ends each curve."
+    "Above, the energy E of the tables (of sh4, whatever a method minimises) at the start (iteration 0) and after each step: rounds of diffusion and "
+    "of Newton steps in sh4, then, where something else is smoothed, the steps of that. Below, what the method itself minimises, relative to where it "
+    "began with it; a method may lower its own objective and raise E. A mark ends each curve."
 )
 TIME = "Seconds by the clock per phase. Reading, meshing and the surface field are done once and shared; their times are shown in every run."
 TURN = "Drag to turn all of them, arrow keys too; after a click the wheel scales. Curves are smoothed, and fainter at the back."
@@ -26,13 +27,13 @@ def mesh_section(results: Results, exhibits: Exhibits, anchors: dict[str, str], 
     """A page of its own where there are several inputs, with the runs on it. anchors: per input; pictures: of octafield.pictures."""
     runs, many = results.on(name), len(results.inputs) > 1
     fields = [run for run in runs if run.done]
-    problems = [p for p in (results.first_on(name, setting) for setting in results.settings) if p is not None]
+    cases = [case for case in (results.first_on(name, setting) for setting in results.settings) if case is not None]
     table = failures = links = ""
     if many:
         table = exhibits.table(f"runs {name}", run_table(results, runs, files=True), "Runs on this input", "One line per run, those on one problem together.")
         failures, links = runs_without_field(results, runs), _links(anchors, name)
-    plots = [_picture(exhibits, one) for one in pictures] + _plots(results, exhibits, problems)
-    views = _views(results, exhibits, problems, anchors[name])
+    plots = [_picture(exhibits, one) for one in pictures] + _plots(results, exhibits, cases)
+    views = _views(results, exhibits, cases, anchors[name])
     text = ["" if fields else "No run on this input ended with a field."]
     if many and fields:
         text = prose.energy(lines(results, [p for p in results.problems if p.input == name]), exhibits.cite(f"runs {name}", f"convergence {name}"))
@@ -57,8 +58,19 @@ def _facts(fields: Sequence[Run]) -> str:
         f"{row['vertices']:,} vertices, {row['tets']:,} tetrahedra, {row['boundary_triangles']:,} boundary triangles with a mean edge of "
         f"{row['edge_length']:.4g}; {row['feature_edges']:,} feature edges and {row['feature_corners']:,} corners by {html.escape(source)}."
     )
-    notes = "".join(f"<li>{html.escape(note)}</li>" for note in row.get("notes", ()))
+    notes = "".join(f"<li>{html.escape(note)}</li>" for note in [*row.get("notes", ()), *_unserved(row)])
     return f'<p class="note">{facts} Mesh <code>{html.escape(row["mesh_sha256"])}</code>.</p>' + (f"<ul>{notes}</ul>" if notes else "")
+
+
+def _unserved(row: dict[str, Any]) -> list[str]:
+    """Why an angle of up to 45 degrees at some edges is no fault of a method."""
+    count = row.get("unserved_vertices", 0)
+    if not count:
+        return []
+    return [
+        f"At {count:,} vertices on edges between faces no frame serves all faces that meet (their normals are neither parallel nor at right angles): one of them is "
+        "off by up to 45 degrees there, whatever the method. These vertices are left out of the largest alignment that the tables call held."
+    ]
 
 
 def _links(anchors: dict[str, str], name: str) -> str:
@@ -74,36 +86,36 @@ def _links(anchors: dict[str, str], name: str) -> str:
 
 def _picture(exhibits: Exhibits, shown: "Picture") -> str:
     image, legend = picture(shown.small, shown.title, shown.legend)
-    return exhibits.figure("", image, html.escape(shown.title), html.escape(shown.caption) + legend, "shot")
+    return exhibits.figure("", image, html.escape(shown.title), html.escape(shown.caption) + legend, "shot", shown.png)
 
 
-def _shown(results: Results, problems: Sequence[Problem]) -> list[tuple[Problem, str, Run]]:
+def _shown(results: Results, cases: Sequence[Case]) -> list[tuple[Case, str, Run]]:
     """The runs that plots and views of an input show, with the names of their methods."""
-    return [(p, m.name, run) for p in problems for m in results.methods if (run := results.field(m, p)) is not None]
+    return [(case, m.name, run) for case in cases for m in results.methods if (run := results.field(m, case)) is not None]
 
 
-def _plots(results: Results, exhibits: Exhibits, problems: Sequence[Problem]) -> list[str]:
-    if not problems:
+def _plots(results: Results, exhibits: Exhibits, cases: Sequence[Case]) -> list[str]:
+    if not cases:
         return []
-    name, shown = problems[0].input, _shown(results, problems)
-    more = " Panels are boundary treatments on common axes." if len(problems) > 1 else ""
-    more += " First seed." if len({p.seed for p in results.problems if p.input == name}) > 1 else ""
-    kind = "plot wide" if figures.is_wide(results, problems) else "plot"
-    convergence = exhibits.figure(f"convergence {name}", figures.convergence_plot(results, problems, exhibits.salt), "Convergence", CONVERGENCE + more, kind)
-    labels = [method + (f" ({p.setting.name})" if len(problems) > 1 else "") for p, method, _ in shown]
+    name, shown = cases[0].input, _shown(results, cases)
+    more = " Panels side by side are boundary treatments on common axes." if len(cases) > 1 else ""
+    more += " First seed." if len({case.seed for case in results.cases if case.input == name}) > 1 else ""
+    kind = "plot wide" if figures.is_wide(results, cases) else "plot"
+    convergence = exhibits.figure(f"convergence {name}", figures.convergence_plot(results, cases, exhibits.salt), "Convergence", CONVERGENCE + more, kind)
+    labels = [method + (f" ({case.setting.name})" if len(cases) > 1 else "") for case, method, _ in shown]
     seconds = figures.seconds_plot(labels, [run for *_, run in shown], exhibits.salt)
     return [convergence, exhibits.figure("", seconds, "Time", TIME)]
 
 
-def _views(results: Results, exhibits: Exhibits, problems: Sequence[Problem], anchor: str) -> str:
-    shown = _shown(results, problems)
+def _views(results: Results, exhibits: Exhibits, cases: Sequence[Case], anchor: str) -> str:
+    shown = _shown(results, cases)
     data, places = scenes.encode([run for *_, run in shown])
     if not data:
         return ""
     block, rows = f"data-{anchor}", ""
-    for problem, of in groupby(zip(shown, places, strict=True), lambda entry: entry[0][0]):
+    for case, of in groupby(zip(shown, places, strict=True), lambda entry: entry[0][0]):
         views = "".join(_view(block, place, method, run.row) for (_, method, run), place in of if place is not None)
-        head = f"<h4>{html.escape(problem.setting.name)}</h4>" if len(problems) > 1 else ""
+        head = f"<h4>{html.escape(case.setting.name)}</h4>" if len(cases) > 1 else ""
         rows += f'{head}<div class="views">{views}</div>'
     legend = "".join(f'<li><i style="background:{colour}"></i>{word}</li>' for colour, word in scenes.LEGEND)
     content = f'{rows}<script type="text/plain" id="{block}">{data}</script>'

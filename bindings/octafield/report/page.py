@@ -17,16 +17,19 @@ class Exhibits:
     _tables: int = 0
     _links: dict[str, str] = field(default_factory=dict)
     plots: dict[str, str] = field(default_factory=dict)  # "figure-2" -> <svg> element
+    images: dict[str, bytes] = field(default_factory=dict)  # the same of PNG files, larger than on the page
 
     @property
     def salt(self) -> str:
         """For the ids in the next figure."""
         return f"figure-{self._figures + 1}"
 
-    def figure(self, key: str, content: str, title: str, caption: str, kind: str = "plot") -> str:
-        """caption: HTML."""
+    def figure(self, key: str, content: str, title: str, caption: str, kind: str = "plot", image: bytes = b"") -> str:
+        """caption: HTML. image: PNG of what content shows, for a file."""
         self._figures += 1
         self._links[key] = f'<a href="#figure-{self._figures}">Figure {self._figures}</a>'
+        if image:
+            self.images[f"figure-{self._figures}"] = image
         if content.startswith("<svg"):
             self.plots[f"figure-{self._figures}"] = content
         text = f"<figcaption><b>Figure {self._figures}. {title}.</b> {caption}</figcaption>"
@@ -65,6 +68,6 @@ def picture(image: bytes, title: str, legend: list[tuple[str, str]]) -> tuple[st
     """The picture, and what goes below its caption."""
     data = base64.b64encode(image).decode()
     kind = "jpeg" if image.startswith(b"\xff\xd8") else "png"
-    shown = f'<div class="picture"><img loading="lazy" alt="{html.escape(title)}" src="data:image/{kind};base64,{data}"></div>'
+    shown = f'<div class="picture"><img alt="{html.escape(title)}" src="data:image/{kind};base64,{data}"></div>'
     entries = "".join(f'<li><i style="background:{colour}"></i>{html.escape(meaning)}</li>' for colour, meaning in legend)
     return shown, f'<ul class="legend">{entries}</ul>' if entries else ""

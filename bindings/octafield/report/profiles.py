@@ -66,10 +66,12 @@ def _energy(row: dict[str, Any]) -> float:
 @dataclass(frozen=True)
 class Line:
     """Of one method in one setting. asked: problems in the setting; problems: those of them with a field of any method, which
-    all else is about; solved: with a field of this one. complete: that is on all of them. energy: where there is one problem.
+    all else is about; solved: with fields of this one, for each seed that any method has a field for. complete: that is on all of them.
+    energy, own (what the method minimised): where there is one problem, mean over seeds. spread: standard deviation of the energies of a
+    problem's seeds over their mean, mean over the problems with several.
     zero: problems whose lowest energy is rounding. ratio, largest: energy over the lowest of each problem, geometric mean and largest;
-    lowest: problems on which no method is lower by more than EQUAL. Counts of the singular graphs are sums over problems,
-    None where they are not defined. seconds: sum over problems; slowdown: over the fastest of each, geometric mean."""
+    lowest: problems on which no method is lower by more than EQUAL. Counts of the singular graphs are sums over problems of the means
+    over seeds, None where they are not defined. seconds: sum over problems; slowdown: over the fastest of each, geometric mean."""
 
     setting: Setting
     method: Method
@@ -78,6 +80,8 @@ class Line:
     solved: int
     complete: bool
     energy: float | None
+    own: float | None
+    spread: float | None
     zero: int
     ratio: float | None
     largest: float | None
@@ -109,17 +113,21 @@ def _line(
     results: Results, setting: Setting, method: Method, within: list[Problem],
     energy: np.ndarray, best: np.ndarray, over: tuple[dict[Method, np.ndarray], dict[Method, np.ndarray]], seconds: np.ndarray,
 ) -> Line:  # fmt: skip
-    fields = [run.row for run in (results.field(method, p) for p in within) if run is not None]
-    problems = sum(any(results.field(m, p) for m in results.methods) for p in within)
+    cases = {p: results.cases_of(p) for p in within}
+    rows = {p: [run.row for case in of if (run := results.field(method, case)) is not None] for p, of in cases.items() if of}
+    fields = [rows[p] for p in rows if len(rows[p]) == len(cases[p])]
+    alone = fields[0] if len(rows) == 1 and fields else []
     ratio, slowdown = (part[method][np.isfinite(part[method])] for part in over)
     return Line(
         setting,
         method,
         asked=len(within),
-        problems=problems,
+        problems=len(rows),
         solved=len(fields),
-        complete=0 < len(fields) == problems,
-        energy=fields[0]["energy"] if problems == 1 and fields else None,
+        complete=0 < len(fields) == len(rows),
+        energy=_mean(alone, "energy"),
+        own=_mean(alone, "objective"),
+        spread=_spread(fields),
         zero=int(np.sum(best == 0)),
         ratio=geometric_mean(ratio),
         largest=float(ratio.max()) if len(ratio) else None,
@@ -132,9 +140,22 @@ def _line(
     )
 
 
-def _total(fields: list[dict[str, Any]], key: str) -> int | None:
-    values = [row[key] for row in fields if row.get(key) is not None]
-    return sum(values) if values and len(values) == len(fields) else None
+def _mean(rows: list[dict[str, Any]], key: str) -> float | None:
+    """None where a record is without it."""
+    values = [row.get(key) for row in rows]
+    return None if not values or None in values else float(sum(values) / len(values))  # type: ignore[arg-type]
+
+
+def _total(fields: list[list[dict[str, Any]]], key: str) -> int | None:
+    """fields: per problem the records of its seeds."""
+    means = [_mean(rows, key) for rows in fields]
+    known = [mean for mean in means if mean is not None]
+    return round(sum(known)) if known and len(known) == len(means) else None
+
+
+def _spread(fields: list[list[dict[str, Any]]]) -> float | None:
+    parts = [np.array([row["energy"] for row in rows]) for rows in fields if len(rows) > 1]
+    return float(np.mean([part.std(ddof=1) / part.mean() if part.mean() > 0 else 0.0 for part in parts])) if parts else None
 
 
 def geometric_mean(values: np.ndarray) -> float | None:

@@ -27,7 +27,7 @@ def scope(results: Results, open_runs: int, cite: str) -> str:
     else:
         names = "; ".join(settings) if any("," in name for name in settings) else listed(settings)
         where += f" with {len(settings)} boundary treatments ({names})"
-    seeds = len({problem.seed for problem in results.problems})
+    seeds = len({case.seed for case in results.cases})
     where += f" and {seeds} seeds" if seeds > 1 else ""
     runs = counted(len(results.runs), "run")
     read = results.read()
@@ -37,8 +37,10 @@ def scope(results: Results, open_runs: int, cite: str) -> str:
     else:
         text = [
             f"the comparison covers {_methods([m for m in results.methods if m not in read])}{others} on {where}: {runs} on {counted(len(results.problems), 'problem')} {cite}",
-            "a problem is an input with a boundary treatment and a seed; its fields share one mesh, and energies are compared within a problem only",
+            "a problem is an input with a boundary treatment; its fields share one mesh, and energies are compared within a problem only",
         ]
+    if seeds > 1:
+        text.append("figures of a problem are means over its seeds")
     states = [run.state for run in results.runs]
     without = listed(f"{states.count(word)} {word}" for word in ("failed", "crashed") if word in states)
     if without:
@@ -46,6 +48,22 @@ def scope(results: Results, open_runs: int, cite: str) -> str:
     if open_runs:
         text.append(f"not carried out yet: {counted(open_runs, 'run')}")
     return " ".join(map(sentence, text))
+
+
+def starts(results: Results, cite: str) -> str:
+    """Where methods begin and what they are judged by."""
+    ours = [run for run in results.runs if run.computed and run.row.get("start", "default") == "default"]
+    rounds = {run.options.get("rounds", 2) > 0 for run in ours}
+    others = [m for m in results.methods if m.representation != "sh4" and m not in results.read()]
+    if not ours or not (others or len(rounds) > 1):
+        return ""
+    judged = f"all are judged by sh4's energy E, and what each minimised stands beside it {cite}"
+    if rounds == {True}:
+        return sentence(f"every method starts from the minimum that was found of sh4's energy; {judged}")
+    if rounds == {False}:
+        return sentence(f"every method starts for itself, from one linear solve (a random field for seeds other than 0), without a step in sh4; {judged}")
+    each = "methods start from the minimum that was found of sh4's energy; those called “independent start” from one linear solve (a random field for seeds other than 0)"
+    return sentence(f"{each}; {judged}")
 
 
 def _methods(methods: Sequence[Method]) -> str:

@@ -1,8 +1,8 @@
 """The runs of a report, by method and by problem.
 
 A method is what a user would choose between: representation, solver, rounds and other options of smoothing. A problem is
-what it is given: an input with its mesh, a treatment of the boundary (a setting) and a seed. Energies compare within a
-problem only.
+what it is given: an input with its mesh and a treatment of the boundary (a setting). Energies compare within a problem only. A
+case is a problem with a seed: seeds are no problems of their own, figures of a problem are means over its seeds.
 """
 
 import math
@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 OF_METHODS = ("representation", "solver", "rounds", "max_iterations", "tolerance", "start")
+INDEPENDENT = "independent start"  # rounds 0: no step in sh4 before the method's own
 OF_SETTINGS = ("boundary", "sampling", "feature_tolerance")
 
 
@@ -93,28 +94,44 @@ class Setting:
 class Problem:
     input: str
     setting: Setting
+
+
+@dataclass(frozen=True)
+class Case:
+    problem: Problem
     seed: int
+
+    @property
+    def input(self) -> str:
+        return self.problem.input
+
+    @property
+    def setting(self) -> Setting:
+        return self.problem.setting
 
 
 @dataclass
 class Results:
-    """Runs in their order; methods, settings, problems and inputs in that of their first run."""
+    """Runs in their order; methods, settings, problems, their cases and inputs in that of their first run."""
 
     runs: Sequence[Run]
     methods: list[Method] = field(init=False)
     settings: list[Setting] = field(init=False)
     problems: list[Problem] = field(init=False)
+    cases: list[Case] = field(init=False)
     inputs: list[str] = field(init=False)
 
     def __post_init__(self) -> None:
         names = (*OF_METHODS, *OF_SETTINGS)
         self._varying = {name for name in names if len({repr(run.choices.get(name)) for run in self.runs if name in run.choices}) > 1}
-        self._of = {run: (self._method(run.choices), self._problem(run)) for run in self.runs}
+        self._rounds = {run.choices["rounds"] for run in self.runs if "rounds" in run.choices}
+        self._of = {run: (self._method(run.choices), self._case(run)) for run in self.runs}
         self.methods = list(dict.fromkeys(method for method, _ in self._of.values()))
-        self.problems = list(dict.fromkeys(problem for _, problem in self._of.values()))
+        self.cases = list(dict.fromkeys(case for _, case in self._of.values()))
+        self.problems = list(dict.fromkeys(case.problem for case in self.cases))
         self.settings = list(dict.fromkeys(problem.setting for problem in self.problems))
         self.inputs = list(dict.fromkeys(problem.input for problem in self.problems))
-        self._fields: dict[tuple[Method, Problem], list[Run]] = {}
+        self._fields: dict[tuple[Method, Case], list[Run]] = {}
         for run in self.runs:
             if run.done:
                 self._fields.setdefault(self._of[run], []).append(run)
@@ -128,46 +145,55 @@ class Results:
         return self._of[run][0]
 
     def problem(self, run: Run) -> Problem:
-        return self._of[run][1]
+        return self._of[run][1].problem
+
+    def cases_of(self, problem: Problem) -> list[Case]:
+        """Those of its seeds on which any method ended with a field."""
+        return [case for case in self.cases if case.problem == problem and any((m, case) in self._fields for m in self.methods)]
 
     def rank(self, run: Run) -> tuple[int, ...]:
         """Order by input, setting, seed, method."""
-        method, problem = self._of[run]
-        return self.inputs.index(problem.input), self.settings.index(problem.setting), problem.seed, self.methods.index(method)
+        method, case = self._of[run]
+        return self.inputs.index(case.input), self.settings.index(case.setting), case.seed, self.methods.index(method)
 
-    def field(self, method: Method, problem: Problem) -> Run | None:
+    def field(self, method: Method, case: Case) -> Run | None:
         """The run that ended with a field, the first of its repeats."""
-        return next(iter(self._fields.get((method, problem), ())), None)
+        return next(iter(self._fields.get((method, case), ())), None)
 
     def on(self, name: str) -> list[Run]:
         """Runs on an input."""
         return [run for run in self.runs if run.input == name]
 
-    def first_on(self, name: str, setting: Setting) -> Problem | None:
-        """The problem of the input and setting with the first seed that any method ended on."""
-        of = [p for p in self.problems if p.input == name and p.setting == setting]
-        return next((p for p in of if any(self.field(m, p) for m in self.methods)), None)
+    def first_on(self, name: str, setting: Setting) -> Case | None:
+        """The input and setting with the first seed that any method ended on."""
+        return next(iter(self.cases_of(Problem(name, setting))), None)
 
     def least(self, value: Callable[[dict[str, Any]], float], problems: Sequence[Problem]) -> dict[Method, np.ndarray]:
-        """value(record) per method and problem, the least of the repeats; infinite without a field."""
-        return {
-            method: np.array([min((value(run.row) for run in self._fields.get((method, p), ())), default=math.inf) for p in problems], float)
-            for method in self.methods
-        }
+        """value(record) per method and problem: the mean over seeds of the least of the repeats; infinite where a seed is without a
+        field that another method has."""
+
+        def of(method: Method, problem: Problem) -> float:
+            seeds = [min((value(run.row) for run in self._fields.get((method, case), ())), default=math.inf) for case in self.cases_of(problem)]
+            return sum(seeds) / len(seeds) if seeds else math.inf
+
+        return {method: np.array([of(method, problem) for problem in problems], float) for method in self.methods}
 
     def _method(self, options: dict[str, Any]) -> Method:
-        words = [_word(name, options.get(name)) for name in OF_METHODS[1:] if name in self._varying]
+        told = self._varying - ({"rounds"} if options.get("rounds") and len(self._rounds - {0}) == 1 else set())  # those with rounds need no word
+        words = [_word(name, options.get(name)) for name in OF_METHODS[1:] if name in told]
         return Method(str(options.get("representation", "unknown")), " ".join(filter(None, words)))
 
-    def _problem(self, run: Run) -> Problem:
+    def _case(self, run: Run) -> Case:
         options = run.choices
         words = [_word(name, options.get(name)) for name in OF_SETTINGS[1:] if name in self._varying]
-        return Problem(run.input, Setting(str(options.get("boundary", "unknown")), ", ".join(words)), run.seed)
+        return Case(Problem(run.input, Setting(str(options.get("boundary", "unknown")), ", ".join(words))), run.seed)
 
 
 def _word(name: str, value: object) -> str:
     if name == "solver":
         return "" if value == "default" else str(value)
+    if name == "rounds" and value == 0:
+        return INDEPENDENT
     if name == "start":
         return "" if value in (None, "default") else f"from {value}"
     if name == "sampling":

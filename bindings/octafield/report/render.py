@@ -40,8 +40,8 @@ class Content:
         return {name: f"mesh-{k}-{_slug(name)}".rstrip("-") for k, name in enumerate(self.results.inputs, 1)}
 
 
-def render(content: Content) -> tuple[str, dict[str, str]]:
-    """The page, and its plots as <svg> elements by the ids of their figures."""
+def render(content: Content) -> tuple[str, Exhibits]:
+    """The page, and its figures for files."""
     results, exhibits, anchors = content.results, Exhibits(), content.anchors
     many = len(results.inputs) > 1
     front = make_front(results, content.lines, content.found, exhibits)
@@ -57,7 +57,7 @@ def render(content: Content) -> tuple[str, dict[str, str]]:
         f'<h2 id="methods">Methods</h2><div class="prose">{resource("methods.html")}</div>'
         f'<h2 id="reproduction">Reproduction</h2>{_reproduction(content, exhibits)}</div>'
     )
-    return page(content.title, _subtitle(content), body, f"<script>{resource('view.js')}</script>", paged=many), exhibits.plots
+    return page(content.title, _subtitle(content), body, f"<script>{resource('view.js')}</script>", paged=many), exhibits
 
 
 def _subtitle(content: Content) -> str:

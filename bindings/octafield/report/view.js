@@ -19,12 +19,19 @@
   };
   const blocks = new Map();
   const blockOf = id => {
-    if (!blocks.has(id)) blocks.set(id, { turn: [0.6, 0.35], zoom: 1, canvases: [], data: decode(document.getElementById(id).textContent) });
+    if (!blocks.has(id)) {
+      const block = { turn: [0.6, 0.35], zoom: 1, canvases: [], ready: null };
+      blocks.set(id, block);
+      decode(document.getElementById(id).textContent).then(data => { block.ready = data; redraw(block); });
+    }
     return blocks.get(id);
   };
-  const draw = async canvas => {
-    const block = canvas.block, { middle, outline, scenes } = await block.data;
-    const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+  // size: in place of that on the page, of canvases that are not shown (other inputs' sections are, on paper).
+  const draw = (canvas, size = 0) => {
+    const block = canvas.block;
+    if (!block.ready) return;
+    const { middle, outline, scenes } = block.ready;
+    const ratio = size ? 2 : window.devicePixelRatio || 1, width = canvas.clientWidth || size, height = canvas.clientHeight || size;
     if (!width) return;
     canvas.width = width * ratio; canvas.height = height * ratio;
     const pen = canvas.getContext("2d"), [a, b] = block.turn, radius = Math.hypot(...middle);
@@ -85,21 +92,23 @@
       e.preventDefault();
     });
   };
-  const start = canvas => {
-    if (!canvas.block) {
-      canvas.block = blockOf(canvas.dataset.block);
-      canvas.block.canvases.push(canvas);
-      listen(canvas);
-    }
-    return draw(canvas);
-  };
+  // All blocks are decoded at once: what is printed may not wait.
   const canvases = [...document.querySelectorAll("canvas.view")];
+  canvases.forEach(canvas => {
+    canvas.block = blockOf(canvas.dataset.block);
+    canvas.block.canvases.push(canvas);
+    listen(canvas);
+  });
   const observer = new IntersectionObserver(seen => seen.forEach(s => {
     s.target.seen = s.isIntersecting;
-    if (s.isIntersecting) start(s.target);
+    if (s.isIntersecting) draw(s.target);
   }), { rootMargin: "200px" });
   canvases.forEach(canvas => observer.observe(canvas));
   const all = () => blocks.forEach(redraw);
+  const paper = () => canvases.forEach(canvas => draw(canvas, 240));
+  window.addEventListener("beforeprint", paper);
+  window.addEventListener("afterprint", all);
+  matchMedia("print").addEventListener("change", print => { if (print.matches) paper(); });
   window.addEventListener("resize", all);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", all);
 })();

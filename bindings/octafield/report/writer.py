@@ -12,6 +12,7 @@ from ..plots import standalone
 from .columns import deviation_table, input_table, run_table, summary_table
 from .deviations import deviations
 from .integrability import integrability_table
+from .page import Exhibits
 from .profiles import lines
 from .records import Results, Run
 from .render import Content, render
@@ -39,7 +40,7 @@ class Report:
 
 def write_report(report: Report, folder: Path) -> list[str]:
     """Writes report.html, results.csv (a line per run, all numbers of its record) and tables/*.csv, *.tex (the tables of the
-    page) and figures/*.svg (its plots) into an existing folder, each replaced at once; their names."""
+    page) and figures/*.svg (its plots) and *.png (its pictures, up to 2,000 pixels wide) into an existing folder, each replaced at once; their names."""
     results = Results(report.runs)
     found = deviations(results)
     content = Content(results, lines(results), found, report.pictures, report.title, report.description, report.open_runs, "")
@@ -55,18 +56,20 @@ def write_report(report: Report, folder: Path) -> list[str]:
         names += _write_table(folder, table)
     _replace(folder / RECORDS_FILE, lambda path: write_records(path, [run.row for run in report.runs]))
     content.links = _links([*report.files, RECORDS_FILE], names)
-    text, plots = render(content)
+    text, exhibits = render(content)
     _replace_text(folder / PAGE_FILE, text)
-    return [PAGE_FILE, RECORDS_FILE, *names, *_write_plots(folder, plots)]
+    return [PAGE_FILE, RECORDS_FILE, *names, *_write_figures(folder, exhibits)]
 
 
-def _write_plots(folder: Path, plots: dict[str, str]) -> list[str]:
+def _write_figures(folder: Path, exhibits: Exhibits) -> list[str]:
+    files = {f"{FIGURES}/{name}.svg": standalone(plot).encode() for name, plot in exhibits.plots.items()}
+    files |= {f"{FIGURES}/{name}.png": image for name, image in exhibits.images.items()}
     (folder / FIGURES).mkdir(exist_ok=True)
-    for old in set((folder / FIGURES).glob("figure-*.svg")) - {folder / FIGURES / f"{name}.svg" for name in plots}:
+    for old in {*(folder / FIGURES).glob("figure-*.svg"), *(folder / FIGURES).glob("figure-*.png")} - {folder / name for name in files}:
         old.unlink()
-    for name, plot in plots.items():
-        _replace_text(folder / FIGURES / f"{name}.svg", standalone(plot))
-    return [f"{FIGURES}/{name}.svg" for name in plots]
+    for name, data in files.items():
+        _replace(folder / name, lambda partial, data=data: partial.write_bytes(data))  # type: ignore[misc]
+    return list(files)
 
 
 def _write_table(folder: Path, table: Table) -> list[str]:

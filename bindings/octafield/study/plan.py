@@ -59,11 +59,12 @@ def method_of(run: Run) -> str:
 def mesh_of(run: Run) -> Hashable:
     """Equal for runs whose meshes have the same number of tets."""
     o = run.options
-    return (run.name, o.features, o.feature_angle, o.edge_length, o.remesh, o.repair, o.interfaces, o.split)
+    return (run.name, o.features, o.feature_angle, o.edge_length, o.remesh, o.repair, o.interfaces, o.split, o.max_hole_edges, o.wrap_alpha, o.wrap_offset)
 
 
 # Options younger than keys, as they were before: not in the key, so that runs of earlier studies keep theirs.
-_LATER = (("sizes", "none"),)
+_LATER = (("sizes", "none"), ("max_hole_edges", 0), ("wrap_alpha", 0.0), ("wrap_offset", 0.0))
+_RENAMED = {("repair", "default"): False, ("repair", "safe"): True}  # values that had other words
 _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))
 
 
@@ -131,7 +132,7 @@ def _runs_on(study: Study, entry: FromFile | Generated, source: Source, name: st
 
 
 def _key(digest: str, options: FieldOptions, repeat: int) -> str:
-    content = {k: v for k, v in vars(options).items() if k != "threads" and (k, v) not in _LATER}
+    content = {k: _RENAMED.get((k, v), v) for k, v in vars(options).items() if k != "threads" and (k, v) not in _LATER}
     text = json.dumps([digest, content, repeat, octafield_version()], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:20]
 

@@ -33,7 +33,7 @@ struct DirectionGuide {
     Points directions{0, 3};  // (F, 3), projected into the triangles; or (0, 3): no guide
     Eigen::VectorXd
         weights{};      // (F), >= 0, 0 leaves a triangle alone (its direction may be zero); or (0): 1 everywhere
-    double length = 0;  // input unit, > 0; 0: 1/10 of the bounding-box diagonal
+    double length = 0;  // input unit, > 0; 0: 1/10 of the size (shape_size)
 };
 
 }  // namespace octafield::surface

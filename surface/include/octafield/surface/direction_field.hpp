@@ -51,8 +51,8 @@ inline constexpr int largest_symmetry = 1000;
 struct DirectionFieldOptions {
     int symmetry = 4;  // N, 1 to largest_symmetry
     DirectionFieldMethod method = DirectionFieldMethod::ginzburg_landau;
-    // Coherence length, eps in the thesis, input unit; 0: 2 mean edge lengths, at most 1/10 of the bounding-box
-    // diagonal, also of each connected part that nothing aligns as long as that is at least 1/4 of the mean edge
+    // Coherence length, eps in the thesis, input unit; 0: 2 mean edge lengths, at most 1/10 of the size
+    // (shape_size), also of each connected part that nothing aligns as long as that is at least 1/4 of the mean edge
     // length. Below 1/100 of the mean edge length it is refused: the singular points would stay where they start. Where
     // it is large against a connected part of the surface, f = 0 is the minimum there. Without weak edges the methods
     // mbo and eigenvector do not depend on it.
@@ -62,7 +62,7 @@ struct DirectionFieldOptions {
     Eigen::VectorXd edge_epsilon{};
     // Continuation: E is first minimised, to part of the accuracy, with this coherence length, then with equal
     // fractions, down to 1/5, of the one before until the one above: singular points move freely while their cores are
-    // wide. 0 or above 1/10 of the bounding-box diagonal of a connected part: that 1/10; `epsilon` or less: no
+    // wide. 0 or above 1/10 of the size of a connected part: that 1/10; `epsilon` or less: no
     // continuation.
     double first_epsilon = 0;
     int max_iterations = 1000;  // of the descent, or of diffusion and projection

@@ -9,7 +9,7 @@ struct PrincipalDirections {
     Points directions;           // (F, 3) unit, in the triangle's plane: of the curvature that is larger in size
     Rows<double, 2> curvatures;  // (F, 2) |first| >= |second|, the first one along `directions`; 1 / input unit,
                                  // positive where the surface bends away from its normal (a sphere seen from outside)
-    // (F) in [0, 1]: |k1 - k2| / (|k1| + |k2| + 1 / diagonal of the bounding box): 0 where the surface is flat or bends
+    // (F) in [0, 1]: |k1 - k2| / (|k1| + |k2| + 1 / shape_size): 0 where the surface is flat or bends
     // alike in all directions and the direction means nothing, near 1 on thin cylinders and saddles.
     Eigen::VectorXd anisotropy;
 };

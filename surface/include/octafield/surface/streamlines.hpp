@@ -34,7 +34,7 @@ struct Streamline {
 };
 
 struct StreamlineOptions {
-    double max_length = 0;  // input unit, from the seed each way; 0: 4 bounding-box diagonals
+    double max_length = 0;  // input unit, from the seed each way; 0: 4 times the size (shape_size)
     bool both_ways = true;  // against the direction as well; separatrices run one way only
     bool stop_at_features = true;
     double singular_radius = 0;  // input unit; 0: half the mean edge length
@@ -64,7 +64,7 @@ std::vector<Streamline> separatrices(const TriangleMesh& mesh, const FeatureGrap
                                      const StreamlineOptions& options = {}, const Progress& progress = {});
 
 struct EvenStreamlineOptions {
-    // Between neighbouring curves of the same direction, input unit; 0: 1/60 of the bounding-box diagonal.
+    // Between neighbouring curves of the same direction, input unit; 0: 1/60 of the size (shape_size).
     double spacing = 0;
     // A curve stops nearer to another one than this part of the spacing, in (0, 1] (Jobard and Lefer 1997: d_test).
     double stop_ratio = 0.5;

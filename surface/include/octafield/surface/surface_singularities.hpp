@@ -8,11 +8,11 @@
 namespace octafield::surface {
 
 struct SurfaceSingularity {
-    Eigen::Vector3d position;  // zero of the linear interpolant inside a triangle, or the vertex
+    Eigen::Vector3d position;  // in `triangle`, or at `vertex`
     int index_times_symmetry;  // N * index: +1 is index +1/N
     double index;              // turns of the direction round the point: +1/4 for valence 3 when N = 4
-    Index triangle;            // -1 when at a vertex
-    Index vertex;              // -1 when inside a triangle
+    Index triangle;            // that holds position; -1 when at a vertex
+    Index vertex;              // -1 when in a triangle
     bool boundary;             // at a vertex of the mesh boundary
 };
 
@@ -29,6 +29,12 @@ struct SurfaceSingularities {
 
 // All triangles and vertices with non-zero index. A triangle and one of its vertices with opposite indices cancel: the
 // field is not continuous at vertices, and the mesh cannot tell such a pair from none.
+//
+// Which triangles and vertices turn the field is exact, but tells the place of a point only to half an edge. So a point
+// inside goes to where the angles within two or three edges fit a single vortex best, at most an edge length away, and
+// `triangle` is the one that holds that place; a tenth of an edge is what is left for fields that are smooth round it
+// (see docs/surface.md). It stays at the zero of the linear interpolant, or at the vertex, where the fit says nothing
+// (other points near, a coarse mesh), and at vertices on creases, tips of cones and edges that the field follows.
 //
 // On the mesh boundary the index counts how often another of the N directions becomes the one that follows the boundary
 // (for odd N the boundary is run with the surface on its left). Where the field is aligned, that is its turn against

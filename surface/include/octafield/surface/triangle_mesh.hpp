@@ -23,7 +23,11 @@ struct EdgeTopology {
 // triangles share an edge, two run it alike, or a triangle uses a vertex twice.
 EdgeTopology edge_topology(const TriangleMesh& mesh);
 
-double bounding_box_diagonal(const Points& points);
+double bounding_box_diagonal(const Points& points);  // of the box along the axes: for tolerances
+// The size that lengths are fractions of: 3 times the root mean square distance of the surface from its centroid, which
+// is within 14 % of the diagonal of a box (bar 0.87, cube 1.12, square plate 0.87) and the same whichever way it lies. 0
+// without area.
+double shape_size(const TriangleMesh& mesh);
 double signed_volume(const TriangleMesh& mesh);
 Eigen::VectorXd triangle_areas(const TriangleMesh& mesh);  // (F)
 Points triangle_normals(const TriangleMesh& mesh);         // (F, 3), unit; zero where the area is zero

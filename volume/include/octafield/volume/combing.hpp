@@ -40,4 +40,21 @@ struct CombedField {
 // As face_matchings.
 CombedField comb(const TetMesh& mesh, const Quaternions& of_tets, int threads = 0);
 
+// The field at the vertices with representatives chosen so that the axes of neighbouring vertices correspond by number
+// and sign but across a cut, which ends at the singular curves that turn them: labels by a breadth-first spanning tree,
+// then vertex by vertex those that most neighbours agree with. A field that is combed stays as it is.
+struct CombedVertices {
+    Quaternions frames;                 // (n, 4): q o, with signs that agree where the axes do
+    std::vector<std::uint8_t> element;  // (n) o, of the octahedral group
+    std::vector<std::uint8_t> agree;    // (m) axes_agree of `frames`
+    Index parts = 0;                    // of the mesh that edges connect
+};
+
+// As face_matchings, with (n, 4) frames at the vertices.
+CombedVertices comb_vertices(const TetMesh& mesh, const Quaternions& of_vertices, int threads = 0);
+
+// Per tet, 1: the axes of its four frames correspond by number and sign, each being nearest to the one of the same
+// name, so that they may be interpolated one by one. 0: the tet lies on the cut or at a singular curve.
+std::vector<std::uint8_t> axes_agree(const TetMesh& mesh, const Quaternions& of_vertices, int threads = 0);
+
 }  // namespace octafield::volume

@@ -21,8 +21,9 @@ struct FrameFieldOptions {
 };
 
 struct FrameFieldResult {
-    // Of the last smoothing. Its iterations and energy_history are those of all rounds; where the last part minimises
-    // something else than sh4's energy, its history is scaled to begin with that.
+    // Of the last smoothing. Its iterations and energy_history are those of all rounds, and where one ended above an
+    // earlier one, the energy of that, whose field was kept, follows. objective_history: where the last part minimises
+    // something else than sh4's energy, of that part only (its steps are the last of energy_history); else the same.
     SmoothResult smooth;
     int diffusion_steps = 0;  // of all rounds
 };

@@ -22,8 +22,9 @@ namespace octafield::volume {
 // edges joining the same corners. 3 v3 + v5 + 2 v4 = 12 gives the number v4 of regular ones. Exact where there are at
 // most 12 corners in all (by enumeration of the 9150 triangulations; 11 types without degree 6, two of them curves
 // that pass, one regular); beyond that, which takes degree 6, true means only that no count forbids it. Throws
-// InvalidInput for negative numbers.
-bool hex_vertex_exists(int valence3, int valence5, int valence6);
+// InvalidInput for negative numbers. With corners of degree 7 and 8, 3 v3 + v5 + 2 v4 = 12 + v7 + 2 v8, and true means
+// only that.
+bool hex_vertex_exists(int valence3, int valence5, int valence6, int valence7 = 0, int valence8 = 0);
 
 enum class SingularVertexKind : std::uint8_t {
     node,         // three or four singular segments meet in a tet
@@ -43,11 +44,12 @@ struct SingularVertex {
     // At a node: all its curves turn about one and the same axis of the frame. Only two curves that pass each other in
     // a tet can be meshed then: a hex vertex where all edges turn about one axis has two singular edges, one each way.
     bool one_axis;
-    // Neither complex nor of valence 2 (two hexahedra would share two faces), and
+    // Neither complex nor of valence 1 or 2 (two hexahedra would share two faces), and
     // node: hex_vertex_exists(valence3, valence5, valence6); with one_axis: as many curves of each type along the axis
     // as against it. change: false. boundary_end: about_normal.
     bool meshable;
     Index junction;  // into Meshability::junctions
+    int valence1 = 0, valence7 = 0, valence8 = 0;  // as above; of frames in tets only
 };
 
 // One end of a curve of the singular graph.
@@ -71,6 +73,7 @@ struct SingularJunction {
     // One vertex: that vertex's. More: the complex curves form a tree (shrinking keeps a ball), no end on the boundary
     // is among its vertices, no curve has valence 2, and hex_vertex_exists(valence3, valence5, valence6).
     bool meshable;
+    int valence1 = 0, valence7 = 0, valence8 = 0;
 };
 
 struct Meshability {
@@ -80,7 +83,7 @@ struct Meshability {
     Edges curve_ends;  // (curves, 2): vertices at the first and last point of each curve; -1, -1: closed without one
     int non_meshable_vertices = 0;
     int non_meshable_junctions = 0;
-    int non_meshable_curves = 0;  // complex, or of valence 2
+    int non_meshable_curves = 0;  // complex, or of valence 2 or 1
     int closed_curves = 0;
     int boundary_ends = 0;               // ends of curves on the boundary
     int boundary_ends_about_normal = 0;  // of those, the ones at singular points of the surface cross field

@@ -18,7 +18,7 @@ struct Sampling {
     Eigen::VectorXd mass;     // (n) lumped, cubed input unit
     double body_radius = 0;   // 3 volume / boundary area: the radius, for a ball
     double edge_length = 0;   // mean, of the boundary
-    double box_diagonal = 0;  // of the mesh
+    double size = 0;  // of the boundary: surface::shape_size
     // The mesh whose linear elements L is of. None: L is a sum over pairs of sites alone, no entry off its diagonal is
     // positive.
     std::shared_ptr<const TetMesh> elements;

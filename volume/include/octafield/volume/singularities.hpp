@@ -16,12 +16,16 @@ struct SingularTriangle {
     int holonomy;
     // Quarter turns of the frames about the curve, in the sense of going round it: +1 valence 3 (index +1/4), -1
     // valence 5, +2 valence 2, -2 valence 6. The sign is that of (axis of the turn) . (direction of the curve, from the
-    // point before to the point after); which way a half turn goes is told by the steps from vertex to vertex, each the
-    // smallest possible. 0: not a rotation about one of its own axes (a complex singularity: third turn or half turn
-    // about a face diagonal), which no hex mesh has.
+    // point before to the point after). Turns are counted modulo 8 quarters, along the steps from vertex to vertex, each
+    // the smallest possible (frames/octahedral_lift.hpp): +2 and -2 are told apart, as are +1 and -3 (valence 7), but
+    // three steps of at most 62.8 degrees never make three quarters. 0: not a rotation about one of its own axes (a
+    // complex singularity: third turn or half turn about a face diagonal), which no hex mesh has.
     int quarter_turns;
     bool boundary;          // lies on the boundary of the mesh
     Eigen::Vector3d point;  // where the linear sh4 interpolant is shortest
+    // Chance decides: two matchings along one of the edges are equally near, or the axis of the turn is at right angles
+    // to the curve, both to 1e-6 radians.
+    bool undecided = false;
 };
 
 // The dual graph: every tet joins the singular triangles among its faces. Two: a segment; three or four: a node inside
@@ -36,6 +40,7 @@ struct SingularGraph {
     std::vector<Index> nodes;              // point ids inside tets where three or four segments meet
     double length = 0;                     // sum over the curves, input unit
     int complex_triangles = 0;
+    int undecided_triangles = 0;
 };
 
 // frames: (n, 4) unit quaternions w x y z, n the number of vertices. Throws InvalidInput. The same result at any thread

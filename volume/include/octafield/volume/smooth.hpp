@@ -64,7 +64,9 @@ struct SmoothResult {
     int iterations = 0;
     bool converged = false;
     std::string message;                 // why the solver stopped
-    std::vector<double> energy_history;  // the objective at the start and after each accepted or rejected step
+    // At the start and after each accepted or rejected step: the energy above, of sh4 whatever was minimised, and the
+    // objective. Both end with those of `frames`.
+    std::vector<double> energy_history, objective_history;
 };
 
 // What the linear start takes as given.

@@ -3,7 +3,8 @@
 // A curve follows one axis. In each tet the axes of the four vertices that continue it, by the matchings of
 // singular_graph, are interpolated linearly; across a face this interpolant is continuous. Where the matchings of a
 // tet do not agree on the axis, a singular curve that turns this axis runs through it, and the curve ends at the face
-// before: within a tet of the singular curve. Axes along a singular curve are not turned, and are followed in its tets.
+// before: within a tet of the singular curve. So the labels of the axes at the vertices (write_vtk.hpp) do not matter,
+// which the stream tracers of VTK and ParaView depend on. Axes along a singular curve are not turned, and are followed in its tets.
 // Inside a tet the interpolant's curve is taken exactly up to the fourth order of its turn there; as a whole, curves
 // are second order in the mesh width.
 #pragma once
@@ -37,7 +38,7 @@ struct FrameStreamlineSeed {
 };
 
 struct FrameStreamlineOptions {
-    double max_length = 0;  // input unit, from the seed each way; 0: 4 bounding-box diagonals
+    double max_length = 0;  // input unit, from the seed each way; 0: 4 times the surface's shape_size
     bool both_ways = true;  // against the direction as well
     // A curve that comes back to its seed so near, in the same direction, is closed. Input unit; 0: a tenth of the
     // longest edge at a vertex of the seed's tet.
@@ -64,8 +65,8 @@ struct LocatedPoints {
 };
 
 // The tet that holds each point: of several, the one it lies deepest in. Points within 1e-9 of a tet's heights count
-// as inside. Linear in the tets for points that are spread.
-LocatedPoints locate_points(const TetMesh& mesh, const Points& points);
+// as inside. Linear in the tets for points that are spread. The same at any thread count.
+LocatedPoints locate_points(const TetMesh& mesh, const Points& points, int threads = 0);
 
 // Centres of at most `count` tets, at random (the same at every call) but none nearer than a certain distance to
 // another, so that they fill the mesh evenly (Poisson disk sampling). Throws InvalidInput for a negative count.

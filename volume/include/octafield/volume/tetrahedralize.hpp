@@ -1,6 +1,9 @@
 // Tetrahedra inside a closed surface, by TetGen (Si 2015).
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "octafield/progress.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
 #include "octafield/volume/tet_mesh.hpp"
@@ -19,9 +22,12 @@ struct TetrahedralizeOptions {
 // The surface (valid: surface/validate.hpp) is kept triangle by triangle: its vertices come first, in the same order
 // with the same bits, and the boundary of the result is exactly its triangles. Several components and cavities (inner
 // surfaces oriented outward of the solid) are allowed. TetGen runs in a copy of the process (Linux), which a crash of
-// TetGen, `progress` or Ctrl-C ends alone. Throws GeometryError with the surface's defect or TetGen's reason (kinds
-// "tetgen_self_intersection", "tetgen_failed"), InvalidInput, Cancelled, SolverError. Never exits.
+// TetGen, `progress` or Ctrl-C ends alone. Where it fails on a sound surface it is run again: on the surface turned in
+// space (the tets are turned back and the surface's own coordinates put in), with another tolerance, and with other
+// bounds on shape and size; a sentence on what helped is appended to `notes`. Throws GeometryError with the surface's
+// defect or why TetGen failed, in words of this project (kinds "tetgen_self_intersection", "tetgen_failed"),
+// InvalidInput, Cancelled, SolverError. Never exits.
 TetMesh tetrahedralize(const surface::TriangleMesh& mesh, const TetrahedralizeOptions& options = {},
-                       const Progress& progress = {});
+                       const Progress& progress = {}, std::vector<std::string>* notes = nullptr);
 
 }  // namespace octafield::volume

@@ -28,11 +28,14 @@ struct FieldArrays {
     Points tet_lengths{};      // (m, 3): cell data frame_lengths
     // Other arrays by name, a row per vertex and per tet.
     std::map<std::string, Rows<double, Eigen::Dynamic>> point_data{}, cell_data{};
+    Edges features{};  // (k, 2) feature edges, vertex ids: field data feature_edges
 };
 
 // .vtu with point data: frame_u, frame_v, frame_w (unit axes), quaternion (w x y z, named components), sh4 (9, named
-// -4..4), boundary (0/1), and cell data region where `regions` holds an id per tet. frames: (n, 4) unit quaternions
-// w x y z.
+// -4..4), boundary (0/1), and cell data axes_agree (0/1: combing.hpp) and region where `regions` holds an id per tet.
+// frames: (n, 4) unit quaternions w x y z. Axes are labelled vertex by vertex, as these quaternions are: what is
+// interpolated from frame_u, frame_v, frame_w or quaternion (slices, clips, stream tracers) mixes axes where axes_agree
+// is 0. Give frames of comb_vertices, so that such tets are few; sh4 may be interpolated everywhere (sample_frames).
 void write_field(const std::filesystem::path& path, const TetMesh& mesh, const Quaternions& frames,
                  const Metadata& metadata = {}, const std::vector<Index>& regions = {}, const FieldArrays& more = {});
 

@@ -1,0 +1,39 @@
+"""Which tests belong to which module: those that must fail when a line of it is wrong.
+
+equivalent: mutants that no test can tell from the original, {part of what is printed: reason}; they are not counted.
+"""
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Module:
+    """tests: files and tests of tests/python, as pytest names them, the quickest first; or a filter of GoogleTest. target: of ninja, for C++."""
+
+    tests: tuple[str, ...]
+    target: str = ""
+    equivalent: dict[str, str] = field(default_factory=dict)
+
+
+_HERE = "test_orders_and_tolerances.py"
+
+PYTHON = {
+    "formats/placing.py": Module((f"{_HERE}::test_frames_and_lengths_go_together_to_the_nearest_centre", f"{_HERE}::test_centres_are_those_of_the_mesh_within_a_millionth_of_its_diagonal", "test_formats.py")),
+    "formats/rotations.py": Module((_HERE, "test_formats.py")),
+    "formats/text.py": Module((f"{_HERE}::test_text_frames_of_another_number_than_the_head_says_are_refused", "test_formats.py", "test_formats_errors.py")),
+    "meshes/text_meshes.py": Module((f"{_HERE}::test_medit_and_tetgen_rows_beyond_the_count_are_refused_with_their_line", "test_tet_input.py", "test_formats_errors.py")),
+    "sizes.py": Module((f"{_HERE}::test_size_ratio_is_the_largest_over_the_smallest_size", "test_sizes.py")),
+    "study/memory.py": Module((f"{_HERE}::test_memory_reserved_is_the_formula_of_the_page_and_more_than_was_measured",)),
+    "study/plan.py": Module((f"{_HERE}::test_keys_of_runs_are_what_they_were", f"{_HERE}::test_a_key_is_the_hash_of_content_options_repeat_and_version", f"{_HERE}::test_runs_are_grouped_by_mesh_and_cross_field_and_come_back_from_json", "test_study_description.py"), equivalent={"43: True to False": "the order of the options is that of the class; sorting it changes no group"}),
+    "tet_analysis.py": Module((f"{_HERE}::test_energy_at_unit_speed_is_that_of_frames_that_move_by_one_per_radian", f"{_HERE}::test_singular_edges_of_frames_in_tets_are_counted_by_turns_from_the_highest_on"), equivalent={"27: 0 to 1": "results are the same at any number of threads"}),
+}  # fmt: skip
+
+CPP = {
+    "surface/src/singular_place.cpp": Module(("SingularPlaces.*",), "test_surface", {
+        "radii[] =": "how far the fit looks; both radii reach a tenth of an edge where no other point is near",
+        "1e-300": "keeps a step of length 0 from a division by 0; any number near 0 does",
+        "std::polar(2 * 1.0": "the angle of a number does not depend on its length",
+    }),
+    "surface/src/surface_singularities.cpp": Module(("Singular*:SurfaceSingularities.*",), "test_surface"),
+    "volume/src/singularities.cpp": Module(("Singular*:StraightLine*:*/StraightLine*",), "test_volume"),
+}  # fmt: skip

@@ -1,0 +1,229 @@
+"""Each level of repair mends what it says and no more; what a message recommends works."""
+
+import numpy as np
+import pytest
+from conftest import SHARED_DATA
+from damaged_surfaces import ZOO, ball, joined, mesh_of, moved, open_cylinder, sheet, soup
+from pipeline_fixtures import octafield, shared
+
+import octafield as of
+from octafield.info import examine
+from octafield.meshing import load_surface, read_sound
+from octafield.options import REPAIR_LEVELS
+from octafield.study.generators import generate
+
+WILD = SHARED_DATA / "wild"
+SOUND = {"ball": ball, "box": lambda: generate("box"), "torus": lambda: generate("torus"), "cavity": lambda: joined(ball(), mesh_of(np.asarray(ball(2).vertices) / 2, np.asarray(ball(2).triangles)[:, ::-1])), "tiny beside large": lambda: joined(ball(), moved(mesh_of(np.asarray(ball(1).vertices) * 1e-5, ball(1).triangles), 2, 0, 0))}  # fmt: skip
+
+
+def kinds(mesh, **tests):
+    return [defect.kind for defect in of.find_defects(mesh, **tests)]
+
+
+@pytest.mark.parametrize("name", SOUND)
+@pytest.mark.parametrize("level", REPAIR_LEVELS)
+def test_a_sound_surface_is_left_as_it_is_bit_by_bit(name, level):
+    mesh = SOUND[name]()
+    assert kinds(mesh) == []
+    done = of.repair(mesh, level=level)
+    assert done.actions == [] and done.largest_move == 0
+    assert np.asarray(done.mesh.vertices).tobytes() == np.asarray(mesh.vertices).tobytes()
+    np.testing.assert_array_equal(done.mesh.triangles, mesh.triangles)
+
+
+@pytest.mark.parametrize("name", ZOO)
+def test_the_level_that_is_recommended_mends_it_and_none_below_does(name):
+    make, expected = ZOO[name]
+    mesh = make()
+    advice = of.advise_repair(mesh)
+    left = {level: kinds(of.repair(mesh, level=level).mesh) for level in REPAIR_LEVELS}
+    assert advice.level == (expected or "none"), left
+    if expected is None:
+        assert all(left.values()) and [defect.kind for defect in advice.left] == left["wrap"]
+        return
+    place = REPAIR_LEVELS.index(expected)
+    assert left[expected] == [] and all(left[level] for level in REPAIR_LEVELS[:place])
+    done = of.repair(mesh, level=expected)
+    assert done.actions == advice.actions != []
+    assert all(left[level] == [] for level in REPAIR_LEVELS[place:])
+
+
+@pytest.mark.parametrize("name", [name for name, (_, level) in ZOO.items() if level in ("merge", "safe", "fill")])
+def test_below_resolve_every_point_stays_but_for_merging_within_the_tolerance(name):
+    mesh = ZOO[name][0]()
+    done = of.repair(mesh, level="fill")
+    before = {tuple(point) for point in (np.asarray(mesh.vertices) + 0.0).tolist()}
+    kept = [tuple(point) in before for point in (np.asarray(done.mesh.vertices) + 0.0).tolist()]
+    first_new = kept.index(False) if False in kept else len(kept)
+    assert not any(kept[first_new:])  # new points of patches come last
+    assert done.largest_move <= 2 * of.coordinate_precision(mesh.vertices)
+
+
+def test_precision_is_seen_in_the_numbers():
+    points = np.random.default_rng(1).random((50, 3)) * 3
+    assert of.coordinate_precision(points.astype(np.float32)) == 2**-22  # spacing of float32 between 2 and 4
+    for digits in (6, 9, 14):
+        rounded = [[float(f"{x:.{digits}g}") for x in point] for point in points]
+        assert of.coordinate_precision(rounded) == pytest.approx(10.0 ** (1 - digits))
+    assert of.coordinate_precision(points) == pytest.approx(8 * np.finfo(float).eps * points.max())
+    assert of.coordinate_precision(points * 1e-6) == pytest.approx(8e-6 * np.finfo(float).eps * points.max())
+    assert of.coordinate_precision(np.zeros((0, 3))) == 0
+
+
+def test_points_farther_apart_than_the_tolerance_are_not_merged():
+    apart = soup(ball(1))
+    points = np.asarray(apart.vertices) + 1e-9 * np.random.default_rng(2).standard_normal((len(apart.vertices), 3))
+    mesh = mesh_of(points, apart.triangles)
+    assert of.repair(mesh, level="merge", merge_tolerance=1e-10).actions == []
+    merged = of.repair(mesh, level="merge", merge_tolerance=2e-8)
+    assert kinds(merged.mesh) == [] and 0 < merged.largest_move <= 2e-8
+    assert merged.actions[0].startswith(f"merged {len(points) - 42} points of open edges")
+
+
+def test_counts_in_actions_are_those_of_the_defects():
+    torn = joined(ball(), mesh_of(np.eye(3) * 1e-4 + 2, [[0, 1, 2]]))
+    points, triangles = np.asarray(torn.vertices), np.array(torn.triangles)
+    triangles[3:8] = triangles[3:8, ::-1]
+    triangles = np.concatenate([np.delete(triangles, [40, 41], axis=0), triangles[:2]])
+    actions = of.repair(mesh_of([*points, [9, 9, 9], [8, 8, 8]], triangles)).actions
+    assert [action.partition(" ")[0] + " " + action.split()[1] for action in actions][:3] == ["removed 2", "removed 1", "reversed 5"]
+    assert any(action.startswith("filled 1 hole with 2 triangles") or action.startswith("filled 2 holes with 2 triangles") for action in actions)
+    assert actions[-1].startswith("left out 5 points")  # and the three of the crumb
+
+
+def test_a_cylinder_gets_a_lid_and_a_ball_its_cap_again():
+    lid = of.repair(open_cylinder(), level="fill").mesh
+    assert of.signed_volume(lid) == pytest.approx(of.signed_volume(generate("cylinder")), rel=1e-12)
+    cap = of.repair(ZOO["ball without a cap"][0](), level="fill").mesh
+    whole = of.signed_volume(ball(4))
+    assert of.signed_volume(cap) == pytest.approx(whole, rel=0.01)
+    assert of.signed_volume(of.repair(ZOO["ball without a cap"][0](), level="safe", small_hole_edges=1000).mesh) < 0.985 * whole
+
+
+def test_the_bound_of_holes_is_kept_and_told():
+    mesh = open_cylinder()
+    bounded = of.repair(mesh, level="fill", max_hole_edges=63)
+    assert kinds(bounded.mesh) == ["not_closed"]
+    assert any("63" in action and "64" in action and "--max-hole-edges" in action for action in bounded.actions)
+    assert kinds(of.repair(mesh, level="fill", max_hole_edges=64).mesh) == []
+
+
+def test_pieces_that_cross_become_their_union():
+    one, other = generate("box"), moved(generate("box"), 0.5, 0.25, 0.125)
+    done = of.repair(joined(one, other), level="resolve")
+    assert kinds(done.mesh) == [] and "united 1 piece" in done.actions[0]
+    assert of.signed_volume(done.mesh) == pytest.approx(2 - 0.5 * 0.75 * 0.875, rel=1e-12)
+
+
+def test_a_wrap_says_how_far_it_lies_and_lies_no_farther():
+    mesh = joined(generate("box"), moved(generate("box"), 1, 1, 0))
+    mesh = of.repair(mesh, level="merge").mesh
+    done = of.repair(mesh, level="wrap", wrap_alpha=0.1, wrap_offset=0.01)
+    assert kinds(done.mesh) == [] and "alpha 0.1, offset 0.01" in done.actions[-1]
+    points = np.asarray(done.mesh.vertices)
+    assert 0.009 < -points.min() < 0.011
+    assert 2 < of.signed_volume(done.mesh) < 2 + 12 * done.largest_move
+    refused = of.repair(sheet(), level="wrap").actions
+    assert any(action.startswith("not wrapped") for action in refused)
+
+
+def test_unused_points_are_left_out_before_anything_is_measured(tmp_path):
+    path = tmp_path / "far.obj"
+    points = [*np.asarray(ball().vertices).tolist(), [500, 0, 0]]
+    path.write_text("".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in points) + "".join(f"f {a} {b} {c}\n" for a, b, c in np.asarray(ball().triangles) + 1))
+    record = examine(path)
+    assert record["ok"] and record["bounding_box"]["diagonal"] < 4 and record["notes"] == ["1 vertices that no triangle uses were left out"]
+
+
+def test_lines_of_the_file_survive_repair_where_they_are_edges(tmp_path):
+    import meshio
+
+    box = generate("box")
+    points, triangles = np.asarray(box.vertices), np.asarray(box.triangles)
+    lines = of.detect_features(box).edges
+    path = tmp_path / "turned.vtk"
+    meshio.Mesh(points, [("triangle", np.concatenate([triangles[:3], triangles[3:, ::-1]])), ("line", lines)]).write(path, binary=False)
+    sound = read_sound(path, of.MeshOptions(repair="safe", features="file"))
+    assert len(sound.features.edges) == 12 and any(note.startswith("repair: reversed 3") for note in sound.found.notes)
+
+
+def test_levels_are_words_and_true_means_safe():
+    assert of.MeshOptions(repair=True).repair == "safe" and of.MeshOptions(repair=False).repair == "none"
+    with pytest.raises(of.InvalidInput, match="did you mean 'merge'"):
+        of.MeshOptions(repair="marge")
+    for wrong in ({"max_hole_edges": -1}, {"wrap_alpha": float("nan")}, {"wrap_offset": -1.0}):
+        with pytest.raises(of.InvalidInput):
+            of.MeshOptions(**wrong)
+
+
+@pytest.mark.parametrize("name, level", [("open cylinder", "fill"), ("spike", "resolve"), ("sheet", None)])
+def test_the_command_recommends_what_works(name, level, tmp_path):
+    path = tmp_path / "damaged.ply"
+    of.write_surface(ZOO[name][0](), path)
+    for command in (("info", path), ("field", path, "-o", tmp_path / "out")):
+        message = octafield(*command, check=2).stderr
+        assert "defect:" not in message
+        if level is None:
+            assert "no level of --repair makes it sound" in message and "not wrapped" in message
+        else:
+            assert f"--repair {level} makes it sound (" in message and "(0" not in message.split("the first at")[0]
+    if level:
+        octafield("info", path, "--repair", level, check=0)
+        below = octafield("info", path, "--repair", REPAIR_LEVELS[REPAIR_LEVELS.index(level) - 1], check=2).stderr
+        assert f"--repair {level} makes it sound" in below
+
+
+@pytest.mark.parametrize("name, euler", [("cube_split_zero.stl", 2), ("part_split_points.stl", -16)])
+def test_split_points_of_stl_files_are_one_by_default(name, euler):
+    surface = load_surface(shared(WILD / name))
+    assert kinds(surface) == [] and of.euler_characteristic(surface) == euler
+    with pytest.raises(of.GeometryError, match="--repair merge makes it sound"):
+        load_surface(WILD / name, repair="none")
+
+
+def test_a_large_hole_is_filled_on_request():
+    path = shared(WILD / "cup_open_60.stl")
+    with pytest.raises(of.GeometryError, match="--repair fill makes it sound .filled 1 hole"):
+        load_surface(path)
+    assert kinds(load_surface(path, repair="fill")) == []
+
+
+def test_a_fold_of_rounded_coordinates_is_repaired_within_a_stated_tolerance():
+    mesh = of.read_surface(shared(WILD / "fold_patch.stl"))
+    assert "self_intersection" in kinds(mesh, closed=False)
+    done = of.repair(mesh, level="resolve", closed=False)
+    assert kinds(done.mesh, closed=False) == [] and done.actions
+    assert 0 < done.largest_move < 1e-3 * of.bounding_box_diagonal(mesh.vertices)
+
+
+@pytest.mark.parametrize("name, diagonal", [("o_unref.obj", 1.5), ("t_flap.off", None)])
+def test_unused_far_points_do_not_count(name, diagonal):
+    record = examine(shared(WILD / name), of.MeshOptions(repair="safe"))
+    assert record["ok"], [r for r in record["requirements"] if r["state"] == "fail"]
+    used = of.read_surface(WILD / name)
+    points = np.asarray(used.vertices)[np.unique(used.triangles)]
+    assert record["bounding_box"]["diagonal"] <= np.linalg.norm(np.ptp(points, axis=0)) + 1e-12
+
+
+def test_a_word_that_is_no_number_is_shown():
+    message = octafield("info", shared(WILD / "s_comma.stl"), check=2).stderr
+    assert '"-1,000000e+01" (a decimal comma; points are needed)' in message and "line 4" in message
+
+
+@pytest.mark.parametrize("name, content, shown", [
+    ("a.stl", "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 x1", '"x1"'),
+    ("a.stl", "solid a\nfacet normal 0 0 0\nouter lop", '"lop"'),
+    ("a.obj", "v 0 0 1,5\n", '"1,5" (a decimal comma'),
+    ("a.obj", "v 0 0\n", "the line or file ends"),
+    ("a.obj", "v 0 0 0\nf 1 b 1\n", '"b"'),
+    ("a.off", "OFF\n3 one 0\n", '"one"'),
+    ("a.off", "OFF\n3 1 0\n0 0 0\n0 0 0x\n0 0 0\n3 0 1 2\n", '"0x"'),
+    ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2.5\n", '"2.5"'),
+    ("a.ply", "ply\nformat ascii 1.0\nelement vertex many\nend_header\n", '"many"'),
+    ("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 \x01z 0\n", '"?z"'),
+])  # fmt: skip
+def test_every_text_reader_shows_the_word_it_cannot_use(name, content, shown, tmp_path):
+    (tmp_path / name).write_text(content)
+    with pytest.raises(of.IoError) as caught:
+        of.read_surface(tmp_path / name)
+    assert shown in str(caught.value)
