@@ -35,7 +35,7 @@ HEADER = ["input", "source", "triangles", "info", "default", "kind", "steps", "r
 MOST_STEPS = 3
 LEVELS = "merge|safe|fill|resolve|wrap"
 # A level that the message recommends, not one that it says has been applied or did not help.
-_LEVEL = re.compile(rf"(?<!after )(?<!level of )--repair ({LEVELS})\b(?!,| and )")
+_LEVEL = re.compile(rf"(?<!after )(?<!level of )--repair ({LEVELS})\b(?!(?:,| and) (?:{LEVELS}))")
 _VALUE = re.compile(r"(--edge-length|--feature-angle|--cells|--max-hole-edges) ([0-9][0-9.e+-]*[0-9]|[0-9])")
 
 
