@@ -10,7 +10,7 @@ and it is tried again, three times at most. Nothing is chosen by hand.
 A result is wrong where, of the file's body: the volume differs by more than 1 %, the Euler characteristic differs, the
 surface lies further than 1 % of the size away (either way), or one axis is more than 10 degrees from the input's
 normal at more than 5 % of the surface's vertices away from features. A wrong result whose record says so (its verdict
-is not fine, or a note tells of a repair, a loss or a coarse place) is "told"; without a word it is "SILENT".
+is not fine, or a note tells of a loss, a filled hole or a coarse place) is "told"; without a word it is "SILENT".
 
 Writes table.csv, summary.md (--page: a page of the documentation with it), pictures in contact.png. Exit code 1 where a result is silently wrong.
 """
@@ -28,12 +28,14 @@ from any_part_inputs import Case, collect, unpacked
 from any_part_judge import contact_sheet, judge, words_of
 from study_output import markdown_table, write_csv
 
+import octafield
+
 HEADER = ["input", "source", "triangles", "info", "default", "kind", "steps", "result", "wrong", "told", "tets", "energy", "singular", "volume %",
           "euler", "far %", "angle 95 %", "seconds", "message"]  # fmt: skip
 MOST_STEPS = 3
 LEVELS = "merge|safe|fill|resolve|wrap"
 # A level that the message recommends, not one that it says has been applied or did not help.
-_LEVEL = re.compile(rf"(?<!after )(?<!level of )--repair ({LEVELS})\b(?!,| and )")
+_LEVEL = re.compile(rf"(?<!after )(?<!level of )--repair ({LEVELS})\b(?!(?:,| and) (?:{LEVELS}))")
 _VALUE = re.compile(r"(--edge-length|--feature-angle|--cells|--max-hole-edges) ([0-9][0-9.e+-]*[0-9]|[0-9])")
 
 
@@ -93,7 +95,7 @@ def run_case(case: Case, folder: Path, limit: float) -> dict[str, Any]:
     if code == 0:
         record = json.loads((output / "result.json").read_text())
         row |= judge(case, unpacked(case.path, folder), output, record)
-        row["told"] = words_of(record) if row["wrong"] else ""
+        row["told"] = words_of(record, row["wrong"]) if row["wrong"] else ""
     return row
 
 
@@ -137,9 +139,15 @@ PAGE = """# Any part
 
 Sixty surfaces through `octafield field`: parts made by rule (thin walls, needles, high genus, noise, scans with holes), files that broke something
 once, and what pyvista ships. Where a field is refused by default, the options that the message names are added, without a look at the part.
-What counts as wrong, and how it is found: [studies/any_part.py](study_scripts.md), which writes this page. Seconds are of a machine with other work; the time limit of a try was {limit:.0f} s.
+What counts as wrong, and how it is found: [studies/any_part.py](study_scripts.md), which writes this page. Seconds are on the clock, as the machine was; the limit of one command was {limit:.0f} s. The program was octafield {version}, commit {commit}.
 
 """
+
+
+def commit() -> str:
+    """Of the source tree, with a + where it has changes beside it."""
+    words = ["git", "-C", str(Path(__file__).parent), "describe", "--always", "--dirty=+", "--abbrev=8"]
+    return subprocess.run(words, capture_output=True, text=True).stdout.strip() or "unknown"
 
 
 def main() -> int:
@@ -168,7 +176,7 @@ def main() -> int:
         write_csv(a.output / "table.csv", HEADER, [[row[key] for key in HEADER] for row in rows], quiet=True)
         (a.output / "summary.md").write_text(summary(rows))
     if a.page:
-        a.page.write_text(PAGE.format(limit=a.limit) + summary(rows))
+        a.page.write_text(PAGE.format(limit=a.limit, version=octafield.__version__, commit=commit()) + summary(rows))
     contact_sheet(a.output)
     print(summary(rows).split("\n\n|")[0])
     return int(any(verdict(row) == "SILENT" for row in rows))
