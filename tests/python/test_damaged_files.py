@@ -234,6 +234,7 @@ CASES = [  # name, what is replaced, by what, what the message says
     (".mesh", b"Tetrahedra\n6", b"Tetrahedra\nnan", "Tetrahedra is not followed by a count"),
     (".mesh", b"Vertices\n8", b"Vertices\n1000000000000000000", "Vertices ends after 8 of 1000000000000000000 rows"),
     ("tetgen .node", b"8 3 0 0", b"-8 3 0 0", "line 2: the number of points is -8"),
+    ("tetgen .node", b"8 3 0 0", b"8 3 -1 0", "tells of -1 attributes"),
     (".ovm", b"Polyhedra\n6\n4 ", b"Polyhedra\n6\n6 1 1 ", "line 55: 6 sides; meshes of tets have 4"),
     (".ovm", b"Faces\n18\n3 ", b"Faces\n18\n4 1 ", "4 sides; meshes of tets have 3"),
 ]

@@ -170,6 +170,8 @@ def _headed(text: str, name: str, what: str, second: tuple[int, str], quadratic:
         header = []
     if len(header) < (4 if what == "points" else 3):
         raise IoError(f"{name}: does not begin with the number of {what} and what each row holds")
+    if min(header[2:]) < 0:
+        raise IoError(f"{name}: its head tells of {min(header[2:])} attributes or markers; 0 or more are needed")
     if header[1] not in (second[0], quadratic or second[0]):
         raise IoError(f"{name}: {second[1]} is {header[1]}; {second[0]} is needed")
     return _table(section, name, 1 + header[1] + sum(header[2:]), skip=len(header), count=header[0])
