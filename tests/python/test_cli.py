@@ -1,6 +1,5 @@
 """The command line: JSON, exit codes, one message per failure, nothing left behind."""
 
-import gzip
 import json
 import os
 import re
@@ -273,25 +272,6 @@ def test_repair_is_advised_only_where_it_may_help(tmp_path):
     fin = tmp_path / "fin.obj"  # three fans on one edge: no single dangling triangle to remove
     fin.write_text("\n".join(f"v {x} {y} {z}" for x, y, z in points) + "\nf 1 2 3\nf 1 2 4\nf 1 2 5\n")
     assert "no level of --repair makes it sound" in octafield("info", fin, "--repair", "safe", check=2).stderr
-
-
-def test_unpacked_input_goes_after_an_interrupt(tmp_path):
-    scratch = tmp_path / "scratch"
-    scratch.mkdir()
-    packed = tmp_path / "slow.vtp.gz"  # VTK reads files only
-    with gzip.open(packed, "wb", compresslevel=1) as file:
-        for _ in range(200):
-            file.write(b"0 " * 1_000_000)
-    command = [sys.executable, "-m", "octafield.cli", "info", str(packed)]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env={**os.environ, "TMPDIR": str(scratch)})
-    deadline = time.monotonic() + 30
-    # Python probes the folder with a file of its own first.
-    while not list(scratch.glob("octafield-*")) and time.monotonic() < deadline and process.poll() is None:
-        time.sleep(0.005)
-    assert list(scratch.glob("octafield-*")), "the input was not unpacked"
-    os.kill(process.pid, signal.SIGINT)
-    process.communicate(timeout=30)
-    assert process.returncode == 130 and list(scratch.iterdir()) == []
 
 
 def test_doctor_finds_this_installation_sound(tmp_path):

@@ -173,7 +173,7 @@ NODE, ELE = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", "1 4 0\n1 1 2 3 4\n
 @pytest.mark.parametrize("node, ele, words", [
     (NODE, "2 4 0\n1 1 2 3 4\n", "line 2: tets ends after 1 of 2 rows"),
     (NODE, "1 4 0\n1 1 2 3 5\n", "line 2: a tet names a point outside 1 .. 4"),
-    (NODE, "1 10 0\n1 1 2 3 4\n", "vertices per tet is 10"),
+    (NODE, "1 11 0\n1 1 2 3 4\n", "vertices per tet is 11"),
     (NODE.replace("3 0 1", "7 0 1"), ELE, "row 3 of the points has number 7"),
     (NODE.replace("0 1 0", "0 y 0"), ELE, "line 4: no number in points: 'y'"),
     ("", ELE, "does not begin with the number of points"),

@@ -77,7 +77,7 @@ def _meshed(path: Path, suffix: str, edge_length: float, way: int, progress: Pro
         with np.load(folder / "grid.npz") as arrays:
             cells = {kind: arrays[kind] for kind in ("triangle", "line", "tetra") if kind in arrays}
             creases = np.ones(len(cells["line"]), bool) if "line" in cells else None
-            grid = Grid(arrays["points"], cells, arrays["faces"], arrays.get("regions"), creases, answer["notes"])
+            grid = Grid(arrays["points"], cells, arrays["faces"], arrays.get("regions"), creases, notes=answer["notes"])
     return grid, _fault(grid)
 
 

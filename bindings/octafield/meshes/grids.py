@@ -46,6 +46,8 @@ def read_grid(path: Path, suffix: str) -> Grid:
     with reading(path, suffix):
         if suffix == ".vtp":
             found = read_vtp(_bytes(path), str(path))
+            if not len(found.points):
+                raise IoError(f"{path}: holds no points")
             return _grid(found.points, [(block.type, block.data) for block in found.cells], None, None)
         if suffix in CELL_SUFFIXES:
             return grid_of_cells(read_cells(path, suffix))

@@ -11,7 +11,7 @@ _CELLS = ("Verts", "Lines", "Strips", "Polys")
 
 
 def read_vtp(data: bytes, name: str) -> CellMesh:
-    """Triangles and line segments: polygons cut by VTK, strips and polylines taken apart. Arrays at points and cells are not read."""
+    """Triangles and line segments: polygons cut by VTK, strips and polylines taken apart; none of them where a result has no curves. Arrays at points and cells are not read."""
     file = parsed(data, name, "PolyData", ("NumberOfPoints", *(f"NumberOf{kind}" for kind in _CELLS)))
     points, triangles, lines, first = [np.empty((0, 3))], [np.empty((0, 3), np.int64)], [np.empty((0, 2), np.int64)], 0
     for piece in file.pieces:
@@ -21,8 +21,6 @@ def read_vtp(data: bytes, name: str) -> CellMesh:
         lines.append(_segments(*cells["Lines"]) + first)
         triangles += [_of_strips(*cells["Strips"]) + first, _of_polygons(name, points[-1], *cells["Polys"]) + first]
         first += len(points[-1])
-    if not first:
-        raise IoError(f"{name}: holds no points")
     return CellMesh(np.concatenate(points), [Block("triangle", np.concatenate(triangles)), Block("line", np.concatenate(lines))])
 
 
