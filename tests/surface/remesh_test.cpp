@@ -267,8 +267,8 @@ TEST(Remesh, TooCoarseATargetStaysSoundAndSaysWhatWasDone) {
             const RemeshResult result = remesh(mesh, detect_features(mesh), {.edge_length = target});
             EXPECT_TRUE(find_defects(result.mesh).empty());
             EXPECT_EQ(euler_characteristic(result.mesh), euler_characteristic(mesh));
-            const bool flat = result.features.corners.size() == 8;
-            EXPECT_EQ(result.notes.empty(), flat && result.deviation < 1e-9 && target < 100) << target;
+            const bool flat = result.features.corners.size() == 8;  // the cube is a cube at any length
+            EXPECT_EQ(result.notes.empty(), flat) << target;
         }
     }
 }
