@@ -257,6 +257,7 @@ def _remesh(meshed: MeshedInput, options: MeshOptions, progress: Progress | None
         progress=forward(progress, "mesh", 0, 0.7 if volume else 1),
     )
     meshed.surface, meshed.features = result.mesh, result.features
+    meshed.notes += result.notes
 
 
 def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) -> None:
@@ -272,11 +273,14 @@ def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: Mes
         failed = error
     surface, features, length = meshed.surface, meshed.features, float(_core.mean_edge_length(meshed.surface))
     for shorter in (0.8, 0.6):
+        notes = len(meshed.notes)
         try:
             result = _core.remesh(surface, features, edge_length=shorter * length)
             meshed.surface, meshed.features = result.mesh, result.features
+            meshed.notes += result.notes
             _fill(meshed, progress, options)
         except GeometryError:
+            del meshed.notes[notes:]
             continue
         meshed.notes.append(f"TetGen could not fill the surface with edges of {length:.3g}; it could with edges of {shorter * length:.3g}")
         return

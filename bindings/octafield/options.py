@@ -66,7 +66,7 @@ class MeshOptions:
     features: "file" (line cells of the file), "angle" (dihedral angle), "none",
         "default": file when it marks some, else angle.
     feature_angle: radians in (0, pi), between the normals of two triangles at a feature edge.
-    edge_length: target of surface remeshing, input unit; 0: a fixed fraction of the bounding-box diagonal (see remesh).
+    edge_length: target of surface remeshing, input unit; 0: from the shape (see remesh).
     remesh: False keeps the triangles of a surface. Tet meshes are always kept as they are.
     repair: level of the repair of a surface before it is tested (octafield.repair), each action recorded; "default": "merge" for STL,
         "none" otherwise. True stands for "safe", False for "none".

@@ -107,6 +107,9 @@ constexpr Example of_meshes[] = {
     {"shape_size", R"(
     >>> round(octafield.shape_size(generate("box")) / 3**0.5, 2)  # of the diagonal
     1.12)"},
+    {"default_edge_length", R"(
+    >>> round(octafield.shape_size(generate("box")) / octafield.default_edge_length(generate("box")), 12)
+    25.0)"},
     {"bounding_box_diagonal", R"(
     >>> octafield.bounding_box_diagonal([[0, 0, 0], [1, 2, 2]])
     3.0)"},

@@ -51,6 +51,10 @@ void bind_elementary(py::module_& m) {
                 "surface from its centroid, about the diagonal of a box, whichever way the surface lies. Needs at least "
                 "one triangle.",
                 true);
+    def_of_mesh(m, "default_edge_length", default_edge_length,
+                "The target that octafield.remesh tries first where none is given, input unit: 1/25 of "
+                "octafield.shape_size. Needs at least one triangle.",
+                true);
     def_of_mesh(m, "euler_characteristic", euler_characteristic,
                 "V - E + F over the vertices in use. Raises GeometryError where edge_topology does.");
     m.def(
@@ -237,10 +241,10 @@ void bind_remesh(py::module_& m) {
         "mesh"_a, "features"_a, py::kw_only(), "edge_length"_a = defaults.edge_length,
         "iterations"_a = defaults.iterations, "progress"_a = py::none(),
         "Isotropic remeshing to a target edge length, features kept (Botsch, Kobbelt 2004), as a RemeshResult. The "
-        "input must be valid. "
-        "edge_length: input unit, 0 means 1/25 of the bounding box's diagonal; iterations: rounds, at least 1. Raises "
-        "GeometryError when the "
-        "target is too coarse for the shape.");
+        "input must be valid, and the result is, with the same topology: where triangles of that length would cross, "
+        "shorter ones are tried, and the input's are kept where none are sound. edge_length: input unit; 0 means "
+        "octafield.default_edge_length, or less where the new surface would leave the input's by more than 1/400 of "
+        "octafield.shape_size or change its volume by more than 1 %. iterations: rounds, at least 1.");
 }
 
 }  // namespace

@@ -77,6 +77,10 @@ void bind_results(py::module_& m) {
         .field("mesh", &RemeshResult::mesh, "The new TriangleMesh.")
         .field("features", &RemeshResult::features,
                "FeatureGraph of the new mesh: pieces of the old curves, corners at the old places.")
+        .field("notes", &RemeshResult::notes,
+               "Where the edges are shorter than wanted, and why, or the surface is not quite the input's.")
+        .field("deviation", &RemeshResult::deviation,
+               "Input unit: no vertex of the input is farther from the new surface.")
         .finish([](const RemeshResult& r) { return repr_mesh(r.mesh) + ", " + repr_features(r.features); });
 }
 
