@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _core
+from . import _core, verdict
 from ._core import (
     BoundaryConstraints,
     BoundaryMeshability,
@@ -29,7 +29,7 @@ from .meshing import MeshedInput
 
 @dataclass
 class FieldAnalysis:
-    """alignment, feature_alignment: radians, one per sector normal and feature tangent. record: for the JSON object."""
+    """alignment, feature_alignment: radians, one per sector normal and feature tangent. off_vertices: of the boundary, too far from a normal that is served. record: for the JSON object."""
 
     singular_graph: SingularGraph
     meshability: Meshability
@@ -39,6 +39,7 @@ class FieldAnalysis:
     feature_alignment: np.ndarray
     energy: float
     streamlines: list[FrameStreamline]
+    off_vertices: np.ndarray
     record: dict[str, Any]
 
 
@@ -60,6 +61,7 @@ def analyse(
     alignment = np.asarray(_core.alignment_angles(boundary, features, frames))
     sectors = _core.sector_normals(boundary.mesh, features)
     unserved = unserved_sectors(meshed, sectors, feature_tolerance)
+    off = verdict.off_vertices(alignment[~unserved], np.asarray(sectors.vertex)[~unserved])
     feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
     energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
     size = _core.shape_size(boundary.mesh)
@@ -84,7 +86,7 @@ def analyse(
         },
     }
     return FieldAnalysis(
-        graph, meshability, at_boundary, integrability, alignment, feature_alignment, energy, lines, record
+        graph, meshability, at_boundary, integrability, alignment, feature_alignment, energy, lines, off, record
     )
 
 

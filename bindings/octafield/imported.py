@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _core, display
+from . import _core, display, verdict
 from ._core import BoundaryMeshability, FeatureGraph, FrameStreamline, Integrability, Meshability, SingularGraph, TetMesh, TriangleMesh
 from .analysis import analyse as analyse_frames
 from .errors import InvalidInput
@@ -114,12 +114,12 @@ def judged(
             frames, lengths = combed(tets, frames, lengths, options.threads)
         if options.sampling == "tets":
             of_tets = analyse_tets(meshed, _core.tet_sampling(tets), frames, options.threads)
-            figures = of_tets.record
+            figures, off = of_tets.record, of_tets.off_vertices
             parts = {"frames": combed(tets, of_tets.frames, None, options.threads)[0], "tet_frames": frames, "singular_graph": of_tets.singular.graph}
             parts |= {name: getattr(of_tets, name) for name in ("alignment", "feature_alignment", "meshability", "boundary_meshability")}
         else:
             found = analyse_frames(meshed, frames, options.threads, options.streamlines, options.feature_tolerance)
-            figures = found.record
+            figures, off = found.record, found.off_vertices
             parts = {"frames": frames, **{name: getattr(found, name) for name in _OF_ANALYSIS}}
     sizes, sizes_entry = sizes_of_run(tets, parts["frames"], options, clock, progress)
     record = {
@@ -133,6 +133,7 @@ def judged(
         "threads": options.threads,
         **figures,
         **sizes_entry,
+        "verdict": verdict.of_field(meshed, off, figures),
     }
     _, boundary, features = meshed.volume()
     feature_edges = np.asarray(boundary.vertex_map)[np.asarray(features.edges)].astype(np.int32).reshape(-1, 2)

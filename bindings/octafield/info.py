@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _core, estimates, info_checks
+from . import _core, estimates, info_checks, verdict
 from ._core import TetMesh
 from .errors import Error
 from .info_checks import FAIL, NOT_TESTED, PASS, WARN, Examined, Finding
@@ -92,6 +92,7 @@ def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict[str,
         "notes": found.notes,
         "requirements": [f.to_json() for f in findings],
         **facts,
+        "verdict": verdict.of_input([f.to_json() for f in findings]),
     }
 
 
@@ -112,7 +113,8 @@ def _unread(name: str, error: Error) -> dict[str, Any]:
     )
     findings = [Finding("file can be read", PASS), what] if flat else [what]
     record = {"input": name, "version": octafield_version(), "ok": False, "notes": []}
-    return record | {"requirements": [f.to_json() for f in findings]}
+    requirements = [f.to_json() for f in findings]
+    return record | {"requirements": requirements, "verdict": verdict.of_input(requirements)}
 
 
 def _defects(found: Input, options: MeshOptions) -> list[Finding]:

@@ -132,7 +132,7 @@ def feature_sizes(seen: Examined) -> Finding:
         return Finding(text, PASS)
     return Finding(text, WARN, "short_features",
                    f"{len(short):,} feature curves are shorter than half an edge of {seen.length:.3g} (the shortest: {short.min():.3g})",
-                   f"--edge-length {_rounded_down(2 * short.min())}")  # fmt: skip
+                   f"--edge-length {rounded_down(2 * short.min())}")  # fmt: skip
 
 
 def curvature(seen: Examined) -> Finding:
@@ -155,7 +155,7 @@ def curvature(seen: Examined) -> Finding:
     what = f"on {share:.0%} of the surface, where it is {radius:.3g} and less"
     if seen.sized:
         return Finding(text, WARN, "coarse_for_curvature", f"edges of {seen.length:.3g} are longer than the radius of curvature {what}",
-                       f"--edge-length {_rounded_down(radius)}")  # fmt: skip
+                       f"--edge-length {rounded_down(radius)}")  # fmt: skip
     return Finding(text, WARN, "coarse_for_curvature", f"edges are longer than the radius of curvature {what}",
                    _finer(seen), tuple(np.flatnonzero(tight).tolist()))  # fmt: skip
 
@@ -175,7 +175,7 @@ def walls(seen: Examined) -> Finding:
     least = float(thick[order[np.searchsorted(np.cumsum(share[order]), _SHARE / 2)]])
     return Finding(text, WARN, "thin_walls",
                    f"walls are thinner than an edge of {seen.length:.3g} behind {float(share[thin].sum()):.0%} of the surface, {least:.3g} and less",
-                   f"--edge-length {_rounded_down(least)}")  # fmt: skip
+                   f"--edge-length {rounded_down(least)}")  # fmt: skip
 
 
 def triangle_shapes(seen: Examined) -> Finding:
@@ -239,7 +239,7 @@ def memory(seen: Examined, tets: int) -> Finding:
     return Finding(text, WARN, "memory", f"about {tets:,} tets need {needed / 1000:,.1f} GB of this machine's {there / 1000:.1f}", remedy)
 
 
-def _rounded_down(value: float) -> str:
+def rounded_down(value: float) -> str:
     """Two digits, never more than `value`."""
     unit = 10.0 ** (math.floor(math.log10(value)) - 1)
     return f"{math.floor(value / unit * (1 + 1e-12)) * unit:.2g}"

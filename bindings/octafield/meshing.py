@@ -27,7 +27,8 @@ class MeshedInput:
 
     Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too. There,
     and where the boundary touches itself, `surface` is `boundary` cut into sheets: manifold, each vertex a copy of vertex `sheet_map` of the boundary. features are
-    those of `surface`, boundary_features those of `boundary`. locking: counts of what split_locking is for.
+    those of `surface`, boundary_features those of `boundary`. locking: counts of what split_locking is for. options: what it was
+    prepared with.
     """
 
     name: str
@@ -45,6 +46,7 @@ class MeshedInput:
     interface_triangles: int = 0
     sheet_map: np.ndarray | None = None
     locking: dict[str, Any] = field(default_factory=dict)
+    options: MeshOptions | None = None
 
     def __repr__(self) -> str:
         return display.meshed_line(self)
@@ -160,6 +162,7 @@ def prepare_mesh(
             interface_triangles=found.interface_triangles,
             sheet_map=None if source.sheets is None else np.asarray(source.sheets.vertex_map),
             locking=source.locking,
+            options=options,
         )
         if found.tets is not None:
             _note_unused(meshed, options, found.of_cad)

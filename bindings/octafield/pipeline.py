@@ -11,7 +11,7 @@ A comparison prepares a Problem once and runs it with several options:
 """
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -145,7 +145,7 @@ def run(
     start: ArrayLike | None = None,
 ) -> FieldResult:
     """One frame field on a prepared problem. The record's phase times include those of the shared preparation.
-    constraints, start: see compute_field.
+    constraints, start: see compute_field. Raises InvalidInput where options of the mesh differ from those it was prepared with and from the defaults.
 
         >>> import octafield
         >>> from octafield.study.generators import generate
@@ -157,6 +157,7 @@ def run(
     """
     memory = PeakMemory()
     meshed, clock = problem.meshed, PhaseClock(problem.clock)
+    _refuse_ignored(meshed, options)
     tets = meshed.volume().tets
     with clock.phase("smooth"):
         announce(progress, "smooth")
@@ -207,6 +208,16 @@ def run(
         separatrices=problem.separatrices,
         constraints=held,
     )
+
+
+def _refuse_ignored(meshed: MeshedInput, options: FieldOptions) -> None:
+    """Options of the mesh that were given and are not those it was prepared with would be ignored. Defaults count as not given."""
+    if meshed.options is None:
+        return
+    names = [f.name for f in fields(MeshOptions) if getattr(options, f.name) not in (f.default, getattr(meshed.options, f.name))]
+    if names:
+        listed = ", ".join(f"{name}={getattr(options, name)!r} (prepared with {getattr(meshed.options, name)!r})" for name in names)
+        raise InvalidInput(f"{meshed.name}: the mesh is there already, so that {listed} would be ignored; give them to prepare_mesh", "ignored_options")
 
 
 def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryConstraints:

@@ -22,6 +22,7 @@ def show_record(record: dict[str, Any]) -> None:
         elif isinstance(value, (str, int, float)) and name != "input":
             facts.append((name, f"{value:.8g}" if isinstance(value, float) else str(value)))
     _facts(record["input"], facts)
+    show_verdict(record)
 
 
 def show_comparison(rows: list[dict[str, Any]]) -> None:
@@ -47,6 +48,12 @@ def show_info(record: dict[str, Any]) -> None:
         [[r["state"], r["requirement"], _fact(r), r["remedy"]] for r in record["requirements"]],
         left=4,
     )
+    show_verdict(record)
+
+
+def show_verdict(record: dict[str, Any]) -> None:
+    for sentence in record["verdict"]["sentences"] if "verdict" in record else ():
+        _stdout().print(Text(f"verdict: {sentence}"), soft_wrap=True)
 
 
 def _fact(requirement: dict[str, Any]) -> str:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _core
+from . import _core, verdict
 from ._core import BoundaryMeshability, Meshability, Sampling, SingularEdges
 from .analysis import boundary_record, degrees, meshability_record
 from .meshing import MeshedInput
@@ -14,7 +14,7 @@ from .meshing import MeshedInput
 @dataclass
 class TetFieldAnalysis:
     """frames: (n, 4), those of the tets taken to the vertices. alignment: radians, per triangle of the surface and tet
-    beside it. feature_alignment: of `frames`. record: for the JSON object."""
+    beside it. feature_alignment: of `frames`. off_vertices: of the boundary, beside triangles that are too far off. record: for the JSON object."""
 
     frames: np.ndarray
     singular: SingularEdges
@@ -22,6 +22,7 @@ class TetFieldAnalysis:
     feature_alignment: np.ndarray
     meshability: Meshability
     boundary_meshability: BoundaryMeshability
+    off_vertices: np.ndarray
     record: dict[str, Any]
 
 
@@ -30,6 +31,7 @@ def analyse_tets(meshed: MeshedInput, sampling: Sampling, of_tets: np.ndarray, t
     frames = np.asarray(_core.vertex_frames(tets, of_tets, threads=threads))
     found = _core.singular_edges(tets, of_tets, threads=threads)
     alignment = np.asarray(_core.tet_alignment_angles(tets, boundary, of_tets))
+    off = verdict.off_vertices(alignment, np.asarray(boundary.mesh.triangles))
     feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
     energy = float(_core.dirichlet_energy(sampling, of_tets, threads=threads))
     meshability = _core.tet_meshability(tets, boundary, features, of_tets, found, threads=threads)
@@ -54,4 +56,4 @@ def analyse_tets(meshed: MeshedInput, sampling: Sampling, of_tets: np.ndarray, t
         "alignment_deg": degrees(alignment),
         "feature_alignment_deg": degrees(feature_alignment),
     }
-    return TetFieldAnalysis(frames, found, alignment, feature_alignment, meshability, at_boundary, record)
+    return TetFieldAnalysis(frames, found, alignment, feature_alignment, meshability, at_boundary, off, record)

@@ -58,8 +58,14 @@ def _facts(fields: Sequence[Run]) -> str:
         f"{row['vertices']:,} vertices, {row['tets']:,} tetrahedra, {row['boundary_triangles']:,} boundary triangles with a mean edge of "
         f"{row['edge_length']:.4g}; {row['feature_edges']:,} feature edges and {row['feature_corners']:,} corners by {html.escape(source)}."
     )
-    notes = "".join(f"<li>{html.escape(note)}</li>" for note in [*row.get("notes", ()), *_unserved(row)])
+    notes = "".join(f"<li>{html.escape(note)}</li>" for note in [*row.get("notes", ()), *_unserved(row), *_verdicts(fields)])
     return f'<p class="note">{facts} Mesh <code>{html.escape(row["mesh_sha256"])}</code>.</p>' + (f"<ul>{notes}</ul>" if notes else "")
+
+
+def _verdicts(fields: Sequence[Run]) -> list[str]:
+    """What runs on this mesh are told to be worth, each sentence once."""
+    told = [f"Verdict: {sentence}." for run in fields for sentence in run.row.get("verdict", {}).get("sentences", ())]
+    return list(dict.fromkeys(told))
 
 
 def _unserved(row: dict[str, Any]) -> list[str]:
