@@ -283,7 +283,7 @@ constexpr Example of_volume_fields[] = {
     {"comb_vertices", R"(
     >>> tets = octafield.tetrahedralize(generate("box"))
     >>> mixed = octafield.octahedral_group()[np.arange(len(tets.vertices)) % 24]  # one frame, all labels
-    >>> octafield.comb_vertices(tets, mixed).agree.min(), octafield.axes_agree(tets, mixed).min()
+    >>> int(octafield.comb_vertices(tets, mixed).agree.min()), int(octafield.axes_agree(tets, mixed).min())
     (1, 0))"},
     {"frame_streamlines", R"(
     >>> tets = octafield.tetrahedralize(generate("box"))
