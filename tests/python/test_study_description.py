@@ -115,6 +115,7 @@ def test_files_are_read_again_only_when_they_changed(tmp_path, monkeypatch):
         (3, "folder: no such key", "name: x\ninputs: [a]\nfolder: /tmp"),
         (4, "input is a name or glob", "name: x\ninputs: [a]\nskip:\n- {input: 16}"),
         (1, "in place of an alias", "a: &a [*a]"),
+        (2, "nested 21 deep", "name: x\na: " + "[" * 5000 + "]" * 5000),
         (1, "expected", "bad: ["),
         (1, "could not determine a constructor", "name: !!python/object:os.system x"),
     ],

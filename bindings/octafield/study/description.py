@@ -32,6 +32,7 @@ _MESH = tuple(f.name for f in dataclasses.fields(MeshOptions))
 _RUN = tuple(f.name for f in dataclasses.fields(FieldOptions) if f.name not in (*_MESH, "seed", "threads"))
 
 _MOST_SEEDS = 10_000
+_DEEPEST = 20  # levels of nesting
 _OURS = ("folder", "text", "origin")  # attributes of a Study that its file does not set
 _TYPES = ("str", "bool", "int", "float")  # pydantic names the members of a union
 
@@ -132,9 +133,7 @@ def load(path: str | Path) -> Study:
 def parse(text: str, *, folder: str | Path = ".", name: str = "study") -> Study:
     """A description from text; relative paths begin at `folder`, errors at `name`."""
     try:
-        alias = next((event for event in yaml.parse(text) if isinstance(event, yaml.AliasEvent)), None)
-        if alias is not None:
-            raise InvalidInput(f"{name}:{alias.start_mark.line + 1}: write the value again in place of an alias", "bad_study")
+        _refuse_aliases_and_depth(text, name)
         tree = yaml.compose(text, Loader=yaml.SafeLoader)
         content = yaml.safe_load(text)
     except yaml.MarkedYAMLError as error:
@@ -208,6 +207,17 @@ def _check_options(study: Study, tree: yaml.Node, name: str) -> None:
                 raise InvalidInput(f"{name}:{where}: {key!r} is not among the options of runs", "bad_study")
     if len(set(study.seeds)) < len(study.seeds):
         raise InvalidInput(f"{name}:{_line(tree, ('seeds',))}: a seed is given twice", "bad_study")
+
+
+def _refuse_aliases_and_depth(text: str, name: str) -> None:
+    """Before a tree is made of it: what PyYAML makes of both grows without bound."""
+    depth = 0
+    for event in yaml.parse(text):
+        if isinstance(event, yaml.AliasEvent):
+            raise InvalidInput(f"{name}:{event.start_mark.line + 1}: write the value again in place of an alias", "bad_study")
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if depth > _DEEPEST:
+            raise InvalidInput(f"{name}:{event.start_mark.line + 1}: nested {depth} deep; a study has no more than {_DEEPEST} levels", "bad_study")
 
 
 def _refuse_repeated_keys(node: yaml.Node, name: str) -> None:
