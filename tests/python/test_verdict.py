@@ -42,8 +42,8 @@ def test_turns_are_those_of_the_dihedral_angle_and_features_are_left_out():
     assert len(verdict.smooth_turns(points, triangles, np.array([[1, 0]]))[0]) == 0
 
 
-def test_a_thread_finer_than_the_edges_is_coarse_and_the_length_told_is_shorter():
-    record = of.compute_field(shared(SHARED_DATA / "wild/screw.stl"), of.FieldOptions(streamlines=0)).record
+def test_a_thread_finer_than_the_edges_asked_for_is_coarse_and_the_length_told_is_shorter():
+    record = of.compute_field(shared(SHARED_DATA / "wild/screw.stl"), of.FieldOptions(streamlines=0, edge_length=0.53)).record
     assert record["verdict"]["state"] == "coarse" and record["verdict"]["vertices"]
     assert 0 < record["verdict"]["suggested_edge_length"] < record["edge_length"]
 
