@@ -109,7 +109,13 @@ std::vector<Eigen::Vector3d> cavity_points(const TriangleMesh& mesh, const Progr
 }
 
 void require_surface_kept(const TetMesh& result, const TriangleMesh& mesh) {
-    const BoundarySurface boundary = boundary_surface(result);
+    if (!(tet_volumes(result).minCoeff() > 0)) throw Failed{"it left tets without volume"};
+    BoundarySurface boundary;
+    try {
+        boundary = boundary_surface(result);
+    } catch (const GeometryError&) {  // folded tets
+        throw Failed{"its tets overlap"};
+    }
     Triangles triangles = boundary.mesh.triangles;
     for (Index& v : triangles.reshaped()) v = boundary.vertex_map[v];
     if (oriented_triangles(triangles) != oriented_triangles(mesh.triangles))
