@@ -18,10 +18,10 @@ class Module:
 _HERE = "test_orders_and_tolerances.py"
 
 PYTHON = {
-    "formats/placing.py": Module((f"{_HERE}::test_frames_and_lengths_go_together_to_the_nearest_centre", f"{_HERE}::test_centres_are_those_of_the_mesh_within_a_millionth_of_its_diagonal", "test_formats.py")),
-    "formats/rotations.py": Module((_HERE, "test_formats.py")),
-    "formats/text.py": Module((f"{_HERE}::test_text_frames_of_another_number_than_the_head_says_are_refused", "test_formats.py", "test_formats_errors.py")),
-    "meshes/text_meshes.py": Module((f"{_HERE}::test_medit_and_tetgen_rows_beyond_the_count_are_refused_with_their_line", "test_tet_input.py", "test_formats_errors.py")),
+    "formats/placing.py": Module(("test_placing.py", f"{_HERE}::test_frames_and_lengths_go_together_to_the_nearest_centre", f"{_HERE}::test_centres_are_those_of_the_mesh_within_a_millionth_of_its_diagonal")),
+    "formats/rotations.py": Module(("test_axes_and_frames.py", f"{_HERE}::test_axes_in_one_plane_are_refused_below_a_millionth_of_their_spread")),
+    "formats/text.py": Module(("test_text_frames.py",)),
+    "meshes/text_meshes.py": Module(("test_text_mesh_rows.py",)),
     "sizes.py": Module((f"{_HERE}::test_size_ratio_is_the_largest_over_the_smallest_size", "test_sizes.py")),
     "study/memory.py": Module((f"{_HERE}::test_memory_reserved_is_the_formula_of_the_page_and_more_than_was_measured",)),
     "study/plan.py": Module((f"{_HERE}::test_keys_of_runs_are_what_they_were", f"{_HERE}::test_a_key_is_the_hash_of_content_options_repeat_and_version", f"{_HERE}::test_runs_are_grouped_by_mesh_and_cross_field_and_come_back_from_json", "test_study_description.py"), equivalent={"43: True to False": "the order of the options is that of the class; sorting it changes no group"}),
