@@ -193,6 +193,47 @@ def test_every_defect_of_a_tetgen_file_is_told_with_its_line(suffix, text, messa
         read_tetgen(files(**{suffix: text}))
 
 
+BROKEN = [  # one number per line: the line is that of the number that begins the row
+    ("node", "5 3 0 0\n" + "\n".join("1 0 0 0 2 1 nan 0 3 0 1 0 4 0 0 1 5 1 1 1".split()), "a.node, line 6: the coordinates of point 2"),
+    ("ele", "2 4 0\n" + "\n".join("1 1 2 3 4 2 2.5 3 4 5".split()), "a.ele, line 7: a vertex id is no whole number"),
+    ("ele", "2 4 0\n" + "\n".join("1 1 2 3 4 2 2 3 4 6".split()), "a.ele, line 7: a tet names a point outside"),
+    ("face", "2 1\n1 1 2 3 1\n" + "\n".join("2 1 2 6 1".split()), "a.face, line 3: row 2 of the faces names a point outside"),
+    ("edge", "2 0\n1 1 2\n" + "\n".join("2 0 2".split()), "a.edge, line 3: row 2 of the edges names a point outside"),
+    ("ele", "2\n4\n0\n1 1 2 3 4 2 2 3 4 5\n7 1 2 3 4\n", "a.ele, line 5: tets goes on after the 2 rows"),
+]
+
+
+@pytest.mark.parametrize(("suffix", "text", "message"), BROKEN)
+def test_the_line_of_a_row_is_where_its_first_number_is(suffix, text, message):
+    with pytest.raises(IoError, match=re.escape(message)):
+        read_tetgen(files(**{suffix: text}))
+    broken = HEAD + "Edges\n2\n1 2 5 1\n2\n1e20\nEnd\n"
+    for text, what in ((broken, "holds a number that is no id"), (broken.replace("\n2\n1e20", "\n99\n5"), "row 2 of Edges names a number outside")):
+        with pytest.raises(IoError, match=re.escape(f"line {FIRST + 2}: ") + ".*" + what):
+            read_medit(text, "a.mesh")
+
+
+@pytest.mark.parametrize("bad", ["nan 0 0", "0 nan 0", "0 0 inf"])
+def test_every_coordinate_is_finite_and_attributes_may_be_anything(bad):
+    with pytest.raises(IoError, match=r"a.node, line 3: the coordinates of point 2 \(from 1\)"):
+        read_tetgen(files(node=POINT.replace("2 1 0 0", f"2 {bad}")))
+    with pytest.raises(IoError, match=r"a.mesh, line 6: the coordinates of point 2"):
+        read_medit(HEAD.replace("1 2 3 7", f"{bad} 7"), "a.mesh")
+    nodes = files()[".node"][0].replace(" 9 1", " nan 1")
+    assert len(read_tetgen(files(node=nodes)).points) == 5
+
+
+def test_the_row_named_is_the_first_bad_one_whatever_its_region_and_however_large_sound_ids_are():
+    many = "150 3 0 0\n" + "".join(f"{i} {i} {i * i} {i**3}\n" for i in range(1, 151))
+    for bad in ("2.5", "1e17", f"{2**53}"):
+        with pytest.raises(IoError, match="a.ele, line 3: a vertex id is no whole number"):
+            read_tetgen(files(node=many, ele=f"3 4 1\n1 147 148 149 150 0.5\n2 2 3 4 {bad} 6\n3 2 3 4 {bad} 6\n"))
+        with pytest.raises(IoError, match="a.face, line 3: row 2 of the faces"):
+            read_tetgen(files(node=many, face=f"3 1\n1 148 149 150 1\n2 2 3 {bad} 6\n3 2 3 {bad} 6\n"))
+        with pytest.raises(IoError, match=f"line {FIRST + 3}: Edges holds a number that is no id"):
+            read_medit(f"{HEAD}Edges\n3\n1 30 150\n1 2 -{bad}\n1 {bad} 1\n", "a.mesh")
+
+
 def test_no_points_and_no_tets_are_an_empty_mesh():
     empty = read_tetgen(files(node="0 3 0 0\n", ele="0 4 0\n", face="0 0\n", edge="0 0\n"))
     assert empty.points.shape == (0, 3) and [len(cells) for _, cells in empty.cells] == [0, 0, 0]

@@ -184,7 +184,7 @@ def _without_comments(text: str) -> str:
 
 def _sections(text: str, name: str) -> list[_Section]:
     text = _without_comments(text)
-    starts = list(re.finditer(r"^[ \t]*([A-Za-z]\w*)", text, flags=re.MULTILINE))
+    starts = list(re.finditer(r"^[ \t]*(?!(?i:nan|inf)\b)([A-Za-z]\w*)", text, flags=re.MULTILINE))
     sections, line, at = [], 1, 0
     for start, following in zip_longest(starts, starts[1:]):
         line, at = line + text.count("\n", at, start.start()), start.start()
