@@ -122,7 +122,8 @@ def check(name: str, module: Module, bench: PythonBench | CppBench, most: int, s
         raise SystemExit(f"{name}: its tests fail without any change")
     noticed, counted = 0, 0
     for mutant in mutants:
-        reason = next((reason for part, reason in module.equivalent.items() if part in f"{mutant.line}: {mutant.what}"), None)
+        change = mutant.what if isinstance(bench, CppBench) else f"{mutant.what}: {original.splitlines()[mutant.line - 1].strip()}"
+        reason = next((reason for part, reason in module.equivalent.items() if part in change), None)
         if reason is not None:
             continue
         try:
@@ -131,7 +132,7 @@ def check(name: str, module: Module, bench: PythonBench | CppBench, most: int, s
             continue
         counted, noticed = counted + 1, noticed + found
         if not found:
-            print(f"  survived: {name}:{mutant.line}: {mutant.what}", flush=True)
+            print(f"  survived: {name}:{mutant.line}: {change}", flush=True)
     score = 100 * noticed / counted if counted else 100.0
     print(f"{name}: {noticed} of {counted} noticed, {score:.0f} %", flush=True)
     return score

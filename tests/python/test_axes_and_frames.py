@@ -100,6 +100,28 @@ def test_the_first_triad_that_is_no_frame_is_named(row, column, value, words):
     assert (error.value.kind, error.value.elements) == ("bad_frame", [3])
 
 
+def singular_values(axes: np.ndarray) -> np.ndarray:
+    return np.linalg.svd(axes / np.linalg.norm(axes, axis=0), compute_uv=False)
+
+
+@pytest.mark.parametrize("part", [0.5, 0.95, 1.05, 2.0])
+@pytest.mark.parametrize("second", [1.0, 1e-3])
+def test_axes_in_one_plane_are_refused_below_a_millionth_of_their_largest_singular_value(part, second):
+    """second: how far the axes are from lying on one line."""
+    axes = np.array([[1, 1, 1], [0, second, -second], [0, 0, 1e-6]])
+    for _ in range(3):  # the smallest value goes with the third row
+        s = singular_values(axes)
+        axes[2] *= part * 1e-6 / (s[2] / s[0])
+    s = singular_values(axes)
+    assert s[2] / s[0] == pytest.approx(part * 1e-6, rel=1e-3) and (second == 1) == (s[1] > 0.5 * s[0])
+    if part > 1:
+        found = rotations.frames_of_axes(axes[None], place)
+        assert found.deviation > 0.1
+    else:
+        with pytest.raises(InvalidInput, match=r"line 10: the axes of frame 0 \(from 0\) lie in one plane"):
+            rotations.frames_of_axes(axes[None], place)
+
+
 def test_quaternions_within_rounding_of_length_1_keep_their_bits_and_others_are_scaled():
     unit = np.asarray(of.random_rotations(100, 8))
     values, change = rotations.unit_quaternions(unit, place)
