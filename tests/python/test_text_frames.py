@@ -121,7 +121,7 @@ DEFECTS = [
     ("geogram-centres", "0 0 0 " + ONE + "0 0 0 " + NONE, "a, line 2: an axis of frame 1"),
     ("geogram-centres", "0 0 0 " + ONE + ONE, "a, line 2: 9 numbers; 12 are needed"),
     ("qtn", "1 0 0 0\n1 0\n\n", "a, line 2: holds 6 numbers; a quaternion has 4"),
-    ("qtn", "1 0 0 0 1 0\n0 0\n0 0 0 0\n", "a, line 3: quaternion 2 (from 0) is zero or not finite"),
+    ("qtn", "1 0 0 0 1 0\n0 0\n" + "1 0 0 0\n" * 7 + "0 0 0 0\n1 0 0 0\n", "a, line 10: quaternion 9 (from 0) is zero or not finite"),
     ("ff3", "8 1\n" + ONE, "a, line 1: '9 N' is needed (ASCII .ff3), not '8 1'"),
     ("ff3", "9\n" + ONE, "a, line 1: '9 N' is needed"),
     ("ff3", "9 1 1\n" + ONE, "a, line 1: '9 N' is needed"),
