@@ -22,4 +22,4 @@ build_with_progress cmake --build "$BUILD_DIR"
 say "C++ tests"
 ctest --test-dir "$BUILD_DIR" --output-on-failure -j "$jobs"
 say "Python tests"
-.venv/bin/python -m pytest -q --durations=20
+.venv/bin/python -m pytest -q --durations=20 -n logical --maxprocesses=4 --dist worksteal

@@ -4,7 +4,7 @@
 
 Seeds are small files by octafield's own writers; each is altered in counts, digits, bytes, its length, or the order of its lines. A worker process
 reads them under limits of memory and time; what it was reading when it died, or what raised another error, is kept in the folder. The same seed
-gives the same files.
+gives the same files; a run that was cut short goes on with --first, the number in scratch/now.
 """
 
 import argparse
@@ -132,12 +132,11 @@ def keep(faults: Path, number: int, name: str, path: Path, what: str) -> None:
     (faults / f"{number}.fault").write_text(what)
 
 
-def fuzz(output: Path, files: int, seed: int) -> int:
-    """How many files did what they must not; they are in output/faults."""
+def fuzz(output: Path, files: int, seed: int, first: int = 0) -> int:
+    """Files first .. files - 1. How many did what they must not; they are in output/faults, with those of earlier runs."""
     folder, faults = output / "scratch", output / "faults"
     folder.mkdir(parents=True, exist_ok=True)
     found = seeds(folder)
-    first = 0
     while first < files:
         last = min(first + CHUNK, files)
         child = os.fork()
@@ -162,13 +161,14 @@ def fuzz(output: Path, files: int, seed: int) -> int:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--files", type=int, default=2000)
+    parser.add_argument("--first", type=int, default=0, help="where to go on")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("-o", "--output", type=Path, required=True)
     options = parser.parse_args()
     start = time.process_time()
-    count = fuzz(options.output, options.files, options.seed)
+    count = fuzz(options.output, options.files, options.seed, options.first)
     used = time.process_time() - start + resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    print(f"{options.files} files, {count} faults, {used:.0f} CPU seconds; {options.output / 'faults'}")
+    print(f"files {options.first} to {options.files - 1}, {count} faults, {used:.0f} CPU seconds; {options.output / 'faults'}")
     return int(count > 0)
 
 

@@ -26,6 +26,7 @@ from .cli_options import (
     Seed,
     Sizes,
     Split,
+    SplitSingular,
     Threads,
     Verbose,
     choices,
@@ -111,6 +112,7 @@ def field(
     wrap_offset: WrapOffset = _FIELD.wrap_offset,
     interfaces: Interfaces = _FIELD.interfaces,
     split: Split = _FIELD.split,
+    split_singular: SplitSingular = _FIELD.split_singular,
     rounds: Annotated[int, typer.Option(metavar="K", help="Rounds of diffusion and polish.")] = _FIELD.rounds,
     streamlines: Annotated[
         int, typer.Option(metavar="N", help="Seeds of streamlines.vtp, three curves each; 0: none.")
@@ -143,6 +145,7 @@ def field(
             rounds=rounds,
             streamlines=streamlines,
             sizes=sizes,
+            split_singular=split_singular,
             seed=seed,
             threads=threads,
             **mesh_options(

@@ -82,6 +82,9 @@ Interfaces = Annotated[
     bool, typer.Option("--interfaces/--no-interfaces", help="Follow the interfaces between regions of a tet mesh.")
 ]
 Split = Annotated[bool, typer.Option("--split", help="Split inner edges and tets that join the surface to itself.")]
+SplitSingular = Annotated[
+    bool, typer.Option("--split-singular", help="Split inner edges that join singular vertices without being singular; frames are in tets.")
+]
 Sampling = Annotated[str, typer.Option(metavar=choices(SAMPLINGS), autocompletion=words(SAMPLINGS), help="Where the frames live.")]
 Sizes = Annotated[
     str, typer.Option(metavar="|".join(SIZES), autocompletion=words(SIZES), help="Lengths of the axes that leave least curl, and that curl.")

@@ -2,6 +2,7 @@
 
 import contextlib
 import gzip
+import io
 import os
 import tempfile
 import warnings
@@ -15,6 +16,9 @@ from .errors import Error, IoError
 from .output import require_utf8
 
 _ROWS_AT_ONCE = 1 << 16
+_PIECE = 1 << 20
+_UNPACKED, _RATIO = 256 << 20, 100  # bytes; text of meshes packs to a tenth at best, a stream of zeros to a thousandth
+_UNFIT = "unlike any mesh; if the file is sound, save it without packing"
 
 
 def plain_name(path: str | Path) -> str:
@@ -31,11 +35,34 @@ def read_bytes(path: str | Path) -> bytes:
     require_file(path)
     try:
         data = path.read_bytes()
-        return gzip.decompress(data) if path.name.lower().endswith(".gz") or data.startswith(b"\x1f\x8b") else data
+        return _unpacked(data, path) if path.name.lower().endswith(".gz") or data.startswith(b"\x1f\x8b") else data
+    except Error:
+        raise
     except (gzip.BadGzipFile, EOFError, zlib.error) as error:
         raise IoError(f"{path}: damaged gzip file ({error}); unpack or download it again") from error
     except OSError as error:
         raise IoError(f"{path}: cannot be read ({error.strerror})") from error
+
+
+def most_unpacked(size: int) -> int:
+    """Bytes that so many bytes of a packed file may become: 256 MiB, or 100 times as many where that is more. No packed file fills the memory."""
+    return max(_UNPACKED, _RATIO * size)
+
+
+def _unpacked(data: bytes, path: Path) -> bytes:
+    most, whole = most_unpacked(len(data)), io.BytesIO()
+    with gzip.GzipFile(fileobj=io.BytesIO(data)) as packed:
+        while piece := packed.read(_PIECE):
+            if whole.tell() + len(piece) > most:
+                raise IoError(f"{path}: {len(data):,} packed bytes become more than {most:,}: {_UNFIT}")
+            whole.write(piece)
+    return whole.getvalue()
+
+
+def require_unpackable(name: str, announced: int, size: int) -> None:
+    """For formats that announce how many bytes their packed parts become. size: of the file."""
+    if announced > most_unpacked(size):
+        raise IoError(f"{name}: {size:,} bytes announce {announced:,} unpacked, more than {most_unpacked(size):,}: {_UNFIT}")
 
 
 @contextlib.contextmanager

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from . import console, tables
-from .cli_options import EdgeLength, FeatureAngle, Features, Interfaces, Json, Quiet, Sizes, Threads, Verbose, choices
+from .cli_options import EdgeLength, FeatureAngle, Features, Interfaces, Json, Quiet, Sizes, SplitSingular, Threads, Verbose, choices
 from .completion import words
 from .console import carry_out, log
 from .errors import InvalidInput
@@ -37,7 +37,7 @@ def convert(
     edge_length: EdgeLength = 0.0,
     sizes: Annotated[str, typer.Option(metavar="|".join(SIZES), autocompletion=words(SIZES), help="Lengths of the axes that leave least curl, into the file.")] = _FIELD.sizes,
     cell_edge: Annotated[str | None, typer.Option(metavar="LENGTH|auto", help="Edge of the cells to make, into the lengths of axes; auto: the mean edge of the tets.")] = None,
-    split_singular: Annotated[bool, typer.Option("--split-singular", help="Split inner edges that join singular vertices without being singular.")] = False,
+    split_singular: SplitSingular = False,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,

@@ -53,6 +53,12 @@ def _make_integer(options: object, name: str, low: int, high: int, note: str = "
     object.__setattr__(options, name, integer_in(name.replace("_", " "), getattr(options, name), low, high, note))
 
 
+def _make_boolean(options: object, name: str) -> None:
+    value = getattr(options, name)
+    _require(isinstance(value, (bool, np.bool_)), f"{name} must be true or false, not {value!r}")
+    object.__setattr__(options, name, bool(value))
+
+
 def integer_in(name: str, value: Any, low: int, high: int, note: str = "") -> int:
     valid = isinstance(value, numbers.Integral) and low <= int(value) <= high
     _require(valid, f"{name} must be an integer in {low} .. {high}{note}, not {value!r}")
@@ -102,9 +108,7 @@ class MeshOptions:
         for name in ("wrap_alpha", "wrap_offset"):
             _require(math.isfinite(getattr(self, name)) and getattr(self, name) >= 0, f"{name.replace('_', ' ')} must be positive (0: default)")
         for name in ("remesh", "interfaces", "split"):
-            value = getattr(self, name)
-            _require(isinstance(value, (bool, np.bool_)), f"{name} must be true or false, not {value!r}")
-            object.__setattr__(self, name, bool(value))
+            _make_boolean(self, name)
         _require(0 < self.feature_angle < math.pi, "the feature angle must lie between 0 and 180 degrees")
         _require(
             math.isfinite(self.edge_length) and self.edge_length >= 0, "the edge length must be positive (0: default)"
@@ -173,6 +177,8 @@ class FieldOptions(MeshOptions):
     tolerance: see octafield.frame_field. streamlines: so many seeds of curves along the three axes, spread over the
     volume (octafield.spread_points), go into streamlines.vtp; 0: none. sizes: lengths of the axes for which the field is closest to the
     gradients of a map, "isotropic" (one for all three, octafield.isotropic_scale) or "axes" (octafield.axis_scales); "none": not computed.
+    split_singular: with sampling "tets"; edges inside that join singular vertices without being singular are split after the field is found
+        (octafield.split_between_singular): tets are more than those it was computed on, each with the frame of the tet it is part of.
 
     Raises InvalidInput.
 
@@ -197,10 +203,16 @@ class FieldOptions(MeshOptions):
     tolerance: float = default_of("smooth", "tolerance")
     streamlines: int = 30
     sizes: str = "none"
+    split_singular: bool = False
 
     def __post_init__(self) -> None:
         super().__post_init__()
         require_one_of("sampling", self.sampling, SAMPLINGS)
+        _make_boolean(self, "split_singular")
+        _require(
+            self.sampling == "tets" or not self.split_singular,
+            "singular edges are split by frames in the tets: split_singular (--split-singular) needs sampling 'tets' (--sampling tets)",
+        )
         require_one_of("representation", self.representation, REPRESENTATIONS)
         require_one_of("solver", self.solver, SOLVERS)
         require_one_of("boundary", self.boundary, (*BOUNDARIES, OF_A_START))

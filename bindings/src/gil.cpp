@@ -9,6 +9,20 @@ void stop_for_good() {
     for (;;) pause();
 }
 
+InterruptsElsewhere::InterruptsElsewhere(bool really) {
+    if (!really) return;
+    sigset_t interrupt;
+    sigemptyset(&interrupt);
+    sigaddset(&interrupt, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &interrupt, &before_.emplace());
+}
+
+InterruptsElsewhere::~InterruptsElsewhere() {
+    if (before_) pthread_sigmask(SIG_SETMASK, &*before_, nullptr);
+}
+
+WithoutGil::WithoutGil() : state_(PyEval_SaveThread()), interrupts_(gettid() != getpid()) {}
+
 WithoutGil::~WithoutGil() {
     try {
         PyEval_RestoreThread(state_);

@@ -6,6 +6,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <csignal>
 #include <optional>
 
 namespace octafield::bindings {
@@ -14,16 +15,30 @@ namespace py = pybind11;
 
 [[noreturn]] void stop_for_good();  // the calling thread, which must not hold the lock
 
+// Keeps Ctrl-C from the calling thread, and from those it starts, while it lives. Python waits for it in its main thread; the
+// system may give it to any thread that takes it, and a main thread that waits for a lock (Thread.join) then never wakes.
+class InterruptsElsewhere {
+public:
+    explicit InterruptsElsewhere(bool really = true);
+    ~InterruptsElsewhere();
+    InterruptsElsewhere(const InterruptsElsewhere&) = delete;
+    InterruptsElsewhere& operator=(const InterruptsElsewhere&) = delete;
+
+private:
+    std::optional<sigset_t> before_;
+};
+
 // Gives the lock up while it lives. For threads of Python; there is no way on once Python has ended.
 class WithoutGil {
 public:
-    WithoutGil() : state_(PyEval_SaveThread()) {}
+    WithoutGil();
     ~WithoutGil();
     WithoutGil(const WithoutGil&) = delete;
     WithoutGil& operator=(const WithoutGil&) = delete;
 
 private:
     PyThreadState* state_;
+    InterruptsElsewhere interrupts_;
 };
 
 // Holds the lock while it lives. For threads of ours.

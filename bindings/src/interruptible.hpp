@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "arrays.hpp"
+#include "gil.hpp"
 #include "octafield/progress.hpp"
 
 namespace octafield::bindings {
@@ -65,6 +66,7 @@ auto run_interruptible(Work work, std::optional<ProgressCallable> callback = {})
     struct State : Job {
         State(Work w, std::optional<ProgressCallable> c) : Job(std::move(c)), work(std::move(w)) {}
         void run() noexcept {
+            const InterruptsElsewhere interrupts;
             try {
                 result.emplace(work(static_cast<Job&>(*this)));
                 finish(nullptr);

@@ -13,7 +13,8 @@ namespace octafield::surface {
 namespace {
 
 constexpr double kTetsPerCube = 12.5;    // in a cube of one edge length, measured
-constexpr double kGrowthInside = 0.5;  // of lengths, per depth: TetGen's bound on shapes, measured
+constexpr double kTetsPerTriangle = 1.5;  // at least: in walls without vertices inside, measured
+constexpr double kGrowthInside = 0.3;     // of lengths, per depth: TetGen's bound on shapes, measured
 
 Eigen::VectorXd largest_curvatures(const TriangleMesh& mesh, const FeatureGraph& features) {
     try {
@@ -109,7 +110,8 @@ Cells expected_cells(const Background& ground, double volume, double scale) {
         inside += areas[t] * (in_layer + (half - layer) * core);
         seen += areas[t] * half;
     }
-    return {triangles, kTetsPerCube * std::abs(volume) * (seen > 0 ? inside / seen : core)};
+    const double tets = kTetsPerCube * std::abs(volume) * (seen > 0 ? inside / seen : core);
+    return {triangles, volume == 0 ? 0 : std::max(tets, kTetsPerTriangle * triangles)};
 }
 
 GroundTrees::GroundTrees(const Background& ground)

@@ -16,24 +16,15 @@ constexpr double most_unexplained = 0.25;  // radians of the N-fold angle, root 
 constexpr double most_moved = 1;           // edge lengths
 constexpr double radii[] = {3, 2};         // edge lengths; the smaller one where another point is near
 
-// Mean length of the sides of a triangle and its neighbours.
 double edge_length(const ChartedField& field, Index t) {
-    double sum = 0;
-    int count = 0;
-    const auto add = [&](Index triangle) {
-        for (int k = 0; k < 3; ++k, ++count) sum += std::abs(field.side(triangle, k));
-    };
-    add(t);
-    for (int k = 0; k < 3; ++k)
-        if (const auto there = field.across({t, k}); there.triangle >= 0) add(there.triangle);
-    return sum / count;
+    return (std::abs(field.side(t, 0)) + std::abs(field.side(t, 1)) + std::abs(field.side(t, 2))) / 3;
 }
 
 // Gauss-Newton's method from a = 0; z in edge lengths from the first place.
 struct Vortex {
-    Complex a = 0;
     Eigen::Matrix<double, parameters, 1> model = Eigen::Matrix<double, parameters, 1>::Zero();  // a, c, p, q
     double unexplained = 0;
+    Complex a() const { return {model[0], model[1]}; }
 };
 
 std::optional<Vortex> fitted(const std::vector<PatchValue>& values, int k) {
@@ -45,8 +36,9 @@ std::optional<Vortex> fitted(const std::vector<PatchValue>& values, int k) {
     Eigen::MatrixXd jacobian(count, static_cast<Eigen::Index>(parameters));
     Eigen::VectorXd residual(count), weights(count);
     for (int step = 0; step < 30; ++step) {
+        const Complex a = found.a();
         for (Eigen::Index i = 0; i < count; ++i) {
-            const Complex z = values[i].at, away = z - found.a, inverse = away == 0.0 ? 0 : 1.0 / away;
+            const Complex z = values[i].at, away = z - a, inverse = away == 0.0 ? 0 : 1.0 / away;
             jacobian.row(i) << -k * inverse.imag(), -k * inverse.real(), 1, z.real(), -z.imag(), (z * z).real(),
                 -(z * z).imag();
             const double smooth = jacobian.row(i).tail<parameters - 2>() * found.model.tail<parameters - 2>();
@@ -58,8 +50,7 @@ std::optional<Vortex> fitted(const std::vector<PatchValue>& values, int k) {
         if (!change.allFinite()) return {};
         const double length = change.head<2>().norm(), part = std::min(1.0, 0.5 / std::max(length, 1e-300));
         found.model += part * change;
-        found.a = {found.model[0], found.model[1]};
-        if (std::abs(found.a) > most_moved) return {};
+        if (std::abs(found.a()) > most_moved) return {};
         if (change.norm() < 1e-8) {  // then the residual is that of the model, too
             found.unexplained = weights.cwiseProduct(residual).norm() / weights.norm();
             return found.unexplained < most_unexplained ? std::optional(found) : std::nullopt;
@@ -106,12 +97,13 @@ std::optional<SurfacePlace> fitted_place(const ChartedField& field, const std::f
             if (values.size() < least_values) break;
             for (PatchValue& value : values) value.at = (value.at - place.at) / edge;
             const auto vortex = fitted(values, index_times_symmetry);
-            moved += vortex ? std::abs(vortex->a) : 0;
-            if (!vortex || moved > most_moved) break;
-            const auto next = walked(field, is_barrier, place, edge * vortex->a);
+            if (!vortex) break;
+            moved += std::abs(vortex->a());
+            if (moved > most_moved) break;
+            const auto next = walked(field, is_barrier, place, edge * vortex->a());
             if (!next) break;
             place = *next;
-            if (round == 2 || std::abs(vortex->a) < 1e-3) return place;
+            if (round == 2 || std::abs(vortex->a()) < 1e-3) return place;
         }
     }
     return {};

@@ -2,6 +2,7 @@
 
     python tests/mutation/run.py                          # every module of modules.py
     python tests/mutation/run.py sizes.py study/plan.py --most 30 --seed 1
+    python tests/mutation/run.py sizes.py --lines 46,102   # of these lines alone, as after a test was added
     python tests/mutation/run.py volume/src/singularities.cpp --build build/release
 
 Python modules are changed in a copy of the package. Of C++ files the changed one is compiled and linked before the
@@ -113,15 +114,16 @@ def _fails(command: list[object], folder: Path, limit: float) -> bool:
         return True
 
 
-def check(name: str, module: Module, bench: PythonBench | CppBench, most: int, seed: int) -> float:
+def check(name: str, module: Module, bench: PythonBench | CppBench, most: int, seed: int, lines: set[int]) -> float:
     """Prints the survivors; the score in per cent."""
-    mutants = sampled(bench.mutants(name), most, seed)
+    mutants = [mutant for mutant in sampled(bench.mutants(name), most, seed) if not lines or mutant.line in lines]
     original = Path(bench.source(name)).read_text() if isinstance(bench, PythonBench) else (ROOT / name).read_text()
     if bench.notices(name, module, original):
         raise SystemExit(f"{name}: its tests fail without any change")
     noticed, counted = 0, 0
     for mutant in mutants:
-        reason = next((reason for part, reason in module.equivalent.items() if part in f"{mutant.line}: {mutant.what}"), None)
+        change = mutant.what if isinstance(bench, CppBench) else f"{mutant.what}: {original.splitlines()[mutant.line - 1].strip()}"
+        reason = next((reason for part, reason in module.equivalent.items() if part in change), None)
         if reason is not None:
             continue
         try:
@@ -130,7 +132,7 @@ def check(name: str, module: Module, bench: PythonBench | CppBench, most: int, s
             continue
         counted, noticed = counted + 1, noticed + found
         if not found:
-            print(f"  survived: {name}:{mutant.line}: {mutant.what}", flush=True)
+            print(f"  survived: {name}:{mutant.line}: {change}", flush=True)
     score = 100 * noticed / counted if counted else 100.0
     print(f"{name}: {noticed} of {counted} noticed, {score:.0f} %", flush=True)
     return score
@@ -141,6 +143,7 @@ def main() -> None:
     parser.add_argument("modules", nargs="*", default=[*PYTHON, *CPP], help="of modules.py; all by default")
     parser.add_argument("--most", type=int, default=25, help="mutants per module, drawn by the seed (25)")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--lines", type=lambda text: {int(word) for word in text.split(",")}, default=set(), help="of the drawn ones those of these lines")
     parser.add_argument("--least", type=float, default=90.0, help="per cent (90)")
     parser.add_argument("--limit", type=float, default=300.0, help="seconds for the tests of one mutant (300)")
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "release", help="of ninja, with OCTAFIELD_TESTS (build/release)")
@@ -152,7 +155,7 @@ def main() -> None:
         scores = []
         for name in given.modules:
             bench = PythonBench(Path(tempfile.mkdtemp(dir=folder)), given.limit) if name in PYTHON else CppBench(Path(folder), given.build, given.limit)
-            scores.append(check(name, {**PYTHON, **CPP}[name], bench, given.most, given.seed))
+            scores.append(check(name, {**PYTHON, **CPP}[name], bench, given.most, given.seed, given.lines))
     sys.exit(min(scores) < given.least)
 
 

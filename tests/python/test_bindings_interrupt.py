@@ -60,7 +60,7 @@ def test_ctrl_c_ends_a_long_call_within_a_second_of_work(case, tmp_path, request
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to the whole group
     out = process.stdout.readline()
     seconds = cpu_seconds(process.pid) - before
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=120)
     assert out == "interrupted\n" and errors == ""
     assert seconds < os.cpu_count()  # of CPU time, on all cores: does not depend on what else runs
     assert process.returncode == 0  # an abandoned worker does not disturb the exit
@@ -74,5 +74,5 @@ def test_the_exit_status_survives_an_abandoned_worker(tmp_path, request):
     assert process.stdout.readline() == "ready\n"
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
-    out, errors = process.communicate(timeout=20)
+    out, errors = process.communicate(timeout=120)
     assert (out, errors, process.returncode) == ("interrupted\n", "", 7)

@@ -184,7 +184,7 @@ def test_an_interrupt_ends_a_comparison_at_once_and_leaves_nothing(tmp_path, sto
     sphere, out = write_sphere(tmp_path), work / "out"
     command = [sys.executable, "-m", "octafield.cli", "compare", str(sphere), "-o", str(out), "--edge-length", "0.06"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 120
     while not leftovers(work) and time.monotonic() < deadline:
         time.sleep(0.02)
     assert leftovers(work), "the comparison did not begin"
@@ -194,7 +194,7 @@ def test_an_interrupt_ends_a_comparison_at_once_and_leaves_nothing(tmp_path, sto
     os.kill(process.pid, stop)
     os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)  # what it used can be read until it is waited for
     assert cpu_seconds(process.pid) - before < os.cpu_count()  # a second on every core
-    _, messages = process.communicate(timeout=30)
+    _, messages = process.communicate(timeout=120)
     assert process.returncode == 130
     assert messages.splitlines() == ["octafield: interrupted"]
     assert list(work.iterdir()) == []

@@ -10,12 +10,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import box_tets
-from scipy.spatial.transform import Rotation
 
 import octafield as of
 from octafield import study
 from octafield.errors import InvalidInput, IoError
-from octafield.formats import placing, rotations
+from octafield.formats import placing
 from octafield.formats.base import FrameFile, from_axes, from_quaternions
 from octafield.meshes.text_meshes import read_medit, read_tetgen
 from octafield.options import FieldOptions
@@ -104,32 +103,32 @@ BEGAN = {
     "solver": "default", "split": False, "streamlines": 30, "tolerance": 1e-06,
 }  # fmt: skip
 KEYS = {
-    "{}": "b29f4cd6dc0d6aff3fe5",
-    "{runs: {representation: [su2]}}": "5fb9631498216e94cdbf",
-    "{runs: {solver: [lbfgs], boundary: [fixed]}, seeds: [3]}": "54cf7901b80a82b7478a",
-    "{mesh: {edge_length: 0.25, feature_angle: 30}}": "bb80b576300891806969",
-    "{runs: {sampling: [tets]}, mesh: {split: true}}": "a66a870b24309eabb923",
-    "{runs: {sizes: [axes]}}": "df197db37b74f2edd4ce",
+    "{}": "29cc8387ceaf8d4f4414",
+    "{runs: {representation: [su2]}}": "bca2c44fe05ac37b64b7",
+    "{runs: {solver: [lbfgs], boundary: [fixed]}, seeds: [3]}": "59a22a2ef6a8f8bb2b3d",
+    "{mesh: {edge_length: 0.25, feature_angle: 30}}": "4c3686d517302a60365f",
+    "{runs: {sampling: [tets]}, mesh: {split: true}}": "12f4fba20886913d4439",
+    "{runs: {sizes: [axes]}}": "3020c8e6db627320116c",
 }
 
 
 @pytest.mark.parametrize("text", KEYS)
 def test_keys_of_runs_are_what_they_were(monkeypatch, text):
     """Frozen: another key computes again what a study has, and loses it from its tables."""
-    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.1.0")
+    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.2.0")
     (run,) = study.plan(study.parse("{name: k, inputs: [{generator: box}], " + text[1:]))
     assert run.key == KEYS[text]
 
 
 def test_a_key_is_the_hash_of_content_options_repeat_and_version(monkeypatch):
-    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.1.0")
+    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.2.0")
     first, second = study.plan(study.parse("{name: k, inputs: [{generator: box}], repeats: 2}"))
     content = json.dumps({"generator": "box", "with": {}})
     for repeat, run in enumerate((first, second)):
-        hashed = hashlib.sha256(json.dumps([content, BEGAN, repeat, "0.1.0"], sort_keys=True).encode())
+        hashed = hashlib.sha256(json.dumps([content, BEGAN, repeat, "0.2.0"], sort_keys=True).encode())
         assert run.key == hashed.hexdigest()[:20]
     assert has_promised_content(second)
-    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.1.1")
+    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.2.1")
     assert not has_promised_content(second)
 
 
@@ -226,21 +225,6 @@ def test_centres_are_those_of_the_mesh_within_a_millionth_of_its_diagonal(mesh, 
 
 
 # ---- tolerances, at both sides ----
-
-
-@pytest.mark.parametrize(("part", "taken"), [(0.5, False), (2.0, True), (1e3, True)])
-def test_axes_in_one_plane_are_refused_below_a_millionth_of_their_spread(part, taken):
-    """The ratio of singular values of two unit axes 90 degrees apart and a third, h over their plane: h / sqrt(2) for small h."""
-    h = part * EPS * math.sqrt(2)
-    axes = np.array([[1, 0, math.sqrt(0.5)], [0, 1, math.sqrt(0.5)], [0, 0, h]])
-    ratio = np.linalg.svd(axes / np.linalg.norm(axes, axis=0), compute_uv=False)
-    assert ratio[2] / ratio[0] == pytest.approx(part * EPS / math.sqrt(2), rel=0.5)
-    if (ratio[2] / ratio[0] > EPS) == taken and taken:
-        q = rotations.frames_of_axes(axes[None], lambda i: "a").frames
-        assert Rotation.from_quat(q, scalar_first=True).as_matrix().shape == (1, 3, 3)
-    else:
-        with pytest.raises(InvalidInput, match="in one plane"):
-            rotations.frames_of_axes(axes[None], lambda i: "a")
 
 
 @pytest.mark.parametrize("part", [-1.1, -0.9, 0.9, 1.1])

@@ -109,13 +109,8 @@ TEST(DiffusedField, AParallelFieldIsFound) {
             [](const Vector& x) -> Vector {  // of the side on which the midpoint lies, or of both where they meet
                 return {x.x(), x.y(), 0};
             });
-        for (Index e = 0; e < field.values.size(); ++e) {
-            const Vector low = open.vertices.row(field.topology.edges(e, 0)),
-                         high = open.vertices.row(field.topology.edges(e, 1));
-            const bool diagonal = low.z() != high.z() && low.head<2>() != high.head<2>();
-            if (diagonal) continue;
+        for (Index e = 0; e < field.values.size(); ++e)
             EXPECT_NEAR(std::abs(field.values[e] - along.values[e]), 0, 1e-5) << e;
-        }
     }
 }
 

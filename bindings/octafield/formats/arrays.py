@@ -9,7 +9,7 @@ import numpy as np
 from .._core import TetMesh
 from ..errors import InvalidInput, IoError
 from .base import SITES, Field, FrameFile, from_axes, from_quaternions
-from ..files import read_bytes, write_whole
+from ..files import read_bytes, require_unpackable, write_whole
 
 _UNITS = {1: "read_array_header_1_0", 2: "read_array_header_2_0"}
 
@@ -80,8 +80,9 @@ def _members(path: Path) -> dict[str, np.ndarray]:
     data = read_bytes(path)
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as folder:
-            names = [name for name in folder.namelist() if name.endswith(".npy")]
-            return {name[:-4]: _array(folder.read(name), f"{path}:{name}") for name in names}
+            members = [member for member in folder.infolist() if member.filename.endswith(".npy")]
+            require_unpackable(str(path), sum(member.file_size for member in members), path.stat().st_size)
+            return {member.filename[:-4]: _array(folder.read(member), f"{path}:{member.filename}") for member in members}
     except IoError:
         raise
     except Exception as error:  # damaged members raise what zlib, zipfile and struct raise

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from ..formats.ovm_mesh import OvmMesh
 
 GRID_SUFFIXES = (".vtk", ".vtu", ".vtp", ".msh", ".mesh", ".meshb", ".node", ".ele", ".ovm", ".ovmb")
-_READERS = {".vtk": read_legacy_vtk, ".vtu": read_vtu, ".msh": read_gmsh}
-CELL_SUFFIXES = tuple(_READERS)  # whose readers give a CellMesh
+_READERS = {".vtk": read_legacy_vtk, ".msh": read_gmsh}
+CELL_SUFFIXES = (*_READERS, ".vtu")  # whose readers give a CellMesh
 _SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
 LOWER = ("vertex", "line", "triangle")
 
@@ -45,7 +45,7 @@ def read_grid(path: Path, suffix: str) -> Grid:
     """Whatever a reader stumbles over becomes an IoError."""
     with reading(path, suffix):
         if suffix == ".vtp":
-            found = read_vtp(_bytes(path), str(path))
+            found = read_vtp(_bytes(path), str(path), path.stat().st_size)
             if not len(found.points):
                 raise IoError(f"{path}: holds no points")
             return _grid(found.points, [(block.type, block.data) for block in found.cells], None, None)
@@ -94,7 +94,7 @@ def _grid_of_text(mesh: TextMesh) -> Grid:
 def read_cells(path: Path, suffix: str) -> CellMesh:
     """Whatever the reader stumbles over becomes an IoError."""
     with reading(path, suffix):
-        found = _READERS[suffix](_bytes(path), str(path))
+        found = read_vtu(_bytes(path), str(path), path.stat().st_size) if suffix == ".vtu" else _READERS[suffix](_bytes(path), str(path))
         blocks, found.notes = linear([(block.type, block.data) for block in found.cells])
         found.cells = [Block(kind, data) for kind, data in blocks]
         return found

@@ -6,6 +6,7 @@ comments inside tables and at TetGen ids that begin elsewhere, and does not say 
 
 import re
 from dataclasses import dataclass, field
+from itertools import zip_longest
 
 import numpy as np
 
@@ -183,9 +184,9 @@ def _without_comments(text: str) -> str:
 
 def _sections(text: str, name: str) -> list[_Section]:
     text = _without_comments(text)
-    starts = list(re.finditer(r"^[ \t]*([A-Za-z]\w*)", text, flags=re.MULTILINE))
+    starts = list(re.finditer(r"^[ \t]*(?!(?i:nan|inf)\b)([A-Za-z]\w*)", text, flags=re.MULTILINE))
     sections, line, at = [], 1, 0
-    for start, following in zip(starts, [*starts[1:], None], strict=True):
+    for start, following in zip_longest(starts, starts[1:]):
         line, at = line + text.count("\n", at, start.start()), start.start()
         end = following.start() if following else len(text)
         sections.append(_Section(start.group(1), text[start.end() : end], line))

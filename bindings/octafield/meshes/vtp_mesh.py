@@ -10,9 +10,11 @@ from .vtu_mesh import NUMBERS, File, Piece, parsed, points_of, require_rows, val
 _CELLS = ("Verts", "Lines", "Strips", "Polys")
 
 
-def read_vtp(data: bytes, name: str) -> CellMesh:
-    """Triangles and line segments: polygons cut by VTK, strips and polylines taken apart; none of them where a result has no curves. Arrays at points and cells are not read."""
+def read_vtp(data: bytes, name: str, size: int = 0) -> CellMesh:
+    """Triangles and line segments: polygons cut by VTK, strips and polylines taken apart; none of them where a result has no curves. Arrays at points and cells are not read.
+    size: of the file, where that is packed as a whole."""
     file = parsed(data, name, "PolyData", ("NumberOfPoints", *(f"NumberOf{kind}" for kind in _CELLS)))
+    file.size = size or file.size
     points, triangles, lines, first = [np.empty((0, 3))], [np.empty((0, 3), np.int64)], [np.empty((0, 2), np.int64)], 0
     for piece in file.pieces:
         arrays = [(array, values_of(file, array)) for array in piece.arrays if array.section == "Points" and array.attributes.get("type") in NUMBERS]

@@ -17,13 +17,13 @@ from xml.parsers import expat
 import numpy as np
 
 from ..errors import InvalidInput, IoError
-from ..files import numbers_of
+from ..files import numbers_of, require_unpackable
 from .cell_mesh import CellMesh
 from .legacy_vtk import from_offsets, mesh_of_cells, whole_numbers
 
 NUMBERS = {f"{sign}{8 * size}": f"{code}{size}" for sign, code in (("Int", "i"), ("UInt", "u")) for size in (1, 2, 4, 8)} | {"Float32": "f4", "Float64": "f8"}
 FEATURES = "feature_edges"  # field data of octafield's own files: pairs of ids of points
-_UNPACK: dict[str, Callable[[bytes], bytes]] = {"vtkZLibDataCompressor": zlib.decompress, "vtkLZMADataCompressor": lzma.decompress}
+_UNPACK: dict[str, Callable[[], Any]] = {"vtkZLibDataCompressor": zlib.decompressobj, "vtkLZMADataCompressor": lzma.LZMADecompressor}
 
 
 @dataclass
@@ -52,13 +52,17 @@ class File:
     appended: bytes = b""
     raw: bool = False
     appended_at: int = 0
+    size: int = 0  # of the file, which bounds what its arrays may become
+    unpacked: int = 0  # so far
 
     def fail(self, line: int, what: str) -> IoError:
         return IoError(f"{self.name}, line {line}: {what}")
 
 
-def read_vtu(data: bytes, name: str) -> CellMesh:
+def read_vtu(data: bytes, name: str, size: int = 0) -> CellMesh:
+    """size: of the file, where that is packed as a whole."""
     file = parsed(data, name, "UnstructuredGrid", ("NumberOfPoints", "NumberOfCells"))
+    file.size = size or file.size
     parts = [_piece(file, piece) for piece in file.pieces]
     start = np.cumsum([0, *(len(part["points"]) for part in parts)])
     ends = np.cumsum([0, *(len(part["numbers"]) for part in parts)])
@@ -82,7 +86,7 @@ def _joined(parts: list[np.ndarray]) -> np.ndarray | None:
 
 def parsed(data: bytes, name: str, kind: str, counted: tuple[str, ...]) -> File:
     """The arrays of a VTKFile of this type, not yet decoded. counted: attributes of its Pieces with their numbers; none: 0, but for the first."""
-    file, path, reading = File(name), list[str](), list[_Array]()  # reading: the array that text belongs to, or none
+    file, path, reading = File(name, size=len(data)), list[str](), list[_Array]()  # reading: the array that text belongs to, or none
     parser = expat.ParserCreate()
     parser.buffer_text = True
 
@@ -212,15 +216,30 @@ def _decoded(file: File, array: _Array, how: str, order: str) -> bytes:
             size = int(np.frombuffer(take(source, 0, head.itemsize), head)[0])
             return take(source, 0, head.itemsize + size)[head.itemsize :]
         count = int(np.frombuffer(take(source, 0, head.itemsize), head)[0])
-        sizes = np.frombuffer(take(source, 0, head.itemsize * (3 + count)), head)[3:].astype(np.int64)
+        full, last, *_ = ahead = np.frombuffer(take(source, 0, head.itemsize * (3 + count)), head)[1:].astype(np.int64)
+        sizes = ahead[2:]
         begin = head.itemsize * (3 + count) if raw else 4 * -(-head.itemsize * (3 + count) // 3)  # the head is encoded by itself
         ends = np.cumsum(sizes)
         if (sizes < 0).any() or (len(ends) and ends[-1] > len(source)):
             raise ValueError("blocks beyond the end")
         packed = take(source, begin, int(ends[-1]) if len(ends) else 0)
-        return b"".join(_UNPACK[file.root["compressor"]](packed[e - s : e]) for s, e in zip(sizes, ends, strict=True))
+        announced = [int(full)] * (count - 1) + [int(last or full)] if count else []
+        if min(announced, default=0) < 0:
+            raise ValueError("blocks of less than no bytes")
+        file.unpacked += sum(announced)
+        require_unpackable(f"{file.name}, line {array.line}", file.unpacked, file.size)
+        return b"".join(_block(file, packed[e - s : e], size) for s, e, size in zip(sizes, ends, announced, strict=True))
     except (ValueError, binascii.Error, zlib.error, lzma.LZMAError, EOFError, OverflowError) as error:
         raise file.fail(array.line, f"array {name} is cut or damaged ({error})") from error
+
+
+def _block(file: File, packed: bytes, size: int) -> bytes:
+    """Of the announced size, which bounds the memory."""
+    unpacker = _UNPACK[file.root["compressor"]]()
+    unpacked: bytes = unpacker.decompress(packed, size + 1)
+    if len(unpacked) != size or not unpacker.eof:
+        raise ValueError(f"a block does not end after the {size} bytes announced")
+    return unpacked
 
 
 def _take_raw(source: bytes, start: int, count: int) -> bytes:
