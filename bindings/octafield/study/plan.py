@@ -63,11 +63,7 @@ def mesh_of(run: Run) -> Hashable:
 
 
 # Options younger than keys, as they were before: not in the key, so that runs of earlier studies keep theirs.
-<<<<<<< HEAD
-_LATER = (("sizes", "none"), ("max_hole_edges", 0), ("wrap_alpha", 0.0), ("wrap_offset", 0.0), ("max_cells", 0))
-=======
-_LATER = (("sizes", "none"), ("max_hole_edges", 0), ("wrap_alpha", 0.0), ("wrap_offset", 0.0), ("split_singular", False))
->>>>>>> main
+_LATER = (("sizes", "none"), ("max_hole_edges", 0), ("wrap_alpha", 0.0), ("wrap_offset", 0.0), ("max_cells", 0), ("split_singular", False))
 _RENAMED = {("repair", "default"): False, ("repair", "safe"): True}  # values that had other words
 _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))
 
