@@ -53,6 +53,7 @@ app = typer.Typer(
     name="octafield",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # plain help: tables of rich cut names of options at 80 columns
     help="Frame fields in volumes and on surfaces. Exit code: 0 done, 2 bad input or usage, 130 interrupted, 1 defect.",
 )
 
@@ -87,9 +88,17 @@ def field(
     output: Output,
     sampling: Sampling = _FIELD.sampling,
     representation: Annotated[
-        str, typer.Option(metavar=choices(REPRESENTATIONS), autocompletion=words(REPRESENTATIONS))
+        str,
+        typer.Option(
+            metavar="NAME",
+            autocompletion=words(REPRESENTATIONS),
+            help=f"What is smoothed: {', '.join(REPRESENTATIONS)}. odeco: fourth-order tensors whose axes have length 1; odeco_lengths: their lengths are "
+            "unknown, too (docs/frame_fields.md).",
+        ),
     ] = _FIELD.representation,
-    solver: Annotated[str, typer.Option(metavar="|".join(SOLVERS), autocompletion=words(SOLVERS))] = _FIELD.solver,
+    solver: Annotated[
+        str, typer.Option(metavar="|".join(SOLVERS), autocompletion=words(SOLVERS), help="Of the smoothing; default: what goes with the representation.")
+    ] = _FIELD.solver,
     boundary: Annotated[
         str,
         typer.Option(

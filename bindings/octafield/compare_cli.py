@@ -50,7 +50,7 @@ def compare(
         typer.Option(
             metavar="all|A,B",
             autocompletion=lists(REPRESENTATIONS, "all"),
-            help=f"Of: {choices(REPRESENTATIONS)}; all: {', '.join(COMPARED)}.",
+            help=f"Of: {', '.join(REPRESENTATIONS)}; all: {', '.join(COMPARED)}.",
         ),
     ] = "all",
     boundaries: Annotated[

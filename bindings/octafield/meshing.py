@@ -18,6 +18,7 @@ from .repairing import message_with_remedy, repair_surface
 
 Array = np.ndarray[Any, Any]
 Source = str | Path | TriangleMesh | TetMesh
+REPAIR_IGNORED = "repair was ignored: it works on surfaces only"
 TOUCHING = ("non_manifold_edge", "non_manifold_vertex")  # kinds of defects that the boundary of tets may have
 
 
@@ -310,4 +311,4 @@ def _note_unused(meshed: MeshedInput, options: MeshOptions, of_cad: bool) -> Non
     if options.edge_length > 0 and not of_cad:
         meshed.notes.append("the edge length was ignored: tet meshes are kept as they are")
     if options.repair not in ("default", "none"):
-        meshed.notes.append("repair was ignored: it works on surfaces only")
+        meshed.notes.append(REPAIR_IGNORED)
