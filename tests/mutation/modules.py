@@ -27,7 +27,7 @@ PYTHON = {
         "10000 to 10001": "how far a first line is looked for",
     }),
     "meshes/text_meshes.py": Module(("test_text_mesh_rows.py",)),
-    "sizes.py": Module((f"{_HERE}::test_size_ratio_is_the_largest_over_the_smallest_size", "test_sizes.py")),
+    "sizes.py": Module(("test_size_parts.py",), equivalent={"0 to 1: def find_sizes": "results are the same at any number of threads"}),
     "study/memory.py": Module((f"{_HERE}::test_memory_reserved_is_the_formula_of_the_page_and_more_than_was_measured",)),
     "study/plan.py": Module(("test_study_keys.py", "test_study_description.py"), equivalent={
         "True to False: chosen = dict(zip": "both have one entry per option",

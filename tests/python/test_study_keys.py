@@ -89,3 +89,25 @@ def test_runs_are_grouped_by_mesh_and_cross_field_and_come_back_from_json():
     assert len(study.plan(study.parse(skipping.replace("INPUT", "b*x")))) == len(runs) - 4
     with pytest.raises(InvalidInput, match="no input is called 'cube'; there are: ball, box"):
         study.plan(study.parse(skipping.replace("INPUT", "cube")))
+
+
+def write_text(path, text):
+    path.write_text(text)
+    return path
+
+
+def test_files_of_a_glob_are_runs_in_their_order_named_by_their_stems(tmp_path):
+    for name in ("b.tet.stl", "a.stl.gz", "deep/er/a.stl", "deep/c.stl"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(name)
+    (tmp_path / "folder.stl").mkdir()
+    described = lambda text: study.load(write_text(tmp_path / "k.yaml", text))
+    runs = study.plan(described("{name: k, inputs: ['**/*.stl*', {file: b.tet.stl}]}"))
+    assert [(run.name, run.source) for run in runs] == [
+        (name, str(tmp_path / path)) for name, path in (("a", "a.stl.gz"), ("b.tet", "b.tet.stl"), ("c", "deep/c.stl"), ("a 2", "deep/er/a.stl"))
+    ]
+    assert all(has_promised_content(run) for run in runs)
+    (tmp_path / "b.tet.stl").write_text("other")
+    assert not has_promised_content(runs[1])
+    with pytest.raises(InvalidInput, match=f"no.stl: no such file under {tmp_path}"):
+        study.plan(described("{name: k, inputs: [no.stl]}"))
