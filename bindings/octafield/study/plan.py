@@ -78,17 +78,17 @@ def plan(study: Study, *, threads: int = 1, digests: Digests | None = None) -> l
         [('box', 'sh4', 0), ('box', 'su2', 0)]
     """
     digests = digests or Digests()
-    runs: list[Run] = []
+    runs: dict[str, Run] = {}
     taken: set[str] = set()
     for entry in study.inputs:
         for source, stem, digest in _sources(study, entry, digests):
             name = _unique(stem, taken)
-            runs += _runs_on(study, entry, source, name, digest, threads)
+            for run in _runs_on(study, entry, source, name, digest, threads):
+                runs.setdefault(run.key, run)  # an input that two globs name runs once
     _require_matching_rules(study, taken)
-    runs = list({run.key: run for run in reversed(runs)}.values())[::-1]  # an input that two globs name runs once
     if not runs:
         raise InvalidInput("skip leaves nothing to run; remove a rule", "bad_study")
-    return runs
+    return list(runs.values())
 
 
 def has_promised_content(run: Run) -> bool:
