@@ -16,6 +16,7 @@ from .cli_options import (
     InputFile,
     Interfaces,
     Json,
+    MaxCells,
     MaxHoleEdges,
     Output,
     Quiet,
@@ -112,6 +113,7 @@ def field(
     features: Features = _FIELD.features,
     feature_angle: FeatureAngle = ANGLE,
     edge_length: EdgeLength = _FIELD.edge_length,
+    max_cells: MaxCells = _FIELD.max_cells,
     remesh: Remesh = _FIELD.remesh,
     repair: Repair = _FIELD.repair,
     max_hole_edges: MaxHoleEdges = _FIELD.max_hole_edges,
@@ -157,7 +159,7 @@ def field(
             threads=threads,
             **mesh_options(
                 features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split,
-                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset,
+                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset, max_cells=max_cells,
             ),  # fmt: skip
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
@@ -203,6 +205,7 @@ def surface_field(
         float, typer.Option(metavar="DEG", help="Feature edges that bend by less are not followed, degrees.")
     ] = math.degrees(_SURFACE.least_feature_angle),
     edge_length: EdgeLength = _SURFACE.edge_length,
+    max_cells: MaxCells = _SURFACE.max_cells,
     remesh: Remesh = _SURFACE.remesh,
     repair: Repair = _SURFACE.repair,
     max_hole_edges: MaxHoleEdges = _SURFACE.max_hole_edges,
@@ -231,7 +234,7 @@ def surface_field(
             seed=seed,
             **mesh_options(
                 features, feature_angle, edge_length, remesh, repair,
-                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset,
+                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset, max_cells=max_cells,
             ),  # fmt: skip
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:

@@ -8,7 +8,7 @@ import typer
 
 from . import console, tables
 from .cli_options import (
-    EdgeLength, FeatureAngle, Features, InputFile, Interfaces, Json, MaxHoleEdges, Quiet, Remesh, Repair, Split, Verbose, WrapAlpha, WrapOffset,
+    EdgeLength, FeatureAngle, Features, InputFile, Interfaces, Json, MaxCells, MaxHoleEdges, Quiet, Remesh, Repair, Split, Verbose, WrapAlpha, WrapOffset,
 )  # fmt: skip
 from .console import carry_out, log
 from .errors import InvalidInput
@@ -26,6 +26,7 @@ def info(
     features: Features = _MESH.features,
     feature_angle: FeatureAngle = _ANGLE,
     edge_length: EdgeLength = _MESH.edge_length,
+    max_cells: MaxCells = _MESH.max_cells,
     remesh: Remesh = _MESH.remesh,
     repair: Repair = _MESH.repair,
     max_hole_edges: MaxHoleEdges = _MESH.max_hole_edges,
@@ -53,6 +54,7 @@ def info(
             max_hole_edges=max_hole_edges,
             wrap_alpha=wrap_alpha,
             wrap_offset=wrap_offset,
+            max_cells=max_cells,
         )
         record = examine(input, options)
         if json:

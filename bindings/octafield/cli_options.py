@@ -65,8 +65,9 @@ Features = Annotated[
 ]
 FeatureAngle = Annotated[float, typer.Option(metavar="DEG", help="Angle between normals at a feature edge, degrees.")]
 EdgeLength = Annotated[
-    float, typer.Option(metavar="LENGTH", help="Target edge length of remeshing, input unit; 0: from the size.")
+    float, typer.Option(metavar="LENGTH", help="Target edge length of remeshing, input unit; 0: lengths that fit the shape.")
 ]
+MaxCells = Annotated[int, typer.Option(metavar="N", help="Without --edge-length: triangles and tets to stay within; 0: 200,000.")]
 Remesh = Annotated[bool, typer.Option("--remesh/--no-remesh", help="Remesh a surface, or keep its triangles.")]
 Repair = Annotated[
     str,

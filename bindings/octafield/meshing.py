@@ -29,7 +29,7 @@ class MeshedInput:
     Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too. There,
     and where the boundary touches itself, `surface` is `boundary` cut into sheets: manifold, each vertex a copy of vertex `sheet_map` of the boundary. features are
     those of `surface`, boundary_features those of `boundary`. locking: counts of what split_locking is for. options: what it was
-    prepared with.
+    prepared with. inner_length: of edges far inside where those of the surface are graded, input unit; else 0.
     """
 
     name: str
@@ -48,6 +48,7 @@ class MeshedInput:
     sheet_map: np.ndarray | None = None
     locking: dict[str, Any] = field(default_factory=dict)
     options: MeshOptions | None = None
+    inner_length: float = 0.0
 
     def __repr__(self) -> str:
         return display.meshed_line(self)
@@ -258,9 +259,11 @@ def _remesh(meshed: MeshedInput, options: MeshOptions, progress: Progress | None
         meshed.surface,
         meshed.features,
         edge_length=options.edge_length,
+        max_cells=options.cells,
         progress=forward(progress, "mesh", 0, 0.7 if volume else 1),
     )
     meshed.surface, meshed.features = result.mesh, result.features
+    meshed.inner_length = result.inner_length
     meshed.notes += result.notes
 
 
@@ -280,7 +283,7 @@ def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: Mes
         notes = len(meshed.notes)
         try:
             result = _core.remesh(surface, features, edge_length=shorter * length)
-            meshed.surface, meshed.features = result.mesh, result.features
+            meshed.surface, meshed.features, meshed.inner_length = result.mesh, result.features, result.inner_length
             meshed.notes += result.notes
             _fill(meshed, progress, options)
         except GeometryError:
@@ -295,7 +298,7 @@ def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: Mes
 def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) -> None:
     announce(progress, "mesh", 0.7)
     count = len(meshed.surface.vertices)
-    meshed.tets = _core.tetrahedralize(meshed.surface, notes=meshed.notes)
+    meshed.tets = _core.tetrahedralize(meshed.surface, edge_length=meshed.inner_length, notes=meshed.notes)
     meshed.boundary = _core.boundary_surface(meshed.tets)
     if not np.array_equal(np.asarray(meshed.boundary.vertex_map), np.arange(count)):
         raise GeometryError("the tet mesh does not keep the vertices of the surface; please report this input")

@@ -72,7 +72,8 @@ class MeshOptions:
     features: "file" (line cells of the file), "angle" (dihedral angle), "none",
         "default": file when it marks some, else angle.
     feature_angle: radians in (0, pi), between the normals of two triangles at a feature edge.
-    edge_length: target of surface remeshing, input unit; 0: from the shape (see remesh).
+    edge_length: target of surface remeshing, input unit; 0: lengths that fit the shape (see remesh, size_field).
+    max_cells: without an edge length, triangles and tets that those lengths may ask for; 0: 200,000.
     remesh: False keeps the triangles of a surface. Tet meshes are always kept as they are.
     repair: level of the repair of a surface before it is tested (octafield.repair), each action recorded; "default": "merge" for STL,
         "none" otherwise. True stands for "safe", False for "none".
@@ -92,6 +93,7 @@ class MeshOptions:
     max_hole_edges: int = 0
     wrap_alpha: float = 0.0
     wrap_offset: float = 0.0
+    max_cells: int = 0
 
     def __repr__(self) -> str:
         return display.options_line(self)
@@ -102,6 +104,7 @@ class MeshOptions:
             object.__setattr__(self, "repair", "safe" if self.repair else "none")
         require_one_of("repair", self.repair, REPAIRS)
         _make_integer(self, "max_hole_edges", 0, LARGEST_INT, " (0: no bound)")
+        _make_integer(self, "max_cells", 0, LARGEST_INT, " (0: default)")
         for name in ("wrap_alpha", "wrap_offset"):
             _require(math.isfinite(getattr(self, name)) and getattr(self, name) >= 0, f"{name.replace('_', ' ')} must be positive (0: default)")
         for name in ("remesh", "interfaces", "split"):
@@ -110,6 +113,12 @@ class MeshOptions:
         _require(
             math.isfinite(self.edge_length) and self.edge_length >= 0, "the edge length must be positive (0: default)"
         )
+        _require(self.edge_length == 0 or self.max_cells == 0, "an edge length decides the number of cells: leave it or max_cells out")
+
+    @property
+    def cells(self) -> int:
+        """max_cells, or what 0 stands for."""
+        return self.max_cells or int(default_of("remesh", "max_cells"))
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

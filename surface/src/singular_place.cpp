@@ -20,28 +20,22 @@ double edge_length(const ChartedField& field, Index t) {
     return (std::abs(field.side(t, 0)) + std::abs(field.side(t, 1)) + std::abs(field.side(t, 2))) / 3;
 }
 
-// Gauss-Newton's method from a = 0; z in edge lengths from the first place.
-struct Vortex {
-    Eigen::Matrix<double, parameters, 1> model = Eigen::Matrix<double, parameters, 1>::Zero();  // a, c, p, q
-    double unexplained = 0;
-    Complex a() const { return {model[0], model[1]}; }
-};
-
-std::optional<Vortex> fitted(const std::vector<PatchValue>& values, int k) {
+// a, by Gauss-Newton's method from 0; z in edge lengths from the first place.
+std::optional<Complex> fitted(const std::vector<PatchValue>& values, int k) {
     const auto count = static_cast<Eigen::Index>(values.size());
-    Vortex found;
+    Eigen::Matrix<double, parameters, 1> model = Eigen::Matrix<double, parameters, 1>::Zero();  // a, c, p, q
     Complex mean = 0;
     for (const PatchValue& v : values) mean += v.f * std::polar(1.0, -k * std::arg(v.at));
-    found.model[2] = std::arg(mean);
+    model[2] = std::arg(mean);
     Eigen::MatrixXd jacobian(count, static_cast<Eigen::Index>(parameters));
     Eigen::VectorXd residual(count), weights(count);
     for (int step = 0; step < 30; ++step) {
-        const Complex a = found.a();
+        const Complex a(model[0], model[1]);
         for (Eigen::Index i = 0; i < count; ++i) {
             const Complex z = values[i].at, away = z - a, inverse = away == 0.0 ? 0 : 1.0 / away;
             jacobian.row(i) << -k * inverse.imag(), -k * inverse.real(), 1, z.real(), -z.imag(), (z * z).real(),
                 -(z * z).imag();
-            const double smooth = jacobian.row(i).tail<parameters - 2>() * found.model.tail<parameters - 2>();
+            const double smooth = jacobian.row(i).tail<parameters - 2>() * model.tail<parameters - 2>();
             residual[i] = std::arg(values[i].f * std::polar(1.0, -k * std::arg(away) - smooth));
             weights[i] = std::min(1.0, std::norm(away));  // nearer than an edge the values depend on the triangles
         }
@@ -49,11 +43,12 @@ std::optional<Vortex> fitted(const std::vector<PatchValue>& values, int k) {
             (weights.asDiagonal() * jacobian).colPivHouseholderQr().solve(weights.cwiseProduct(residual));
         if (!change.allFinite()) return {};
         const double length = change.head<2>().norm(), part = std::min(1.0, 0.5 / std::max(length, 1e-300));
-        found.model += part * change;
-        if (std::abs(found.a()) > most_moved) return {};
+        model += part * change;
+        const Complex moved(model[0], model[1]);
+        if (std::abs(moved) > most_moved) return {};
         if (change.norm() < 1e-8) {  // then the residual is that of the model, too
-            found.unexplained = weights.cwiseProduct(residual).norm() / weights.norm();
-            return found.unexplained < most_unexplained ? std::optional(found) : std::nullopt;
+            const double unexplained = weights.cwiseProduct(residual).norm() / weights.norm();
+            return unexplained < most_unexplained ? std::optional(moved) : std::nullopt;
         }
     }
     return {};
@@ -96,14 +91,14 @@ std::optional<SurfacePlace> fitted_place(const ChartedField& field, const std::f
             auto values = values_round(field, is_barrier, place.triangle, place.at, 0, radius * edge);
             if (values.size() < least_values) break;
             for (PatchValue& value : values) value.at = (value.at - place.at) / edge;
-            const auto vortex = fitted(values, index_times_symmetry);
-            if (!vortex) break;
-            moved += std::abs(vortex->a());
+            const auto way = fitted(values, index_times_symmetry);
+            if (!way) break;
+            moved += std::abs(*way);
             if (moved > most_moved) break;
-            const auto next = walked(field, is_barrier, place, edge * vortex->a());
+            const auto next = walked(field, is_barrier, place, edge * *way);
             if (!next) break;
             place = *next;
-            if (round == 2 || std::abs(vortex->a()) < 1e-3) return place;
+            if (round == 2 || std::abs(*way) < 1e-3) return place;
         }
     }
     return {};

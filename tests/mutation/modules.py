@@ -27,9 +27,12 @@ PYTHON = {
         "10000 to 10001": "how far a first line is looked for",
     }),
     "meshes/text_meshes.py": Module(("test_text_mesh_rows.py",)),
-    "sizes.py": Module((f"{_HERE}::test_size_ratio_is_the_largest_over_the_smallest_size", "test_sizes.py")),
+    "sizes.py": Module(("test_size_parts.py",), equivalent={"0 to 1: def find_sizes": "results are the same at any number of threads"}),
     "study/memory.py": Module((f"{_HERE}::test_memory_reserved_is_the_formula_of_the_page_and_more_than_was_measured",)),
-    "study/plan.py": Module((f"{_HERE}::test_keys_of_runs_are_what_they_were", f"{_HERE}::test_a_key_is_the_hash_of_content_options_repeat_and_version", f"{_HERE}::test_runs_are_grouped_by_mesh_and_cross_field_and_come_back_from_json", "test_study_description.py"), equivalent={"True to False: return (self.name, json.dumps": "the order of the options is that of the class; sorting it changes no group"}),
+    "study/plan.py": Module(("test_study_keys.py", "test_study_description.py"), equivalent={
+        "True to False: chosen = dict(zip": "both have one entry per option",
+        "True to False: return (self.name, json.dumps": "the order of the options is that of the class; sorting it changes no group",
+    }),
     "tet_analysis.py": Module((f"{_HERE}::test_energy_at_unit_speed_is_that_of_frames_that_move_by_one_per_radian", f"{_HERE}::test_singular_edges_of_frames_in_tets_are_counted_by_turns_from_the_highest_on"), equivalent={"0 to 1: def analyse_tets": "results are the same at any number of threads"}),
 }  # fmt: skip
 
@@ -40,9 +43,10 @@ CPP = {
         "step = 0; step": "the bound of a method that has converged, or has not",
         "change.norm() <": "how far it converges; both are far below a tenth of an edge",
         ">= most_moved": "differs where the point moves by the bound to the last bit",
-        "std::abs(vortex->a()) <": "how far it converges; both are below a tenth of an edge",
+        "std::abs(*way) <": "how far it converges; both are below a tenth of an edge",
         "radii[] =": "how far the fit looks; both radii reach a tenth of an edge where no other point is near",
         "1e-300": "keeps a step of length 0 from a division by 0; any number near 0 does",
+        "unexplained <= most": "differs where the angle is the bound to the last bit",
         "std::polar(2 * 1.0": "the angle of a number does not depend on its length",
     }),
     "surface/src/surface_singularities.cpp": Module(("Singular*:SurfaceSingularities.*",), "test_surface"),

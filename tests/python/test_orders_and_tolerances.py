@@ -1,8 +1,5 @@
 """Orders of rows, factors, and both sides of tolerances: what a changed constant or a lost index would turn wrong without a word."""
 
-import hashlib
-import importlib
-import json
 import math
 import re
 from dataclasses import replace
@@ -12,7 +9,6 @@ import pytest
 from conftest import box_tets
 
 import octafield as of
-from octafield import study
 from octafield.errors import InvalidInput, IoError
 from octafield.formats import placing
 from octafield.formats.base import FrameFile, from_axes, from_quaternions
@@ -20,9 +16,8 @@ from octafield.meshes.text_meshes import read_medit, read_tetgen
 from octafield.options import FieldOptions
 from octafield.sizes import sizes_record
 from octafield.study import memory
-from octafield.study.plan import Run, has_promised_content
+from octafield.study.plan import Run
 
-PLAN = importlib.import_module("octafield.study.plan")  # the package has a function of that name
 EPS = 1e-6  # a tolerance that several readers and checks share
 
 
@@ -92,62 +87,6 @@ def test_memory_reserved_is_the_formula_of_the_page_and_more_than_was_measured(r
     for row in measured:
         need, reserved = number(row, "process, all MB"), memory.needed_mb(number(row, "tets"), [of_method[row["representation"]]])
         assert 1.15 * need < reserved < 4 * need, row
-
-
-# ---- keys ----
-
-# What a key is the hash of: options as they were when studies began. A new option goes to plan._LATER with the value that leaves old runs as they were.
-BEGAN = {
-    "boundary": "aligned", "edge_length": 0.0, "feature_angle": math.radians(40), "feature_tolerance": math.radians(20), "features": "default",
-    "interfaces": True, "max_iterations": 200, "remesh": True, "repair": False, "representation": "sh4", "rounds": 2, "sampling": "vertices", "seed": 0,
-    "solver": "default", "split": False, "streamlines": 30, "tolerance": 1e-06,
-}  # fmt: skip
-KEYS = {
-    "{}": "29cc8387ceaf8d4f4414",
-    "{runs: {representation: [su2]}}": "bca2c44fe05ac37b64b7",
-    "{runs: {solver: [lbfgs], boundary: [fixed]}, seeds: [3]}": "59a22a2ef6a8f8bb2b3d",
-    "{mesh: {edge_length: 0.25, feature_angle: 30}}": "4c3686d517302a60365f",
-    "{runs: {sampling: [tets]}, mesh: {split: true}}": "12f4fba20886913d4439",
-    "{runs: {sizes: [axes]}}": "3020c8e6db627320116c",
-}
-
-
-@pytest.mark.parametrize("text", KEYS)
-def test_keys_of_runs_are_what_they_were(monkeypatch, text):
-    """Frozen: another key computes again what a study has, and loses it from its tables."""
-    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.2.0")
-    (run,) = study.plan(study.parse("{name: k, inputs: [{generator: box}], " + text[1:]))
-    assert run.key == KEYS[text]
-
-
-def test_a_key_is_the_hash_of_content_options_repeat_and_version(monkeypatch):
-    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.2.0")
-    first, second = study.plan(study.parse("{name: k, inputs: [{generator: box}], repeats: 2}"))
-    content = json.dumps({"generator": "box", "with": {}})
-    for repeat, run in enumerate((first, second)):
-        hashed = hashlib.sha256(json.dumps([content, BEGAN, repeat, "0.2.0"], sort_keys=True).encode())
-        assert run.key == hashed.hexdigest()[:20]
-    assert has_promised_content(second)
-    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.2.1")
-    assert not has_promised_content(second)
-
-
-def test_runs_are_grouped_by_mesh_and_cross_field_and_come_back_from_json():
-    text = "{name: k, inputs: [{generator: box}, {generator: ball}], runs: {representation: [sh4, su2], sampling: [vertices, tets]}, seeds: 2}"
-    runs = study.plan(study.parse(text))
-    assert [Run.from_json(json.loads(json.dumps(run.to_json()))) for run in runs] == runs
-    groups = PLAN.groups(runs)
-    assert sum(groups, []) == runs and [{(run.name, run.options.seed) for run in group} for group in groups] == [
-        {(name, seed)} for name in ("box", "ball") for seed in (0, 1)
-    ]
-    assert [len({f(run) for run in runs}) for f in (PLAN.mesh_of, PLAN.method_of)] == [2, 4]
-    (finer,) = study.plan(study.parse("{name: k, inputs: [{generator: box}], mesh: {edge_length: 0.2}}"))
-    assert PLAN.mesh_of(finer) != PLAN.mesh_of(runs[0]) and finer.group != runs[0].group and PLAN.method_of(finer) == PLAN.method_of(runs[0])
-    assert has_promised_content(replace(runs[0], source="no such file")) is False
-    skipping = text[:-1] + ", skip: [{input: INPUT, representation: su2}]}"
-    assert len(study.plan(study.parse(skipping.replace("INPUT", "b*x")))) == len(runs) - 4
-    with pytest.raises(InvalidInput, match="no input is called 'cube'; there are: ball, box"):
-        study.plan(study.parse(skipping.replace("INPUT", "cube")))
 
 
 # ---- rows and orders ----

@@ -59,11 +59,11 @@ def method_of(run: Run) -> str:
 def mesh_of(run: Run) -> Hashable:
     """Equal for runs whose meshes have the same number of tets."""
     o = run.options
-    return (run.name, o.features, o.feature_angle, o.edge_length, o.remesh, o.repair, o.interfaces, o.split, o.max_hole_edges, o.wrap_alpha, o.wrap_offset)
+    return (run.name, o.features, o.feature_angle, o.edge_length, o.remesh, o.repair, o.interfaces, o.split, o.max_hole_edges, o.wrap_alpha, o.wrap_offset, o.max_cells)
 
 
 # Options younger than keys, as they were before: not in the key, so that runs of earlier studies keep theirs.
-_LATER = (("sizes", "none"), ("max_hole_edges", 0), ("wrap_alpha", 0.0), ("wrap_offset", 0.0), ("split_singular", False))
+_LATER = (("sizes", "none"), ("max_hole_edges", 0), ("wrap_alpha", 0.0), ("wrap_offset", 0.0), ("max_cells", 0), ("split_singular", False))
 _RENAMED = {("repair", "default"): False, ("repair", "safe"): True}  # values that had other words
 _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))
 
@@ -78,17 +78,17 @@ def plan(study: Study, *, threads: int = 1, digests: Digests | None = None) -> l
         [('box', 'sh4', 0), ('box', 'su2', 0)]
     """
     digests = digests or Digests()
-    runs: list[Run] = []
+    runs: dict[str, Run] = {}
     taken: set[str] = set()
     for entry in study.inputs:
         for source, stem, digest in _sources(study, entry, digests):
             name = _unique(stem, taken)
-            runs += _runs_on(study, entry, source, name, digest, threads)
+            for run in _runs_on(study, entry, source, name, digest, threads):
+                runs.setdefault(run.key, run)  # an input that two globs name runs once
     _require_matching_rules(study, taken)
-    runs = list({run.key: run for run in reversed(runs)}.values())[::-1]  # an input that two globs name runs once
     if not runs:
         raise InvalidInput("skip leaves nothing to run; remove a rule", "bad_study")
-    return runs
+    return list(runs.values())
 
 
 def has_promised_content(run: Run) -> bool:
