@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "octafield/error.hpp"
 #include "octafield/frames/sh4.hpp"
 #include "octafield/volume/singularities.hpp"
 #include "tet_fixtures.hpp"
@@ -115,6 +116,18 @@ TEST(SingularTriangles, SignIsThatOfTheTurnAboutTheirPositiveNormal) {
             ASSERT_FALSE(graph.triangles.empty());
             EXPECT_EQ(graph.triangles[0].quarter_turns, sign * round) << order[0] << order[1];
         }
+}
+
+TEST(SingularTriangles, TakeFramesWhoseSquareLengthIsOneWithinAMillionth) {
+    for (const double off : {-1.1e-6, -0.9e-6, 0.9e-6, 1.1e-6}) {
+        Quaternions frames = turned({0, 30, 60, 0});
+        frames.row(2) *= std::sqrt(1 + off);
+        if (std::abs(off) < 1e-6) {
+            EXPECT_EQ(singular_graph(one_tet(), frames).triangles.size(), 2u);
+        } else {
+            EXPECT_THROW(singular_graph(one_tet(), frames), InvalidInput);
+        }
+    }
 }
 
 }  // namespace
