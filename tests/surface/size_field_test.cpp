@@ -69,12 +69,13 @@ TEST(SizeField, GrowsSlowlyFromWhereItIsShort) {
 }
 
 TEST(SizeField, WallsAndGapsCarryEdgesOfTwiceTheirWidth) {
-    const TriangleMesh wall = plate(0.025);
+    const TriangleMesh wall = plate(0.015);
     const auto most = [](const TriangleMesh& mesh) {
         return size_field(mesh, detect_features(mesh), {.max_cells = 1e7}).lengths.maxCoeff();
     };
-    EXPECT_LT(2 * 0.025, 0.95 * default_edge_length(wall));
-    EXPECT_NEAR(most(wall), 2 * 0.025, 1e-9);
+    EXPECT_LT(2 * 0.015, 0.95 * default_edge_length(wall));
+    EXPECT_NEAR(size_field(wall, detect_features(wall), {.max_cells = 1e7}).shortest, 2 * 0.015, 1e-9);
+    EXPECT_LE(most(wall), 2 * 0.015 + 0.4 * 0.015 / 2 + 1e-9);  // on the rim, where no wall is
     const TriangleMesh cube = cube_surface(8), pair = both(cube, cube, {0, 0, 1.02});
     const SizeField gap = size_field(pair, detect_features(pair), {.max_cells = 1e7});
     for (Index v = 0; v < pair.vertices.rows(); ++v) {
