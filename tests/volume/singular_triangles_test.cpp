@@ -118,6 +118,45 @@ TEST(SingularTriangles, SignIsThatOfTheTurnAboutTheirPositiveNormal) {
         }
 }
 
+TEST(SingularTriangles, AreTheSameHoweverVerticesAndTetsAreNumbered) {
+    // The sign goes by the geometry: about the curve from the base up, or down where vertices are numbered the other way.
+    std::array<int, 4> order{0, 1, 2, 3};
+    const TetMesh base = one_tet();
+    const Quaternions frames = turned({0, 30, 60, 0});
+    do {
+        TetMesh mesh = base;
+        Quaternions renumbered = frames;
+        std::array<Index, 4> number{};
+        for (int k = 0; k < 4; ++k) {
+            mesh.vertices.row(k) = base.vertices.row(order[k]);
+            renumbered.row(k) = frames.row(order[k]);
+            number[order[k]] = k;
+        }
+        std::array<int, 4> begin{0, 1, 2, 3};
+        do {
+            for (int k = 0; k < 4; ++k) mesh.tets(0, k) = number[begin[k]];
+            if (tet_volumes(mesh)[0] < 0) continue;
+            for (const SingularTriangle& t : singular_graph(mesh, renumbered).triangles) EXPECT_EQ(t.quarter_turns, 1);
+        } while (std::next_permutation(begin.begin(), begin.end()));
+    } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(SingularTriangles, MeetInsideATetAtTheMeanOfTheirPoints) {
+    const TetMesh mesh = testing::kuhn_cube(3);
+    const SingularGraph graph = singular_graph(mesh, frames::random_rotations(mesh.vertices.rows(), 6));
+    ASSERT_GT(graph.nodes.size(), 10u);
+    for (const Index node : graph.nodes) {
+        Vector3 sum = Vector3::Zero();
+        int count = 0;
+        for (const auto& curve : graph.curves)
+            for (std::size_t i = 0; i < curve.size(); ++i)
+                for (const std::size_t j : {i - 1, i + 1})
+                    if (curve[i] == node && j < curve.size()) sum += Vector3(graph.points.row(curve[j])), ++count;
+        ASSERT_GE(count, 3);
+        EXPECT_LT((sum / count - Vector3(graph.points.row(node))).norm(), 1e-12);
+    }
+}
+
 TEST(SingularTriangles, TakeFramesWhoseSquareLengthIsOneWithinAMillionth) {
     for (const double off : {-1.1e-6, -0.9e-6, 0.9e-6, 1.1e-6}) {
         Quaternions frames = turned({0, 30, 60, 0});
