@@ -95,7 +95,10 @@ TEST(SingularTriangles, AreUndecidedWhereOneOfTheirEdgesHasTwoSmallestSteps) {
                 std::array<double, 4> degrees{};
                 degrees[order[0]] = 0, degrees[order[1]] = sign * (45 - off), degrees[order[2]] = sign * 67.5;
                 degrees[3] = degrees[order[0]];
-                for (const SingularTriangle& t : singular_graph(one_tet(), turned(degrees)).triangles) {
+                const SingularGraph graph = singular_graph(one_tet(), turned(degrees));
+                EXPECT_EQ(graph.undecided_triangles, std::count_if(graph.triangles.begin(), graph.triangles.end(),
+                                                                   [](const auto& t) { return t.undecided; }));
+                for (const SingularTriangle& t : graph.triangles) {
                     const auto has = [&](int v) { return t.a == v || t.b == v || t.c == v; };
                     const bool has_tie = has(order[1]) && (has(order[0]) || has(3));
                     EXPECT_EQ(t.undecided, off == 0 && has_tie) << t.a << t.b << t.c;
