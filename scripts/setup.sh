@@ -65,7 +65,8 @@ install_octafield() {
     fi
     say "building octafield"
     touch "$stamp.new"
-    .venv/bin/python -m pip install -q --disable-pip-version-check --no-build-isolation --no-deps --config-settings=build-dir="$BUILD_DIR" .
+    build_with_progress .venv/bin/python -m pip install -v --disable-pip-version-check --no-build-isolation --no-deps \
+        --config-settings=build-dir="$BUILD_DIR" . >&2
     mv "$stamp.new" "$stamp"
 }
 

@@ -35,7 +35,7 @@ def collect(folder: Path, data: Path | None, extra: list[Path]) -> list[Case]:
     folder.mkdir(parents=True, exist_ok=True)
     cases = list(_generated(folder))
     if data is not None:
-        cases += _shared(data)
+        cases += [*_shared(data), *_boundaries(data, folder)]
     cases += list(_shipped())
     for place in extra:
         found = sorted(place.rglob("*")) if place.is_dir() else [place]
@@ -113,6 +113,17 @@ def _shared(data: Path) -> Iterator[Case]:
             if known:
                 case.volume, case.euler = known
             yield case
+
+
+def _boundaries(data: Path, folder: Path) -> Iterator[Case]:
+    """Of the tet meshes of ARFF and HexMe, as OBJ: of each model of HexMe the uniform mesh, else the one adapted to curvature."""
+    models = {path.name[:3]: path for kind in "cu" for path in sorted((data / "hexme").glob(f"*{kind}.vtk.gz"))}
+    for mesh in [*models.values(), *sorted((data / "arff").glob("*.mesh.gz"))]:
+        path = folder / f"{mesh.name.removesuffix('.gz').rpartition('.')[0]}_boundary.obj"
+        if not path.exists():
+            boundary = octafield.prepare_mesh(mesh).volume().boundary.mesh
+            _write(path, np.asarray(boundary.vertices), np.asarray(boundary.triangles), ascii_digits=None)
+        yield _measured(Case(path.name, path, f"data/{mesh.parent.name}"))
 
 
 def _shipped() -> Iterator[Case]:

@@ -85,18 +85,18 @@ def judge(case: Case, path: Path, output: Path, record: dict[str, Any]) -> dict[
     triangles = np.asarray(source.triangles)
     given = pyvista.PolyData.from_regular_faces(np.asarray(source.vertices), triangles[_with_area(source)])
     there, nearest = distances(np.asarray(result.points, float), given)
-    back = distances(samples(given), result)[0] if case.sound else np.zeros(1)
+    back = distances(samples(given.clean(tolerance=0)), result)[0] if case.sound else np.zeros(1)
     row["far %"] = 100 * float(max(np.quantile(there, 0.999), np.quantile(back, 0.999))) / size
     if row["far %"] > 100 * FAR and case.sound:
         wrong.append(f"surfaces {row['far %']:.2g} % of the size apart")
-    away = np.ones(len(result.points), bool)
+    away = there < FAR * size  # where a hole was filled the input has no normals
     features = output / "features.vtp"
     if features.exists() and (lines := pyvista.read(features)).n_points:
         near = vtk.vtkStaticPointLocator()
         near.SetDataSet(lines)
         near.BuildLocator()
         gap = [np.linalg.norm(np.subtract(lines.points[near.FindClosestPoint(p)], p)) for p in result.points]
-        away = np.array(gap) > 0.5 * record["edge_length"]
+        away &= np.array(gap) > 0.5 * record["edge_length"]
     if away.any():
         angles = axis_angles(result, volume, mean_normals(source, result.points[away], nearest[away], 0.5 * record["edge_length"]), away)
         row["angle 95 %"] = float(np.quantile(angles, 0.95))

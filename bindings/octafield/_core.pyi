@@ -241,7 +241,12 @@ class RepairAdvice:
 
 class RemeshResult:
     def __init__(
-        self, mesh: TriangleMesh = ..., features: FeatureGraph = ..., notes: Sequence[str] = ..., deviation: float = ...
+        self,
+        mesh: TriangleMesh = ...,
+        features: FeatureGraph = ...,
+        notes: Sequence[str] = ...,
+        deviation: float = ...,
+        inner_length: float = ...,
     ) -> None: ...
     @property
     def mesh(self) -> TriangleMesh: ...
@@ -253,6 +258,48 @@ class RemeshResult:
     def deviation(self) -> float: ...
     @deviation.setter
     def deviation(self, value: float) -> None: ...
+    @property
+    def inner_length(self) -> float: ...
+    @inner_length.setter
+    def inner_length(self, value: float) -> None: ...
+
+class SizeField:
+    def __init__(
+        self,
+        lengths: ArrayLike = ...,
+        shortest: float = ...,
+        longest: float = ...,
+        triangles: float = ...,
+        tets: float = ...,
+        scale: float = ...,
+        notes: Sequence[str] = ...,
+    ) -> None: ...
+    @property
+    def lengths(self) -> Float64s: ...
+    @lengths.setter
+    def lengths(self, value: ArrayLike) -> None: ...
+    @property
+    def shortest(self) -> float: ...
+    @shortest.setter
+    def shortest(self, value: float) -> None: ...
+    @property
+    def longest(self) -> float: ...
+    @longest.setter
+    def longest(self, value: float) -> None: ...
+    @property
+    def triangles(self) -> float: ...
+    @triangles.setter
+    def triangles(self, value: float) -> None: ...
+    @property
+    def tets(self) -> float: ...
+    @tets.setter
+    def tets(self, value: float) -> None: ...
+    @property
+    def scale(self) -> float: ...
+    @scale.setter
+    def scale(self, value: float) -> None: ...
+    @property
+    def notes(self) -> list[str]: ...
 
 class DirectionConstraints:
     def __init__(
@@ -458,8 +505,19 @@ def remesh(
     *,
     edge_length: float = ...,
     iterations: int = ...,
+    max_cells: float = ...,
     progress: Progress | None = None,
 ) -> RemeshResult: ...
+def size_field(
+    mesh: TriangleMesh,
+    features: FeatureGraph,
+    *,
+    longest: float = ...,
+    shortest: float = ...,
+    angle: float = ...,
+    growth: float = ...,
+    max_cells: float = ...,
+) -> SizeField: ...
 def direction_field(
     mesh: TriangleMesh,
     features: FeatureGraph,

@@ -16,6 +16,7 @@ from .cli_options import (
     InputFile,
     Interfaces,
     Json,
+    MaxCells,
     MaxHoleEdges,
     Output,
     Quiet,
@@ -25,6 +26,7 @@ from .cli_options import (
     Seed,
     Sizes,
     Split,
+    SplitSingular,
     Threads,
     Verbose,
     choices,
@@ -51,6 +53,7 @@ app = typer.Typer(
     name="octafield",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # plain help: tables of rich cut names of options at 80 columns
     help="Frame fields in volumes and on surfaces. Exit code: 0 done, 2 bad input or usage, 130 interrupted, 1 defect.",
 )
 
@@ -85,9 +88,17 @@ def field(
     output: Output,
     sampling: Sampling = _FIELD.sampling,
     representation: Annotated[
-        str, typer.Option(metavar=choices(REPRESENTATIONS), autocompletion=words(REPRESENTATIONS))
+        str,
+        typer.Option(
+            metavar="NAME",
+            autocompletion=words(REPRESENTATIONS),
+            help=f"What is smoothed: {', '.join(REPRESENTATIONS)}. odeco: fourth-order tensors whose axes have length 1; odeco_lengths: their lengths are "
+            "unknown, too (docs/frame_fields.md).",
+        ),
     ] = _FIELD.representation,
-    solver: Annotated[str, typer.Option(metavar="|".join(SOLVERS), autocompletion=words(SOLVERS))] = _FIELD.solver,
+    solver: Annotated[
+        str, typer.Option(metavar="|".join(SOLVERS), autocompletion=words(SOLVERS), help="Of the smoothing; default: what goes with the representation.")
+    ] = _FIELD.solver,
     boundary: Annotated[
         str,
         typer.Option(
@@ -102,6 +113,7 @@ def field(
     features: Features = _FIELD.features,
     feature_angle: FeatureAngle = ANGLE,
     edge_length: EdgeLength = _FIELD.edge_length,
+    max_cells: MaxCells = _FIELD.max_cells,
     remesh: Remesh = _FIELD.remesh,
     repair: Repair = _FIELD.repair,
     max_hole_edges: MaxHoleEdges = _FIELD.max_hole_edges,
@@ -109,6 +121,7 @@ def field(
     wrap_offset: WrapOffset = _FIELD.wrap_offset,
     interfaces: Interfaces = _FIELD.interfaces,
     split: Split = _FIELD.split,
+    split_singular: SplitSingular = _FIELD.split_singular,
     rounds: Annotated[int, typer.Option(metavar="K", help="Rounds of diffusion and polish.")] = _FIELD.rounds,
     streamlines: Annotated[
         int, typer.Option(metavar="N", help="Seeds of streamlines.vtp, three curves each; 0: none.")
@@ -141,11 +154,12 @@ def field(
             rounds=rounds,
             streamlines=streamlines,
             sizes=sizes,
+            split_singular=split_singular,
             seed=seed,
             threads=threads,
             **mesh_options(
                 features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split,
-                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset,
+                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset, max_cells=max_cells,
             ),  # fmt: skip
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
@@ -191,6 +205,7 @@ def surface_field(
         float, typer.Option(metavar="DEG", help="Feature edges that bend by less are not followed, degrees.")
     ] = math.degrees(_SURFACE.least_feature_angle),
     edge_length: EdgeLength = _SURFACE.edge_length,
+    max_cells: MaxCells = _SURFACE.max_cells,
     remesh: Remesh = _SURFACE.remesh,
     repair: Repair = _SURFACE.repair,
     max_hole_edges: MaxHoleEdges = _SURFACE.max_hole_edges,
@@ -219,7 +234,7 @@ def surface_field(
             seed=seed,
             **mesh_options(
                 features, feature_angle, edge_length, remesh, repair,
-                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset,
+                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset, max_cells=max_cells,
             ),  # fmt: skip
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:

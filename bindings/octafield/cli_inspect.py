@@ -8,7 +8,7 @@ import typer
 
 from . import console, tables
 from .cli_options import (
-    EdgeLength, FeatureAngle, Features, InputFile, Interfaces, Json, MaxHoleEdges, Quiet, Remesh, Repair, Split, Verbose, WrapAlpha, WrapOffset,
+    EdgeLength, FeatureAngle, Features, InputFile, Interfaces, Json, MaxCells, MaxHoleEdges, Quiet, Remesh, Repair, Split, Verbose, WrapAlpha, WrapOffset,
 )  # fmt: skip
 from .console import carry_out, log
 from .errors import InvalidInput
@@ -26,6 +26,7 @@ def info(
     features: Features = _MESH.features,
     feature_angle: FeatureAngle = _ANGLE,
     edge_length: EdgeLength = _MESH.edge_length,
+    max_cells: MaxCells = _MESH.max_cells,
     remesh: Remesh = _MESH.remesh,
     repair: Repair = _MESH.repair,
     max_hole_edges: MaxHoleEdges = _MESH.max_hole_edges,
@@ -37,7 +38,7 @@ def info(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """What was read, and pass, warn or fail of each requirement with the remedy; exit code 2 when one fails."""
+    """What a file holds, and whether it is fit for a field. Pass, warn or fail of each requirement, with the remedy; exit code 2 when one fails."""
 
     def work() -> None:
         from .info import PASS, examine, first_failure
@@ -53,6 +54,7 @@ def info(
             max_hole_edges=max_hole_edges,
             wrap_alpha=wrap_alpha,
             wrap_offset=wrap_offset,
+            max_cells=max_cells,
         )
         record = examine(input, options)
         if json:
@@ -73,7 +75,7 @@ def info(
 
 @app.command()
 def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
-    """Representations of a frame and metrics on frames, by the names that options and functions take."""
+    """Names of representations and of metrics on frames. Options and functions take them."""
 
     def work() -> None:
         from . import metrics
@@ -96,7 +98,7 @@ def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = 
 
 @app.command()
 def doctor(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
-    """Versions, libraries, cores, memory, and a small run of every part of this installation; exit code 1 when one fails."""
+    """Whether this installation works. Versions, libraries, cores, memory, and a small run of every part; exit code 1 when one fails."""
 
     def work() -> None:
         from .doctor import examine
@@ -122,7 +124,7 @@ def view(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """The singular curves of a result inside its surface, in a window."""
+    """The singular curves of a result, in a window or a PNG."""
 
     def work() -> None:
         from .display import view_folder

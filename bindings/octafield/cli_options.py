@@ -65,8 +65,9 @@ Features = Annotated[
 ]
 FeatureAngle = Annotated[float, typer.Option(metavar="DEG", help="Angle between normals at a feature edge, degrees.")]
 EdgeLength = Annotated[
-    float, typer.Option(metavar="LENGTH", help="Target edge length of remeshing, input unit; 0: from the size.")
+    float, typer.Option(metavar="LENGTH", help="Target edge length of remeshing, input unit; 0: lengths that fit the shape.")
 ]
+MaxCells = Annotated[int, typer.Option(metavar="N", help="Without --edge-length: triangles and tets to stay within; 0: 200,000.")]
 Remesh = Annotated[bool, typer.Option("--remesh/--no-remesh", help="Remesh a surface, or keep its triangles.")]
 Repair = Annotated[
     str,
@@ -81,6 +82,9 @@ Interfaces = Annotated[
     bool, typer.Option("--interfaces/--no-interfaces", help="Follow the interfaces between regions of a tet mesh.")
 ]
 Split = Annotated[bool, typer.Option("--split", help="Split inner edges and tets that join the surface to itself.")]
+SplitSingular = Annotated[
+    bool, typer.Option("--split-singular", help="Split inner edges that join singular vertices without being singular; frames are in tets.")
+]
 Sampling = Annotated[str, typer.Option(metavar=choices(SAMPLINGS), autocompletion=words(SAMPLINGS), help="Where the frames live.")]
 Sizes = Annotated[
     str, typer.Option(metavar="|".join(SIZES), autocompletion=words(SIZES), help="Lengths of the axes that leave least curl, and that curl.")

@@ -13,6 +13,7 @@ from .cli_options import (
     InputFiles,
     Interfaces,
     Json,
+    MaxCells,
     MaxHoleEdges,
     Output,
     Quiet,
@@ -49,7 +50,7 @@ def compare(
         typer.Option(
             metavar="all|A,B",
             autocompletion=lists(REPRESENTATIONS, "all"),
-            help=f"Of: {choices(REPRESENTATIONS)}; all: {', '.join(COMPARED)}.",
+            help=f"Of: {', '.join(REPRESENTATIONS)}; all: {', '.join(COMPARED)}.",
         ),
     ] = "all",
     boundaries: Annotated[
@@ -68,6 +69,7 @@ def compare(
     features: Features = _FIELD.features,
     feature_angle: FeatureAngle = ANGLE,
     edge_length: EdgeLength = _FIELD.edge_length,
+    max_cells: MaxCells = _FIELD.max_cells,
     remesh: Remesh = _FIELD.remesh,
     repair: Repair = _FIELD.repair,
     max_hole_edges: MaxHoleEdges = _FIELD.max_hole_edges,
@@ -95,7 +97,7 @@ def compare(
             threads=threads,
             **mesh_options(
                 features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split,
-                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset,
+                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset, max_cells=max_cells,
             ),  # fmt: skip
         )
         chosen = COMPARED if representations == "all" else _listed(representations)

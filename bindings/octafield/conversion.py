@@ -14,7 +14,9 @@ from .files import plain_name
 from .formats.meshes import MESH_SUFFIXES, write_mesh
 from .formats.registry import FORMATS, READERS, WRITERS, find_format
 from .inputs import SURFACE_SUFFIXES, Input, from_mesh, naming, read_input
-from .options import SIZES, require_one_of
+from .meshing import REPAIR_IGNORED
+from .options import SIZES, MeshOptions, require_one_of
+from .repairing import level_of, repair_surface
 from .sizes import with_sizes
 
 
@@ -48,11 +50,13 @@ def convert_file(
     sizes: str = "none",
     cell_edge: float | str | None = None,
     split_singular: bool = False,
+    repair: MeshOptions = MeshOptions(repair="none"),
 ) -> Conversion:
     """Reads a mesh or a field, writes the other file. mesh: of the frames, where their file has none. from_format, to_format: names of
     octafield.frame_formats, where the extensions do not tell. at: "vertices" or "tets", where the frames shall be. combed: as of write_frames. edge_length: of triangles on CAD
     models. sizes: "isotropic" or "axes" (see octafield.FieldOptions): lengths of the axes, where the file can hold them. cell_edge: as of write_frames. split_singular: edges inside
-    between singular vertices are split first (octafield.split_between_singular), and the frames are those of the tets."""
+    between singular vertices are split first (octafield.split_between_singular), and the frames are those of the tets. repair: its level and bounds are for a
+    surface, as octafield.prepare_mesh takes them for one that is to be closed; what the level leaves unsound is noted."""
     require_one_of("sizes", sizes, SIZES)
     source, target = Path(source), Path(target)
     frames = _frames(source, mesh, from_format)
@@ -60,6 +64,8 @@ def convert_file(
         kinds = " ".join(sorted({*MESH_SUFFIXES, *(e for name in WRITERS for e in FORMATS[name].extensions)}))
         raise IoError(f"{target}: unknown kind of file; known are {kinds}, also .gz")
     if frames is not None and (to_format is not None or _writes_frames(target)):
+        if repair.repair != "none":
+            raise InvalidInput(f"{source}: holds frames on a tet mesh; repair works on surfaces only, leave it out", "option_not_used")
         if split_singular:
             frames = _split(frames, find_format(target, to_format, to_write=True), at)
         curls: dict[str, Any] = {}
@@ -75,7 +81,7 @@ def convert_file(
         return Conversion(str(source), str(target), "field", count, cells, number, written, _degrees(frames.deviation), frames.notes + notes, sizes=curls)
     if not _is_mesh(target) or to_format is not None or (frames is None and at is not None) or combed or sizes != "none" or cell_edge is not None or split_singular:
         raise InvalidInput(f"{source}: holds no frames to write" if frames is None else f"{target}: cannot hold frames", "no_frames")
-    return _convert_mesh(source, target, frames, mesh, edge_length)
+    return _convert_mesh(source, target, frames, mesh, edge_length, repair)
 
 
 def _split(found: FrameFile, writer: FrameFormat, at: str | None) -> FrameFile:
@@ -100,9 +106,11 @@ def _split(found: FrameFile, writer: FrameFormat, at: str | None) -> FrameFile:
     )  # fmt: skip
 
 
-def _convert_mesh(source: Path, target: Path, frames: FrameFile | None, mesh: str | Path | None, edge_length: float) -> Conversion:
+def _convert_mesh(source: Path, target: Path, frames: FrameFile | None, mesh: str | Path | None, edge_length: float, repair: MeshOptions) -> Conversion:
     found = _mesh_of(source, frames, mesh, edge_length)
     with naming(found.name):
+        if repair.repair != "none":
+            _repair(found, repair)
         notes = [*found.notes, *write_mesh(target, found)]
     if found.lines is not None and not found.lines_are_features():
         notes.append("the file's lines list mesh edges in general: they were left out")
@@ -111,6 +119,16 @@ def _convert_mesh(source: Path, target: Path, frames: FrameFile | None, mesh: st
     if found.tets is None or plain_name(target).endswith((*SURFACE_SUFFIXES, ".vtp")):
         return Conversion(str(source), str(target), "surface", len(found.surface.vertices), len(found.surface.triangles), notes=notes)
     return Conversion(str(source), str(target), "tets", len(found.tets.vertices), len(found.tets.tets), notes=notes)
+
+
+def _repair(found: Input, options: MeshOptions) -> None:
+    if found.tets is not None:
+        found.notes.append(REPAIR_IGNORED)
+        return
+    repair_surface(found, options)
+    left = _core.find_defects(found.surface)
+    if left:
+        found.notes.append(f"after --repair {level_of(found, options)}: {left[0].message}" + (f"; {len(left) - 1} more" if len(left) > 1 else ""))
 
 
 def _mesh_of(source: Path, frames: FrameFile | None, mesh: str | Path | None, edge_length: float) -> Input:

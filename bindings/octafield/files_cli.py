@@ -8,11 +8,13 @@ from typing import Annotated
 import typer
 
 from . import console, tables
-from .cli_options import EdgeLength, FeatureAngle, Features, Interfaces, Json, Quiet, Sizes, Threads, Verbose, choices
+from .cli_options import (
+    EdgeLength, FeatureAngle, Features, Interfaces, Json, MaxHoleEdges, Quiet, Sizes, SplitSingular, Threads, Verbose, WrapAlpha, WrapOffset, choices,
+)  # fmt: skip
 from .completion import words
 from .console import carry_out, log
 from .errors import InvalidInput
-from .options import SAMPLINGS, SIZES, FieldOptions
+from .options import REPAIRS, SAMPLINGS, SIZES, FieldOptions, MeshOptions
 
 _FIELD = FieldOptions()
 MeshFile = Annotated[
@@ -37,12 +39,16 @@ def convert(
     edge_length: EdgeLength = 0.0,
     sizes: Annotated[str, typer.Option(metavar="|".join(SIZES), autocompletion=words(SIZES), help="Lengths of the axes that leave least curl, into the file.")] = _FIELD.sizes,
     cell_edge: Annotated[str | None, typer.Option(metavar="LENGTH|auto", help="Edge of the cells to make, into the lengths of axes; auto: the mean edge of the tets.")] = None,
-    split_singular: Annotated[bool, typer.Option("--split-singular", help="Split inner edges that join singular vertices without being singular.")] = False,
+    split_singular: SplitSingular = False,
+    repair: Annotated[str, typer.Option(metavar=choices(REPAIRS), autocompletion=words(REPAIRS), help="Repair a surface, up to this level; every action is reported.")] = "none",
+    max_hole_edges: MaxHoleEdges = _FIELD.max_hole_edges,
+    wrap_alpha: WrapAlpha = _FIELD.wrap_alpha,
+    wrap_offset: WrapOffset = _FIELD.wrap_offset,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """A mesh or a field from one kind of file to another, features and regions with it where the file holds them."""
+    """A mesh or a field from one kind of file to another. Features and regions go with it where the file holds them."""
 
     def work() -> None:
         from .conversion import convert_file
@@ -50,6 +56,7 @@ def convert(
         done = convert_file(
             input, output, mesh=mesh, from_format=source, to_format=target, at=at, combed=combed, edge_length=edge_length, sizes=sizes,
             cell_edge=_cell_edge(cell_edge), split_singular=split_singular,
+            repair=MeshOptions(repair=repair, max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset),
         )
         for note in done.notes:
             log.info("%s: %s", input, note)
@@ -84,8 +91,8 @@ def analyse(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Singular curves, energy, alignment and meshability of a field that another program made. DIR gets what `octafield field` writes of
-    the volume."""
+    """A field that another program made, judged as our own. Singular curves, energy, alignment and meshability; DIR gets what
+    `octafield field` writes of the volume."""
 
     def work() -> None:
         from .field_files import analyse_file

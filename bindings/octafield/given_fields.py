@@ -31,7 +31,7 @@ def given_fields(inputs: Sequence[SoundInput], fields: Mapping[str, FieldSource]
     if not fields:
         return []
     mesh = inputs[0].found
-    if len(inputs) != 1 or options.split or mesh.tets is None:
+    if len(inputs) != 1 or options.split or options.split_singular or mesh.tets is None:
         raise InvalidInput("fields that are given belong to one tet mesh: make it the only input, and leave splitting out", "not_tets")
     found = []
     for name, source in fields.items():

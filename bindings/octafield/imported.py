@@ -83,7 +83,7 @@ def analyse(
     """
     if where not in SITES:
         raise InvalidInput(f"where must be one of: {', '.join(SITES)}; not {where!r}", "unknown_option_value")
-    if options.split:
+    if options.split or options.split_singular:
         raise InvalidInput("splitting makes another mesh than the frames belong to; leave it out", "option_out_of_range")
     meshed = mesh if isinstance(mesh, MeshedInput) else prepare_mesh(mesh, options, progress=progress)
     if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -32,6 +33,26 @@ def split_on_request(mesh: Input | MeshedInput, options: MeshOptions) -> dict[st
         "added_tets": len(split.parent) - len(np.unique(split.parent)),
         "left": len(split.left),
     }
+
+
+def split_between_singular(
+    mesh: MeshedInput, frames: np.ndarray, lengths: np.ndarray | None, threads: int
+) -> tuple[MeshedInput, np.ndarray, np.ndarray | None, np.ndarray, dict[str, Any]]:
+    """A field in the tets on a mesh whose edges between singular vertices are split: mesh, frames, lengths, (m,) tet that each is part of, and counts. Vertices
+    and features of the surface stay; its triangles come in the order of the new tets."""
+    tets, boundary, _ = mesh.volume()
+    split = _core.split_between_singular(tets, boundary, frames, threads=threads)
+    parent = np.asarray(split.parent)
+    finer = replace(mesh, tets=split.mesh)
+    with_regions(finer, None if mesh.regions is None else np.asarray(mesh.regions)[parent])
+    finer.surface = mesh.surface
+    counts = {
+        "edges": len(split.edges),
+        "left": len(split.left),
+        "added_vertices": split.added_vertices,
+        "added_tets": len(parent) - len(tets.tets),
+    }
+    return finer, frames[parent], None if lengths is None else lengths[parent], parent, counts
 
 
 def _locking_record(found: LockingElements) -> dict[str, Any]:

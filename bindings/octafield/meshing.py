@@ -18,6 +18,7 @@ from .repairing import message_with_remedy, repair_surface
 
 Array = np.ndarray[Any, Any]
 Source = str | Path | TriangleMesh | TetMesh
+REPAIR_IGNORED = "repair was ignored: it works on surfaces only"
 TOUCHING = ("non_manifold_edge", "non_manifold_vertex")  # kinds of defects that the boundary of tets may have
 
 
@@ -28,7 +29,7 @@ class MeshedInput:
     Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too. There,
     and where the boundary touches itself, `surface` is `boundary` cut into sheets: manifold, each vertex a copy of vertex `sheet_map` of the boundary. features are
     those of `surface`, boundary_features those of `boundary`. locking: counts of what split_locking is for. options: what it was
-    prepared with.
+    prepared with. inner_length: of edges far inside where those of the surface are graded, input unit; else 0.
     """
 
     name: str
@@ -47,6 +48,7 @@ class MeshedInput:
     sheet_map: np.ndarray | None = None
     locking: dict[str, Any] = field(default_factory=dict)
     options: MeshOptions | None = None
+    inner_length: float = 0.0
 
     def __repr__(self) -> str:
         return display.meshed_line(self)
@@ -257,9 +259,11 @@ def _remesh(meshed: MeshedInput, options: MeshOptions, progress: Progress | None
         meshed.surface,
         meshed.features,
         edge_length=options.edge_length,
+        max_cells=options.cells,
         progress=forward(progress, "mesh", 0, 0.7 if volume else 1),
     )
     meshed.surface, meshed.features = result.mesh, result.features
+    meshed.inner_length = result.inner_length
     meshed.notes += result.notes
 
 
@@ -279,7 +283,7 @@ def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: Mes
         notes = len(meshed.notes)
         try:
             result = _core.remesh(surface, features, edge_length=shorter * length)
-            meshed.surface, meshed.features = result.mesh, result.features
+            meshed.surface, meshed.features, meshed.inner_length = result.mesh, result.features, result.inner_length
             meshed.notes += result.notes
             _fill(meshed, progress, options)
         except GeometryError:
@@ -294,7 +298,7 @@ def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: Mes
 def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) -> None:
     announce(progress, "mesh", 0.7)
     count = len(meshed.surface.vertices)
-    meshed.tets = _core.tetrahedralize(meshed.surface, notes=meshed.notes)
+    meshed.tets = _core.tetrahedralize(meshed.surface, edge_length=meshed.inner_length, notes=meshed.notes)
     meshed.boundary = _core.boundary_surface(meshed.tets)
     if not np.array_equal(np.asarray(meshed.boundary.vertex_map), np.arange(count)):
         raise GeometryError("the tet mesh does not keep the vertices of the surface; please report this input")
@@ -307,4 +311,4 @@ def _note_unused(meshed: MeshedInput, options: MeshOptions, of_cad: bool) -> Non
     if options.edge_length > 0 and not of_cad:
         meshed.notes.append("the edge length was ignored: tet meshes are kept as they are")
     if options.repair not in ("default", "none"):
-        meshed.notes.append("repair was ignored: it works on surfaces only")
+        meshed.notes.append(REPAIR_IGNORED)

@@ -1,5 +1,5 @@
-"""How results show themselves in Jupyter: a scene to turn where pyvista has a backend for it (pip install 'octafield[notebook]'),
-else a picture, and the main figures beside it; the figures alone without OpenGL.
+"""How results show themselves in Jupyter: a scene to turn where pyvista has a backend for it that works (pip install 'octafield[notebook]'),
+and always a picture, which stays where the notebook is saved, with the main figures beside it; the figures alone without OpenGL.
 
 pyvista decides: pyvista.set_jupyter_backend("static") asks for pictures, "html" for scenes that stay in exported notebooks.
 """
@@ -9,6 +9,8 @@ from __future__ import annotations
 import base64
 import html
 import importlib.util
+import logging
+import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +18,8 @@ import numpy as np
 
 from . import _core
 from ._core import SingularGraph, TetMesh, TriangleMesh
+
+log = logging.getLogger("octafield")
 
 if TYPE_CHECKING:
     import pyvista
@@ -41,16 +45,32 @@ def html_of(value: Any) -> str:
 
 
 def display_live(value: Any) -> None:
-    """For _ipython_display_: a scene to turn and the figures. NotImplementedError, which is IPython's word for it: there is no backend, IPython then asks
-    for the HTML above."""
+    """For _ipython_display_: a scene to turn, then the HTML above: the scene is gone when its kernel is. NotImplementedError, which is IPython's word
+    for it: there is no backend or it does not work, IPython then asks for the HTML alone."""
     if type(value).__name__ == "Comparison" or not live_backend() or not _can_draw():
         raise NotImplementedError
     from IPython.display import HTML, display  # type: ignore[import-not-found, unused-ignore]
 
-    title, facts = describe(value)
-    viewer = scene_of(value).show(return_viewer=True)
+    viewer = _viewer(value)
+    if viewer is None:
+        raise NotImplementedError
     display(viewer)
-    display(HTML(f"<div><b>{html.escape(title)}</b>{_table(facts)}</div>"))
+    display(HTML(html_of(value)))
+
+
+def _viewer(value: Any) -> Any:
+    """What pyvista shows of the scene; None where that is a picture, or the backend fails in whatever way it has."""
+    import PIL.Image
+
+    scene = scene_of(value)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # pyvista's advice where it falls back itself
+            shown = scene.show(return_viewer=True)
+    except Exception as error:
+        log.warning("no scene to turn, but a picture: %s", error)
+        return None
+    return None if isinstance(shown, PIL.Image.Image) else shown
 
 
 def live_backend() -> bool:

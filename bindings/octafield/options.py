@@ -53,6 +53,12 @@ def _make_integer(options: object, name: str, low: int, high: int, note: str = "
     object.__setattr__(options, name, integer_in(name.replace("_", " "), getattr(options, name), low, high, note))
 
 
+def _make_boolean(options: object, name: str) -> None:
+    value = getattr(options, name)
+    _require(isinstance(value, (bool, np.bool_)), f"{name} must be true or false, not {value!r}")
+    object.__setattr__(options, name, bool(value))
+
+
 def integer_in(name: str, value: Any, low: int, high: int, note: str = "") -> int:
     valid = isinstance(value, numbers.Integral) and low <= int(value) <= high
     _require(valid, f"{name} must be an integer in {low} .. {high}{note}, not {value!r}")
@@ -66,7 +72,8 @@ class MeshOptions:
     features: "file" (line cells of the file), "angle" (dihedral angle), "none",
         "default": file when it marks some, else angle.
     feature_angle: radians in (0, pi), between the normals of two triangles at a feature edge.
-    edge_length: target of surface remeshing, input unit; 0: from the shape (see remesh).
+    edge_length: target of surface remeshing, input unit; 0: lengths that fit the shape (see remesh, size_field).
+    max_cells: without an edge length, triangles and tets that those lengths may ask for; 0: 200,000.
     remesh: False keeps the triangles of a surface. Tet meshes are always kept as they are.
     repair: level of the repair of a surface before it is tested (octafield.repair), each action recorded; "default": "merge" for STL,
         "none" otherwise. True stands for "safe", False for "none".
@@ -86,6 +93,7 @@ class MeshOptions:
     max_hole_edges: int = 0
     wrap_alpha: float = 0.0
     wrap_offset: float = 0.0
+    max_cells: int = 0
 
     def __repr__(self) -> str:
         return display.options_line(self)
@@ -96,16 +104,21 @@ class MeshOptions:
             object.__setattr__(self, "repair", "safe" if self.repair else "none")
         require_one_of("repair", self.repair, REPAIRS)
         _make_integer(self, "max_hole_edges", 0, LARGEST_INT, " (0: no bound)")
+        _make_integer(self, "max_cells", 0, LARGEST_INT, " (0: default)")
         for name in ("wrap_alpha", "wrap_offset"):
             _require(math.isfinite(getattr(self, name)) and getattr(self, name) >= 0, f"{name.replace('_', ' ')} must be positive (0: default)")
         for name in ("remesh", "interfaces", "split"):
-            value = getattr(self, name)
-            _require(isinstance(value, (bool, np.bool_)), f"{name} must be true or false, not {value!r}")
-            object.__setattr__(self, name, bool(value))
+            _make_boolean(self, name)
         _require(0 < self.feature_angle < math.pi, "the feature angle must lie between 0 and 180 degrees")
         _require(
             math.isfinite(self.edge_length) and self.edge_length >= 0, "the edge length must be positive (0: default)"
         )
+        _require(self.edge_length == 0 or self.max_cells == 0, "an edge length decides the number of cells: leave it or max_cells out")
+
+    @property
+    def cells(self) -> int:
+        """max_cells, or what 0 stands for."""
+        return self.max_cells or int(default_of("remesh", "max_cells"))
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -164,6 +177,8 @@ class FieldOptions(MeshOptions):
     tolerance: see octafield.frame_field. streamlines: so many seeds of curves along the three axes, spread over the
     volume (octafield.spread_points), go into streamlines.vtp; 0: none. sizes: lengths of the axes for which the field is closest to the
     gradients of a map, "isotropic" (one for all three, octafield.isotropic_scale) or "axes" (octafield.axis_scales); "none": not computed.
+    split_singular: with sampling "tets"; edges inside that join singular vertices without being singular are split after the field is found
+        (octafield.split_between_singular): tets are more than those it was computed on, each with the frame of the tet it is part of.
 
     Raises InvalidInput.
 
@@ -188,10 +203,16 @@ class FieldOptions(MeshOptions):
     tolerance: float = default_of("smooth", "tolerance")
     streamlines: int = 30
     sizes: str = "none"
+    split_singular: bool = False
 
     def __post_init__(self) -> None:
         super().__post_init__()
         require_one_of("sampling", self.sampling, SAMPLINGS)
+        _make_boolean(self, "split_singular")
+        _require(
+            self.sampling == "tets" or not self.split_singular,
+            "singular edges are split by frames in the tets: split_singular (--split-singular) needs sampling 'tets' (--sampling tets)",
+        )
         require_one_of("representation", self.representation, REPRESENTATIONS)
         require_one_of("solver", self.solver, SOLVERS)
         require_one_of("boundary", self.boundary, (*BOUNDARIES, OF_A_START))

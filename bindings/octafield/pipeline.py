@@ -21,6 +21,7 @@ from ._core import BoundaryConstraints, DirectionField, Streamline, SurfaceSingu
 from .analysis import constraint_counts, counts_by_index, spread
 from .errors import InvalidInput
 from .imported import AnalysedField, judged
+from .locking import split_between_singular
 from .meshing import MeshedInput, Source, load_surface, prepare_mesh
 from .options import OF_A_START, FieldOptions, MeshOptions, SurfaceFieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
@@ -66,13 +67,16 @@ class Problem:
 
 @dataclass(repr=False, kw_only=True)
 class FieldResult(AnalysedField):
-    """A frame field and what led to it: the cross field on the surface, and the constraints, on vertices or, with sampling "tets", tets."""
+    """A frame field and what led to it: the cross field on the surface, and the constraints, on vertices or, with sampling "tets", tets.
+
+    parent: with the option split_singular, (m,) tet of the mesh the field was computed on, which constraints are of, that each tet is part of; else None."""
 
     direction_field: DirectionField
     directions: np.ndarray
     singularities: SurfaceSingularities
     separatrices: Sequence[Streamline]
     constraints: BoundaryConstraints
+    parent: np.ndarray | None = None
 
     def __repr__(self) -> str:
         return display.field_line(self)
@@ -176,9 +180,15 @@ def run(
         **{name: getattr(options, name) for name in ("representation", "solver", "boundary")},
         "seed": problem.seed,
     }
-    found = judged(meshed, np.asarray(smoothed.frames), options, clock, memory, progress, about, lengths)
+    frames, parent, split = np.asarray(smoothed.frames), None, {}
+    if options.split_singular:
+        with clock.phase("analyse"):
+            meshed, frames, lengths, parent, counts = split_between_singular(meshed, frames, lengths, options.threads)
+        split = {"split_singular": counts}
+    found = judged(meshed, frames, options, clock, memory, progress, about, lengths)
     found.record |= {
         **({} if lengths is None else {"lengths": spread(lengths)}),
+        **split,
         "peak_mb": max(found.record["peak_mb"], round(problem.peak_mb, 1)),
         "objective": float(smoothed.objective),
         "iterations": smoothed.iterations,
@@ -207,6 +217,7 @@ def run(
         singularities=problem.singularities,
         separatrices=problem.separatrices,
         constraints=held,
+        parent=parent,
     )
 
 

@@ -49,14 +49,16 @@ def message_with_remedy(message: str, kind: str, found: Input, options: MeshOpti
         return f"{fact}; correct the tet mesh where it was made"
     if kind in _BEYOND_REPAIR:
         return message
-    return f"{fact}; {remedy(advice or advise(found, options, closed), level_of(found, options))}"
+    where = "correct the surface where it was made"
+    if kind == "not_closed":
+        where = f"{'export the model as solids' if found.of_cad else where}, or take octafield surface-field, which needs no volume"
+    return f"{fact}; {remedy(advice or advise(found, options, closed), level_of(found, options), where)}"
 
 
-def remedy(advice: RepairAdvice, done: str) -> str:
-    """done: the level that was applied before."""
+def remedy(advice: RepairAdvice, done: str, where: str) -> str:
+    """done: the level that was applied before. where: what to do where no level helps."""
     if advice.level != "none":
         return f"--repair {advice.level} makes it sound ({', '.join(advice.actions)})"
-    where = "correct the surface where it was made"
     if advice.not_tried:
         return f"--repair merge, safe and fill do not make it sound, and {advice.not_tried}; {where}"
     left = advice.left[0].message.partition("; ")[0] if advice.left else ""

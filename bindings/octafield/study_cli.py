@@ -13,7 +13,7 @@ from .console import carry_out, log
 if TYPE_CHECKING:
     from .study import Status, Study
 
-app = typer.Typer(no_args_is_help=True, help="Comparisons described by a file: run, resume after any interruption, report.")
+app = typer.Typer(no_args_is_help=True, help="Comparisons that a file describes. They go on after any interruption.")
 
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a study.")]
 Jobs = Annotated[int, typer.Option(metavar="N", help="Processes at once; 0: one per core.")]
@@ -38,7 +38,7 @@ def run(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Carries out what DIR does not hold yet, then writes report.html there."""
+    """Carries out what DIR does not hold yet. Then writes report.html there."""
 
     def work() -> None:
         from .study.description import load
@@ -73,7 +73,7 @@ def resume(
 
 @app.command()
 def status(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
-    """How many runs are done, failed, crashed and open; with --json also the records of the finished ones."""
+    """How many runs are done, failed, crashed and open. With --json also the records of the finished ones."""
 
     def work() -> None:
         from .study import results
@@ -85,7 +85,7 @@ def status(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Ver
 
 @app.command()
 def report(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
-    """Writes report.html and tables/ from the runs finished so far; with --json the document of status, and what was written."""
+    """Writes report.html and tables/ from the finished runs. With --json the document of status, and what was written."""
 
     def work() -> None:
         from .study import results

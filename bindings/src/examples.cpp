@@ -73,6 +73,11 @@ constexpr Example of_meshes[] = {
     >>> finer = octafield.remesh(box, octafield.detect_features(box), edge_length=0.25)
     >>> bool(octafield.mean_edge_length(finer.mesh) < 0.3), len(finer.features.corners)
     (True, 8))"},
+    {"size_field", R"(
+    >>> cylinder = generate("cylinder", radius=0.05, height=3.0)
+    >>> sizes = octafield.size_field(cylinder, octafield.detect_features(cylinder))
+    >>> bool(sizes.lengths.min() < 0.02), bool(sizes.longest > 0.1)
+    (True, True)"},
     {"tetrahedralize", R"(
     >>> tets = octafield.tetrahedralize(generate("box"))
     >>> round(float(octafield.tet_volumes(tets).sum()), 12)

@@ -52,8 +52,8 @@ void bind_elementary(py::module_& m) {
                 "one triangle.",
                 true);
     def_of_mesh(m, "default_edge_length", default_edge_length,
-                "The target that octafield.remesh tries first where none is given, input unit: 1/25 of "
-                "octafield.shape_size. Needs at least one triangle.",
+                "The length of octafield.remesh where none is given and the shape asks for no shorter one "
+                "(octafield.size_field), input unit: 1/25 of octafield.shape_size. Needs at least one triangle.",
                 true);
     def_of_mesh(m, "euler_characteristic", euler_characteristic,
                 "V - E + F over the vertices in use. Raises GeometryError where edge_topology does.");
@@ -228,8 +228,10 @@ void bind_remesh(py::module_& m) {
     m.def(
         "remesh",
         [](const TriangleMesh& mesh, const FeatureGraph& features, double edge_length, int iterations,
-           const std::optional<ProgressCallable>& progress) {
-            const RemeshOptions options{.edge_length = finite(edge_length, "edge_length"), .iterations = iterations};
+           double max_cells, const std::optional<ProgressCallable>& progress) {
+            const RemeshOptions options{.edge_length = finite(edge_length, "edge_length"),
+                                        .iterations = iterations,
+                                        .max_cells = finite(max_cells, "max_cells")};
             return run_interruptible(
                 [mesh = mesh, features = features, options](Job& job) mutable {
                     check(mesh);
@@ -239,12 +241,35 @@ void bind_remesh(py::module_& m) {
                 progress);
         },
         "mesh"_a, "features"_a, py::kw_only(), "edge_length"_a = defaults.edge_length,
-        "iterations"_a = defaults.iterations, "progress"_a = py::none(),
-        "Isotropic remeshing to a target edge length, features kept (Botsch, Kobbelt 2004), as a RemeshResult. The "
-        "input must be valid, and the result is, with the same topology: where triangles of that length would cross, "
-        "shorter ones are tried, and the input's are kept where none are sound. edge_length: input unit; 0 means "
-        "octafield.default_edge_length, or less where the new surface would leave the input's by more than 1/400 of "
-        "octafield.shape_size or change its volume by more than 1 %. iterations: rounds, at least 1.");
+        "iterations"_a = defaults.iterations, "max_cells"_a = defaults.max_cells, "progress"_a = py::none(),
+        "Isotropic remeshing, features kept (Botsch, Kobbelt 2004), as a RemeshResult. The input must be valid, and the "
+        "result is, with the same topology. edge_length: input unit; 0 means lengths that fit the shape "
+        "(octafield.size_field, with max_cells), lowered where triangles would cross, or the new surface would leave "
+        "the input's by more than 1/400 of octafield.shape_size or change its volume by more than 1 %. A length that "
+        "is given is shortened only where the surface would not be sound; the input's triangles are kept where none "
+        "is. iterations: rounds, at least 1. max_cells: without a length, triangles (and tets inside) to be expected.");
+    const SizeFieldOptions sizes;
+    m.def(
+        "size_field",
+        [](const TriangleMesh& mesh, const FeatureGraph& features, double longest, double shortest, double angle,
+           double growth, double max_cells) {
+            const SizeFieldOptions options{finite(longest, "longest"), finite(shortest, "shortest"),
+                                           finite(angle, "angle"), finite(growth, "growth"),
+                                           finite(max_cells, "max_cells")};
+            return run_interruptible([mesh = mesh, features = features, options](Job& job) mutable {
+                check(mesh);
+                check(features, mesh);
+                return size_field(mesh, features, options, job.progress());
+            });
+        },
+        "mesh"_a, "features"_a, py::kw_only(), "longest"_a = sizes.longest, "shortest"_a = sizes.shortest,
+        "angle"_a = sizes.angle, "growth"_a = sizes.growth, "max_cells"_a = sizes.max_cells,
+        "Edge lengths that fit a surface, as a SizeField: what octafield.remesh starts from where no length is given. "
+        "At each vertex angle (radians, the turn along one edge) over the curvature, twice the width of walls, gaps "
+        "and strips between feature curves, within shortest (0: 1/16 of longest) and longest (0: "
+        "octafield.default_edge_length), changing by at most growth per distance. Where more than max_cells triangles "
+        "or tets would be needed, all lengths are multiplied by one number, and a note says so. The mesh must be "
+        "valid. Raises InvalidInput, GeometryError.");
 }
 
 }  // namespace

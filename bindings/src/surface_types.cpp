@@ -73,6 +73,21 @@ void bind_results(py::module_& m) {
             return a.level + ", " + count(static_cast<std::ptrdiff_t>(a.actions.size()), "action");
         });
 
+    Record<SizeField>(m, "SizeField", "Edge lengths that fit a surface, and the cells to be expected with them.")
+        .field("lengths", &SizeField::lengths, "(V,) float64, input unit.")
+        .field("shortest", &SizeField::shortest, "The shortest, also inside large triangles, input unit.")
+        .field("longest", &SizeField::longest, "The largest possible length, of edges far inside too, input unit.")
+        .field("triangles", &SizeField::triangles, "Triangles to be expected.")
+        .field("tets", &SizeField::tets, "Tets to be expected; 0 in an open surface.")
+        .field("scale", &SizeField::scale, "Above 1: by which lengths were multiplied to keep max_cells.")
+        .field("notes", &SizeField::notes, "That lengths are not all alike, and what max_cells costs.")
+        .finish([](const SizeField& s) {
+            const std::string range = s.lengths.size() == 0 ? ""
+                                                            : ", " + number(s.lengths.minCoeff()) + " to " +
+                                                                  number(s.lengths.maxCoeff());
+            return count(s.lengths.size(), "length") + range;
+        });
+
     Record<RemeshResult>(m, "RemeshResult", "A remeshed surface and its features.")
         .field("mesh", &RemeshResult::mesh, "The new TriangleMesh.")
         .field("features", &RemeshResult::features,
@@ -81,6 +96,8 @@ void bind_results(py::module_& m) {
                "Where the edges are shorter than wanted, and why, or the surface is not quite the input's.")
         .field("deviation", &RemeshResult::deviation,
                "Input unit: no vertex of the input is farther from the new surface.")
+        .field("inner_length", &RemeshResult::inner_length,
+               "Of edges far inside (octafield.tetrahedralize, edge_length), input unit; 0: the mean of the surface's.")
         .finish([](const RemeshResult& r) { return repr_mesh(r.mesh) + ", " + repr_features(r.features); });
 }
 

@@ -1,6 +1,5 @@
 #include "fill_holes.hpp"
 
-#define CGAL_EIGEN3_ENABLED  // fairing solves with Eigen
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <algorithm>

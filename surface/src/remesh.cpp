@@ -7,12 +7,10 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <sstream>
 
-#include "marked_surface.hpp"
+#include "graded_remesh.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/validate.hpp"
-#include "shells.hpp"
 #include "short_number.hpp"
 
 namespace octafield::surface {
@@ -21,9 +19,7 @@ namespace {
 namespace pmp = CGAL::Polygon_mesh_processing;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kVolumeTold = 0.01;                      // relative change of the volume that a default length may make
-constexpr double kShortest = 1. / 16;                     // of the wanted length
-constexpr double kCellsToFollow = 2e5, kMostCells = 4e5;  // bounds of lengths shortened to follow, to be sound
+constexpr double kShortest = 1. / 16;  // of the wanted length
 
 // `protect`: feature edges are split once before and then left alone, instead of being split and merged in every round.
 void run_rounds(Marked& marked, const PatchTrees& input, double length, int rounds, bool protect,
@@ -52,27 +48,6 @@ void run_rounds(Marked& marked, const PatchTrees& input, double length, int roun
     }
 }
 
-struct Topology {
-    int euler = 0;
-    Index pieces = 0;
-    bool closed = true;
-    bool operator==(const Topology&) const = default;
-};
-
-Topology topology_of(const TriangleMesh& mesh) {
-    const std::vector<Index> piece = connected_pieces(mesh, sorted_half_edges(mesh.triangles));
-    const EdgeTopology edges = edge_topology(mesh);
-    return {euler_characteristic(mesh), *std::ranges::max_element(piece) + 1, edges.edge_triangles.minCoeff() >= 0};
-}
-
-// Why the result is unusable; none if it is sound.
-std::optional<std::string> fault(const RemeshResult& result, const Topology& wanted) {
-    const auto defects = find_defects(result.mesh, {.closed = wanted.closed});
-    if (!defects.empty()) return defects.front().message.substr(0, defects.front().message.find("; "));
-    if (topology_of(result.mesh) != wanted) return "holes or pieces of the surface were lost";
-    return std::nullopt;
-}
-
 double expected_triangles(const TriangleMesh& mesh, double length) {
     return triangle_areas(mesh).sum() / (std::numbers::sqrt3 / 4 * length * length);
 }
@@ -83,36 +58,48 @@ double length_for(const TriangleMesh& mesh, double cells, bool closed) {
     return std::max(std::sqrt(expected_triangles(mesh, 1) / cells), std::cbrt(tets / cells));
 }
 
-double checked_edge_length(const TriangleMesh& mesh, const RemeshOptions& options) {
+void require_options(const TriangleMesh& mesh, const RemeshOptions& options) {
     if (options.iterations < 1) throw InvalidInput("remeshing needs at least 1 iteration", "invalid_option");
     if (!(options.edge_length >= 0 && std::isfinite(options.edge_length)))
-        throw InvalidInput("the target edge length must be positive, or 0 for 1/25 of the size", "invalid_option");
-    const double length = options.edge_length > 0 ? options.edge_length : default_edge_length(mesh);
-    const double expected = expected_triangles(mesh, length), most = 5e7;
+        throw InvalidInput("the target edge length must be positive, or 0 for lengths that fit the shape",
+                           "invalid_option");
+    if (!(options.max_cells >= 1 && std::isfinite(options.max_cells)))
+        throw InvalidInput("max_cells must be at least 1", "invalid_option");
+    if (options.edge_length == 0) return;
+    const double expected = expected_triangles(mesh, options.edge_length), most = 5e7;
     if (expected > most)
-        throw InvalidInput("a target edge length of " + short_number(length) + " would give about " +
+        throw InvalidInput("a target edge length of " + short_number(options.edge_length) + " would give about " +
                                short_number(expected) + " triangles; choose a larger one",
                            "invalid_option");
-    return length;
 }
-
-std::string in_percent(double ratio) { return short_number(100 * ratio) + " %"; }
 
 // A surface between the input and the user.
 class Remesher {
 public:
     Remesher(const TriangleMesh& mesh, const FeatureGraph& features, const RemeshOptions& options,
              const Progress& progress)
-        : mesh_(mesh),
-          features_(features),
-          iterations_(options.iterations),
-          topology_(topology_of(mesh)),
-          told_(deviation_told * shape_size(mesh)),
-          input_(mark(mesh, features)),
-          trees_(input_),
-          progress_(progress) {}
+        : mesh_(mesh), features_(features), options_(options), judge_(mesh, features), progress_(progress) {}
 
-    RemeshResult run(double wanted, bool given) {
+    RemeshResult run() {
+        if (options_.edge_length > 0) return of_one_length(options_.edge_length, true);
+        const auto alive = [this](double fraction) { report_or_throw(forward(), "remesh", fraction, kNone); };
+        GradedResult graded =
+            graded_remesh(mesh_, features_, judge_, options_.max_cells, options_.iterations, alive);
+        if (!graded.best) {
+            RemeshResult result = of_one_length(graded.field.longest, false);
+            if (graded.field.scale > 1.05) result.notes.push_back(graded.field.notes.back());
+            return result;
+        }
+        RemeshResult result = std::move(graded.best->result);
+        result.notes = std::move(graded.field.notes);
+        result.notes.front() = std::move(graded.range);
+        result.inner_length = graded.field.longest;
+        tell_departure(*graded.best, result, "a shorter edge length or more cells follow it more closely");
+        return result;
+    }
+
+private:
+    RemeshResult of_one_length(double wanted, bool given) {
         std::optional<Attempt> best;
         std::string why;  // lengths longer than the last are worse
         double length = wanted;
@@ -120,85 +107,48 @@ public:
             double next = length / 2;
             if (auto attempt = at_length(length)) {
                 best = std::move(attempt);
-                const double excess = excess_of(*best);
+                const double excess = judge_.excess_of(*best);
                 if (given || excess <= 1) break;
-                if (why.empty()) why = "follow the surface poorly (" + departure(*best) + ")";
+                if (why.empty()) why = "follow the surface poorly (" + judge_.departure(*best) + ")";
                 next = length * std::clamp(std::sqrt(0.8 / excess), 0.5, 0.9);  // the departure is quadratic in it
             } else if (why.empty()) {
                 why = "spoil the surface (" + fault_ + ")";
             }
             next = std::max({next, kShortest * wanted,
-                             length_for(mesh_, best ? kCellsToFollow : kMostCells, topology_.closed)});
+                             length_for(mesh_, (best ? 1 : 2) * options_.max_cells, judge_.closed())});
             if (next > 0.95 * length) break;
             length = next;
         }
         if (!best) return kept(wanted, why);
+        RemeshResult result = std::move(best->result);
         if (best->length < wanted)
-            best->result.notes.push_back("edges of " + short_number(wanted) + " would " + why + ": those of " +
-                                         short_number(best->length) + " were taken");
-        if (excess_of(*best) > 1)
-            best->result.notes.push_back("the remeshed surface is not quite that of the input: " + departure(*best) +
-                                         "; a shorter edge length follows it more closely");
-        return std::move(best->result);
+            result.notes.push_back("edges of " + short_number(wanted) + " would " + why + ": those of " +
+                                   short_number(best->length) + " were taken");
+        tell_departure(*best, result, "a shorter edge length follows it more closely");
+        return result;
     }
 
-private:
-    struct Attempt {
-        RemeshResult result;
-        double length, volume_change;  // relative
-        Eigen::Vector3d place;         // of the largest deviation
-    };
-
-    double excess_of(const Attempt& attempt) const {
-        return std::max(attempt.result.deviation / told_, attempt.volume_change / kVolumeTold);
-    }
-
-    std::string departure(const Attempt& attempt) const {
-        std::ostringstream text;
-        text.precision(4);
-        const Eigen::Vector3d& at = attempt.place;
-        text << "it leaves it by up to " << short_number(attempt.result.deviation) << " at (" << at[0] << ", " << at[1]
-             << ", " << at[2] << ")";
-        if (topology_.closed) text << ", and its volume differs by " << in_percent(attempt.volume_change);
-        return text.str();
+    void tell_departure(const Attempt& attempt, RemeshResult& result, const std::string& remedy) const {
+        if (judge_.excess_of(attempt) > 1)
+            result.notes.push_back("the remeshed surface is not quite that of the input: " +
+                                   judge_.departure(attempt) + "; " + remedy);
     }
 
     // None where no sound surface comes of it; fault_ says why.
     std::optional<Attempt> at_length(double length) {
         fault_.clear();
+        if (!trees_) trees_.emplace(judge_.input());
         for (const bool protect : {false, true}) {
             try {
                 Marked marked = mark(mesh_, features_);
-                run_rounds(marked, trees_, length, iterations_, protect, forward());
-                Attempt attempt{to_arrays(marked), length, 0, Eigen::Vector3d::Zero()};
-                const auto problem = fault(attempt.result, topology_);
-                if (!problem) {
-                    measure(marked, attempt);
-                    return attempt;
-                }
-                if (fault_.empty()) fault_ = *problem;
+                run_rounds(marked, *trees_, length, options_.iterations, protect, forward());
+                if (auto attempt = judge_.judge(marked, length)) return attempt;
+                if (fault_.empty()) fault_ = judge_.fault;
             } catch (const CGAL::Failure_exception& failure) {
                 if (fault_.empty()) fault_ = failure.what();
             }
         }
         return std::nullopt;
-    }
-
-    void measure(const Marked& marked, Attempt& attempt) const {
-        const PatchTrees trees(marked);
-        for (const Vertex v : input_.mesh.vertices()) {
-            if (input_.mesh.is_isolated(v)) continue;
-            const int patch = patch_at(input_, v);
-            if (trees.empty(patch)) continue;
-            const Point& p = input_.mesh.point(v);
-            const double distance = std::sqrt(CGAL::squared_distance(p, trees.closest(patch, p)));
-            if (!(distance > attempt.result.deviation)) continue;
-            attempt.result.deviation = distance;
-            attempt.place = Eigen::Vector3d(p.x(), p.y(), p.z());
-        }
-        const double volume = signed_volume(mesh_);
-        if (topology_.closed && volume != 0)
-            attempt.volume_change = std::abs(signed_volume(attempt.result.mesh) / volume - 1);
     }
 
     RemeshResult kept(double wanted, const std::string& why) const {
@@ -220,12 +170,10 @@ private:
 
     const TriangleMesh& mesh_;
     const FeatureGraph& features_;
-    int iterations_;
-    Topology topology_;
-    double told_;
-    Marked input_;
-    PatchTrees trees_;
+    const RemeshOptions& options_;
+    RemeshJudge judge_;
     const Progress& progress_;
+    std::optional<PatchTrees> trees_;
     std::string fault_;
     double furthest_ = 0;
 };
@@ -242,7 +190,8 @@ RemeshResult remesh(const TriangleMesh& mesh, const FeatureGraph& features, cons
     for (const Index v : features.corners)
         if (v < 0 || v >= mesh.vertices.rows())
             throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the mesh", "index_out_of_range", {v});
-    return Remesher(mesh, features, options, progress).run(checked_edge_length(mesh, options), options.edge_length > 0);
+    require_options(mesh, options);
+    return Remesher(mesh, features, options, progress).run();
 }
 
 }  // namespace octafield::surface

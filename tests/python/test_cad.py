@@ -246,6 +246,11 @@ def box_on_larger(occ):
     occ.addBox(0.5, 0.5, 1, 1, 1, 1)
 
 
+def two_drums(occ):
+    occ.addCylinder(0, 0, 0, 0, 0, 1, 1)
+    occ.addCylinder(0, 0, 1, 0, 0, 1, 1)
+
+
 def ball_in_box(occ):
     occ.addBox(0, 0, 0, 1, 1, 1)
     occ.addSphere(0.5, 0.5, 0.5, 0.3)
@@ -293,6 +298,7 @@ def models(tmp_path_factory):
         "shells_apart": (shells(2), both), "sheet": (box_and_sheet, all_three), "open": (open_box, both), "three": (pair_and_one, (".step",)),
         "ball": (lambda occ: occ.addSphere(0, 0, 0, 1), all_three), "cone": (lambda occ: occ.addCone(0, 0, 0, 0, 0, 1, 0, 1), (".iges",)),
         "curve": (lambda occ: occ.addCircle(0, 0, 0, 1), (".step",)), "slab": (lambda occ: occ.addBox(0, 0, 0, 1, 2, 3), (".iges",)),
+        "tube": (lambda occ: occ.addTorus(0, 0, 0, 1, 0.2), (".step",)), "drums": (two_drums, (".step",)), "square": (lambda occ: occ.addRectangle(0, 0, 0, 1, 1), (".step",)),
     }  # fmt: skip
     return write_models(tmp_path_factory.mktemp("models"), drawn)
 
@@ -377,6 +383,25 @@ def test_faces_that_enclose_nothing_are_not_dropped(models, name):
     assert list(failed) == ["closed"] and any("enclose nothing" in note and "export them as solids" in note for note in record["notes"])
 
 
+def test_open_faces_of_a_model_are_told_what_to_export(models):
+    with pytest.raises(of.GeometryError, match="export the model as solids, or take octafield surface-field"):
+        of.prepare_mesh(models / "square.step", of.MeshOptions(edge_length=0.4))
+
+
+@pytest.mark.parametrize("name, volume", [("ball.step", 4 / 3 * np.pi), ("tube.step", 2 * np.pi**2 * 0.2**2)])
+def test_triangles_follow_what_bends_in_a_model(models, name, volume):
+    found = read_input(models / name)
+    assert of.signed_volume(found.surface) == pytest.approx(volume, rel=0.008)
+    assert not any("of its volume" in note for note in found.notes)
+
+
+def test_a_mesh_that_loses_volume_of_the_model_says_how_much(models):
+    found = read_input(models / "drums.step", edge_length=1)
+    p = np.asarray(found.tets.vertices)[np.asarray(found.tets.tets)]
+    share = np.linalg.det(p[:, 1:] - p[:, :1]).sum() / 6 / (2 * np.pi)
+    assert share < 0.99 and any(f"has {share:.1%} of its volume" in note for note in found.notes)
+
+
 @pytest.mark.parametrize("suffix", [".step", ".brep"])
 def test_faces_beside_solids_are_left_out_and_told(models, suffix):
     found = read_input(models / f"sheet{suffix}", edge_length=0.5)
@@ -387,7 +412,9 @@ def test_faces_beside_solids_are_left_out_and_told(models, suffix):
 def test_loose_faces_of_iges_are_sewn(models):
     found = read_input(models / "slab.iges", edge_length=0.5)
     of.require_valid(found.surface)
-    assert of.signed_volume(found.surface) == pytest.approx(6) and len(found.lines) == 4 * (2 + 4 + 6)
+    points, lines = np.asarray(found.surface.vertices), np.asarray(found.lines)
+    lengths = np.linalg.norm(points[lines[:, 1]] - points[lines[:, 0]], axis=1)
+    assert of.signed_volume(found.surface) == pytest.approx(6) and lengths.sum() == pytest.approx(4 * (1 + 2 + 3))
 
 
 def test_a_field_is_computed_in_an_assembly(models):

@@ -8,6 +8,7 @@ import sys
 
 import pytest
 from pipeline_fixtures import octafield, write_cube
+from typer.testing import CliRunner
 
 from octafield import cli
 from octafield.completion import lists, words
@@ -42,6 +43,28 @@ def test_every_command_takes_json_quiet_and_verbose(command):
         found = found.commands[name]
     options = {option for parameter in found.params for option in parameter.opts}
     assert {"--json", "-q", "-v"} <= options
+
+
+@pytest.mark.parametrize("command", [[], ["study"], *all_commands()], ids=" ".join)
+def test_help_fits_80_columns_and_nothing_is_cut(command):
+    found = typer_group()
+    for name in command:
+        found = found.commands[name]
+    text = CliRunner().invoke(cli.app, [*command, "--help"], env={"COLUMNS": "80"}).stdout
+    assert max(map(len, text.splitlines())) <= 80
+    assert not re.search(r"\u2026|\w\.\.\.", text)
+    flat = " ".join(text.split())
+    shown = [*getattr(found, "commands", {})]
+    for parameter in found.params:
+        assert not parameter.opts[0].startswith("-") or parameter.help or parameter.name == "help", parameter.name
+        shown += [*(o for o in (*parameter.opts, *parameter.secondary_opts) if o.startswith("-")), *([parameter.metavar] if parameter.metavar else [])]
+        shown += [" ".join((getattr(parameter, "help", None) or "").split())]
+    assert [word for word in shown if word not in flat] == []
+
+
+def test_help_tells_odeco_from_odeco_lengths():
+    text = " ".join(CliRunner().invoke(cli.app, ["field", "--help"], env={"COLUMNS": "80"}).stdout.split())
+    assert "odeco: fourth-order tensors whose axes have length 1; odeco_lengths: their lengths are unknown" in text
 
 
 @pytest.fixture(scope="module")

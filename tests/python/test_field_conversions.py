@@ -1,5 +1,7 @@
 """What a computed field takes along when it becomes another file: feature edges, a size of cells, a mesh whose singular vertices are apart."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from conftest import box_tets
@@ -155,3 +157,39 @@ def test_frames_in_tets_have_the_verdict_of_meshability(run):
     assert record["non_meshable_vertices"] == record["non_meshable_corners"] == record["non_meshable_feature_edges"] == 0
     assert record["hexahedra_at_features"] == {"1": 48}
     assert (run / "features.vtp").exists() and record["undecided_edges"] == 0
+
+
+@pytest.mark.parametrize("interfaces", [True, False])
+def test_field_splits_between_singular_vertices_on_request(tmp_path, interfaces):
+    """The same field on a finer mesh; the box has two regions, so that surfaces with and without interfaces keep their vertices."""
+    mesh = box_tets(3)
+    regions = (np.asarray(mesh.vertices)[np.asarray(mesh.tets)].mean(axis=1)[:, 0] > 0.5).astype(np.int32)
+    of.write_field(tmp_path / "in.vtu", mesh, np.tile([1.0, 0, 0, 0], (len(mesh.vertices), 1)), {}, regions)
+    options = of.FieldOptions(sampling="tets", boundary="none", interfaces=interfaces, max_iterations=0, rounds=0, streamlines=0)
+    meshed = of.prepare_mesh(tmp_path / "in.vtu", options)
+    random = np.asarray(of.random_rotations(len(mesh.tets), 5))
+    plain, split = (of.compute_field(meshed, replace(options, split_singular=on), start=random) for on in (False, True))
+    counts = split.record["split_singular"]
+    assert counts["edges"] > 5 and counts["left"] == 0 and "split_singular" not in plain.record
+    assert len(split.tets.tets) == len(plain.tets.tets) + counts["added_tets"] and len(split.tets.vertices) == len(plain.tets.vertices) + counts["added_vertices"]
+    assert np.array_equal(split.tet_frames, plain.tet_frames[split.parent]) and plain.parent is None
+    ends = lambda result: [(e.a, e.b, e.quarter_turns) for e in of.singular_edges(result.tets, result.tet_frames).edges]
+    assert ends(split) == ends(plain) and split.record["singular_edges"] == plain.record["singular_edges"] > 0
+    assert np.array_equal(split.surface.triangles, plain.surface.triangles) and edges_of(split.feature_edges) == edges_of(plain.feature_edges)
+    assert split.record["boundary_triangles"] == plain.record["boundary_triangles"] and split.record["alignment_deg"] == plain.record["alignment_deg"]
+    assert split.record["mesh_sha256"] != plain.record["mesh_sha256"] and split.record["energy_history"] == plain.record["energy_history"]
+    surface = of.region_surface(split.tets, split.regions).surface if interfaces else of.boundary_surface(split.tets)
+    assert len(of.split_between_singular(split.tets, surface, split.tet_frames).edges) == 0
+
+
+def test_field_and_convert_split_alike(tmp_path):
+    of.write_surface(generate("ball"), tmp_path / "ball.stl")
+    common = ["field", str(tmp_path / "ball.stl"), "--sampling", "tets", "--edge-length", "0.45", "-q", "--streamlines", "0"]
+    for name, more in (("plain", []), ("split", ["--split-singular"])):
+        assert CliRunner().invoke(app, [*common, "-o", str(tmp_path / name), *more]).exit_code == 0
+    convert_file(tmp_path / "plain" / "field.vtu", tmp_path / "converted.vtu", split_singular=True)
+    field, converted = of.read_frames(tmp_path / "split" / "field.vtu"), of.read_frames(tmp_path / "converted.vtu")
+    assert len(field.mesh.tets) > len(of.read_frames(tmp_path / "plain" / "field.vtu").mesh.tets)
+    assert np.array_equal(field.mesh.tets, converted.mesh.tets) and np.allclose(of.distance(field.frames, converted.frames), 0, atol=1e-7)
+    result = CliRunner().invoke(app, [*common[:2], "-o", str(tmp_path / "none"), "--split-singular"])
+    assert result.exit_code == 2 and "--sampling tets" in result.output + result.stderr

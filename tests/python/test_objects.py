@@ -6,6 +6,7 @@ import inspect
 import pickle
 import sys
 import types
+import warnings
 
 import numpy as np
 import pydantic
@@ -205,7 +206,8 @@ def test_in_jupyter_pyvista_shows_the_scene_where_it_has_a_backend(name, objects
     monkeypatch.setattr(notebook, "_installed", lambda package: package == "trame_vtk")
     monkeypatch.setattr(pyvista.Plotter, "show", lambda self, **how: ("a view", how))
     value._ipython_display_()
-    assert shown[0] == ("a view", {"return_viewer": True}) and "<table>" in shown[1]
+    assert shown[0] == ("a view", {"return_viewer": True}) and shown[1] == value._repr_html_()
+    assert "data:image/png;base64," in shown[1] and "<table>" in shown[1]  # of the two, a saved notebook keeps this
     monkeypatch.setattr(pyvista.global_theme, "_jupyter_backend", "static", raising=False)
     with pytest.raises(NotImplementedError):
         value._ipython_display_()
@@ -223,6 +225,27 @@ def test_no_scene_without_a_kernel_without_trame_or_without_opengl(objects, monk
         value._ipython_display_()
     monkeypatch.setattr(notebook, "_installed", lambda package: False)
     assert not notebook.live_backend()
+
+
+@pytest.mark.parametrize("failure", ["raises", "picture", "nothing"])
+def test_a_backend_that_does_not_work_leaves_the_picture(objects, monkeypatch, failure, recwarn):
+    """pyvista gives a picture where trame is there in part; trame raises what it likes."""
+    import PIL.Image
+    import pyvista
+
+    def show(self, **how):
+        if failure == "raises":
+            raise RuntimeError("no server")
+        warnings.warn("Falling back to a static output.", stacklevel=1)
+        return PIL.Image.new("RGB", (2, 2)) if failure == "picture" else None
+
+    shown = _Display()
+    shown.install(monkeypatch, kernel=True)
+    monkeypatch.setattr(notebook, "_installed", lambda package: True)
+    monkeypatch.setattr(pyvista.Plotter, "show", show)
+    with pytest.raises(NotImplementedError):  # IPython then takes the HTML
+        objects[of.TriangleMesh][0]._ipython_display_()
+    assert shown == [] and not [w for w in recwarn if "static output" in str(w.message)]
 
 
 def test_the_scene_of_a_result_can_be_drawn_without_a_display(field, monkeypatch):

@@ -5,11 +5,14 @@ import pytest
 from conftest import SHARED_DATA
 from damaged_surfaces import ZOO, ball, joined, mesh_of, moved, open_cylinder, sheet, soup
 from pipeline_fixtures import octafield, shared
+from typer.testing import CliRunner
 
 import octafield as of
+from octafield.cli import app
+from octafield.conversion import convert_file
 from octafield.info import examine
 from octafield.meshing import load_surface, read_sound
-from octafield.options import REPAIR_LEVELS
+from octafield.options import REPAIR_LEVELS, MeshOptions
 from octafield.study.generators import generate
 
 WILD = SHARED_DATA / "wild"
@@ -227,3 +230,33 @@ def test_every_text_reader_shows_the_word_it_cannot_use(name, content, shown, tm
     with pytest.raises(of.IoError) as caught:
         of.read_surface(tmp_path / name)
     assert shown in str(caught.value)
+
+
+def test_convert_repairs_up_to_the_level_and_says_what_is_left(tmp_path):
+    """A box without one triangle, its points apart: merge leaves the hole and says so, safe fills it; without the option nothing changes."""
+    mesh = generate("box")
+    triangles = np.asarray(mesh.triangles)[1:]
+    apart = of.TriangleMesh(np.asarray(mesh.vertices)[triangles.ravel()], np.arange(triangles.size).reshape(-1, 3))
+    of.write_surface(apart, tmp_path / "in.obj")
+    level = lambda name: MeshOptions(repair=name)
+    plain = convert_file(tmp_path / "in.obj", tmp_path / "plain.obj")
+    assert plain.vertices == len(apart.vertices) and plain.notes == []
+    merged = convert_file(tmp_path / "in.obj", tmp_path / "merged.obj", repair=level("merge"))
+    assert merged.vertices == len(mesh.vertices) and kinds(of.read_surface(tmp_path / "merged.obj")) == ["not_closed"]
+    assert any(note.startswith("repair: ") for note in merged.notes) and merged.notes[-1].startswith("after --repair merge: ")
+    safe = convert_file(tmp_path / "in.obj", tmp_path / "safe.ply", repair=level("safe"))
+    assert kinds(of.read_surface(tmp_path / "safe.ply")) == [] and not any("after --repair" in note for note in safe.notes)
+    assert np.isclose(of.signed_volume(of.read_surface(tmp_path / "safe.ply")), of.signed_volume(mesh))
+    done = CliRunner().invoke(app, ["convert", str(tmp_path / "in.obj"), "-o", str(tmp_path / "b.off"), "--repair", "safe", "-q"])
+    assert done.exit_code == 0 and of.read_surface(tmp_path / "b.off").triangles.shape == of.read_surface(tmp_path / "safe.ply").triangles.shape
+
+
+def test_convert_does_not_ignore_repair_of_tets_or_frames(tmp_path):
+    tets = of.prepare_mesh(generate("box"), MeshOptions(edge_length=0.5)).tets
+    of.write_field(tmp_path / "a.vtu", tets, np.tile([1.0, 0, 0, 0], (len(tets.vertices), 1)))
+    with pytest.raises(of.InvalidInput, match="surfaces only"):
+        convert_file(tmp_path / "a.vtu", tmp_path / "b.ovmb", repair=MeshOptions(repair="safe"))
+    convert_file(tmp_path / "a.vtu", tmp_path / "a.mesh")
+    assert any("repair was ignored" in note for note in convert_file(tmp_path / "a.mesh", tmp_path / "b.vtk", repair=MeshOptions(repair="safe")).notes)
+    done = CliRunner().invoke(app, ["convert", str(tmp_path / "a.mesh"), "-o", str(tmp_path / "c.vtk"), "--repair", "saef"])
+    assert done.exit_code == 2 and "did you mean 'safe'" in done.stderr

@@ -21,12 +21,12 @@ BEGAN = {
     "solver": "default", "split": False, "streamlines": 30, "tolerance": 1e-06,
 }  # fmt: skip
 KEYS = {
-    "{}": "b29f4cd6dc0d6aff3fe5",
-    "{runs: {representation: [su2]}}": "5fb9631498216e94cdbf",
-    "{runs: {solver: [lbfgs], boundary: [fixed]}, seeds: [3]}": "54cf7901b80a82b7478a",
-    "{mesh: {edge_length: 0.25, feature_angle: 30}}": "bb80b576300891806969",
-    "{runs: {sampling: [tets]}, mesh: {split: true}}": "a66a870b24309eabb923",
-    "{runs: {sizes: [axes]}}": "df197db37b74f2edd4ce",
+    "{}": "29cc8387ceaf8d4f4414",
+    "{runs: {representation: [su2]}}": "bca2c44fe05ac37b64b7",
+    "{runs: {solver: [lbfgs], boundary: [fixed]}, seeds: [3]}": "59a22a2ef6a8f8bb2b3d",
+    "{mesh: {edge_length: 0.25, feature_angle: 30}}": "4c3686d517302a60365f",
+    "{runs: {sampling: [tets]}, mesh: {split: true}}": "12f4fba20886913d4439",
+    "{runs: {sizes: [axes]}}": "3020c8e6db627320116c",
 }
 WORDS = {"default": False, "safe": True, "resolve": "resolve"}  # of repair, as keys have had them
 
@@ -34,24 +34,24 @@ WORDS = {"default": False, "safe": True, "resolve": "resolve"}  # of repair, as 
 @pytest.mark.parametrize("text", KEYS)
 def test_keys_of_runs_are_what_they_were(monkeypatch, text):
     """Frozen: another key computes again what a study has, and loses it from its tables."""
-    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.1.0")
+    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.2.0")
     (run,) = study.plan(study.parse("{name: k, inputs: [{generator: box}], " + text[1:]))
     assert run.key == KEYS[text]
 
 
 def test_a_key_is_the_hash_of_content_options_repeat_and_version(monkeypatch):
-    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.1.0")
+    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.2.0")
     first, second = study.plan(study.parse("{name: k, inputs: [{generator: box}], repeats: 2}"))
     content = json.dumps({"generator": "box", "with": {}})
     for repeat, run in enumerate((first, second)):
-        hashed = hashlib.sha256(json.dumps([content, BEGAN, repeat, "0.1.0"], sort_keys=True).encode())
+        hashed = hashlib.sha256(json.dumps([content, BEGAN, repeat, "0.2.0"], sort_keys=True).encode())
         assert run.key == hashed.hexdigest()[:20]
     assert has_promised_content(second)
     for word, value in WORDS.items():
         (run,) = study.plan(study.parse(f"{{name: k, inputs: [{{generator: box}}], mesh: {{repair: {word}}}}}"))
-        text = json.dumps([content, BEGAN | {"repair": value}, 0, "0.1.0"], sort_keys=True)
+        text = json.dumps([content, BEGAN | {"repair": value}, 0, "0.2.0"], sort_keys=True)
         assert run.options.repair == word and run.key == hashlib.sha256(text.encode()).hexdigest()[:20]
-    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.1.1")
+    monkeypatch.setattr(PLAN, "octafield_version", lambda: "0.2.1")
     assert not has_promised_content(second)
 
 

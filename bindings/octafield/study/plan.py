@@ -59,11 +59,11 @@ def method_of(run: Run) -> str:
 def mesh_of(run: Run) -> Hashable:
     """Equal for runs whose meshes have the same number of tets."""
     o = run.options
-    return (run.name, o.features, o.feature_angle, o.edge_length, o.remesh, o.repair, o.interfaces, o.split, o.max_hole_edges, o.wrap_alpha, o.wrap_offset)
+    return (run.name, o.features, o.feature_angle, o.edge_length, o.remesh, o.repair, o.interfaces, o.split, o.max_hole_edges, o.wrap_alpha, o.wrap_offset, o.max_cells)
 
 
 # Options younger than keys, as they were before: not in the key, so that runs of earlier studies keep theirs.
-_LATER = (("sizes", "none"), ("max_hole_edges", 0), ("wrap_alpha", 0.0), ("wrap_offset", 0.0))
+_LATER = (("sizes", "none"), ("max_hole_edges", 0), ("wrap_alpha", 0.0), ("wrap_offset", 0.0), ("max_cells", 0), ("split_singular", False))
 _RENAMED = {("repair", "default"): False, ("repair", "safe"): True}  # values that had other words
 _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))
 

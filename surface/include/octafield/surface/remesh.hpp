@@ -6,13 +6,15 @@
 
 #include "octafield/progress.hpp"
 #include "octafield/surface/features.hpp"
+#include "octafield/surface/size_field.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
 
 namespace octafield::surface {
 
 struct RemeshOptions {
-    double edge_length = 0;  // target, input unit; 0: default_edge_length, shorter where the shape needs it
+    double edge_length = 0;  // target, input unit; 0: lengths of size_field, shorter where the result needs it
     int iterations = 5;      // split, collapse, flip, relax, project: rounds, at least 1
+    double max_cells = default_max_cells;  // without a length: of triangles, and of tets inside, to be expected
 };
 
 struct RemeshResult {
@@ -21,18 +23,21 @@ struct RemeshResult {
     // What a user should know: edges shorter than wanted, and why; a surface that is not quite the input's.
     std::vector<std::string> notes;
     double deviation = 0;  // of the input's vertices from the new mesh, the largest, input unit
+    double inner_length = 0;  // of edges far inside the surface, input unit; 0: the mean of the surface's
 };
 
 constexpr double deviation_told = 1. / 400;  // of shape_size
 
-// 1/25 of shape_size: what remesh tries first where no length is given.
+// 1/25 of shape_size: what remesh takes where no length is given and the shape asks for no shorter one.
 double default_edge_length(const TriangleMesh& mesh);
 
 // The input must be valid (validate.hpp). Corners stay where they are; feature edges are split and merged along their
-// curves only. The result is as sound as the input, with its topology: where that fails, or where no length was given
-// and the surface departs by more than deviation_told or its volume by more than 1 %, shorter lengths are tried, down to
-// 1/16 and within about 400,000 triangles or tets (200,000 for the departure's sake). The input's triangles are
-// returned where none is sound. Throws InvalidInput, GeometryError (the input is not valid).
+// curves only. The result is as sound as the input, with its topology.
+// Without a length, edges follow size_field; where triangles would cross, or the surface would depart from the input's
+// by more than deviation_told or its volume by more than 1 %, lengths are lowered there and it is done again, within
+// twice max_cells. Where that fails, and with a length, all edges get one length, shortened until the surface is sound
+// (without a length: and follows), down to 1/16 and within the same bounds. The input's triangles are returned where
+// none is sound. Throws InvalidInput, GeometryError (the input is not valid).
 RemeshResult remesh(const TriangleMesh& mesh, const FeatureGraph& features, const RemeshOptions& options = {},
                     const Progress& progress = {});
 
