@@ -42,6 +42,7 @@ CPP = {
         "Complex mean = 1": "where the method starts from",
         "std::min(2 * 1.0, std::norm": "how much more the values beyond an edge weigh; a sound field's place does not depend on it",
         "int entry = -2": "no side, either way",
+        "int steps = 1": "a bound far above what a step of an edge length crosses",
         "step < 30": "the bound of a method that has converged, or has not",
         "step = 0; step": "the bound of a method that has converged, or has not",
         "change.norm() <": "how far it converges; both are far below a tenth of an edge",
