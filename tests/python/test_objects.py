@@ -45,7 +45,7 @@ def objects(field, tmp_path_factory):
         field, in_tets, meshed, of.prepare(meshed), of.compute_surface_field(generate("torus"), of.SurfaceFieldOptions(curvature=1)),
         of.compare(generate("box"), folder / "compared", representations=["sh4"], boundaries=["aligned"], options=of.FieldOptions(edge_length=0.5)),
         boundary, of.region_surface(tets, two), of.cut_into_sheets(of.region_surface(tets, two).surface.mesh),
-        of.split_locking(tets, boundary), of.find_defects(open_box), of.repair(open_box), of.advise_repair(open_box), of.remesh(generate("box"), of.detect_features(generate("box"))),
+        of.split_locking(tets, boundary), of.find_defects(open_box), of.repair(open_box), of.advise_repair(open_box), of.remesh(generate("box"), of.detect_features(generate("box"))), of.size_field(generate("box"), of.detect_features(generate("box"))),
         of.edge_topology(surface), of.feature_tangents(surface, field.features), of.sector_normals(surface, field.features),
         of.principal_directions(surface, field.features), of.locate_points(tets, [[0, 0, 0.5], [9, 9, 9]]), of.sample_frames(field, [[0, 0, 0.5]]), of.comb_vertices(tets, field.frames), of.smoothed_curves(field.singular_graph),
         of.frame_field(tets, field.constraints, max_steps=2, max_iterations=2), of.vertex_sampling(tets), of.tet_sampling(tets),
