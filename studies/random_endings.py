@@ -5,9 +5,8 @@
 Each process calls one to three of the long functions of the library over and over in daemon threads, half of them with a
 Python callback, and ends after a random delay: by its last line, sys.exit, an exception that nobody catches, or Ctrl-C while the
 main thread waits in a join or sleeps. A fault is another status than that, more than 30 seconds, or words of an abort among the messages;
-it is printed with the functions, the ending and the delay. Ends with 1 where there was one. Ctrl-C that comes while the main thread
-waits for Python's lock, just before it sleeps, wakes it no more (Python 3.11, with any thread that keeps the lock for long): after ten
-seconds it is sent again, which is counted and printed.
+it is printed with the functions, the ending and the delay. Ends with 1 where there was one. Where Ctrl-C has ended nothing after ten
+seconds, it is sent again, which is counted and printed.
 """
 
 import argparse

@@ -5,16 +5,20 @@ import os
 import numpy as np
 
 from . import _core
-from ._core import TriangleMesh
+from ._core import FeatureGraph, SizeField, TriangleMesh
 from .costs import field_seconds
-from .options import FieldOptions
+from .options import FieldOptions, MeshOptions
 
 _TETS_PER_CUBE = 12.5  # in a cube of one edge length; measured on remeshed bodies of 2,000 to 100,000 tets: 11 to 16
 
 
-def edge_length(surface: TriangleMesh, asked: float) -> float:
-    """Of remeshing, input unit; asked 0: the default, which remesh shortens where the shape needs it."""
-    return asked or float(_core.default_edge_length(surface))
+def planned_sizes(surface: TriangleMesh, features: FeatureGraph, options: MeshOptions) -> SizeField:
+    """What remeshing starts from, and the cells to be expected: octafield.size_field, or the one length that was asked for."""
+    if options.edge_length == 0:
+        return _core.size_field(surface, features, max_cells=options.cells)
+    length = options.edge_length
+    triangles = float(np.asarray(_core.triangle_areas(surface)).sum()) / (np.sqrt(3) / 4 * length**2)
+    return SizeField(np.full(len(surface.vertices), length), length, length, triangles, tets_inside(surface, length))
 
 
 def tets_inside(surface: TriangleMesh, length: float) -> int:

@@ -159,13 +159,17 @@ def _beyond_defects(found: Input, options: MeshOptions) -> tuple[list[Finding], 
         "corners": len(features.corners),
     }
     remade = found.tets is None and options.remesh
-    length = estimates.edge_length(found.surface, options.edge_length) if remade else float(_core.mean_edge_length(found.surface))
-    seen = Examined(found, options, features, source, length, locking)
-    if found.tets is None:
-        count = estimates.tets_inside(found.surface, length)
-    else:
+    seen = Examined(found, options, features, source, float(_core.mean_edge_length(found.surface)), locking)
+    if remade:
+        sizes = estimates.planned_sizes(found.surface, features, options)
+        seen.lengths, seen.length = np.asarray(sizes.lengths), sizes.shortest
+        found.notes += sizes.notes
+        facts["edge_lengths"] = {"shortest": sizes.shortest, "median": float(np.median(seen.lengths)), "longest": sizes.longest}
+    if found.tets is not None:
         count = len(found.tets.tets)
-    facts["mesh_size"] = length
+    else:
+        count = int(sizes.tets) if remade else estimates.tets_inside(found.surface, seen.length)
+    facts["mesh_size"] = sizes.longest if remade else seen.length
     if found.tets is not None:
         facts["tet_quality"] = _quality(seen, found.tets)
     facts["expected"] = {

@@ -10,7 +10,7 @@ import numpy as np
 from . import _core, estimates
 from ._core import FeatureGraph
 from .errors import Error
-from .info_measures import curve_lengths, dihedral_angles, thicknesses
+from .info_measures import curve_lengths, dihedral_angles, wall_samples
 from .inputs import Input
 from .options import MeshOptions
 
@@ -19,6 +19,7 @@ PASS, WARN, FAIL, NOT_TESTED = "pass", "warn", "fail", "not tested"
 SIZES = 1e-6, 1e6  # of bounding boxes, input unit: what the tests of octafield cover
 _LEAST_ANGLE = 5.0  # degrees, of triangles
 _LEAST_DIHEDRAL = 0.5  # degrees, of tets; TetGen leaves slivers of 0.7 under given surfaces
+MOST_CELLS = 1e6  # that are advised
 _SHARE = 0.02  # of the area that may be too fine for the mesh size before it is worth a word
 
 
@@ -39,8 +40,8 @@ class Finding:
 
 @dataclass
 class Examined:
-    """An input without defects. length: of the edges of the mesh to be made, or their mean where the mesh stays; locking:
-    counts of what joins the surface of tets to itself."""
+    """An input without defects. length: of the shortest edges of the mesh to be made, or the mean where the mesh stays; lengths: (V,)
+    of the edges to be made at the vertices of the surface; locking: counts of what joins the surface of tets to itself."""
 
     found: Input
     options: MeshOptions
@@ -48,6 +49,15 @@ class Examined:
     feature_source: str
     length: float
     locking: dict[str, int] = field(default_factory=dict)
+    lengths: np.ndarray[Any, Any] | None = None
+
+    def at_triangles(self) -> np.ndarray[Any, Any]:
+        """(F,) lengths of the edges there: to be made, or the longest of each triangle."""
+        if self.lengths is not None:
+            mean: np.ndarray[Any, Any] = self.lengths[np.asarray(self.found.surface.triangles)].mean(axis=1)
+            return mean
+        longest: np.ndarray[Any, Any] = np.linalg.norm(self.corners - np.roll(self.corners, 1, axis=1), axis=2).max(axis=1)
+        return longest
 
     @property
     def remade(self) -> bool:
@@ -132,7 +142,7 @@ def feature_sizes(seen: Examined) -> Finding:
         return Finding(text, PASS)
     return Finding(text, WARN, "short_features",
                    f"{len(short):,} feature curves are shorter than half an edge of {seen.length:.3g} (the shortest: {short.min():.3g})",
-                   f"--edge-length {rounded_down(2 * short.min())}")  # fmt: skip
+                   _shorter(seen, 2 * float(short.min())))  # fmt: skip
 
 
 def curvature(seen: Examined) -> Finding:
@@ -144,8 +154,7 @@ def curvature(seen: Examined) -> Finding:
         return Finding(text, PASS)  # interfaces: the surface has no two sides
     bend = np.abs(np.asarray(found.curvatures)[:, 0])
     areas = np.asarray(_core.triangle_areas(surface))
-    edge = seen.length if seen.remade else np.linalg.norm(seen.corners - np.roll(seen.corners, 1, axis=1), axis=2).max(axis=1)
-    tight = bend * edge > 1
+    tight = bend * seen.at_triangles() > 1
     share = float(areas[tight].sum() / areas.sum())
     if share < _SHARE:
         return Finding(text, PASS)
@@ -154,8 +163,7 @@ def curvature(seen: Examined) -> Finding:
     radius = float(1 / bend[worst])
     what = f"on {share:.0%} of the surface, where it is {radius:.3g} and less"
     if seen.sized:
-        return Finding(text, WARN, "coarse_for_curvature", f"edges of {seen.length:.3g} are longer than the radius of curvature {what}",
-                       f"--edge-length {rounded_down(radius)}")  # fmt: skip
+        return Finding(text, WARN, "coarse_for_curvature", f"edges are longer than the radius of curvature {what}", _shorter(seen, radius))
     return Finding(text, WARN, "coarse_for_curvature", f"edges are longer than the radius of curvature {what}",
                    _finer(seen), tuple(np.flatnonzero(tight).tolist()))  # fmt: skip
 
@@ -166,16 +174,26 @@ def _finer(seen: Examined) -> str:
 
 def walls(seen: Examined) -> Finding:
     """Rays from triangles inward meet a nearly parallel face."""
-    text = "walls are thicker than the edges"
-    thick, share = thicknesses(seen.found.surface)
-    thin = thick < seen.length
-    if not seen.remade or not len(thick) or float(share[thin].sum()) < _SHARE:
+    text = "walls are thicker than half an edge"
+    if not seen.remade:
         return Finding(text, PASS)
-    order = np.argsort(thick)
-    least = float(thick[order[np.searchsorted(np.cumsum(share[order]), _SHARE / 2)]])
-    return Finding(text, WARN, "thin_walls",
-                   f"walls are thinner than an edge of {seen.length:.3g} behind {float(share[thin].sum()):.0%} of the surface, {least:.3g} and less",
-                   f"--edge-length {rounded_down(least)}")  # fmt: skip
+    triangles, thick = wall_samples(seen.found.surface)
+    thin = thick < 0.45 * seen.at_triangles()[triangles]
+    if not len(thick) or float(thin.mean()) < _SHARE:
+        return Finding(text, PASS)
+    least = float(np.sort(thick)[int(_SHARE / 2 * len(thick))])
+    return Finding(text, WARN, "thin_walls", f"walls are thinner than half an edge behind {float(thin.mean()):.0%} of the surface, {least:.3g} and less",
+                   _shorter(seen, 2 * least))  # fmt: skip
+
+
+def _shorter(seen: Examined, length: float) -> str:
+    """The option for edges of such a length, where so many cells can be computed with; tets of CAD models are made by Gmsh."""
+    told = float(rounded_down(length))
+    surface = seen.found.surface
+    area = float(np.asarray(_core.triangle_areas(surface)).sum())
+    if max(estimates.tets_inside(surface, told), area / (0.43 * told**2)) < MOST_CELLS:
+        return f"--edge-length {told:.2g}"
+    return "" if seen.options.edge_length == 0 or not seen.remade else "leave out --edge-length"
 
 
 def triangle_shapes(seen: Examined) -> Finding:

@@ -35,6 +35,12 @@ def curve_lengths(surface: TriangleMesh, features: FeatureGraph) -> Array:
 
 def thicknesses(surface: TriangleMesh) -> tuple[Array, Array]:
     """Distances to the face opposite of evenly chosen triangles that have one, and the share of the surface each stands for."""
+    _, thick = wall_samples(surface)
+    return thick, np.full(len(thick), 1 / len(thick))
+
+
+def wall_samples(surface: TriangleMesh) -> tuple[Array, Array]:
+    """Evenly chosen triangles (ids), and the distance from each to the face opposite; inf where there is no wall."""
     import vtk
 
     from .interop import to_pyvista
@@ -62,7 +68,7 @@ def thicknesses(surface: TriangleMesh) -> tuple[Array, Array]:
         start, end = point - 1e-6 * diagonal * normal, point - 1.1 * diagonal * normal
         if locator.IntersectWithLine(start, end, 0.0, parameter, hit, local, sub, cell) and -normals[cell.get()] @ normal > _FACING:
             thick[k] = np.linalg.norm(np.asarray(hit) - point)
-    return thick, np.full(count, 1 / count)
+    return chosen, thick
 
 
 def dihedral_angles(points: Array, tets: Array) -> Array:

@@ -41,7 +41,7 @@ def of_field(meshed: MeshedInput, off: np.ndarray, figures: dict[str, Any]) -> d
         suggested = _length_for(points, edges, turns, coarse)
         sentences.append(
             f"coarse here: {len(coarse):,} vertices ({share:.0%} of the surface): at {len(off):,} frames differ by more than {OFF:g} degrees from their normals, "
-            f"and smooth faces turn by more than {BENT:g} degrees at {len(bent):,} edges; try an edge length of {suggested:.2g}"
+            f"and smooth faces turn by more than {BENT:g} degrees at {len(bent):,} edges; edges of about {suggested:.2g} would turn half as much (not tried)"
         )
     places = {words: figures.get(key, 0) for key, words in _PLACES.items() if figures.get(key, 0)}
     if places:

@@ -39,6 +39,10 @@ PYTHON = {
 CPP = {
     "surface/src/singular_place.cpp": Module(("FittedPlace.*:SingularPlaces.Zeros*:SingularPlaces.Corners*",), "test_surface", {
         "away == 0.0 ?": "a value at the point itself has weight 0",
+        "Complex mean = 1": "where the method starts from",
+        "std::min(2 * 1.0, std::norm": "how much more the values beyond an edge weigh; a sound field's place does not depend on it",
+        "int entry = -2": "no side, either way",
+        "int steps = 1": "a bound far above what a step of an edge length crosses",
         "step < 30": "the bound of a method that has converged, or has not",
         "step = 0; step": "the bound of a method that has converged, or has not",
         "change.norm() <": "how far it converges; both are far below a tenth of an edge",
@@ -49,6 +53,13 @@ CPP = {
         "unexplained <= most": "differs where the angle is the bound to the last bit",
         "std::polar(2 * 1.0": "the angle of a number does not depend on its length",
     }),
-    "surface/src/surface_singularities.cpp": Module(("FittedPlace.*:SingularPoints.*:SingularPlaces.Corners*:SurfaceSingularities.*",), "test_surface", {"assert(": "the check of rounding is not in a release", "1e-3 * (charted.centroid": "a little to the side, whichever"}),
-    "volume/src/singularities.cpp": Module(("Singular*:*/StraightLine*",), "test_volume"),
+    "surface/src/surface_singularities.cpp": Module(("FittedPlace.*:SingularPoints.*:SingularPlaces.Corners*:SurfaceSingularities.*",), "test_surface", {"assert(": "the check of rounding is not in a release", "1e-3 * (charted.centroid": "a little to the side, whichever",
+        "std::size_t c = 1; c <": "sums of turns are rounded to whole ones, and one corner's is less than half of one"}),
+    "volume/src/singularities.cpp": Module(("Singular*:*/StraightLine*",), "test_volume", {
+        "norm <= shortest": "which of two sides that are equally near",
+        "if (s > 0 && t": "a point on a side is found again as that side's",
+        "const int next = (k + 2) % 3": "the same three sides",
+        "if (determinant > ": "how nearly three vectors are on a line; the point is then on a side to rounding",
+        "{s, -2,": "a place that is set before it is read",
+    }),
 }  # fmt: skip

@@ -109,6 +109,22 @@ TEST(FittedPlace, LeavesAQuarterRadianUnexplainedAndNoMore) {
     }
 }
 
+TEST(FittedPlace, HardlyGoesByTheValuesNearerThanHalfAnEdge) {
+    const Plane plane;
+    const Complex zero(0.523, 0.487);
+    for (const double turn : {0.5, -0.5}) {
+        DirectionField field = plane.vortex(zero);
+        for (Index e = 0; e < field.values.size(); ++e) {
+            const auto ends = field.topology.edges.row(e);
+            const Vector middle = (plane.mesh.vertices.row(ends[0]) + plane.mesh.vertices.row(ends[1])) / 2;
+            if ((middle - Vector(zero.real(), zero.imag(), 0)).norm() < 0.5 * plane.edge) field.values[e] *= std::polar(1.0, turn);
+        }
+        const auto found = plane.found(field, zero, nowhere);
+        ASSERT_TRUE(found);
+        EXPECT_LT(std::abs(*found - zero), 0.01 * plane.edge);
+    }
+}
+
 TEST(FittedPlace, DoesNotGoOverABarrierOrTheBoundary) {
     // The line y = 8/16 is one; a start below, and vortices on both sides.
     const Plane plane;

@@ -61,20 +61,21 @@ TEST(SizeField, GrowsSlowlyFromWhereItIsShort) {
     for (const double growth : {0.2, 0.6}) {
         const SizeField field = size_field(surface, kNone, {.growth = growth, .max_cells = 1e7});
         EXPECT_GT(field.lengths.maxCoeff(), 3 * field.lengths.minCoeff());
-        const Edges edges_of_mesh = edge_topology(surface).edges;  // outlives the loop, as a temporary would not
-        for (const auto edge : edges_of_mesh.rowwise())
+        const Edges edges = edge_topology(surface).edges;
+        for (const auto edge : edges.rowwise())
             EXPECT_LE(std::abs(field.lengths[edge[0]] - field.lengths[edge[1]]),
                       growth * (surface.vertices.row(edge[0]) - surface.vertices.row(edge[1])).norm() + 1e-12);
     }
 }
 
 TEST(SizeField, WallsAndGapsCarryEdgesOfTwiceTheirWidth) {
-    const TriangleMesh wall = plate(0.025);
+    const TriangleMesh wall = plate(0.015);
     const auto most = [](const TriangleMesh& mesh) {
         return size_field(mesh, detect_features(mesh), {.max_cells = 1e7}).lengths.maxCoeff();
     };
-    EXPECT_LT(2 * 0.025, 0.95 * default_edge_length(wall));
-    EXPECT_NEAR(most(wall), 2 * 0.025, 1e-9);
+    EXPECT_LT(2 * 0.015, 0.95 * default_edge_length(wall));
+    EXPECT_NEAR(size_field(wall, detect_features(wall), {.max_cells = 1e7}).shortest, 2 * 0.015, 1e-9);
+    EXPECT_LE(most(wall), 2 * 0.015 + 0.4 * 0.015 / 2 + 1e-9);  // on the rim, where no wall is
     const TriangleMesh cube = cube_surface(8), pair = both(cube, cube, {0, 0, 1.02});
     const SizeField gap = size_field(pair, detect_features(pair), {.max_cells = 1e7});
     for (Index v = 0; v < pair.vertices.rows(); ++v) {
@@ -91,8 +92,8 @@ TEST(SizeField, StripsBetweenFeatureCurvesCarryEdgesOfTwiceTheirWidth) {
     TriangleMesh cube = cube_surface(50);
     const FeatureGraph sharp = detect_features(cube);
     std::vector<std::pair<Index, Index>> lines;  // on the top: two marked lines, 0.02 apart
-    const Edges edges_of_mesh = edge_topology(cube).edges;  // outlives the loop, as a temporary would not
-    for (const auto edge : edges_of_mesh.rowwise()) {
+    const Edges all = edge_topology(cube).edges;
+    for (const auto edge : all.rowwise()) {
         const auto a = cube.vertices.row(edge[0]), b = cube.vertices.row(edge[1]);
         const auto on = [&](double y) { return std::abs(a[1] - y) < 1e-9 && std::abs(b[1] - y) < 1e-9; };
         const auto inside = [](double x) { return x > 0.19 && x < 0.81; };
@@ -147,8 +148,8 @@ TEST(SizeField, WrongArgumentsAreRefused) {
 double mean_edge_near(const TriangleMesh& mesh, double z_low, double z_high) {
     double sum = 0;
     int count = 0;
-    const Edges edges_of_mesh = edge_topology(mesh).edges;  // outlives the loop, as a temporary would not
-    for (const auto edge : edges_of_mesh.rowwise()) {
+    const Edges edges = edge_topology(mesh).edges;
+    for (const auto edge : edges.rowwise()) {
         const auto a = mesh.vertices.row(edge[0]), b = mesh.vertices.row(edge[1]);
         if (std::min(a[2], b[2]) < z_low || std::max(a[2], b[2]) > z_high) continue;
         sum += (a - b).norm();

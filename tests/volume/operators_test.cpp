@@ -146,6 +146,23 @@ TEST(TetMeshValidation, NamesTheDefect) {
     expect_error<GeometryError>([&] { stiffness(bad); }, "inverted_tet");
 }
 
+TEST(TetMeshValidation, AVolumeThatIsRoundingIsNone) {
+    TetMesh mesh;
+    mesh.vertices.resize(4, 3);
+    mesh.tets.resize(1, 4);
+    mesh.tets << 0, 1, 2, 3;
+    for (const double size : {1e-6, 1., 1e6}) {
+        for (const double height : {1e-157, 1e-16, 1e-13}) {
+            mesh.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, height;
+            mesh.vertices *= size;
+            if (height > 1e-15)
+                EXPECT_NO_THROW(require_valid(mesh));
+            else
+                expect_error<GeometryError>([&] { require_valid(mesh); }, "inverted_tet");
+        }
+    }
+}
+
 TEST(TetMeshValidation, ThreeTetsOnOneTriangleAreRefused) {
     TetMesh mesh{Points(6, 3), Tets(3, 4)};
     mesh.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.2, 0.2, 2, 0.1, 0.1, 3;

@@ -95,7 +95,10 @@ TEST(SingularTriangles, AreUndecidedWhereOneOfTheirEdgesHasTwoSmallestSteps) {
                 std::array<double, 4> degrees{};
                 degrees[order[0]] = 0, degrees[order[1]] = sign * (45 - off), degrees[order[2]] = sign * 67.5;
                 degrees[3] = degrees[order[0]];
-                for (const SingularTriangle& t : singular_graph(one_tet(), turned(degrees)).triangles) {
+                const SingularGraph graph = singular_graph(one_tet(), turned(degrees));
+                EXPECT_EQ(graph.undecided_triangles, std::count_if(graph.triangles.begin(), graph.triangles.end(),
+                                                                   [](const auto& t) { return t.undecided; }));
+                for (const SingularTriangle& t : graph.triangles) {
                     const auto has = [&](int v) { return t.a == v || t.b == v || t.c == v; };
                     const bool has_tie = has(order[1]) && (has(order[0]) || has(3));
                     EXPECT_EQ(t.undecided, off == 0 && has_tie) << t.a << t.b << t.c;
@@ -116,6 +119,45 @@ TEST(SingularTriangles, SignIsThatOfTheTurnAboutTheirPositiveNormal) {
             ASSERT_FALSE(graph.triangles.empty());
             EXPECT_EQ(graph.triangles[0].quarter_turns, sign * round) << order[0] << order[1];
         }
+}
+
+TEST(SingularTriangles, AreTheSameHoweverVerticesAndTetsAreNumbered) {
+    // The sign goes by the geometry: about the curve from the base up, or down where vertices are numbered the other way.
+    std::array<int, 4> order{0, 1, 2, 3};
+    const TetMesh base = one_tet();
+    const Quaternions frames = turned({0, 30, 60, 0});
+    do {
+        TetMesh mesh = base;
+        Quaternions renumbered = frames;
+        std::array<Index, 4> number{};
+        for (int k = 0; k < 4; ++k) {
+            mesh.vertices.row(k) = base.vertices.row(order[k]);
+            renumbered.row(k) = frames.row(order[k]);
+            number[order[k]] = k;
+        }
+        std::array<int, 4> begin{0, 1, 2, 3};
+        do {
+            for (int k = 0; k < 4; ++k) mesh.tets(0, k) = number[begin[k]];
+            if (tet_volumes(mesh)[0] < 0) continue;
+            for (const SingularTriangle& t : singular_graph(mesh, renumbered).triangles) EXPECT_EQ(t.quarter_turns, 1);
+        } while (std::next_permutation(begin.begin(), begin.end()));
+    } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(SingularTriangles, MeetInsideATetAtTheMeanOfTheirPoints) {
+    const TetMesh mesh = testing::kuhn_cube(3);
+    const SingularGraph graph = singular_graph(mesh, frames::random_rotations(mesh.vertices.rows(), 6));
+    ASSERT_GT(graph.nodes.size(), 10u);
+    for (const Index node : graph.nodes) {
+        Vector3 sum = Vector3::Zero();
+        int count = 0;
+        for (const auto& curve : graph.curves)
+            for (std::size_t i = 0; i < curve.size(); ++i)
+                for (const std::size_t j : {i - 1, i + 1})
+                    if (curve[i] == node && j < curve.size()) sum += Vector3(graph.points.row(curve[j])), ++count;
+        ASSERT_GE(count, 3);
+        EXPECT_LT((sum / count - Vector3(graph.points.row(node))).norm(), 1e-12);
+    }
 }
 
 TEST(SingularTriangles, TakeFramesWhoseSquareLengthIsOneWithinAMillionth) {

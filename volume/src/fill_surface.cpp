@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "flat_tets.hpp"
 #include "octafield/error.hpp"
 #include "triangle_table.hpp"
 
@@ -109,7 +110,7 @@ std::vector<Eigen::Vector3d> cavity_points(const TriangleMesh& mesh, const Progr
 }
 
 void require_surface_kept(const TetMesh& result, const TriangleMesh& mesh) {
-    if (!(tet_volumes(result).minCoeff() > 0)) throw Failed{"it left tets without volume"};
+    if (!flat_tets(result, flat_for_tetgen).empty()) throw Failed{"it left tets without volume"};
     BoundarySurface boundary;
     try {
         boundary = boundary_surface(result);

@@ -31,15 +31,8 @@ frames::LiftedMatching holonomy(const Quaternion& a, const Quaternion& b, const 
     return {frames::lifted_inverse(round_trip), ab.tie || bc.tie || ac.tie};
 }
 
-// Point of the closed segment [p, q] nearest the origin, as a parameter.
-double nearest_on_segment(const Sh4::Vector& p, const Sh4::Vector& q) {
-    const Sh4::Vector d = q - p;
-    const double length = d.squaredNorm();
-    return length > 0 ? std::clamp(-p.dot(d) / length, 0.0, 1.0) : 0.5;
-}
-
 // Barycentric coordinates of the point where the linear interpolant of three vectors is shortest in the closed
-// triangle.
+// triangle. On a side that is its middle, as all vectors have one length.
 Eigen::Vector3d shortest_interpolant(const std::array<Sh4::Vector, 3>& a) {
     const Sh4::Vector u = a[1] - a[0], v = a[2] - a[0];
     const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), determinant = uu * vv - uv * uv;
@@ -52,11 +45,10 @@ Eigen::Vector3d shortest_interpolant(const std::array<Sh4::Vector, 3>& a) {
     double shortest = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {
         const int next = (k + 1) % 3;
-        const double s = nearest_on_segment(a[k], a[next]);
-        const double norm = ((1 - s) * a[k] + s * a[next]).squaredNorm();
+        const double norm = (a[k] + a[next]).squaredNorm();
         if (norm < shortest) {
             shortest = norm;
-            best = (1 - s) * Eigen::Vector3d::Unit(k) + s * Eigen::Vector3d::Unit(next);
+            best = (Eigen::Vector3d::Unit(k) + Eigen::Vector3d::Unit(next)) / 2;
         }
     }
     return best;

@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <string>
 
+#include "flat_tets.hpp"
 #include "octafield/error.hpp"
 #include "triangle_table.hpp"
 
@@ -43,6 +45,18 @@ Eigen::VectorXd tet_volumes(const TetMesh& mesh) {
     return volumes;
 }
 
+std::vector<Index> flat_tets(const TetMesh& mesh, double least) {
+    std::vector<Index> flat;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        double longest = 0;  // squared
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < i; ++j)
+                longest = std::max(longest, (mesh.vertices.row(mesh.tets(t, i)) - mesh.vertices.row(mesh.tets(t, j))).squaredNorm());
+        if (!(6 * tet_volume(mesh, t) > least * longest * std::sqrt(longest))) flat.push_back(static_cast<Index>(t));
+    }
+    return flat;
+}
+
 BoundarySurface boundary_surface(const TetMesh& mesh) {
     require_indices_in_range(mesh);
     const TriangleTable table = triangle_table(mesh);
@@ -80,10 +94,7 @@ void require_valid(const TetMesh& mesh) {
     if (mesh.tets.rows() == 0) throw GeometryError("the mesh has no tets; give a tet mesh with at least one", "empty");
     require_indices_in_range(mesh);
     require_finite(mesh);
-    std::vector<Index> bad;
-    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
-        if (!(tet_volume(mesh, t) > 0)) bad.push_back(static_cast<Index>(t));
-    throw_if_any(bad, "inverted_tet", "tets have no positive volume",
+    throw_if_any(flat_tets(mesh, rounding_of_volumes), "inverted_tet", "tets have no positive volume",
                  "swap two vertices of an inverted tet, remove or remesh flat ones");
 }
 
