@@ -5,6 +5,7 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,23 +27,36 @@ Corners corners(const TriangleMesh& mesh, Index t) {
     return found;
 }
 
-}  // namespace
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-double one_sided_distance(const TriangleMesh& from, const TriangleMesh& to) {
+// Without those of no area, which the tree does not take.
+std::vector<Kernel::Triangle_3> triangles_of(const TriangleMesh& mesh) {
     std::vector<Kernel::Triangle_3> triangles;
-    std::set<Corners> known;
-    for (Index t = 0; t < to.triangles.rows(); ++t) {
-        known.insert(corners(to, t));
+    for (Index t = 0; t < mesh.triangles.rows(); ++t) {
         const auto point = [&](int k) {
-            const auto p = to.vertices.row(to.triangles(t, k));
+            const auto p = mesh.vertices.row(mesh.triangles(t, k));
             return Kernel::Point_3(p[0], p[1], p[2]);
         };
         triangles.emplace_back(point(0), point(1), point(2));
-        if (triangles.back().is_degenerate()) triangles.pop_back();  // the tree does not take these
+        if (triangles.back().is_degenerate()) triangles.pop_back();
     }
+    return triangles;
+}
+
+Eigen::Vector3d area_vector(const Kernel::Triangle_3& triangle) {
+    const auto n = CGAL::cross_product(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+    return Eigen::Vector3d(n.x(), n.y(), n.z()) / 2;
+}
+
+}  // namespace
+
+double one_sided_distance(const TriangleMesh& from, const TriangleMesh& to) {
+    std::set<Corners> known;
+    for (Index t = 0; t < to.triangles.rows(); ++t) known.insert(corners(to, t));
+    const std::vector<Kernel::Triangle_3> triangles = triangles_of(to);
     if (triangles.empty()) return 0;
-    using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
-    const CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(triangles.cbegin(), triangles.cend());
+    const Tree tree(triangles.cbegin(), triangles.cend());
     double most = 0;
     const auto look = [&](const Eigen::RowVector3d& point) {
         most = std::max(most, CGAL::to_double(tree.squared_distance({point[0], point[1], point[2]})));
@@ -57,6 +71,22 @@ double one_sided_distance(const TriangleMesh& from, const TriangleMesh& to) {
         look(centre);
     }
     return std::sqrt(most);
+}
+
+double turned_share(const TriangleMesh& from, const TriangleMesh& to, double angle) {
+    constexpr std::size_t most = 20000;
+    const std::vector<Kernel::Triangle_3> there = triangles_of(from), here = triangles_of(to);
+    if (there.empty() || here.empty()) return 0;
+    const Tree tree(here.cbegin(), here.cend());
+    const double least = std::cos(angle);
+    double area = 0, turned = 0;
+    for (std::size_t t = 0; t < there.size(); t += 1 + there.size() / most) {
+        const Eigen::Vector3d wanted = area_vector(there[t]);
+        const auto nearest = tree.closest_point_and_primitive(CGAL::centroid(there[t])).second;
+        area += wanted.norm();
+        if (std::abs(wanted.normalized().dot(area_vector(*nearest).normalized())) < least) turned += wanted.norm();
+    }
+    return area > 0 ? turned / area : 0;
 }
 
 }  // namespace octafield::surface

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "deviation.hpp"
 #include "graded_remesh.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/validate.hpp"
@@ -20,6 +21,7 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kShortest = 1. / 16;  // of the wanted length
+constexpr double kTurnTold = 15 * std::numbers::pi / 180, kFlattenedTold = 0.05;  // of triangles; a share of the area
 
 // `protect`: feature edges are split once before and then left alone, instead of being split and merged in every round.
 void run_rounds(Marked& marked, const PatchTrees& input, double length, int rounds, bool protect,
@@ -81,6 +83,17 @@ public:
         : mesh_(mesh), features_(features), options_(options), judge_(mesh, features), progress_(progress) {}
 
     RemeshResult run() {
+        RemeshResult result = remeshed();
+        const double flattened = turned_share(mesh_, result.mesh, kTurnTold);
+        if (flattened > kFlattenedTold)
+            result.notes.push_back("on " + short_number(100 * flattened) +
+                                   " % of the surface the triangles of the input are turned by more than 15 degrees from "
+                                   "those taken: details finer than the edges were flattened");
+        return result;
+    }
+
+private:
+    RemeshResult remeshed() {
         if (options_.edge_length > 0) return of_one_length(options_.edge_length, true);
         const auto alive = [this](double fraction) { report_or_throw(forward(), "remesh", fraction, kNone); };
         GradedResult graded =
@@ -98,7 +111,6 @@ public:
         return result;
     }
 
-private:
     RemeshResult of_one_length(double wanted, bool given) {
         std::optional<Attempt> best;
         std::string why;  // lengths longer than the last are worse

@@ -199,13 +199,24 @@ TEST(Remesh, AGivenLengthIsShortenedOnlyWhereTheSurfaceWouldBeSpoilt) {
     const TriangleMesh ring = torus(80, 40, 1, 0.4);
     const RemeshResult rough = remesh(ring, {Edges(0, 2), {}}, {.edge_length = 0.25});
     EXPECT_NEAR(mean_edge_length(rough.mesh), 0.25, 0.04);
-    ASSERT_EQ(rough.notes.size(), 1u);
+    ASSERT_EQ(rough.notes.size(), 2u);
     EXPECT_NE(rough.notes.front().find("is not quite that of the input"), std::string::npos) << rough.notes.front();
+    EXPECT_NE(rough.notes.back().find("details finer than the edges were flattened"), std::string::npos);
     const RemeshResult spoilt = remesh(ring, {Edges(0, 2), {}}, {.edge_length = 1.5});
     expect_same_body(ring, spoilt, 1);
     EXPECT_LT(mean_edge_length(spoilt.mesh), 0.9);
     ASSERT_FALSE(spoilt.notes.empty());
     EXPECT_NE(spoilt.notes.front().find("would spoil the surface"), std::string::npos) << spoilt.notes.front();
+}
+
+TEST(Remesh, RipplesFinerThanTheEdgesAreToldAndSmoothSurfacesAreNot) {
+    TriangleMesh ring = torus(240, 96, 1, 0.4);
+    for (Index v = 0; v < ring.vertices.rows(); ++v) ring.vertices.row(v) *= 1 + 0.004 * (v % 2 ? 1 : -1);
+    const auto told = [](const RemeshResult& result) {
+        return std::ranges::any_of(result.notes, [](const std::string& note) { return note.find("flattened") != note.npos; });
+    };
+    EXPECT_TRUE(told(remesh(ring, {Edges(0, 2), {}}, {.edge_length = 0.1})));
+    EXPECT_FALSE(told(remesh(torus(240, 96, 1, 0.4), {Edges(0, 2), {}}, {.edge_length = 0.1})));
 }
 
 TEST(Remesh, WhereNoLengthIsSoundTheTrianglesOfTheInputAreKept) {
