@@ -12,6 +12,7 @@
 #include "near_points.hpp"
 #include "octafield/error.hpp"
 #include "resolve_crossings.hpp"
+#include "short_edges.hpp"
 #include "short_number.hpp"
 #include "triangle_tests.hpp"
 #include "wrap.hpp"
@@ -20,6 +21,7 @@ namespace octafield::surface {
 namespace {
 
 constexpr double kTinyPiece = 1e-3;  // diagonals
+constexpr double kOnePlace = 1e-13;  // diagonals: ends of an edge that TetGen cannot tell apart
 constexpr double kRoundings = 2;     // of the coordinates' precision, between two points meant as one
 constexpr double kWrapParts = 50;    // wrap_alpha in a diagonal
 constexpr double kOffsetParts = 20;  // wrap_offset in wrap_alpha
@@ -113,10 +115,17 @@ private:
         note(split_open_edges(mesh_, tolerance_), "split ", "triangle",
              " at points on their open edges, nearer than " + short_number(tolerance_));
         note(orient_alike(mesh_.triangles), "reversed ", "triangle", " to agree with the neighbours");
+        join_ends();
         note(flip_flat_triangles(mesh_), "flipped away ", "triangle", " without area");
         if (options_.closed) fill(options_.small_hole_edges, false);
         orient_all();
         note(drop_unused_vertices(mesh_), "left out ", "point", " that no triangle uses");
+    }
+
+    void join_ends() {
+        const std::size_t joined = collapse_short_edges(mesh_, kOnePlace * bounding_box_diagonal(mesh_.vertices));
+        if (joined > 0) drop_unused_vertices(mesh_);
+        note(joined, "joined the ends of ", "edge", " that were one place but for rounding");
     }
 
     void orient_all() {
@@ -139,6 +148,7 @@ private:
         if (crossing == 0) return;
         before_resolving_ = mesh_;
         note(unite_crossing_pieces(mesh_), "united ", "piece", " with others that it crossed");
+        join_ends();
         const TriangleMesh before = mesh_;
         const std::size_t left = intersecting_triangles(mesh_).size();
         if (left == 0 || !remove_crossings(mesh_)) return;

@@ -260,3 +260,22 @@ def test_convert_does_not_ignore_repair_of_tets_or_frames(tmp_path):
     assert any("repair was ignored" in note for note in convert_file(tmp_path / "a.mesh", tmp_path / "b.vtk", repair=MeshOptions(repair="safe")).notes)
     done = CliRunner().invoke(app, ["convert", str(tmp_path / "a.mesh"), "-o", str(tmp_path / "c.vtk"), "--repair", "saef"])
     assert done.exit_code == 2 and "did you mean 'safe'" in done.stderr
+
+
+@pytest.mark.parametrize("length, collapsed", [(1e-17, True), (1e-9, False)])
+def test_an_edge_that_is_rounding_is_collapsed_and_a_short_one_is_not(length, collapsed):
+    box = generate("box")
+    points, triangles = np.asarray(box.vertices), np.asarray(box.triangles).tolist()
+    start = int(np.argmin(np.abs(points).sum(axis=1)))
+    points = points - points[start]
+    first = next(t for t in triangles if start in t)
+    end = first[(first.index(start) + 1) % 3]
+    second = next(t for t in triangles if t is not first and start in t and end in t)
+    middle = len(points)
+    for t in (first, second):
+        triangles.remove(t)
+        triangles += [[middle if v == start else v for v in t], [middle if v == end else v for v in t]]
+    step = length * (points[end] - points[start]) / np.linalg.norm(points[end] - points[start])
+    done = of.repair(of.TriangleMesh(np.vstack([points, step]), np.array(triangles, np.int32)), level="safe")
+    assert (len(done.mesh.triangles) == len(box.triangles)) == collapsed == any("joined the ends of 1 edge" in a for a in done.actions)
+    assert kinds(done.mesh) == [] and of.signed_volume(done.mesh) == pytest.approx(of.signed_volume(box))
