@@ -33,7 +33,7 @@ class Conversion:
     frames: int = 0
     where: str | None = None
     deviation_deg: float = 0.0
-    notes: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list, repr=False)
     sizes: dict[str, Any] = field(default_factory=dict, repr=False)
 
 

@@ -6,13 +6,14 @@ import os
 import tempfile
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ._core import TriangleMesh
-from .errors import Error
+from .errors import Error, SolverError
 from .info import FAIL, PASS
 from .phases import libraries, versions
 
@@ -97,6 +98,29 @@ def _field(solver: str) -> Callable[[], str]:
     return check
 
 
+def _threads() -> str:
+    """Matrices factorized in two threads at once, as alone: a BLAS that is not made for threads mixes them up without a word."""
+    from . import _core
+
+    surface = _core.remesh(_cube(), _core.detect_features(_cube()), edge_length=0.08).mesh
+
+    def energies(times: int) -> set[float]:
+        return {_core.direction_field(surface, _core.FeatureGraph()).energy for _ in range(times)}
+
+    alone = energies(1)
+    try:
+        with ThreadPoolExecutor(2) as pool:
+            together = set[float]().union(*pool.map(energies, (4, 4)))
+    except SolverError:
+        together = set()
+    if together != alone:
+        raise ArithmeticError(
+            "fields computed in two threads at once differ from the same alone: the BLAS library is not safe in threads; install "
+            "libopenblas0-pthread (update-alternatives --config libblas.so.3-x86_64-linux-gnu), or compute in one thread at a time"
+        )
+    return "8 fields in two threads are as one alone"
+
+
 def _pictures() -> str:
     from . import scene
 
@@ -121,6 +145,7 @@ _CHECKS = (
     ("meshing (CGAL, TetGen)", _tetgen),
     ("smoothing (trust region)", _field("default")),
     ("smoothing (Ceres)", _field("levenberg_marquardt")),
+    ("threads (BLAS, CHOLMOD)", _threads),
     ("files (VTK)", _files),
     ("pictures (VTK without a display)", _pictures),
 )

@@ -76,8 +76,8 @@ constexpr Example of_meshes[] = {
     {"size_field", R"(
     >>> cylinder = generate("cylinder", radius=0.05, height=3.0)
     >>> sizes = octafield.size_field(cylinder, octafield.detect_features(cylinder))
-    >>> bool(sizes.lengths.min() < 0.02), bool(sizes.longest > 0.1)
-    (True, True)"},
+    >>> bool(sizes.lengths.min() < 0.02 < 0.1 < sizes.longest)
+    True)"},
     {"tetrahedralize", R"(
     >>> tets = octafield.tetrahedralize(generate("box"))
     >>> round(float(octafield.tet_volumes(tets).sum()), 12)
