@@ -1,4 +1,4 @@
-"""Does any part become a field? Sixty surfaces through the command line, each judged against what is known of it.
+"""Does any part become a field? Many surfaces through the command line, each judged against what is known of it.
 
     python studies/any_part.py -o out/any_part [--data FOLDER] [--extra FILE_OR_FOLDER ...] [--only a,b] [--limit S] [--page docs/any_part.md]
 
@@ -140,8 +140,8 @@ def _cell(value: Any) -> str:
 
 PAGE = """# Any part
 
-Sixty surfaces through `octafield field`: parts made by rule (thin walls, needles, high genus, noise, scans with holes), files that broke something
-once, and what pyvista ships. Where a field is refused by default, the options that the message names are added, without a look at the part.
+Surfaces through `octafield field`: thirty made by rule (thin walls, needles, high genus, noise, scans with holes), sound and spoilt files of the data
+folder, files that broke something once, the boundaries of all its tet meshes, and what pyvista ships. Where a field is refused by default, the options that the message names are added, without a look at the part.
 What counts as wrong, and how it is found: [studies/any_part.py](study_scripts.md), which writes this page. Seconds are on the clock, as the machine was; the limit of one command was {limit:.0f} s. The program was octafield {version}, commit {commit}.
 
 """

@@ -116,14 +116,23 @@ def _shared(data: Path) -> Iterator[Case]:
 
 
 def _boundaries(data: Path, folder: Path) -> Iterator[Case]:
-    """Of the tet meshes of ARFF and HexMe, as OBJ: of each model of HexMe the uniform mesh, else the one adapted to curvature."""
-    models = {path.name[:3]: path for kind in "cu" for path in sorted((data / "hexme").glob(f"*{kind}.vtk.gz"))}
-    for mesh in [*models.values(), *sorted((data / "arff").glob("*.mesh.gz"))]:
+    """Of all tet meshes of the data folder, as OBJ."""
+    for mesh in (*sorted((data / "hexme").glob("*.vtk.gz")), *sorted((data / "arff").glob("*.mesh.gz")), data / "arff/prism.node.gz",
+                 *sorted((data / "mc3d").glob("*.hexex.gz"))):  # fmt: skip
         path = folder / f"{mesh.name.removesuffix('.gz').rpartition('.')[0]}_boundary.obj"
         if not path.exists():
-            boundary = octafield.prepare_mesh(mesh).volume().boundary.mesh
+            tets = _hexex(mesh) if mesh.name.endswith(".hexex.gz") else octafield.inputs.read_input(mesh).tets
+            boundary = octafield.boundary_surface(tets).mesh
             _write(path, np.asarray(boundary.vertices), np.asarray(boundary.triangles), ascii_digits=None)
         yield _measured(Case(path.name, path, f"data/{mesh.parent.name}"))
+
+
+def _hexex(path: Path) -> octafield.TetMesh:
+    """Counts, vertices, and tets with their parameters behind the four ids."""
+    with gzip.open(path, "rt") as lines:
+        points = [next(lines).split() for _ in range(int(next(lines)))]
+        tets = [next(lines).split()[:4] for _ in range(int(next(lines)))]
+    return octafield.TetMesh(np.array(points, float), np.array(tets, np.int32))
 
 
 def _shipped() -> Iterator[Case]:
