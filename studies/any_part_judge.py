@@ -111,9 +111,10 @@ def judge(case: Case, path: Path, output: Path, record: dict[str, Any]) -> dict[
         gap = [np.linalg.norm(np.subtract(lines.points[near.FindClosestPoint(p)], p)) for p in result.points]
         away &= np.array(gap) > 0.5 * record["edge_length"]
     if away.any():
-        # An input's normals are known no better than to its own triangles.
-        radius = np.clip(octafield.mean_edge_length(source), 0.5 * record["edge_length"], max(0.5 * octafield.shape_size(mesh) / 25, 0.5 * record["edge_length"]))
-        angles = axis_angles(result, volume, mean_normals(source, result.points[away], nearest[away], float(radius)), away)
+        near = 0.5 * record["edge_length"]
+        wide = max(near, min(octafield.mean_edge_length(source), 0.5 * octafield.shape_size(mesh) / 25))
+        # An input's normals are known no better than to its own triangles: that of one, or the mean of those around.
+        angles = np.minimum(*(axis_angles(result, volume, mean_normals(source, result.points[away], nearest[away], r), away) for r in (near, wide)))
         row["angle 95 %"] = quantile_by_area(angles, vertex_areas(mesh)[away], 0.95)
         if row["angle 95 %"] > ANGLE:
             wrong.append(f"axes {row['angle 95 %']:.3g} degrees off on 5 % of the surface")
