@@ -14,7 +14,7 @@ import numpy as np
 import su2_limits
 import su2_thesis
 from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
-from su2_problems import Problem, ball, bar, cube, grid_values, random_representatives
+from su2_problems import Problem, ball, bar, cube, grid_values, minimise, on_cells, random_representatives
 
 import octafield
 from octafield.plots import PALETTE
@@ -24,12 +24,6 @@ COLOURS = dict(zip(SCHEMES, ("black", *PALETTE)))
 SIZES, FINE = (4, 8, 12, 16), 48
 LIMITS = (10, 20, 30, 40, np.inf)  # degrees
 PARTS = ("bar", "cube", "starts", "thesis", "ball")
-
-
-def minimise(problem: Problem, scheme: str, start: np.ndarray, tolerance: float = 1e-12, **options) -> octafield.SmoothResult:
-    solver = "trust_region" if scheme == "sh4" else "levenberg_marquardt"
-    return octafield.smooth(problem.mesh, problem.constraints, start, representation=scheme, solver=solver, tolerance=tolerance,
-                            max_iterations=300, **options)
 
 
 def degrees(a: np.ndarray, b: np.ndarray, where: np.ndarray) -> np.ndarray:
@@ -115,10 +109,7 @@ def study_cube(folder: Path, amplitude: float) -> None:
                 table.append([family, scheme, *(f"{row[4]:.4f} ({row[5]:.3f})" for row in mine),
                               orders([row[4] for row in mine], 1 / np.array(SIZES))[-1], orders(means, 1 / np.array(SIZES))[-1]])
         axes.loglog(SIZES, 8.0 / np.array(SIZES) ** 2, ":", color="gray", label="second order")
-        axes.set(xlabel="cells a side", title=family)
-        axes.set_xticks(SIZES, SIZES)
-        axes.minorticks_off()
-        with_grid(axes)
+        on_cells(axes, SIZES, family)
     panels[0].set_ylabel("mean degrees from the fine reference")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside right center", fontsize=9)

@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
-from su2_problems import Problem, held, jittered_cube, kuhn_grid, quaternion_product, tetgen_cube
+from study_output import markdown_table, new_figure, save_figure, write_csv
+from su2_problems import Problem, held, jittered_cube, kuhn_grid, minimise, on_cells, quaternion_product, tetgen_cube
 
 import octafield
 from octafield.plots import PALETTE
@@ -62,8 +62,7 @@ def problem_of(family: str, n: int) -> Problem:
 def solved(problem: Problem, scheme: str) -> octafield.SmoothResult:
     """From the linear field of sh4, as every method here starts."""
     start = octafield.initial_frames(problem.mesh, problem.constraints)
-    solver = "trust_region" if scheme == "sh4" else "levenberg_marquardt"
-    return octafield.smooth(problem.mesh, problem.constraints, start, representation=scheme, solver=solver, tolerance=1e-12, max_iterations=300)
+    return minimise(problem, scheme, start)
 
 
 def errors(problem: Problem, frames: np.ndarray) -> dict[str, float]:
@@ -96,10 +95,7 @@ def study(folder: Path, cells: Sequence[int], schemes: Sequence[str]) -> list[li
                 rows.append([family, scheme, norm, *values, order(values, cells), "yes" if all(r.converged for r in results) else "no"])
             axes.loglog(cells, [each["L2"] for each in found], "o-", color=colour, label=scheme, markersize=4, linewidth=1.2)
         axes.loglog(cells, 2.0 / np.array(cells) ** 2, ":", color="gray", label="second order")
-        axes.set(xlabel="cells a side", title=family)
-        axes.set_xticks(cells, cells)
-        axes.minorticks_off()
-        with_grid(axes)
+        on_cells(axes, cells, family)
     panels[0].set_ylabel("L2 error, degrees")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside right center", fontsize=9)
     save_figure(figure, folder / "su2_harmonic.png")

@@ -1,10 +1,13 @@
 """Problems of su2_consistency.py: tet meshes of the unit cube, a bar and a ball, with constrained boundary frames."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
+from study_output import with_grid
 
 import octafield
 
@@ -100,6 +103,20 @@ def ball(path: Path) -> Problem:
     constraints = octafield.BoundaryConstraints(kind, axis, frames, (kind > 0).astype(np.uint8))
     return Problem(path.name.removesuffix(".mesh.gz"), octafield.mean_edge_length(read.boundary.mesh), mesh, constraints,
                    None, np.arange(n), read.boundary)
+
+
+def minimise(problem: Problem, scheme: str, start: np.ndarray, tolerance: float = 1e-12, **options) -> octafield.SmoothResult:
+    solver = "trust_region" if scheme == "sh4" else "levenberg_marquardt"
+    return octafield.smooth(problem.mesh, problem.constraints, start, representation=scheme, solver=solver, tolerance=tolerance,
+                            max_iterations=300, **options)
+
+
+def on_cells(axes: Any, cells: Sequence[int], title: str) -> None:
+    """A panel over the number of cells along a side."""
+    axes.set(xlabel="cells a side", title=title)
+    axes.set_xticks(cells, cells)
+    axes.minorticks_off()
+    with_grid(axes)
 
 
 def grid_values(frames: np.ndarray, n: int, points: np.ndarray) -> np.ndarray:

@@ -17,6 +17,7 @@ namespace py = pybind11;
 
 // Keeps Ctrl-C from the calling thread, and from those it starts, while it lives. Python waits for it in its main thread; the
 // system may give it to any thread that takes it, and a main thread that waits for a lock (Thread.join) then never wakes.
+// Programs that a callback starts in such a thread do not take it either.
 class InterruptsElsewhere {
 public:
     explicit InterruptsElsewhere(bool really = true);

@@ -87,8 +87,8 @@ public:
         const double flattened = turned_share(mesh_, result.mesh, kTurnTold);
         if (flattened > kFlattenedTold)
             result.notes.push_back("on " + short_number(100 * flattened) +
-                                   " % of the surface the triangles of the input are turned by more than 15 degrees from "
-                                   "those taken: details finer than the edges were flattened");
+                                   " % of the surface the triangles of the input are turned by more than 15 degrees "
+                                   "from those taken: details finer than the edges were flattened");
         return result;
     }
 

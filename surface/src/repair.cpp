@@ -106,6 +106,7 @@ private:
     void mend() {
         note(drop_repeating_a_vertex(mesh_.triangles), "removed ", "triangle", " that used a vertex twice");
         if (repeats_vertex(mesh_.triangles, 0)) return;  // all do; nothing would be left
+        const std::size_t unused = drop_unused_vertices(mesh_);  // first, as tolerances come from the size of the rest
         note(drop_repeated(mesh_.triangles), "removed ", "triangle", " on the same three vertices as another");
         note(drop_fins(mesh_.triangles), "removed ", "dangling triangle",
              " (one side on an edge of three or more triangles, two free)");
@@ -119,7 +120,7 @@ private:
         note(flip_flat_triangles(mesh_), "flipped away ", "triangle", " without area");
         if (options_.closed) fill(options_.small_hole_edges, false);
         orient_all();
-        note(drop_unused_vertices(mesh_), "left out ", "point", " that no triangle uses");
+        note(unused + drop_unused_vertices(mesh_), "left out ", "point", " that no triangle uses");
     }
 
     void join_ends() {

@@ -49,8 +49,8 @@ ENDS = ("", "sys.exit(7)", "raise SystemExit(7)")
 
 
 def interrupt_until_it_ends(process):
-    """Python itself may miss one: the system gives it to a thread of Python or of numpy, and the main thread is not woken in its
-    join (seen in 24 of 60 runs of threads that start threads, without octafield)."""
+    """Python itself may miss one, with or without octafield: the system gives it to a thread of Python's or of numpy's, and the main
+    thread is not woken in its join."""
     for _ in range(60):
         os.killpg(process.pid, signal.SIGINT)
         try:

@@ -279,3 +279,11 @@ def test_an_edge_that_is_rounding_is_collapsed_and_a_short_one_is_not(length, co
     done = of.repair(of.TriangleMesh(np.vstack([points, step]), np.array(triangles, np.int32)), level="safe")
     assert (len(done.mesh.triangles) == len(box.triangles)) == collapsed == any("joined the ends of 1 edge" in a for a in done.actions)
     assert kinds(done.mesh) == [] and of.signed_volume(done.mesh) == pytest.approx(of.signed_volume(box))
+
+
+def test_a_far_point_that_no_triangle_uses_makes_nothing_small():
+    box = generate("box")
+    points = np.vstack([np.asarray(box.vertices), [1e15, 0, 0]])
+    done = of.repair(of.TriangleMesh(points, box.triangles), level="safe")
+    assert done.actions == ["left out 1 point that no triangle uses"]
+    assert len(done.mesh.triangles) == len(box.triangles) and len(done.mesh.vertices) == len(box.vertices)

@@ -48,10 +48,10 @@ Eigen::VectorXd tet_volumes(const TetMesh& mesh) {
 std::vector<Index> flat_tets(const TetMesh& mesh, double least) {
     std::vector<Index> flat;
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const auto p = [&](int k) { return mesh.vertices.row(mesh.tets(t, k)); };
         double longest = 0;  // squared
         for (int i = 0; i < 4; ++i)
-            for (int j = 0; j < i; ++j)
-                longest = std::max(longest, (mesh.vertices.row(mesh.tets(t, i)) - mesh.vertices.row(mesh.tets(t, j))).squaredNorm());
+            for (int j = 0; j < i; ++j) longest = std::max(longest, (p(i) - p(j)).squaredNorm());
         if (!(6 * tet_volume(mesh, t) > least * longest * std::sqrt(longest))) flat.push_back(static_cast<Index>(t));
     }
     return flat;
