@@ -1,6 +1,7 @@
 """Does any part become a field? Many surfaces through the command line, each judged against what is known of it.
 
-    python studies/any_part.py -o out/any_part [--data FOLDER] [--extra FILE_OR_FOLDER ...] [--only a,b] [--limit S] [--page docs/any_part.md]
+    python studies/any_part.py -o out/any_part [--data FOLDER] [--extra FILE_OR_FOLDER ...] [--only a,b] [--limit S]
+    [--page docs/any_part.md]
 
 Inputs: any_part_inputs.py (generated surfaces, the data folder, what pyvista, trimesh and meshio ship; --extra: others,
 outside the shares). For each file `octafield info` and `octafield field` run in processes of their own by default
@@ -12,7 +13,8 @@ surface lies further than 1 % of the size away (either way), or one axis is more
 normal on more than 5 % of the surface away from features. A wrong result whose record says so (its verdict
 is not fine, or a note tells of a loss, a filled hole or a coarse place) is "told"; without a word it is "SILENT".
 
-Writes table.csv, summary.md (--page: a page of the documentation with it), pictures in contact.png. Exit code 1 where a result is silently wrong.
+Writes table.csv, summary.md (--page: a page of the documentation with it), pictures in contact.png. Exit code 1 where a
+result is silently wrong.
 """
 
 import argparse
@@ -24,11 +26,10 @@ import time
 from pathlib import Path
 from typing import Any
 
+import octafield
 from any_part_inputs import Case, collect, unpacked
 from any_part_judge import contact_sheet, judge, words_of
 from study_output import markdown_table, write_csv
-
-import octafield
 
 HEADER = ["input", "source", "triangles", "info", "default", "kind", "steps", "result", "wrong", "told", "tets", "energy", "singular", "volume %",
           "euler", "far %", "angle 95 %", "seconds", "message"]  # fmt: skip
@@ -53,7 +54,9 @@ def call(words: list[str], limit: float) -> tuple[int | None, str, float]:
     """Exit code (None: the limit was reached), stderr and seconds on the clock."""
     begin = time.monotonic()
     try:
-        done = subprocess.run([sys.executable, "-m", "octafield", *words], capture_output=True, text=True, timeout=limit)
+        done = subprocess.run(
+            [sys.executable, "-m", "octafield", *words], capture_output=True, text=True, timeout=limit
+        )
         return done.returncode, done.stderr, time.monotonic() - begin
     except subprocess.TimeoutExpired:
         return None, f"not done after {limit:.0f} s", limit
@@ -74,17 +77,31 @@ def run_case(case: Case, folder: Path, limit: float) -> dict[str, Any]:
     code, _, _ = call(["info", str(case.path), "-q", "--json", str(info_json)], limit)
     about = json.loads(info_json.read_text()) if info_json.exists() else {}
     warned = sum(r["state"] == "warn" for r in about.get("requirements", []))
-    row |= {"triangles": about.get("triangles", ""), "info": {0: f"{warned} warnings" if warned else "pass", 2: "fail"}.get(code, state_of(code))}
+    row |= {
+        "triangles": about.get("triangles", ""),
+        "info": {0: f"{warned} warnings" if warned else "pass", 2: "fail"}.get(code, state_of(code)),
+    }
     given: dict[str, str] = {}
     steps: list[str] = []
     for step in range(MOST_STEPS + 1):
         output = folder / f"try{step}"
         options = [word for pair in given.items() for word in pair if word]
-        code, stderr, seconds = call(["field", str(case.path), "-o", str(output), "-q", "--json", str(folder / f"try{step}.json"), *options], limit)
+        code, stderr, seconds = call(
+            ["field", str(case.path), "-o", str(output), "-q", "--json", str(folder / f"try{step}.json"), *options],
+            limit,
+        )
         message = "" if code == 0 else error_of(stderr)
         if step == 0:
-            told = json.loads((folder / "try0.json").read_text()).get("error", {}) if code and (folder / "try0.json").exists() else {}
-            row |= {"default": state_of(code), "kind": told.get("kind", ""), "message": message.replace(str(case.path.parent), "")}
+            told = (
+                json.loads((folder / "try0.json").read_text()).get("error", {})
+                if code and (folder / "try0.json").exists()
+                else {}
+            )
+            row |= {
+                "default": state_of(code),
+                "kind": told.get("kind", ""),
+                "message": message.replace(str(case.path.parent), ""),
+            }
         row |= {"result": state_of(code), "seconds": round(seconds, 1)}
         more = named_options(message, given) if code == 2 else {}
         if not more:
@@ -111,7 +128,10 @@ def verdict(row: dict[str, Any]) -> str:
 def summary(rows: list[dict[str, Any]]) -> str:
     counted = [row for row in rows if row["source"] != "extra"]
     text = ""
-    for title, of in (("surfaces of the study", counted), ("further surfaces", [row for row in rows if row["source"] == "extra"])):
+    for title, of in (
+        ("surfaces of the study", counted),
+        ("further surfaces", [row for row in rows if row["source"] == "extra"]),
+    ):
         if not of:
             continue
         default, end = (sum(row[key] == "field" for row in of) for key in ("default", "result"))
@@ -120,17 +140,34 @@ def summary(rows: list[dict[str, Any]]) -> str:
         whole = sum(row["default"] == "field" for row in others)
         told = sum("told" in verdict(row) for row in of)
         text += (
-            f"{len(of)} {title}: a field by default from {default} ({default / len(of):.1%}; of the {len(others)} that nobody spoilt on purpose, as the files bad_* were, "
-            f"from {whole}, {whole / len(others):.1%}), with what the messages name from {end} "
-            f"({end / len(of):.1%}); wrong without a word: {len(silent)}{' (' + ', '.join(silent) + ')' if silent else ''}; "
-            f"off and said so: {told}.\n\n"
+            f"{len(of)} {title}: a field by default from {default} ({default / len(of):.1%}; of the {len(others)} that"
+            f" nobody spoilt on purpose, as the files bad_* were, from {whole}, {whole / len(others):.1%}), with what"
+            f" the messages name from {end} ({end / len(of):.1%}); wrong without a word:"
+            f" {len(silent)}{' (' + ', '.join(silent) + ')' if silent else ''}; off and said so: {told}.\n\n"
         )
-    shown = ["input", "source", "triangles", "info", "default", "steps", "verdict", "wrong", "tets", "energy", "volume %", "far %", "angle 95 %", "seconds"]
+    shown = [
+        "input",
+        "source",
+        "triangles",
+        "info",
+        "default",
+        "steps",
+        "verdict",
+        "wrong",
+        "tets",
+        "energy",
+        "volume %",
+        "far %",
+        "angle 95 %",
+        "seconds",
+    ]
     text += markdown_table(shown, [[_cell((row | {"verdict": verdict(row)})[key]) for key in shown] for row in rows])
     refused = [row for row in rows if row["default"] != "field"]
     if refused:
         text += "\nWhat was not done by default, and the message:\n\n"
-        text += markdown_table(["input", "verdict", "message"], [[row["input"], verdict(row), _cell(row["message"])] for row in refused])
+        text += markdown_table(
+            ["input", "verdict", "message"], [[row["input"], verdict(row), _cell(row["message"])] for row in refused]
+        )
     return text
 
 
@@ -175,7 +212,20 @@ def main() -> int:
             kept.write_text(json.dumps(run_case(case, folder, a.limit)))
         row = json.loads(kept.read_text())
         rows.append(row)
-        print(row["input"], "|", verdict(row), "|", row["wrong"], "|", row["steps"], "|", row["seconds"], "s |", row["message"][:200], flush=True)
+        print(
+            row["input"],
+            "|",
+            verdict(row),
+            "|",
+            row["wrong"],
+            "|",
+            row["steps"],
+            "|",
+            row["seconds"],
+            "s |",
+            row["message"][:200],
+            flush=True,
+        )
         write_csv(a.output / "table.csv", HEADER, [[row[key] for key in HEADER] for row in rows], quiet=True)
         (a.output / "summary.md").write_text(summary(rows))
     if a.page:

@@ -1,4 +1,5 @@
-"""What any_part.py runs on: files of the data folder, surfaces that packages ship, and generated ones, each with what is known of it."""
+"""What any_part.py runs on: files of the data folder, surfaces that packages ship, and generated ones, each with what
+is known of it."""
 
 import gzip
 import json
@@ -8,9 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from any_part_shapes import SHAPES
-
 import octafield
+from any_part_shapes import SHAPES
 
 ENDINGS = (".stl", ".obj", ".off", ".ply", ".vtp")
 DAMAGED = {"scan_holes": 6}  # so many holes of a ring of triangles are cut into it
@@ -88,23 +88,40 @@ def _with_holes(points: np.ndarray, triangles: np.ndarray, count: int) -> np.nda
 
 def _write(path: Path, points: np.ndarray, triangles: np.ndarray, ascii_digits: int | None) -> None:
     if path.suffix == ".obj":
-        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist()] + ["f {} {} {}".format(*t) for t in (triangles + 1).tolist()]
+        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist()] + [
+            "f {} {} {}".format(*t) for t in (triangles + 1).tolist()
+        ]
         path.write_text("\n".join(lines) + "\n")
     elif ascii_digits is None:
         record = np.zeros(len(triangles), [("n", "<f4", 3), ("p", "<f4", (3, 3)), ("a", "<u2")])
         record["p"] = points[triangles]
         path.write_bytes(b"binary".ljust(80) + np.uint32(len(triangles)).tobytes() + record.tobytes())
     else:
-        words = [[f"vertex {x:.{ascii_digits}g} {y:.{ascii_digits}g} {z:.{ascii_digits}g}" for x, y, z in t] for t in points[triangles].tolist()]
+        words = [
+            [f"vertex {x:.{ascii_digits}g} {y:.{ascii_digits}g} {z:.{ascii_digits}g}" for x, y, z in t]
+            for t in points[triangles].tolist()
+        ]
         facets = [f"facet normal 0 0 0\nouter loop\n{a}\n{b}\n{c}\nendloop\nendfacet" for a, b, c in words]
         path.write_text("\n".join(["solid part", *facets, "endsolid part"]) + "\n")
 
 
 def _shared(data: Path) -> Iterator[Case]:
     told = {entry["name"]: entry for entry in json.loads((data / "surfaces/manifest.json").read_text())}
-    for path in [*sorted((data / "surfaces").glob("*.obj")), *sorted((data / "surfaces").glob("*.stl.gz")), data / "surfaces/bad_soup_s04.stl"]:
+    for path in [
+        *sorted((data / "surfaces").glob("*.obj")),
+        *sorted((data / "surfaces").glob("*.stl.gz")),
+        data / "surfaces/bad_soup_s04.stl",
+    ]:
         name = path.name.split(".")[0].removesuffix("_binary")
-        of = told[name if name in told and not name.startswith("bad") else f"{name[-3:]}_surface" if name.startswith("bad") else name]
+        of = told[
+            (
+                name
+                if name in told and not name.startswith("bad")
+                else f"{name[-3:]}_surface"
+                if name.startswith("bad")
+                else name
+            )
+        ]
         yield Case(path.name, path, "data/surfaces", of["signed_volume"], of["chi"], sound=not name.startswith("bad"))
     for path in sorted((data / "wild").iterdir()):
         if path.name.endswith(ENDINGS) and not path.name.startswith("damaged") and path.name != "s_comma.stl":

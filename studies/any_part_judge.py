@@ -1,26 +1,30 @@
-"""How far a result of any_part.py is from its input: volume, topology, distance of the surfaces, alignment; and pictures to look at."""
+"""How far a result of any_part.py is from its input: volume, topology, distance of the surfaces, alignment; and
+pictures to look at."""
 
 import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import octafield
 import pyvista
 import vtk
 from any_part_inputs import Case
 from scipy.spatial import cKDTree
 
-import octafield
-
 VOLUME, FAR, ANGLE = 0.01, 0.01, 10.0  # relative; of the size; degrees
 SAMPLES = 5000
-# What a note has to speak of to tell of a changed shape, and of axes that are off. That triangles were turned or points merged excuses neither.
-_SHAPE = re.compile(r"fill|wrap|remov|flatten|detail|coarse|deviat|lost|left out|perturb|moved|finer|away", re.IGNORECASE)
+# What a note has to speak of to tell of a changed shape, and of axes that are off. That triangles were turned or points
+# merged excuses neither.
+_SHAPE = re.compile(
+    r"fill|wrap|remov|flatten|detail|coarse|deviat|lost|left out|perturb|moved|finer|away", re.IGNORECASE
+)
 _AXES = re.compile(r"flatten|detail|coarse|finer|axes|normals", re.IGNORECASE)
 
 
 def words_of(record: dict[str, Any], wrong: str) -> str:
-    """What the record says of what is wrong with its result, "" where it says nothing. A verdict that is not fine tells of anything."""
+    """What the record says of what is wrong with its result, "" where it says nothing. A verdict that is not fine tells
+    of anything."""
     told = record.get("verdict") or {}
     state = told if isinstance(told, str) else str(told.get("state", told.get("verdict", "fine")))
     if not state.startswith(("fine", "pass")):
@@ -42,17 +46,24 @@ def samples(mesh: pyvista.PolyData) -> np.ndarray:
 
 
 def mean_normals(source: octafield.TriangleMesh, points: np.ndarray, nearest: np.ndarray, radius: float) -> np.ndarray:
-    """(k, 3) of the input's triangles within `radius` of points, weighted by area, those turned away from the nearest one
-    left out: noise shorter than the edges is none of the field's business."""
+    """(k, 3) of the input's triangles within `radius` of points, weighted by area, those turned away from the nearest
+    one left out: noise shorter than the edges is none of the field's business."""
     chosen = _with_area(source)
     p = np.asarray(source.vertices)[np.asarray(source.triangles)[chosen]]
     weighted = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
     around = cKDTree(p.mean(axis=1)).query_ball_point(np.asarray(points, float), radius)
-    sums = np.array([weighted[ids][weighted[ids] @ weighted[at] > 0].sum(axis=0) + weighted[at] for ids, at in zip(around, nearest, strict=True)])
+    sums = np.array(
+        [
+            weighted[ids][weighted[ids] @ weighted[at] > 0].sum(axis=0) + weighted[at]
+            for ids, at in zip(around, nearest, strict=True)
+        ]
+    )
     return sums / np.linalg.norm(sums, axis=1, keepdims=True)
 
 
-def axis_angles(result: pyvista.PolyData, volume: pyvista.UnstructuredGrid, normals: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+def axis_angles(
+    result: pyvista.PolyData, volume: pyvista.UnstructuredGrid, normals: np.ndarray, chosen: np.ndarray
+) -> np.ndarray:
     """Degrees between normals (k, 3) and the nearest axis of the frame at the chosen vertices of the surface."""
     locator = vtk.vtkStaticPointLocator()
     locator.SetDataSet(volume)
@@ -86,7 +97,12 @@ def judge(case: Case, path: Path, output: Path, record: dict[str, Any]) -> dict[
     wrong, size = [], float(np.linalg.norm(np.ptp(result.points, axis=0)))
     found_volume = float(octafield.signed_volume(mesh))
     euler = int(octafield.euler_characteristic(mesh))
-    row: dict[str, Any] = {"tets": record["tets"], "energy": record["energy"], "singular": record["singular_edges"], "euler": euler}
+    row: dict[str, Any] = {
+        "tets": record["tets"],
+        "energy": record["energy"],
+        "singular": record["singular_edges"],
+        "euler": euler,
+    }
     if case.volume is not None:
         row["volume %"] = 100 * (found_volume / case.volume - 1)
         if abs(row["volume %"]) > 100 * VOLUME:
@@ -114,7 +130,12 @@ def judge(case: Case, path: Path, output: Path, record: dict[str, Any]) -> dict[
         near = 0.5 * record["edge_length"]
         wide = max(near, min(octafield.mean_edge_length(source), 0.5 * octafield.shape_size(mesh) / 25))
         # An input's normals are known no better than to its own triangles: that of one, or the mean of those around.
-        angles = np.minimum(*(axis_angles(result, volume, mean_normals(source, result.points[away], nearest[away], r), away) for r in (near, wide)))
+        angles = np.minimum(
+            *(
+                axis_angles(result, volume, mean_normals(source, result.points[away], nearest[away], r), away)
+                for r in (near, wide)
+            )
+        )
         row["angle 95 %"] = quantile_by_area(angles, vertex_areas(mesh)[away], 0.95)
         if row["angle 95 %"] > ANGLE:
             wrong.append(f"axes {row['angle 95 %']:.3g} degrees off on 5 % of the surface")

@@ -1,7 +1,8 @@
-"""Surfaces made by rule for any_part.py: thin walls, needles, high genus, noise, scans with holes, and files as other programs write them.
+"""Surfaces made by rule for any_part.py: thin walls, needles, high genus, noise, scans with holes, and files as other
+programs write them.
 
-Each maker returns (points, triangles); SHAPES holds them by name. Holes and coarse coordinates are added by any_part_inputs.py, so
-that volume and Euler characteristic of the sound body are known.
+Each maker returns (points, triangles); SHAPES holds them by name. Holes and coarse coordinates are added by
+any_part_inputs.py, so that volume and Euler characteristic of the sound body are known.
 """
 
 import itertools
@@ -23,7 +24,9 @@ def of_poly(poly: pyvista.PolyData) -> Mesh:
 def joined(*parts: Mesh) -> Mesh:
     """Several closed surfaces as one file; a reversed one is a cavity."""
     offsets = np.cumsum([0, *(len(p) for p, _ in parts)])
-    return np.concatenate([p for p, _ in parts]), np.concatenate([t + o for (_, t), o in zip(parts, offsets, strict=False)])
+    return np.concatenate([p for p, _ in parts]), np.concatenate(
+        [t + o for (_, t), o in zip(parts, offsets, strict=False)]
+    )
 
 
 def reversed_(mesh: Mesh) -> Mesh:
@@ -58,7 +61,9 @@ def lathe(profile: np.ndarray, segments: int, height: Callable | None = None) ->
     radii = np.broadcast_to(radius, (segments, len(z))).copy()
     if height is not None:
         radii += height(angle[:, None], radius[None], z[None])
-    points = np.stack([radii * np.cos(angle)[:, None], radii * np.sin(angle)[:, None], np.broadcast_to(z, radii.shape)], axis=2)
+    points = np.stack(
+        [radii * np.cos(angle)[:, None], radii * np.sin(angle)[:, None], np.broadcast_to(z, radii.shape)], axis=2
+    )
     return outward((points.reshape(-1, 3), grid_faces(segments, len(z), True, True)))
 
 
@@ -155,7 +160,9 @@ def gear(teeth: int = 24) -> Mesh:
     angle = np.arange(4 * teeth) / (4 * teeth) * 2 * np.pi
     outer = np.where(np.arange(4 * teeth) % 4 < 2, 10.0, 8.5)
     ring = np.c_[np.cos(angle), np.sin(angle)]
-    rings = [np.c_[ring * r, np.full(len(ring), z)] for r, z in ((outer[:, None], 0), (outer[:, None], 5), (3, 5), (3, 0))]
+    rings = [
+        np.c_[ring * r, np.full(len(ring), z)] for r, z in ((outer[:, None], 0), (outer[:, None], 5), (3, 5), (3, 0))
+    ]
     points = np.stack(rings, axis=1).reshape(-1, 3)
     return outward((points, grid_faces(4 * teeth, 4, True, True)))
 
@@ -164,12 +171,20 @@ def comb(fins: int = 12) -> Mesh:
     """A heat sink: thin fins on a plate."""
     outline = [(0.0, 0.0), (5.0 * fins, 0.0)]
     for k in reversed(range(fins)):
-        outline += [(5 * k + 5.0, 3.0), (5 * k + 3.0, 3.0), (5 * k + 3.0, 25.0), (5 * k + 2.4, 25.0), (5 * k + 2.4, 3.0)]
+        outline += [
+            (5 * k + 5.0, 3.0),
+            (5 * k + 3.0, 3.0),
+            (5 * k + 3.0, 25.0),
+            (5 * k + 2.4, 25.0),
+            (5 * k + 2.4, 3.0),
+        ]
     return prism(np.array([*outline, (0.0, 3.0)]), 40.0)
 
 
 def noisy(seed: int, amount: float) -> Mesh:
-    points, triangles = of_poly(pyvista.ParametricTorus(ringradius=1, crosssectionradius=0.4, u_res=60, v_res=30, w_res=30))
+    points, triangles = of_poly(
+        pyvista.ParametricTorus(ringradius=1, crosssectionradius=0.4, u_res=60, v_res=30, w_res=30)
+    )
     return points + np.random.default_rng(seed).normal(scale=amount, size=points.shape), triangles
 
 
@@ -179,12 +194,15 @@ def bumpy(levels: int, seed: int) -> Mesh:
     random = np.random.default_rng(seed)
     radius = np.ones(len(points))
     for length in (2, 5, 11, 23):
-        radius += 0.12 / length * np.sin(length * points @ random.normal(size=(3, 2)) + random.uniform(size=2)).sum(axis=1)
+        radius += (
+            0.12 / length * np.sin(length * points @ random.normal(size=(3, 2)) + random.uniform(size=2)).sum(axis=1)
+        )
     return points * radius[:, None], triangles
 
 
 def cad(build: Callable, size: float) -> Mesh:
-    """A surface triangulation by Gmsh of what build(occ) makes, as CAD programs export: no finer than its curves ask for."""
+    """A surface triangulation by Gmsh of what build(occ) makes, as CAD programs export: no finer than its curves ask
+    for."""
     import gmsh
 
     gmsh.initialize(interruptible=False)
@@ -217,7 +235,13 @@ def bracket(occ) -> None:
 
 def plate(occ) -> None:
     sheet = occ.addBox(0, 0, 0, 70, 70, 2)
-    occ.cut([(3, sheet)], [(3, occ.addCylinder(10 * x + 10, 10 * y + 10, -1, 0, 0, 4, 3.5)) for x, y in itertools.product(range(6), repeat=2)])
+    occ.cut(
+        [(3, sheet)],
+        [
+            (3, occ.addCylinder(10 * x + 10, 10 * y + 10, -1, 0, 0, 4, 3.5))
+            for x, y in itertools.product(range(6), repeat=2)
+        ],
+    )
 
 
 def impeller(occ) -> None:
@@ -272,7 +296,10 @@ def struts(x, y, z):
 
 
 def blobs(x, y, z):
-    return 1.0 - sum(0.35 / ((x - a) ** 2 + (y - b) ** 2 + (z - c) ** 2 + 0.05) for a, b, c in ((0, 0, 0), (0.7, 0.2, 0), (-0.6, 0.4, 0.3)))
+    return 1.0 - sum(
+        0.35 / ((x - a) ** 2 + (y - b) ** 2 + (z - c) ** 2 + 0.05)
+        for a, b, c in ((0, 0, 0), (0.7, 0.2, 0), (-0.6, 0.4, 0.3))
+    )
 
 
 SHAPES: dict[str, Callable[[], Mesh]] = {

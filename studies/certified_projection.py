@@ -1,16 +1,19 @@
-"""Nearest sh4 frames: the fast projection against two proofs of optimality, branch and bound and a semidefinite relaxation.
+"""Nearest sh4 frames: the fast projection against two proofs of optimality, branch and bound and a semidefinite
+relaxation.
 
     python studies/certified_projection.py -o out/certified [--count 10000] [--sdp 100] [--seed 1]
 
-Two groups of unit vectors in R^9: random directions, and sums of frames at equal distances plus noise of 1e-13 to 0.1, near which
-several frames or whole curves of frames are about equally near (six families). For each family the table counts
+Two groups of unit vectors in R^9: random directions, and sums of frames at equal distances plus noise of 1e-13 to 0.1,
+near which several frames or whole curves of frames are about equally near (six families). For each family the table
+counts
 
-- misses: inputs where branch and bound (octafield.sh4_project_certified) finds a frame better than octafield.sh4_project by more
-  than 1e-9 in v . embed(frame), and the largest loss;
+- misses: inputs where branch and bound (octafield.sh4_project_certified) finds a frame better than
+  octafield.sh4_project by more than 1e-9 in v . embed(frame), and the largest loss;
 - uncertified inputs and the largest certified gap;
-- on the first --sdp inputs the relaxation of Palmer, Bommes and Solomon (2020, "Algebraic representations for volumetric frame
-  fields", section 4.3), solved with Clarabel: how far its upper bound lies above the certified value, and the largest ratio of its
-  second eigenvalue to the first (0: rank one, the relaxation is exact; ties leave a higher rank).
+- on the first --sdp inputs the relaxation of Palmer, Bommes and Solomon (2020, "Algebraic representations for
+  volumetric frame fields", section 4.3), solved with Clarabel: how far its upper bound lies above the certified value,
+  and the largest ratio of its second eigenvalue to the first (0: rank one, the relaxation is exact; ties leave a higher
+  rank).
 
 Writes certified_projection.csv, certified_projection.md and, if there are misses, misses.csv with the inputs.
 """
@@ -21,25 +24,28 @@ from pathlib import Path
 
 import clarabel
 import numpy as np
-from scipy import sparse
-
 import octafield
+from scipy import sparse
 from study_output import markdown_table, write_csv
 
 MISS = 1e-9  # in v . embed(frame), |v| = 1
 
 
 class Relaxation:
-    """max v.x over X = [1 x'; x X'] positive semidefinite (10 x 10) that satisfies the quadratic equations of the embedded frames.
+    """max v.x over X = [1 x'; x X'] positive semidefinite (10 x 10) that satisfies the quadratic equations of the
+    embedded frames.
 
-    The equations are found, not written down: the null space of the 55 monomials of degree at most 2, evaluated on random frames.
+    The equations are found, not written down: the null space of the 55 monomials of degree at most 2, evaluated on
+    random frames.
     """
 
     SIZE = 10
 
     def __init__(self, frames: np.ndarray):
         n = self.SIZE
-        self.rows, self.columns = np.array([(i, j) for j in range(n) for i in range(j + 1)]).T  # upper triangle by columns
+        self.rows, self.columns = np.array(
+            [(i, j) for j in range(n) for i in range(j + 1)]
+        ).T  # upper triangle by columns
         points = np.hstack([np.ones((len(frames), 1)), frames])
         monomials = points[:, self.rows] * points[:, self.columns]
         _, singular, right = np.linalg.svd(monomials, full_matrices=False)
@@ -79,14 +85,23 @@ def multiply(a, b):
     """Quaternion products, w x y z."""
     aw, ax, ay, az = np.moveaxis(np.asarray(a), -1, 0)
     bw, bx, by, bz = np.moveaxis(np.asarray(b), -1, 0)
-    return np.stack([aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
-                     aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw], axis=-1)
+    return np.stack(
+        [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+        ],
+        axis=-1,
+    )
 
 
 def turn(axis, angle):
     axis = np.asarray(axis, dtype=float)
     axis = axis / np.linalg.norm(axis, axis=-1, keepdims=True)
-    return np.concatenate([np.cos(np.asarray(angle) / 2)[..., None], np.sin(np.asarray(angle) / 2)[..., None] * axis], axis=-1)
+    return np.concatenate(
+        [np.cos(np.asarray(angle) / 2)[..., None], np.sin(np.asarray(angle) / 2)[..., None] * axis], axis=-1
+    )
 
 
 def unit_rows(v):
@@ -117,8 +132,14 @@ def sums_of_frames(family: str, q: np.ndarray, generator) -> np.ndarray:
     raise ValueError(family)
 
 
-FAMILIES = ("farthest pair", "45 degrees about an axis", "60 degrees about a diagonal", "3 twists about an axis",
-            "3 to 5 round any axis", "2 to 4 random frames")
+FAMILIES = (
+    "farthest pair",
+    "45 degrees about an axis",
+    "60 degrees about a diagonal",
+    "3 twists about an axis",
+    "3 to 5 round any axis",
+    "2 to 4 random frames",
+)
 
 
 def make_inputs(count: int, seed: int) -> dict[str, np.ndarray]:
@@ -145,17 +166,39 @@ def compare(v: np.ndarray, relaxation: Relaxation, sdp: int) -> dict:
     seconds = time.process_time() - start
     fast_values, best_values = values(v, fast), values(v, certified)
     loss = best_values - fast_values
-    result = {"inputs": len(v), "misses": int(np.sum(loss > MISS)), "loss": float(max(loss.max(), 0)),
-              "uncertified": int(np.sum(gaps > MISS)), "gap": float(np.max(gaps)), "cpu": seconds / len(v), "missed": v[loss > MISS]}
+    result = {
+        "inputs": len(v),
+        "misses": int(np.sum(loss > MISS)),
+        "loss": float(max(loss.max(), 0)),
+        "uncertified": int(np.sum(gaps > MISS)),
+        "gap": float(np.max(gaps)),
+        "cpu": seconds / len(v),
+        "missed": v[loss > MISS],
+    }
     bounds = [relaxation.solve(row) for row in v[:sdp]]
     above = np.array([b for b, _ in bounds]) - best_values[:sdp]
-    result |= {"sdp": len(bounds), "sdp_above": float(above.max(initial=0)), "sdp_below": float(max((-above).max(initial=0), 0)),
-               "rank_two": int(np.sum([r > 1e-4 for _, r in bounds]))}
+    result |= {
+        "sdp": len(bounds),
+        "sdp_above": float(above.max(initial=0)),
+        "sdp_below": float(max((-above).max(initial=0), 0)),
+        "rank_two": int(np.sum([r > 1e-4 for _, r in bounds])),
+    }
     return result
 
 
-HEADER = ("inputs", "number", "misses", "largest loss", "uncertified", "largest gap", "CPU ms each", "SDP solved", "SDP above by at most",
-          "SDP below by at most", "SDP rank > 1")
+HEADER = (
+    "inputs",
+    "number",
+    "misses",
+    "largest loss",
+    "uncertified",
+    "largest gap",
+    "CPU ms each",
+    "SDP solved",
+    "SDP above by at most",
+    "SDP below by at most",
+    "SDP rank > 1",
+)
 
 
 def main() -> None:
@@ -171,9 +214,27 @@ def main() -> None:
     for family, v in make_inputs(arguments.count, arguments.seed).items():
         r = compare(v, relaxation, arguments.sdp)
         missed += [(family, *map(float, row)) for row in r["missed"]]
-        rows.append((family, r["inputs"], r["misses"], r["loss"], r["uncertified"], r["gap"], 1e3 * r["cpu"], r["sdp"], r["sdp_above"],
-                     r["sdp_below"], r["rank_two"]))
-        print(", ".join(f"{name} {x:.3g}" if isinstance(x, float) else f"{name} {x}" for name, x in zip(HEADER, rows[-1])), flush=True)
+        rows.append(
+            (
+                family,
+                r["inputs"],
+                r["misses"],
+                r["loss"],
+                r["uncertified"],
+                r["gap"],
+                1e3 * r["cpu"],
+                r["sdp"],
+                r["sdp_above"],
+                r["sdp_below"],
+                r["rank_two"],
+            )
+        )
+        print(
+            ", ".join(
+                f"{name} {x:.3g}" if isinstance(x, float) else f"{name} {x}" for name, x in zip(HEADER, rows[-1])
+            ),
+            flush=True,
+        )
     write_csv(arguments.output / "certified_projection.csv", HEADER, rows)
     table = markdown_table(HEADER, [[f"{x:.2g}" if isinstance(x, float) else x for x in row] for row in rows])
     (arguments.output / "certified_projection.md").write_text(table)

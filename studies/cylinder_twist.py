@@ -2,17 +2,17 @@
 
     python studies/cylinder_twist.py [SURFACE] [-o DIR] [--edge-lengths 0.06,0.045]
 
-Without SURFACE a cylinder of radius 1 and height 3 is made. Edge lengths are fractions of the bounding-box diagonal. Ends of singular
-curves are given as radius over the cylinder's radius and azimuth modulo 90 degrees, apart for both caps.
+Without SURFACE a cylinder of radius 1 and height 3 is made. Edge lengths are fractions of the bounding-box diagonal.
+Ends of singular curves are given as radius over the cylinder's radius and azimuth modulo 90 degrees, apart for both
+caps.
 """
 
 import argparse
 from pathlib import Path
 
 import numpy as np
-import pyvista
-
 import octafield
+import pyvista
 from octafield import pictures
 from octafield.pipeline import prepare, prepare_mesh, run
 
@@ -46,20 +46,29 @@ def curve_ends(graph, points: np.ndarray) -> dict[str, list[tuple[float, float]]
             if abs(x @ axis) < 0.9 * half:
                 continue
             azimuth = np.degrees(np.arctan2(x @ two, x @ one)) % 90
-            ends["top" if x @ axis > 0 else "bottom"].append((float(np.hypot(x @ one, x @ two) / radius), float(azimuth)))
+            ends["top" if x @ axis > 0 else "bottom"].append(
+                (float(np.hypot(x @ one, x @ two) / radius), float(azimuth))
+            )
     return ends
 
 
 def circular_mean(azimuths) -> float:
     """Mean of angles modulo 90 degrees."""
-    return float(np.degrees(np.angle(np.mean(np.exp(4j * np.radians(azimuths))))) / 4 % 90) if len(azimuths) else float("nan")
+    return (
+        float(np.degrees(np.angle(np.mean(np.exp(4j * np.radians(azimuths))))) / 4 % 90)
+        if len(azimuths)
+        else float("nan")
+    )
 
 
 def describe(ends) -> str:
     parts = []
     for cap, list_ in ends.items():
         radii, azimuths = [r for r, _ in list_], [a for _, a in list_]
-        parts.append(f"{cap}: {len(list_)} ends, radius {np.mean(radii) if radii else float('nan'):.3f}, azimuth {circular_mean(azimuths):5.1f}")
+        parts.append(
+            f"{cap}: {len(list_)} ends, radius {np.mean(radii) if radii else float('nan'):.3f}, azimuth"
+            f" {circular_mean(azimuths):5.1f}"
+        )
     return "; ".join(parts)
 
 
@@ -74,13 +83,17 @@ def main() -> None:
 
     for fraction in map(float, arguments.edge_lengths.split(",")):
         problem = prepare(prepare_mesh(surface, octafield.MeshOptions(edge_length=fraction * diagonal)))
-        print(f"edge length {fraction} of the diagonal, {len(problem.meshed.tets.vertices)} vertices, "
-              f"{len(problem.singularities.points)} surface singular points")
+        print(
+            f"edge length {fraction} of the diagonal, {len(problem.meshed.tets.vertices)} vertices, "
+            f"{len(problem.singularities.points)} surface singular points"
+        )
         for boundary in ("fixed", "aligned"):
             result = run(problem, octafield.FieldOptions(boundary=boundary))
             record, graph = result.record, result.singular_graph
-            print(f"  {boundary:8s} energy {record['energy']:.3f}  curves {len(graph.curves)}  length {graph.length:.2f}  "
-                  f"iterations {record['iterations']}\n    {describe(curve_ends(graph, np.asarray(surface.vertices)))}")
+            print(
+                f"  {boundary:8s} energy {record['energy']:.3f}  curves {len(graph.curves)}  length {graph.length:.2f} "
+                f" iterations {record['iterations']}\n    {describe(curve_ends(graph, np.asarray(surface.vertices)))}"
+            )
             if arguments.output:
                 arguments.output.mkdir(parents=True, exist_ok=True)
                 (arguments.output / f"{boundary}-{fraction}.png").write_bytes(pictures.singular_curves(result).png)

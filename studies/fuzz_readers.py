@@ -2,9 +2,10 @@
 
     .venv/bin/python studies/fuzz_readers.py --files 200000 --seed 1 -o out/fuzz
 
-Seeds are small files by octafield's own writers; each is altered in counts, digits, bytes, its length, or the order of its lines. A worker process
-reads them under limits of memory and time; what it was reading when it died, or what raised another error, is kept in the folder. The same seed
-gives the same files; a run that was cut short goes on with --first, the number in scratch/now.
+Seeds are small files by octafield's own writers; each is altered in counts, digits, bytes, its length, or the order of
+its lines. A worker process reads them under limits of memory and time; what it was reading when it died, or what raised
+another error, is kept in the folder. The same seed gives the same files; a run that was cut short goes on with --first,
+the number in scratch/now.
 """
 
 import argparse
@@ -20,7 +21,6 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-
 import octafield as of
 from octafield import frame_formats, read_frames, write_frames
 from octafield.conversion import convert_file
@@ -30,7 +30,21 @@ from octafield.inputs import read_input
 MEMORY, SECONDS, CHUNK = 3 << 30, 20, 2000
 BESIDE = (".node", ".ele", ".face", ".edge")
 NUMBER = re.compile(rb"(?<![\w.])\d+(?![\w.])")
-COUNTS = (b"0", b"1", b"-1", b"2147483647", b"2147483648", b"4294967295", b"4294967296", b"9223372036854775807", b"9223372036854775808", b"1000000000", b"1e300", b"nan", b"1e9")
+COUNTS = (
+    b"0",
+    b"1",
+    b"-1",
+    b"2147483647",
+    b"2147483648",
+    b"4294967295",
+    b"4294967296",
+    b"9223372036854775807",
+    b"9223372036854775808",
+    b"1000000000",
+    b"1e300",
+    b"nan",
+    b"1e9",
+)
 INTEGERS = (0, 1, -1, 2**31 - 1, -(2**31), 10**9, 2**63 - 1, -(2**63), 2**32, 7, 10**18)
 
 
@@ -47,13 +61,17 @@ def seeds(folder: Path) -> dict[str, Path]:
     for name, form in frame_formats.items():
         if form.read and form.write:
             found[f"frames {name}"] = folder / f"frames_{name}{(*form.extensions, '.txt')[0]}"
-            write_frames(found[f"frames {name}"], mesh, np.tile([1.0, 0, 0, 0], (count[form.where[0]], 1)), form.where[0], name)
+            write_frames(
+                found[f"frames {name}"], mesh, np.tile([1.0, 0, 0, 0], (count[form.where[0]], 1)), form.where[0], name
+            )
     return found
 
 
 def _cube() -> of.TetMesh:
     points = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)], float)
-    return of.TetMesh(points, np.array([[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]], np.int32))
+    return of.TetMesh(
+        points, np.array([[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]], np.int32)
+    )
 
 
 def altered(content: bytes, others: list[bytes], rng: np.random.Generator) -> bytes:
@@ -152,7 +170,13 @@ def fuzz(output: Path, files: int, seed: int, first: int = 0) -> int:
             raise RuntimeError("the worker failed, not a reader: see above")
         if status:
             number, name = (folder / "now").read_text().split(" ", 1)
-            keep(faults, int(number), name, folder / f"a{found[name].suffix}", f"status {status}\n" + (folder / "traceback").read_text())
+            keep(
+                faults,
+                int(number),
+                name,
+                folder / f"a{found[name].suffix}",
+                f"status {status}\n" + (folder / "traceback").read_text(),
+            )
             last = int(number) + 1
         first = last
     return len(list(faults.glob("*.fault")))
@@ -168,7 +192,10 @@ def main() -> int:
     start = time.process_time()
     count = fuzz(options.output, options.files, options.seed, options.first)
     used = time.process_time() - start + resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    print(f"files {options.first} to {options.files - 1}, {count} faults, {used:.0f} CPU seconds; {options.output / 'faults'}")
+    print(
+        f"files {options.first} to {options.files - 1}, {count} faults, {used:.0f} CPU seconds;"
+        f" {options.output / 'faults'}"
+    )
     return int(count > 0)
 
 

@@ -2,10 +2,11 @@
 
     python studies/metric_distortion.py -o DIR [--pairs 20000] [--seed 1] [--threads 0]
 
-For every entry of octafield.metrics and a list of angles: pairs of frames exactly that far apart (a random frame, a random direction of
-rotation among those in which the angle is the shortest way), and over the pairs minimum, maximum and the 1 %, 50 % and 99 % quantiles of
-distance / (angle x speed). 1 is no distortion. A metric whose speed depends on frame and direction is divided by its median at the
-smallest angle instead. DIR gets distortion.csv, distortion.md and frames_distortion.png.
+For every entry of octafield.metrics and a list of angles: pairs of frames exactly that far apart (a random frame, a
+random direction of rotation among those in which the angle is the shortest way), and over the pairs minimum, maximum
+and the 1 %, 50 % and 99 % quantiles of distance / (angle x speed). 1 is no distortion. A metric whose speed depends on
+frame and direction is divided by its median at the smallest angle instead. DIR gets distortion.csv, distortion.md and
+frames_distortion.png.
 """
 
 import argparse
@@ -13,18 +14,19 @@ from itertools import permutations, product
 from pathlib import Path
 
 import numpy as np
-from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
-
 import octafield
 from octafield.plots import PALETTE
+from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
 
 IDENTITY = np.array([1.0, 0, 0, 0])
 # The frames farthest from the identity: Rodrigues vectors at the corners of the truncated cube that is SO(3)/O.
-FARTHEST = np.array([
-    np.multiply(signs, corner)
-    for corner in sorted(set(permutations((np.sqrt(2) - 1, np.sqrt(2) - 1, 3 - 2 * np.sqrt(2)))))
-    for signs in product((1, -1), repeat=3)
-])
+FARTHEST = np.array(
+    [
+        np.multiply(signs, corner)
+        for corner in sorted(set(permutations((np.sqrt(2) - 1, np.sqrt(2) - 1, 3 - 2 * np.sqrt(2)))))
+        for signs in product((1, -1), repeat=3)
+    ]
+)
 LARGEST = np.degrees(2 * np.arctan(np.linalg.norm(FARTHEST[0])))  # 62.7994 degrees
 ANGLES = (0.5, 1, 2, 3, 5, 7.5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55, 60, 62, LARGEST)
 SHOWN = (0.5, 2, 5, 10, 20, 30, 45, 60, LARGEST)
@@ -37,7 +39,8 @@ def unit_rows(rows: np.ndarray) -> np.ndarray:
 
 
 def directions_at(angle: float, count: int, rng: np.random.Generator) -> np.ndarray:
-    """(count, 3) random directions, uniform among those in which a turn by `angle` leads to a frame that far from the identity."""
+    """(count, 3) random directions, uniform among those in which a turn by `angle` leads to a frame that far from the
+    identity."""
     if angle == np.radians(LARGEST):
         return unit_rows(FARTHEST)[rng.integers(len(FARTHEST), size=count)]
     kept, missing = [], count
@@ -51,7 +54,9 @@ def directions_at(angle: float, count: int, rng: np.random.Generator) -> np.ndar
 
 def frame_pairs(angle: float, count: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     first = octafield.random_rotations(count, seed=int(rng.integers(2**31)))
-    in_frame = directions_at(angle, count, rng)  # how far a turn leads depends on its direction against the frame's axes
+    in_frame = directions_at(
+        angle, count, rng
+    )  # how far a turn leads depends on its direction against the frame's axes
     in_world = np.einsum("nij,nj->ni", octafield.rotation_matrices(first), in_frame)
     return first, octafield.frame_exp(first, angle * in_world)
 
@@ -72,7 +77,7 @@ def draw(table: dict[str, np.ndarray], path: Path) -> None:
     columns = 5
     rows = -(-len(table) // columns)
     figure, grid = new_figure(12, 2.9 * rows, rows, columns, sharex=True, sharey=True, squeeze=False)
-    for axes in grid.flat[len(table):]:
+    for axes in grid.flat[len(table) :]:
         axes.set_visible(False)
     for axes, (name, values) in zip(grid.flat, table.items()):
         low, q01, q50, q99, high = values.T
@@ -100,12 +105,21 @@ def as_markdown(table: dict[str, np.ndarray], speeds: dict[str, float]) -> str:
     extremes = markdown_table(
         ["metric", "smallest", "at", "largest", "at", "largest / smallest"],
         [
-            [name, f"{v[:, 0].min():.4f}", f"{ANGLES[v[:, 0].argmin()]:.4g}°", f"{v[:, 4].max():.4f}",
-             f"{ANGLES[v[:, 4].argmax()]:.4g}°", f"{v[:, 4].max() / v[:, 0].min():.4f}"]
+            [
+                name,
+                f"{v[:, 0].min():.4f}",
+                f"{ANGLES[v[:, 0].argmin()]:.4g}°",
+                f"{v[:, 4].max():.4f}",
+                f"{ANGLES[v[:, 4].argmax()]:.4g}°",
+                f"{v[:, 4].max() / v[:, 0].min():.4f}",
+            ]
             for name, v in table.items()
         ],
     )
-    return f"distance / (angle x speed): 1 % / 50 % / 99 % quantiles\n\n{quantiles}\nOver all pairs and angles\n\n{extremes}"
+    return (
+        f"distance / (angle x speed): 1 % / 50 % / 99 % quantiles\n\n{quantiles}\nOver all pairs and"
+        f" angles\n\n{extremes}"
+    )
 
 
 def main() -> None:
@@ -121,8 +135,11 @@ def main() -> None:
     write_csv(
         arguments.output / "distortion.csv",
         ["metric", "speed", "angle_deg", *NAMES],
-        ([name, float(speeds[name]), float(angle), *map(float, row)]
-         for name, values in table.items() for angle, row in zip(ANGLES, values)),
+        (
+            [name, float(speeds[name]), float(angle), *map(float, row)]
+            for name, values in table.items()
+            for angle, row in zip(ANGLES, values)
+        ),
     )
     draw(table, arguments.output / "frames_distortion.png")
     text = as_markdown(table, speeds)

@@ -3,8 +3,9 @@
     pip install mouette==1.2.8      # not a dependency of octafield
     python studies/mouette_fields.py -o out/mouette
 
-mouette has one frame per tet. E: Dirichlet energy of frames in tets (octafield.tet_sampling), of mouette's field, of octafield's smoothing from
-there with one axis on the normal of the surface, and of octafield's own field. No features. DIR/BODY-report/report.html shows them side by side.
+mouette has one frame per tet. E: Dirichlet energy of frames in tets (octafield.tet_sampling), of mouette's field, of
+octafield's smoothing from there with one axis on the normal of the surface, and of octafield's own field. No features.
+DIR/BODY-report/report.html shows them side by side.
 """
 
 import argparse
@@ -14,10 +15,9 @@ from pathlib import Path
 
 import meshio
 import numpy as np
-from study_output import markdown_table
-
 import octafield
 from octafield.study.generators import generate
+from study_output import markdown_table
 
 BODIES = {"ball": 0.4, "cylinder": 0.4, "torus": 0.35}  # and the edge length
 HEAD = ["body", "tets", "mouette: s", "E", "singular edges", "complex", "polished: E", "singular edges", "complex", "octafield: E", "singular edges", "complex",
@@ -44,7 +44,8 @@ def by_mouette(tets: octafield.TetMesh, folder: Path, name: str) -> tuple[Path, 
 
 
 def mend(mouette) -> None:
-    """Attributes come back as plain arrays beside numpy 2.4, which `FrameField3DCells.initialize` does not expect (mouette 1.2.8)."""
+    """Attributes come back as plain arrays beside numpy 2.4, which `FrameField3DCells.initialize` does not expect
+    (mouette 1.2.8)."""
     attributes = mouette.mesh.mesh_attributes.ArrayAttribute
     if hasattr(attributes, "mended"):
         return
@@ -62,7 +63,12 @@ def row(name: str, surface: octafield.TriangleMesh, length: float, folder: Path)
     tets = meshed.tets
     path, seconds = by_mouette(tets, folder, name)
     compared = octafield.compare(
-        folder / f"{name}.mesh", folder / f"{name}-report", representations=["sh4"], boundaries=["aligned"], options=OPTIONS, fields={"mouette": path}
+        folder / f"{name}.mesh",
+        folder / f"{name}-report",
+        representations=["sh4"],
+        boundaries=["aligned"],
+        options=OPTIONS,
+        fields={"mouette": path},
     )
     ours, polished, theirs = compared.rows
     return [name, len(tets.tets), seconds, *(r[key] for r in (theirs, polished, ours) for key in ("energy", "singular_edges", "complex_edges")),

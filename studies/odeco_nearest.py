@@ -2,25 +2,26 @@
 
     python studies/odeco_nearest.py [-o DIR] [--count 2000] [--starts 1000] [--seed 1]
 
-Inputs: odeco tensors with normally distributed lengths plus noise of 1 %, 10 % and 30 % of their norm, and random vectors of R^15. For each,
-octafield.odeco_nearest is compared with the best of --starts local ascents (octafield.odeco_nearest_local) from random frames; farther by more
-than 1e-9 of the input's norm counts as a miss.
+Inputs: odeco tensors with normally distributed lengths plus noise of 1 %, 10 % and 30 % of their norm, and random
+    vectors of R^15. For each, octafield.odeco_nearest is compared with the best of --starts local ascents
+    (octafield.odeco_nearest_local) from random frames; farther by more than 1e-9 of the input's norm counts as a miss.
 """
 
 import argparse
 from pathlib import Path
 
 import numpy as np
-from study_output import markdown_table
-
 import octafield
+from study_output import markdown_table
 
 
 def inputs(kind: str, count: int, random: np.random.Generator) -> np.ndarray:
     noise = random.normal(size=(count, 15))
     if kind == "random":
         return noise
-    v = octafield.odeco_embed(octafield.random_rotations(count, int(random.integers(2**31))), random.normal(size=(count, 3)))
+    v = octafield.odeco_embed(
+        octafield.random_rotations(count, int(random.integers(2**31))), random.normal(size=(count, 3))
+    )
     level = float(kind.rstrip(" %")) / 100
     return v + level * np.linalg.norm(v, axis=1, keepdims=True) * noise / np.linalg.norm(noise, axis=1, keepdims=True)
 
@@ -43,7 +44,9 @@ def main() -> None:
     rows = []
     for kind in ("1 %", "10 %", "30 %", "random"):
         v = inputs(kind, arguments.count, random)
-        excess = (octafield.odeco_nearest(v)[2] - best_of_random_starts(v, arguments.starts)) / np.linalg.norm(v, axis=1)
+        excess = (octafield.odeco_nearest(v)[2] - best_of_random_starts(v, arguments.starts)) / np.linalg.norm(
+            v, axis=1
+        )
         rows.append([kind, str(len(v)), str(int((excess > 1e-9).sum())), f"{max(excess.max(), 0):.1e}"])
     table = markdown_table(["noise", "inputs", "missed", "worst by, of |v|"], rows)
     print(table)

@@ -2,9 +2,10 @@
 
     python studies/parameterization.py -o DIR [--picture NAME] MESH...
 
-MESH: surfaces or tet meshes; default recipe. DIR gets cuts.md (cut triangles, those with a turn, patches of one axis), sizes.md (curl and jump before and after,
-range of the sizes), seconds.md and, of the mesh whose file name begins with NAME (default: the first), cut.png: left the cut and the singular edges, right the size
-of grid cells, one for all axes, in the half behind a plane.
+MESH: surfaces or tet meshes; default recipe. DIR gets cuts.md (cut triangles, those with a turn, patches of one axis),
+    sizes.md (curl and jump before and after, range of the sizes), seconds.md and, of the mesh whose file name begins
+    with NAME (default: the first), cut.png: left the cut and the singular edges, right the size of grid cells, one for
+    all axes, in the half behind a plane.
 """
 
 import argparse
@@ -14,18 +15,27 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pyvista
-from PIL import Image
-from study_output import markdown_table
-from surface_pictures import save_with_few_colours
-
 import octafield
+import pyvista
 from octafield import scene
 from octafield.meshing import MeshedInput, prepare_mesh
 from octafield.options import FieldOptions
 from octafield.pipeline import compute_field
+from PIL import Image
+from study_output import markdown_table
+from surface_pictures import save_with_few_colours
 
-BAR = {"vertical": True, "color": "black", "fmt": "%.2f", "position_x": 0.92, "position_y": 0.25, "height": 0.5, "width": 0.05, "title_font_size": 22, "label_font_size": 20}
+BAR = {
+    "vertical": True,
+    "color": "black",
+    "fmt": "%.2f",
+    "position_x": 0.92,
+    "position_y": 0.25,
+    "height": 0.5,
+    "width": 0.05,
+    "title_font_size": 22,
+    "label_font_size": 20,
+}
 
 
 @dataclass
@@ -72,16 +82,34 @@ def cut_row(s: Study) -> tuple:
     turned = np.asarray(s.combed.faces.matching)[cut] > 0
     one_axis = np.asarray(s.tables.patch_one_axis)
     angles = np.degrees(s.tables.triangle_angle)
-    return (s.name, f"{len(s.combed.frames):,}", len(s.singular.edges), f"{cut.sum():,}", f"{turned.sum():,}", len(one_axis), one_axis.sum(),
-            f"{np.median(angles):.2f} ({np.quantile(angles, 0.95):.1f})")
+    return (
+        s.name,
+        f"{len(s.combed.frames):,}",
+        len(s.singular.edges),
+        f"{cut.sum():,}",
+        f"{turned.sum():,}",
+        len(one_axis),
+        one_axis.sum(),
+        f"{np.median(angles):.2f} ({np.quantile(angles, 0.95):.1f})",
+    )
 
 
 def size_row(s: Study) -> tuple:
     size = scene.diagonal(np.asarray(s.meshed.tets.vertices))
     one, three = s.isotropic, s.axes
-    return (s.name, f"{size * one.before.curl_rms:.3f}", f"{size * one.after.curl_rms:.3f}", f"{size * three.after.curl_rms:.3f}",
-            near_singular_edges(s), f"{one.before.jump_rms:.4f}", f"{one.after.jump_rms:.4f}", f"{three.after.jump_rms:.4f}",
-            f"{np.exp(np.ptp(one.log_scale)):.2f}", f"{np.exp(np.ptp(three.values)):.2f}", three.parts)
+    return (
+        s.name,
+        f"{size * one.before.curl_rms:.3f}",
+        f"{size * one.after.curl_rms:.3f}",
+        f"{size * three.after.curl_rms:.3f}",
+        near_singular_edges(s),
+        f"{one.before.jump_rms:.4f}",
+        f"{one.after.jump_rms:.4f}",
+        f"{three.after.jump_rms:.4f}",
+        f"{np.exp(np.ptp(one.log_scale)):.2f}",
+        f"{np.exp(np.ptp(three.values)):.2f}",
+        three.parts,
+    )
 
 
 def near_singular_edges(s: Study) -> str:
@@ -93,7 +121,13 @@ def near_singular_edges(s: Study) -> str:
 
 
 def seconds_row(s: Study) -> tuple:
-    return (s.name, f"{len(s.combed.frames):,}", *(f"{seconds:.2f}" for seconds in s.seconds.values()), s.isotropic.iterations, s.axes.iterations)
+    return (
+        s.name,
+        f"{len(s.combed.frames):,}",
+        *(f"{seconds:.2f}" for seconds in s.seconds.values()),
+        s.isotropic.iterations,
+        s.axes.iterations,
+    )
 
 
 def curves(s: Study) -> pyvista.PolyData:
@@ -158,11 +192,42 @@ def main() -> None:
         if not drawn and found.name.startswith(arguments.picture):
             save_with_few_colours(picture(found), arguments.output / "cut.png", 128)
             drawn = True
-    header = ["mesh", "tets", "singular edges", "cut triangles", "with a turn", "patches", "of one axis", "angle to the normal, degrees: median (95 %)"]
+    header = [
+        "mesh",
+        "tets",
+        "singular edges",
+        "cut triangles",
+        "with a turn",
+        "patches",
+        "of one axis",
+        "angle to the normal, degrees: median (95 %)",
+    ]
     (arguments.output / "cuts.md").write_text(markdown_table(header, cuts))
-    header = ["mesh", "curl", "one size", "one per axis", "of it at singular edges (volume)", "jump", "one size", "one per axis", "largest over smallest size", "per axis", "sets of axes"]
+    header = [
+        "mesh",
+        "curl",
+        "one size",
+        "one per axis",
+        "of it at singular edges (volume)",
+        "jump",
+        "one size",
+        "one per axis",
+        "largest over smallest size",
+        "per axis",
+        "sets of axes",
+    ]
     (arguments.output / "sizes.md").write_text(markdown_table(header, sizes))
-    header = ["mesh", "tets", "field", "comb", "alignment_tables", "isotropic_scale", "axis_scales", "iterations", "per axis"]
+    header = [
+        "mesh",
+        "tets",
+        "field",
+        "comb",
+        "alignment_tables",
+        "isotropic_scale",
+        "axis_scales",
+        "iterations",
+        "per axis",
+    ]
     (arguments.output / "seconds.md").write_text(markdown_table(header, seconds))
 
 

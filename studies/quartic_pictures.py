@@ -1,12 +1,11 @@
 """The quartic x^4 + y^4 + z^4 of a frame: three ways to evaluate it, and pictures of it (for thesis_frames.py)."""
 
 import numpy as np
-
 import octafield
 from octafield.plots import PALETTE
 
-
 # ---- the quartic of a frame
+
 
 def quartic(points: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Sum of the fourth powers of the coordinates along the axes of frame q, (1, 4), at (n, 3) points."""
@@ -14,7 +13,9 @@ def quartic(points: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 
 def quartic_by_harmonics(directions: np.ndarray, q: np.ndarray) -> np.ndarray:
-    sh4 = octafield.sh4_embed(q)[0] * (4 * np.sqrt(np.pi) / 15) / np.sqrt(7 / 12)  # the identity frame is sqrt(7/12) at Y40
+    sh4 = (
+        octafield.sh4_embed(q)[0] * (4 * np.sqrt(np.pi) / 15) / np.sqrt(7 / 12)
+    )  # the identity frame is sqrt(7/12) at Y40
     return 3 / 5 + octafield.harmonics_evaluate(4, directions) @ sh4
 
 
@@ -26,15 +27,23 @@ def quartic_by_tensor(points: np.ndarray, q: np.ndarray) -> np.ndarray:
 def printed_y40_y44(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The thesis's expressions, misprint included."""
     x, y, z = points.T
-    y40 = 3 / 16 * np.sqrt(1 / np.pi) * (
-        3 * x**4 + 3 * y**4 + 8 * z**4 + 6 * x**2 * y**2 - 24 * x**2 * z**2 - 24 * y**2 * z**2)
+    y40 = (
+        3
+        / 16
+        * np.sqrt(1 / np.pi)
+        * (3 * x**4 + 3 * y**4 + 8 * z**4 + 6 * x**2 * y**2 - 24 * x**2 * z**2 - 24 * y**2 * z**2)
+    )
     y44 = 3 / 16 * np.sqrt(35 / np.pi) * (x**4 + y**4 - 6 * x**2 * y**2 + 12)
     return y40, y44
 
 
 def sphere_grid(step: float = 3) -> np.ndarray:
-    polar, azimuth = np.meshgrid(np.radians(np.arange(0, 180.1, step)), np.radians(np.arange(0, 360, step)), indexing="ij")
-    return np.stack([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)], axis=-1).reshape(-1, 3)
+    polar, azimuth = np.meshgrid(
+        np.radians(np.arange(0, 180.1, step)), np.radians(np.arange(0, 360, step)), indexing="ij"
+    )
+    return np.stack([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)], axis=-1).reshape(
+        -1, 3
+    )
 
 
 # ---- pictures of solids, seen from SIGHT in parallel projection
@@ -58,8 +67,8 @@ def hits_of_sphere(plane: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def hits_of_isosurface(plane: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points where quartic = 1 first meets the line of sight, whether it does, and the unit normals. The quartic is convex along a
-    line, so Newton steps from outside come down on the root without passing it."""
+    """Points where quartic = 1 first meets the line of sight, whether it does, and the unit normals. The quartic is
+    convex along a line, so Newton steps from outside come down on the root without passing it."""
     axes = octafield.rotation_matrices(q)[0]
     start, along = plane @ axes, SIGHT @ axes
     depth = np.full(len(plane), 2.0)

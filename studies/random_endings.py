@@ -2,11 +2,12 @@
 
     .venv/bin/python studies/random_endings.py --seconds 60 --seed 1
 
-Each process calls one to three of the long functions of the library over and over in daemon threads, half of them with a
-Python callback, and ends after a random delay: by its last line, sys.exit, an exception that nobody catches, or Ctrl-C while the
-main thread waits in a join or sleeps. A fault is another status than that, more than 30 seconds, or words of an abort among the messages;
-it is printed with the functions, the ending and the delay. Ends with 1 where there was one. Where Ctrl-C has ended nothing after three
-seconds, it is sent again, as a user would: the system may give it to a thread of Python's own that is not the main one.
+Each process calls one to three of the long functions of the library over and over in daemon threads, half of them with
+a Python callback, and ends after a random delay: by its last line, sys.exit, an exception that nobody catches, or
+Ctrl-C while the main thread waits in a join or sleeps. A fault is another status than that, more than 30 seconds, or
+words of an abort among the messages; it is printed with the functions, the ending and the delay. Ends with 1 where
+there was one. Where Ctrl-C has ended nothing after three seconds, it is sent again, as a user would: the system may
+give it to a thread of Python's own that is not the main one.
 """
 
 import argparse
@@ -100,7 +101,9 @@ def fault_of(calls: list[str], ending: str, delay: float) -> tuple[str, bool]:
     """What went wrong, empty where nothing did; and whether Ctrl-C was sent again."""
     end, status, interrupts = ENDS[ending]
     text = SETUP.format(path=[str(ROOT / "tests" / "python")], calls=", ".join(calls), end=end.format(delay=delay))
-    process = subprocess.Popen([sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen(
+        [sys.executable, "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
     twice = False
     try:
         if process.stdout.readline() != "ready\n":
@@ -144,8 +147,13 @@ def main() -> int:
         functions.update(name.split()[0] for name in names)
         faults += bool(fault)
         if fault or twice:
-            print(f"{' + '.join(names)}; {ending} after {delay:.4f} s: {fault or 'ended by a later Ctrl-C'}", flush=True)
-    print(f"{ended.total()} endings, {faults} faults, {repeated} times Ctrl-C was sent again; " + ", ".join(f"{name} {count}" for name, count in sorted(ended.items())))
+            print(
+                f"{' + '.join(names)}; {ending} after {delay:.4f} s: {fault or 'ended by a later Ctrl-C'}", flush=True
+            )
+    print(
+        f"{ended.total()} endings, {faults} faults, {repeated} times Ctrl-C was sent again; "
+        + ", ".join(f"{name} {count}" for name, count in sorted(ended.items()))
+    )
     print("functions: " + ", ".join(f"{name} {functions[name]}" for name in [*CALLS, *PLAIN]))
     return int(faults > 0)
 

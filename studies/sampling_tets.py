@@ -2,10 +2,11 @@
 
     python studies/sampling_tets.py -o DIR [--cubes 4,8,16] [--balls 4,8,12] [MESH...]
 
-cubes.md: a twist of 1 radian about z from bottom to top of the unit cube, given at the boundary. It is a harmonic map of energy 1/2 20/3, so energy and
-angles are compared with the exact ones; on cells of six tets and, of as many vertices along an edge, on TetGen's meshes. fields.md: the default recipe on
-refined balls and on MESH, with the energy of each field in the other sampling, singular edges and CPU seconds of both. lengths.md: odeco tensors with
-unit and with free axis lengths on the same meshes.
+cubes.md: a twist of 1 radian about z from bottom to top of the unit cube, given at the boundary. It is a harmonic map
+    of energy 1/2 20/3, so energy and angles are compared with the exact ones; on cells of six tets and, of as many
+    vertices along an edge, on TetGen's meshes. fields.md: the default recipe on refined balls and on MESH, with the
+    energy of each field in the other sampling, singular edges and CPU seconds of both. lengths.md: odeco tensors with
+    unit and with free axis lengths on the same meshes.
 """
 
 import argparse
@@ -13,14 +14,13 @@ import time
 from pathlib import Path
 
 import numpy as np
-import surface_meshes
-from study_output import markdown_table
-from su2_problems import kuhn_grid
-
 import octafield
+import surface_meshes
+from octafield.meshing import prepare_mesh
 from octafield.options import FieldOptions
 from octafield.pipeline import compute_field
-from octafield.meshing import prepare_mesh
+from study_output import markdown_table
+from su2_problems import kuhn_grid
 
 EXACT = 10 / 3
 
@@ -43,12 +43,19 @@ def cube_row(name: str, mesh: octafield.TetMesh) -> tuple:
     tangents = np.ones((len(surface.mesh.triangles), 3))
     in_tets = np.asarray(octafield.tet_boundary_constraints(mesh, surface, tangents, mode="none").on_boundary) == 1
     row = [name, f"{len(points):,}", f"{len(tets):,}"]
-    for where, sites, on in ((mesh, points, at_vertices), (octafield.tet_sampling(mesh), points[tets].mean(axis=1), in_tets)):
+    for where, sites, on in (
+        (mesh, points, at_vertices),
+        (octafield.tet_sampling(mesh), points[tets].mean(axis=1), in_tets),
+    ):
         exact = twist(sites)
         constraints = held(exact, on)
         found = octafield.smooth(where, constraints, octafield.initial_frames(where, constraints), tolerance=1e-10)
         angles = np.degrees(octafield.distance(found.frames, exact))[~on]
-        row += [f"{found.energy / EXACT:.4f}", f"{octafield.dirichlet_energy(where, exact) / EXACT:.4f}", f"{angles.mean():.3f} ({angles.max():.2f})"]
+        row += [
+            f"{found.energy / EXACT:.4f}",
+            f"{octafield.dirichlet_energy(where, exact) / EXACT:.4f}",
+            f"{angles.mean():.3f} ({angles.max():.2f})",
+        ]
     return tuple(row)
 
 
@@ -68,25 +75,68 @@ def field_rows(name: str, mesh) -> tuple[tuple, list[tuple]]:
     sampling = octafield.tet_sampling(meshed.tets)
     a, b = vertices.record, tets.record
     other = octafield.dirichlet_energy(sampling, octafield.tet_frames(meshed.tets, vertices.frames))
-    row = (name, f"{a['vertices']:,}", f"{a['tets']:,}", f"{a['energy']:.5g}", f"{b['energy']:.5g}", f"{b['energy_at_vertices']:.5g}", f"{other:.5g}",
-           a["singular_edges"], b["singular_edges"], f"{a['singular_length']:.4g}", f"{b['singular_length']:.4g}", a["complex_edges"], b["complex_edges"],
-           b["released_corners"], f"{seconds[0]:.2f}", f"{seconds[1]:.2f}")
+    row = (
+        name,
+        f"{a['vertices']:,}",
+        f"{a['tets']:,}",
+        f"{a['energy']:.5g}",
+        f"{b['energy']:.5g}",
+        f"{b['energy_at_vertices']:.5g}",
+        f"{other:.5g}",
+        a["singular_edges"],
+        b["singular_edges"],
+        f"{a['singular_length']:.4g}",
+        f"{b['singular_length']:.4g}",
+        a["complex_edges"],
+        b["complex_edges"],
+        b["released_corners"],
+        f"{seconds[0]:.2f}",
+        f"{seconds[1]:.2f}",
+    )
     return row, odeco_rows(name, meshed, vertices)
 
 
 def odeco_rows(name: str, meshed, field) -> list[tuple]:
     start = time.process_time()
-    found = octafield.smooth(meshed.tets, field.constraints, field.frames, representation="odeco_lengths", max_iterations=1000, threads=1)
+    found = octafield.smooth(
+        meshed.tets, field.constraints, field.frames, representation="odeco_lengths", max_iterations=1000, threads=1
+    )
     seconds = time.process_time() - start
     lengths = np.asarray(found.lengths)
     graph = octafield.singular_graph(meshed.tets, found.frames)
-    return [(name, f"{field.record['energy']:.5g}", f"{found.objective:.5g}", f"{found.energy:.5g}",
-             f"{lengths.min():.2f}, {np.median(lengths):.2f}, {lengths.max():.2f}", field.record["singular_edges"], len(graph.triangles), found.iterations,
-             f"{seconds:.1f}")]
+    return [
+        (
+            name,
+            f"{field.record['energy']:.5g}",
+            f"{found.objective:.5g}",
+            f"{found.energy:.5g}",
+            f"{lengths.min():.2f}, {np.median(lengths):.2f}, {lengths.max():.2f}",
+            field.record["singular_edges"],
+            len(graph.triangles),
+            found.iterations,
+            f"{seconds:.1f}",
+        )
+    ]
 
 
-FIELD_HEADER = ["mesh", "vertices", "tets", "E, vertices", "E, tets", "E of the tets' field at vertices", "E of the vertices' field in tets",
-                "singular edges, vertices", "tets", "length, vertices", "tets", "complex, vertices", "tets", "released tets", "CPU s, vertices", "tets"]
+FIELD_HEADER = [
+    "mesh",
+    "vertices",
+    "tets",
+    "E, vertices",
+    "E, tets",
+    "E of the tets' field at vertices",
+    "E of the vertices' field in tets",
+    "singular edges, vertices",
+    "tets",
+    "length, vertices",
+    "tets",
+    "complex, vertices",
+    "tets",
+    "released tets",
+    "CPU s, vertices",
+    "tets",
+]
 
 
 def main() -> None:
@@ -109,11 +159,35 @@ def main() -> None:
         print(*row, *odeco[0], flush=True)
         lengths += odeco
     tables = {
-        "cubes.md": (["mesh", "vertices", "tets", "E / exact, vertices", "of exact frames", "angle, degrees: mean (max)", "E / exact, tets", "of exact frames",
-                      "angle, degrees: mean (max)"], cubes),
+        "cubes.md": (
+            [
+                "mesh",
+                "vertices",
+                "tets",
+                "E / exact, vertices",
+                "of exact frames",
+                "angle, degrees: mean (max)",
+                "E / exact, tets",
+                "of exact frames",
+                "angle, degrees: mean (max)",
+            ],
+            cubes,
+        ),
         "fields.md": (FIELD_HEADER, rows),
-        "lengths.md": (["mesh", "E, unit lengths", "objective, free lengths", "E of its frames", "lengths: min, median, max", "singular edges, unit", "free",
-                        "iterations", "CPU s"], lengths),
+        "lengths.md": (
+            [
+                "mesh",
+                "E, unit lengths",
+                "objective, free lengths",
+                "E of its frames",
+                "lengths: min, median, max",
+                "singular edges, unit",
+                "free",
+                "iterations",
+                "CPU s",
+            ],
+            lengths,
+        ),
     }
     for file, (header, body) in tables.items():
         (arguments.output / file).write_text(markdown_table(header, body))

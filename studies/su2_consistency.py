@@ -1,9 +1,11 @@
 """Which discrete schemes on the SU(2) invariants are consistent: bar, cube, starts, the thesis's attempts, balls.
 
-    python studies/su2_consistency.py -o DIR [--parts bar,cube,starts,thesis,ball] [--amplitude 1] [--balls FILE.mesh.gz ...]
+    python studies/su2_consistency.py -o DIR [--parts bar,cube,starts,thesis,ball] [--amplitude 1] [--balls FILE.mesh.gz
+    ...]
 
-Write-up: docs/su2_smoothing.md. DIR gets a CSV file and a markdown table per part, and the figures su2_*.png. --balls: tet meshes of balls
-(those published with ARFF); part ball is left out without them. --amplitude: of the boundary frames of part cube.
+Write-up: docs/su2_smoothing.md. DIR gets a CSV file and a markdown table per part, and the figures su2_*.png. --balls:
+    tet meshes of balls (those published with ARFF); part ball is left out without them. --amplitude: of the boundary
+    frames of part cube.
 """
 
 import argparse
@@ -11,13 +13,12 @@ import time
 from pathlib import Path
 
 import numpy as np
+import octafield
 import su2_limits
 import su2_thesis
+from octafield.plots import PALETTE
 from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
 from su2_problems import Problem, ball, bar, cube, grid_values, minimise, on_cells, random_representatives
-
-import octafield
-from octafield.plots import PALETTE
 
 SCHEMES = ("sh4", "geodesic", "su2_geodesic", "su2_midpoint", "su2_symmetric", "su2_frozen", "su2")
 COLOURS = dict(zip(SCHEMES, ("black", *PALETTE)))
@@ -65,8 +66,12 @@ def study_bar(folder: Path) -> None:
             line = degrees(result.frames, problem.target, np.arange(len(x)))
             found[scheme, cells] = x, line
             rows.append([scheme, cells, line.max(), degrees(result.frames, limit, np.arange(len(x))).max()])
-    save(folder, "bar", ["scheme", "cells", "max deviation from the geodesic, degrees", "max deviation from its own limit, degrees"],
-         sorted(rows, key=lambda row: shown.index(row[0])))
+    save(
+        folder,
+        "bar",
+        ["scheme", "cells", "max deviation from the geodesic, degrees", "max deviation from its own limit, degrees"],
+        sorted(rows, key=lambda row: shown.index(row[0])),
+    )
     figure, axes = new_figure(7.5, 3.4)
     fine = np.linspace(0, 1, 101)
     straight = octafield.slerp(np.tile(ends[0], (101, 1)), np.tile(ends[1], (101, 1)), fine)
@@ -75,9 +80,16 @@ def study_bar(folder: Path) -> None:
         axes.plot(fine, np.degrees(octafield.distance(limit, straight)), color=COLOURS[scheme], linewidth=1)
         x, line = found[scheme, 32]
         axes.plot(x, line, "o", markersize=3, color=COLOURS[scheme], label=scheme)
-    axes.set(xlabel="x", ylabel="degrees from the geodesic", title="Frames held at both ends of a bar, 28.2 degrees apart")
+    axes.set(
+        xlabel="x", ylabel="degrees from the geodesic", title="Frames held at both ends of a bar, 28.2 degrees apart"
+    )
     with_grid(axes)
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside right center", fontsize=9, title="dots: 32 cells\nlines: continuum")
+    figure.legend(
+        *axes.get_legend_handles_labels(),
+        loc="outside right center",
+        fontsize=9,
+        title="dots: 32 cells\nlines: continuum",
+    )
     save_figure(figure, folder / "su2_bar.png")
 
 
@@ -93,28 +105,74 @@ def study_cube(folder: Path, amplitude: float) -> None:
             for scheme in SCHEMES:
                 result = sh4 if scheme == "sh4" else minimise(problem, scheme, sh4.frames)
                 near, true = (degrees(result.frames, q, problem.free) for q in (sh4.frames, exact))
-                rows.append([family, scheme, n, len(problem.free), near.mean(), near.max(), true.mean(), true.max(),
-                             result.energy / sh4.energy - 1, "yes" if result.converged else "no"])
-    save(folder, f"cube_{amplitude:g}", ["mesh", "scheme", "n", "free vertices", "mean from sh4", "max from sh4", "mean from reference",
-                                         "max from reference", "E / E(sh4) - 1", "converged"], rows)
+                rows.append(
+                    [
+                        family,
+                        scheme,
+                        n,
+                        len(problem.free),
+                        near.mean(),
+                        near.max(),
+                        true.mean(),
+                        true.max(),
+                        result.energy / sh4.energy - 1,
+                        "yes" if result.converged else "no",
+                    ]
+                )
+    save(
+        folder,
+        f"cube_{amplitude:g}",
+        [
+            "mesh",
+            "scheme",
+            "n",
+            "free vertices",
+            "mean from sh4",
+            "max from sh4",
+            "mean from reference",
+            "max from reference",
+            "E / E(sh4) - 1",
+            "converged",
+        ],
+        rows,
+    )
     table = []
     figure, panels = new_figure(11, 3.4, 1, 3, sharey=True)
     for axes, family in zip(panels, ("kuhn", "jittered", "tetgen")):
         for scheme in SCHEMES:
             mine = [row for row in rows if row[0] == family and row[1] == scheme]
             means = [row[6] for row in mine]
-            axes.loglog(SIZES, means, "o--" if scheme == "su2_geodesic" else "o-", color=COLOURS[scheme], label=scheme, markersize=4,
-                        linewidth=1.2)
+            axes.loglog(
+                SIZES,
+                means,
+                "o--" if scheme == "su2_geodesic" else "o-",
+                color=COLOURS[scheme],
+                label=scheme,
+                markersize=4,
+                linewidth=1.2,
+            )
             if scheme != "sh4":
-                table.append([family, scheme, *(f"{row[4]:.4f} ({row[5]:.3f})" for row in mine),
-                              orders([row[4] for row in mine], 1 / np.array(SIZES))[-1], orders(means, 1 / np.array(SIZES))[-1]])
+                table.append(
+                    [
+                        family,
+                        scheme,
+                        *(f"{row[4]:.4f} ({row[5]:.3f})" for row in mine),
+                        orders([row[4] for row in mine], 1 / np.array(SIZES))[-1],
+                        orders(means, 1 / np.array(SIZES))[-1],
+                    ]
+                )
         axes.loglog(SIZES, 8.0 / np.array(SIZES) ** 2, ":", color="gray", label="second order")
         on_cells(axes, SIZES, family)
     panels[0].set_ylabel("mean degrees from the fine reference")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside right center", fontsize=9)
     save_figure(figure, folder / f"su2_cube_{amplitude:g}.png")
-    save(folder, f"cube_{amplitude:g}_orders", ["mesh", "scheme", *(f"n = {n}" for n in SIZES), "order (sh4)", "order (reference)"], table)
+    save(
+        folder,
+        f"cube_{amplitude:g}_orders",
+        ["mesh", "scheme", *(f"n = {n}" for n in SIZES), "order (sh4)", "order (reference)"],
+        table,
+    )
 
 
 def study_starts(folder: Path) -> None:
@@ -124,9 +182,12 @@ def study_starts(folder: Path) -> None:
         linear = octafield.initial_frames(problem.mesh, problem.constraints)
         sh4 = minimise(problem, "sh4", linear).frames
         noise = rng.uniform(-1, 1, (len(sh4), 3))
-        starts = {"sh4": sh4, "diffusion": octafield.diffuse(problem.mesh, problem.constraints, linear).frames,
-                  **{f"target + {a}": octafield.frame_exp(problem.target, a * noise) for a in (0.05, 0.3, 0.5)},
-                  "random": octafield.random_rotations(len(sh4), seed=2)}
+        starts = {
+            "sh4": sh4,
+            "diffusion": octafield.diffuse(problem.mesh, problem.constraints, linear).frames,
+            **{f"target + {a}": octafield.frame_exp(problem.target, a * noise) for a in (0.05, 0.3, 0.5)},
+            "random": octafield.random_rotations(len(sh4), seed=2),
+        }
         for label, start in starts.items():
             row = [family, label]
             for scheme in ("sh4", "geodesic", "su2_geodesic", "su2_midpoint", "su2_frozen", "su2"):
@@ -134,7 +195,12 @@ def study_starts(folder: Path) -> None:
                 away = degrees(result.frames, sh4, problem.free)
                 row.append(f"{away.mean():.3f} ({away.max():.2f})")
             rows.append(row)
-    save(folder, "starts", ["mesh", "start", "sh4", "geodesic", "su2_geodesic", "su2_midpoint", "su2_frozen", "su2"], rows)
+    save(
+        folder,
+        "starts",
+        ["mesh", "start", "sh4", "geodesic", "su2_geodesic", "su2_midpoint", "su2_frozen", "su2"],
+        rows,
+    )
 
 
 def study_thesis(folder: Path) -> None:
@@ -159,16 +225,27 @@ def study_thesis(folder: Path) -> None:
 
 
 def study_ball(folder: Path, paths: list[Path]) -> None:
-    schemes = [("sh4", {}), ("geodesic", {}), ("su2_geodesic", {}),
-               *(("su2_midpoint", {"midpoint_limit": np.radians(limit)}) for limit in LIMITS), ("su2_frozen", {}), ("su2", {})]
+    schemes = [
+        ("sh4", {}),
+        ("geodesic", {}),
+        ("su2_geodesic", {}),
+        *(("su2_midpoint", {"midpoint_limit": np.radians(limit)}) for limit in LIMITS),
+        ("su2_frozen", {}),
+        ("su2", {}),
+    ]
     rows, drawn, edges = [], [], []
     for path in paths:
         problem, rng = ball(path), np.random.default_rng(4)
         field = octafield.frame_field(problem.mesh, problem.constraints).smooth
         noise = rng.uniform(-1, 1, field.frames.shape[:1] + (3,))
-        edges.append([problem.name, *(float(np.mean(edge_angles(problem, field.frames) < limit)) for limit in LIMITS[:-1])])
-        starts = {"frame_field": field.frames, **{f"+ {a} rad": octafield.frame_exp(field.frames, a * noise) for a in (0.1, 0.3)},
-                  "linear": octafield.initial_frames(problem.mesh, problem.constraints)}
+        edges.append(
+            [problem.name, *(float(np.mean(edge_angles(problem, field.frames) < limit)) for limit in LIMITS[:-1])]
+        )
+        starts = {
+            "frame_field": field.frames,
+            **{f"+ {a} rad": octafield.frame_exp(field.frames, a * noise) for a in (0.1, 0.3)},
+            "linear": octafield.initial_frames(problem.mesh, problem.constraints),
+        }
         if len(field.frames) > 2000:
             starts = {"frame_field": field.frames}
         for label, start in starts.items():
@@ -179,14 +256,52 @@ def study_ball(folder: Path, paths: list[Path]) -> None:
                 graph = octafield.singular_graph(problem.mesh, result.frames)
                 away = degrees(result.frames, field.frames, problem.free)
                 name = scheme + (f" {np.degrees(options['midpoint_limit']):.0f}" if options else "")
-                rows.append([problem.name, label, name, result.energy / field.energy, 0.15 * result.energy / result.objective if
-                             scheme not in ("sh4", "su2") else float("nan"), np.median(away), away.mean(), away.max(), len(graph.triangles),
-                             graph.length, graph.complex_triangles, result.iterations, "yes" if result.converged else "no", seconds])
-                if label == "frame_field" and name in ("sh4", "geodesic", "su2_midpoint 20", "su2") and path == paths[-1]:
+                rows.append(
+                    [
+                        problem.name,
+                        label,
+                        name,
+                        result.energy / field.energy,
+                        0.15 * result.energy / result.objective if scheme not in ("sh4", "su2") else float("nan"),
+                        np.median(away),
+                        away.mean(),
+                        away.max(),
+                        len(graph.triangles),
+                        graph.length,
+                        graph.complex_triangles,
+                        result.iterations,
+                        "yes" if result.converged else "no",
+                        seconds,
+                    ]
+                )
+                if (
+                    label == "frame_field"
+                    and name in ("sh4", "geodesic", "su2_midpoint 20", "su2")
+                    and path == paths[-1]
+                ):
                     drawn.append((name, problem, result, graph))
     save(folder, "ball_edges", ["mesh", *(f"edges below {limit} degrees" for limit in LIMITS[:-1])], edges)
-    save(folder, "ball", ["mesh", "start", "scheme", "E / E(sh4)", "0.15 E / objective", "median", "mean", "max degrees", "singular triangles",
-                          "length", "complex", "iterations", "converged", "CPU s"], rows)
+    save(
+        folder,
+        "ball",
+        [
+            "mesh",
+            "start",
+            "scheme",
+            "E / E(sh4)",
+            "0.15 E / objective",
+            "median",
+            "mean",
+            "max degrees",
+            "singular triangles",
+            "length",
+            "complex",
+            "iterations",
+            "converged",
+            "CPU s",
+        ],
+        rows,
+    )
     figure, panels = new_figure(12, 3.3, 1, len(drawn), subplot_kw={"projection": "3d"})
     for axes, (name, problem, result, graph) in zip(panels, drawn):
         points = np.asarray(graph.points)
@@ -209,8 +324,13 @@ def main() -> None:
     parts = args.parts.split(",")
     if unknown := set(parts) - set(PARTS):
         parser.error(f"unknown parts {sorted(unknown)}; give some of {','.join(PARTS)}")
-    studies = {"bar": study_bar, "cube": lambda folder: study_cube(folder, args.amplitude), "starts": study_starts, "thesis": study_thesis,
-               "ball": lambda folder: study_ball(folder, args.balls)}
+    studies = {
+        "bar": study_bar,
+        "cube": lambda folder: study_cube(folder, args.amplitude),
+        "starts": study_starts,
+        "thesis": study_thesis,
+        "ball": lambda folder: study_ball(folder, args.balls),
+    }
     for part in parts:
         if part != "ball" or args.balls:
             studies[part](args.output)

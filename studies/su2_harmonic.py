@@ -1,11 +1,13 @@
-"""A manufactured harmonic map: how far the schemes are from a solution that is known, in three norms, on three families of meshes.
+"""A manufactured harmonic map: how far the schemes are from a solution that is known, in three norms, on three families
+of meshes.
 
     python studies/su2_harmonic.py -o DIR [--cells 4,6,8,12] [--schemes sh4,geodesic,...]
 
-Frames are unit quaternions q(x) = g (cos a(r), sin a(r) y / r) with y = x - centre, r = |y| and a'' + 2 a' / r - sin(2 a) / r^2 = 0, a(0) = 0: the
-harmonic maps from space to the sphere S^3 that turn with y (Eells, Sampson 1964, for the equation; the reduction is that of every
-equivariant map). All three axes turn, by different amounts, 60 degrees from corner to corner. Boundary frames are held; the error is that of the nodes,
-as the rotation vector from the exact frame to the computed one. DIR gets harmonic.csv, harmonic.md, su2_harmonic.png.
+Frames are unit quaternions q(x) = g (cos a(r), sin a(r) y / r) with y = x - centre, r = |y| and a'' + 2 a' / r - sin(2
+a) / r^2 = 0, a(0) = 0: the harmonic maps from space to the sphere S^3 that turn with y (Eells, Sampson 1964, for the
+equation; the reduction is that of every equivariant map). All three axes turn, by different amounts, 60 degrees from
+corner to corner. Boundary frames are held; the error is that of the nodes, as the rotation vector from the exact frame
+to the computed one. DIR gets harmonic.csv, harmonic.md, su2_harmonic.png.
 """
 
 import argparse
@@ -14,15 +16,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import octafield
+from octafield.plots import PALETTE
 from scipy.integrate import solve_ivp
 from study_output import markdown_table, new_figure, save_figure, write_csv
 from su2_problems import Problem, held, jittered_cube, kuhn_grid, minimise, on_cells, quaternion_product, tetgen_cube
 
-import octafield
-from octafield.plots import PALETTE
-
 SCHEMES = ("sh4", "geodesic", "su2_midpoint", "su2_symmetric", "su2_frozen", "su2")
-FAMILIES = {"kuhn": lambda n: kuhn_grid(n, n, n, 1 / n), "jittered": lambda n: jittered_cube(n, 0.2, n), "tetgen": tetgen_cube}
+FAMILIES = {
+    "kuhn": lambda n: kuhn_grid(n, n, n, 1 / n),
+    "jittered": lambda n: jittered_cube(n, 0.2, n),
+    "tetgen": tetgen_cube,
+}
 CELLS = (4, 6, 8, 12)
 NORMS = ("L2", "H1", "max")
 CENTRE, SLOPE = np.array([0.2, 0.4, -0.3]), 0.4
@@ -56,7 +61,14 @@ def problem_of(family: str, n: int) -> Problem:
     mesh = FAMILIES[family](n)
     frames = exact_frames(np.asarray(mesh.vertices))
     boundary = np.asarray(octafield.boundary_surface(mesh).vertex_map)
-    return Problem(f"{family} n = {n}", 1 / n, mesh, held(mesh, frames, boundary), frames, np.setdiff1d(np.arange(len(frames)), boundary))
+    return Problem(
+        f"{family} n = {n}",
+        1 / n,
+        mesh,
+        held(mesh, frames, boundary),
+        frames,
+        np.setdiff1d(np.arange(len(frames)), boundary),
+    )
 
 
 def solved(problem: Problem, scheme: str) -> octafield.SmoothResult:
@@ -92,8 +104,19 @@ def study(folder: Path, cells: Sequence[int], schemes: Sequence[str]) -> list[li
             found = [errors(problem, result.frames) for problem, result in zip(problems, results, strict=True)]
             for norm in NORMS:
                 values = [each[norm] for each in found]
-                rows.append([family, scheme, norm, *values, order(values, cells), "yes" if all(r.converged for r in results) else "no"])
-            axes.loglog(cells, [each["L2"] for each in found], "o-", color=colour, label=scheme, markersize=4, linewidth=1.2)
+                rows.append(
+                    [
+                        family,
+                        scheme,
+                        norm,
+                        *values,
+                        order(values, cells),
+                        "yes" if all(r.converged for r in results) else "no",
+                    ]
+                )
+            axes.loglog(
+                cells, [each["L2"] for each in found], "o-", color=colour, label=scheme, markersize=4, linewidth=1.2
+            )
         axes.loglog(cells, 2.0 / np.array(cells) ** 2, ":", color="gray", label="second order")
         on_cells(axes, cells, family)
     panels[0].set_ylabel("L2 error, degrees")
@@ -110,8 +133,14 @@ def study(folder: Path, cells: Sequence[int], schemes: Sequence[str]) -> list[li
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, required=True)
-    parser.add_argument("--cells", default=",".join(map(str, CELLS)), help="cells along a side of the cube, with commas")
-    parser.add_argument("--schemes", default=",".join(SCHEMES), help="names of representations and metrics of octafield.smooth, with commas")
+    parser.add_argument(
+        "--cells", default=",".join(map(str, CELLS)), help="cells along a side of the cube, with commas"
+    )
+    parser.add_argument(
+        "--schemes",
+        default=",".join(SCHEMES),
+        help="names of representations and metrics of octafield.smooth, with commas",
+    )
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     study(arguments.output, [int(n) for n in arguments.cells.split(",")], arguments.schemes.split(","))

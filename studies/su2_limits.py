@@ -1,9 +1,8 @@
 """What the naive and the frozen scheme converge to on a bar, from their equations in the continuum.
 
-In x = (u, v) in C^2 = R^4, on the unit 3-sphere; J = dh/d(u, v), H[a, b] its second derivative, J^+ the pseudo-inverse of J:
-  harmonic (geodesic):  x'' = 0 tangentially
-  naive:                J^H (J x'' + H[x', x']) = 0 tangentially (geodesic of the metric J^H J)
-  frozen:               x'' = (J^+ H[x', .])^H x' tangentially
+In x = (u, v) in C^2 = R^4, on the unit 3-sphere; J = dh/d(u, v), H[a, b] its second derivative, J^+ the pseudo-inverse
+  of J: harmonic (geodesic):  x'' = 0 tangentially naive:                J^H (J x'' + H[x', x']) = 0 tangentially
+  (geodesic of the metric J^H J) frozen:               x'' = (J^+ H[x', .])^H x' tangentially
 """
 
 import numpy as np
@@ -56,8 +55,14 @@ def path(scheme: str, ends: np.ndarray, at: np.ndarray) -> np.ndarray:
     def rate(_, y):
         return np.vstack([y[4:], np.array([acceleration(scheme, p[:4], p[4:]) for p in y.T]).T])
 
-    solved = solve_bvp(rate, lambda a, b: np.concatenate([a[:4] - ends[0], b[:4] - ends[1]]), t,
-                       np.vstack([x.T, np.gradient(x, t, axis=0).T]), tol=1e-6, max_nodes=20_000)
+    solved = solve_bvp(
+        rate,
+        lambda a, b: np.concatenate([a[:4] - ends[0], b[:4] - ends[1]]),
+        t,
+        np.vstack([x.T, np.gradient(x, t, axis=0).T]),
+        tol=1e-6,
+        max_nodes=20_000,
+    )
     if not solved.success:
         raise RuntimeError(f"{scheme}: {solved.message}")
     y = solved.sol(at)[:4].T

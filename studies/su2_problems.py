@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import octafield
 from scipy.interpolate import RegularGridInterpolator
 from study_output import with_grid
-
-import octafield
 
 EVEN_AND_ODD_ORDERS = ((0, 1, 2), (1, 2, 0), (2, 0, 1), (1, 0, 2), (0, 2, 1), (2, 1, 0))
 FIXED, AXIS = 2, 1
@@ -75,12 +74,21 @@ def held(mesh: octafield.TetMesh, frames: np.ndarray, vertices: np.ndarray) -> o
 
 
 def cube(family: str, n: int, amplitude: float = 1) -> Problem:
-    mesh = {"kuhn": lambda: kuhn_grid(n, n, n, 1 / n), "jittered": lambda: jittered_cube(n, 0.2, n),
-            "tetgen": lambda: tetgen_cube(n)}[family]()
+    mesh = {
+        "kuhn": lambda: kuhn_grid(n, n, n, 1 / n),
+        "jittered": lambda: jittered_cube(n, 0.2, n),
+        "tetgen": lambda: tetgen_cube(n),
+    }[family]()
     target = smooth_frames(np.asarray(mesh.vertices), amplitude)
     boundary = np.asarray(octafield.boundary_surface(mesh).vertex_map)
-    return Problem(f"{family} n = {n}", 1 / n, mesh, held(mesh, target, boundary), target,
-                   np.setdiff1d(np.arange(len(target)), boundary))
+    return Problem(
+        f"{family} n = {n}",
+        1 / n,
+        mesh,
+        held(mesh, target, boundary),
+        target,
+        np.setdiff1d(np.arange(len(target)), boundary),
+    )
 
 
 def bar(cells: int, ends: np.ndarray) -> Problem:
@@ -101,14 +109,31 @@ def ball(path: Path) -> Problem:
     kind[vertices], axis[vertices] = AXIS, normals
     frames[vertices] = octafield.frame_from_axes(np.tile([1.0, 0, 0], (len(vertices), 1)), normals)
     constraints = octafield.BoundaryConstraints(kind, axis, frames, (kind > 0).astype(np.uint8))
-    return Problem(path.name.removesuffix(".mesh.gz"), octafield.mean_edge_length(read.boundary.mesh), mesh, constraints,
-                   None, np.arange(n), read.boundary)
+    return Problem(
+        path.name.removesuffix(".mesh.gz"),
+        octafield.mean_edge_length(read.boundary.mesh),
+        mesh,
+        constraints,
+        None,
+        np.arange(n),
+        read.boundary,
+    )
 
 
-def minimise(problem: Problem, scheme: str, start: np.ndarray, tolerance: float = 1e-12, **options) -> octafield.SmoothResult:
+def minimise(
+    problem: Problem, scheme: str, start: np.ndarray, tolerance: float = 1e-12, **options
+) -> octafield.SmoothResult:
     solver = "trust_region" if scheme == "sh4" else "levenberg_marquardt"
-    return octafield.smooth(problem.mesh, problem.constraints, start, representation=scheme, solver=solver, tolerance=tolerance,
-                            max_iterations=300, **options)
+    return octafield.smooth(
+        problem.mesh,
+        problem.constraints,
+        start,
+        representation=scheme,
+        solver=solver,
+        tolerance=tolerance,
+        max_iterations=300,
+        **options,
+    )
 
 
 def on_cells(axes: Any, cells: Sequence[int], title: str) -> None:

@@ -1,11 +1,10 @@
 """The three schemes of Beaufort's thesis, section 4.4, with boundary frames held."""
 
 import numpy as np
+import octafield
 from scipy.optimize import minimize
 from scipy.sparse.linalg import splu
 from su2_problems import Problem
-
-import octafield
 
 
 def _fixed(problem: Problem) -> np.ndarray:
@@ -28,8 +27,15 @@ def euler_angles(problem: Problem, start: np.ndarray) -> np.ndarray:
 
     def quaternions(angles):
         a, b, c = angles.reshape(-1, 3).T
-        return np.stack([np.cos(b / 2) * np.cos((a + c) / 2), np.sin(b / 2) * np.sin((c - a) / 2),
-                         np.sin(b / 2) * np.cos((c - a) / 2), np.cos(b / 2) * np.sin((a + c) / 2)], 1)
+        return np.stack(
+            [
+                np.cos(b / 2) * np.cos((a + c) / 2),
+                np.sin(b / 2) * np.sin((c - a) / 2),
+                np.sin(b / 2) * np.cos((c - a) / 2),
+                np.cos(b / 2) * np.sin((a + c) / 2),
+            ],
+            1,
+        )
 
     frames = problem.constraints.frames.copy()
 
@@ -37,7 +43,9 @@ def euler_angles(problem: Problem, start: np.ndarray) -> np.ndarray:
         frames[free] = quaternions(angles)
         h = octafield.su2_embed(frames)
         pull = stiff @ h
-        turn = np.einsum("nij,ni->nj", octafield.su2_differential(frames[free]), pull[free])  # by world rotation vectors
+        turn = np.einsum(
+            "nij,ni->nj", octafield.su2_differential(frames[free]), pull[free]
+        )  # by world rotation vectors
         a = angles.reshape(-1, 3)[:, 0]
         about_b = np.stack([-np.sin(a), np.cos(a), 0 * a], 1)
         about_c = octafield.rotation_matrices(frames[free])[:, :, 2]
@@ -45,15 +53,29 @@ def euler_angles(problem: Problem, start: np.ndarray) -> np.ndarray:
         return 0.5 * np.sum(h * pull), gradient.ravel()
 
     r = octafield.rotation_matrices(start[free])
-    begin = np.stack([np.arctan2(r[:, 1, 2], r[:, 0, 2]), np.arccos(np.clip(r[:, 2, 2], -1, 1)), np.arctan2(r[:, 2, 1], -r[:, 2, 0])], 1)
-    found = minimize(energy, begin.ravel(), jac=True, method="L-BFGS-B", options={"maxiter": 3000, "maxfun": 4000, "ftol": 1e-13, "gtol": 1e-8})
+    begin = np.stack(
+        [
+            np.arctan2(r[:, 1, 2], r[:, 0, 2]),
+            np.arccos(np.clip(r[:, 2, 2], -1, 1)),
+            np.arctan2(r[:, 2, 1], -r[:, 2, 0]),
+        ],
+        1,
+    )
+    found = minimize(
+        energy,
+        begin.ravel(),
+        jac=True,
+        method="L-BFGS-B",
+        options={"maxiter": 3000, "maxfun": 4000, "ftol": 1e-13, "gtol": 1e-8},
+    )
     frames[free] = quaternions(found.x)
     return frames
 
 
 def held_metric(problem: Problem, start: np.ndarray, steps: int = 200) -> np.ndarray:
-    """4.4.3: int grad h M grad h^H with M = (J^+)^H J^+ interpolated from the vertices (the order of factors of su2_metric.hpp; as printed,
-    (4.33) is no form on C^3). Gauss-Newton steps in which M is held, at most 0.1 rad each."""
+    """4.4.3: int grad h M grad h^H with M = (J^+)^H J^+ interpolated from the vertices (the order of factors of
+    su2_metric.hpp; as printed, (4.33) is no form on C^3). Gauss-Newton steps in which M is held, at most 0.1 rad each.
+    """
     from scipy.sparse import csr_matrix
 
     tets, free = np.asarray(problem.mesh.tets), problem.free
@@ -68,7 +90,9 @@ def held_metric(problem: Problem, start: np.ndarray, steps: int = 200) -> np.nda
     for _ in range(steps):
         m = octafield.su2_pulled_back(frames)[tets].mean(1)  # (m, 3, 3)
         h, d = octafield.su2_complex(octafield.su2_embed(frames)), octafield.su2_differential(frames)
-        d = np.stack([octafield.su2_complex(np.ascontiguousarray(d[:, :, k])) for k in range(3)], 2)[tets]  # (m, 4, 3 of h, 3)
+        d = np.stack([octafield.su2_complex(np.ascontiguousarray(d[:, :, k])) for k in range(3)], 2)[
+            tets
+        ]  # (m, 4, 3 of h, 3)
         pulled = np.einsum("tvik,tij->tvkj", d.conj(), m)
         force = np.einsum("tvw,tvkj,twj->tvk", local, pulled, h[tets]).real
         gradient = np.zeros((len(frames), 3))

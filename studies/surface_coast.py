@@ -1,11 +1,13 @@
-"""Fields inside a jagged coast with islands: Ginzburg-Landau with several coherence lengths, MBO and the eigenvector / harmonic field, strong and weak boundary.
+"""Fields inside a jagged coast with islands: Ginzburg-Landau with several coherence lengths, MBO and the eigenvector /
+harmonic field, strong and weak boundary.
 
     python studies/surface_coast.py -o DIR [--edge 0.012] [--levels 6] [--seed 4]
 
-The coast is a random fractal (midpoint displacement of an octagon, 2^levels pieces per side), the islands smaller ones, resampled at the mesh width; the
-thesis's Florida keys are not public. Table: CPU seconds, singular points inside and on the boundary, and the Dirichlet energy of each field at length 1 (one
-direction per triangle, as in benchmarks/surface_fields.py), which compares cross fields of different kinds. Strong means weak where the coast turns too
-sharply for any field.
+The coast is a random fractal (midpoint displacement of an octagon, 2^levels pieces per side), the islands smaller ones,
+resampled at the mesh width; the thesis's Florida keys are not public. Table: CPU seconds, singular points inside and on
+the boundary, and the Dirichlet energy of each field at length 1 (one direction per triangle, as in
+benchmarks/surface_fields.py), which compares cross fields of different kinds. Strong means weak where the coast turns
+too sharply for any field.
 """
 
 import argparse
@@ -14,13 +16,12 @@ import time
 from pathlib import Path
 
 import numpy as np
+import octafield
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Rectangle
 from study_output import markdown_table, new_figure
 from surface_meshes import region
 from surface_pictures import STREAMLINE, add_lines, add_points, point_legend, save_drawing
-
-import octafield
 
 sys.path.insert(0, str(Path(__file__).parent / "benchmarks"))
 from surface_fields import common_energy  # noqa: E402
@@ -42,7 +43,9 @@ ISLANDS = {(-0.35, 0.12): 0.16, (0.02, -0.28): 0.1, (0.2, -0.16): 0.07}  # centr
 
 def outlines(levels: int, seed: int, edge: float) -> list[np.ndarray]:
     """The coast, then the islands."""
-    islands = [size * coast(max(levels - 2, 1), seed + 1 + k) + centre for k, (centre, size) in enumerate(ISLANDS.items())]
+    islands = [
+        size * coast(max(levels - 2, 1), seed + 1 + k) + centre for k, (centre, size) in enumerate(ISLANDS.items())
+    ]
     return [with_edges(curve, edge) for curve in (coast(levels, seed), *islands)]
 
 
@@ -53,7 +56,10 @@ def with_edges(curve: np.ndarray, edge: float) -> np.ndarray:
         if np.linalg.norm(p - kept[-1]) > 0.8 * edge:
             kept.append(p)
     kept = np.array(kept)
-    pieces = [np.linspace(a, b, max(1, round(np.linalg.norm(b - a) / edge)) + 1)[:-1] for a, b in zip(kept, np.roll(kept, -1, axis=0))]
+    pieces = [
+        np.linspace(a, b, max(1, round(np.linalg.norm(b - a) / edge)) + 1)[:-1]
+        for a, b in zip(kept, np.roll(kept, -1, axis=0))
+    ]
     return np.concatenate(pieces)
 
 
@@ -71,8 +77,12 @@ def runs(mean_edge: float) -> dict[str, dict]:
     }
 
 
-PANELS = {"eigenvector (harmonic)": "eigenvector (harmonic)", "ginzburg_landau, eps 2 h": "Ginzburg-Landau, eps = 2 h",
-          "ginzburg_landau, eps 2 h, weak": "the same, weak", "ginzburg_landau, eps 2 h, N = 6": "the same, strong, N = 6"}
+PANELS = {
+    "eigenvector (harmonic)": "eigenvector (harmonic)",
+    "ginzburg_landau, eps 2 h": "Ginzburg-Landau, eps = 2 h",
+    "ginzburg_landau, eps 2 h, weak": "the same, weak",
+    "ginzburg_landau, eps 2 h, N = 6": "the same, strong, N = 6",
+}
 
 
 def draw(output: Path, mesh, features, drawn, size: float) -> None:
@@ -82,7 +92,9 @@ def draw(output: Path, mesh, features, drawn, size: float) -> None:
     for upper, lower, (name, title) in zip(*rows, PANELS.items()):
         field, singular = drawn[name]
         for axes, spacing in ((upper, 0.055), (lower, 1.6 * size)):
-            add_lines(axes, octafield.even_streamlines(mesh, features, field, singular, spacing=spacing), STREAMLINE, 0.5)
+            add_lines(
+                axes, octafield.even_streamlines(mesh, features, field, singular, spacing=spacing), STREAMLINE, 0.5
+            )
             axes.add_collection(LineCollection(points[np.array(features.edges)], colors="black", linewidths=0.8))
             axes.set(aspect="equal", xticks=(), yticks=())
         upper.set(title=title, xlim=(-1.15, 1.15), ylim=(-0.98, 0.98))
@@ -116,11 +128,38 @@ def main() -> None:
         singular = octafield.surface_singularities(mesh, field)
         inside = [s.index for s in singular.points if not s.boundary]
         drawn[name] = (field, singular)
-        rows.append((name, f"{seconds:.2f}", sum(i > 0 for i in inside), sum(i < 0 for i in inside), len(singular.points) - len(inside),
-                     f"{singular.index_sum:g}", "-" if field.symmetry != 4 else f"{common_energy(mesh, features, np.array(octafield.triangle_directions(mesh, field))):.1f}",
-                     f"{field.energy:.2f}", field.iterations))
-    header = ["method", "CPU s", "points inside, +", "-", "on the boundary", "index sum", "energy at length 1", "own energy", "iterations"]
-    text = f"{len(mesh.triangles):,} triangles, {sum(map(len, loops)):,} boundary edges, {len(loops) - 1} islands, mean edge h = {mean_edge:.4f}\n\n" + markdown_table(header, rows)
+        rows.append(
+            (
+                name,
+                f"{seconds:.2f}",
+                sum(i > 0 for i in inside),
+                sum(i < 0 for i in inside),
+                len(singular.points) - len(inside),
+                f"{singular.index_sum:g}",
+                (
+                    "-"
+                    if field.symmetry != 4
+                    else f"{common_energy(mesh, features, np.array(octafield.triangle_directions(mesh, field))):.1f}"
+                ),
+                f"{field.energy:.2f}",
+                field.iterations,
+            )
+        )
+    header = [
+        "method",
+        "CPU s",
+        "points inside, +",
+        "-",
+        "on the boundary",
+        "index sum",
+        "energy at length 1",
+        "own energy",
+        "iterations",
+    ]
+    text = (
+        f"{len(mesh.triangles):,} triangles, {sum(map(len, loops)):,} boundary edges, {len(loops) - 1} islands, mean"
+        f" edge h = {mean_edge:.4f}\n\n" + markdown_table(header, rows)
+    )
     draw(arguments.output, mesh, features, drawn, arguments.edge)
     (arguments.output / "summary.md").write_text(text)
     print(text)

@@ -1,11 +1,11 @@
-"""Triangle meshes of the surface studies, by formulas: unit disk, unit sphere, torus, and plane regions between closed polygons."""
+"""Triangle meshes of the surface studies, by formulas: unit disk, unit sphere, torus, and plane regions between closed
+polygons."""
 
 import numpy as np
+import octafield
 import pyvista
 from matplotlib.path import Path as Polygon
 from scipy.spatial import cKDTree
-
-import octafield
 
 
 def disk(rings: int) -> octafield.TriangleMesh:
@@ -34,7 +34,9 @@ def even_disk(edge: float) -> octafield.TriangleMesh:
 
 def merged(corners: np.ndarray) -> octafield.TriangleMesh:
     """From (F, 3, 3) corners, equal ones one vertex."""
-    _, first, which = np.unique(np.round(corners.reshape(-1, 3), 9) + 0.0, axis=0, return_index=True, return_inverse=True)
+    _, first, which = np.unique(
+        np.round(corners.reshape(-1, 3), 9) + 0.0, axis=0, return_index=True, return_inverse=True
+    )
     return octafield.TriangleMesh(corners.reshape(-1, 3)[first], which.reshape(-1, 3))
 
 
@@ -45,7 +47,9 @@ def sphere(n: int, solid: str = "icosahedron") -> octafield.TriangleMesh:
     ups = [(i, j) for i in range(n) for j in range(n - i)]
     corner = lambda i, j: a * (n - i - j) / n + b * (i / n) + c * (j / n)
     parts = [np.stack([corner(i, j), corner(i + 1, j), corner(i, j + 1)], axis=1) for i, j in ups]
-    parts += [np.stack([corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)], axis=1) for i, j in ups if i + j + 1 < n]
+    parts += [
+        np.stack([corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)], axis=1) for i, j in ups if i + j + 1 < n
+    ]
     flat = merged(np.concatenate(parts))
     points, triangles = np.array(flat.vertices), np.array(flat.triangles)
     points /= np.linalg.norm(points, axis=1, keepdims=True)
@@ -55,7 +59,8 @@ def sphere(n: int, solid: str = "icosahedron") -> octafield.TriangleMesh:
 
 
 def torus(around: int, across: int, big: float = 1.0, small: float = 0.5) -> octafield.TriangleMesh:
-    """2 around across triangles; vertex i across + j at azimuth 2 pi i / around and angle 2 pi j / across from the outer equator."""
+    """2 around across triangles; vertex i across + j at azimuth 2 pi i / around and angle 2 pi j / across from the
+    outer equator."""
     i, j = (x.ravel() for x in np.meshgrid(np.arange(around), np.arange(across), indexing="ij"))
     phi, theta = 2 * np.pi * i / around, 2 * np.pi * j / across
     radius = big + small * np.cos(theta)
@@ -68,8 +73,10 @@ def torus(around: int, across: int, big: float = 1.0, small: float = 0.5) -> oct
 
 # ---- plane regions
 
+
 def resampled(pieces: list[np.ndarray], size) -> np.ndarray:
-    """Closed curve of polylines, each from the end of the last one, with edges about size(points) long; ends of pieces stay."""
+    """Closed curve of polylines, each from the end of the last one, with edges about size(points) long; ends of pieces
+    stay."""
     points = []
     for piece in pieces:
         length = np.linalg.norm(np.diff(piece, axis=0), axis=1)
@@ -80,7 +87,8 @@ def resampled(pieces: list[np.ndarray], size) -> np.ndarray:
 
 
 def lattice(low: np.ndarray, high: np.ndarray, step: float, size) -> np.ndarray:
-    """Triangular lattice, edges `step`, where size(points) may be about that; size grows by at most 1/4 of the distance."""
+    """Triangular lattice, edges `step`, where size(points) may be about that; size grows by at most 1/4 of the
+    distance."""
     tile = 8 * step
     x, y = np.meshgrid(*(np.arange(a, b, tile) for a, b in zip(low, high)))
     corners = np.column_stack([x.ravel(), y.ravel()])
@@ -93,7 +101,8 @@ def lattice(low: np.ndarray, high: np.ndarray, step: float, size) -> np.ndarray:
 
 
 def interior(loops: list[np.ndarray], size) -> np.ndarray:
-    """Points inside the first loop and outside the others, where `size` asks for them: triangular lattices of halving step."""
+    """Points inside the first loop and outside the others, where `size` asks for them: triangular lattices of halving
+    step."""
     low, high = loops[0].min(0), loops[0].max(0)
     edges = np.concatenate([(loop + np.roll(loop, -1, 0)) / 2 for loop in loops])
     near = cKDTree(edges)
@@ -115,13 +124,16 @@ def interior(loops: list[np.ndarray], size) -> np.ndarray:
 
 
 def region(loops: list[np.ndarray], size, smoothings: int = 5) -> octafield.TriangleMesh:
-    """Inside the first closed polygon, outside the others; their edges are mesh edges, interior edges about size(points) long."""
+    """Inside the first closed polygon, outside the others; their edges are mesh edges, interior edges about
+    size(points) long."""
     fixed = np.concatenate(loops)
     starts = np.cumsum([0, *map(len, loops)])
     outline = pyvista.PolyData(np.column_stack([fixed, 0 * fixed[:, 0]]))
     # delaunay_2d cuts what lies right of a polygon: the outer one runs counter-clockwise, holes clockwise.
     polygons = [np.arange(a, b) for a, b in zip(starts, starts[1:])]
-    area = lambda p: np.cross(np.column_stack([p, 0 * p[:, 0]]), np.column_stack([np.roll(p, -1, 0), 0 * p[:, 0]]))[:, 2].sum()
+    area = lambda p: np.cross(np.column_stack([p, 0 * p[:, 0]]), np.column_stack([np.roll(p, -1, 0), 0 * p[:, 0]]))[
+        :, 2
+    ].sum()
     turned = [ids if (area(fixed[ids]) > 0) == (k == 0) else ids[::-1] for k, ids in enumerate(polygons)]
     outline.faces = np.concatenate([[len(ids), *ids] for ids in turned])
     free = interior(loops, size)
@@ -135,7 +147,7 @@ def region(loops: list[np.ndarray], size, smoothings: int = 5) -> octafield.Tria
             pairs = np.concatenate([pairs, pairs[:, ::-1]])
             count = np.bincount(pairs[:, 0], minlength=len(points))
             mean = np.stack([np.bincount(pairs[:, 0], points[pairs[:, 1], k], len(points)) for k in range(2)], axis=1)
-            free = (mean / np.maximum(count, 1)[:, None])[len(fixed):]
+            free = (mean / np.maximum(count, 1)[:, None])[len(fixed) :]
     used, compact = np.unique(triangles, return_inverse=True)
     return oriented(points[used], compact.reshape(-1, 3))
 
@@ -146,4 +158,3 @@ def oriented(points: np.ndarray, triangles: np.ndarray) -> octafield.TriangleMes
     back = np.cross(b - a, c - a)[:, 2] < 0
     triangles = np.where(back[:, None], triangles[:, ::-1], triangles)
     return octafield.TriangleMesh(points, triangles)
-

@@ -1,22 +1,23 @@
-"""What the penalty of Ginzburg-Landau does to the norm, and which points a boundary with corners asks for (thesis figures 3.5 and 3.2).
+"""What the penalty of Ginzburg-Landau does to the norm, and which points a boundary with corners asks for (thesis
+figures 3.5 and 3.2).
 
     python studies/surface_norm.py -o DIR [--edge 0.02] [--epsilon 0.05]
 
-Disk: Laplacian smoothing is the limit of a large epsilon; tangent to the unit circle it is f = z^4 (times a constant of length 1), so |f| = r^4 and the four
-critical points fall together in the centre, Dirichlet energy 4 pi. Ginzburg-Landau keeps |f| = 1 but for the cores of four points.
-L-shaped domain, right angles: five corners of index +1/4 and one of -1/4, field constant.
+Disk: Laplacian smoothing is the limit of a large epsilon; tangent to the unit circle it is f = z^4 (times a constant of
+    length 1), so |f| = r^4 and the four critical points fall together in the centre, Dirichlet energy 4 pi.
+    Ginzburg-Landau keeps |f| = 1 but for the cores of four points. L-shaped domain, right angles: five corners of index
+    +1/4 and one of -1/4, field constant.
 """
 
 import argparse
 from pathlib import Path
 
 import numpy as np
+import octafield
+from octafield.plots import PALETTE
 from study_output import markdown_table, new_figure, with_grid
 from surface_meshes import even_disk, region, resampled
 from surface_pictures import add_norm, add_points, save_drawing
-
-import octafield
-from octafield.plots import PALETTE
 
 HARMONIC = 100.0  # an epsilon that leaves the penalty below 1e-4 of the energy
 ELL = np.array([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2.0]])
@@ -41,11 +42,23 @@ def disk_rows(edge: float, epsilon: float, output: Path) -> list[tuple]:
         axes.axis("off")
         order = np.argsort(radii)[:: max(1, len(radii) // 3000)]
         panels[2].plot(radii[order], norm[order], ".", color=color, markersize=2, label=name)
-        area = np.bincount(np.array(field.topology.triangle_edges).ravel(), np.repeat(np.array(octafield.triangle_areas(mesh)) / 3, 3))
-        rows.append((name, f"{len(mesh.triangles):,}", f"{eps:g}", f"{100 * area[norm < 0.5].sum() / area.sum():.1f}",
-                     f"{np.abs(norm - radii**4).max():.4f}" if eps == HARMONIC else "-", f"{field.dirichlet_energy:.3f}",
-                     f"{4 * np.pi:.3f}" if eps == HARMONIC else "-", len(singular.points),
-                     f"{max(np.linalg.norm(s.position) for s in singular.points):.3f}", f"{singular.index_sum:g}"))
+        area = np.bincount(
+            np.array(field.topology.triangle_edges).ravel(), np.repeat(np.array(octafield.triangle_areas(mesh)) / 3, 3)
+        )
+        rows.append(
+            (
+                name,
+                f"{len(mesh.triangles):,}",
+                f"{eps:g}",
+                f"{100 * area[norm < 0.5].sum() / area.sum():.1f}",
+                f"{np.abs(norm - radii**4).max():.4f}" if eps == HARMONIC else "-",
+                f"{field.dirichlet_energy:.3f}",
+                f"{4 * np.pi:.3f}" if eps == HARMONIC else "-",
+                len(singular.points),
+                f"{max(np.linalg.norm(s.position) for s in singular.points):.3f}",
+                f"{singular.index_sum:g}",
+            )
+        )
     r = np.linspace(0, 1, 101)
     panels[2].plot(r, r**4, color="black", linewidth=0.9, linestyle="--", label="r⁴")
     panels[2].set(xlabel="distance from the centre", ylabel="|f| at edge midpoints", ylim=(0, 1.05), xlim=(0, 1))
@@ -65,8 +78,18 @@ def ell_rows(edge: float, epsilon: float) -> list[tuple]:
         field = octafield.direction_field(mesh, features, epsilon=epsilon, **options)
         singular = octafield.surface_singularities(mesh, field)
         signs = [s.index > 0 for s in singular.points]
-        rows.append((name, f"{len(mesh.triangles):,}", f"{epsilon:g}", sum(signs), len(signs) - sum(signs), sum(s.boundary for s in singular.points),
-                     f"{singular.index_sum:g}", f"{field.energy:.1e}"))
+        rows.append(
+            (
+                name,
+                f"{len(mesh.triangles):,}",
+                f"{epsilon:g}",
+                sum(signs),
+                len(signs) - sum(signs),
+                sum(s.boundary for s in singular.points),
+                f"{singular.index_sum:g}",
+                f"{field.energy:.1e}",
+            )
+        )
     return rows
 
 
@@ -79,9 +102,24 @@ def main() -> None:
     arguments.output.mkdir(parents=True, exist_ok=True)
     disk = disk_rows(arguments.edge, arguments.epsilon, arguments.output)
     ell = ell_rows(2 * arguments.edge, 2 * arguments.epsilon)
-    text = markdown_table(["disk", "triangles", "eps", "area with abs(f) < 1/2, %", "largest error of r^4", "Dirichlet", "exact", "points", "farthest from the centre",
-                           "index sum"], disk)
-    text += "\n" + markdown_table(["L-shaped domain", "triangles", "eps", "points +1/4", "-1/4", "on the boundary", "index sum", "energy"], ell)
+    text = markdown_table(
+        [
+            "disk",
+            "triangles",
+            "eps",
+            "area with abs(f) < 1/2, %",
+            "largest error of r^4",
+            "Dirichlet",
+            "exact",
+            "points",
+            "farthest from the centre",
+            "index sum",
+        ],
+        disk,
+    )
+    text += "\n" + markdown_table(
+        ["L-shaped domain", "triangles", "eps", "points +1/4", "-1/4", "on the boundary", "index sum", "energy"], ell
+    )
     (arguments.output / "summary.md").write_text(text)
     print(text)
 

@@ -1,14 +1,16 @@
 """Where the singular points of a resolved field are, to a small part of a mesh width, for the surface studies.
 
-The zero of the interpolant in one triangle is off by up to half an edge length, as the values of one triangle depend on how it lies; the zero of a smooth
-function fitted to the field in the whole core, of radius epsilon, is not. Charts must keep angles: the plane itself, or a stereographic projection.
+The zero of the interpolant in one triangle is off by up to half an edge length, as the values of one triangle depend on
+how it lies; the zero of a smooth function fitted to the field in the whole core, of radius epsilon, is not. Charts must
+keep angles: the plane itself, or a stereographic projection.
 """
 
 import numpy as np
 
 
 def fitted_zero(places: np.ndarray, values: np.ndarray) -> complex:
-    """Of the least-squares a + b z + c conj(z) + (second order) + d z |z|^2, from 0 by Newton's method; 0 where it does not converge."""
+    """Of the least-squares a + b z + c conj(z) + (second order) + d z |z|^2, from 0 by Newton's method; 0 where it does
+    not converge."""
     basis = lambda z: np.stack([1 + 0 * z, z, z.conj(), z**2, z * z.conj(), z.conj() ** 2, z**2 * z.conj()], axis=-1)
     if len(places) < 14:
         return 0j
@@ -17,7 +19,10 @@ def fitted_zero(places: np.ndarray, values: np.ndarray) -> complex:
     z = np.array(0j)
     for _ in range(30):
         f = basis(z) @ c
-        fz, fc = c[1] + 2 * c[3] * z + c[4] * z.conj() + 2 * c[6] * z * z.conj(), c[2] + c[4] * z + 2 * c[5] * z.conj() + c[6] * z**2
+        fz, fc = (
+            c[1] + 2 * c[3] * z + c[4] * z.conj() + 2 * c[6] * z * z.conj(),
+            c[2] + c[4] * z + 2 * c[5] * z.conj() + c[6] * z**2,
+        )
         step = (fz.conj() * f - fc * f.conj()) / (abs(fz) ** 2 - abs(fc) ** 2)
         z = z - step
         if not abs(z) < 1:
@@ -38,7 +43,10 @@ def core_radius(along: np.ndarray, epsilon: float) -> float:
 def located_in_plane(mesh, field, points: np.ndarray, epsilon: float) -> np.ndarray:
     """(n,) complex, from (n, 3)."""
     middles, along = edge_vectors(mesh, field)
-    z, values = middles[:, 0] + 1j * middles[:, 1], np.array(field.values) * np.exp(1j * field.symmetry * np.arctan2(along[:, 1], along[:, 0]))
+    z, values = (
+        middles[:, 0] + 1j * middles[:, 1],
+        np.array(field.values) * np.exp(1j * field.symmetry * np.arctan2(along[:, 1], along[:, 0])),
+    )
     found = []
     for start in points[:, 0] + 1j * points[:, 1]:
         core = abs(z - start) < core_radius(along, epsilon)

@@ -1,34 +1,50 @@
-"""4-direction fields on the torus R = 1, r = 0.5: the states with 0, 4, ..., 16 singular points, and which of them costs least (thesis figure 3.15).
+"""4-direction fields on the torus R = 1, r = 0.5: the states with 0, 4, ..., 16 singular points, and which of them
+costs least (thesis figure 3.15).
 
-    python studies/surface_torus.py -o DIR [--around 144] [--epsilons 0.17,0.12,0.085,0.06,0.042,0.03] [--points 0,4,6,8,10,12,14,16]
+    python studies/surface_torus.py -o DIR [--around 144] [--epsilons 0.17,0.12,0.085,0.06,0.042,0.03] [--points
+    0,4,6,8,10,12,14,16]
 
-The torus has states for every even number of singular points, half of them of index +1/4 on the outer equator, half of -1/4 on the inner one:
-along the curvature lines f turns by exp(-i floor(m/2) phi) on the upper half and exp(+i ceil(m/2) phi) on the lower one, m points on each equator,
-phi the azimuth. What a run without constraints reaches is one of them. To reach each, the field's direction is
-given at the 2 m azimuths pi k / m of the top and the bottom circle, where the state's symmetry fixes it (weak constraints); so the
-constraints change the energy by next to nothing, and the part they have in it is subtracted. Continuation is left out: it would leave the state.
-The mesh has around^2 triangles.
+The torus has states for every even number of singular points, half of them of index +1/4 on the outer equator, half of
+-1/4 on the inner one: along the curvature lines f turns by exp(-i floor(m/2) phi) on the upper half and exp(+i
+ceil(m/2) phi) on the lower one, m points on each equator, phi the azimuth. What a run without constraints reaches is
+one of them. To reach each, the field's direction is given at the 2 m azimuths pi k / m of the top and the bottom
+circle, where the state's symmetry fixes it (weak constraints); so the constraints change the energy by next to nothing,
+and the part they have in it is subtracted. Continuation is left out: it would leave the state. The mesh has around^2
+triangles.
 """
 
 import argparse
 from pathlib import Path
 
 import numpy as np
+import octafield
+from octafield.plots import PALETTE
 from study_output import markdown_table, new_figure, with_grid, write_csv
 from surface_meshes import torus
 from surface_pictures import draw_field, save_drawing
 
-import octafield
-from octafield.plots import PALETTE
-
-PUBLISHED = {0: "84.58", 12: "72.10"}  # thesis, eps 0.06; the first one has no penalty part: it is |f| = 1 along the curvature lines
-EARLIER = {0: 82.28, 4: 69.95, 6: 67.22, 8: 63.52, 10: 67.22, 12: 72.09, 14: 84.03, 16: 98.27}  # another solver, 20,736 triangles, eps 0.06
+PUBLISHED = {
+    0: "84.58",
+    12: "72.10",
+}  # thesis, eps 0.06; the first one has no penalty part: it is |f| = 1 along the curvature lines
+EARLIER = {
+    0: 82.28,
+    4: 69.95,
+    6: 67.22,
+    8: 63.52,
+    10: 67.22,
+    12: 72.09,
+    14: 84.03,
+    16: 98.27,
+}  # another solver, 20,736 triangles, eps 0.06
 WEIGHTS = (1e-3, 1e-2, 1e-1, 1.0, 10.0)  # of each given direction; the stiffness of an edge is about 4
 PUBLISHED_EPSILON, ALIGNED = 0.06, 32 * np.pi**2 * (2 - np.sqrt(3))
 
 
 def azimuthal(vertex: np.ndarray) -> np.ndarray:
-    return np.column_stack([-vertex[:, 1], vertex[:, 0], 0 * vertex[:, 0]]) / np.linalg.norm(vertex[:, :2], axis=1, keepdims=True)
+    return np.column_stack([-vertex[:, 1], vertex[:, 0], 0 * vertex[:, 0]]) / np.linalg.norm(
+        vertex[:, :2], axis=1, keepdims=True
+    )
 
 
 def constraints(mesh, around: int, points: int, weight: float) -> octafield.DirectionConstraints | None:
@@ -42,19 +58,26 @@ def constraints(mesh, around: int, points: int, weight: float) -> octafield.Dire
         at = np.array(mesh.vertices)[ids]
         theta, phi = 2 * np.pi * j / across, 2 * np.pi * ring / around
         first = azimuthal(at)
-        second = np.column_stack([-np.sin(theta) * np.cos(phi), -np.sin(theta) * np.sin(phi), np.full(count, np.cos(theta))])
+        second = np.column_stack(
+            [-np.sin(theta) * np.cos(phi), -np.sin(theta) * np.sin(phi), np.full(count, np.cos(theta))]
+        )
         angle = turns * phi / 4
         vertices.append(ids)
         directions.append(np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * second)
-    return octafield.DirectionConstraints(vertices=np.concatenate(vertices), vertex_directions=np.concatenate(directions),
-                                          vertex_weights=np.full(2 * count, weight))
+    return octafield.DirectionConstraints(
+        vertices=np.concatenate(vertices),
+        vertex_directions=np.concatenate(directions),
+        vertex_weights=np.full(2 * count, weight),
+    )
 
 
 def free_energy(mesh, features, field) -> float:
     """E of the field without its constraints: Dirichlet part and penalty."""
     share = np.repeat(np.array(octafield.triangle_areas(mesh)) / 3, 3)
     masses = np.bincount(np.array(field.topology.triangle_edges).ravel(), share)
-    return field.dirichlet_energy + float(np.sum(masses * (abs(np.array(field.values)) ** 2 - 1) ** 2)) / (4 * field.epsilon**2)
+    return field.dirichlet_energy + float(np.sum(masses * (abs(np.array(field.values)) ** 2 - 1) ** 2)) / (
+        4 * field.epsilon**2
+    )
 
 
 def state(mesh, around: int, points: int, epsilon: float):
@@ -85,27 +108,67 @@ def states_table(around: int, epsilons: list[float], wanted: list[int]) -> tuple
             if kept:
                 curves.setdefault(points, []).append((epsilon, energy))
             at = abs(epsilon - PUBLISHED_EPSILON) < 1e-9
-            rows.append((points, f"{epsilon:g}", f"{found[0]} + {found[1]}", f"{singular.index_sum:g}", f"{energy:.3f}", f"{field.dirichlet_energy:.3f}",
-                         f"{weight:g}", f"{field.energy - energy:.1e}", PUBLISHED.get(points, "-") if at else "-",
-                         EARLIER.get(points, "-") if at else "-", field.iterations, f"{field.residual:.0e}"))
-    header = ["points asked", "eps", "points found, + and -", "index sum", "energy", "Dirichlet", "weight", "of the constraints", "published", "other solver",
-              "iterations", "residual"]
+            rows.append(
+                (
+                    points,
+                    f"{epsilon:g}",
+                    f"{found[0]} + {found[1]}",
+                    f"{singular.index_sum:g}",
+                    f"{energy:.3f}",
+                    f"{field.dirichlet_energy:.3f}",
+                    f"{weight:g}",
+                    f"{field.energy - energy:.1e}",
+                    PUBLISHED.get(points, "-") if at else "-",
+                    EARLIER.get(points, "-") if at else "-",
+                    field.iterations,
+                    f"{field.residual:.0e}",
+                )
+            )
+    header = [
+        "points asked",
+        "eps",
+        "points found, + and -",
+        "index sum",
+        "energy",
+        "Dirichlet",
+        "weight",
+        "of the constraints",
+        "published",
+        "other solver",
+        "iterations",
+        "residual",
+    ]
     return markdown_table(header, rows), curves
 
 
 def free_table(around: int, epsilons: list[float]) -> str:
-    """Without constraints: each method as it is, and guided by the principal directions. mbo and eigenvector do not depend on epsilon."""
+    """Without constraints: each method as it is, and guided by the principal directions. mbo and eigenvector do not
+    depend on epsilon."""
     mesh, features, rows = torus(around, around // 2), octafield.FeatureGraph(), []
     principal = octafield.principal_directions(mesh)
     guide = octafield.DirectionGuide(principal.directions, principal.anisotropy)
-    runs = [(name, epsilon, {"epsilon": epsilon, **options}) for epsilon in epsilons
-            for name, options in (("ginzburg_landau", {}), ("ginzburg_landau, no continuation", {"first_epsilon": epsilon}),
-                                  ("ginzburg_landau, guided by curvature", {"guide": guide}))]
+    runs = [
+        (name, epsilon, {"epsilon": epsilon, **options})
+        for epsilon in epsilons
+        for name, options in (
+            ("ginzburg_landau", {}),
+            ("ginzburg_landau, no continuation", {"first_epsilon": epsilon}),
+            ("ginzburg_landau, guided by curvature", {"guide": guide}),
+        )
+    ]
     runs += [(name, None, {"method": name}) for name in ("mbo", "eigenvector")]
     for name, epsilon, options in runs:
         field = octafield.direction_field(mesh, features, **options)
         found = counts(octafield.surface_singularities(mesh, field))
-        rows.append(("-" if epsilon is None else f"{epsilon:g}", name, f"{found[0]} + {found[1]}", f"{free_energy(mesh, features, field):.3f}", f"{field.dirichlet_energy:.3f}"))
+        rows.append(
+            (
+                "-" if epsilon is None else f"{epsilon:g}",
+                name,
+                f"{found[0]} + {found[1]}",
+                f"{free_energy(mesh, features, field):.3f}",
+                f"{field.dirichlet_energy:.3f}",
+            )
+        )
     return markdown_table(["eps", "run", "points found, + and -", "energy", "Dirichlet"], rows)
 
 
@@ -116,7 +179,9 @@ def aligned(around: int) -> float:
     edges, points = np.array(topology.edges), np.array(mesh.vertices)
     middle = points[edges].mean(axis=1)
     held = octafield.DirectionConstraints(edges, azimuthal(middle))
-    return octafield.direction_field(mesh, octafield.FeatureGraph(), method="eigenvector", constraints=held).dirichlet_energy
+    return octafield.direction_field(
+        mesh, octafield.FeatureGraph(), method="eigenvector", constraints=held
+    ).dirichlet_energy
 
 
 def energy_figure(path: Path, curves: dict) -> None:
@@ -124,10 +189,26 @@ def energy_figure(path: Path, curves: dict) -> None:
     markers = "o^vDs*Pp"
     for number, (points, curve) in enumerate(curves.items()):
         epsilon, energy = np.transpose(sorted(curve))
-        axes.plot(epsilon, energy, ("-", "--")[number // len(PALETTE)], marker=markers[number % len(markers)], markersize=5, color=PALETTE[number % len(PALETTE)],
-                  label=f"{points} points")
+        axes.plot(
+            epsilon,
+            energy,
+            ("-", "--")[number // len(PALETTE)],
+            marker=markers[number % len(markers)],
+            markersize=5,
+            color=PALETTE[number % len(PALETTE)],
+            label=f"{points} points",
+        )
     for number, value in enumerate(PUBLISHED.values()):
-        axes.plot(PUBLISHED_EPSILON, float(value), "x", color="black", markersize=9, markeredgewidth=1.8, zorder=5, label=None if number else "thesis: 72.10, 84.58")
+        axes.plot(
+            PUBLISHED_EPSILON,
+            float(value),
+            "x",
+            color="black",
+            markersize=9,
+            markeredgewidth=1.8,
+            zorder=5,
+            label=None if number else "thesis: 72.10, 84.58",
+        )
     axes.set(xlabel="eps", ylabel="energy", xscale="log")
     ticks = sorted({e for curve in curves.values() for e, _ in curve})
     axes.set_xticks(ticks, [f"{e:g}" for e in ticks], minor=False)
@@ -148,14 +229,29 @@ def main() -> None:
     arguments.output.mkdir(parents=True, exist_ok=True)
     epsilons = [float(x) for x in arguments.epsilons.split(",")]
     table, curves = states_table(arguments.around, epsilons, [int(x) for x in arguments.points.split(",")])
-    along = f"Along the curvature lines, |f| = 1: {aligned(arguments.around):.3f} (exact {ALIGNED:.3f}, thesis {PUBLISHED[0]})\n"
+    along = (
+        f"Along the curvature lines, |f| = 1: {aligned(arguments.around):.3f} (exact {ALIGNED:.3f}, thesis"
+        f" {PUBLISHED[0]})\n"
+    )
     text = "\n".join([along, table, *([] if arguments.states_only else [free_table(arguments.around, epsilons)])])
     energy_figure(arguments.output / "surface_torus_energy.png", curves)
-    write_csv(arguments.output / "surface_torus.csv", ["points", "eps", "energy"], [(n, *pair) for n, curve in curves.items() for pair in curve])
+    write_csv(
+        arguments.output / "surface_torus.csv",
+        ["points", "eps", "energy"],
+        [(n, *pair) for n, curve in curves.items() for pair in curve],
+    )
     for points in () if arguments.states_only else (8, 12):
         mesh = torus(arguments.around, arguments.around // 2)
         _, field, singular, _ = state(mesh, arguments.around, points, PUBLISHED_EPSILON)
-        draw_field(arguments.output / f"surface_torus_{points}.png", mesh, field, singular, (0, -0.75, 0.9), spacing=0.1, separatrix=0.35)
+        draw_field(
+            arguments.output / f"surface_torus_{points}.png",
+            mesh,
+            field,
+            singular,
+            (0, -0.75, 0.9),
+            spacing=0.1,
+            separatrix=0.35,
+        )
     (arguments.output / "summary.md").write_text(text)
     print(text)
 

@@ -1,17 +1,22 @@
-"""Figures 4.3, 4.4, 4.7 and 4.8 of Beaufort's thesis (chapter 4: frames as quartics, tensors and SU(2) invariants), drawn and checked.
+"""Figures 4.3, 4.4, 4.7 and 4.8 of Beaufort's thesis (chapter 4: frames as quartics, tensors and SU(2) invariants),
+drawn and checked.
 
     python studies/thesis_frames.py -o DIR [--figures 4.3,4.4,4.7a,4.7b,4.8] [--frames 10000] [--seed 1]
 
-DIR gets a picture and the numbers in it (CSV) per figure, and summary.md: what the thesis says beside what is found here.
+DIR gets a picture and the numbers in it (CSV) per figure, and summary.md: what the thesis says beside what is found
+here.
 
-Two conventions take part. Here u = q0 + i q1, v = q2 + i q3, and the world's x axis is special. The thesis prints u = q0 - i q1,
-v = q2 + i q3 in (4.25), but computes with u = q0 - i q3, v = q2 + i q1 in section 4.2, and the world's z axis is special.
+Two conventions take part. Here u = q0 + i q1, v = q2 + i q3, and the world's x axis is special. The thesis prints u =
+q0 - i q1, v = q2 + i q3 in (4.25), but computes with u = q0 - i q3, v = q2 + i q1 in section 4.2, and the world's z
+axis is special.
 """
 
 import argparse
 from pathlib import Path
 
 import numpy as np
+import octafield
+from octafield.plots import PALETTE
 from quartic_pictures import (
     draw_frame,
     hits_of_isosurface,
@@ -27,9 +32,6 @@ from quartic_pictures import (
 )
 from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
 
-import octafield
-from octafield.plots import PALETTE
-
 IDENTITY = np.array([1.0, 0, 0, 0])
 TURNED = octafield.quaternion_exp([[0.5, 0.3, 0.4]])  # the rotated frame of figures 4.3 and 4.4
 SHARED_AXIS = np.array([[2.0, 6.0, 3.0]]) / 7  # of figure 4.8; the thesis does not name its own
@@ -38,6 +40,7 @@ EXPANSION = 4 * np.sqrt(np.pi) / 15  # thesis: x^4 + y^4 + z^4 = EXPANSION (Y40 
 
 
 # ---- conventions
+
 
 def as_section_4_2(q: np.ndarray) -> np.ndarray:
     """Components that make this project's u, v the thesis's u = q0 - i q3, v = q2 + i q1."""
@@ -48,7 +51,11 @@ def as_printed_4_25(q: np.ndarray) -> np.ndarray:
     return q * (1, -1, 1, 1)
 
 
-CONVENTIONS = {"this project": lambda q: q, "thesis, section 4.2": as_section_4_2, "thesis, (4.25) as printed": as_printed_4_25}
+CONVENTIONS = {
+    "this project": lambda q: q,
+    "thesis, section 4.2": as_section_4_2,
+    "thesis, (4.25) as printed": as_printed_4_25,
+}
 
 
 def invariants(q: np.ndarray, convention: str = "this project") -> np.ndarray:
@@ -73,6 +80,7 @@ def quaternion_product(p: np.ndarray, q: np.ndarray) -> np.ndarray:
 
 # ---- figures: each writes a picture and a table, and returns rows (quantity, what the thesis says, what is found here)
 
+
 def figure_4_3(output: Path, options) -> list[tuple]:
     size = 420
     points, seen = hits_of_sphere(screen(size))
@@ -81,14 +89,24 @@ def figure_4_3(output: Path, options) -> list[tuple]:
         image = show(axes, quartic(points, q), seen, size, cmap="viridis", vmin=1 / 3, vmax=1)
         draw_frame(axes, q)
         axes.set_title(title)
-    figure.colorbar(image, ax=panels, shrink=0.8, label="$x^4 + y^4 + z^4$ along the frame's axes", ticks=(1 / 3, 0.6, 1), format="%.3g")
+    figure.colorbar(
+        image,
+        ax=panels,
+        shrink=0.8,
+        label="$x^4 + y^4 + z^4$ along the frame's axes",
+        ticks=(1 / 3, 0.6, 1),
+        format="%.3g",
+    )
     save_figure(figure, output / "frames_4_3.png")
 
     grid = sphere_grid()
     direct = [quartic(grid, q) for q in (IDENTITY[None], TURNED)]
     summed = [quartic_by_harmonics(grid, q) for q in (IDENTITY[None], TURNED)]
-    write_csv(output / "frames_4_3.csv", ["x", "y", "z", "f", "f_by_harmonics", "f_rotated", "f_rotated_by_harmonics"],
-              np.column_stack([grid, direct[0], summed[0], direct[1], summed[1]]).tolist())
+    write_csv(
+        output / "frames_4_3.csv",
+        ["x", "y", "z", "f", "f_by_harmonics", "f_rotated", "f_rotated_by_harmonics"],
+        np.column_stack([grid, direct[0], summed[0], direct[1], summed[1]]).tolist(),
+    )
     harmonics = octafield.harmonics_evaluate(4, grid)
     fitted = np.linalg.lstsq(harmonics, direct[0] - 3 / 5, rcond=None)[0]
     y40, y44 = printed_y40_y44(grid)
@@ -119,12 +137,21 @@ def figure_4_4(output: Path, options) -> list[tuple]:
 
     grid = sphere_grid()
     radius = [quartic(grid, q) ** -0.25 for q in (IDENTITY[None], TURNED)]
-    write_csv(output / "frames_4_4.csv", ["x", "y", "z", "radius", "radius_rotated"], np.column_stack([grid, *radius]).tolist())
-    error = max(abs(quartic_by_tensor(grid * r[:, None], q) - 1).max() for r, q in zip(radius, (IDENTITY[None], TURNED)))
+    write_csv(
+        output / "frames_4_4.csv",
+        ["x", "y", "z", "radius", "radius_rotated"],
+        np.column_stack([grid, *radius]).tolist(),
+    )
+    error = max(
+        abs(quartic_by_tensor(grid * r[:, None], q) - 1).max() for r, q in zip(radius, (IDENTITY[None], TURNED))
+    )
     diagonal = quartic(np.ones((1, 3)) / np.sqrt(3), IDENTITY[None])[0] ** -0.25
     return [
-        ("distance of the surface along the axes, and along (1, 1, 1)", "unit sphere of the 4-norm: 1, 3^(1/4) = 1.316074",
-         f"{radius[0].min():.6f}, {diagonal:.6f}"),
+        (
+            "distance of the surface along the axes, and along (1, 1, 1)",
+            "unit sphere of the 4-norm: 1, 3^(1/4) = 1.316074",
+            f"{radius[0].min():.6f}, {diagonal:.6f}",
+        ),
         ("largest error of A_ijkl x_i x_j x_k x_l = 1 on it, both frames", "0", f"{error:.1e}"),
     ]
 
@@ -139,8 +166,11 @@ def figure_4_7a(output: Path, options) -> list[tuple]:
     curves = {name: [c3_distance(turns(angles, k), name) for k in range(3)] for name in CONVENTIONS}
     nearest = [r4_distance(turns(angles, k)) for k in range(3)]
     figure, panels = new_figure(10.5, 3.4, 1, 3)
-    shown = {"$\\mathbb{C}^3$, u = q0 + i q1 (here)": curves["this project"],
-             "$\\mathbb{C}^3$, u = q0 $-$ i q3 (thesis 4.2)": curves["thesis, section 4.2"], "$\\mathbb{R}^4$": nearest}
+    shown = {
+        "$\\mathbb{C}^3$, u = q0 + i q1 (here)": curves["this project"],
+        "$\\mathbb{C}^3$, u = q0 $-$ i q3 (thesis 4.2)": curves["thesis, section 4.2"],
+        "$\\mathbb{R}^4$": nearest,
+    }
     for axes, (title, three) in zip(panels, shown.items()):
         for values, name, style, color in zip(three, "ijk", ("-", "--", ":"), PALETTE):
             axes.plot(degrees, values, style, color=color, linewidth=2.2, label=f"about {name}")
@@ -151,12 +181,25 @@ def figure_4_7a(output: Path, options) -> list[tuple]:
     save_figure(figure, output / "frames_4_7a.png")
 
     columns = ["c3_here", "c3_section_4_2", "c3_printed_4_25", "r4"]
-    write_csv(output / "frames_4_7a.csv", ["angle_deg", *(f"{c}_{k}" for c in columns for k in "ijk")],
-              np.column_stack([degrees, *(v for three in (*curves.values(), nearest) for v in three)]).tolist())
+    write_csv(
+        output / "frames_4_7a.csv",
+        ["angle_deg", *(f"{c}_{k}" for c in columns for k in "ijk")],
+        np.column_stack([degrees, *(v for three in (*curves.values(), nearest) for v in three)]).tolist(),
+    )
     rows = [("distance in R^4 at 45 degrees, about i, j, k", "equal", ", ".join(f"{v[90]:.4f}" for v in nearest))]
-    says = {"this project": "-", "thesis, section 4.2": "k appears farther than i and j", "thesis, (4.25) as printed": "k appears farther than i and j"}
+    says = {
+        "this project": "-",
+        "thesis, section 4.2": "k appears farther than i and j",
+        "thesis, (4.25) as printed": "k appears farther than i and j",
+    }
     for name, three in curves.items():
-        rows.append((f"distance in C^3 at 45 degrees, about i, j, k: {name}", says[name], ", ".join(f"{v[90]:.4f}" for v in three)))
+        rows.append(
+            (
+                f"distance in C^3 at 45 degrees, about i, j, k: {name}",
+                says[name],
+                ", ".join(f"{v[90]:.4f}" for v in three),
+            )
+        )
     return rows + invariance_rows(options.seed)
 
 
@@ -167,39 +210,71 @@ def invariance_rows(seed: int) -> list[tuple]:
     rows = []
     for name in CONVENTIONS:
         start = invariants(q[:, 0], name)[:, None]
-        change = [abs(invariants(moved.reshape(-1, 4), name).reshape(len(q), 48, 3) - start).max()
-                  for moved in (quaternion_product(q, group), quaternion_product(group, q))]
-        rows.append((f"largest change of h over the 48 o, q o and o q: {name}", "0 for q o", f"{change[0]:.1e}, {change[1]:.1e}"))
+        change = [
+            abs(invariants(moved.reshape(-1, 4), name).reshape(len(q), 48, 3) - start).max()
+            for moved in (quaternion_product(q, group), quaternion_product(group, q))
+        ]
+        rows.append(
+            (
+                f"largest change of h over the 48 o, q o and o q: {name}",
+                "0 for q o",
+                f"{change[0]:.1e}, {change[1]:.1e}",
+            )
+        )
     quarter = octafield.quaternion_exp([0, np.pi / 2, 0])  # takes z to x
     turned = invariants(quaternion_product(quarter[None], q[:, 0]))
-    rows.append(("largest difference of h of section 4.2 and conjugate h here of the frame turned by a quarter about y", "-",
-                 f"{abs(invariants(q[:, 0], 'thesis, section 4.2') - turned.conj()).max():.1e}"))
+    rows.append(
+        (
+            "largest difference of h of section 4.2 and conjugate h here of the frame turned by a quarter about y",
+            "-",
+            f"{abs(invariants(q[:, 0], 'thesis, section 4.2') - turned.conj()).max():.1e}",
+        )
+    )
     return rows
 
 
 def figure_4_7b(output: Path, options) -> list[tuple]:
     q = octafield.random_rotations(options.frames, seed=options.seed)
     r4 = r4_distance(q)
-    clouds = {"this project": c3_distance(q), "thesis, section 4.2": c3_distance(q, "thesis, section 4.2"),
-              "sh4, for comparison": octafield.metrics["sh4"].distance(q, IDENTITY)}
+    clouds = {
+        "this project": c3_distance(q),
+        "thesis, section 4.2": c3_distance(q, "thesis, section 4.2"),
+        "sh4, for comparison": octafield.metrics["sh4"].distance(q, IDENTITY),
+    }
     figure, panels = new_figure(9, 4, 1, 2)
-    for axes, name, label in zip(panels, ("this project", "sh4, for comparison"), ("$\\mathbb{C}^3$", "$\\mathbb{R}^9$ (sh4)")):
+    for axes, name, label in zip(
+        panels, ("this project", "sh4, for comparison"), ("$\\mathbb{C}^3$", "$\\mathbb{R}^9$ (sh4)")
+    ):
         axes.scatter(r4, clouds[name], s=3, color=PALETTE[0], alpha=0.35, linewidths=0)
         axes.set(xlabel="distance in $\\mathbb{R}^4$", ylabel=f"distance in {label}", xlim=(0, 0.56), ylim=(0, 2.1))
         with_grid(axes)
     save_figure(figure, output / "frames_4_7b.png", dpi=110)
 
-    write_csv(output / "frames_4_7b.csv", ["r4", "c3_here", "c3_section_4_2", "sh4"], np.column_stack([r4, *clouds.values()]).tolist())
+    write_csv(
+        output / "frames_4_7b.csv",
+        ["r4", "c3_here", "c3_section_4_2", "sh4"],
+        np.column_stack([r4, *clouds.values()]).tolist(),
+    )
     farthest = 2 * np.sin(np.arctan(np.sqrt(2 * (np.sqrt(2) - 1) ** 2 + (np.sqrt(2) - 1) ** 4)) / 2)  # 62.7994 degrees
     rows = [("largest distance in R^4", "-", f"{r4.max():.4f} (no two frames are farther apart than {farthest:.4f})")]
     for name, values in clouds.items():
         if "sh4" not in name:
             near = r4[values < 0.3]
-            rows.append((f"distances in R^4 of frames nearer than 0.3 in C^3: {name}", "either close or far",
-                         f"{near.min():.3f} to {near.max():.3f} ({len(near)} frames)"))
+            rows.append(
+                (
+                    f"distances in R^4 of frames nearer than 0.3 in C^3: {name}",
+                    "either close or far",
+                    f"{near.min():.3f} to {near.max():.3f} ({len(near)} frames)",
+                )
+            )
         ranks = [np.argsort(np.argsort(x)) for x in (r4, values)]
-        rows.append((f"rank correlation with the distance in R^4: {name}", "-" if "sh4" in name else "do not correspond at all",
-                     f"{np.corrcoef(ranks)[0, 1]:.4f}"))
+        rows.append(
+            (
+                f"rank correlation with the distance in R^4: {name}",
+                "-" if "sh4" in name else "do not correspond at all",
+                f"{np.corrcoef(ranks)[0, 1]:.4f}",
+            )
+        )
     return rows
 
 
@@ -240,7 +315,10 @@ def figure_4_8(output: Path, options) -> list[tuple]:
         a, curve0, curve1 = closed_form(SHARED_AXIS, steps)
         h = invariants(q, name)
         H0, H1 = h[:, 0] / a**4, h[:, 1] / a**6
-        for values, curve, center, color, label in ((H1, curve1, -2, PALETTE[1], "$H_1$"), (H0, curve0, 14, PALETTE[0], "$H_0$")):
+        for values, curve, center, color, label in (
+            (H1, curve1, -2, PALETTE[1], "$H_1$"),
+            (H0, curve0, 14, PALETTE[0], "$H_0$"),
+        ):
             axes.scatter(values.real, values.imag, s=14, color=color, linewidths=0)
             axes.plot(curve.real, curve.imag, color="black", linewidth=0.8)
             axes.text(center, 0, label, color=color, ha="center", va="center", fontsize=14)
@@ -250,9 +328,11 @@ def figure_4_8(output: Path, options) -> list[tuple]:
         rows += ellipse_rows(name, H0, H1, h, a, SHARED_AXIS[0, special])
     panels[-1].set_xlabel("real part")
     save_figure(figure, output / "frames_4_8.png")
-    write_csv(output / "frames_4_8.csv",
-              ["angle", *(f"{part}_{h}_{c}" for c in ("here", "section_4_2") for h in ("H0", "H1") for part in ("re", "im"))],
-              np.column_stack([angles, *columns]).tolist())
+    write_csv(
+        output / "frames_4_8.csv",
+        ["angle", *(f"{part}_{h}_{c}" for c in ("here", "section_4_2") for h in ("H0", "H1") for part in ("re", "im"))],
+        np.column_stack([angles, *columns]).tolist(),
+    )
     return rows
 
 
@@ -262,14 +342,27 @@ def ellipse_rows(name: str, H0: np.ndarray, H1: np.ndarray, h: np.ndarray, a: co
     wrong = (p**2 + p**-2, abs(p**2 - p**-2))
     square = (H0 - 14) ** 2 - 4  # (w^4 - w^-4)^2
     return [
-        (f"largest deviation of H0 - 14 from an ellipse of semi-axes {semi_axes[0]:.4f}, {semi_axes[1]:.4f}: {name}", "0",
-         f"{distance_to_ellipse(H0 - 14, semi_axes):.1e}"),
-        (f"the same with the exponent 4 printed for p, semi-axes {wrong[0]:.3f}, {wrong[1]:.3f}: {name}", "0",
-         f"{distance_to_ellipse(H0 - 14, wrong):.2f}"),
+        (
+            f"largest deviation of H0 - 14 from an ellipse of semi-axes {semi_axes[0]:.4f}, {semi_axes[1]:.4f}: {name}",
+            "0",
+            f"{distance_to_ellipse(H0 - 14, semi_axes):.1e}",
+        ),
+        (
+            f"the same with the exponent 4 printed for p, semi-axes {wrong[0]:.3f}, {wrong[1]:.3f}: {name}",
+            "0",
+            f"{distance_to_ellipse(H0 - 14, wrong):.2f}",
+        ),
         (f"largest error of H0 - H1 = 16, that is a^2 h0 - h1 = 16 a^6: {name}", "0", f"{abs(H0 - H1 - 16).max():.1e}"),
-        (f"largest error of h2^2 = a^6 (w^4 - w^-4)^2 (h1 - 32 a^6)^2: {name}", "printed with 32 for 32 a^6",
-         f"{abs(h[:, 2]**2 - a**6 * square * (h[:, 1] - 32 * a**6) ** 2).max():.1e}"),
-        (f"the same with 32 as printed: {name}", "0", f"{abs(h[:, 2]**2 - a**6 * square * (h[:, 1] - 32) ** 2).max():.1f}"),
+        (
+            f"largest error of h2^2 = a^6 (w^4 - w^-4)^2 (h1 - 32 a^6)^2: {name}",
+            "printed with 32 for 32 a^6",
+            f"{abs(h[:, 2] ** 2 - a**6 * square * (h[:, 1] - 32 * a**6) ** 2).max():.1e}",
+        ),
+        (
+            f"the same with 32 as printed: {name}",
+            "0",
+            f"{abs(h[:, 2] ** 2 - a**6 * square * (h[:, 1] - 32) ** 2).max():.1f}",
+        ),
     ]
 
 

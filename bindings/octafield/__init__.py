@@ -12,11 +12,14 @@
     (10, 9)
 
 Quaternions are (w, x, y, z), angles radians, lengths the input's unit, ids 0-based and -1 for none. Array properties
-are numpy views of the C++ memory. Long calls run without the GIL, take progress(phase, fraction, merit) -> bool | None, and stop
-within a second on Ctrl-C. Errors are octafield.Error and its subclasses, with .kind and .elements.
+are numpy views of the C++ memory. Long calls run without the GIL, take progress(phase, fraction, merit) -> bool | None,
+and stop within a second on Ctrl-C. Errors are octafield.Error and its subclasses, with .kind and .elements.
 """
 
-from ._core import (
+from . import display as _display
+from . import notebook as _notebook
+from . import pickling as _pickling  # noqa: F401
+from ._core import (  # sampling  # volume input
     AlignmentTables,
     AxisScales,
     BoundaryConstraints,
@@ -38,24 +41,32 @@ from ._core import (
     Integrability,
     IsotropicScale,
     LocatedPoints,
+    LockingElements,
+    LockingSplit,
     Meshability,
     Metric,
     PrincipalDirections,
+    RegionSurface,
     RemeshResult,
     RepairAdvice,
     RepairResult,
     Representation,
     SampledFrames,
+    Sampling,
     ScaledIntegrability,
     SectorNormals,
+    Sheets,
+    SingularEdge,
+    SingularEdges,
     SingularEnd,
     SingularGraph,
     SingularJunction,
+    SingularSplit,
     SingularTriangle,
     SingularVertex,
     SizeField,
-    SmoothResult,
     SmoothedCurves,
+    SmoothResult,
     Streamline,
     SurfaceCorner,
     SurfaceCrossing,
@@ -63,11 +74,13 @@ from ._core import (
     SurfaceSingularity,
     TetMesh,
     TriangleMesh,
+    VertexConstraints,
     __version__,
     advise_repair,
     alignment_angles,
     alignment_tables,
     asymptotic_energy,
+    axes_agree,
     axis_scales,
     binary_group_elements,
     binary_group_invariants,
@@ -77,15 +90,13 @@ from ._core import (
     boundary_meshability,
     boundary_surface,
     bounding_box_diagonal,
-    shape_size,
     closest_representative,
-    axes_agree,
     comb,
     comb_vertices,
-    interpolate_frames,
     convert,
     coordinate_precision,
     core_energy,
+    cut_into_sheets,
     default_edge_length,
     detect_features,
     diffuse,
@@ -103,6 +114,7 @@ from ._core import (
     feature_graph,
     feature_tangents,
     find_defects,
+    find_locking,
     frame_exp,
     frame_field,
     frame_from_axes,
@@ -117,6 +129,7 @@ from ._core import (
     hex_vertex_exists,
     initial_frames,
     integrability,
+    interpolate_frames,
     isotropic_scale,
     local_meshability,
     locate_points,
@@ -143,6 +156,7 @@ from ._core import (
     quaternion_log,
     random_rotations,
     read_surface,
+    region_surface,
     remesh,
     repair,
     representations,
@@ -150,18 +164,20 @@ from ._core import (
     rotation_matrices,
     sector_normals,
     separatrices,
-    sh469_differential,
-    sh469_embed,
-    sh469_hessian,
-    sh469_project,
-    sh469_rotate,
     sh4_differential,
     sh4_embed,
     sh4_hessian,
     sh4_project,
     sh4_project_certified,
     sh4_rotate,
+    sh469_differential,
+    sh469_embed,
+    sh469_hessian,
+    sh469_project,
+    sh469_rotate,
+    shape_size,
     signed_volume,
+    singular_edges,
     singular_graph,
     size_field,
     slerp,
@@ -169,6 +185,8 @@ from ._core import (
     smooth_representations,
     smoothed_curves,
     sphere_renormalised_energy,
+    split_between_singular,
+    split_locking,
     spread_points,
     stiffness,
     streamlines,
@@ -211,7 +229,12 @@ from ._core import (
     tensor4_residual,
     tensor4_rotate,
     tensor4_to_sh4,
+    tet_alignment_angles,
+    tet_boundary_constraints,
+    tet_boundary_meshability,
     tet_frames,
+    tet_meshability,
+    tet_sampling,
     tet_volumes,
     tetrahedralize,
     triangle_areas,
@@ -219,50 +242,25 @@ from ._core import (
     triangle_normals,
     unit_speed_factor,
     vertex_directions,
+    vertex_frames,
     vertex_normals,
+    vertex_sampling,
+    with_constraints,
     write_field,
     write_singular_graph,
     write_surface,
     write_surface_field,
 )
-from ._core import (  # sampling
-    Sampling,
-    SingularEdge,
-    SingularEdges,
-    singular_edges,
-    tet_alignment_angles,
-    tet_boundary_constraints,
-    tet_boundary_meshability,
-    tet_meshability,
-    tet_sampling,
-    vertex_frames,
-    vertex_sampling,
-)
-from ._core import (  # volume input
-    LockingElements,
-    LockingSplit,
-    RegionSurface,
-    Sheets,
-    SingularSplit,
-    VertexConstraints,
-    cut_into_sheets,
-    find_locking,
-    region_surface,
-    split_between_singular,
-    split_locking,
-    with_constraints,
-)
-from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 
 # Written in Python.
 from .compare import Comparison, compare
 from .conversion import Conversion, convert_file
+from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from .formats import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
 from .imported import AnalysedField, analyse
-from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
-from .probes import sample_frames, slice_frames
 from .interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
 from .meshing import MeshedInput
+from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .parameterization import ParameterizationInput, parameterization_input
 from .pipeline import (
     FieldResult,
@@ -274,9 +272,7 @@ from .pipeline import (
     prepare_mesh,
     run,
 )
-from . import display as _display
-from . import notebook as _notebook
-from . import pickling as _pickling  # noqa: F401
+from .probes import sample_frames, slice_frames
 
 for _kind in (TriangleMesh, TetMesh, SingularGraph, AnalysedField, SurfaceFieldResult, Comparison):
     _notebook.shown(_kind)

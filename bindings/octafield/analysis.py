@@ -29,7 +29,8 @@ from .meshing import MeshedInput
 
 @dataclass
 class FieldAnalysis:
-    """alignment, feature_alignment: radians, one per sector normal and feature tangent. off_vertices: of the boundary, too far from a normal that is served. record: for the JSON object."""
+    """alignment, feature_alignment: radians, one per sector normal and feature tangent. off_vertices: of the boundary,
+    too far from a normal that is served. record: for the JSON object."""
 
     singular_graph: SingularGraph
     meshability: Meshability
@@ -54,9 +55,7 @@ def analyse(
     tets, boundary, features = meshed.volume()
     graph = _core.singular_graph(tets, frames, threads=threads)
     meshability = _core.local_meshability(tets, frames, graph)
-    at_boundary = _core.boundary_meshability(
-        tets, boundary, features, frames, threads=threads
-    )
+    at_boundary = _core.boundary_meshability(tets, boundary, features, frames, threads=threads)
     integrability = _core.integrability(tets, frames, threads=threads)
     alignment = np.asarray(_core.alignment_angles(boundary, features, frames))
     sectors = _core.sector_normals(boundary.mesh, features)
@@ -141,19 +140,24 @@ def _hexahedra(wedge: FeatureWedge) -> str:
 
 def _type(vertex: SingularVertex) -> str:
     """The valences of the singular edges at a vertex: "3 3 5 5"."""
-    counts = {str(valence): getattr(vertex, f"valence{valence}") for valence in (1, 2, 3, 5, 6, 7, 8)} | {"complex": vertex.complex}
+    counts = {str(valence): getattr(vertex, f"valence{valence}") for valence in (1, 2, 3, 5, 6, 7, 8)} | {
+        "complex": vertex.complex
+    }
     return " ".join(word for word, count in counts.items() for _ in range(count))
 
 
 def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolerance: float) -> np.ndarray:
-    """(k,) true: at a vertex where smooth sectors meet and no frame fits all their normals and the tangents within the tolerance, so that constraints do not
-    hold the normals (octafield.boundary_constraints): the field may be off by up to 45 degrees there, whatever the method."""
+    """(k,) true: at a vertex where smooth sectors meet and no frame fits all their normals and the tangents within the
+    tolerance, so that constraints do not hold the normals (octafield.boundary_constraints): the field may be off by up
+    to 45 degrees there, whatever the method."""
     tets, boundary, features = meshed.volume()
     vertex, normal = np.asarray(sectors.vertex), np.asarray(sectors.normal)
     tangents = np.cross(normal, np.eye(3)[np.abs(normal).argmin(axis=1)])  # any will do: on features the normals decide
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
     directions = tangents[np.searchsorted(vertex, np.arange(len(boundary.mesh.vertices)))]
-    held = _core.boundary_constraints(len(tets.vertices), boundary, features, directions, mode="aligned", feature_tolerance=feature_tolerance)
+    held = _core.boundary_constraints(
+        len(tets.vertices), boundary, features, directions, mode="aligned", feature_tolerance=feature_tolerance
+    )
     loose = np.asarray(held.kind)[np.asarray(boundary.vertex_map)] != 2
     several = np.bincount(vertex, minlength=len(loose)) > 1
     found: np.ndarray = (loose & several)[vertex]

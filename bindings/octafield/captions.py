@@ -39,7 +39,11 @@ def of_curves(record: dict[str, Any]) -> str:
 
 
 def _not_meshable(record: dict[str, Any]) -> str:
-    counts = (("non_meshable_vertices", "place"), ("non_meshable_feature_edges", "feature edge"), ("non_meshable_corners", "corner"))
+    counts = (
+        ("non_meshable_vertices", "place"),
+        ("non_meshable_feature_edges", "feature edge"),
+        ("non_meshable_corners", "corner"),
+    )
     parts = [counted(record[key], word) for key, word in counts if record.get(key)]
     return " and ".join(filter(None, [", ".join(parts[:-1]), *parts[-1:]]))
 
@@ -49,7 +53,10 @@ def of_streamlines(record: dict[str, Any]) -> str:
     names = {"singular": "at singular curves", "boundary": "on the surface", "closed": "of closed curves",
              "length": "at the greatest length", "stuck": "stuck", "seed": "at seeds"}  # fmt: skip
     ends = ", ".join(f"{count:,} {names[name]}" for name, count in record["ends"].items())
-    return f"The picture shows {counted(record['curves'], 'curve')} along the axes from evenly spread seeds; of their ends there are {ends}."
+    return (
+        f"The picture shows {counted(record['curves'], 'curve')} along the axes from evenly spread seeds; of their ends"
+        f" there are {ends}."
+    )
 
 
 def _signed(value: Fraction) -> str:

@@ -1,4 +1,5 @@
-"""The command line: octafield compare, field, surface-field; study, convert, analyse, info, view, doctor, representations are elsewhere."""
+"""The command line: octafield compare, field, surface-field; study, convert, analyse, info, view, doctor,
+representations are elsewhere."""
 
 import math
 import sys
@@ -29,10 +30,10 @@ from .cli_options import (
     SplitSingular,
     Threads,
     Verbose,
-    choices,
-    mesh_options,
     WrapAlpha,
     WrapOffset,
+    choices,
+    mesh_options,
 )
 from .completion import words
 from .console import carry_out, log
@@ -92,12 +93,20 @@ def field(
         typer.Option(
             metavar="NAME",
             autocompletion=words(REPRESENTATIONS),
-            help=f"What is smoothed: {', '.join(REPRESENTATIONS)}. odeco: fourth-order tensors whose axes have length 1; odeco_lengths: their lengths are "
-            "unknown, too (docs/frame_fields.md).",
+            help=(
+                f"What is smoothed: {', '.join(REPRESENTATIONS)}. odeco: fourth-order tensors whose axes have length 1;"
+                " odeco_lengths: their lengths are "
+                "unknown, too (docs/frame_fields.md)."
+            ),
         ),
     ] = _FIELD.representation,
     solver: Annotated[
-        str, typer.Option(metavar="|".join(SOLVERS), autocompletion=words(SOLVERS), help="Of the smoothing; default: what goes with the representation.")
+        str,
+        typer.Option(
+            metavar="|".join(SOLVERS),
+            autocompletion=words(SOLVERS),
+            help="Of the smoothing; default: what goes with the representation.",
+        ),
     ] = _FIELD.solver,
     boundary: Annotated[
         str,
@@ -128,7 +137,8 @@ def field(
     ] = _FIELD.streamlines,
     sizes: Sizes = _FIELD.sizes,
     start: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Smooth from the frames of a file (docs/formats.md); INPUT: their tet mesh.")
+        Path | None,
+        typer.Option(metavar="FILE", help="Smooth from the frames of a file (docs/formats.md); INPUT: their tet mesh."),
     ] = None,
     seed: Seed = _FIELD.seed,
     threads: Threads = _FIELD.threads,
@@ -158,12 +168,25 @@ def field(
             seed=seed,
             threads=threads,
             **mesh_options(
-                features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split,
-                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset, max_cells=max_cells,
+                features,
+                feature_angle,
+                edge_length,
+                remesh,
+                repair,
+                interfaces=interfaces,
+                split=split,
+                max_hole_edges=max_hole_edges,
+                wrap_alpha=wrap_alpha,
+                wrap_offset=wrap_offset,
+                max_cells=max_cells,
             ),  # fmt: skip
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
-            result = compute_field(input, options, progress) if start is None else polish_file(input, start, options, progress)
+            result = (
+                compute_field(input, options, progress)
+                if start is None
+                else polish_file(input, start, options, progress)
+            )
             write_field_result(result, folder, progress)
         _finish(result.record, json, quiet, output)
 
@@ -233,8 +256,15 @@ def surface_field(
             curvature=curvature,
             seed=seed,
             **mesh_options(
-                features, feature_angle, edge_length, remesh, repair,
-                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset, max_cells=max_cells,
+                features,
+                feature_angle,
+                edge_length,
+                remesh,
+                repair,
+                max_hole_edges=max_hole_edges,
+                wrap_alpha=wrap_alpha,
+                wrap_offset=wrap_offset,
+                max_cells=max_cells,
             ),  # fmt: skip
         )
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:

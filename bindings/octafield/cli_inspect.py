@@ -8,7 +8,21 @@ import typer
 
 from . import console, tables
 from .cli_options import (
-    EdgeLength, FeatureAngle, Features, InputFile, Interfaces, Json, MaxCells, MaxHoleEdges, Quiet, Remesh, Repair, Split, Verbose, WrapAlpha, WrapOffset,
+    EdgeLength,
+    FeatureAngle,
+    Features,
+    InputFile,
+    Interfaces,
+    Json,
+    MaxCells,
+    MaxHoleEdges,
+    Quiet,
+    Remesh,
+    Repair,
+    Split,
+    Verbose,
+    WrapAlpha,
+    WrapOffset,
 )  # fmt: skip
 from .console import carry_out, log
 from .errors import InvalidInput
@@ -38,7 +52,8 @@ def info(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """What a file holds, and whether it is fit for a field. Pass, warn or fail of each requirement, with the remedy; exit code 2 when one fails."""
+    """What a file holds, and whether it is fit for a field. Pass, warn or fail of each requirement, with the remedy;
+    exit code 2 when one fails."""
 
     def work() -> None:
         from .info import PASS, examine, first_failure
@@ -98,7 +113,8 @@ def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = 
 
 @app.command()
 def doctor(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
-    """Whether this installation works. Versions, libraries, cores, memory, and a small run of every part; exit code 1 when one fails."""
+    """Whether this installation works. Versions, libraries, cores, memory, and a small run of every part; exit code 1
+    when one fails."""
 
     def work() -> None:
         from .doctor import examine

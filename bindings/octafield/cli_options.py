@@ -46,7 +46,13 @@ def mesh_options(
 
 InputFile = Annotated[
     str,
-    typer.Argument(metavar="INPUT", help="Surface (.stl .obj .off .ply .vtp), CAD model (.step .brep) or tet mesh (.vtk .vtu .msh .mesh .ovm .node/.ele), also .gz."),
+    typer.Argument(
+        metavar="INPUT",
+        help=(
+            "Surface (.stl .obj .off .ply .vtp), CAD model (.step .brep) or tet mesh (.vtk .vtu .msh .mesh .ovm"
+            " .node/.ele), also .gz."
+        ),
+    ),
 ]
 InputFiles = Annotated[
     list[str] | None, typer.Argument(metavar="[INPUT]...", help="Surfaces or tet meshes; none: the nut of pyvista.")
@@ -65,29 +71,47 @@ Features = Annotated[
 ]
 FeatureAngle = Annotated[float, typer.Option(metavar="DEG", help="Angle between normals at a feature edge, degrees.")]
 EdgeLength = Annotated[
-    float, typer.Option(metavar="LENGTH", help="Target edge length of remeshing, input unit; 0: lengths that fit the shape.")
+    float,
+    typer.Option(metavar="LENGTH", help="Target edge length of remeshing, input unit; 0: lengths that fit the shape."),
 ]
-MaxCells = Annotated[int, typer.Option(metavar="N", help="Without --edge-length: triangles and tets to stay within; 0: 200,000.")]
+MaxCells = Annotated[
+    int, typer.Option(metavar="N", help="Without --edge-length: triangles and tets to stay within; 0: 200,000.")
+]
 Remesh = Annotated[bool, typer.Option("--remesh/--no-remesh", help="Remesh a surface, or keep its triangles.")]
 Repair = Annotated[
     str,
     typer.Option(
-        metavar=choices(REPAIRS), autocompletion=words(REPAIRS), help="Repair a surface first, up to this level; every action is reported. Default: merge for STL."
+        metavar=choices(REPAIRS),
+        autocompletion=words(REPAIRS),
+        help="Repair a surface first, up to this level; every action is reported. Default: merge for STL.",
     ),
 ]
 MaxHoleEdges = Annotated[int, typer.Option(metavar="N", help="--repair fill leaves larger holes open; 0: no bound.")]
-WrapAlpha = Annotated[float, typer.Option(metavar="LENGTH", help="--repair wrap bridges gaps narrower than this; 0: from the size.")]
+WrapAlpha = Annotated[
+    float, typer.Option(metavar="LENGTH", help="--repair wrap bridges gaps narrower than this; 0: from the size.")
+]
 WrapOffset = Annotated[float, typer.Option(metavar="LENGTH", help="--repair wrap lies so far outside; 0: from alpha.")]
 Interfaces = Annotated[
     bool, typer.Option("--interfaces/--no-interfaces", help="Follow the interfaces between regions of a tet mesh.")
 ]
 Split = Annotated[bool, typer.Option("--split", help="Split inner edges and tets that join the surface to itself.")]
 SplitSingular = Annotated[
-    bool, typer.Option("--split-singular", help="Split inner edges that join singular vertices without being singular; frames are in tets.")
+    bool,
+    typer.Option(
+        "--split-singular",
+        help="Split inner edges that join singular vertices without being singular; frames are in tets.",
+    ),
 ]
-Sampling = Annotated[str, typer.Option(metavar=choices(SAMPLINGS), autocompletion=words(SAMPLINGS), help="Where the frames live.")]
+Sampling = Annotated[
+    str, typer.Option(metavar=choices(SAMPLINGS), autocompletion=words(SAMPLINGS), help="Where the frames live.")
+]
 Sizes = Annotated[
-    str, typer.Option(metavar="|".join(SIZES), autocompletion=words(SIZES), help="Lengths of the axes that leave least curl, and that curl.")
+    str,
+    typer.Option(
+        metavar="|".join(SIZES),
+        autocompletion=words(SIZES),
+        help="Lengths of the axes that leave least curl, and that curl.",
+    ),
 ]
 Seed = Annotated[int, typer.Option(metavar="N", help="Seed of every random start.")]
 Threads = Annotated[int, typer.Option(metavar="N", help="Threads; 0: all. Results do not depend on it.")]

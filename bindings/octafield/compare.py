@@ -1,7 +1,7 @@
 """Representations and boundary treatments side by side, on one mesh per input.
 
-    comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, tables/, one folder per run
-    comparison.rows[0]["energy"]
+comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, tables/, one folder per run
+comparison.rows[0]["energy"]
 """
 
 from collections.abc import Mapping, Sequence
@@ -33,8 +33,9 @@ _MOST_CURVES = 3  # pictures of singular curves per boundary treatment
 
 @dataclass
 class _Section:
-    """One input: its runs, and pictures: of the surface, then per boundary treatment. folder: of the comparison, with a folder
-    per run. drawn: per boundary treatment, the singular graphs that have a picture. given: rows of the fields that were read, by name."""
+    """One input: its runs, and pictures: of the surface, then per boundary treatment. folder: of the comparison, with a
+    folder per run. drawn: per boundary treatment, the singular graphs that have a picture. given: rows of the fields
+    that were read, by name."""
 
     name: str
     slug: str
@@ -86,13 +87,14 @@ def compare(
 ) -> Comparison:
     """Every representation with every boundary treatment and `seeds` seeds (options.seed and following) on each input.
 
-    starts: "sh4" (from the minimum of sh4's energy, options.rounds of it) or "independent" (no step in sh4: each minimises its own objective from one
-    linear solve, or for seeds other than 0 from a random field; rounds 0), or both, a row each.
+    starts: "sh4" (from the minimum of sh4's energy, options.rounds of it) or "independent" (no step in sh4: each
+        minimises its own objective from one linear solve, or for seeds other than 0 from a random field; rounds 0), or
+        both, a row each.
 
-    Each input is read and meshed once. `options` gives everything else. fields: by name, files of frames (read_frames) or
-    (n, 4) arrays on the vertices (sampling "tets": the tets) of the only input, a tet mesh; each stands beside the others as it
-    is and as the first representation makes it by one smoothing. The output folder is complete or absent; an
-    earlier comparison in it is replaced, a folder with anything else is refused (InvalidInput).
+    Each input is read and meshed once. `options` gives everything else. fields: by name, files of frames (read_frames)
+    or (n, 4) arrays on the vertices (sampling "tets": the tets) of the only input, a tet mesh; each stands beside the
+    others as it is and as the first representation makes it by one smoothing. The output folder is complete or absent;
+    an earlier comparison in it is replaced, a folder with anything else is refused (InvalidInput).
 
         >>> import octafield
         >>> from octafield.study.generators import generate
@@ -154,10 +156,16 @@ class _Step:
         return replace(common, representation=self.representation, boundary=self.boundary, rounds=rounds, seed=seed)
 
 
-def _steps(representations: Sequence[str], boundaries: Sequence[str], starts: Sequence[str], given: Sequence[GivenField]) -> list[_Step]:
-    methods: list[tuple[str, GivenField | None, bool]] = [(name, None, start == STARTS[1]) for start in starts for name in representations]
+def _steps(
+    representations: Sequence[str], boundaries: Sequence[str], starts: Sequence[str], given: Sequence[GivenField]
+) -> list[_Step]:
+    methods: list[tuple[str, GivenField | None, bool]] = [
+        (name, None, start == STARTS[1]) for start in starts for name in representations
+    ]
     methods += [(representations[0], one, False) for one in given]
-    return [_Step(name, boundary, start, independent) for name, start, independent in methods for boundary in boundaries]
+    return [
+        _Step(name, boundary, start, independent) for name, start, independent in methods for boundary in boundaries
+    ]
 
 
 def _run_all(problem: Problem, section: _Section, steps: Sequence[_Step], whole: Whole) -> None:
@@ -167,11 +175,18 @@ def _run_all(problem: Problem, section: _Section, steps: Sequence[_Step], whole:
     for step in steps:
         label = f"{step.method}, {step.boundary}" + (f", seed {problem.seed}" if section.several_seeds else "")
         report = whole.labelled(f"{section.name}, {label}")
-        result = run(problem, step.options(section.options, problem.seed), report, start=None if step.start is None else step.start.frames)
+        result = run(
+            problem,
+            step.options(section.options, problem.seed),
+            report,
+            start=None if step.start is None else step.start.frames,
+        )
         result.record["label"] = label
         if step.start is not None:
             result.record["start"] = step.start.name
-        name = section.new_folder(f"{step.method}-{step.boundary}" + (f"-seed{problem.seed}" if section.several_seeds else ""))
+        name = section.new_folder(
+            f"{step.method}-{step.boundary}" + (f"-seed{problem.seed}" if section.several_seeds else "")
+        )
         write_field_result(result, section.folder / name, report)
         section.rows.append(_row(result.record, name))
         if first:
@@ -184,7 +199,11 @@ def _add_given(problem: Problem, section: _Section, boundaries: Sequence[str], g
     for one in given:
         if one.name not in section.given:
             result = analyse(problem.meshed, one.frames, section.options.sampling, section.options)
-            result.record |= {"label": one.name, "representation": one.name, "wall_seconds": {**problem.clock.wall, **result.record["wall_seconds"]}}
+            result.record |= {
+                "label": one.name,
+                "representation": one.name,
+                "wall_seconds": {**problem.clock.wall, **result.record["wall_seconds"]},
+            }
             name = section.new_folder(one.name)
             write_analysis(result, section.folder / name)
             section.given[one.name] = _row(result.record, name)
@@ -199,8 +218,12 @@ def _row(record: dict[str, Any], folder: str) -> dict[str, Any]:
 
 
 def _report(sections: list[_Section], folder: Path) -> Report:
-    runs = [Run(row, section.name, folder / row["folder"], row["folder"]) for section in sections for row in section.rows]
-    names = ", ".join(section.name for section in sections[:3]) + (f" and {len(sections) - 3} more" if len(sections) > 3 else "")
+    runs = [
+        Run(row, section.name, folder / row["folder"], row["folder"]) for section in sections for row in section.rows
+    ]
+    names = ", ".join(section.name for section in sections[:3]) + (
+        f" and {len(sections) - 3} more" if len(sections) > 3 else ""
+    )
     pictures = {section.name: sum(section.pictures.values(), []) for section in sections}
     return Report(f"Frame fields on {names}", runs, pictures, files=(ROWS_FILE,))
 
@@ -215,15 +238,18 @@ def _surface_pictures(problem: Problem) -> "list[Picture]":
 
 
 def _volume_pictures(section: _Section, result: FieldResult, label: str) -> "list[Picture]":
-    """Of the first method with a boundary treatment: singular curves, frames on a cut, and streamlines once per input, since
-    they differ little. Of another: singular curves where they differ in kind."""
+    """Of the first method with a boundary treatment: singular curves, frames on a cut, and streamlines once per input,
+    since they differ little. Of another: singular curves where they differ in kind."""
     from . import pictures, scene
 
     if not scene.can_draw():
         return []
     begun, first = not section.drawn, result.record["boundary"] not in section.drawn
     drawn = section.drawn.setdefault(result.record["boundary"], set())
-    kind = tuple(str(result.record.get(key)) for key in ("singular_edges_by_turns", "singular_curves", "singular_nodes", "singular_boundary_ends"))
+    kind = tuple(
+        str(result.record.get(key))
+        for key in ("singular_edges_by_turns", "singular_curves", "singular_nodes", "singular_boundary_ends")
+    )
     chosen = []
     if result.record["singular_edges"] and kind not in drawn and len(drawn) < _MOST_CURVES:
         chosen.append(pictures.singular_curves(result))
@@ -244,7 +270,9 @@ def _pictures_of_given(name: str, result: AnalysedField) -> "list[Picture]":
     return [replace(picture, title=f"{picture.title} ({name})")]
 
 
-def _check(inputs: Sequence[Source], representations: Sequence[str], boundaries: Sequence[str], starts: Sequence[str]) -> None:
+def _check(
+    inputs: Sequence[Source], representations: Sequence[str], boundaries: Sequence[str], starts: Sequence[str]
+) -> None:
     if not inputs or not representations or not boundaries or not starts:
         raise InvalidInput(
             "a comparison needs at least one input, representation, boundary treatment and start", "nothing_to_compare"

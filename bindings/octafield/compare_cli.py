@@ -25,11 +25,11 @@ from .cli_options import (
     Split,
     Threads,
     Verbose,
+    WrapAlpha,
+    WrapOffset,
     choices,
     mesh_options,
     named_files,
-    WrapAlpha,
-    WrapOffset,
 )
 from .completion import lists
 from .console import carry_out, log
@@ -58,13 +58,27 @@ def compare(
     ] = "fixed,aligned",
     fields: Annotated[
         list[str] | None,
-        typer.Option("--field", metavar="NAME=FILE", help="A field of another program (docs/formats.md) beside the others, as it is and smoothed; may be repeated."),
+        typer.Option(
+            "--field",
+            metavar="NAME=FILE",
+            help=(
+                "A field of another program (docs/formats.md) beside the others, as it is and smoothed; may be"
+                " repeated."
+            ),
+        ),
     ] = None,
     sampling: Sampling = _FIELD.sampling,
     seeds: Annotated[int, typer.Option(metavar="K", help="Seeds per run: --seed and the K - 1 numbers after it.")] = 1,
     starts: Annotated[
         str,
-        typer.Option(metavar="A,B", autocompletion=lists(("sh4", "independent")), help="sh4: from its minimum; independent: each method for itself, from a linear solve (random for seeds above 0)."),
+        typer.Option(
+            metavar="A,B",
+            autocompletion=lists(("sh4", "independent")),
+            help=(
+                "sh4: from its minimum; independent: each method for itself, from a linear solve (random for seeds"
+                " above 0)."
+            ),
+        ),
     ] = "sh4",
     features: Features = _FIELD.features,
     feature_angle: FeatureAngle = ANGLE,
@@ -96,8 +110,17 @@ def compare(
             seed=seed,
             threads=threads,
             **mesh_options(
-                features, feature_angle, edge_length, remesh, repair, interfaces=interfaces, split=split,
-                max_hole_edges=max_hole_edges, wrap_alpha=wrap_alpha, wrap_offset=wrap_offset, max_cells=max_cells,
+                features,
+                feature_angle,
+                edge_length,
+                remesh,
+                repair,
+                interfaces=interfaces,
+                split=split,
+                max_hole_edges=max_hole_edges,
+                wrap_alpha=wrap_alpha,
+                wrap_offset=wrap_offset,
+                max_cells=max_cells,
             ),  # fmt: skip
         )
         chosen = COMPARED if representations == "all" else _listed(representations)

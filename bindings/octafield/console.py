@@ -128,8 +128,9 @@ def report_notes(record: dict[str, Any]) -> None:
 
 @contextlib.contextmanager
 def progress_bar(quiet: bool, whole: bool = False) -> Iterator[Callback | None]:
-    """Yields a progress callback; None when quiet. Draws on stderr when that is a terminal, else writes a plain line there now and
-    then. whole: what is reported is one piece of work, whose text tells the time left itself; else phases, one after the other."""
+    """Yields a progress callback; None when quiet. Draws on stderr when that is a terminal, else writes a plain line
+    there now and then. whole: what is reported is one piece of work, whose text tells the time left itself; else
+    phases, one after the other."""
     if quiet:
         yield None
     elif sys.stderr.isatty():

@@ -1,8 +1,8 @@
 """How long the runs of a study or a comparison still take, judged by those that are finished.
 
-A run's seconds are taken to grow with its tets, at a rate of its method (representation, solver ...). Rates begin with measured ones
-(docs/scaling.md), which finished runs of any method correct together and those of the same method by itself. An input whose tets are
-not known yet is judged by the size of its file beside those known.
+A run's seconds are taken to grow with its tets, at a rate of its method (representation, solver ...). Rates begin with
+measured ones (docs/scaling.md), which finished runs of any method correct together and those of the same method by
+itself. An input whose tets are not known yet is judged by the size of its file beside those known.
 """
 
 import heapq
@@ -22,7 +22,10 @@ _TYPICAL_TETS = 50_000.0  # of an input before any is known
 
 def field_seconds(representation: str, tets: float) -> float:
     """Of one field from file to analysis, one thread, where nothing else is known."""
-    return _LEAST + (_SECONDS_PER_MILLION[PREPARE] + _SECONDS_PER_MILLION.get(representation, _UNKNOWN_METHOD)) * tets / 1e6
+    return (
+        _LEAST
+        + (_SECONDS_PER_MILLION[PREPARE] + _SECONDS_PER_MILLION.get(representation, _UNKNOWN_METHOD)) * tets / 1e6
+    )
 
 
 @dataclass
@@ -79,7 +82,11 @@ class Costs:
 
     def _fitted(self) -> tuple[float, float]:
         """Tet meshes grow with their files; surfaces that are remeshed do not."""
-        pairs = [(math.log1p(self._bytes[mesh]), math.log1p(tets)) for mesh, tets in self._tets.items() if mesh in self._bytes]
+        pairs = [
+            (math.log1p(self._bytes[mesh]), math.log1p(tets))
+            for mesh, tets in self._tets.items()
+            if mesh in self._bytes
+        ]
         if not pairs:
             return math.log(sum(self._tets.values()) / len(self._tets)), 0.0
         x, y = (sum(column) / len(pairs) for column in zip(*pairs, strict=True))
@@ -140,7 +147,8 @@ class Forecast:
         self._groups.pop(group, None)
 
     def left(self, now: float) -> float | None:
-        """Seconds until all are done; None before anything is finished. Groups go to the first free slot in their order."""
+        """Seconds until all are done; None before anything is finished. Groups go to the first free slot in their
+        order."""
         if not self.costs.known:
             return None
         ends = sorted(self._seconds(group, now) for group in self._groups.values() if group.since is not None)

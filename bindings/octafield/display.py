@@ -24,14 +24,17 @@ if TYPE_CHECKING:
 def field_line(result: FieldResult) -> str:
     r = result.record
     return (
-        f"FieldResult({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; {r['representation']}, {r['boundary']}; "
-        f"E {r['energy']:.6g}, {r['singular_edges']:,} singular edges)"
+        f"FieldResult({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; {r['representation']},"
+        f" {r['boundary']}; E {r['energy']:.6g}, {r['singular_edges']:,} singular edges)"
     )
 
 
 def analysed_line(result: AnalysedField) -> str:
     r = result.record
-    return f"AnalysedField({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; E {r['energy']:.6g}, {r['singular_edges']:,} singular edges)"
+    return (
+        f"AnalysedField({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; E {r['energy']:.6g},"
+        f" {r['singular_edges']:,} singular edges)"
+    )
 
 
 def surface_field_line(result: SurfaceFieldResult) -> str:
@@ -94,8 +97,8 @@ def _counted(count: int, one: str, many: str) -> str:
 
 
 def scene_of(result: AnalysedField) -> pyvista.Plotter:
-    """A pyvista scene of the singular curves inside the translucent surface: .show() opens a window, or in Jupyter a view to
-    turn (with trame) or a picture. Without a display .screenshot(PNG) draws it all the same."""
+    """A pyvista scene of the singular curves inside the translucent surface: .show() opens a window, or in Jupyter a
+    view to turn (with trame) or a picture. Without a display .screenshot(PNG) draws it all the same."""
     import pyvista
 
     from .pictures import singular_scene
@@ -115,11 +118,14 @@ def _require_display(folder: Path) -> None:
     if not os.environ.get("DISPLAY"):
         raise InvalidInput(words, "no_display")
     if not pyvista.system_supports_plotting():
-        raise InvalidInput(f"the display {os.environ['DISPLAY']} cannot be opened; {words.partition('; ')[2]}", "no_display")
+        raise InvalidInput(
+            f"the display {os.environ['DISPLAY']} cannot be opened; {words.partition('; ')[2]}", "no_display"
+        )
 
 
 def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
-    """Shows the singular curves that `octafield field` wrote, in a window, or writes them to a PNG; what it did, for --json."""
+    """Shows the singular curves that `octafield field` wrote, in a window, or writes them to a PNG; what it did, for
+    --json."""
     from .pictures import scene_from_files
 
     files = folder / "surface.vtp", folder / "singular.vtp"

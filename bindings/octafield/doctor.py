@@ -1,4 +1,5 @@
-"""Whether this installation works: versions, threads, memory, and one small run of every part that may be missing or broken."""
+"""Whether this installation works: versions, threads, memory, and one small run of every part that may be missing or
+broken."""
 
 import importlib.metadata
 import importlib.util
@@ -92,14 +93,17 @@ def _field(solver: str) -> Callable[[], str]:
         options = FieldOptions(edge_length=0.3, solver=solver)
         record = compute_field(_cube(), options).record
         if not (record["energy"] < 1e-9 and record["singular_edges"] == 0):
-            raise ArithmeticError(f"the field of a cube has energy {record['energy']:g}, {record['singular_edges']} singular edges")
+            raise ArithmeticError(
+                f"the field of a cube has energy {record['energy']:g}, {record['singular_edges']} singular edges"
+            )
         return "the field of a cube is constant"
 
     return check
 
 
 def _threads() -> str:
-    """Matrices factorized in two threads at once, as alone: a BLAS that is not made for threads mixes them up without a word."""
+    """Matrices factorized in two threads at once, as alone: a BLAS that is not made for threads mixes them up without a
+    word."""
     from . import _core
 
     surface = _core.remesh(_cube(), _core.detect_features(_cube()), edge_length=0.08).mesh
@@ -115,8 +119,9 @@ def _threads() -> str:
         together = set()
     if together != alone:
         raise ArithmeticError(
-            "fields computed in two threads at once differ from the same alone: the BLAS library is not safe in threads; install "
-            "libopenblas0-pthread (update-alternatives --config libblas.so.3-x86_64-linux-gnu), or compute in one thread at a time"
+            "fields computed in two threads at once differ from the same alone: the BLAS library is not safe in"
+            " threads; install libopenblas0-pthread (update-alternatives --config libblas.so.3-x86_64-linux-gnu), or"
+            " compute in one thread at a time"
         )
     return "8 fields in two threads are as one alone"
 

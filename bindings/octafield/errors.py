@@ -8,8 +8,8 @@ __all__ = ["Cancelled", "Error", "GeometryError", "InvalidInput", "IoError", "So
 class Error(Exception):
     """Base class of all errors of octafield: what was wrong, where, and what to do.
 
-    kind is a short stable word for the defect (for example "not_closed"), elements the 0-based ids of the elements concerned,
-    of whatever sort the message names. Both may be empty.
+    kind is a short stable word for the defect (for example "not_closed"), elements the 0-based ids of the elements
+    concerned, of whatever sort the message names. Both may be empty.
     """
 
     kind: str

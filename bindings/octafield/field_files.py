@@ -4,9 +4,9 @@ import math
 from pathlib import Path
 
 from .errors import InvalidInput
-from .formats import FrameFile, read_frames
-from .formats.base import frames_at
 from .files import plain_name
+from .formats import read_frames
+from .formats.base import frames_at
 from .formats.meshes import MESH_SUFFIXES
 from .imported import AnalysedField, analyse
 from .meshing import prepare_mesh
@@ -19,7 +19,9 @@ def analyse_file(
     field: Path, mesh: Path | None, format: str | None, options: FieldOptions, progress: Progress | None = None
 ) -> AnalysedField:
     """The analysis of the frames in a file, on the mesh given or the file's own."""
-    source = mesh if mesh is not None else field if plain_name(field).endswith(MESH_SUFFIXES) and format is None else None
+    source = (
+        mesh if mesh is not None else field if plain_name(field).endswith(MESH_SUFFIXES) and format is None else None
+    )
     found = read_frames(field, mesh, format)
     if found.mesh is None:
         raise InvalidInput(f"{field}: holds frames and no mesh; give it with --mesh", "no_mesh")
@@ -34,7 +36,9 @@ def analyse_file(
 def polish_file(source: str, start: Path, options: FieldOptions, progress: Progress | None = None) -> FieldResult:
     """A field on a tet mesh, smoothed from the frames of a file, which are taken to where the field has its own."""
     if options.split:
-        raise InvalidInput("splitting makes another mesh than the start belongs to; leave it out", "option_out_of_range")
+        raise InvalidInput(
+            "splitting makes another mesh than the start belongs to; leave it out", "option_out_of_range"
+        )
     found = read_frames(start, source)
     frames = frames_at(found, options.sampling)
     result = compute_field(prepare_mesh(source, options, progress=progress), options, progress, start=frames)

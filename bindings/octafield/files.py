@@ -1,4 +1,5 @@
-"""Bytes of a file in and out: packed or not, written whole or not at all, and numbers of text with the line of a defect."""
+"""Bytes of a file in and out: packed or not, written whole or not at all, and numbers of text with the line of a
+defect."""
 
 import contextlib
 import gzip
@@ -45,7 +46,8 @@ def read_bytes(path: str | Path) -> bytes:
 
 
 def most_unpacked(size: int) -> int:
-    """Bytes that so many bytes of a packed file may become: 256 MiB, or 100 times as many where that is more. No packed file fills the memory."""
+    """Bytes that so many bytes of a packed file may become: 256 MiB, or 100 times as many where that is more. No packed
+    file fills the memory."""
     return max(_UNPACKED, _RATIO * size)
 
 
@@ -62,7 +64,9 @@ def _unpacked(data: bytes, path: Path) -> bytes:
 def require_unpackable(name: str, announced: int, size: int) -> None:
     """For formats that announce how many bytes their packed parts become. size: of the file."""
     if announced > most_unpacked(size):
-        raise IoError(f"{name}: {size:,} bytes announce {announced:,} unpacked, more than {most_unpacked(size):,}: {_UNFIT}")
+        raise IoError(
+            f"{name}: {size:,} bytes announce {announced:,} unpacked, more than {most_unpacked(size):,}: {_UNFIT}"
+        )
 
 
 @contextlib.contextmanager
@@ -130,7 +134,9 @@ def _stage(path: Path, pieces: Iterable[bytes]) -> tuple[str, Path]:
         handle, staging = tempfile.mkstemp(prefix=f".{place.name}.", dir=place.parent)
         with os.fdopen(handle, "wb") as raw:
             if path.name.lower().endswith(".gz"):
-                with gzip.GzipFile(filename="", mode="wb", fileobj=raw, mtime=0) as packed:  # no name, no time: equal bytes
+                with gzip.GzipFile(
+                    filename="", mode="wb", fileobj=raw, mtime=0
+                ) as packed:  # no name, no time: equal bytes
                     packed.writelines(pieces)
             else:
                 raw.writelines(pieces)
@@ -184,7 +190,8 @@ def numbers_of(text: str, name: str, first_line: int = 1) -> np.ndarray:
 
 
 def parsed_numbers(text: str) -> np.ndarray:
-    """All numbers of a text; ValueError where a word is none. Before NumPy 2.3 that was a warning, and what followed was lost."""
+    """All numbers of a text; ValueError where a word is none. Before NumPy 2.3 that was a warning, and what followed
+    was lost."""
     if not text.strip():
         return np.empty(0)
     with warnings.catch_warnings():
@@ -202,7 +209,9 @@ def table_of(text: str, name: str, width: int, first_line: int = 1) -> tuple[np.
     wrong = filled[counts[filled] != width]
     if len(wrong):
         numbers_of(text.split("\n")[wrong[0]], name, first_line + int(wrong[0]))
-        raise IoError(f"{name}, line {first_line + wrong[0]}: {counts[wrong[0]]} numbers; {width} are needed on every line")
+        raise IoError(
+            f"{name}, line {first_line + wrong[0]}: {counts[wrong[0]]} numbers; {width} are needed on every line"
+        )
     return numbers_of(text, name, first_line).reshape(-1, width), first_line + filled
 
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .errors import InvalidInput
-from .formats.base import frames_at
 from .formats import read_frames
+from .formats.base import frames_at
 from .imported import fitting_frames
 from .meshing import SoundInput
 from .options import REPRESENTATIONS, FieldOptions
@@ -26,17 +26,23 @@ class GivenField:
     notes: list[str]
 
 
-def given_fields(inputs: Sequence[SoundInput], fields: Mapping[str, FieldSource], options: FieldOptions) -> list[GivenField]:
+def given_fields(
+    inputs: Sequence[SoundInput], fields: Mapping[str, FieldSource], options: FieldOptions
+) -> list[GivenField]:
     """Reads them all, so that an unfit one is refused before the first run. Raises InvalidInput, IoError."""
     if not fields:
         return []
     mesh = inputs[0].found
     if len(inputs) != 1 or options.split or options.split_singular or mesh.tets is None:
-        raise InvalidInput("fields that are given belong to one tet mesh: make it the only input, and leave splitting out", "not_tets")
+        raise InvalidInput(
+            "fields that are given belong to one tet mesh: make it the only input, and leave splitting out", "not_tets"
+        )
     found = []
     for name, source in fields.items():
         if name in REPRESENTATIONS or not name.strip() or set(name) & set("/\\"):
-            raise InvalidInput(f"a given field needs a name without slashes that is no representation's; not {name!r}", "bad_name")
+            raise InvalidInput(
+                f"a given field needs a name without slashes that is no representation's; not {name!r}", "bad_name"
+            )
         if not isinstance(source, (str, Path)):
             found.append(GivenField(name, fitting_frames(mesh.tets, source, options.sampling), []))
             continue

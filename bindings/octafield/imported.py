@@ -11,7 +11,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core, display, verdict
-from ._core import BoundaryMeshability, FeatureGraph, FrameStreamline, Integrability, Meshability, SingularGraph, TetMesh, TriangleMesh
+from ._core import (
+    BoundaryMeshability,
+    FeatureGraph,
+    FrameStreamline,
+    Integrability,
+    Meshability,
+    SingularGraph,
+    TetMesh,
+    TriangleMesh,
+)
 from .analysis import analyse as analyse_frames
 from .errors import InvalidInput
 from .formats.base import SITES
@@ -28,20 +37,29 @@ if TYPE_CHECKING:
 
 __all__ = ["AnalysedField", "analyse"]
 
-_OF_ANALYSIS = ("singular_graph", "alignment", "feature_alignment", "meshability", "boundary_meshability", "integrability", "streamlines")
+_OF_ANALYSIS = (
+    "singular_graph",
+    "alignment",
+    "feature_alignment",
+    "meshability",
+    "boundary_meshability",
+    "integrability",
+    "streamlines",
+)
 
 
 @dataclass(repr=False, kw_only=True)
 class AnalysedField:
     """A frame field and what it is judged by. frames: (n, 4) unit quaternions w x y z, per tet vertex; their axes
-    are named so that neighbours agree but across a cut (octafield.comb_vertices). alignment: radians, per boundary vertex and
-    smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: the JSON object of the command line. regions: (m,) ids of
-    the tets where the mesh has several. lengths: (n, 3) of the frames' axes, where they have any. sizes: an IsotropicScale or AxisScales, as the option
-    of that name asks.
+    are named so that neighbours agree but across a cut (octafield.comb_vertices). alignment: radians, per boundary
+    vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: the JSON
+    object of the command line. regions: (m,) ids of the tets where the mesh has several. lengths: (n, 3) of the frames'
+    axes, where they have any. sizes: an IsotropicScale or AxisScales, as the option of that name asks.
 
-    A field that lives in the tets is tet_frames, (m, 4), and so are singular_graph (of singular_edges), alignment (per triangle and tet beside it) and
-    lengths, meshability and boundary_meshability are those of the tets; frames is the field taken to the vertices, integrability is None; sizes are those of
-    frames. feature_edges: (k, 2) ids of tets' vertices."""
+    A field that lives in the tets is tet_frames, (m, 4), and so are singular_graph (of singular_edges), alignment (per
+    triangle and tet beside it) and lengths, meshability and boundary_meshability are those of the tets; frames is the
+    field taken to the vertices, integrability is None; sizes are those of frames. feature_edges: (k, 2) ids of tets'
+    vertices."""
 
     surface: TriangleMesh
     features: FeatureGraph
@@ -76,15 +94,18 @@ def analyse(
     options: FieldOptions = FieldOptions(),
     progress: Progress | None = None,
 ) -> AnalysedField:
-    """Analyses (n, 4) frames at the vertices or in the tets of a tet mesh (or its file; features as octafield field finds them).
+    """Analyses (n, 4) frames at the vertices or in the tets of a tet mesh (or its file; features as octafield field
+    finds them).
 
-    Of the options, those of features, interfaces, streamlines, sizes and threads count. record has the keys of octafield.compute_field's that do not come from
-    solving. Raises InvalidInput where the frames do not fit the mesh.
+    Of the options, those of features, interfaces, streamlines, sizes and threads count. record has the keys of
+    octafield.compute_field's that do not come from solving. Raises InvalidInput where the frames do not fit the mesh.
     """
     if where not in SITES:
         raise InvalidInput(f"where must be one of: {', '.join(SITES)}; not {where!r}", "unknown_option_value")
     if options.split or options.split_singular:
-        raise InvalidInput("splitting makes another mesh than the frames belong to; leave it out", "option_out_of_range")
+        raise InvalidInput(
+            "splitting makes another mesh than the frames belong to; leave it out", "option_out_of_range"
+        )
     meshed = mesh if isinstance(mesh, MeshedInput) else prepare_mesh(mesh, options, progress=progress)
     if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):
         raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
@@ -104,8 +125,8 @@ def judged(
     about: Mapping[str, Any] = MappingProxyType({}),
     lengths: np.ndarray | None = None,
 ) -> AnalysedField:
-    """frames, lengths: where options.sampling has them; the axes of those at vertices are named anew, so that neighbours agree but across a cut. about: what the
-    record tells of how the field was made."""
+    """frames, lengths: where options.sampling has them; the axes of those at vertices are named anew, so that
+    neighbours agree but across a cut. about: what the record tells of how the field was made."""
     tets = meshed.volume().tets
     parts: dict[str, Any]
     with clock.phase("analyse"):
@@ -115,8 +136,15 @@ def judged(
         if options.sampling == "tets":
             of_tets = analyse_tets(meshed, _core.tet_sampling(tets), frames, options.threads)
             figures, off = of_tets.record, of_tets.off_vertices
-            parts = {"frames": combed(tets, of_tets.frames, None, options.threads)[0], "tet_frames": frames, "singular_graph": of_tets.singular.graph}
-            parts |= {name: getattr(of_tets, name) for name in ("alignment", "feature_alignment", "meshability", "boundary_meshability")}
+            parts = {
+                "frames": combed(tets, of_tets.frames, None, options.threads)[0],
+                "tet_frames": frames,
+                "singular_graph": of_tets.singular.graph,
+            }
+            parts |= {
+                name: getattr(of_tets, name)
+                for name in ("alignment", "feature_alignment", "meshability", "boundary_meshability")
+            }
         else:
             found = analyse_frames(meshed, frames, options.threads, options.streamlines, options.feature_tolerance)
             figures, off = found.record, found.off_vertices
@@ -150,10 +178,14 @@ def judged(
     )
 
 
-def combed(tets: TetMesh, frames: np.ndarray, lengths: np.ndarray | None, threads: int) -> tuple[np.ndarray, np.ndarray | None]:
+def combed(
+    tets: TetMesh, frames: np.ndarray, lengths: np.ndarray | None, threads: int
+) -> tuple[np.ndarray, np.ndarray | None]:
     """Frames at the vertices by octafield.comb_vertices, and the lengths of their axes in the new order."""
     found = _core.comb_vertices(tets, frames, threads=threads)
-    return np.asarray(found.frames), None if lengths is None else np.take_along_axis(lengths, axis_order(np.asarray(found.element)), axis=1)
+    return np.asarray(found.frames), (
+        None if lengths is None else np.take_along_axis(lengths, axis_order(np.asarray(found.element)), axis=1)
+    )
 
 
 def fitting_frames(tets: TetMesh, frames: ArrayLike, where: str) -> np.ndarray:
@@ -161,5 +193,9 @@ def fitting_frames(tets: TetMesh, frames: ArrayLike, where: str) -> np.ndarray:
     values = np.asarray(frames, float)
     count = len(tets.vertices if where == "vertices" else tets.tets)
     if values.shape != (count, 4):
-        raise InvalidInput(f"frames of shape {values.shape}; ({count}, 4) are needed, one per {'vertex' if where == 'vertices' else 'tet'}", "bad_count")
+        raise InvalidInput(
+            f"frames of shape {values.shape}; ({count}, 4) are needed, one per"
+            f" {'vertex' if where == 'vertices' else 'tet'}",
+            "bad_count",
+        )
     return unit_quaternions(values, lambda i: "frames")[0]

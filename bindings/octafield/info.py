@@ -58,9 +58,10 @@ REQUIREMENTS = (
 def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict[str, Any]:
     """Facts about a file and the state of each requirement: the JSON object of `octafield info`. Key "ok": none failed.
 
-    Each requirement has a state ("pass"; "warn": a field can be computed, but expect trouble; "fail"; "not tested": another
-    has to be met first), kind (a stable word), message, remedy (an option of the command line where one does it) and
-    elements (ids). options: as they would be given to the field; a surface is repaired (repair) and a tet mesh split (split) first.
+    Each requirement has a state ("pass"; "warn": a field can be computed, but expect trouble; "fail"; "not tested":
+    another has to be met first), kind (a stable word), message, remedy (an option of the command line where one does
+    it) and elements (ids). options: as they would be given to the field; a surface is repaired (repair) and a tet mesh
+    split (split) first.
     """
     try:
         found = read_input(path, interfaces=options.interfaces, edge_length=options.edge_length)
@@ -164,7 +165,11 @@ def _beyond_defects(found: Input, options: MeshOptions) -> tuple[list[Finding], 
         sizes = estimates.planned_sizes(found.surface, features, options)
         seen.lengths, seen.length = np.asarray(sizes.lengths), sizes.shortest
         found.notes += sizes.notes
-        facts["edge_lengths"] = {"shortest": sizes.shortest, "median": float(np.median(seen.lengths)), "longest": sizes.longest}
+        facts["edge_lengths"] = {
+            "shortest": sizes.shortest,
+            "median": float(np.median(seen.lengths)),
+            "longest": sizes.longest,
+        }
     if found.tets is not None:
         count = len(found.tets.tets)
     else:

@@ -1,4 +1,5 @@
-"""What the doctor for inputs asks of a sound input: each check is a function of what was examined that returns a Finding."""
+"""What the doctor for inputs asks of a sound input: each check is a function of what was examined that returns a
+Finding."""
 
 import math
 from dataclasses import dataclass, field
@@ -40,8 +41,9 @@ class Finding:
 
 @dataclass
 class Examined:
-    """An input without defects. length: of the shortest edges of the mesh to be made, or the mean where the mesh stays; lengths: (V,)
-    of the edges to be made at the vertices of the surface; locking: counts of what joins the surface of tets to itself."""
+    """An input without defects. length: of the shortest edges of the mesh to be made, or the mean where the mesh stays;
+    lengths: (V,) of the edges to be made at the vertices of the surface; locking: counts of what joins the surface of
+    tets to itself."""
 
     found: Input
     options: MeshOptions
@@ -56,7 +58,9 @@ class Examined:
         if self.lengths is not None:
             mean: np.ndarray[Any, Any] = self.lengths[np.asarray(self.found.surface.triangles)].mean(axis=1)
             return mean
-        longest: np.ndarray[Any, Any] = np.linalg.norm(self.corners - np.roll(self.corners, 1, axis=1), axis=2).max(axis=1)
+        longest: np.ndarray[Any, Any] = np.linalg.norm(self.corners - np.roll(self.corners, 1, axis=1), axis=2).max(
+            axis=1
+        )
         return longest
 
     @property
@@ -163,7 +167,13 @@ def curvature(seen: Examined) -> Finding:
     radius = float(1 / bend[worst])
     what = f"on {share:.0%} of the surface, where it is {radius:.3g} and less"
     if seen.sized:
-        return Finding(text, WARN, "coarse_for_curvature", f"edges are longer than the radius of curvature {what}", _shorter(seen, radius))
+        return Finding(
+            text,
+            WARN,
+            "coarse_for_curvature",
+            f"edges are longer than the radius of curvature {what}",
+            _shorter(seen, radius),
+        )
     return Finding(text, WARN, "coarse_for_curvature", f"edges are longer than the radius of curvature {what}",
                    _finer(seen), tuple(np.flatnonzero(tight).tolist()))  # fmt: skip
 
@@ -187,7 +197,8 @@ def walls(seen: Examined) -> Finding:
 
 
 def _shorter(seen: Examined, length: float) -> str:
-    """The option for edges of such a length, where so many cells can be computed with; tets of CAD models are made by Gmsh."""
+    """The option for edges of such a length, where so many cells can be computed with; tets of CAD models are made by
+    Gmsh."""
     told = float(rounded_down(length))
     surface = seen.found.surface
     area = float(np.asarray(_core.triangle_areas(surface)).sum())
@@ -252,9 +263,19 @@ def memory(seen: Examined, tets: int) -> Finding:
     base, per_tet = estimates.memory_mb(0), (needed - estimates.memory_mb(0)) / tets
     fit = (0.7 * there - base) / per_tet
     if fit > 0 and (seen.sized or seen.found.tets is None):
-        coarser = estimates.edge_length_for(seen.found.surface, fit) if seen.found.tets is None else seen.length * (tets / fit) ** (1 / 3)
+        coarser = (
+            estimates.edge_length_for(seen.found.surface, fit)
+            if seen.found.tets is None
+            else seen.length * (tets / fit) ** (1 / 3)
+        )
         remedy = f"--edge-length {_rounded_up(coarser)}" if coarser > seen.length else remedy
-    return Finding(text, WARN, "memory", f"about {tets:,} tets need {needed / 1000:,.1f} GB of this machine's {there / 1000:.1f}", remedy)
+    return Finding(
+        text,
+        WARN,
+        "memory",
+        f"about {tets:,} tets need {needed / 1000:,.1f} GB of this machine's {there / 1000:.1f}",
+        remedy,
+    )
 
 
 def rounded_down(value: float) -> str:

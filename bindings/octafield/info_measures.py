@@ -27,14 +27,17 @@ def curve_lengths(surface: TriangleMesh, features: FeatureGraph) -> Array:
     # Two edges belong to one curve when they meet at a vertex that is no corner.
     vertex, edge = edges.ravel(), np.repeat(np.arange(len(edges)), 2)
     chosen = inner[vertex]
-    at = scipy.sparse.csr_array((np.ones(int(chosen.sum())), (edge[chosen], vertex[chosen])), shape=(len(edges), len(points)))
+    at = scipy.sparse.csr_array(
+        (np.ones(int(chosen.sum())), (edge[chosen], vertex[chosen])), shape=(len(edges), len(points))
+    )
     count, label = scipy.sparse.csgraph.connected_components(at @ at.T, directed=False)
     result: Array = np.bincount(label, weights=lengths, minlength=count)
     return result
 
 
 def thicknesses(surface: TriangleMesh) -> tuple[Array, Array]:
-    """Distances to the face opposite of evenly chosen triangles that have one, and the share of the surface each stands for."""
+    """Distances to the face opposite of evenly chosen triangles that have one, and the share of the surface each stands
+    for."""
     _, thick = wall_samples(surface)
     return thick, np.full(len(thick), 1 / len(thick))
 
@@ -66,7 +69,10 @@ def wall_samples(surface: TriangleMesh) -> tuple[Array, Array]:
     thick = np.full(count, np.inf)
     for k, (point, normal) in enumerate(zip(points, normals[chosen], strict=True)):
         start, end = point - 1e-6 * diagonal * normal, point - 1.1 * diagonal * normal
-        if locator.IntersectWithLine(start, end, 0.0, parameter, hit, local, sub, cell) and -normals[cell.get()] @ normal > _FACING:
+        if (
+            locator.IntersectWithLine(start, end, 0.0, parameter, hit, local, sub, cell)
+            and -normals[cell.get()] @ normal > _FACING
+        ):
             thick[k] = np.linalg.norm(np.asarray(hit) - point)
     return chosen, thick
 
@@ -74,7 +80,10 @@ def wall_samples(surface: TriangleMesh) -> tuple[Array, Array]:
 def dihedral_angles(points: Array, tets: Array) -> Array:
     """(m, 6) degrees."""
     p = points[tets]
-    normals = np.stack([np.cross(p[:, b] - p[:, a], p[:, c] - p[:, a]) for a, b, c in ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))], axis=1)
+    normals = np.stack(
+        [np.cross(p[:, b] - p[:, a], p[:, c] - p[:, a]) for a, b, c in ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))],
+        axis=1,
+    )
     normals /= np.linalg.norm(normals, axis=2, keepdims=True)
     pairs = [(a, b) for a in range(4) for b in range(a)]
     cosines = np.stack([-np.einsum("nc,nc->n", normals[:, a], normals[:, b]) for a, b in pairs], axis=1)

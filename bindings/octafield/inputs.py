@@ -10,8 +10,8 @@ import numpy as np
 
 from . import _core
 from ._core import BoundarySurface, TetMesh, TriangleMesh
-from .meshes.cad import CAD_SUFFIXES, read_cad
 from .errors import GeometryError, InvalidInput, IoError, SolverError
+from .meshes.cad import CAD_SUFFIXES, read_cad
 from .meshes.grids import GRID_SUFFIXES, LOWER, Grid, read_grid
 from .output import require_utf8
 from .phases import Progress
@@ -33,10 +33,12 @@ class Input:
 
     surface: the triangles, or the boundary of the tets. boundary: the same with the map to tet vertices. regions: (m,)
     region of each tet, where there are several; surface and boundary then hold the interfaces between them too, as the
-    last `interface_triangles`. touches: the boundary of the tets touches itself at edges or vertices. lines: (n, 2) feature edges given by the file, vertex ids of `surface`; None when it has
-    no line cells. creases: the file tells that they are. faces: CAD face of each triangle of `surface`, -1 where the file tells none.
-    file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file; file_tets: (m,) of the tets among those of the file. of_cad: meshed here, at the edge length asked for. notes: what was changed in reading (tets turned over, unused
-    points dropped), one sentence each.
+    last `interface_triangles`. touches: the boundary of the tets touches itself at edges or vertices. lines: (n, 2)
+    feature edges given by the file, vertex ids of `surface`; None when it has no line cells. creases: the file tells
+    that they are. faces: CAD face of each triangle of `surface`, -1 where the file tells none.
+    file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file; file_tets: (m,) of the tets
+        among those of the file. of_cad: meshed here, at the edge length asked for. notes: what was changed in reading
+        (tets turned over, unused points dropped), one sentence each.
     """
 
     name: str
@@ -67,7 +69,8 @@ class Input:
         return TetPart(self.tets, self.boundary)
 
     def features_of_tets(self) -> np.ndarray | None:
-        """(n, 2) feature edges given by the file, vertex ids of `tets`; None where it has no lines or they are not features."""
+        """(n, 2) feature edges given by the file, vertex ids of `tets`; None where it has no lines or they are not
+        features."""
         if self.lines is None or not self.lines_are_features():
             return None
         features: np.ndarray = np.asarray(self.volume().boundary.vertex_map)[self.lines]
@@ -82,11 +85,15 @@ class Input:
 
 
 @np.errstate(all="ignore")
-def read_input(path: str | Path, *, interfaces: bool = True, edge_length: float = 0.0, progress: Progress | None = None) -> Input:
-    """Reads a surface (STL, OBJ, OFF, PLY, .vtp; STEP, BREP and IGES by Gmsh where it is installed) or a tet mesh (.vtk, .vtu, Gmsh .msh, Medit
-    .mesh and .meshb, OpenVolumeMesh .ovm and .ovmb, TetGen .node or .ele with the other beside it, and .face and .edge where there; triangles
-    alone are a surface), each also as .gz. Raises IoError naming the file, and the line in text, InvalidInput where it holds neither tets nor
-    triangles. interfaces: see MeshOptions. edge_length: of the triangles on a CAD model, or tets in it (0: from its size). progress: asked while Gmsh reads one; may cancel."""
+def read_input(
+    path: str | Path, *, interfaces: bool = True, edge_length: float = 0.0, progress: Progress | None = None
+) -> Input:
+    """Reads a surface (STL, OBJ, OFF, PLY, .vtp; STEP, BREP and IGES by Gmsh where it is installed) or a tet mesh
+    (.vtk, .vtu, Gmsh .msh, Medit .mesh and .meshb, OpenVolumeMesh .ovm and .ovmb, TetGen .node or .ele with the other
+    beside it, and .face and .edge where there; triangles alone are a surface), each also as .gz. Raises IoError naming
+    the file, and the line in text, InvalidInput where it holds neither tets nor triangles. interfaces: see MeshOptions.
+    edge_length: of the triangles on a CAD model, or tets in it (0: from its size). progress: asked while Gmsh reads
+    one; may cancel."""
     path = Path(path)
     require_utf8(path)
     if path.is_dir():
@@ -115,7 +122,8 @@ def _read(path: Path, interfaces: bool, edge_length: float, progress: Progress |
     if suffix not in (*GRID_SUFFIXES, *CAD_SUFFIXES):
         surfaces, tets, cad = (" ".join(known) for known in (SURFACE_SUFFIXES, GRID_SUFFIXES, CAD_SUFFIXES))
         raise IoError(
-            f"{path}: unknown kind of file; known are surfaces ({surfaces}), tet meshes ({tets}) and CAD models ({cad}), also .gz"
+            f"{path}: unknown kind of file; known are surfaces ({surfaces}), tet meshes ({tets}) and CAD models"
+            f" ({cad}), also .gz"
         )
     of_cad = suffix in CAD_SUFFIXES
     grid = read_cad(path, suffix, edge_length, progress) if of_cad else read_grid(path, suffix)
@@ -207,7 +215,9 @@ def _tet_input(name: str, grid: Grid) -> Input:
         notes.append(f"{int(inverted.sum())} of {len(tets)} tets were turned over to positive volume")
     mesh = TetMesh(points_used, tets.astype(np.int32))
     _core.require_valid(mesh)
-    found = Input(name, TriangleMesh(), mesh, notes=notes, file_points=np.flatnonzero(new_id >= 0), points_in_file=len(points))
+    found = Input(
+        name, TriangleMesh(), mesh, notes=notes, file_points=np.flatnonzero(new_id >= 0), points_in_file=len(points)
+    )
     found.file_tets = np.arange(len(tets)) if grid.file_tets is None else grid.file_tets
     with_regions(found, grid.regions)
     lines = _to_boundary(found, new_id)
@@ -219,7 +229,8 @@ def _tet_input(name: str, grid: Grid) -> Input:
 
 
 def with_regions(found: Any, regions: np.ndarray | None) -> Any:
-    """Sets the surface of a tet mesh (Input or MeshedInput): its boundary, and the interfaces where there is more than one region."""
+    """Sets the surface of a tet mesh (Input or MeshedInput): its boundary, and the interfaces where there is more than
+    one region."""
     if regions is not None and (regions == regions[0]).all():
         regions = None
     found.regions, found.interface_triangles = None, 0
@@ -229,7 +240,11 @@ def with_regions(found: Any, regions: np.ndarray | None) -> Any:
         wide = np.asarray(regions)
         if (wide.astype(np.int32) != wide).any():
             bad = int(np.argmax(wide.astype(np.int32) != wide))
-            raise InvalidInput(f"tet {bad} (from 0) is of region {wide[bad]}: numbers of regions have 32 bits; number them anew", "bad_regions", [bad])
+            raise InvalidInput(
+                f"tet {bad} (from 0) is of region {wide[bad]}: numbers of regions have 32 bits; number them anew",
+                "bad_regions",
+                [bad],
+            )
         found.regions = wide.astype(np.int32)
         surface = _core.region_surface(found.tets, found.regions)
         found.boundary, found.interface_triangles = surface.surface, surface.interface_triangles

@@ -16,8 +16,8 @@
 
     octafield.to_pandas(result)  # one line per record; needs pandas
 
-Matrices (`octafield.stiffness`, `octafield.mass`, `Sampling.stiffness`) are scipy.sparse already, and `octafield.Sampling` takes
-one of your own; arrays of every object are numpy's.
+Matrices (`octafield.stiffness`, `octafield.mass`, `Sampling.stiffness`) are scipy.sparse already, and
+`octafield.Sampling` takes one of your own; arrays of every object are numpy's.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ from ._core import BoundarySurface, FrameStreamline, SingularGraph, Streamline, 
 from .errors import InvalidInput
 from .imported import AnalysedField
 from .probes import put_frames
-from .surface_pipeline import SurfaceFieldResult
 from .results import polylines
+from .surface_pipeline import SurfaceFieldResult
 
 if TYPE_CHECKING:
     import meshio
@@ -56,14 +56,17 @@ def to_pyvista(
     | Sequence[Streamline]
     | Sequence[FrameStreamline],
 ) -> pyvista.PolyData | pyvista.UnstructuredGrid:
-    """A dataset of pyvista: triangles or tets with the arrays of results, the curves of a singular graph, or streamlines.
+    """A dataset of pyvista: triangles or tets with the arrays of results, the curves of a singular graph, or
+    streamlines.
 
-    AnalysedField, FieldResult: point data frame_u, frame_v, frame_w (the axes, unit vectors), quaternion (w x y z) and sh4 (9); cell data of the same names where
-    the field lives in the tets, axes_agree (1 or 0), and region where there are several. Axes are labelled vertex by vertex: slices, clips, probes and
-    stream tracers of VTK interpolate them, and mix different axes in the tets where axes_agree is 0. Threshold these away, or use
-    octafield.slice_frames, sample_frames and frame_streamlines, which interpolate sh4 or match the axes. SurfaceFieldResult: point data direction. SingularGraph: one polyline per curve with cell data
-    quarter_turns (+1: valence 3, -1: valence 5, 4 less the valence in general; 0: complex). Streamlines: one polyline each with cell data length. Raises
-    InvalidInput for anything else.
+    AnalysedField, FieldResult: point data frame_u, frame_v, frame_w (the axes, unit vectors), quaternion (w x y z) and
+        sh4 (9); cell data of the same names where the field lives in the tets, axes_agree (1 or 0), and region where
+        there are several. Axes are labelled vertex by vertex: slices, clips, probes and stream tracers of VTK
+        interpolate them, and mix different axes in the tets where axes_agree is 0. Threshold these away, or use
+        octafield.slice_frames, sample_frames and frame_streamlines, which interpolate sh4 or match the axes.
+        SurfaceFieldResult: point data direction. SingularGraph: one polyline per curve with cell data quarter_turns
+        (+1: valence 3, -1: valence 5, 4 less the valence in general; 0: complex). Streamlines: one polyline each with
+        cell data length. Raises InvalidInput for anything else.
 
         >>> import octafield
         >>> from octafield.study.generators import generate
@@ -112,7 +115,8 @@ def to_pyvista(
 
 def from_pyvista(dataset: pyvista.DataSet) -> TriangleMesh | TetMesh:
     """A TetMesh where the dataset has tets, else a TriangleMesh of its triangles (polygons are cut into triangles).
-    Points are kept as they are, unused ones too. Raises InvalidInput where there are other volume cells or no cells of either kind.
+    Points are kept as they are, unused ones too. Raises InvalidInput where there are other volume cells or no cells of
+    either kind.
 
         >>> import octafield, pyvista
         >>> octafield.from_pyvista(pyvista.Box(bounds=(0, 1, 0, 1, 0, 1)).clean())
@@ -133,7 +137,18 @@ def from_pyvista(dataset: pyvista.DataSet) -> TriangleMesh | TetMesh:
     return _triangles(grid.extract_surface(algorithm=None))
 
 
-_FLAT = ("EMPTY_CELL", "VERTEX", "POLY_VERTEX", "LINE", "POLY_LINE", "TRIANGLE", "TRIANGLE_STRIP", "POLYGON", "PIXEL", "QUAD")
+_FLAT = (
+    "EMPTY_CELL",
+    "VERTEX",
+    "POLY_VERTEX",
+    "LINE",
+    "POLY_LINE",
+    "TRIANGLE",
+    "TRIANGLE_STRIP",
+    "POLYGON",
+    "PIXEL",
+    "QUAD",
+)
 
 
 def _triangles(surface: pyvista.PolyData) -> TriangleMesh:
@@ -144,12 +159,13 @@ def _triangles(surface: pyvista.PolyData) -> TriangleMesh:
 
 
 def to_meshio(value: TriangleMesh | TetMesh | AnalysedField) -> meshio.Mesh:
-    """A meshio.Mesh; of a field (AnalysedField, FieldResult) with the data of to_pyvista. Raises InvalidInput for anything else.
+    """A meshio.Mesh; of a field (AnalysedField, FieldResult) with the data of to_pyvista. Raises InvalidInput for
+    anything else.
 
-        >>> import octafield
-        >>> from octafield.study.generators import generate
-        >>> octafield.to_meshio(generate("box")).cells_dict["triangle"].shape
-        (12, 3)
+    >>> import octafield
+    >>> from octafield.study.generators import generate
+    >>> octafield.to_meshio(generate("box")).cells_dict["triangle"].shape
+    (12, 3)
     """
     import meshio
 
@@ -182,10 +198,11 @@ def from_meshio(mesh: meshio.Mesh) -> TriangleMesh | TetMesh:
 
 
 def to_scipy(value: TriangleMesh | TetMesh | SingularGraph | AnalysedField) -> scipy.sparse.csr_array:
-    """A graph as a scipy.sparse matrix, for scipy.sparse.csgraph. Meshes: (n, n) symmetric, the length (input unit) of the
-    edge between two vertices. SingularGraph: the same between its points, along its curves. AnalysedField, FieldResult: int32 entry
-    (a, b), a < b, of each edge of its tets: the element of octahedral_group() that brings the frame of a closest to that of
-    b (octafield.matching); the identity, 0, is stored too. Raises InvalidInput for anything else.
+    """A graph as a scipy.sparse matrix, for scipy.sparse.csgraph. Meshes: (n, n) symmetric, the length (input unit) of
+    the edge between two vertices. SingularGraph: the same between its points, along its curves. AnalysedField,
+    FieldResult: int32 entry (a, b), a < b, of each edge of its tets: the element of octahedral_group() that brings the
+    frame of a closest to that of b (octafield.matching); the identity, 0, is stored too. Raises InvalidInput for
+    anything else.
 
         >>> import octafield, scipy.sparse.csgraph
         >>> from octafield.study.generators import generate
@@ -226,9 +243,9 @@ Record = Mapping[str, Any]
 def to_pandas(
     records: Sequence[Record] | Record | AnalysedField | SurfaceFieldResult | Comparison | SingularGraph,
 ) -> pandas.DataFrame:
-    """One line per record: of a result, a list of `result.record`, a Comparison, `octafield.study.rows(folder)`; nested numbers
-    are in columns group_name, lists are left out. SingularGraph: one line per curve with quarter_turns, length, closed and
-    points. Raises InvalidInput where pandas is not installed.
+    """One line per record: of a result, a list of `result.record`, a Comparison, `octafield.study.rows(folder)`; nested
+    numbers are in columns group_name, lists are left out. SingularGraph: one line per curve with quarter_turns, length,
+    closed and points. Raises InvalidInput where pandas is not installed.
 
         >>> import octafield
         >>> from octafield.study.generators import generate
@@ -258,7 +275,9 @@ def _curve_lines(graph: SingularGraph) -> list[dict[str, Any]]:
     for curve, turns in zip(graph.curves, np.asarray(graph.curve_quarter_turns).tolist(), strict=True):
         along = points[np.asarray(curve)]
         length = float(np.linalg.norm(np.diff(along, axis=0), axis=1).sum())
-        lines.append({"quarter_turns": turns, "length": length, "closed": bool(curve[0] == curve[-1]), "points": len(curve)})
+        lines.append(
+            {"quarter_turns": turns, "length": length, "closed": bool(curve[0] == curve[-1]), "points": len(curve)}
+        )
     return lines
 
 
@@ -266,8 +285,8 @@ _GROUPS = ("feature_alignment_deg", "alignment_deg", "integrability", "wall_seco
 
 
 def from_pandas(frame: pandas.DataFrame) -> list[dict[str, Any]]:
-    """The records of a table of to_pandas, or of results.csv: one per line, groups nested again, empty cells left out. What the
-    table does not have (lists, versions) is not there.
+    """The records of a table of to_pandas, or of results.csv: one per line, groups nested again, empty cells left out.
+    What the table does not have (lists, versions) is not there.
 
         >>> import octafield, pandas
         >>> octafield.from_pandas(pandas.DataFrame({"energy": [2.5], "wall_seconds_smooth": [0.1]}))  # doctest: +SKIP

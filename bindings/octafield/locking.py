@@ -38,8 +38,9 @@ def split_on_request(mesh: Input | MeshedInput, options: MeshOptions) -> dict[st
 def split_between_singular(
     mesh: MeshedInput, frames: np.ndarray, lengths: np.ndarray | None, threads: int
 ) -> tuple[MeshedInput, np.ndarray, np.ndarray | None, np.ndarray, dict[str, Any]]:
-    """A field in the tets on a mesh whose edges between singular vertices are split: mesh, frames, lengths, (m,) tet that each is part of, and counts. Vertices
-    and features of the surface stay; its triangles come in the order of the new tets."""
+    """A field in the tets on a mesh whose edges between singular vertices are split: mesh, frames, lengths, (m,) tet
+    that each is part of, and counts. Vertices and features of the surface stay; its triangles come in the order of the
+    new tets."""
     tets, boundary, _ = mesh.volume()
     split = _core.split_between_singular(tets, boundary, frames, threads=threads)
     parent = np.asarray(split.parent)

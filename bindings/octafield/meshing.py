@@ -27,9 +27,10 @@ class MeshedInput:
     """A sound input, ready for fields: `surface` is the boundary of `tets` (None where only a surface was wanted).
 
     Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too. There,
-    and where the boundary touches itself, `surface` is `boundary` cut into sheets: manifold, each vertex a copy of vertex `sheet_map` of the boundary. features are
-    those of `surface`, boundary_features those of `boundary`. locking: counts of what split_locking is for. options: what it was
-    prepared with. inner_length: of edges far inside where those of the surface are graded, input unit; else 0.
+    and where the boundary touches itself, `surface` is `boundary` cut into sheets: manifold, each vertex a copy of
+    vertex `sheet_map` of the boundary. features are those of `surface`, boundary_features those of `boundary`. locking:
+    counts of what split_locking is for. options: what it was prepared with. inner_length: of edges far inside where
+    those of the surface are graded, input unit; else 0.
     """
 
     name: str
@@ -67,7 +68,11 @@ class MeshedInput:
 
     def digest(self) -> str:
         """SHA-256 of the mesh arrays, first 16 hexadecimal digits: equal for equal meshes."""
-        vertices, cells = (self.surface.vertices, self.surface.triangles) if self.tets is None else (self.tets.vertices, self.tets.tets)
+        vertices, cells = (
+            (self.surface.vertices, self.surface.triangles)
+            if self.tets is None
+            else (self.tets.vertices, self.tets.tets)
+        )
         sha = hashlib.sha256(np.ascontiguousarray(vertices).tobytes())
         sha.update(np.ascontiguousarray(cells).tobytes())
         return sha.hexdigest()[:16]
@@ -82,7 +87,8 @@ class Volume(NamedTuple):
 
 
 def load_surface(path: str | Path, *, repair: str = "default") -> TriangleMesh:
-    """Reads a closed surface, repaired up to a level (MeshOptions.repair), and raises GeometryError, InvalidInput or IoError naming the defect unless it is sound."""
+    """Reads a closed surface, repaired up to a level (MeshOptions.repair), and raises GeometryError, InvalidInput or
+    IoError naming the defect unless it is sound."""
     with naming(str(path)):
         return _sound(read_input(path), MeshOptions(repair=repair), closed=True).surface
 
@@ -102,7 +108,11 @@ class SoundInput:
 
 
 def read_sound(
-    source: Source | Input, options: MeshOptions = MeshOptions(), *, volume: bool = True, progress: Progress | None = None
+    source: Source | Input,
+    options: MeshOptions = MeshOptions(),
+    *,
+    volume: bool = True,
+    progress: Progress | None = None,
 ) -> SoundInput:
     """Reads, validates and finds features: everything that can show an input unfit in short time."""
     memory = PeakMemory()
@@ -114,7 +124,9 @@ def read_sound(
         elif isinstance(source, (TriangleMesh, TetMesh)):
             found = from_mesh(source)
         else:
-            found = read_input(source, interfaces=options.interfaces, edge_length=options.edge_length, progress=progress)
+            found = read_input(
+                source, interfaces=options.interfaces, edge_length=options.edge_length, progress=progress
+            )
         with naming(found.name):
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):
@@ -134,8 +146,8 @@ def prepare_mesh(
 ) -> MeshedInput:
     """Reads, validates, finds features, remeshes and (volume) fills with tets.
 
-    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for. source: a
-    path, TriangleMesh or TetMesh. Raises InvalidInput, GeometryError (naming the defect), IoError, Cancelled.
+    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for.
+    source: a path, TriangleMesh or TetMesh. Raises InvalidInput, GeometryError (naming the defect), IoError, Cancelled.
 
         >>> import octafield
         >>> from octafield.study.generators import generate
@@ -276,7 +288,9 @@ def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: Mes
             raise
         if not options.remesh:
             fact = str(error).partition("; ")[0]
-            raise GeometryError(f"{fact}; leave out --no-remesh, so that other triangles can be tried", error.kind, error.elements) from error
+            raise GeometryError(
+                f"{fact}; leave out --no-remesh, so that other triangles can be tried", error.kind, error.elements
+            ) from error
         failed = error
     surface, features, length = meshed.surface, meshed.features, float(_core.mean_edge_length(meshed.surface))
     for shorter in (0.8, 0.6):
@@ -289,10 +303,17 @@ def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: Mes
         except GeometryError:
             del meshed.notes[notes:]
             continue
-        meshed.notes.append(f"TetGen could not fill the surface with edges of {length:.3g}; it could with edges of {shorter * length:.3g}")
+        meshed.notes.append(
+            f"TetGen could not fill the surface with edges of {length:.3g}; it could with edges of"
+            f" {shorter * length:.3g}"
+        )
         return
     fact = str(failed).partition("; ")[0]
-    raise GeometryError(f"{fact}; nor with edges of {0.8 * length:.3g} and {0.6 * length:.3g}; try another --edge-length", failed.kind, failed.elements) from failed
+    raise GeometryError(
+        f"{fact}; nor with edges of {0.8 * length:.3g} and {0.6 * length:.3g}; try another --edge-length",
+        failed.kind,
+        failed.elements,
+    ) from failed
 
 
 def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) -> None:

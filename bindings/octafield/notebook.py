@@ -1,7 +1,9 @@
-"""How results show themselves in Jupyter: a scene to turn where pyvista has a backend for it that works (pip install 'octafield[notebook]'),
-and always a picture, which stays where the notebook is saved, with the main figures beside it; the figures alone without OpenGL.
+"""How results show themselves in Jupyter: a scene to turn where pyvista has a backend for it that works (pip install
+'octafield[notebook]'), and always a picture, which stays where the notebook is saved, with the main figures beside it;
+the figures alone without OpenGL.
 
-pyvista decides: pyvista.set_jupyter_backend("static") asks for pictures, "html" for scenes that stay in exported notebooks.
+pyvista decides: pyvista.set_jupyter_backend("static") asks for pictures, "html" for scenes that stay in exported
+notebooks.
 """
 
 from __future__ import annotations
@@ -41,12 +43,16 @@ def html_of(value: Any) -> str:
     if type(value).__name__ != "Comparison" and (data := _picture(value)):
         text = base64.b64encode(data).decode()
         picture = f'<img style="max-width:420px" alt="{html.escape(title)}" src="data:image/png;base64,{text}">'
-    return f'<div><b>{html.escape(title)}</b><div style="display:flex;gap:1em;align-items:center">{picture}{_table(facts)}</div></div>'
+    return (
+        f"<div><b>{html.escape(title)}</b><div"
+        f' style="display:flex;gap:1em;align-items:center">{picture}{_table(facts)}</div></div>'
+    )
 
 
 def display_live(value: Any) -> None:
-    """For _ipython_display_: a scene to turn, then the HTML above: the scene is gone when its kernel is. NotImplementedError, which is IPython's word
-    for it: there is no backend or it does not work, IPython then asks for the HTML alone."""
+    """For _ipython_display_: a scene to turn, then the HTML above: the scene is gone when its kernel is.
+    NotImplementedError, which is IPython's word for it: there is no backend or it does not work, IPython then asks for
+    the HTML alone."""
     if type(value).__name__ == "Comparison" or not live_backend() or not _can_draw():
         raise NotImplementedError
     from IPython.display import HTML, display  # type: ignore[import-not-found, unused-ignore]
@@ -74,7 +80,8 @@ def _viewer(value: Any) -> Any:
 
 
 def live_backend() -> bool:
-    """Whether pyvista shows scenes here that can be turned: in a kernel of Jupyter, with trame or a backend of the user's."""
+    """Whether pyvista shows scenes here that can be turned: in a kernel of Jupyter, with trame or a backend of the
+    user's."""
     import pyvista
 
     theme = pyvista.global_theme.jupyter_backend
@@ -119,7 +126,11 @@ def _facts_of_arrays(value: TriangleMesh | TetMesh | SingularGraph) -> dict[str,
     if isinstance(value, SingularGraph):
         turns = np.asarray(value.curve_quarter_turns)
         kinds = {f"valence {4 - number}": number for number in (3, 2, 1, -1, -2, -3, -4)} | {"complex": 0}
-        counts = {name: int((turns == number).sum()) for name, number in kinds.items() if number in (1, -1, 0) or number in turns}
+        counts = {
+            name: int((turns == number).sum())
+            for name, number in kinds.items()
+            if number in (1, -1, 0) or number in turns
+        }
         return {"curves": len(value.curves), **counts, "nodes": len(value.nodes), "length": float(value.length)}
     points = np.asarray(value.vertices)
     cells = {"tets": len(value.tets)} if isinstance(value, TetMesh) else {"triangles": len(value.triangles)}
@@ -158,8 +169,8 @@ def _cells(value: TriangleMesh | TetMesh) -> np.ndarray[Any, Any]:
 
 
 def scene_of(value: AnalysedField | SurfaceFieldResult | SingularGraph | TriangleMesh | TetMesh) -> pyvista.Plotter:
-    """A pyvista scene: singular curves inside the translucent surface; singular points and separatrices on it; the curves
-    alone; a surface; a tet mesh cut open. Raises IoError without OpenGL."""
+    """A pyvista scene: singular curves inside the translucent surface; singular points and separatrices on it; the
+    curves alone; a surface; a tet mesh cut open. Raises IoError without OpenGL."""
     if isinstance(value, SingularGraph):
         return _curves_scene(value)
     if isinstance(value, TriangleMesh):
@@ -197,7 +208,9 @@ def _tets_scene(tets: TetMesh) -> pyvista.Plotter:
     axes = scene.principal_axes(points)
     half = to_pyvista(tets).clip(normal=axes[1], origin=(points.min(0) + points.max(0)) / 2, crinkle=True)
     edges = half.n_cells <= _MOST_WITH_EDGES
-    shape.add_mesh(half.extract_surface(algorithm=None), color=scene.BODY, show_edges=edges, edge_color=scene.INK, ambient=0.35)
+    shape.add_mesh(
+        half.extract_surface(algorithm=None), color=scene.BODY, show_edges=edges, edge_color=scene.INK, ambient=0.35
+    )
     scene.look(shape, points, axes[1] + 0.4 * axes[0] + 0.4 * axes[2], axes[2])
     return shape
 
@@ -234,7 +247,11 @@ def _surface_field_scene(result: SurfaceFieldResult) -> pyvista.Plotter:
     scene.add_body(shape, scene.surface_mesh(result.surface))
     scene.add_features(shape, result.surface, result.features, 5)
     radius = 0.009 * scene.diagonal(points)
-    lines = [_beginning(np.asarray(line.points), scene.diagonal(points)) for line in result.separatrices if len(line.points) > 1]
+    lines = [
+        _beginning(np.asarray(line.points), scene.diagonal(points))
+        for line in result.separatrices
+        if len(line.points) > 1
+    ]
     if lines:
         shape.add_mesh(polylines(lines).tube(radius=0.2 * radius, n_sides=8), color=scene.GREEN, lighting=False)
     for sign, colour in ((1, scene.VERMILLION), (-1, scene.BLUE)):

@@ -33,12 +33,13 @@ def require_one_of(name: str, value: str, allowed: Iterable[str]) -> None:
     allowed = list(allowed)
     if value not in allowed:
         raise InvalidInput(
-            f"{name} {value!r} is not one of: {', '.join(allowed)}{did_you_mean(value, allowed)}", "unknown_option_value"
+            f"{name} {value!r} is not one of: {', '.join(allowed)}{did_you_mean(value, allowed)}",
+            "unknown_option_value",
         )
 
 
 def did_you_mean(value: str, known: Iterable[str]) -> str:
-    """"; did you mean 'sh4'?" where a known word is near, else nothing."""
+    """ "; did you mean 'sh4'?" where a known word is near, else nothing."""
     near = difflib.get_close_matches(str(value), list(known), 1)
     return f"; did you mean {near[0]!r}?" if near else ""
 
@@ -75,8 +76,8 @@ class MeshOptions:
     edge_length: target of surface remeshing, input unit; 0: lengths that fit the shape (see remesh, size_field).
     max_cells: without an edge length, triangles and tets that those lengths may ask for; 0: 200,000.
     remesh: False keeps the triangles of a surface. Tet meshes are always kept as they are.
-    repair: level of the repair of a surface before it is tested (octafield.repair), each action recorded; "default": "merge" for STL,
-        "none" otherwise. True stands for "safe", False for "none".
+    repair: level of the repair of a surface before it is tested (octafield.repair), each action recorded; "default":
+        "merge" for STL, "none" otherwise. True stands for "safe", False for "none".
     max_hole_edges: level "fill" leaves holes of more edges open; 0: no bound.
     wrap_alpha, wrap_offset: of level "wrap", input unit; 0: 1/50 of the bounding-box diagonal, and 1/20 of that.
     interfaces: triangles between tets of different regions of the file hold the field as the boundary does.
@@ -106,14 +107,20 @@ class MeshOptions:
         _make_integer(self, "max_hole_edges", 0, LARGEST_INT, " (0: no bound)")
         _make_integer(self, "max_cells", 0, LARGEST_INT, " (0: default)")
         for name in ("wrap_alpha", "wrap_offset"):
-            _require(math.isfinite(getattr(self, name)) and getattr(self, name) >= 0, f"{name.replace('_', ' ')} must be positive (0: default)")
+            _require(
+                math.isfinite(getattr(self, name)) and getattr(self, name) >= 0,
+                f"{name.replace('_', ' ')} must be positive (0: default)",
+            )
         for name in ("remesh", "interfaces", "split"):
             _make_boolean(self, name)
         _require(0 < self.feature_angle < math.pi, "the feature angle must lie between 0 and 180 degrees")
         _require(
             math.isfinite(self.edge_length) and self.edge_length >= 0, "the edge length must be positive (0: default)"
         )
-        _require(self.edge_length == 0 or self.max_cells == 0, "an edge length decides the number of cells: leave it or max_cells out")
+        _require(
+            self.edge_length == 0 or self.max_cells == 0,
+            "an edge length decides the number of cells: leave it or max_cells out",
+        )
 
     @property
     def cells(self) -> int:
@@ -126,7 +133,8 @@ class SurfaceFieldOptions(MeshOptions):
     """Of an N-direction field on a surface: symmetry is N, method "gl", "mbo" or "eigen",
     epsilon the coherence length (0: default).
 
-    boundary: how the field follows the rim of an open surface, "strong", "weak" (singular points may sit there), "none".
+    boundary: how the field follows the rim of an open surface, "strong", "weak" (singular points may sit there),
+        "none".
     least_feature_angle: radians; feature edges inside the surface that bend by less are not followed (0: all are).
     curvature: pull towards the lines of curvature, 0 (none) or more; symmetry must be even. 1 lets the field follow
         them over lengths of a tenth of octafield.shape_size, 100 over a hundredth; where the two principal
@@ -168,17 +176,19 @@ class FieldOptions(MeshOptions):
 
     sampling: where the frames live, "vertices" or "tets" (octafield.tet_sampling; constraints, energy, singular edges,
         alignment and meshability are those of the tets then, and integrability is left out).
-    boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none", or "start"
-        (frames on the surface held at those of the start that compute_field is given).
+    boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none",
+        or "start" (frames on the surface held at those of the start that compute_field is given).
     feature_tolerance: radians; a vertex on a feature keeps its whole frame when one frame fits all its normals and
         tangents so well (octafield.boundary_constraints).
     seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
     not depend on it. representation, solver: what the last smoothing minimises and how; rounds, max_iterations,
     tolerance: see octafield.frame_field. streamlines: so many seeds of curves along the three axes, spread over the
-    volume (octafield.spread_points), go into streamlines.vtp; 0: none. sizes: lengths of the axes for which the field is closest to the
-    gradients of a map, "isotropic" (one for all three, octafield.isotropic_scale) or "axes" (octafield.axis_scales); "none": not computed.
-    split_singular: with sampling "tets"; edges inside that join singular vertices without being singular are split after the field is found
-        (octafield.split_between_singular): tets are more than those it was computed on, each with the frame of the tet it is part of.
+    volume (octafield.spread_points), go into streamlines.vtp; 0: none. sizes: lengths of the axes for which the field
+    is closest to the gradients of a map, "isotropic" (one for all three, octafield.isotropic_scale) or "axes"
+    (octafield.axis_scales); "none": not computed.
+    split_singular: with sampling "tets"; edges inside that join singular vertices without being singular are split
+        after the field is found (octafield.split_between_singular): tets are more than those it was computed on, each
+        with the frame of the tet it is part of.
 
     Raises InvalidInput.
 
@@ -211,7 +221,8 @@ class FieldOptions(MeshOptions):
         _make_boolean(self, "split_singular")
         _require(
             self.sampling == "tets" or not self.split_singular,
-            "singular edges are split by frames in the tets: split_singular (--split-singular) needs sampling 'tets' (--sampling tets)",
+            "singular edges are split by frames in the tets: split_singular (--split-singular) needs sampling 'tets'"
+            " (--sampling tets)",
         )
         require_one_of("representation", self.representation, REPRESENTATIONS)
         require_one_of("solver", self.solver, SOLVERS)

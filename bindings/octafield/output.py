@@ -1,7 +1,8 @@
 """Output folders that are either complete or absent.
 
 Everything is written to a staging folder above (new target) or inside (existing target) the final place and moved there
-at the end. An existing folder is reused only if empty or holding an earlier result of octafield, whose other files stay.
+at the end. An existing folder is reused only if empty or holding an earlier result of octafield, whose other files
+stay.
 """
 
 import contextlib
@@ -18,7 +19,9 @@ from .errors import InvalidInput, IoError
 if TYPE_CHECKING:
     import pyvista
 
-_listeners: list[Callable[[Path, bool], object]] = []  # called with (path, alive) when a staging folder appears or goes, see supervise.py
+_listeners: list[
+    Callable[[Path, bool], object]
+] = []  # called with (path, alive) when a staging folder appears or goes, see supervise.py
 
 
 def on_staging(listener: Callable[[Path, bool], object]) -> None:

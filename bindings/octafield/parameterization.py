@@ -25,9 +25,10 @@ _TABLES = (
 
 @dataclass(repr=False)
 class ParameterizationInput:
-    """combed: frames of the tets whose axes correspond by number and sign across all triangles but the cut, with their matchings.
-    singular: the edges inside with a turn, as octafield.singular_edges has them of the frames before combing. surface: with interfaces between regions; features:
-    its. tables: axes held at both."""
+    """combed: frames of the tets whose axes correspond by number and sign across all triangles but the cut, with their
+    matchings.
+    singular: the edges inside with a turn, as octafield.singular_edges has them of the frames before combing. surface:
+        with interfaces between regions; features: its. tables: axes held at both."""
 
     mesh: TetMesh
     combed: CombedField
@@ -38,7 +39,10 @@ class ParameterizationInput:
 
     def __repr__(self) -> str:
         cut, edges = int(np.asarray(self.combed.cut).sum()), len(self.singular.edges)
-        return f"ParameterizationInput({len(self.mesh.tets):,} tets, {cut:,} cut triangles, {edges:,} singular edges, {len(self.tables.patch_one_axis):,} patches)"
+        return (
+            f"ParameterizationInput({len(self.mesh.tets):,} tets, {cut:,} cut triangles, {edges:,} singular edges,"
+            f" {len(self.tables.patch_one_axis):,} patches)"
+        )
 
     def arrays(self) -> dict[str, np.ndarray]:
         """By name, as .npz files hold them beside frames, vertices and tets; docs/formats.md describes each."""
@@ -55,7 +59,9 @@ class ParameterizationInput:
             "singular_quarter_turns": np.array([e.quarter_turns for e in edges], np.int32),
             "surface_triangles": np.asarray(self.surface.vertex_map)[np.asarray(self.surface.mesh.triangles)],
         }
-        return {k: np.asarray(v) for k, v in parts.items()} | {f"alignment_{k}": np.asarray(getattr(self.tables, k)) for k in _TABLES}
+        return {k: np.asarray(v) for k, v in parts.items()} | {
+            f"alignment_{k}": np.asarray(getattr(self.tables, k)) for k in _TABLES
+        }
 
     def _holonomies(self, ends: np.ndarray) -> np.ndarray:
         """Of the combed frame q g of the lowest tet at each edge: g^-1 h g."""
@@ -69,9 +75,9 @@ class ParameterizationInput:
 def parameterization_input(
     mesh: Source | MeshedInput, frames: ArrayLike, where: str = "vertices", options: MeshOptions = MeshOptions()
 ) -> ParameterizationInput:
-    """Combs (n, 4) frames at the vertices or in the tets of a tet mesh (or its file; features as octafield field finds them) and
-    collects cut, matchings, singular edges and what the boundary holds. Frames at vertices are taken to the tets by tet_frames. Raises InvalidInput where
-    the frames do not fit the mesh, GeometryError (unsound mesh)."""
+    """Combs (n, 4) frames at the vertices or in the tets of a tet mesh (or its file; features as octafield field finds
+    them) and collects cut, matchings, singular edges and what the boundary holds. Frames at vertices are taken to the
+    tets by tet_frames. Raises InvalidInput where the frames do not fit the mesh, GeometryError (unsound mesh)."""
     if where not in SITES:
         raise InvalidInput(f"where must be one of: {', '.join(SITES)}; not {where!r}", "unknown_option_value")
     meshed = mesh if isinstance(mesh, MeshedInput) else prepare_mesh(mesh, options)

@@ -76,8 +76,8 @@ def versions() -> dict[str, str]:
 
 
 def machine() -> dict[str, str | int | float]:
-    """What times depend on: the processor's model, cores this process may use, and how many processes ran or waited in the
-    last minute (load; this one included)."""
+    """What times depend on: the processor's model, cores this process may use, and how many processes ran or waited in
+    the last minute (load; this one included)."""
     return {"cpu": _processor(), "cores": len(os.sched_getaffinity(0)), "load": round(os.getloadavg()[0], 2)}
 
 

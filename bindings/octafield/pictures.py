@@ -71,14 +71,18 @@ def surface_cross_field(problem: Problem) -> Picture:
             shape.add_mesh(_spheres(centres, radius), color=colour, smooth_shading=True, ambient=0.3)
             legend.append((colour, f"singular point, {word} index"))
     _three_quarter_view(shape, points)
-    return Picture("Cross field on the surface", captions.of_surface(problem.singularities), scene.render(shape), legend)
+    return Picture(
+        "Cross field on the surface", captions.of_surface(problem.singularities), scene.render(shape), legend
+    )
 
 
 def singular_curves(result: AnalysedField) -> Picture:
     """Tubes along the singular curves (smoothed), by type, inside the translucent surface; what no hex mesh has."""
     graph = result.singular_graph
     kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
-    legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")] * (len(result.features.edges) > 0)
+    legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")] * (
+        len(result.features.edges) > 0
+    )
     if len(graph.nodes):
         legend.append((scene.INK, "node: three or four curves meet"))
     if _bad_features(result) is not None:
@@ -171,8 +175,13 @@ def frames_on_cut(result: AnalysedField) -> Picture:
     visible = np.concatenate([np.asarray(behind.points), centres]) if behind.n_cells else points
     other = [axes[k] for k in range(3) if k != best]
     scene.look(shape, visible, normal + 0.28 * other[0] + 0.42 * other[1], other[1])
-    words = "for the frames of vertices within half an edge length of the cut, moved onto it, one where several would overlap"
-    caption = f"The shape is cut through the centre of its bounding box, with {captions.counted(len(near), 'cube')} {words}."
+    words = (
+        "for the frames of vertices within half an edge length of the cut, moved onto it, one where several would"
+        " overlap"
+    )
+    caption = (
+        f"The shape is cut through the centre of its bounding box, with {captions.counted(len(near), 'cube')} {words}."
+    )
     return Picture("Frames on a cut", caption, scene.render(shape), [(scene.SKY, "frame"), (CUT, "cut")])
 
 
@@ -192,7 +201,9 @@ def _curves(graph: SingularGraph) -> dict[int, pyvista.PolyData | None]:
 def _add_curves(shape: pyvista.Plotter, curves: dict[int, pyvista.PolyData | None], radius: float) -> None:
     for kind, lines in curves.items():
         if lines is not None:
-            shape.add_mesh(lines.tube(radius=radius, n_sides=12), color=TURNS[kind][0], smooth_shading=True, ambient=0.3)
+            shape.add_mesh(
+                lines.tube(radius=radius, n_sides=12), color=TURNS[kind][0], smooth_shading=True, ambient=0.3
+            )
 
 
 def _add_nodes(shape: pyvista.Plotter, nodes: np.ndarray, radius: float) -> None:

@@ -67,9 +67,11 @@ class Problem:
 
 @dataclass(repr=False, kw_only=True)
 class FieldResult(AnalysedField):
-    """A frame field and what led to it: the cross field on the surface, and the constraints, on vertices or, with sampling "tets", tets.
+    """A frame field and what led to it: the cross field on the surface, and the constraints, on vertices or, with
+    sampling "tets", tets.
 
-    parent: with the option split_singular, (m,) tet of the mesh the field was computed on, which constraints are of, that each tet is part of; else None."""
+    parent: with the option split_singular, (m,) tet of the mesh the field was computed on, which constraints are of,
+        that each tet is part of; else None."""
 
     direction_field: DirectionField
     directions: np.ndarray
@@ -92,8 +94,8 @@ def compute_field(
 ) -> FieldResult:
     """Frame field inside a closed surface or on a tet mesh (paths or meshes in memory).
 
-    constraints: the user's own, on vertices (or, with sampling "tets", tets) of the mesh the field is computed on. Meshing and splitting make
-    another mesh of the input, so prepare it first:
+    constraints: the user's own, on vertices (or, with sampling "tets", tets) of the mesh the field is computed on.
+        Meshing and splitting make another mesh of the input, so prepare it first:
 
         >>> import octafield
         >>> from octafield.study.generators import generate
@@ -103,13 +105,16 @@ def compute_field(
         >>> result.record["constraints"]["given"]
         1
 
-    start: (n, 4) frames to smooth from, on that mesh's vertices (sampling "tets": tets), such as octafield.read_frames gives; they are
-    polished by one smoothing, without the heat flow that a field begins with otherwise.
+    start: (n, 4) frames to smooth from, on that mesh's vertices (sampling "tets": tets), such as octafield.read_frames
+        gives; they are polished by one smoothing, without the heat flow that a field begins with otherwise.
 
-    progress(phase, fraction, merit): False cancels. Raises InvalidInput, GeometryError, IoError, SolverError, Cancelled.
+    progress(phase, fraction, merit): False cancels. Raises InvalidInput, GeometryError, IoError, SolverError,
+    Cancelled.
     """
     if start is not None and not isinstance(source, (MeshedInput, TetMesh)):
-        raise InvalidInput("a start belongs to a tet mesh; give that, or the result of prepare_mesh(source, options)", "not_meshed")
+        raise InvalidInput(
+            "a start belongs to a tet mesh; give that, or the result of prepare_mesh(source, options)", "not_meshed"
+        )
     if constraints is not None and not isinstance(source, MeshedInput):
         raise InvalidInput(
             "constraints belong to the tet mesh the field is computed on; "
@@ -123,10 +128,10 @@ def compute_field(
 def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None) -> Problem:
     """Computes the cross field on the surface, the start of every boundary frame. Raises GeometryError, SolverError.
 
-        >>> import octafield
-        >>> from octafield.study.generators import generate
-        >>> octafield.prepare(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3))).seed
-        0
+    >>> import octafield
+    >>> from octafield.study.generators import generate
+    >>> octafield.prepare(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3))).seed
+    0
     """
     memory = PeakMemory()
     clock = PhaseClock(meshed.clock)
@@ -149,7 +154,8 @@ def run(
     start: ArrayLike | None = None,
 ) -> FieldResult:
     """One frame field on a prepared problem. The record's phase times include those of the shared preparation.
-    constraints, start: see compute_field. Raises InvalidInput where options of the mesh differ from those it was prepared with and from the defaults.
+    constraints, start: see compute_field. Raises InvalidInput where options of the mesh differ from those it was
+        prepared with and from the defaults.
 
         >>> import octafield
         >>> from octafield.study.generators import generate
@@ -222,13 +228,23 @@ def run(
 
 
 def _refuse_ignored(meshed: MeshedInput, options: FieldOptions) -> None:
-    """Options of the mesh that were given and are not those it was prepared with would be ignored. Defaults count as not given."""
+    """Options of the mesh that were given and are not those it was prepared with would be ignored. Defaults count as
+    not given."""
     if meshed.options is None:
         return
-    names = [f.name for f in fields(MeshOptions) if getattr(options, f.name) not in (f.default, getattr(meshed.options, f.name))]
+    names = [
+        f.name
+        for f in fields(MeshOptions)
+        if getattr(options, f.name) not in (f.default, getattr(meshed.options, f.name))
+    ]
     if names:
-        listed = ", ".join(f"{name}={getattr(options, name)!r} (prepared with {getattr(meshed.options, name)!r})" for name in names)
-        raise InvalidInput(f"{meshed.name}: the mesh is there already, so that {listed} would be ignored; give them to prepare_mesh", "ignored_options")
+        listed = ", ".join(
+            f"{name}={getattr(options, name)!r} (prepared with {getattr(meshed.options, name)!r})" for name in names
+        )
+        raise InvalidInput(
+            f"{meshed.name}: the mesh is there already, so that {listed} would be ignored; give them to prepare_mesh",
+            "ignored_options",
+        )
 
 
 def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryConstraints:

@@ -12,7 +12,15 @@ PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7
 TEXT = "#010203"  # stands for the page's text colour until the SVG is made
 
 
-def new_figure(width: float, height: float, columns: int = 1, *, rows: int = 1, sharex: bool = False, sharey: bool | Literal["row"] = False) -> "tuple[Figure, list[Axes]]":
+def new_figure(
+    width: float,
+    height: float,
+    columns: int = 1,
+    *,
+    rows: int = 1,
+    sharex: bool = False,
+    sharey: bool | Literal["row"] = False,
+) -> "tuple[Figure, list[Axes]]":
     """A figure in inches and its axes, row by row."""
     import matplotlib.figure
 
@@ -31,7 +39,8 @@ def new_figure(width: float, height: float, columns: int = 1, *, rows: int = 1, 
 
 
 def to_svg(figure: "Figure", label: str, salt: str = "") -> str:
-    """An <svg> element for HTML: no prolog, no namespaces (HTML has them built in), no metadata. label: what it shows, HTML.
+    """An <svg> element for HTML: no prolog, no namespaces (HTML has them built in), no metadata. label: what it shows,
+    HTML.
     salt: unlike that of the other plots of the page, for their ids to be."""
     import matplotlib
 

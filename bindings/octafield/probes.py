@@ -1,13 +1,13 @@
 """A frame field at points of one's own choice: anywhere, and on a plane.
 
-    >>> import octafield
-    >>> from octafield.study.generators import generate
-    >>> result = octafield.compute_field(generate("box"), octafield.FieldOptions(edge_length=0.3))
-    >>> octafield.sample_frames(result, [[0.2, 0.3, 0.4], [5, 5, 5]])
-    SampledFrames(2 frames, 1 outside)
-    >>> cut = octafield.slice_frames(result, normal=(1, 0, 0))
-    >>> "frame_u" in cut.point_data
-    True
+>>> import octafield
+>>> from octafield.study.generators import generate
+>>> result = octafield.compute_field(generate("box"), octafield.FieldOptions(edge_length=0.3))
+>>> octafield.sample_frames(result, [[0.2, 0.3, 0.4], [5, 5, 5]])
+SampledFrames(2 frames, 1 outside)
+>>> cut = octafield.slice_frames(result, normal=(1, 0, 0))
+>>> "frame_u" in cut.point_data
+True
 """
 
 from __future__ import annotations
@@ -41,16 +41,20 @@ def sample_frames(
     outside: str = "mask",
     threads: int = 0,
 ) -> SampledFrames:
-    """The field at (k, 3) points: frames (k, 4) quaternions w x y z, confidence, tet and distance, each a row per point.
+    """The field at (k, 3) points: frames (k, 4) quaternions w x y z, confidence, tet and distance, each a row per
+    point.
 
-    field: a result, or a TetMesh with (n, 4) frames at its vertices. The sh4 vectors of the frames are interpolated linearly in the tet that holds the point,
-    and projected to the nearest frame: second order in the mesh width, whatever the labels of the axes (interpolating frame_u or quaternion is wrong
-    where the labels of a tet's vertices disagree). confidence is the norm of the interpolant: 1 where the tet's frames are equal, near 0 at singular
-    curves, where the frame means little. A result that lives in the tets is sampled through its frames at the vertices.
+    field: a result, or a TetMesh with (n, 4) frames at its vertices. The sh4 vectors of the frames are interpolated
+        linearly in the tet that holds the point, and projected to the nearest frame: second order in the mesh width,
+        whatever the labels of the axes (interpolating frame_u or quaternion is wrong where the labels of a tet's
+        vertices disagree). confidence is the norm of the interpolant: 1 where the tet's frames are equal, near 0 at
+        singular curves, where the frame means little. A result that lives in the tets is sampled through its frames at
+        the vertices.
 
-    tolerance: a point outside the mesh, but no farther from it, has the frame of the mesh's nearest point (input unit; None: a millionth of the
-    bounding-box diagonal; math.inf: every point). outside: what a point farther outside gives, "mask" (a row of NaN, tet -1, confidence 0) or "error" (InvalidInput that names the
-    first). Raises InvalidInput, GeometryError.
+    tolerance: a point outside the mesh, but no farther from it, has the frame of the mesh's nearest point (input unit;
+        None: a millionth of the bounding-box diagonal; math.inf: every point). outside: what a point farther outside
+        gives, "mask" (a row of NaN, tet -1, confidence 0) or "error" (InvalidInput that names the first). Raises
+        InvalidInput, GeometryError.
 
         >>> import octafield
         >>> tets = octafield.tetrahedralize(octafield.study.generators.generate("box"))
@@ -63,11 +67,17 @@ def sample_frames(
     mesh, at_vertices = _parts(field, frames)
     if tolerance is not None and not tolerance >= 0:
         raise InvalidInput(f"tolerance must be a length, 0 or more, not {tolerance!r}", "option_out_of_range")
-    found = _core.interpolate_frames(mesh, at_vertices, points, tolerance=-1 if tolerance is None else float(tolerance), threads=threads)
+    found = _core.interpolate_frames(
+        mesh, at_vertices, points, tolerance=-1 if tolerance is None else float(tolerance), threads=threads
+    )
     away = np.flatnonzero(np.asarray(found.tet) < 0)
     if outside == "error" and len(away):
         few = ", ".join(map(str, away[:5])) + (" ..." if len(away) > 5 else "")
-        raise InvalidInput(f"{len(away)} points are outside the mesh (rows {few}); leave them out, or raise the tolerance (math.inf: nearest point)", "outside")
+        raise InvalidInput(
+            f"{len(away)} points are outside the mesh (rows {few}); leave them out, or raise the tolerance (math.inf:"
+            " nearest point)",
+            "outside",
+        )
     return found
 
 
@@ -80,12 +90,14 @@ def slice_frames(
     spacing: float | None = None,
     threads: int = 0,
 ) -> pyvista.PolyData:
-    """The field on a plane, as a dataset of pyvista: the cut through the tets, with frames at its points by sample_frames (not interpolated axes, which
-    pyvista's and ParaView's slices give). Point data frame_u, frame_v, frame_w, quaternion, sh4 (of the frames) and confidence.
+    """The field on a plane, as a dataset of pyvista: the cut through the tets, with frames at its points by
+    sample_frames (not interpolated axes, which pyvista's and ParaView's slices give). Point data frame_u, frame_v,
+    frame_w, quaternion, sh4 (of the frames) and confidence.
 
-    origin: a point of the plane (None: the centre of the bounding box). normal: of any length. spacing: None for the points where the plane
-    crosses edges of the mesh, as polygons; else points of a square lattice so far apart (input unit), those inside the mesh. frames: of a TetMesh. Raises
-    InvalidInput where the plane misses the mesh, and GeometryError.
+    origin: a point of the plane (None: the centre of the bounding box). normal: of any length. spacing: None for the
+        points where the plane crosses edges of the mesh, as polygons; else points of a square lattice so far apart
+        (input unit), those inside the mesh. frames: of a TetMesh. Raises InvalidInput where the plane misses the mesh,
+        and GeometryError.
 
         >>> import octafield
         >>> from octafield.study.generators import generate
@@ -113,9 +125,15 @@ def slice_frames(
         places = places[np.asarray(_core.locate_points(mesh, places, threads=threads).tet) >= 0]
         cut = pyvista.PolyData(places) if len(places) else pyvista.PolyData()
     if not len(places):
-        raise InvalidInput(f"the plane through {middle.tolist()} with normal {direction.tolist()} misses the mesh; its box is {low.tolist()} to {high.tolist()}", "outside")
+        raise InvalidInput(
+            f"the plane through {middle.tolist()} with normal {direction.tolist()} misses the mesh; its box is"
+            f" {low.tolist()} to {high.tolist()}",
+            "outside",
+        )
     # Points of the cut are on the mesh up to the rounding of single precision, in which VTK may cut.
-    found = sample_frames(mesh, places, at_vertices, tolerance=1e-5 * float(np.linalg.norm(high - low)), outside="error", threads=threads)
+    found = sample_frames(
+        mesh, places, at_vertices, tolerance=1e-5 * float(np.linalg.norm(high - low)), outside="error", threads=threads
+    )
     put_frames(cut.point_data, np.asarray(found.frames))
     cut.point_data["confidence"] = np.asarray(found.confidence)
     return cut
@@ -136,7 +154,11 @@ def _parts(field: AnalysedField | TetMesh, frames: ArrayLike | None) -> tuple[Te
             raise InvalidInput("a result has frames of its own; give frames with a TetMesh only", "bad_type")
         return field.tets, np.asarray(field.frames)
     if not isinstance(field, TetMesh):
-        raise InvalidInput(f"a field is a result (octafield.compute_field, analyse) or a TetMesh with frames, not {type(field).__name__}", "bad_type")
+        raise InvalidInput(
+            "a field is a result (octafield.compute_field, analyse) or a TetMesh with frames, not"
+            f" {type(field).__name__}",
+            "bad_type",
+        )
     if frames is None:
         raise InvalidInput("a TetMesh needs frames, (n, 4) at its vertices", "no_frames")
     return field, fitting_frames(field, frames, "vertices")
@@ -159,7 +181,9 @@ def _lattice(vertices: np.ndarray, origin: np.ndarray, normal: np.ndarray, spaci
     places = (vertices - origin) @ both.T / spacing
     first, last = np.ceil(places.min(axis=0)), np.floor(places.max(axis=0))
     if np.prod(np.maximum(last - first + 1, 0)) > MOST_POINTS:
-        raise InvalidInput(f"spacing {spacing:g} makes more than {MOST_POINTS:,} points; give a larger one", "option_out_of_range")
+        raise InvalidInput(
+            f"spacing {spacing:g} makes more than {MOST_POINTS:,} points; give a larger one", "option_out_of_range"
+        )
     steps = [np.arange(a, b + 1) for a, b in zip(first, last, strict=True)]
     grid: np.ndarray = np.stack(np.meshgrid(*steps, indexing="ij"), axis=-1).reshape(-1, 2)
     points: np.ndarray = origin + spacing * grid @ both

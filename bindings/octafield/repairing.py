@@ -21,7 +21,8 @@ def level_of(found: Input, options: MeshOptions) -> str:
 
 
 def repair_surface(found: Input, options: MeshOptions, closed: bool = True) -> None:
-    """Drops unused points and repairs as far as the level says, each with a note. Tet meshes are left alone. closed: False keeps rims."""
+    """Drops unused points and repairs as far as the level says, each with a note. Tet meshes are left alone. closed:
+    False keeps rims."""
     if found.tets is not None:
         return
     _drop_unused(found)
@@ -42,8 +43,11 @@ def advise(found: Input, options: MeshOptions, closed: bool = True) -> RepairAdv
     return _core.advise_repair(found.surface, level=level_of(found, options), closed=closed, **_bounds(options))
 
 
-def message_with_remedy(message: str, kind: str, found: Input, options: MeshOptions, closed: bool = True, advice: RepairAdvice | None = None) -> str:
-    """The message of a defect with what helps instead of the general advice. advice: of `advise`, where it is there already."""
+def message_with_remedy(
+    message: str, kind: str, found: Input, options: MeshOptions, closed: bool = True, advice: RepairAdvice | None = None
+) -> str:
+    """The message of a defect with what helps instead of the general advice. advice: of `advise`, where it is there
+    already."""
     fact = message.partition("; ")[0]
     if found.tets is not None:
         return f"{fact}; correct the tet mesh where it was made"
@@ -51,7 +55,10 @@ def message_with_remedy(message: str, kind: str, found: Input, options: MeshOpti
         return message
     where = "correct the surface where it was made"
     if kind == "not_closed":
-        where = f"{'export the model as solids' if found.of_cad else where}, or take octafield surface-field, which needs no volume"
+        where = (
+            f"{'export the model as solids' if found.of_cad else where}, or take octafield surface-field, which needs"
+            " no volume"
+        )
     return f"{fact}; {remedy(advice or advise(found, options, closed), level_of(found, options), where)}"
 
 
@@ -68,7 +75,11 @@ def remedy(advice: RepairAdvice, done: str, where: str) -> str:
 
 
 def _bounds(options: MeshOptions) -> dict[str, Any]:
-    return {"max_hole_edges": options.max_hole_edges, "wrap_alpha": options.wrap_alpha, "wrap_offset": options.wrap_offset}
+    return {
+        "max_hole_edges": options.max_hole_edges,
+        "wrap_alpha": options.wrap_alpha,
+        "wrap_offset": options.wrap_offset,
+    }
 
 
 def _drop_unused(found: Input) -> None:
@@ -100,5 +111,8 @@ def _carry_lines(found: Input, before: TriangleMesh) -> None:
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     kept = lines[np.isin(lines[:, 0] * count + lines[:, 1], sides[:, 0] * count + sides[:, 1])]
     if len(kept) < len(found.lines):
-        found.notes.append(f"repair: {len(found.lines) - len(kept)} of {len(found.lines)} feature lines of the file are no edges any more, and left out")
+        found.notes.append(
+            f"repair: {len(found.lines) - len(kept)} of {len(found.lines)} feature lines of the file are no edges any"
+            " more, and left out"
+        )
     found.lines = kept.astype(np.int32)

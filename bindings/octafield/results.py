@@ -1,4 +1,5 @@
-"""The files of one run: field, singular curves, features and corners, streamlines, surface field, its singular points and separatrices, record."""
+"""The files of one run: field, singular curves, features and corners, streamlines, surface field, its singular points
+and separatrices, record."""
 
 import contextlib
 import json
@@ -44,7 +45,9 @@ def write_analysis(result: AnalysedField, folder: Path, progress: Progress | Non
     metadata = _metadata(result.record)
     with _clock(result.record).phase("write"), _peak(result.record):
         _write_volume_files(result, folder, metadata)
-        surface = pyvista.PolyData.from_regular_faces(np.array(result.surface.vertices), np.array(result.surface.triangles, int))
+        surface = pyvista.PolyData.from_regular_faces(
+            np.array(result.surface.vertices), np.array(result.surface.triangles, int)
+        )
         _save(surface, folder / SURFACE_FILES[0], metadata)
     result.record["files"] = [*(name for name in FIELD_FILES if (folder / name).exists()), RECORD_FILE]
     write_json(folder / RECORD_FILE, result.record)
@@ -60,7 +63,9 @@ def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str,
     if result.feature_edges is not None:
         more["features"] = result.feature_edges
     points, cells = sizes_arrays(result.sizes, result.tet_frames)
-    _core.write_field(folder / "field.vtu", result.tets, result.frames, metadata, regions, point_data=points, cell_data=cells, **more)
+    _core.write_field(
+        folder / "field.vtu", result.tets, result.frames, metadata, regions, point_data=points, cell_data=cells, **more
+    )
     _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
     if result.boundary_meshability is not None:
         write_features(folder / "features.vtp", result.tets, result.boundary_meshability, metadata)
@@ -190,7 +195,10 @@ def _metadata(record: dict[str, Any]) -> dict[str, str]:
         "mesh_sha256": record["mesh_sha256"],
         "options": json.dumps(options),
         "energy": repr(record["energy"]),
-        "convention": "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per vertex: interpolate sh4, or axes only in cells with axes_agree 1",
+        "convention": (
+            "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per"
+            " vertex: interpolate sh4, or axes only in cells with axes_agree 1"
+        ),
     }
 
 

@@ -83,7 +83,11 @@ def add_body(scene: pyvista.Plotter, surface: pyvista.PolyData) -> None:
 
 
 def add_features(
-    scene: pyvista.Plotter, mesh: TriangleMesh, features: FeatureGraph, width: float = 4.0, behind: tuple[np.ndarray, np.ndarray] | None = None
+    scene: pyvista.Plotter,
+    mesh: TriangleMesh,
+    features: FeatureGraph,
+    width: float = 4.0,
+    behind: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> None:
     """Feature curves; `behind`: (normal, point) of a plane, only what lies behind it."""
     edges = np.asarray(features.edges)

@@ -1,5 +1,5 @@
-"""Sizes along the axes for which a field is closest to the gradients of a map (octafield.isotropic_scale, axis_scales): in results, their
-files and conversions."""
+"""Sizes along the axes for which a field is closest to the gradients of a map (octafield.isotropic_scale, axis_scales):
+in results, their files and conversions."""
 
 from dataclasses import replace
 from typing import Any
@@ -47,9 +47,12 @@ def sizes_record(found: Sizes) -> dict[str, Any]:
     }
 
 
-def sizes_arrays(found: Sizes | None, tet_frames: np.ndarray | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Point and cell data of field.vtu: log_scale at the vertices; or log_scales in the tets, for the axes of tet_frames (None: of octafield.tet_frames), and
-    scaled_frame, those axes times exp(log_scales), one after the other; curl, what is left of it per tet."""
+def sizes_arrays(
+    found: Sizes | None, tet_frames: np.ndarray | None
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Point and cell data of field.vtu: log_scale at the vertices; or log_scales in the tets, for the axes of
+    tet_frames (None: of octafield.tet_frames), and scaled_frame, those axes times exp(log_scales), one after the other;
+    curl, what is left of it per tet."""
     if found is None:
         return {}, {}
     cells = {"curl": np.asarray(found.after.curl)}
@@ -67,26 +70,33 @@ def log_scales_of(found: AxisScales, tet_frames: np.ndarray) -> np.ndarray:
 
 
 def axis_order(elements: np.ndarray) -> np.ndarray:
-    """(n, 3): which axis of R is, up to sign, the axis j of R o, for (n,) elements o of the octahedral group: where column j of o is not 0."""
+    """(n, 3): which axis of R is, up to sign, the axis j of R o, for (n,) elements o of the octahedral group: where
+    column j of o is not 0."""
     group = np.abs(np.rint(axes_of(np.asarray(_core.octahedral_group()))))
     found: np.ndarray = group.argmax(axis=1)[elements]
     return found
 
 
 def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str) -> tuple[FrameFile, dict[str, Any]]:
-    """The frames where the file to write has them, with sizes as the lengths of their axes: densities exp(H), or exp(-H) where the format
-    holds edges of cells (FrameFormat.holds_edges). And what sizes_record tells."""
+    """The frames where the file to write has them, with sizes as the lengths of their axes: densities exp(H), or
+    exp(-H) where the format holds edges of cells (FrameFormat.holds_edges). And what sizes_record tells."""
     if found.mesh is None:
         raise InvalidInput("sizes are found on the mesh of the frames; give it with --mesh", "no_mesh")
     if not writer.holds_lengths:
-        return replace(found, notes=[*found.notes, f"sizes were left out: {writer.title} files hold no lengths of axes"]), {}
+        return replace(
+            found, notes=[*found.notes, f"sizes were left out: {writer.title} files hold no lengths of axes"]
+        ), {}
     where = at or (found.where if found.where in writer.where else writer.where[0])
     if kind == "axes" and where == "vertices":
-        raise InvalidInput("sizes per axis are those of frames in the tets; add --at tets, or take --sizes isotropic", "wrong_sampling")
+        raise InvalidInput(
+            "sizes per axis are those of frames in the tets; add --at tets, or take --sizes isotropic", "wrong_sampling"
+        )
     notes = list(found.notes)
     if where != found.where:
         notes.append(f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around")
-    at_vertices = found.frames if found.where == "vertices" else np.asarray(_core.vertex_frames(found.mesh, found.frames))
+    at_vertices = (
+        found.frames if found.where == "vertices" else np.asarray(_core.vertex_frames(found.mesh, found.frames))
+    )
     frames = found.frames
     if where != found.where:
         frames = at_vertices if where == "vertices" else np.asarray(_core.tet_frames(found.mesh, at_vertices))
@@ -101,4 +111,6 @@ def _logs_at(sizes: Sizes, tets: TetMesh, frames: np.ndarray, where: str) -> np.
     if isinstance(sizes, AxisScales):
         return log_scales_of(sizes, frames)
     values = np.asarray(sizes.log_scale)
-    return np.repeat((values if where == "vertices" else values[np.asarray(tets.tets)].mean(axis=1))[:, None], 3, axis=1)
+    return np.repeat(
+        (values if where == "vertices" else values[np.asarray(tets.tets)].mean(axis=1))[:, None], 3, axis=1
+    )

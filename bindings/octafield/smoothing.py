@@ -48,10 +48,16 @@ def smoothed_field(
     return found.smooth, found.diffusion_steps
 
 
-def held_at_start(tets: TetMesh, options: FieldOptions, free: BoundaryConstraints, start: ArrayLike | None) -> BoundaryConstraints:
+def held_at_start(
+    tets: TetMesh, options: FieldOptions, free: BoundaryConstraints, start: ArrayLike | None
+) -> BoundaryConstraints:
     """free: constraints that hold nothing. With the frames on the surface held at those of the start."""
     if start is None:
-        raise InvalidInput(f"boundary {OF_A_START!r} holds the surface at the frames of a start (--start FILE): give one, or another boundary", "no_start")
+        raise InvalidInput(
+            f"boundary {OF_A_START!r} holds the surface at the frames of a start (--start FILE): give one, or another"
+            " boundary",
+            "no_start",
+        )
     there = np.flatnonzero(free.on_boundary)
     frames = fitting_frames(tets, start, options.sampling)[there]
     fixed = np.full(len(there), 2, np.uint8)

@@ -17,17 +17,29 @@ app = typer.Typer(no_args_is_help=True, help="Comparisons that a file describes.
 
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of a study.")]
 Jobs = Annotated[int, typer.Option(metavar="N", help="Processes at once; 0: one per core.")]
-RunThreads = Annotated[int, typer.Option("--threads", metavar="N", help="Threads of each run; 0: all. Results do not depend on it.")]
-Memory = Annotated[float, typer.Option(metavar="GB", help="That all processes may be expected to need; 0: four fifths of the machine's.")]
-Scheduler = Annotated[str, typer.Option(metavar="ADDRESS", help="Dask scheduler whose workers do the runs; they must see DIR and the inputs.")]
-Patience = Annotated[float, typer.Option(metavar="S", help="Seconds to wait for a dask worker that can take what is left.")]
+RunThreads = Annotated[
+    int, typer.Option("--threads", metavar="N", help="Threads of each run; 0: all. Results do not depend on it.")
+]
+Memory = Annotated[
+    float,
+    typer.Option(metavar="GB", help="That all processes may be expected to need; 0: four fifths of the machine's."),
+]
+Scheduler = Annotated[
+    str,
+    typer.Option(metavar="ADDRESS", help="Dask scheduler whose workers do the runs; they must see DIR and the inputs."),
+]
+Patience = Annotated[
+    float, typer.Option(metavar="S", help="Seconds to wait for a dask worker that can take what is left.")
+]
 Retry = Annotated[bool, typer.Option("--retry", help="Try runs that failed again.")]
 
 
 @app.command()
 def run(
     description: Annotated[Path, typer.Argument(metavar="FILE", help="Description of the study (.yaml).")],
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of the study; an earlier one is continued.")],
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of the study; an earlier one is continued.")
+    ],
     jobs: Jobs = 0,
     threads: RunThreads = 1,
     memory: Memory = 0,
@@ -100,8 +112,16 @@ def report(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Ver
 
 
 def _run(
-    study: "Study", folder: Path, jobs: int, threads: int, memory: float, scheduler: str, patience: float, retry: bool,
-    json: str | None, quiet: bool,
+    study: "Study",
+    folder: Path,
+    jobs: int,
+    threads: int,
+    memory: float,
+    scheduler: str,
+    patience: float,
+    retry: bool,
+    json: str | None,
+    quiet: bool,
 ) -> None:
     from .study.engine import run as run_study
     from .study.report import write_report

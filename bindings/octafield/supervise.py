@@ -49,7 +49,9 @@ def run_supervised(work: Callable[[], int]) -> int:
         return os.WEXITSTATUS(status)
     _remove_staging(reading)
     fatal = signal.Signals(os.WTERMSIG(status))
-    hint = "most likely memory ran out" if fatal == signal.SIGKILL else "a defect of octafield: please report this input"
+    hint = (
+        "most likely memory ran out" if fatal == signal.SIGKILL else "a defect of octafield: please report this input"
+    )
     print(f"octafield: stopped by signal {fatal.name}; {hint}", file=sys.stderr, flush=True)
     return DEFECT
 

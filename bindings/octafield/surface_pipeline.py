@@ -1,7 +1,7 @@
 """From a file to a direction field on its surface: read, mesh, field, singular points, separatrices.
 
-    result = compute_surface_field("part.stl", SurfaceFieldOptions(symmetry=4, curvature=1))
-    result.directions  # (V, 3), one of the N directions per vertex of result.surface
+result = compute_surface_field("part.stl", SurfaceFieldOptions(symmetry=4, curvature=1))
+result.directions  # (V, 3), one of the N directions per vertex of result.surface
 """
 
 from collections.abc import Sequence
@@ -74,7 +74,9 @@ def compute_surface_field(
             "give the result of prepare_mesh(source, options, volume=False) instead of the source",
             "not_meshed",
         )
-    meshed = source if isinstance(source, MeshedInput) else prepare_mesh(source, options, volume=False, progress=progress)
+    meshed = (
+        source if isinstance(source, MeshedInput) else prepare_mesh(source, options, volume=False, progress=progress)
+    )
     clock = PhaseClock(meshed.clock)
     stop = StopNote(progress)
     with naming(meshed.name), clock.phase("surface"):

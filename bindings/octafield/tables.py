@@ -18,7 +18,14 @@ def show_record(record: dict[str, Any]) -> None:
         if name in ("alignment_deg", "feature_alignment_deg", "integrability", "lengths", "wall_seconds"):
             facts.append((name, "  ".join(f"{key} {number:.3g}" for key, number in value.items())))
         elif name == "sizes":
-            facts.append((name, "  ".join(f"{key} {entry if isinstance(entry, str) else f'{entry:.3g}'}" for key, entry in value.items())))
+            facts.append(
+                (
+                    name,
+                    "  ".join(
+                        f"{key} {entry if isinstance(entry, str) else f'{entry:.3g}'}" for key, entry in value.items()
+                    ),
+                )
+            )
         elif isinstance(value, (str, int, float)) and name != "input":
             facts.append((name, f"{value:.8g}" if isinstance(value, float) else str(value)))
     _facts(record["input"], facts)
@@ -63,7 +70,9 @@ def _fact(requirement: dict[str, Any]) -> str:
 
 
 def show_doctor(record: dict[str, Any]) -> None:
-    facts = [(name, str(value)) for name, value in {**record["versions"], **record["libraries"]}.items() if name != "vtk"]
+    facts = [
+        (name, str(value)) for name, value in {**record["versions"], **record["libraries"]}.items() if name != "vtk"
+    ]
     facts.append(("VTK of pictures", record["versions"]["vtk"]))
     facts += [("cores", str(record["cores"])), ("memory", f"{record['memory_gb']:g} GB")]
     _facts("octafield doctor", facts)
@@ -71,9 +80,16 @@ def show_doctor(record: dict[str, Any]) -> None:
 
 
 def show_registry(record: dict[str, Any]) -> None:
-    rows = [[r["name"], "yes" if r["rotates_linearly"] else "no", str(r["dimension"]), _speed(r)] for r in record["representations"]]
+    rows = [
+        [r["name"], "yes" if r["rotates_linearly"] else "no", str(r["dimension"]), _speed(r)]
+        for r in record["representations"]
+    ]
     _table(["representation", "rotates linearly", "numbers", "per radian"], rows, left=2)
-    _table(["metric", "measures", "per radian"], [[m["name"], m["description"], _speed(m)] for m in record["metrics"]], left=2)
+    _table(
+        ["metric", "measures", "per radian"],
+        [[m["name"], m["description"], _speed(m)] for m in record["metrics"]],
+        left=2,
+    )
 
 
 def _speed(entry: dict[str, Any]) -> str:

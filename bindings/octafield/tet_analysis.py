@@ -1,4 +1,5 @@
-"""What a field whose frames live in the tets is judged by. Integrability is defined for frames at vertices and left out."""
+"""What a field whose frames live in the tets is judged by. Integrability is defined for frames at vertices and left
+out."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -14,7 +15,8 @@ from .meshing import MeshedInput
 @dataclass
 class TetFieldAnalysis:
     """frames: (n, 4), those of the tets taken to the vertices. alignment: radians, per triangle of the surface and tet
-    beside it. feature_alignment: of `frames`. off_vertices: of the boundary, beside triangles that are too far off. record: for the JSON object."""
+    beside it. feature_alignment: of `frames`. off_vertices: of the boundary, beside triangles that are too far off.
+    record: for the JSON object."""
 
     frames: np.ndarray
     singular: SingularEdges
@@ -31,7 +33,9 @@ def analyse_tets(meshed: MeshedInput, sampling: Sampling, of_tets: np.ndarray, t
     frames = np.asarray(_core.vertex_frames(tets, of_tets, threads=threads))
     found = _core.singular_edges(tets, of_tets, threads=threads)
     alignment = np.asarray(_core.tet_alignment_angles(tets, boundary, of_tets))
-    sides = np.where(np.arange(len(boundary.mesh.triangles)) < len(boundary.mesh.triangles) - meshed.interface_triangles, 1, 2)
+    sides = np.where(
+        np.arange(len(boundary.mesh.triangles)) < len(boundary.mesh.triangles) - meshed.interface_triangles, 1, 2
+    )
     off = verdict.off_vertices(alignment, np.repeat(np.asarray(boundary.mesh.triangles), sides, axis=0))
     feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
     energy = float(_core.dirichlet_energy(sampling, of_tets, threads=threads))

@@ -1,4 +1,5 @@
-"""How long work still takes: estimates that do not jump, and the words for them. Times are seconds of one clock that never goes backwards."""
+"""How long work still takes: estimates that do not jump, and the words for them. Times are seconds of one clock that
+never goes backwards."""
 
 import math
 from collections import deque
@@ -20,7 +21,8 @@ def words(seconds: float, most: bool = False) -> str:
 
 
 class Steady:
-    """Follows estimates without jumps: between two it counts down, and it moves towards a new one by a share that grows with the time passed."""
+    """Follows estimates without jumps: between two it counts down, and it moves towards a new one by a share that grows
+    with the time passed."""
 
     def __init__(self) -> None:
         self._left: float | None = None

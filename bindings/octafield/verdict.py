@@ -1,5 +1,5 @@
-"""Whether a field can be trusted: fine, too coarse for its shape, or with places that no hex mesh has. Said at the end of `field` and `info`,
-in records and in reports."""
+"""Whether a field can be trusted: fine, too coarse for its shape, or with places that no hex mesh has. Said at the end
+of `field` and `info`, in records and in reports."""
 
 import math
 from typing import Any
@@ -24,9 +24,11 @@ _LISTED = 100  # vertices in a record
 
 
 def of_field(meshed: MeshedInput, off: np.ndarray, figures: dict[str, Any]) -> dict[str, Any]:
-    """off: (k,) ids of vertices of the boundary whose frames are more than OFF degrees from normals that can be served. figures: of the analysis.
+    """off: (k,) ids of vertices of the boundary whose frames are more than OFF degrees from normals that can be served.
+    figures: of the analysis.
 
-    Record entry: state, sentences, vertices (ids of the tet mesh, the first 100), suggested_edge_length (input unit, or None)."""
+    Record entry: state, sentences, vertices (ids of the tet mesh, the first 100), suggested_edge_length (input unit, or
+    None)."""
     _, boundary, features = meshed.volume()
     points, triangles = np.asarray(boundary.mesh.vertices), np.asarray(boundary.mesh.triangles)
     edges, turns = smooth_turns(points, triangles, np.asarray(features.edges))
@@ -40,12 +42,16 @@ def of_field(meshed: MeshedInput, off: np.ndarray, figures: dict[str, Any]) -> d
         named = coarse
         suggested = _length_for(points, edges, turns, coarse)
         sentences.append(
-            f"coarse here: {len(coarse):,} vertices ({share:.0%} of the surface): at {len(off):,} frames differ by more than {OFF:g} degrees from their normals, "
-            f"and smooth faces turn by more than {BENT:g} degrees at {len(bent):,} edges; edges of about {suggested:.2g} would turn half as much (not tried)"
+            f"coarse here: {len(coarse):,} vertices ({share:.0%} of the surface): at {len(off):,} frames differ by more"
+            f" than {OFF:g} degrees from their normals, and smooth faces turn by more than {BENT:g} degrees at"
+            f" {len(bent):,} edges; edges of about {suggested:.2g} would turn half as much (not tried)"
         )
     places = {words: figures.get(key, 0) for key, words in _PLACES.items() if figures.get(key, 0)}
     if places:
-        sentences.append(f"places no hex mesh has: {sum(places.values()):,} ({', '.join(f'{count:,} {words}' for words, count in places.items())})")
+        sentences.append(
+            f"places no hex mesh has: {sum(places.values()):,}"
+            f" ({', '.join(f'{count:,} {words}' for words, count in places.items())})"
+        )
     state = COARSE if len(named) else NOT_MESHABLE if places else FINE
     ids = np.asarray(boundary.vertex_map)[named[:_LISTED]]
     return _entry(state, sentences, ids.tolist(), suggested)
@@ -58,7 +64,9 @@ def of_input(requirements: list[dict[str, Any]]) -> dict[str, Any]:
         return _entry(NO_FIELD, [f"no field: {failed['message'] or failed['requirement']}"], [], None)
     warned = [r for r in requirements if r["kind"] in ("coarse_for_curvature", "thin_walls")]
     lengths = [float(r["remedy"].split()[1]) for r in warned if r["remedy"].startswith("--edge-length ")]
-    sentences = [f"coarse is to be expected: {r['message']}" + (f"; {r['remedy']}" if r["remedy"] else "") for r in warned]
+    sentences = [
+        f"coarse is to be expected: {r['message']}" + (f"; {r['remedy']}" if r["remedy"] else "") for r in warned
+    ]
     return _entry(COARSE if warned else FINE, sentences, [], min(lengths, default=None))
 
 
@@ -67,8 +75,12 @@ def smooth_turns(points: np.ndarray, triangles: np.ndarray, features: np.ndarray
     p = points[triangles]
     normals = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1).astype(np.int64)
-    key, feature_key = (e[:, 0] * len(points) + e[:, 1] for e in (sides, np.sort(features.reshape(-1, 2), axis=1).astype(np.int64)))
+    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1).astype(
+        np.int64
+    )
+    key, feature_key = (
+        e[:, 0] * len(points) + e[:, 1] for e in (sides, np.sort(features.reshape(-1, 2), axis=1).astype(np.int64))
+    )
     order = np.argsort(key, kind="stable")
     first = np.flatnonzero(key[order][1:] == key[order][:-1])
     first = first[~np.isin(key[order[first]], feature_key)]
@@ -78,7 +90,8 @@ def smooth_turns(points: np.ndarray, triangles: np.ndarray, features: np.ndarray
 
 
 def _length_for(points: np.ndarray, edges: np.ndarray, turns: np.ndarray, vertices: np.ndarray) -> float:
-    """With which smooth faces would turn by half of BENT at an edge where they turn most now (a tenth of the edges there may turn more)."""
+    """With which smooth faces would turn by half of BENT at an edge where they turn most now (a tenth of the edges
+    there may turn more)."""
     length = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
     there = np.isin(edges, vertices).any(axis=1)
     if not there.any():

@@ -12,7 +12,8 @@ _FORECAST_EVERY = 2.0  # seconds
 
 
 class Whole:
-    """Groups of runs on one mesh each, one after the other. methods: of the runs of a group, in their order; equal where they cost alike."""
+    """Groups of runs on one mesh each, one after the other. methods: of the runs of a group, in their order; equal
+    where they cost alike."""
 
     def __init__(self, progress: Progress | None, groups: int, methods: Sequence[str]):
         self._progress, self._forecast, self._steady = progress, Forecast(Costs()), Steady()
@@ -51,5 +52,9 @@ class Whole:
         now = time.monotonic()
         if now - self._at >= _FORECAST_EVERY:
             self._left, self._at = self._forecast.left(now), now
-        left = "" if self._left is None or self._done == self._total else f", {words(self._steady.follow(self._left, now))}"
+        left = (
+            ""
+            if self._left is None or self._done == self._total
+            else f", {words(self._steady.follow(self._left, now))}"
+        )
         return progress(f"{self._done} of {self._total}{left}: {what}", self._done / self._total, merit)

@@ -16,13 +16,22 @@ def when() -> str:
 
 
 def machine() -> str:
-    model = next((line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")), platform.machine())
+    model = next(
+        (
+            line.split(":")[1].strip()
+            for line in Path("/proc/cpuinfo").read_text().splitlines()
+            if line.startswith("model name")
+        ),
+        platform.machine(),
+    )
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
     return f"{len(os.sched_getaffinity(0))} cores of {model}, {memory:.0f} GiB"
 
 
 def commit() -> str:
-    found = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=Path(__file__).parent, capture_output=True, text=True)
+    found = subprocess.run(
+        ["git", "describe", "--always", "--dirty"], cwd=Path(__file__).parent, capture_output=True, text=True
+    )
     return found.stdout.strip() or "unknown"
 
 
@@ -31,5 +40,7 @@ def page(template: str, folder: Path) -> str:
     lines = []
     for line in template.splitlines():
         path = folder / line.removeprefix("<< ")
-        lines.append(line if not line.startswith("<< ") else path.read_text().rstrip("\n") if path.is_file() else "(not run)")
+        lines.append(
+            line if not line.startswith("<< ") else path.read_text().rstrip("\n") if path.is_file() else "(not run)"
+        )
     return "\n".join(lines) + "\n"

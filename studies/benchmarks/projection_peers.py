@@ -3,19 +3,19 @@
     pip install mouette==1.2.8      # not a dependency of octafield
     python studies/benchmarks/projection_peers.py [--count 2000] [--seed 1]
 
-Both get the same random directions in R^9 and the same frames with noise of 0.17, on one thread; seconds are CPU seconds of this
-process. mouette starts from the nearest of five fixed frames and is written in Python; octafield is called once per vector (as mouette
-must be) and once for all. "farther" counts mouette's frames that are farther from the input than octafield's by more than 1e-6.
+Both get the same random directions in R^9 and the same frames with noise of 0.17, on one thread; seconds are CPU
+seconds of this process. mouette starts from the nearest of five fixed frames and is written in Python; octafield is
+called once per vector (as mouette must be) and once for all. "farther" counts mouette's frames that are farther from
+the input than octafield's by more than 1e-6.
 """
 
 import argparse
 import time
 
 import numpy as np
+import octafield
 from mouette.geometry.SphericalHarmonics import project_to_frame
 from mouette.geometry.vector import Vec
-
-import octafield
 
 
 def rate(function, count: int) -> float:
@@ -33,7 +33,10 @@ def main() -> None:
     directions = generator.normal(size=(arguments.count, 9))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
     near = octafield.sh4_embed(octafield.random_rotations(arguments.count, seed=arguments.seed)) + 0.17 * directions
-    print(f"{'input':>18} {'mouette/s':>10} {'octafield/s, each':>18} {'octafield/s, batch':>19} {'ratio, batch':>13} {'farther':>8}")
+    print(
+        f"{'input':>18} {'mouette/s':>10} {'octafield/s, each':>18} {'octafield/s, batch':>19} {'ratio, batch':>13}"
+        f" {'farther':>8}"
+    )
     for name, v in (("random direction", directions), ("frame and noise", near)):
         theirs = []
         peer = rate(lambda: theirs.extend(project_to_frame(Vec(row))[1] for row in v), len(v))

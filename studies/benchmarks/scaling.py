@@ -2,9 +2,10 @@
 
     python -m studies.benchmarks.scaling -o DIR [--tets 10000,50000,200000,800000] [--runs 10000] [--part memory] ...
 
-Generated balls (and one box), remeshed and filled, each run in a process of its own, one thread. Memory: peak of all of its processes
-together, the mesher's included, less that of a process which has loaded everything and computed nothing. Representations minimised by
-Ceres are stopped after three steps above 300,000 tets: that is when their memory is at its peak. DIR gets scaling.md and the tables in it.
+Generated balls (and one box), remeshed and filled, each run in a process of its own, one thread. Memory: peak of all of
+its processes together, the mesher's included, less that of a process which has loaded everything and computed nothing.
+Representations minimised by Ceres are stopped after three steps above 300,000 tets: that is when their memory is at its
+peak. DIR gets scaling.md and the tables in it.
 """
 
 import argparse
@@ -22,14 +23,13 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 import numpy as np
-from study_output import markdown_table
-
 from octafield import study
 from octafield.options import FieldOptions
 from octafield.phases import PeakMemory
 from octafield.study.child import Child
 from octafield.study.generators import generate
 from octafield.study.memory import needed_mb
+from study_output import markdown_table
 
 from .pages import page, when
 
@@ -74,14 +74,22 @@ def measured_run(body: str, tets: int, representation: str) -> dict:
         step("write", lambda: results.write_field_result(result, Path(folder)))
         sizes = {path.name: path.stat().st_size for path in Path(folder).iterdir()}
     r = result.record
-    return {"peaks": peaks, "vertices": r["vertices"], "tets": r["tets"], "cpu": r["cpu_seconds"], "whole": not steps, "disk": sizes}
+    return {
+        "peaks": peaks,
+        "vertices": r["vertices"],
+        "tets": r["tets"],
+        "cpu": r["cpu_seconds"],
+        "whole": not steps,
+        "disk": sizes,
+    }
 
 
 # What watches it.
 
 
 class Watched:
-    """Megabytes of a process and those it starts, by step: where a mesher runs, the sum of the shares of memory (Pss) of all."""
+    """Megabytes of a process and those it starts, by step: where a mesher runs, the sum of the shares of memory (Pss)
+    of all."""
 
     def __init__(self, process: subprocess.Popen):
         self.process, self.step, self.peaks = process, "", {}
@@ -171,17 +179,23 @@ def memory_part(folder: Path, sizes: list[int]) -> None:
 def write_memory(folder: Path, found: list[Measured]) -> None:
     rows = []
     for m in found:
-        (run,) = study.plan(study.parse(f"{{name: x, inputs: [{{generator: ball}}], runs: {{representation: {m.representation}}}}}"))
+        (run,) = study.plan(
+            study.parse(f"{{name: x, inputs: [{{generator: ball}}], runs: {{representation: {m.representation}}}}}")
+        )
         megabytes = (m.mesh_mb, m.surface_mb, m.run_mb, m.start_mb + m.peak_mb, needed_mb(m.tets, [run]))
         seconds = (f"{m.prepare_s:.2f}", "-" if m.run_s is None else f"{m.run_s:.2f}")
-        rows.append((m.body, m.representation, f"{m.vertices:,}", f"{m.tets:,}", *(f"{mb:,.0f}" for mb in megabytes), *seconds))
+        rows.append(
+            (m.body, m.representation, f"{m.vertices:,}", f"{m.tets:,}", *(f"{mb:,.0f}" for mb in megabytes), *seconds)
+        )
     (folder / "memory.md").write_text(markdown_table(HEADER, rows))
     balls = [m for m in found if m.body == "ball"]
     if len({m.tets for m in balls}) > 1:
         write_fit(folder, balls)
     write_disk(folder, [m for m in balls if m.representation == "sh4"])
     start = max(m.start_mb for m in found)
-    (folder / "start.md").write_text(f"A process that has loaded everything and computed nothing of size: {start:.0f} MB.\n")
+    (folder / "start.md").write_text(
+        f"A process that has loaded everything and computed nothing of size: {start:.0f} MB.\n"
+    )
 
 
 def write_fit(folder: Path, balls: list[Measured]) -> None:
@@ -193,9 +207,16 @@ def write_fit(folder: Path, balls: list[Measured]) -> None:
         timed = [m for m in of if seconds(m) is not None]
         largest = max(timed, key=lambda m: m.tets)
         rates[name] = 1e6 * seconds(largest) / largest.tets
-        rows.append((name, f"{mb * ratio:,.0f}", f"{mb:,.0f}", f"{1e3 / mb:.1f}", f"{rates[name]:.0f} (at {largest.tets:,})"))
+        rows.append(
+            (name, f"{mb * ratio:,.0f}", f"{mb:,.0f}", f"{1e3 / mb:.1f}", f"{rates[name]:.0f} (at {largest.tets:,})")
+        )
 
-    add("reading, meshing, cross field", per_tet(balls, lambda m: max(m.mesh_mb, m.surface_mb)), balls, lambda m: m.prepare_s)
+    add(
+        "reading, meshing, cross field",
+        per_tet(balls, lambda m: max(m.mesh_mb, m.surface_mb)),
+        balls,
+        lambda m: m.prepare_s,
+    )
     for name in REPRESENTATIONS:
         of = [m for m in balls if m.representation == name]
         if len(of) > 1:
@@ -204,11 +225,15 @@ def write_fit(folder: Path, balls: list[Measured]) -> None:
     write_hours(folder, rates)
 
 
-def write_hours(folder: Path, rates: dict[str, float], meshes: int = 10_000, millions: float = 0.1, cores: int = 64) -> None:
+def write_hours(
+    folder: Path, rates: dict[str, float], meshes: int = 10_000, millions: float = 0.1, cores: int = 64
+) -> None:
     """Of a sweep with one run on each mesh, and with all."""
     prepare, *fields = rates.values()
     hours = lambda *of: f"{meshes * (1 + millions * (prepare + sum(of))) / 3600 / cores:.1f}"
-    rows = [(name.removeprefix("field by "), hours(rate)) for name, rate in list(rates.items())[1:]] + [("all of them", hours(*fields))]
+    rows = [(name.removeprefix("field by "), hours(rate)) for name, rate in list(rates.items())[1:]] + [
+        ("all of them", hours(*fields))
+    ]
     (folder / "hours.md").write_text(markdown_table(["representation", "hours"], rows))
 
 
@@ -224,7 +249,9 @@ def write_disk(folder: Path, balls: list[Measured]) -> None:
 
 def store_part(folder: Path, runs: int) -> None:
     """A study of `runs` finished runs on files of 100 kB, all with the record of one real run."""
-    text = "name: many\ninputs: ['*.stl']\nruns: {representation: [sh4, sh469, geodesic, su2_midpoint]}\nfields: false\n"
+    text = (
+        "name: many\ninputs: ['*.stl']\nruns: {representation: [sh4, sh469, geodesic, su2_midpoint]}\nfields: false\n"
+    )
     rows = []
 
     def timed(name: str, work):
@@ -253,7 +280,10 @@ def store_part(folder: Path, runs: int) -> None:
         timed("rows as a pandas table", lambda: __import__("octafield").to_pandas(study.rows(out)))
         rows.append(("start of a process, until it reads its input", f"{seconds_to_start(out, planned):.2f}"))
     (folder / "store.md").write_text(markdown_table(["what", "seconds"], rows))
-    told = f"{len(planned):,} runs: runs.sqlite {size / 1e6:.0f} MB, the runs' folders without fields {disk / 1e6:.0f} MB in {2 * len(planned):,} files."
+    told = (
+        f"{len(planned):,} runs: runs.sqlite {size / 1e6:.0f} MB, the runs' folders without fields {disk / 1e6:.0f} MB"
+        f" in {2 * len(planned):,} files."
+    )
     (folder / "sizes.md").write_text(told + "\n")
     print(told)
 
@@ -269,7 +299,15 @@ def pretend_finished(described, planned, out: Path) -> None:
     for run in planned:
         made = out / "runs" / run.key
         made.mkdir()
-        identity = {"key": run.key, "input": run.name, "repeat": 0, "state": "done", "message": "", "began": now, "ended": now + 1}
+        identity = {
+            "key": run.key,
+            "input": run.name,
+            "repeat": 0,
+            "state": "done",
+            "message": "",
+            "began": now,
+            "ended": now + 1,
+        }
         (made / RECORD_FILE).write_text(json.dumps({**record, **identity}, indent=1))
         (made / LOG_FILE).write_text("converged\n")
 

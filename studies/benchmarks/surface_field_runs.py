@@ -1,4 +1,5 @@
-"""One cross field of surface_fields.py, in a process of its own: METHOD MESH.npz RESULT.npz. Needs only numpy and the package of the method."""
+"""One cross field of surface_fields.py, in a process of its own: METHOD MESH.npz RESULT.npz. Needs only numpy and the
+package of the method."""
 
 import json
 import os
@@ -98,15 +99,20 @@ class GmshLog:
 
 
 def gmsh_field(data) -> tuple[dict, np.ndarray]:
-    """Its quad mesher's cross field (Mesh.Algorithm 11), computed on the given triangles as a discrete surface. A closed one without features gets
-    one edge to follow, without which that solver fails."""
+    """Its quad mesher's cross field (Mesh.Algorithm 11), computed on the given triangles as a discrete surface. A
+    closed one without features gets one edge to follow, without which that solver fails."""
     import gmsh
 
     points, triangles = data["vertices"], data["triangles"]
     log = GmshLog()
     gmsh.initialize(interruptible=False)
-    for option, value in (("General.Terminal", 1), ("General.Verbosity", 5), ("General.NumThreads", 1), ("Mesh.Algorithm", 11),
-                          ("Mesh.QuadqsTopologyOptimizationMethods", 1000)):  # 1000: none of them
+    for option, value in (
+        ("General.Terminal", 1),
+        ("General.Verbosity", 5),
+        ("General.NumThreads", 1),
+        ("Mesh.Algorithm", 11),
+        ("Mesh.QuadqsTopologyOptimizationMethods", 1000),
+    ):  # 1000: none of them
         gmsh.option.setNumber(option, value)
     held = [] if len(data["features"]) else [int(v) for v in triangles[0, :2] + 1]
     curves = [gmsh_edge(held, points)] if held else []
@@ -116,7 +122,9 @@ def gmsh_field(data) -> tuple[dict, np.ndarray]:
     gmsh.model.mesh.addElementsByType(face, 2, [], (triangles + 1).ravel())
     if not held:
         gmsh.model.mesh.classifySurfaces(40 * np.pi / 180, True, False, np.pi)
-    gmsh.option.setNumber("Mesh.MeshSizeMin", float(np.linalg.norm(points[triangles[:, 0]] - points[triangles[:, 1]], axis=1).mean()))
+    gmsh.option.setNumber(
+        "Mesh.MeshSizeMin", float(np.linalg.norm(points[triangles[:, 0]] - points[triangles[:, 1]], axis=1).mean())
+    )
     gmsh.model.mesh.generate(2)
     kinds, _, values = gmsh.view.getListData(gmsh.view.getTags()[0])
     found = dict(zip(kinds, values))

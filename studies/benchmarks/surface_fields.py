@@ -1,15 +1,18 @@
-"""Cross fields on the same meshes: CPU seconds, peak memory, singular points and a common Dirichlet energy of our methods and, if asked, of Gmsh and mouette.
+"""Cross fields on the same meshes: CPU seconds, peak memory, singular points and a common Dirichlet energy of our
+methods and, if asked, of Gmsh and mouette.
 
     pip install gmsh==4.15.2 mouette==1.2.8      # for --peers; not dependencies of octafield
     python studies/benchmarks/surface_fields.py -o DIR [--sizes 3000,20000,100000] [--large] [--peers] [--part FILE]
 
-Surfaces: unit disk, unit sphere, torus (1, 0.4), and a part with sharp edges, aligned with its features (angle 40 degrees), where --part names its mesh.
-Every run is a process of its own (surface_field_runs.py); seconds are CPU seconds of the field alone, memory is the peak of the process. --large adds
-a million triangles without the peers. "eps h/2": a coherence length of half a mean edge instead of the default of two. --gmsh-python and --mouette-python name interpreters in which the peers are installed, if not this one.
+Surfaces: unit disk, unit sphere, torus (1, 0.4), and a part with sharp edges, aligned with its features (angle 40
+    degrees), where --part names its mesh. Every run is a process of its own (surface_field_runs.py); seconds are CPU
+    seconds of the field alone, memory is the peak of the process. --large adds a million triangles without the peers.
+    "eps h/2": a coherence length of half a mean edge instead of the default of two. --gmsh-python and --mouette-python
+    name interpreters in which the peers are installed, if not this one.
 
-Energy: every method gives one direction per triangle; edges get the mean of exp(4 i theta) of their triangles at length 1, and the energy is
-(1/2) int |grad|^2 of what is linear in between (Crouzeix, Raviart). The cost of singular points grows with the mesh, by pi |log h| each, alike for
-all methods: compare within one mesh only.
+Energy: every method gives one direction per triangle; edges get the mean of exp(4 i theta) of their triangles at length
+    1, and the energy is (1/2) int |grad|^2 of what is linear in between (Crouzeix, Raviart). The cost of singular
+    points grows with the mesh, by pi |log h| each, alike for all methods: compare within one mesh only.
 """
 
 import argparse
@@ -24,13 +27,16 @@ import numpy as np
 STUDIES = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(STUDIES))
 
+import octafield  # noqa: E402
 import surface_meshes  # noqa: E402
 from study_output import markdown_table  # noqa: E402
 
-import octafield  # noqa: E402
-
-OURS = {"octafield mbo": "mbo", "octafield ginzburg_landau": "ginzburg_landau",
-        "octafield ginzburg_landau, eps h/2": "ginzburg_landau fine", "octafield eigenvector": "eigenvector"}
+OURS = {
+    "octafield mbo": "mbo",
+    "octafield ginzburg_landau": "ginzburg_landau",
+    "octafield ginzburg_landau, eps h/2": "ginzburg_landau fine",
+    "octafield eigenvector": "eigenvector",
+}
 HELD = "octafield mbo, one edge held"  # as Gmsh needs on closed surfaces without features
 PEERS = ("gmsh", "mouette")
 LARGEST_MESHED = 110_000  # finer disks and parts are split
@@ -95,7 +101,13 @@ def common_energy(mesh: octafield.TriangleMesh, features: octafield.FeatureGraph
 def run(method: str, mesh_file: Path, folder: Path, python: str, timeout: float) -> tuple[dict, np.ndarray | None]:
     result = folder / "field.npz"
     result.unlink(missing_ok=True)
-    command = [python, Path(__file__).with_name("surface_field_runs.py"), OURS.get(method, "mbo held" if method == HELD else method), mesh_file, result]
+    command = [
+        python,
+        Path(__file__).with_name("surface_field_runs.py"),
+        OURS.get(method, "mbo held" if method == HELD else method),
+        mesh_file,
+        result,
+    ]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=timeout)
     except subprocess.TimeoutExpired:
@@ -117,7 +129,9 @@ def main() -> None:
     parser.add_argument("--sizes", default="3000,20000,100000")
     parser.add_argument("--large", action="store_true")
     parser.add_argument("--peers", action="store_true")
-    parser.add_argument("--part", type=Path, help="surface mesh of a part with sharp edges; without it there is none in the table")
+    parser.add_argument(
+        "--part", type=Path, help="surface mesh of a part with sharp edges; without it there is none in the table"
+    )
     parser.add_argument("--gmsh-python", default=sys.executable)
     parser.add_argument("--mouette-python", default=sys.executable)
     parser.add_argument("--timeout", type=float, default=600, help="seconds per run")
@@ -143,11 +157,27 @@ def main() -> None:
                     continue
                 with tempfile.TemporaryDirectory() as folder:
                     file = Path(folder) / "mesh.npz"
-                    np.savez(file, vertices=mesh.vertices, triangles=mesh.triangles, features=features.edges, corners=features.corners)
+                    np.savez(
+                        file,
+                        vertices=mesh.vertices,
+                        triangles=mesh.triangles,
+                        features=features.edges,
+                        corners=features.corners,
+                    )
                     record, directions = run(method, file, Path(folder), python, arguments.timeout)
                 energy = "-" if directions is None else f"{common_energy(mesh, features, directions):.2f}"
-                rows.append((name, f"{len(mesh.triangles):,}", method, record.get("seconds", "-"), record.get("megabytes", "-"), record.get("points", "-"),
-                             energy, record.get("note", "")))
+                rows.append(
+                    (
+                        name,
+                        f"{len(mesh.triangles):,}",
+                        method,
+                        record.get("seconds", "-"),
+                        record.get("megabytes", "-"),
+                        record.get("points", "-"),
+                        energy,
+                        record.get("note", ""),
+                    )
+                )
                 print(*rows[-1], flush=True)
                 (arguments.output / "summary.md").write_text(markdown_table(header, rows))
     print(markdown_table(header, rows))

@@ -1,9 +1,11 @@
-"""The flagship study: every representation and metric, solver, start and boundary mode, on generated bodies and on HexMe.
+"""The flagship study: every representation and metric, solver, start and boundary mode, on generated bodies and on
+HexMe.
 
     python -m studies.flagship -o DIR [--part generators] [--jobs N]
 
-DIR gets a folder per part, with its report, pictures/ (the first figure of each) and flagship.md: conclusions whose numbers are filled in from the runs. Killed at any moment, it
-goes on when called again. HexMe is taken from ../shared/data/hexme; without it that part, and the page, are left out.
+DIR gets a folder per part, with its report, pictures/ (the first figure of each) and flagship.md: conclusions whose
+numbers are filled in from the runs. Killed at any moment, it goes on when called again. HexMe is taken from
+../shared/data/hexme; without it that part, and the page, are left out.
 """
 
 import argparse

@@ -4,7 +4,6 @@ from collections.abc import Iterable
 
 import numpy as np
 import pandas
-
 from octafield.options import COMPARED
 
 NO_ENERGY = 1e-9  # below it a field is constant but for rounding
@@ -13,8 +12,8 @@ COUNTS = ("singular edges", "complex edges", "non-meshable vertices")
 
 
 def frame_of(rows: Iterable[dict]) -> pandas.DataFrame:
-    """One line per finished run. over best: energy over the lowest on the same input with the same boundary mode, any method; nan where
-    the field is constant."""
+    """One line per finished run. over best: energy over the lowest on the same input with the same boundary mode, any
+    method; nan where the field is constant."""
     table = pandas.DataFrame(
         {
             "input": r["input"],
@@ -43,9 +42,18 @@ def geometric_mean(values: pandas.Series) -> float:
 
 
 def by_method(table: pandas.DataFrame, keys: list[str]) -> pandas.DataFrame:
-    """Geometric mean of `over best`, sums of counts and seconds, per combination of the keys; seconds also over those of the first line."""
+    """Geometric mean of `over best`, sums of counts and seconds, per combination of the keys; seconds also over those
+    of the first line."""
     groups = table.groupby(keys, sort=False)
-    result = groups.agg({"input": "size", "over best": geometric_mean, **dict.fromkeys(COUNTS, "sum"), "converged": "mean", "CPU s": "sum"})
+    result = groups.agg(
+        {
+            "input": "size",
+            "over best": geometric_mean,
+            **dict.fromkeys(COUNTS, "sum"),
+            "converged": "mean",
+            "CPU s": "sum",
+        }
+    )
     return result.rename(columns={"input": "fields"})
 
 
@@ -54,7 +62,10 @@ def markdown(table: pandas.DataFrame) -> str:
     form = {"over best": "{:.4f}", "converged": "{:.0%}", "CPU s": "{:.1f}"}
     flat = table.reset_index()
     lines = [list(flat.columns), ["---"] * len(flat.columns)]
-    lines += [["\N{EN DASH}" if v != v else form.get(c, "{}").format(v) for c, v in zip(flat.columns, row, strict=True)] for row in flat.itertuples(index=False)]
+    lines += [
+        ["\N{EN DASH}" if v != v else form.get(c, "{}").format(v) for c, v in zip(flat.columns, row, strict=True)]
+        for row in flat.itertuples(index=False)
+    ]
     return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines).rstrip()
 
 

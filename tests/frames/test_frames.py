@@ -1,11 +1,10 @@
 """Batch functions on frames, against scipy and brute force."""
 
 import numpy as np
+import octafield as of
 import pytest
 from scipy.spatial.transform import Rotation
 from scipy.special import sph_harm_y
-
-import octafield as of
 
 WXYZ = [3, 0, 1, 2]  # scipy stores x y z w
 LARGE = 3000  # rows enough for several threads and the interruptible path
@@ -20,8 +19,15 @@ def multiply(a, b):
     """Quaternion products, w x y z, broadcast over rows."""
     aw, ax, ay, az = np.moveaxis(np.asarray(a), -1, 0)
     bw, bx, by, bz = np.moveaxis(np.asarray(b), -1, 0)
-    return np.stack([aw * bw - ax * bx - ay * by - az * bz, aw * bx + ax * bw + ay * bz - az * by,
-                     aw * by - ax * bz + ay * bw + az * bx, aw * bz + ax * by - ay * bx + az * bw], axis=-1)
+    return np.stack(
+        [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+        ],
+        axis=-1,
+    )
 
 
 def cube_rotations():
@@ -37,8 +43,12 @@ def real_harmonics_4(direction):
     x, y, z = direction
     theta, phi = np.arccos(np.clip(z, -1, 1)), np.arctan2(y, x)
     complex_ = [sph_harm_y(4, abs(m), theta, phi) for m in range(-4, 5)]
-    return np.array([c.real if m == 0 else np.sqrt(2) * (-1) ** m * (c.imag if m < 0 else c.real)
-                     for m, c in zip(range(-4, 5), complex_)])
+    return np.array(
+        [
+            c.real if m == 0 else np.sqrt(2) * (-1) ** m * (c.imag if m < 0 else c.real)
+            for m, c in zip(range(-4, 5), complex_)
+        ]
+    )
 
 
 def test_rotation_matrices_agree_with_scipy(q):
@@ -103,7 +113,9 @@ def test_matching_brings_the_frames_closest(q):
 def test_closest_representative_is_the_same_frame_near_the_reference(q):
     result = of.closest_representative(q, q[::-1])
     assert (np.sum(result * q[::-1], axis=1) > 0).all()
-    np.testing.assert_allclose(2 * np.arccos(np.minimum(np.sum(result * q[::-1], axis=1), 1)), of.distance(q, q[::-1]), atol=1e-7)
+    np.testing.assert_allclose(
+        2 * np.arccos(np.minimum(np.sum(result * q[::-1], axis=1), 1)), of.distance(q, q[::-1]), atol=1e-7
+    )
     np.testing.assert_allclose(of.distance(result, q), 0, atol=1e-7)
 
 
@@ -163,11 +175,19 @@ def test_a_single_frame_goes_with_every_row_of_the_other(q):
     np.testing.assert_array_equal(of.matching(q, q[0]), of.matching(q, np.repeat(q[:1], len(q), axis=0)))
 
 
-@pytest.mark.parametrize("call", [
-    lambda q, t: of.sh4_embed(q, threads=t), lambda q, t: of.sh4_differential(q, threads=t),
-    lambda q, t: np.column_stack(of.sh4_project(of.sh4_embed(q) + 0.1, threads=t)), lambda q, t: of.distance(q, q[::-1], threads=t),
-    lambda q, t: of.matching(q, q[::-1], threads=t), lambda q, t: of.closest_representative(q, q[::-1], threads=t),
-    lambda q, t: of.quaternion_log(q, threads=t), lambda q, t: of.rotation_matrices(q, threads=t)])
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda q, t: of.sh4_embed(q, threads=t),
+        lambda q, t: of.sh4_differential(q, threads=t),
+        lambda q, t: np.column_stack(of.sh4_project(of.sh4_embed(q) + 0.1, threads=t)),
+        lambda q, t: of.distance(q, q[::-1], threads=t),
+        lambda q, t: of.matching(q, q[::-1], threads=t),
+        lambda q, t: of.closest_representative(q, q[::-1], threads=t),
+        lambda q, t: of.quaternion_log(q, threads=t),
+        lambda q, t: of.rotation_matrices(q, threads=t),
+    ],
+)
 def test_results_have_the_same_bits_at_any_thread_count(q, call):
     assert call(q, 1).tobytes() == call(q, 2).tobytes() == call(q, 7).tobytes()
 
@@ -190,17 +210,36 @@ def test_the_first_row_that_is_not_unit_is_named(q):
     assert caught.value.kind == "not_unit" and caught.value.elements == [17]
 
 
-@pytest.mark.parametrize("call", [
-    lambda: of.sh4_embed(np.ones((3, 3))), lambda: of.sh4_embed(np.ones(5)), lambda: of.sh4_embed(np.ones((2, 2, 4))),
-    lambda: of.sh4_embed(1.0), lambda: of.sh4_embed("word"), lambda: of.sh4_embed(None), lambda: of.sh4_embed([[1, 0], [1]]),
-    lambda: of.sh4_embed(np.array([1j, 0, 0, 0])), lambda: of.sh4_embed([np.nan, 0, 0, 0]),
-    lambda: of.sh4_embed([1, 0, 0, 0], threads=-1), lambda: of.sh4_differential(np.ones((3, 9))),
-    lambda: of.sh4_project(np.ones((2, 4))), lambda: of.sh4_project(np.full(9, np.inf)),
-    lambda: of.sh4_project(np.ones((2, 9)), np.eye(4)[[0, 0, 0]]), lambda: of.sh4_project(np.ones(9), [2, 0, 0, 0]),
-    lambda: of.distance(np.eye(4)[:2], np.eye(4)[:3]), lambda: of.matching([1, 0, 0, 0], [1, 0, 0]),
-    lambda: of.closest_representative([1, 0, 0, 0], [0, 0, 0, 0]), lambda: of.quaternion_exp([1, 2]),
-    lambda: of.quaternion_exp([np.nan, 0, 0]), lambda: of.quaternion_log([1, 1, 1, 1]), lambda: of.rotation_matrices(np.ones((4, 3))),
-    lambda: of.random_rotations(-1), lambda: of.frame_from_axes([1, 0, 0], [0, 0, 0]), lambda: of.frame_from_axes([1, 0], [0, 0, 1])])
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: of.sh4_embed(np.ones((3, 3))),
+        lambda: of.sh4_embed(np.ones(5)),
+        lambda: of.sh4_embed(np.ones((2, 2, 4))),
+        lambda: of.sh4_embed(1.0),
+        lambda: of.sh4_embed("word"),
+        lambda: of.sh4_embed(None),
+        lambda: of.sh4_embed([[1, 0], [1]]),
+        lambda: of.sh4_embed(np.array([1j, 0, 0, 0])),
+        lambda: of.sh4_embed([np.nan, 0, 0, 0]),
+        lambda: of.sh4_embed([1, 0, 0, 0], threads=-1),
+        lambda: of.sh4_differential(np.ones((3, 9))),
+        lambda: of.sh4_project(np.ones((2, 4))),
+        lambda: of.sh4_project(np.full(9, np.inf)),
+        lambda: of.sh4_project(np.ones((2, 9)), np.eye(4)[[0, 0, 0]]),
+        lambda: of.sh4_project(np.ones(9), [2, 0, 0, 0]),
+        lambda: of.distance(np.eye(4)[:2], np.eye(4)[:3]),
+        lambda: of.matching([1, 0, 0, 0], [1, 0, 0]),
+        lambda: of.closest_representative([1, 0, 0, 0], [0, 0, 0, 0]),
+        lambda: of.quaternion_exp([1, 2]),
+        lambda: of.quaternion_exp([np.nan, 0, 0]),
+        lambda: of.quaternion_log([1, 1, 1, 1]),
+        lambda: of.rotation_matrices(np.ones((4, 3))),
+        lambda: of.random_rotations(-1),
+        lambda: of.frame_from_axes([1, 0, 0], [0, 0, 0]),
+        lambda: of.frame_from_axes([1, 0], [0, 0, 1]),
+    ],
+)
 def test_wrong_input_is_refused(call):
     with pytest.raises(of.InvalidInput):
         call()

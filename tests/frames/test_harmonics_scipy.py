@@ -1,8 +1,8 @@
 """Harmonics and the embeddings built from them, against scipy.special.sph_harm_y and numpy.
 
-Conventions. scipy's Y_l^m(theta, phi), theta the polar angle from +z and phi the azimuth, is complex, orthonormal on the
-sphere, and has the Condon-Shortley phase (-1)^m. Ours are real, orthonormal and without that phase, so that Y_{1,1} is
-a positive multiple of x:
+Conventions. scipy's Y_l^m(theta, phi), theta the polar angle from +z and phi the azimuth, is complex, orthonormal on
+the sphere, and has the Condon-Shortley phase (-1)^m. Ours are real, orthonormal and without that phase, so that Y_{1,1}
+is a positive multiple of x:
 
     m > 0: Y_{l,m}  = sqrt(2) (-1)^m Re Y_l^m      (cosines)
     m = 0: Y_{l,0}  = Y_l^0
@@ -12,11 +12,10 @@ in the order m = -l..l. Rotations act on functions by (g f)(x) = f(R^T x), so va
 """
 
 import numpy as np
+import octafield
 import pytest
 from scipy.spatial.transform import Rotation
 from scipy.special import sph_harm_y
-
-import octafield
 
 DEGREES = [2, 4, 6, 8, 9]
 SH4_FACTOR = np.sqrt(16 * np.pi / 189)
@@ -48,7 +47,9 @@ def sphere_rule(points: int) -> tuple[np.ndarray, np.ndarray]:
     azimuth = np.arange(2 * points) * np.pi / points
     z, azimuth = (a.ravel() for a in np.meshgrid(z, azimuth, indexing="ij"))
     s = np.sqrt(1 - z * z)
-    return np.stack([s * np.cos(azimuth), s * np.sin(azimuth), z], axis=1), np.repeat(weight, 2 * points) * np.pi / points
+    return np.stack([s * np.cos(azimuth), s * np.sin(azimuth), z], axis=1), np.repeat(
+        weight, 2 * points
+    ) * np.pi / points
 
 
 @pytest.mark.parametrize("degree", DEGREES)

@@ -3,12 +3,11 @@
 import itertools
 
 import numpy as np
+import octafield as of
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-
-import octafield as of
 
 NAMES = sorted(of.representations)
 EQUIVARIANT = [name for name in NAMES if of.representations[name].rotate]
@@ -22,7 +21,12 @@ def multiply(a, b):
 
 
 coordinates = st.floats(-1, 1, allow_nan=False)
-quaternions = st.tuples(*[coordinates] * 4).map(np.array).filter(lambda q: np.linalg.norm(q) > 0.1).map(lambda q: q / np.linalg.norm(q))
+quaternions = (
+    st.tuples(*[coordinates] * 4)
+    .map(np.array)
+    .filter(lambda q: np.linalg.norm(q) > 0.1)
+    .map(lambda q: q / np.linalg.norm(q))
+)
 
 
 @pytest.fixture(scope="module")
@@ -98,8 +102,13 @@ def test_conversions_commute(one, two, three, q):
 def test_batches_have_the_bits_of_single_calls_at_any_thread_count(name, q):
     r = of.representations[name]
     v = r.embed(q) + 0.3 * np.random.default_rng(2).normal(size=(LARGE, r.dimension))
-    calls = [lambda t: r.embed(q, threads=t), lambda t: r.differential(q, threads=t), lambda t: r.hessian(q, v, threads=t),
-             lambda t: np.column_stack(r.project(v, threads=t)), lambda t: np.column_stack(r.project(v, q, threads=t))]
+    calls = [
+        lambda t: r.embed(q, threads=t),
+        lambda t: r.differential(q, threads=t),
+        lambda t: r.hessian(q, v, threads=t),
+        lambda t: np.column_stack(r.project(v, threads=t)),
+        lambda t: np.column_stack(r.project(v, q, threads=t)),
+    ]
     for call in calls:
         assert call(1).tobytes() == call(2).tobytes() == call(5).tobytes()
     frames, distances = r.project(v)
@@ -177,7 +186,9 @@ def test_projection_of_an_embedding_is_the_frame_to_rounding(q):
 
 
 def test_frame_mean_takes_many_lists_at_once(q):
-    lists = of.frame_exp(np.repeat(q[:20], 6, axis=0), 0.2 * np.random.default_rng(3).normal(size=(120, 3))).reshape(20, 6, 4)
+    lists = of.frame_exp(np.repeat(q[:20], 6, axis=0), 0.2 * np.random.default_rng(3).normal(size=(120, 3))).reshape(
+        20, 6, 4
+    )
     frames, variances, converged = of.frame_mean(lists)
     assert frames.shape == (20, 4) and variances.shape == (20,) and converged.dtype == bool and converged.all()
     logs = of.frame_log(np.repeat(frames, 6, axis=0), lists.reshape(-1, 4)).reshape(20, 6, 3)
@@ -198,7 +209,9 @@ def test_slerp_takes_one_fraction_or_one_per_row(q):
 
 def test_directions_of_any_length_will_do():
     for size in (1e-300, 1e-200, 1e155, 1e300):
-        np.testing.assert_allclose(of.harmonics_evaluate(4, np.multiply([1, 2, 3], size)), of.harmonics_evaluate(4, [1, 2, 3]), rtol=1e-12)
+        np.testing.assert_allclose(
+            of.harmonics_evaluate(4, np.multiply([1, 2, 3], size)), of.harmonics_evaluate(4, [1, 2, 3]), rtol=1e-12
+        )
         np.testing.assert_allclose(of.su2_axis_turn([size, size, 0], 0.3), of.su2_axis_turn([1, 1, 0], 0.3), atol=1e-12)
         axes = of.rotation_matrices(of.frame_from_axes([0, 0, 1], [size, -size, 0]))
         np.testing.assert_allclose(axes[:, 2], np.array([1, -1, 0]) / 2**0.5, atol=1e-15)
@@ -211,8 +224,13 @@ def test_the_row_at_fault_is_named(q):
     tensors[4] = 0
     full = of.tensor4_full(of.tensor4_embed(q[:10]))
     full[2, 0, 0, 0, 0] = np.nan
-    for call, row in [(lambda: of.su2_inverse(h), 7), (lambda: of.su2_distance(h, h[0]), 7), (lambda: of.tensor4_recover(tensors), 4),
-                      (lambda: of.tensor4_residual(full), 2), (lambda: of.slerp(q[:3], q[3:6], [0, np.nan, 1]), 1)]:
+    for call, row in [
+        (lambda: of.su2_inverse(h), 7),
+        (lambda: of.su2_distance(h, h[0]), 7),
+        (lambda: of.tensor4_recover(tensors), 4),
+        (lambda: of.tensor4_residual(full), 2),
+        (lambda: of.slerp(q[:3], q[3:6], [0, np.nan, 1]), 1),
+    ]:
         with pytest.raises(of.InvalidInput, match=f"row {row}") as caught:
             call()
         assert caught.value.elements == [row]
@@ -226,14 +244,30 @@ def test_one_guess_or_fraction_goes_with_every_row(q):
     assert of.sh469_project(of.sh469_embed(q[:3], [1, 1, 1]), weights=[1, 1, 1])[1].max() < 1e-7
 
 
-@pytest.mark.parametrize("call", [
-    lambda: of.frame_mean(np.zeros((0, 4))), lambda: of.frame_mean(np.eye(4)[:2], [1, -1]), lambda: of.frame_mean(np.eye(4)[:2], [1, 2, 3]),
-    lambda: of.frame_mean([1, 0, 0, 0]), lambda: of.slerp(np.eye(4), np.eye(4), [0, 1]), lambda: of.slerp(np.eye(4), np.eye(4), np.nan),
-    lambda: of.tensor4_residual(np.zeros((3, 3, 3))), lambda: of.tensor4_from_mandel(np.zeros((5, 5))), lambda: of.tensor4_recover(np.zeros(15)),
-    lambda: of.sh469_embed([1, 0, 0, 0], [1, -1, 0]), lambda: of.sh469_embed([1, 0, 0, 0], [0, 0, 0]), lambda: of.sh469_embed([1, 0, 0, 0], [1, 2]),
-    lambda: of.su2_inverse([0, 0, 0]), lambda: of.su2_inverse([1, 2, 3]), lambda: of.su2_axis_turn([0, 0, 0], 1.0),
-    lambda: of.su2_inverse_frame([np.nan, 0, 0]), lambda: of.odeco_embed([1, 0, 0, 0], [1, np.inf, 1]),
-    lambda: of.harmonics_evaluate(4, [0, 0, 0]), lambda: of.harmonics_rotate(4, [1, 0, 0, 0], np.ones(8))])
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: of.frame_mean(np.zeros((0, 4))),
+        lambda: of.frame_mean(np.eye(4)[:2], [1, -1]),
+        lambda: of.frame_mean(np.eye(4)[:2], [1, 2, 3]),
+        lambda: of.frame_mean([1, 0, 0, 0]),
+        lambda: of.slerp(np.eye(4), np.eye(4), [0, 1]),
+        lambda: of.slerp(np.eye(4), np.eye(4), np.nan),
+        lambda: of.tensor4_residual(np.zeros((3, 3, 3))),
+        lambda: of.tensor4_from_mandel(np.zeros((5, 5))),
+        lambda: of.tensor4_recover(np.zeros(15)),
+        lambda: of.sh469_embed([1, 0, 0, 0], [1, -1, 0]),
+        lambda: of.sh469_embed([1, 0, 0, 0], [0, 0, 0]),
+        lambda: of.sh469_embed([1, 0, 0, 0], [1, 2]),
+        lambda: of.su2_inverse([0, 0, 0]),
+        lambda: of.su2_inverse([1, 2, 3]),
+        lambda: of.su2_axis_turn([0, 0, 0], 1.0),
+        lambda: of.su2_inverse_frame([np.nan, 0, 0]),
+        lambda: of.odeco_embed([1, 0, 0, 0], [1, np.inf, 1]),
+        lambda: of.harmonics_evaluate(4, [0, 0, 0]),
+        lambda: of.harmonics_rotate(4, [1, 0, 0, 0], np.ones(8)),
+    ],
+)
 def test_wrong_input_is_refused(call):
     with pytest.raises(of.InvalidInput):
         call()

@@ -1,12 +1,12 @@
-"""Nearest sh4 frames against the semidefinite relaxation of Palmer, Bommes and Solomon (2020), an independent proof of optimality."""
+"""Nearest sh4 frames against the semidefinite relaxation of Palmer, Bommes and Solomon (2020), an independent proof of
+optimality."""
 
 import sys
 from pathlib import Path
 
 import numpy as np
-import pytest
-
 import octafield as of
+import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "studies"))
 from certified_projection import FAMILIES, Relaxation, make_inputs, values  # noqa: E402

@@ -6,7 +6,7 @@ from math import factorial
 
 import pytest
 import sympy as sp
-from su2_forms import FORMS, GENERATORS, HALF, ICOSAHEDRAL, OCTAHEDRAL, PHI, ROOT, TETRAHEDRAL, VIERER, u, v
+from su2_forms import FORMS, GENERATORS, ICOSAHEDRAL, OCTAHEDRAL, PHI, ROOT, TETRAHEDRAL, VIERER, u, v
 
 x = sp.symbols("x")
 

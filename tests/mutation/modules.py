@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Module:
-    """tests: files and tests of tests/python, as pytest names them, the quickest first; or a filter of GoogleTest. target: of ninja, for C++."""
+    """tests: files and tests of tests/python, as pytest names them, the quickest first; or a filter of GoogleTest.
+    target: of ninja, for C++."""
 
     tests: tuple[str, ...]
     target: str = ""

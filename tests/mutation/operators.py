@@ -1,4 +1,5 @@
-"""Mutants of a module: copies of its source with one small change each, by the syntax tree (Python) or by the text of a line (C++)."""
+"""Mutants of a module: copies of its source with one small change each, by the syntax tree (Python) or by the text of a
+line (C++)."""
 
 import ast
 import copy
@@ -36,8 +37,8 @@ _ARITHMETIC = {
 
 
 def python_mutants(source: str) -> list[Mutant]:
-    """Every comparison, operator, number, condition, returned value and statement changed in turn. Left alone: words, types, and the
-    texts of errors."""
+    """Every comparison, operator, number, condition, returned value and statement changed in turn. Left alone: words,
+    types, and the texts of errors."""
     tree = ast.parse(source)
     skipped = {id(inner) for node in ast.walk(tree) for part in _not_code(node) for inner in ast.walk(part)}
     mutants = []
@@ -84,7 +85,7 @@ def _changed(node: ast.AST, change: int) -> str | None:
             before = type(node.ops[change])
             node.ops[change] = _COMPARE[before]()
             return f"{before.__name__} to {type(node.ops[change]).__name__}"
-        case (ast.BinOp() | ast.AugAssign()) if change == 0 and type(node.op) in _ARITHMETIC:
+        case ast.BinOp() | ast.AugAssign() if change == 0 and type(node.op) in _ARITHMETIC:
             before = type(node.op)
             node.op = _ARITHMETIC[before]()
             return f"{before.__name__} to {type(node.op).__name__}"
@@ -97,7 +98,7 @@ def _changed(node: ast.AST, change: int) -> str | None:
         case ast.UnaryOp(op=ast.USub()) if change == 0:
             node.op = ast.UAdd()
             return "sign dropped"
-        case (ast.If() | ast.While() | ast.IfExp()) if change == 0:
+        case ast.If() | ast.While() | ast.IfExp() if change == 0:
             node.test = ast.UnaryOp(ast.Not(), node.test)
             return "condition turned round"
         case ast.Constant(value=bool()) if change == 0:
@@ -139,13 +140,18 @@ _CODE = [
 
 
 def cpp_mutants(source: str) -> list[Mutant]:
-    """Every operator, small number, word and branch of the functions' lines changed in turn. Left alone: comments, preprocessor, texts,
-    declarations of templates and loops' heads that would not end."""
+    """Every operator, small number, word and branch of the functions' lines changed in turn. Left alone: comments,
+    preprocessor, texts, declarations of templates and loops' heads that would not end."""
     lines = source.split("\n")
     mutants = []
     for number, line in enumerate(lines):
         code = line.split("//")[0]
-        if not code.strip() or code.lstrip().startswith(("#", "template", "using", "namespace")) or "throw " in code or '"' in code:
+        if (
+            not code.strip()
+            or code.lstrip().startswith(("#", "template", "using", "namespace"))
+            or "throw " in code
+            or '"' in code
+        ):
             continue
         for pattern, replacement in _CODE:
             for found in pattern.finditer(code):
@@ -153,5 +159,7 @@ def cpp_mutants(source: str) -> list[Mutant]:
                     continue
                 changed = code[: found.start()] + found.expand(replacement) + code[found.end() :]
                 text = "\n".join([*lines[:number], changed, *lines[number + 1 :]])
-                mutants.append(Mutant(number + 1, f"{found.group()} to {found.expand(replacement)}: {changed.strip()}", text))
+                mutants.append(
+                    Mutant(number + 1, f"{found.group()} to {found.expand(replacement)}: {changed.strip()}", text)
+                )
     return mutants

@@ -64,7 +64,6 @@ class PythonBench:
         finally:
             path.write_text(before)
 
-
     def _run(self, module: Module) -> None:
         """In a process that has loaded everything but octafield."""
         silence = os.open(os.devnull, os.O_WRONLY)
@@ -91,14 +90,20 @@ class CppBench:
             ["ninja", "-C", self._build, "-t", "commands", module.target], check=True, capture_output=True, text=True
         ).stdout.splitlines()
         (compile_,) = (line for line in commands if re.search(rf" -c \S*{re.escape(name)}$", line))
-        changed, made, program = self._folder / Path(name).name, self._folder / "changed.o", self._folder / module.target
+        changed, made, program = (
+            self._folder / Path(name).name,
+            self._folder / "changed.o",
+            self._folder / module.target,
+        )
         changed.write_text(source)
         words = shlex.split(compile_.replace(" -O3", " -O1").replace(" -Werror", ""))
         words = words[: words.index("-MD")] + [f"-I{(ROOT / name).parent}", "-o", str(made), "-c", str(changed)]
         if subprocess.run(words, cwd=self._build, capture_output=True).returncode:
             raise NotAProgram
         link = next(line for line in reversed(commands) if f" -o tests/{name.split('/')[0]}/{module.target} " in line)
-        link = link.split("&& ")[1].replace(f" -o tests/{name.split('/')[0]}/{module.target} ", f" {made} -o {program} ")
+        link = link.split("&& ")[1].replace(
+            f" -o tests/{name.split('/')[0]}/{module.target} ", f" {made} -o {program} "
+        )
         subprocess.run(shlex.split(link.split(" && ")[0]), cwd=self._build, check=True, capture_output=True)
         return _fails([program, f"--gtest_filter={module.tests[0]}", "--gtest_fail_fast"], self._folder, self._limit)
 
@@ -109,7 +114,10 @@ class NotAProgram(Exception):
 
 def _fails(command: list[object], folder: Path, limit: float) -> bool:
     try:
-        return subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, timeout=limit).returncode != 0
+        return (
+            subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, timeout=limit).returncode
+            != 0
+        )
     except subprocess.TimeoutExpired:
         return True
 
@@ -122,7 +130,11 @@ def check(name: str, module: Module, bench: PythonBench | CppBench, most: int, s
         raise SystemExit(f"{name}: its tests fail without any change")
     noticed, counted = 0, 0
     for mutant in mutants:
-        change = mutant.what if isinstance(bench, CppBench) else f"{mutant.what}: {original.splitlines()[mutant.line - 1].strip()}"
+        change = (
+            mutant.what
+            if isinstance(bench, CppBench)
+            else f"{mutant.what}: {original.splitlines()[mutant.line - 1].strip()}"
+        )
         reason = next((reason for part, reason in module.equivalent.items() if part in change), None)
         if reason is not None:
             continue
@@ -143,10 +155,17 @@ def main() -> None:
     parser.add_argument("modules", nargs="*", default=[*PYTHON, *CPP], help="of modules.py; all by default")
     parser.add_argument("--most", type=int, default=25, help="mutants per module, drawn by the seed (25)")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--lines", type=lambda text: {int(word) for word in text.split(",")}, default=set(), help="of the drawn ones those of these lines")
+    parser.add_argument(
+        "--lines",
+        type=lambda text: {int(word) for word in text.split(",")},
+        default=set(),
+        help="of the drawn ones those of these lines",
+    )
     parser.add_argument("--least", type=float, default=90.0, help="per cent (90)")
     parser.add_argument("--limit", type=float, default=300.0, help="seconds for the tests of one mutant (300)")
-    parser.add_argument("--build", type=Path, default=ROOT / "build" / "release", help="of ninja, with OCTAFIELD_TESTS (build/release)")
+    parser.add_argument(
+        "--build", type=Path, default=ROOT / "build" / "release", help="of ninja, with OCTAFIELD_TESTS (build/release)"
+    )
     given = parser.parse_args()
     for name in given.modules:
         if name not in {**PYTHON, **CPP}:
@@ -154,7 +173,11 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         scores = []
         for name in given.modules:
-            bench = PythonBench(Path(tempfile.mkdtemp(dir=folder)), given.limit) if name in PYTHON else CppBench(Path(folder), given.build, given.limit)
+            bench = (
+                PythonBench(Path(tempfile.mkdtemp(dir=folder)), given.limit)
+                if name in PYTHON
+                else CppBench(Path(folder), given.build, given.limit)
+            )
             scores.append(check(name, {**PYTHON, **CPP}[name], bench, given.most, given.seed, given.lines))
     sys.exit(min(scores) < given.least)
 

@@ -1,7 +1,8 @@
-"""What AlgoHex computes of a mesh with frames in its tets (SingularGraphExtractionT_impl.hh), one element at a time, from the layouts alone: against the
-HalffaceTransiton and edge_valance of a file. Shares nothing with octafield.
+"""What AlgoHex computes of a mesh with frames in its tets (SingularGraphExtractionT_impl.hh), one element at a time,
+from the layouts alone: against the HalffaceTransiton and edge_valance of a file. Shares nothing with octafield.
 
-Quaternions are w x y z here. Half-face h of cell c has a normal into c; t of h: q_c t is close to the q of the cell beyond.
+Quaternions are w x y z here. Half-face h of cell c has a normal into c; t of h: q_c t is close to the q of the cell
+beyond.
 """
 
 import itertools
@@ -10,8 +11,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 H, S = 0.5, np.sqrt(0.5)
-# TransitionQuaternionEigen.cc, in its order: identity; half turns about x, y, z; quarter turns about x, -x, y, -y, z, -z; half turns about (x,y), (y,z), (z,x),
-# (y,-x), (z,-y), (x,-z); third turns about the diagonals +++, ++-, +-+, +--, -++, -+-, --+, ---.
+# TransitionQuaternionEigen.cc, in its order: identity; half turns about x, y, z; quarter turns about x, -x, y, -y, z,
+# -z; half turns about (x,y), (y,z), (z,x), (y,-x), (z,-y), (x,-z); third turns about the diagonals +++, ++-, +-+, +--,
+# -++, -+-, --+, ---.
 TRANSITIONS = np.array(
     [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)]
     + [(S, S, 0, 0), (S, -S, 0, 0), (S, 0, S, 0), (S, 0, -S, 0), (S, 0, 0, S), (S, 0, 0, -S)]
@@ -48,7 +50,12 @@ class Mesh:
     """found: of other_readers.ovm_binary."""
 
     def __init__(self, found: dict):
-        self.points, self.edges, self.faces, self.cells = found["Vertices"], found["Edges"], found["Faces"], found["Polyhedra"]
+        self.points, self.edges, self.faces, self.cells = (
+            found["Vertices"],
+            found["Edges"],
+            found["Faces"],
+            found["Polyhedra"],
+        )
         self.frames = found["CProp", "FrameFieldQuaternions"][:, [3, 0, 1, 2]]
         self.transition = found["HFProp", "HalffaceTransiton"].ravel().tolist()
         self.valence = found["EProp", "edge_valance"].ravel().tolist()
@@ -68,7 +75,11 @@ class Mesh:
 
     def beside(self, half_face: int, edge: int) -> int:
         """The other half-face of its cell at the edge."""
-        (other,) = (h for h in self.cells[self.cell_of[half_face]].tolist() if h != half_face and edge in [e // 2 for e in self.half_edges(h)])
+        (other,) = (
+            h
+            for h in self.cells[self.cell_of[half_face]].tolist()
+            if h != half_face and edge in [e // 2 for e in self.half_edges(h)]
+        )
         return other
 
     def outward(self, half_face: int) -> np.ndarray:
@@ -93,7 +104,8 @@ def check_transitions(mesh: Mesh) -> None:
 
 
 def check_valences(mesh: Mesh) -> dict:
-    """Every edge; how many inside are regular, of quarter turns (three, too), of half turns, of whole turns, complex, and of each valence, and how many of the boundary are not 0."""
+    """Every edge; how many inside are regular, of quarter turns (three, too), of half turns, of whole turns, complex,
+    and of each valence, and how many of the boundary are not 0."""
     around, counts = mesh.around(), dict.fromkeys(("regular", "quarter", "half", "complex", "boundary"), 0)
     for edge, valence in enumerate(mesh.valence):
         here = around[2 * edge]
@@ -106,7 +118,9 @@ def check_valences(mesh: Mesh) -> dict:
         start = min(here, key=lambda h: mesh.cell_of[h ^ 1])  # AlgoHex begins where its iterator does
         cell, turn = once_round(mesh, edge, start)
         along = mesh.direction(edge) @ matrix(mesh.frames[cell]) @ TRANSITIONS[turn][1:]
-        turned = carried_round(mesh, edge, start)  # AlgoHex adds up the angles of the steps: so many quarters about the edge
+        turned = carried_round(
+            mesh, edge, start
+        )  # AlgoHex adds up the angles of the steps: so many quarters about the edge
         quarters = 4 * np.arccos(np.clip(turned[0], -1, 1)) / np.pi * np.sign(turned[1:] @ mesh.direction(edge))
         if valence == 0:
             assert turn == 0 and np.isclose(turned[0], 1)
@@ -127,8 +141,8 @@ def check_valences(mesh: Mesh) -> dict:
 
 
 def carried_round(mesh: Mesh, edge: int, start: int) -> np.ndarray:
-    """The quaternion in space by which the frame of the cell before the first half-face comes back turned: of its 48 quaternions each cell
-    takes the one nearest to that of the cell before."""
+    """The quaternion in space by which the frame of the cell before the first half-face comes back turned: of its 48
+    quaternions each cell takes the one nearest to that of the cell before."""
     first = mesh.frames[mesh.cell_of[start ^ 1]]
     here, carried = start, first
     while True:

@@ -6,11 +6,11 @@ import signal
 from pathlib import Path
 
 import numpy as np
+import octafield
 import pytest
 
-import octafield
-
-# Started in the background (nohup, &) Ctrl-C is ignored, and so it is in every child; a handler here gives children the default.
+# Started in the background (nohup, &) Ctrl-C is ignored, and so it is in every child; a handler here gives children the
+# default.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
@@ -80,7 +80,9 @@ def icosphere(levels: int) -> octafield.TriangleMesh:
     points = [p for a, b in itertools.product((-1, 1), (-golden, golden)) for p in ((0, a, b), (a, b, 0), (b, 0, a))]
     points = np.array(points) / np.hypot(1, golden)
     near = lambda i, j: abs(np.linalg.norm(points[i] - points[j]) - 2 / np.hypot(1, golden)) < 1e-9
-    triangles = [t for t in itertools.combinations(range(12), 3) if near(t[0], t[1]) and near(t[1], t[2]) and near(t[0], t[2])]
+    triangles = [
+        t for t in itertools.combinations(range(12), 3) if near(t[0], t[1]) and near(t[1], t[2]) and near(t[0], t[2])
+    ]
     triangles = np.array([t if np.linalg.det(points[list(t)]) > 0 else t[::-1] for t in triangles])
     for _ in range(levels):
         edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
@@ -89,7 +91,9 @@ def icosphere(levels: int) -> octafield.TriangleMesh:
         m = len(points) + which.reshape(3, -1)
         points = np.concatenate([points, middle / np.linalg.norm(middle, axis=1, keepdims=True)])
         a, b, c = triangles.T
-        triangles = np.concatenate([np.stack(t, axis=1) for t in ((a, m[0], m[2]), (b, m[1], m[0]), (c, m[2], m[1]), m)])
+        triangles = np.concatenate(
+            [np.stack(t, axis=1) for t in ((a, m[0], m[2]), (b, m[1], m[0]), (c, m[2], m[1]), m)]
+        )
     return octafield.TriangleMesh(points, triangles)
 
 

@@ -3,9 +3,8 @@
 from collections.abc import Callable
 
 import numpy as np
-import pyvista
-
 import octafield as of
+import pyvista
 from octafield.study.generators import generate
 
 
@@ -140,7 +139,11 @@ def crossing_tubes():
 
 def moebius():
     angle = np.linspace(0, 2 * np.pi, 40, endpoint=False)
-    rim = [[(1 + s * np.cos(a / 2)) * np.cos(a), (1 + s * np.cos(a / 2)) * np.sin(a), s * np.sin(a / 2)] for a in angle for s in (-0.3, 0.3)]
+    rim = [
+        [(1 + s * np.cos(a / 2)) * np.cos(a), (1 + s * np.cos(a / 2)) * np.sin(a), s * np.sin(a / 2)]
+        for a in angle
+        for s in (-0.3, 0.3)
+    ]
     triangles = []
     for i in range(40):
         a, b, c, d = 2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 3
@@ -163,7 +166,10 @@ def three_leaves():
 def boxes_sharing_a_face():
     """Two boxes with a wall between them, their points merged."""
     box = generate("box")
-    return of.repair(joined(box, moved(reversed_(mesh_of(np.asarray(box.vertices) * [-1, 1, 1], box.triangles)), 0, 0, 0)), level="merge").mesh
+    return of.repair(
+        joined(box, moved(reversed_(mesh_of(np.asarray(box.vertices) * [-1, 1, 1], box.triangles)), 0, 0, 0)),
+        level="merge",
+    ).mesh
 
 
 def boxes_sharing_an_edge():
@@ -176,7 +182,12 @@ ZOO: dict[str, tuple[Callable[[], of.TriangleMesh], str | None]] = {
     "soup rounded corner by corner": (shaken_soup, "merge"),
     "small hole": (lambda: without_vertices(ball(), 20), "safe"),
     "holes touching at a vertex": (pinched_holes, "safe"),
-    "turned triangles": (lambda: mesh_of(ball().vertices, np.concatenate([np.asarray(ball().triangles)[:9, ::-1], np.asarray(ball().triangles)[9:]])), "safe"),
+    "turned triangles": (
+        lambda: mesh_of(
+            ball().vertices, np.concatenate([np.asarray(ball().triangles)[:9, ::-1], np.asarray(ball().triangles)[9:]])
+        ),
+        "safe",
+    ),
     "inside out": (lambda: reversed_(ball()), "safe"),
     "repeated triangles": (repeated, "safe"),
     "fin": (fin, "safe"),

@@ -40,8 +40,9 @@ def python_of(page: Path) -> str:
 
 
 def run_page(page: Path) -> int:
-    """Runs the Python and octafield commands of a page in the current folder, in order and in one namespace; files it shows are
-    written there. Returns how many blocks ran. AssertionError: a command fails or prints something else than the page says."""
+    """Runs the Python and octafield commands of a page in the current folder, in order and in one namespace; files it
+    shows are written there. Returns how many blocks ran. AssertionError: a command fails or prints something else than
+    the page says."""
     namespace: dict = {"__name__": "__main__"}
     printed, ran = "", 0
     for block in blocks(page):
@@ -55,7 +56,9 @@ def run_page(page: Path) -> int:
             printed = "".join(_command(line, f"{page.name}:{block.line}") for line in block.text.splitlines())
             ran += 1
         elif block.title == OUTPUT:
-            assert printed == block.text, f"{page.name}:{block.line}: the page says\n{block.text}but the block before prints\n{printed}"
+            assert printed == block.text, (
+                f"{page.name}:{block.line}: the page says\n{block.text}but the block before prints\n{printed}"
+            )
     return ran
 
 

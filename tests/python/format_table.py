@@ -1,6 +1,7 @@
-"""Every format of frames, written and read back by others, and written by others and read by octafield: the table of docs/formats.md.
+"""Every format of frames, written and read back by others, and written by others and read by octafield: the table of
+docs/formats.md.
 
-    PYTHONPATH=tests/python python tests/python/format_table.py      # brings the table of the page up to date
+PYTHONPATH=tests/python python tests/python/format_table.py      # brings the table of the page up to date
 """
 
 import importlib.util
@@ -12,15 +13,18 @@ from pathlib import Path
 import algohex_reader as algohex
 import meshio
 import numpy as np
+import octafield
 import other_readers as readers
 import other_writers as writers
 import pyvista
 from scipy.spatial.transform import Rotation
 
-import octafield
-
 PAGE = Path(__file__).parents[2] / "docs" / "formats.md"
-BEGIN, FORMATS_BEGIN, END = "<!-- table of round trips -->\n", "<!-- table of formats -->\n", "<!-- end of the table -->\n"
+BEGIN, FORMATS_BEGIN, END = (
+    "<!-- table of round trips -->\n",
+    "<!-- table of formats -->\n",
+    "<!-- end of the table -->\n",
+)
 HEAVY = ("mouette",)  # readers that need not be there
 SAME = 2e-15  # radians: what 64-bit axes leave of a quaternion
 
@@ -94,13 +98,28 @@ def written(mesh: octafield.TetMesh, folder: Path) -> list[Row]:
         key = "CProp" if where == "tets" else "VProp"
         row("ovm", where, ".ovm", "independent parser", lambda p, key=key: readers.ovm_text(p)[key, "quaternion"])
         binary = "FrameFieldQuaternions" if where == "tets" else "vertex quaternion"
-        row("ovmb", where, ".ovmb", "independent parser", lambda p, key=key, binary=binary: readers.ovm_binary(p)[key, binary][:, [3, 0, 1, 2]])
+        row(
+            "ovmb",
+            where,
+            ".ovmb",
+            "independent parser",
+            lambda p, key=key, binary=binary: readers.ovm_binary(p)[key, binary][:, [3, 0, 1, 2]],
+        )
         for library, arrays in (("meshio", readers.meshio_arrays), ("VTK", readers.vtk_arrays)):
             row("vtu", where, ".vtu", library, lambda p, arrays=arrays, where=where: arrays(p, where)["quaternion"])
         row("vtp", where, ".vtp", "VTK", lambda p, where=where: readers.vtk_arrays(p, where)["quaternion"])
-        for library, views in (("Gmsh", readers.gmsh_views), ("meshio", lambda p, where=where: readers.meshio_arrays(p, where))):
+        for library, views in (
+            ("Gmsh", readers.gmsh_views),
+            ("meshio", lambda p, where=where: readers.meshio_arrays(p, where)),
+        ):
             row("msh", where, ".msh", library, lambda p, views=views: of_views(views(p)))
-        row("pos", where, ".pos", "Gmsh", lambda p: readers.columns(*(readers.gmsh_views(p)[f"frame_{a}"][:, 3:] for a in "uvw")))
+        row(
+            "pos",
+            where,
+            ".pos",
+            "Gmsh",
+            lambda p: readers.columns(*(readers.gmsh_views(p)[f"frame_{a}"][:, 3:] for a in "uvw")),
+        )
     found += [of_algohex(mesh, folder, combed) for combed in (False, True)]
     row("ff3", "tets", ".ff3", "independent parser", readers.ff3)
     row("npy", "vertices", ".npy", "numpy", np.load)
@@ -115,7 +134,13 @@ def of_algohex(mesh: octafield.TetMesh, folder: Path, combed: bool) -> Row:
     there = algohex.Mesh(readers.ovm_binary(path))
     algohex.check_transitions(there)
     assert min(algohex.check_valences(there).values()) > 0
-    return Row("ovmb, combed" if combed else "ovmb", "tets", "written", "independent parser, rules of AlgoHex", "`HalffaceTransiton`, `edge_valance`: same integers")
+    return Row(
+        "ovmb, combed" if combed else "ovmb",
+        "tets",
+        "written",
+        "independent parser, rules of AlgoHex",
+        "`HalffaceTransiton`, `edge_valance`: same integers",
+    )
 
 
 def of_views(views: dict[str, np.ndarray]) -> np.ndarray:
@@ -140,18 +165,39 @@ def read(mesh: octafield.TetMesh, folder: Path) -> list[Row]:
 
     nine = lambda frames: axes(frames).transpose(0, 2, 1).reshape(-1, 9)  # noqa: E731
     row("arff", "vertices", ".txt", "numpy.savetxt", lambda p, q: np.savetxt(p, nine(q), fmt="%.17g"))
-    row("ff3", "tets", ".ff3", "numpy.savetxt", lambda p, q: np.savetxt(p, nine(q), fmt="%.17g", header=f"9 {len(q)}", comments=""))
+    row(
+        "ff3",
+        "tets",
+        ".ff3",
+        "numpy.savetxt",
+        lambda p, q: np.savetxt(p, nine(q), fmt="%.17g", header=f"9 {len(q)}", comments=""),
+    )
     row("geogram", "tets", ".txt", "numpy.savetxt", lambda p, q: np.savetxt(p, nine(q).reshape(-1, 3), fmt="%.17g"))
-    row("qtn", "tets", ".qtn", "numpy", lambda p, q: p.write_text(" ".join(map(repr, q.ravel().tolist())) + " ") and None)
+    row(
+        "qtn",
+        "tets",
+        ".qtn",
+        "numpy",
+        lambda p, q: p.write_text(" ".join(map(repr, q.ravel().tolist())) + " ") and None,
+    )
     points, tets = np.asarray(mesh.vertices), np.asarray(mesh.tets)
     centres, parser = points[tets].mean(axis=1), "independent writer"
     row("geogram-centres", "tets", ".txt", parser, lambda p, q: writers.geogram_centres(p, centres, axes(q)))
     row("geogram-centres", "vertices", ".txt", parser, lambda p, q: writers.geogram_centres(p, points, axes(q)))
     row("fra", "tets", ".fra", parser, lambda p, q: writers.fra(p, axes(q)))
     row("bfra", "tets", ".bfra", parser, lambda p, q: writers.bfra(p, axes(q)))
-    for where, key, code, name in (("tets", "CProp", 3, "FrameFieldQuaternions"), ("vertices", "VProp", 0, "vertex quaternion")):
+    for where, key, code, name in (
+        ("tets", "CProp", 3, "FrameFieldQuaternions"),
+        ("vertices", "VProp", 0, "vertex quaternion"),
+    ):
         row("ovm", where, ".ovm", parser, lambda p, q, key=key: writers.ovm(p, points, tets, key, q))
-        row("ovmb", where, ".ovmb", parser, lambda p, q, code=code, name=name: writers.ovmb(p, points, tets, code, name, q))
+        row(
+            "ovmb",
+            where,
+            ".ovmb",
+            parser,
+            lambda p, q, code=code, name=name: writers.ovmb(p, points, tets, code, name, q),
+        )
     row("npy", "tets", ".npy", "numpy", np.save)
     row("npz", "vertices", ".npz", "numpy", lambda p, q: np.savez(p, frames=q, where="vertices"))
     row("mouette", "tets", ".frame", "mouette 1.2.8", lambda p, q: by_mouette(p, mesh, q, folder))
@@ -215,10 +261,22 @@ def table_of(found: list[Row]) -> str:
 
 
 def table_of_formats() -> str:
-    text = "| format | extension | what | frames at | read | written | holds, per frame | precision |\n" + "|---" * 8 + "|\n"
+    text = (
+        "| format | extension | what | frames at | read | written | holds, per frame | precision |\n"
+        + "|---" * 8
+        + "|\n"
+    )
     for form in octafield.frame_formats.values():
         does = ("yes" if form.read else "no", "yes" if form.write else "no")
-        cells = (form.name, " ".join(form.extensions) or "(by name)", form.title, ", ".join(form.where), *does, form.holds, form.precision)
+        cells = (
+            form.name,
+            " ".join(form.extensions) or "(by name)",
+            form.title,
+            ", ".join(form.where),
+            *does,
+            form.holds,
+            form.precision,
+        )
         text += "| " + " | ".join(cells) + " |\n"
     return text
 

@@ -1,20 +1,20 @@
-"""Every format of meshes, written and read back by others, and written by others and read by octafield: the second table of docs/formats.md."""
+"""Every format of meshes, written and read back by others, and written by others and read by octafield: the second
+table of docs/formats.md."""
 
 from collections.abc import Callable
 from pathlib import Path
 
 import meshio
 import numpy as np
+import octafield
 import other_readers as readers
 import other_writers as writers
 import pyvista
 from conftest import box_tets
+from octafield.formats.meshes import write_mesh
+from octafield.inputs import Input, from_mesh, read_input, with_regions
 from scipy.spatial import cKDTree
 from test_tet_input import cube_edges, halves
-
-import octafield
-from octafield.inputs import Input, from_mesh, read_input, with_regions
-from octafield.formats.meshes import write_mesh
 
 BEGIN = "<!-- table of mesh round trips -->\n"
 Parts = dict[str, np.ndarray]  # points, cells; of tets: regions (m,), features (k, 2)
@@ -28,7 +28,12 @@ def box() -> tuple[Input, Parts]:
     to_surface = np.full(len(tets.vertices), -1)
     to_surface[np.asarray(found.boundary.vertex_map)] = np.arange(len(found.surface.vertices))
     found.lines, found.creases = to_surface[lines].astype(np.int32), True
-    return found, {"points": np.asarray(tets.vertices), "cells": np.asarray(tets.tets), "regions": halves(tets), "features": lines}
+    return found, {
+        "points": np.asarray(tets.vertices),
+        "cells": np.asarray(tets.tets),
+        "regions": halves(tets),
+        "features": lines,
+    }
 
 
 def skin() -> Parts:
@@ -37,12 +42,16 @@ def skin() -> Parts:
 
 
 def verdict(expected: Parts, found: Parts) -> str:
-    """What is the same, in words. Points and cells have to be; formats without shared vertices are compared corner by corner."""
+    """What is the same, in words. Points and cells have to be; formats without shared vertices are compared corner by
+    corner."""
     here, there = (np.asarray(part["points"], float)[part["cells"]] for part in (expected, found))
     assert np.array_equal(_sorted(here), _sorted(there))
     far = cKDTree(expected["points"]).query(found["points"])[0].max()
     exact = far == 0 and found["points"].dtype == float
-    same = ["same points" if exact else f"points within 1e{np.ceil(np.log10(far)):.0f}", "tets" if here.shape[1] == 4 else "triangles"]
+    same = [
+        "same points" if exact else f"points within 1e{np.ceil(np.log10(far)):.0f}",
+        "tets" if here.shape[1] == 4 else "triangles",
+    ]
     if "regions" in found:
         assert np.array_equal(found["regions"], expected["regions"])
         same.append("regions")
@@ -73,7 +82,9 @@ def rows(folder: Path) -> list[tuple[str, str, str, str]]:
             path = folder / f"{other}{suffix}"
             writer(path, expected)
             ours = _ours(read_input(path))
-            result.append((suffix, "read", _NAMES[other], verdict(expected, _reordered(ours) if other == "gmsh" else ours)))
+            result.append(
+                (suffix, "read", _NAMES[other], verdict(expected, _reordered(ours) if other == "gmsh" else ours))
+            )
 
     for suffix in (".vtk", ".vtu"):
         written(suffix, found, tets, meshio=by_meshio, vtk=by_vtk)
@@ -131,7 +142,12 @@ def by_vtk(path: Path) -> Parts:
     grid = pyvista.read(path)
     kind = pyvista.CellType
     ids = np.asarray(grid.cell_data["CellEntityIds"])[grid.celltypes == kind.TETRA]
-    return {"points": np.asarray(grid.points), "cells": grid.cells_dict[kind.TETRA], "regions": ids, "features": grid.cells_dict[kind.LINE]}
+    return {
+        "points": np.asarray(grid.points),
+        "cells": grid.cells_dict[kind.TETRA],
+        "regions": ids,
+        "features": grid.cells_dict[kind.LINE],
+    }
 
 
 def by_gmsh(path: Path) -> Parts:
@@ -148,7 +164,14 @@ def by_gmsh(path: Path) -> Parts:
             regions += [int(group[0]) if len(group) else solid] * len(cells[-1])
         lines = gmsh.model.mesh.getElementsByType(1)[1].reshape(-1, 2).astype(int) - 1
     order = np.argsort(np.array(regions), kind="stable")
-    return _reordered({"points": points, "cells": np.concatenate(cells)[order], "regions": np.array(regions)[order], "features": lines})
+    return _reordered(
+        {
+            "points": points,
+            "cells": np.concatenate(cells)[order],
+            "regions": np.array(regions)[order],
+            "features": lines,
+        }
+    )
 
 
 def _reordered(parts: Parts) -> Parts:
@@ -164,7 +187,12 @@ def by_parser(path: Path) -> Parts:
     cells, volumes = readers.ovm_tets(found)
     assert (volumes > 0).all()
     features = found["Edges"][found["EProp", "AlgoHex::FeatureEdges"].ravel() > 0]
-    return {"points": found["Vertices"], "cells": cells, "regions": found["CProp", "region"].ravel(), "features": features}
+    return {
+        "points": found["Vertices"],
+        "cells": cells,
+        "regions": found["CProp", "region"].ravel(),
+        "features": features,
+    }
 
 
 def by_trimesh(path: Path) -> Parts:
@@ -187,7 +215,9 @@ def surface_by_vtk(path: Path) -> Parts:
 def from_meshio(path: Path, parts: Parts) -> None:
     cells = [("line", parts["features"]), ("tetra", parts["cells"])]
     ids = [np.ones(len(parts["features"]), np.int32), parts["regions"].astype(np.int32)]
-    names = {".msh": ["gmsh:physical", "gmsh:geometrical"], ".mesh": ["medit:ref"], ".meshb": ["medit:ref"]}.get(path.suffix, ["CellEntityIds"])
+    names = {".msh": ["gmsh:physical", "gmsh:geometrical"], ".mesh": ["medit:ref"], ".meshb": ["medit:ref"]}.get(
+        path.suffix, ["CellEntityIds"]
+    )
     options = {"file_format": "gmsh22"} if path.suffix == ".msh" else {}
     meshio.Mesh(parts["points"], cells, cell_data={name: ids for name in names}).write(path, **options)
 
@@ -206,7 +236,9 @@ def from_gmsh(path: Path, parts: Parts) -> None:
         gmsh.model.add("box")
         solids = {int(region): gmsh.model.addDiscreteEntity(3) for region in np.unique(parts["regions"])}
         curve = gmsh.model.addDiscreteEntity(1)
-        gmsh.model.mesh.addNodes(3, min(solids.values()), np.arange(1, len(parts["points"]) + 1), parts["points"].ravel())
+        gmsh.model.mesh.addNodes(
+            3, min(solids.values()), np.arange(1, len(parts["points"]) + 1), parts["points"].ravel()
+        )
         for region, solid in solids.items():
             of = np.flatnonzero(parts["regions"] == region)
             gmsh.model.mesh.addElementsByType(solid, 4, of + 1, parts["cells"][of].ravel() + 1)

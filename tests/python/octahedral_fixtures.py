@@ -12,7 +12,11 @@ TURNS = (
     + [(axis, 180) for axis in [(1, 1, 0), (0, 1, 1), (1, 0, 1), (-1, 1, 0), (0, -1, 1), (1, 0, -1)]]
     + [(axis, 120) for axis in DIAGONALS]
 )
-GROUP = np.array([Rotation.from_rotvec(np.radians(t) * np.array(a) / np.linalg.norm(a)).as_matrix() for a, t in TURNS]).round().astype(int)
+GROUP = (
+    np.array([Rotation.from_rotvec(np.radians(t) * np.array(a) / np.linalg.norm(a)).as_matrix() for a, t in TURNS])
+    .round()
+    .astype(int)
+)
 NUMBER = {m.tobytes(): k for k, m in enumerate(GROUP)}
 PRODUCT = np.array([[NUMBER[(a @ b).tobytes()] for b in GROUP] for a in GROUP])
 INVERSE = np.array([NUMBER[np.ascontiguousarray(a.T).tobytes()] for a in GROUP])

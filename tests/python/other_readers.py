@@ -1,4 +1,5 @@
-"""Readers of files with frames that share nothing with octafield: other libraries, or parsers written from the layouts alone.
+"""Readers of files with frames that share nothing with octafield: other libraries, or parsers written from the layouts
+alone.
 
 Each takes a path and gives (n, 3, 3) axes in columns or (n, 4) quaternions w x y z.
 """
@@ -94,7 +95,10 @@ def ovm_text(path: Path) -> dict:
     for line in lines:
         entity, kind, name = line.split(" ", 2)
         assert kind in ("int", "vec3d", "vec4d") and name[0] == name[-1] == '"'
-        rows = [next(lines).split() for _ in range(2 * len(found["Faces"]) if entity == "HFProp" else len(found[counts[entity]]))]
+        rows = [
+            next(lines).split()
+            for _ in range(2 * len(found["Faces"]) if entity == "HFProp" else len(found[counts[entity]]))
+        ]
         found[entity, name[1:-1]] = np.array(rows, int if kind == "int" else float)
     return found
 

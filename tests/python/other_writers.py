@@ -1,6 +1,8 @@
-"""Writers of files with frames and tets that share nothing with octafield: from the layouts of docs/formats.md alone, one number at a time.
+"""Writers of files with frames and tets that share nothing with octafield: from the layouts of docs/formats.md alone,
+one number at a time.
 
-frames: axes, (n, 3, 3) in columns, or quaternions w x y z. Liberties that the layouts leave are taken otherwise than octafield takes them.
+frames: axes, (n, 3, 3) in columns, or quaternions w x y z. Liberties that the layouts leave are taken otherwise than
+    octafield takes them.
 """
 
 import struct
@@ -59,9 +61,19 @@ class Cells:
 
 def tetgen(path: Path, points: np.ndarray, tets: np.ndarray, regions: np.ndarray) -> None:
     """Ids from 1, comments, an attribute of the tets."""
-    lines = ["# of the test", f"{len(points)} 3 0 0", *(f"{i} " + " ".join(map(repr, map(float, p))) for i, p in enumerate(points, 1))]
+    lines = [
+        "# of the test",
+        f"{len(points)} 3 0 0",
+        *(f"{i} " + " ".join(map(repr, map(float, p))) for i, p in enumerate(points, 1)),
+    ]
     path.write_text("\n".join(lines) + "\n")
-    lines = [f"{len(tets)} 4 1", *(f"{i} " + " ".join(str(k + 1) for k in tet) + f" {r}" for i, (tet, r) in enumerate(zip(tets, regions, strict=True), 1))]
+    lines = [
+        f"{len(tets)} 4 1",
+        *(
+            f"{i} " + " ".join(str(k + 1) for k in tet) + f" {r}"
+            for i, (tet, r) in enumerate(zip(tets, regions, strict=True), 1)
+        ),
+    ]
     path.with_suffix(".ele").write_text("\n".join(lines) + "\n# end\n")
 
 
@@ -92,7 +104,9 @@ def ovmb_mesh(path: Path, points: np.ndarray, tets: np.ndarray, regions: np.ndar
     path.write_bytes(_ovmb(points, tets, 3, b"region", b"i32", bytes(4), [struct.pack("<i", r) for r in regions]))
 
 
-def _ovmb(points: np.ndarray, tets: np.ndarray, entity: int, name: bytes, kind: bytes, default: bytes, values: list[bytes]) -> bytes:
+def _ovmb(
+    points: np.ndarray, tets: np.ndarray, entity: int, name: bytes, kind: bytes, default: bytes, values: list[bytes]
+) -> bytes:
     """General topology with a valence per element and ids of 32 bits; a property in two chunks."""
     cells = Cells(tets)
 

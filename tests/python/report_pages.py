@@ -68,7 +68,9 @@ def prose(page: str, references: bool = True) -> list[str]:
 def record(representation="sh4", boundary="aligned", energy=1.0, *, seed=0, state="done", **more) -> dict:
     """As in result.json, of a mesh with 10 vertices. more: options of the run, or figures of the record."""
     names = FieldOptions.__dataclass_fields__
-    options = FieldOptions(representation=representation, boundary=boundary, seed=seed, **{k: v for k, v in more.items() if k in names})
+    options = FieldOptions(
+        representation=representation, boundary=boundary, seed=seed, **{k: v for k, v in more.items() if k in names}
+    )
     head = {"options": asdict(options), "state": state, "message": more.get("message", "")}
     if state != "done":
         return head

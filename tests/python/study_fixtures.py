@@ -21,7 +21,18 @@ p.run = lambda problem, options, *a: time.sleep(60) if options.representation ==
 
 def table(folder: Path) -> list[dict]:
     """What a run decides; times and hosts differ from run to run."""
-    keys = ("key", "input", "state", "message", "repeat", "mesh_sha256", "energy", "energy_history", "singular_edges", "options")
+    keys = (
+        "key",
+        "input",
+        "state",
+        "message",
+        "repeat",
+        "mesh_sha256",
+        "energy",
+        "energy_history",
+        "singular_edges",
+        "options",
+    )
     return [{key: row.get(key) for key in keys} for row in study.rows(folder)]
 
 
@@ -30,5 +41,7 @@ def trap_workers(folder: Path, monkeypatch, code: str) -> None:
     trap = folder / "trap"
     trap.mkdir()
     guarded = "".join(f"    {line}\n" for line in code.splitlines())
-    (trap / "sitecustomize.py").write_text(f"import os, sys\nif any('study.worker' in a for a in sys.orig_argv):\n{guarded}")
+    (trap / "sitecustomize.py").write_text(
+        f"import os, sys\nif any('study.worker' in a for a in sys.orig_argv):\n{guarded}"
+    )
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(trap), *filter(None, [os.environ.get("PYTHONPATH")])]))

@@ -1,7 +1,6 @@
 """Small open surfaces for the tests of direction fields and streamlines."""
 
 import numpy as np
-
 import octafield as of
 
 NONE = of.FeatureGraph()

@@ -1,22 +1,26 @@
-"""What `info` says before a field is computed is what happens: lengths and cells, and advice that works when it is followed."""
+"""What `info` says before a field is computed is what happens: lengths and cells, and advice that works when it is
+followed."""
 
 import re
 
 import numpy as np
+import octafield as of
 import pytest
 import pyvista
 from conftest import SHARED_DATA
-from pipeline_fixtures import octafield, shared
-
-import octafield as of
 from octafield.info import examine
 from octafield.study.generators import generate
+from pipeline_fixtures import octafield, shared
 
 MOST_STEPS = 4
 
 
 def tube(radius: float) -> of.TriangleMesh:
-    ring = pyvista.ParametricTorus(ringradius=1, crosssectionradius=radius, u_res=200, v_res=16, w_res=16).triangulate().clean()
+    ring = (
+        pyvista.ParametricTorus(ringradius=1, crosssectionradius=radius, u_res=200, v_res=16, w_res=16)
+        .triangulate()
+        .clean()
+    )
     return of.from_pyvista(ring.compute_normals(auto_orient_normals=True, split_vertices=False))
 
 
@@ -98,7 +102,9 @@ def test_edges_far_inside_are_as_long_as_the_shape_lets_them_be():
     """A ball with a thin ring beside it: the ring's short edges do not fill the ball with small tets."""
     ball, ring = generate("ball"), tube(0.03)
     points = np.concatenate([np.asarray(ball.vertices), np.asarray(ring.vertices) + [0, 0, 3]])
-    both = of.TriangleMesh(points, np.concatenate([np.asarray(ball.triangles), np.asarray(ring.triangles) + len(ball.vertices)]))
+    both = of.TriangleMesh(
+        points, np.concatenate([np.asarray(ball.triangles), np.asarray(ring.triangles) + len(ball.vertices)])
+    )
     meshed = of.prepare_mesh(both)
     assert meshed.inner_length == pytest.approx(of.default_edge_length(both))
     centres = np.asarray(meshed.tets.vertices)[np.asarray(meshed.tets.tets)].mean(axis=1)

@@ -2,17 +2,16 @@
 
 import algohex_reader as algohex
 import numpy as np
+import octafield as of
 import other_readers as readers
 import pytest
 from conftest import SHARED_DATA, box_tets
 from format_table import frames_at
+from octafield.formats.ovm import read_ovm, write_ovm
+from octafield.study.generators import generate
 from pipeline_fixtures import shared
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
-
-import octafield as of
-from octafield.formats.ovm import read_ovm, write_ovm
-from octafield.study.generators import generate
 
 
 def mesh_of(path) -> algohex.Mesh:
@@ -66,12 +65,18 @@ def test_a_cylinder_has_four_curves_of_valence_3_and_a_rim_of_one_hexahedron(tmp
     singular, rim = mesh.edges[np.flatnonzero(valence)[inside]], mesh.edges[np.flatnonzero(valence)[~inside]]
     assert np.array_equal(rim, outer) and set(valence[np.flatnonzero(valence)[~inside]]) == {-1}
     ids = singular.T
-    pieces = connected_components(coo_matrix((np.ones(len(singular)), ids), shape=(len(mesh.points),) * 2), directed=False)[1]
+    pieces = connected_components(
+        coo_matrix((np.ones(len(singular)), ids), shape=(len(mesh.points),) * 2), directed=False
+    )[1]
     assert len(np.unique(pieces[singular])) == 4
     for piece in np.unique(pieces[singular]):
         heights = mesh.points[np.unique(singular[pieces[singular[:, 0]] == piece]), 2]
-        assert np.isclose(heights.min(), tets.vertices[:, 2].min()) and np.isclose(heights.max(), tets.vertices[:, 2].max())
-    along = np.abs(mesh.points[singular[:, 1], 2] - mesh.points[singular[:, 0], 2]) / np.linalg.norm(mesh.points[singular[:, 1]] - mesh.points[singular[:, 0]], axis=1)
+        assert np.isclose(heights.min(), tets.vertices[:, 2].min()) and np.isclose(
+            heights.max(), tets.vertices[:, 2].max()
+        )
+    along = np.abs(mesh.points[singular[:, 1], 2] - mesh.points[singular[:, 0], 2]) / np.linalg.norm(
+        mesh.points[singular[:, 1]] - mesh.points[singular[:, 0]], axis=1
+    )
     assert set(valence[np.flatnonzero(valence)[inside]][along > 0.5]) == {-1}
 
 
@@ -85,7 +90,10 @@ def test_hexme_meshes(tmp_path, name):
 def test_edges_of_the_boundary_count_hexahedra_less_two(tmp_path):
     """Constant frames: a cube has one hexahedron at its edges, a notch three."""
     mesh = box_tets(2)
-    notched = of.TetMesh(mesh.vertices, np.asarray(mesh.tets)[~(np.asarray(mesh.vertices)[mesh.tets].mean(axis=1)[:, :2] > 0.5).all(axis=1)])
+    notched = of.TetMesh(
+        mesh.vertices,
+        np.asarray(mesh.tets)[~(np.asarray(mesh.vertices)[mesh.tets].mean(axis=1)[:, :2] > 0.5).all(axis=1)],
+    )
     used, tets = np.unique(notched.tets, return_inverse=True)
     notched = of.TetMesh(np.asarray(mesh.vertices)[used], tets.reshape(-1, 4))
     frames = np.tile([1.0, 0, 0, 0], (len(notched.tets), 1))

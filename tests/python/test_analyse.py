@@ -4,11 +4,10 @@ import json
 
 import meshio
 import numpy as np
-import pytest
-from pipeline_fixtures import octafield
-
 import octafield as of
+import pytest
 from octafield.study.generators import generate
+from pipeline_fixtures import octafield
 
 SAME = ("energy", "singular_edges", "singular_length", "complex_edges", "alignment_deg", "feature_alignment_deg", "non_meshable_vertices",
         "integrability", "singular_edges_by_turns", "mesh_sha256", "feature_edges")  # fmt: skip
@@ -32,7 +31,9 @@ def test_the_analysis_of_our_own_field_is_that_of_its_run(ball, in_tets):
     assert "AnalysedField" in repr(again)
     again = of.analyse(ball.tets, in_tets.tet_frames, "tets", options)
     assert [again.record[k] for k in SAME[:6]] == [in_tets.record[k] for k in SAME[:6]]
-    assert again.meshability.non_meshable_vertices == in_tets.meshability.non_meshable_vertices and np.array_equal(again.frames, in_tets.frames)
+    assert again.meshability.non_meshable_vertices == in_tets.meshability.non_meshable_vertices and np.array_equal(
+        again.frames, in_tets.frames
+    )
 
 
 @pytest.mark.parametrize("name", ["field.vtu", "field.txt", "field.npz"])
@@ -40,11 +41,20 @@ def test_a_file_gives_the_figures_of_the_field_in_it(ball, tmp_path, name):
     of.write_frames(tmp_path / name, ball.tets, ball.frames)
     meshio.Mesh(ball.tets.vertices, [("tetra", ball.tets.tets)]).write(tmp_path / "ball.mesh")
     more = ["--mesh", tmp_path / "ball.mesh"] if name.endswith("txt") else []
-    done = octafield("analyse", tmp_path / name, *more, "--features", "none", "-o", tmp_path / "out", "--json", "-", check=0)
+    done = octafield(
+        "analyse", tmp_path / name, *more, "--features", "none", "-o", tmp_path / "out", "--json", "-", check=0
+    )
     record = json.loads(done.stdout)
     assert record["energy"] == pytest.approx(ball.record["energy"], rel=1e-12)
     assert record["singular_edges"] == ball.record["singular_edges"] and record["deviation_deg"] == 0
-    assert record["files"] == ["field.vtu", "singular.vtp", "features.vtp", "streamlines.vtp", "surface.vtp", "result.json"]
+    assert record["files"] == [
+        "field.vtu",
+        "singular.vtp",
+        "features.vtp",
+        "streamlines.vtp",
+        "surface.vtp",
+        "result.json",
+    ]
     assert json.loads((tmp_path / "out" / "result.json").read_text())["energy"] == record["energy"]
     octafield("view", tmp_path / "out", "-o", tmp_path / "view.png", check=0)
 
@@ -76,7 +86,19 @@ def test_a_start_at_the_minimum_stays_there_and_a_worse_one_is_polished(ball, tm
 def test_a_start_elsewhere_is_taken_to_the_sampling(ball, in_tets, tmp_path):
     of.write_frames(tmp_path / "a.frame", ball.tets, in_tets.tet_frames, "tets")
     meshio.Mesh(ball.tets.vertices, [("tetra", ball.tets.tets)]).write(tmp_path / "ball.mesh")
-    done = octafield("field", tmp_path / "ball.mesh", "-o", tmp_path / "out", "--start", tmp_path / "a.frame", "--features", "none", "--json", "-", check=0)
+    done = octafield(
+        "field",
+        tmp_path / "ball.mesh",
+        "-o",
+        tmp_path / "out",
+        "--start",
+        tmp_path / "a.frame",
+        "--features",
+        "none",
+        "--json",
+        "-",
+        check=0,
+    )
     assert any("frames were taken to the vertices" in note for note in json.loads(done.stdout)["notes"])
 
 

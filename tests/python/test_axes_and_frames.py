@@ -1,13 +1,12 @@
 """Axes of files to unit quaternions and back, against SciPy's rotations and polar decomposition."""
 
 import numpy as np
-import pytest
-from scipy.linalg import polar
-from scipy.spatial.transform import Rotation
-
 import octafield as of
+import pytest
 from octafield.errors import InvalidInput
 from octafield.formats import rotations
+from scipy.linalg import polar
+from scipy.spatial.transform import Rotation
 
 EPS = np.finfo(float).eps
 
@@ -22,7 +21,9 @@ def random_rotations(count: int, seed: int = 0) -> np.ndarray:
 
 def half_turns() -> np.ndarray:
     """About the axes and diagonals, where one component of the quaternion is 0 or equal to another."""
-    axes = np.array([[i, j, k] for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1) if (i, j, k) != (0, 0, 0)], float)
+    axes = np.array(
+        [[i, j, k] for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1) if (i, j, k) != (0, 0, 0)], float
+    )
     return Rotation.from_rotvec(np.pi * axes / np.linalg.norm(axes, axis=1, keepdims=True)).as_matrix()
 
 
@@ -76,7 +77,11 @@ def test_skew_axes_give_the_nearest_frame_and_their_largest_angle_to_it():
 
 def test_no_frames_at_all_are_no_frames():
     empty = rotations.frames_of_axes(np.empty((0, 3, 3)), place)
-    assert empty.frames.shape == (0, 4) and empty.lengths.shape == (0, 3) and (empty.deviation, empty.left_handed) == (0.0, 0)
+    assert (
+        empty.frames.shape == (0, 4)
+        and empty.lengths.shape == (0, 3)
+        and (empty.deviation, empty.left_handed) == (0.0, 0)
+    )
     values, change = rotations.unit_quaternions(np.empty((0, 4)), place)
     assert values.shape == (0, 4) and change == 0
 

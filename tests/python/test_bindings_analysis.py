@@ -1,13 +1,12 @@
 """Analysis of frame fields: meshability, integrability, alignment with features."""
 
 import numpy as np
-import pyvista
-import pytest
-from pipeline_fixtures import shared
-from conftest import SHARED_DATA
-
 import octafield as of
+import pytest
+import pyvista
+from conftest import SHARED_DATA
 from octafield.pipeline import compute_field
+from pipeline_fixtures import shared
 
 
 def turning(points, turns=0.25, centre=(0.48, 0.53)):

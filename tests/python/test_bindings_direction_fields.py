@@ -1,10 +1,9 @@
 """What a direction field can be asked to follow, its singular points, principal directions."""
 
 import numpy as np
+import octafield as of
 import pytest
 from surface_fixtures import NONE, at_angle, cylinder, square
-
-import octafield as of
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +43,9 @@ def test_the_guides_weights_and_length_count(flat):
 def test_the_boundary_is_followed_as_strongly_as_asked(flat):
     deviation = {}
     for word in ("strong", "weak", "none"):
-        field = of.direction_field(flat, NONE, boundary=word, alignment_length=0.05, guide=guide_at(flat, 0.3, length=0.1))
+        field = of.direction_field(
+            flat, NONE, boundary=word, alignment_length=0.05, guide=guide_at(flat, 0.3, length=0.1)
+        )
         deviation[word] = of.surface_singularities(flat, field).boundary_deviation
     assert deviation["strong"] == pytest.approx(0, abs=1e-12)
     assert deviation["none"] == pytest.approx(0.3, abs=1e-6) and 0.01 < deviation["weak"] < 0.29
@@ -151,9 +152,16 @@ def test_constraints_and_guides_that_do_not_fit_are_refused(flat):
     for name, constraints in bad:
         with pytest.raises(of.InvalidInput, match=name):
             of.direction_field(flat, NONE, constraints=constraints)
-    for guide in (of.DirectionGuide([x]), of.DirectionGuide(np.zeros((count, 3))), guide_at(flat, 0.3, length=-1.0),
-                  guide_at(flat, 0.3, length=np.inf), guide_at(flat, np.nan), guide_at(flat, 0.3, weights=[1.0]),
-                  guide_at(flat, 0.3, weights=np.full(count, -1.0)), guide_at(flat, 0.3, weights=np.full(count, np.nan))):
+    for guide in (
+        of.DirectionGuide([x]),
+        of.DirectionGuide(np.zeros((count, 3))),
+        guide_at(flat, 0.3, length=-1.0),
+        guide_at(flat, 0.3, length=np.inf),
+        guide_at(flat, np.nan),
+        guide_at(flat, 0.3, weights=[1.0]),
+        guide_at(flat, 0.3, weights=np.full(count, -1.0)),
+        guide_at(flat, 0.3, weights=np.full(count, np.nan)),
+    ):
         with pytest.raises(of.InvalidInput, match="guide"):
             of.direction_field(flat, NONE, guide=guide)
 

@@ -4,9 +4,8 @@ import pickle
 import threading
 
 import numpy as np
-import pytest
-
 import octafield as of
+import pytest
 
 SUBCLASSES = [of.InvalidInput, of.GeometryError, of.SolverError, of.IoError, of.Cancelled]
 
@@ -39,9 +38,11 @@ def test_an_exception_in_a_callback_comes_out_as_it_is(box, box_surface, box_fea
         raise Unlike(phase)
 
     _, _, constraints, start = box_problem
-    for call in (lambda: of.smooth(box, constraints, start, progress=fail),
-                 lambda: of.direction_field(box_surface, box_features, progress=fail),
-                 lambda: of.remesh(box_surface, box_features, progress=fail)):
+    for call in (
+        lambda: of.smooth(box, constraints, start, progress=fail),
+        lambda: of.direction_field(box_surface, box_features, progress=fail),
+        lambda: of.remesh(box_surface, box_features, progress=fail),
+    ):
         with pytest.raises(Unlike) as caught:
             call()
         assert caught.value.args[0]

@@ -1,10 +1,9 @@
 """Streamlines of frame fields in volumes, points in tets, points spread over a mesh."""
 
 import numpy as np
+import octafield as of
 import pytest
 from scipy.spatial.transform import Rotation
-
-import octafield as of
 
 
 def constant(mesh, rotation=(0.1, 0.2, 0.3)):
@@ -67,7 +66,9 @@ def test_bad_seeds_are_refused(box, points, directions, kind):
     assert error.value.kind == kind
 
 
-@pytest.mark.parametrize("options", [{"max_length": -1}, {"closing_distance": -1}, {"max_length": np.inf}, {"threads": -1}])
+@pytest.mark.parametrize(
+    "options", [{"max_length": -1}, {"closing_distance": -1}, {"max_length": np.inf}, {"threads": -1}]
+)
 def test_bad_options_are_refused(box, options):
     with pytest.raises(of.InvalidInput):
         of.frame_streamlines(box, constant(box), [[0.5, 0.5, 0.5]], **options)

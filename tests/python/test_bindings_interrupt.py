@@ -31,13 +31,19 @@ frames = of.random_rotations(n, 1)
 free = of.BoundaryConstraints([0] * n, np.zeros((n, 3)), frames, [0] * n, [])
 """
 
-# Each takes far more than a second when left alone: projection sees the flag, smoothing its progress callback, TetGen runs in a
-# process of its own, generation of random numbers sees nothing at all, so that its worker is abandoned.
+# Each takes far more than a second when left alone: projection sees the flag, smoothing its progress callback, TetGen
+# runs in a process of its own, generation of random numbers sees nothing at all, so that its worker is abandoned.
 CASES = {
     "flag": ("vectors = np.random.default_rng(1).normal(size=(300_000, 6))", "of.su2_project(vectors)"),
     "progress": (RANDOM_BOX, "of.smooth(box, free, frames, tolerance=0, max_iterations=100000)"),
-    "python_progress": (RANDOM_BOX, "of.smooth(box, free, frames, tolerance=0, max_iterations=100000, progress=lambda *_: True)"),
-    "other_process": ("from conftest import icosphere\nball = icosphere(3)", "of.tetrahedralize(ball, edge_length=0.015)"),
+    "python_progress": (
+        RANDOM_BOX,
+        "of.smooth(box, free, frames, tolerance=0, max_iterations=100000, progress=lambda *_: True)",
+    ),
+    "other_process": (
+        "from conftest import icosphere\nball = icosphere(3)",
+        "of.tetrahedralize(ball, edge_length=0.015)",
+    ),
     "abandoned": ("", "of.random_rotations(150_000_000)"),
 }
 
@@ -46,8 +52,9 @@ def start(case, tmp_path, tests):
     setup, call = CASES[case]
     program = tmp_path / "program.py"
     program.write_text(PROGRAM.format(setup=setup, call=call, tests=str(tests)))
-    process = subprocess.Popen([sys.executable, program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                               start_new_session=True)
+    process = subprocess.Popen(
+        [sys.executable, program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
     assert process.stdout.readline() == "ready\n", process.communicate()[1]
     return process
 

@@ -3,15 +3,14 @@
 import copy
 
 import numpy as np
+import octafield as of
 import pytest
 import scipy.sparse
-from pipeline_fixtures import octafield as command
-from pipeline_fixtures import write_cube, write_sphere
-
-import octafield as of
 from octafield.options import FieldOptions
 from octafield.pipeline import compute_field
 from octafield.results import write_field_result
+from pipeline_fixtures import octafield as command
+from pipeline_fixtures import write_cube, write_sphere
 
 
 def tangents(surface):
@@ -28,11 +27,15 @@ def held(box):
 def test_a_sampling_is_the_coupling_of_its_sites(box):
     vertices, tets = of.vertex_sampling(box), of.tet_sampling(box)
     assert (vertices.sites, len(vertices)) == ("vertices", len(box.vertices))
-    assert (tets.sites, len(tets)) == ("tets", len(box.tets)) and repr(tets).startswith(f"Sampling({len(box.tets)} tets, ")
+    assert (tets.sites, len(tets)) == ("tets", len(box.tets)) and repr(tets).startswith(
+        f"Sampling({len(box.tets)} tets, "
+    )
     assert abs(vertices.stiffness - of.stiffness(box)).max() == 0
     np.testing.assert_array_equal(vertices.mass, of.lumped_mass(box))
     np.testing.assert_allclose(tets.mass, of.tet_volumes(box))
-    assert tets.body_radius == pytest.approx(0.5) and tets.edge_length == vertices.edge_length == of.mean_edge_length(of.boundary_surface(box).mesh)
+    assert tets.body_radius == pytest.approx(0.5) and tets.edge_length == vertices.edge_length == of.mean_edge_length(
+        of.boundary_surface(box).mesh
+    )
     with pytest.raises(TypeError):
         of.Sampling()
 
@@ -51,7 +54,11 @@ def test_every_solver_takes_a_sampling(box, held):
     sampling = of.tet_sampling(box)
     start = of.initial_frames(sampling, held)
     assert start.shape == (len(box.tets), 4)
-    for result in (of.diffuse(sampling, held, start), of.smooth(sampling, held, start), of.frame_field(sampling, held).smooth):
+    for result in (
+        of.diffuse(sampling, held, start),
+        of.smooth(sampling, held, start),
+        of.frame_field(sampling, held).smooth,
+    ):
         assert result.energy == pytest.approx(0, abs=1e-9)
         assert of.dirichlet_energy(sampling, result.frames) == pytest.approx(0, abs=1e-9)
     surface = of.boundary_surface(box)
@@ -60,7 +67,8 @@ def test_every_solver_takes_a_sampling(box, held):
     assert of.singular_edges(box, result.frames).edges == []
     random = of.random_rotations(len(box.tets), 3)
     assert of.dirichlet_energy(of.vertex_sampling(box), of.vertex_frames(box, random)) == pytest.approx(
-        of.dirichlet_energy(box, of.vertex_frames(box, random)))
+        of.dirichlet_energy(box, of.vertex_frames(box, random))
+    )
 
 
 def test_a_straight_line_is_one_curve_of_singular_edges(box):
@@ -112,7 +120,10 @@ def test_the_pipeline_runs_in_the_tets(tmp_path):
     result = compute_field(write_sphere(tmp_path), FieldOptions(edge_length=0.4, sampling="tets"))
     record = result.record
     assert record["sampling"] == "tets" and record["options"]["sampling"] == "tets"
-    assert result.tet_frames.shape == (len(result.tets.tets), 4) and result.frames.shape == (len(result.tets.vertices), 4)
+    assert result.tet_frames.shape == (len(result.tets.tets), 4) and result.frames.shape == (
+        len(result.tets.vertices),
+        4,
+    )
     assert record["energy"] == of.dirichlet_energy(of.tet_sampling(result.tets), result.tet_frames)
     assert record["alignment_deg"]["max"] < 25 and record["singular_edges"] > 0
     assert sum(record["singular_edges_by_turns"].values()) == record["singular_edges"]
@@ -142,17 +153,31 @@ def test_a_sampling_of_ones_own_matrix_is_used_by_every_solver(box):
     own = of.Sampling(made.stiffness.tocsr(), made.mass, made.body_radius, made.edge_length, made.size, "tets")
     assert repr(own) == repr(made) and (own.stiffness != made.stiffness).nnz == 0
     start = of.random_rotations(len(own))
-    held = of.BoundaryConstraints(np.zeros(len(own), int), np.zeros((len(own), 3)), np.tile([1.0, 0, 0, 0], (len(own), 1)), np.zeros(len(own), int))
+    held = of.BoundaryConstraints(
+        np.zeros(len(own), int),
+        np.zeros((len(own), 3)),
+        np.tile([1.0, 0, 0, 0], (len(own), 1)),
+        np.zeros(len(own), int),
+    )
     for call in (lambda s: of.diffuse(s, held, start, max_steps=3).frames, lambda s: of.smooth(s, held, start, max_iterations=3).frames,
                  lambda s: of.smooth(s, held, start, representation="geodesic", max_iterations=2).frames):  # fmt: skip
         np.testing.assert_array_equal(call(own), call(made))
     assert of.dirichlet_energy(own, start) == of.dirichlet_energy(made, start)
 
 
-@pytest.mark.parametrize("matrix, mass, kind", [
-    ([[1, -1], [-1, 1]], [1, 1, 1], "wrong_shape"), ([[1, -1, 0], [-1, 1, 0]], [1, 1], "wrong_shape"), ([[1, -1], [0, 0]], [1, 1], "not_symmetric"),
-    ([[2, -1], [-1, 1]], [1, 1], "rows_sum"), ([[-1, 1], [1, -1]], [1, 1], "positive_entry"), ([[np.inf, -1], [-1, 1]], [1, 1], "non_finite"),
-    ([[1, -1], [-1, 1]], [1, -1], "bad_mass"), ([[1, -1], [-1, 1]], [0, 0], "bad_mass")])
+@pytest.mark.parametrize(
+    "matrix, mass, kind",
+    [
+        ([[1, -1], [-1, 1]], [1, 1, 1], "wrong_shape"),
+        ([[1, -1, 0], [-1, 1, 0]], [1, 1], "wrong_shape"),
+        ([[1, -1], [0, 0]], [1, 1], "not_symmetric"),
+        ([[2, -1], [-1, 1]], [1, 1], "rows_sum"),
+        ([[-1, 1], [1, -1]], [1, 1], "positive_entry"),
+        ([[np.inf, -1], [-1, 1]], [1, 1], "non_finite"),
+        ([[1, -1], [-1, 1]], [1, -1], "bad_mass"),
+        ([[1, -1], [-1, 1]], [0, 0], "bad_mass"),
+    ],
+)
 def test_matrices_that_couple_nothing_sensible_are_refused(matrix, mass, kind):
     with pytest.raises(of.InvalidInput) as caught:
         of.Sampling(scipy.sparse.csc_array(np.array(matrix, float)), mass, 1, 1, 1)

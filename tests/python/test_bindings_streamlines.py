@@ -1,10 +1,9 @@
 """Curves along direction fields, and the energies of critical points."""
 
 import numpy as np
+import octafield as of
 import pytest
 from surface_fixtures import NONE, at_angle, square
-
-import octafield as of
 
 
 @pytest.fixture(scope="module")
@@ -158,12 +157,24 @@ def test_the_field_of_the_sphere_finds_nearly_the_least_energy(on_sphere):
     assert of.logarithmic_energy(points) == pytest.approx(-10.428018, abs=0.05)  # of the square antiprism
 
 
-@pytest.mark.parametrize("call", [
-    lambda: of.disk_renormalised_energy([0.5, 1.5]), lambda: of.disk_renormalised_energy([0.5, 0.5]),
-    lambda: of.disk_renormalised_energy([np.nan]), lambda: of.disk_polygon_energy(0, 0.5), lambda: of.disk_polygon_energy(4, 1.0),
-    lambda: of.disk_polygon_radius(0), lambda: of.logarithmic_energy(np.ones((2, 3))), lambda: of.logarithmic_energy([[np.inf, 0, 0]]),
-    lambda: of.sphere_renormalised_energy([[0, 0, 1.0]]), lambda: of.sphere_renormalised_energy([[0, 0, 2.0], [0, 0, -1]]),
-    lambda: of.asymptotic_energy(-1, 0.0, 0.1), lambda: of.asymptotic_energy(8, np.nan, 0.1), lambda: of.asymptotic_energy(8, 0.0, 2.0)])
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: of.disk_renormalised_energy([0.5, 1.5]),
+        lambda: of.disk_renormalised_energy([0.5, 0.5]),
+        lambda: of.disk_renormalised_energy([np.nan]),
+        lambda: of.disk_polygon_energy(0, 0.5),
+        lambda: of.disk_polygon_energy(4, 1.0),
+        lambda: of.disk_polygon_radius(0),
+        lambda: of.logarithmic_energy(np.ones((2, 3))),
+        lambda: of.logarithmic_energy([[np.inf, 0, 0]]),
+        lambda: of.sphere_renormalised_energy([[0, 0, 1.0]]),
+        lambda: of.sphere_renormalised_energy([[0, 0, 2.0], [0, 0, -1]]),
+        lambda: of.asymptotic_energy(-1, 0.0, 0.1),
+        lambda: of.asymptotic_energy(8, np.nan, 0.1),
+        lambda: of.asymptotic_energy(8, 0.0, 2.0),
+    ],
+)
 def test_points_without_an_energy_are_refused(call):
     with pytest.raises(of.InvalidInput):
         call()

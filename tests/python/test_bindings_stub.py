@@ -6,9 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 import octafield
+import pytest
 from octafield import _core
 
 STUB = ast.parse(Path(octafield.__file__).with_name("_core.pyi").read_text())
@@ -29,7 +28,9 @@ def public(namespace):
     return {name for name in namespace if not name.startswith("_")}
 
 
-FUNCTIONS = sorted(name for name in public(vars(_core)) if callable(getattr(_core, name)) and not inspect.isclass(getattr(_core, name)))
+FUNCTIONS = sorted(
+    name for name in public(vars(_core)) if callable(getattr(_core, name)) and not inspect.isclass(getattr(_core, name))
+)
 CLASSES = sorted(name for name in public(vars(_core)) if inspect.isclass(getattr(_core, name)))
 
 

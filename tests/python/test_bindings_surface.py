@@ -1,9 +1,8 @@
 """Functions on triangle meshes."""
 
 import numpy as np
-import pytest
-
 import octafield as of
+import pytest
 
 
 def edges_of(mesh):
@@ -27,7 +26,8 @@ def test_edges_are_those_found_with_numpy(box_surface):
     topology = of.edge_topology(box_surface)
     np.testing.assert_array_equal(topology.edges, edges_of(box_surface))
     assert of.mean_edge_length(box_surface) == pytest.approx(
-        np.linalg.norm(np.diff(box_surface.vertices[topology.edges], axis=1), axis=2).mean())
+        np.linalg.norm(np.diff(box_surface.vertices[topology.edges], axis=1), axis=2).mean()
+    )
     for k in range(3):
         ends = np.sort(box_surface.triangles[:, [k, (k + 1) % 3]], axis=1)
         np.testing.assert_array_equal(topology.edges[topology.triangle_edges[:, k]], ends)
@@ -131,8 +131,9 @@ def test_directions_are_unit_tangents(box_surface, box_features, box_field):
     np.testing.assert_allclose(np.sum(per_vertex * of.vertex_normals(box_surface), axis=1), 0, atol=1e-12)
 
 
-@pytest.mark.parametrize("symmetry, method", [
-    (4, "eigenvector"), (6, "eigenvector"), (4, "ginzburg_landau"), (6, "mbo"), (1, "mbo")])
+@pytest.mark.parametrize(
+    "symmetry, method", [(4, "eigenvector"), (6, "eigenvector"), (4, "ginzburg_landau"), (6, "mbo"), (1, "mbo")]
+)
 def test_indices_on_the_sphere_add_up_to_two(sphere, symmetry, method):
     field = of.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
     found = of.surface_singularities(sphere, field)
@@ -142,7 +143,9 @@ def test_indices_on_the_sphere_add_up_to_two(sphere, symmetry, method):
 
 
 def test_features_may_be_given_in_any_order(box_surface, box_features, box_field):
-    shuffled = of.FeatureGraph(np.concatenate([box_features.edges[::-1, ::-1], box_features.edges[:3]]), box_features.corners[::-1])
+    shuffled = of.FeatureGraph(
+        np.concatenate([box_features.edges[::-1, ::-1], box_features.edges[:3]]), box_features.corners[::-1]
+    )
     assert of.direction_field(box_surface, shuffled).values.tobytes() == box_field.values.tobytes()
 
 
@@ -154,15 +157,31 @@ def test_stopping_a_field_keeps_the_best_state(sphere):
 WILD = of.TriangleMesh(np.eye(3), [[0, 1, 10**9]])
 LOST = of.TriangleMesh([[0, 0, np.inf], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
 NONE = of.FeatureGraph()
-ON_MESH = [of.edge_topology, of.signed_volume, of.triangle_areas, of.triangle_normals, of.vertex_normals, of.mean_edge_length,
-           of.euler_characteristic, of.repair, of.detect_features, of.tetrahedralize, lambda m: of.feature_graph(m, []),
-           lambda m: of.remesh(m, NONE), lambda m: of.direction_field(m, NONE), lambda m: of.sector_normals(m, NONE),
-           lambda m: of.vertex_directions(m, NONE, of.DirectionField()), lambda m: of.triangle_directions(m, of.DirectionField()),
-           lambda m: of.surface_singularities(m, of.DirectionField()), lambda m: of.write_surface(m, "never.off"),
-           of.principal_directions, lambda m: of.separatrices(m, NONE, of.DirectionField(), of.SurfaceSingularities()),
-           lambda m: of.even_streamlines(m, NONE, of.DirectionField(), of.SurfaceSingularities()),
-           lambda m: of.streamlines(m, NONE, of.DirectionField(), of.SurfaceSingularities(), [], []),
-           lambda m: of.write_surface_field("never.vtp", m, np.eye(3))]
+ON_MESH = [
+    of.edge_topology,
+    of.signed_volume,
+    of.triangle_areas,
+    of.triangle_normals,
+    of.vertex_normals,
+    of.mean_edge_length,
+    of.euler_characteristic,
+    of.repair,
+    of.detect_features,
+    of.tetrahedralize,
+    lambda m: of.feature_graph(m, []),
+    lambda m: of.remesh(m, NONE),
+    lambda m: of.direction_field(m, NONE),
+    lambda m: of.sector_normals(m, NONE),
+    lambda m: of.vertex_directions(m, NONE, of.DirectionField()),
+    lambda m: of.triangle_directions(m, of.DirectionField()),
+    lambda m: of.surface_singularities(m, of.DirectionField()),
+    lambda m: of.write_surface(m, "never.off"),
+    of.principal_directions,
+    lambda m: of.separatrices(m, NONE, of.DirectionField(), of.SurfaceSingularities()),
+    lambda m: of.even_streamlines(m, NONE, of.DirectionField(), of.SurfaceSingularities()),
+    lambda m: of.streamlines(m, NONE, of.DirectionField(), of.SurfaceSingularities(), [], []),
+    lambda m: of.write_surface_field("never.vtp", m, np.eye(3)),
+]
 
 
 @pytest.mark.parametrize("call", ON_MESH)
@@ -179,9 +198,17 @@ def test_coordinates_that_are_not_finite_are_refused_everywhere(call):
     assert caught.value.kind == "non_finite" and caught.value.elements == [0]
 
 
-@pytest.mark.parametrize("call", [
-    of.mean_edge_length, of.detect_features, of.tetrahedralize, of.principal_directions, lambda m: of.remesh(m, NONE),
-    lambda m: of.direction_field(m, NONE)])
+@pytest.mark.parametrize(
+    "call",
+    [
+        of.mean_edge_length,
+        of.detect_features,
+        of.tetrahedralize,
+        of.principal_directions,
+        lambda m: of.remesh(m, NONE),
+        lambda m: of.direction_field(m, NONE),
+    ],
+)
 def test_an_empty_mesh_is_refused_where_nothing_can_be_said(call):
     with pytest.raises(of.InvalidInput):
         call(of.TriangleMesh())
@@ -189,10 +216,18 @@ def test_an_empty_mesh_is_refused_where_nothing_can_be_said(call):
 
 def test_features_that_are_not_of_the_mesh_are_refused(box_surface, box_field):
     far = [int(np.argmin(box_surface.vertices.sum(axis=1))), int(np.argmax(box_surface.vertices.sum(axis=1)))]
-    for bad, kind in ((of.FeatureGraph([far], []), "not_an_edge"), (of.FeatureGraph([[0, 10**9]], []), "index_out_of_range"),
-                      (of.FeatureGraph([], [-1]), "index_out_of_range"), (of.FeatureGraph([[3, 3]], []), "not_an_edge")):
-        for call in (lambda f: of.direction_field(box_surface, f), lambda f: of.remesh(box_surface, f),
-                     lambda f: of.vertex_directions(box_surface, f, box_field), lambda f: of.sector_normals(box_surface, f)):
+    for bad, kind in (
+        (of.FeatureGraph([far], []), "not_an_edge"),
+        (of.FeatureGraph([[0, 10**9]], []), "index_out_of_range"),
+        (of.FeatureGraph([], [-1]), "index_out_of_range"),
+        (of.FeatureGraph([[3, 3]], []), "not_an_edge"),
+    ):
+        for call in (
+            lambda f: of.direction_field(box_surface, f),
+            lambda f: of.remesh(box_surface, f),
+            lambda f: of.vertex_directions(box_surface, f, box_field),
+            lambda f: of.sector_normals(box_surface, f),
+        ):
             with pytest.raises(of.InvalidInput, match="features") as caught:
                 call(bad)
             assert caught.value.kind == kind and caught.value.elements == [0]
@@ -204,15 +239,26 @@ def test_a_field_of_another_mesh_is_refused(box_surface, box_features, sphere, b
     wrong_values = of.DirectionField(4, box_field.topology, box_field.values[:-1])
     lost_values = of.DirectionField(4, box_field.topology, box_field.values * np.nan)
     no_symmetry = of.DirectionField(0, box_field.topology, box_field.values)
-    for mesh, field in ((sphere, box_field), (box_surface, wrong_values), (box_surface, lost_values), (box_surface, no_symmetry),
-                        (box_surface, of.DirectionField())):
+    for mesh, field in (
+        (sphere, box_field),
+        (box_surface, wrong_values),
+        (box_surface, lost_values),
+        (box_surface, no_symmetry),
+        (box_surface, of.DirectionField()),
+    ):
         for call in (of.triangle_directions, of.surface_singularities, lambda m, f: of.vertex_directions(m, NONE, f)):
             with pytest.raises(of.InvalidInput, match="field"):
                 call(mesh, field)
 
 
 def test_options_out_of_range_are_refused(box_surface, box_features):
-    for options in ({"symmetry": 0}, {"epsilon": -1.0}, {"epsilon": np.nan}, {"tolerance": np.inf}, {"max_iterations": -1}):
+    for options in (
+        {"symmetry": 0},
+        {"epsilon": -1.0},
+        {"epsilon": np.nan},
+        {"tolerance": np.inf},
+        {"max_iterations": -1},
+    ):
         with pytest.raises(of.InvalidInput):
             of.direction_field(box_surface, box_features, **options)
     with pytest.raises(of.InvalidInput, match="ginzburg_landau, eigenvector, mbo") as caught:

@@ -5,15 +5,34 @@ import gc
 import pickle
 
 import numpy as np
+import octafield as of
 import pytest
 
-import octafield as of
-
 POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
-CLASSES = [of.TriangleMesh, of.EdgeTopology, of.FeatureGraph, of.Defect, of.RepairResult, of.RemeshResult, of.DirectionField,
-           of.DirectionConstraints, of.DirectionGuide, of.SurfaceSingularity, of.SurfaceSingularities, of.Streamline,
-           of.PrincipalDirections, of.TetMesh, of.BoundarySurface, of.BoundaryConstraints, of.SectorNormals, of.SmoothResult,
-           of.SingularTriangle, of.SingularGraph, of.SingularEdge, of.SingularEdges]
+CLASSES = [
+    of.TriangleMesh,
+    of.EdgeTopology,
+    of.FeatureGraph,
+    of.Defect,
+    of.RepairResult,
+    of.RemeshResult,
+    of.DirectionField,
+    of.DirectionConstraints,
+    of.DirectionGuide,
+    of.SurfaceSingularity,
+    of.SurfaceSingularities,
+    of.Streamline,
+    of.PrincipalDirections,
+    of.TetMesh,
+    of.BoundarySurface,
+    of.BoundaryConstraints,
+    of.SectorNormals,
+    of.SmoothResult,
+    of.SingularTriangle,
+    of.SingularGraph,
+    of.SingularEdge,
+    of.SingularEdges,
+]
 
 
 def fields(cls):
@@ -66,8 +85,15 @@ def test_the_nested_mesh_is_the_same_memory():
         boundary.mesh = of.TriangleMesh()
 
 
-@pytest.mark.parametrize("array", [np.array(POINTS, dtype=np.float32), np.asfortranarray(POINTS), np.array(POINTS * 2)[::2],
-                                   tuple(map(tuple, POINTS))])
+@pytest.mark.parametrize(
+    "array",
+    [
+        np.array(POINTS, dtype=np.float32),
+        np.asfortranarray(POINTS),
+        np.array(POINTS * 2)[::2],
+        tuple(map(tuple, POINTS)),
+    ],
+)
 def test_any_layout_and_type_of_numbers_is_taken(array):
     np.testing.assert_array_equal(of.TriangleMesh(array, []).vertices, np.array(array, dtype=float))
 
@@ -99,9 +125,15 @@ def test_pickles_hold_every_field():
     triangle = of.SingularTriangle(1, 2, 3, holonomy=4, quarter_turns=-1, boundary=True, point=[1, 2, 3])
     graph = of.SingularGraph([triangle], [[0, 0, 1], [0, 0, 2]], [[0, 1], [1, 0, 1]], [1, -1], [1], 2.5, 3)
     again = pickle.loads(pickle.dumps(graph))
-    assert again.length == 2.5 and again.complex_triangles == 3 and [list(c) for c in again.curves] == [[0, 1], [1, 0, 1]]
+    assert (
+        again.length == 2.5 and again.complex_triangles == 3 and [list(c) for c in again.curves] == [[0, 1], [1, 0, 1]]
+    )
     assert list(again.curve_quarter_turns) == [1, -1] and list(again.nodes) == [1]
-    assert again.triangles[0].boundary is True and list(again.triangles[0].point) == [1, 2, 3] and again.triangles[0].holonomy == 4
+    assert (
+        again.triangles[0].boundary is True
+        and list(again.triangles[0].point) == [1, 2, 3]
+        and again.triangles[0].holonomy == 4
+    )
     np.testing.assert_array_equal(again.points, graph.points)
 
 
@@ -128,23 +160,45 @@ def test_singular_points_are_kept_with_their_sums():
 
 
 def test_reprs_count():
-    assert repr(of.TriangleMesh(POINTS, [[0, 2, 1]])) == "TriangleMesh(4 vertices, 1 triangle, box [0, 1] x [0, 1] x [0, 1])"
+    assert (
+        repr(of.TriangleMesh(POINTS, [[0, 2, 1]]))
+        == "TriangleMesh(4 vertices, 1 triangle, box [0, 1] x [0, 1] x [0, 1])"
+    )
     assert repr(of.TetMesh(POINTS, [[0, 1, 2, 3]])) == "TetMesh(4 vertices, 1 tet, box [0, 1] x [0, 1] x [0, 1])"
     assert repr(of.FeatureGraph([[0, 1]], [0, 1])) == "FeatureGraph(1 edge, 2 corners)"
     assert repr(of.BoundaryConstraints(kind=[0, 1, 1, 2])) == "BoundaryConstraints(1 free, 2 axis, 1 fixed)"
 
 
-@pytest.mark.parametrize("build", [
-    lambda: of.TriangleMesh(np.ones((3, 2)), []), lambda: of.TriangleMesh(np.ones(3), []), lambda: of.TriangleMesh("mesh", []),
-    lambda: of.TriangleMesh(POINTS, [[0.5, 1, 2]]), lambda: of.TriangleMesh(POINTS, [[0, 1, 2, 3]]),
-    lambda: of.TriangleMesh(POINTS, [[0, 1, 2**31]]), lambda: of.TriangleMesh(POINTS, [[0, 1, 10**30]]),
-    lambda: of.TriangleMesh(POINTS, [[0, 1], [2]]), lambda: of.TriangleMesh(np.array(POINTS) * 1j, []),
-    lambda: of.TetMesh(POINTS, [[0, 1, 2]]), lambda: of.FeatureGraph([0, 1], []), lambda: of.FeatureGraph([], [[0]]),
-    lambda: of.BoundaryConstraints(kind=[300]), lambda: of.SurfaceSingularity([1, 2]),
-    lambda: of.DirectionConstraints(edges=[[0, 1, 2]]), lambda: of.PrincipalDirections(curvatures=[[0, 0, 1]]),
-    lambda: of.DirectionGuide(np.eye(2)), lambda: of.Streamline(triangles=[[0]]), lambda: of.DirectionField(values=["a"]), lambda: of.SingularGraph(curves=[[0.5]])])
+@pytest.mark.parametrize(
+    "build",
+    [
+        lambda: of.TriangleMesh(np.ones((3, 2)), []),
+        lambda: of.TriangleMesh(np.ones(3), []),
+        lambda: of.TriangleMesh("mesh", []),
+        lambda: of.TriangleMesh(POINTS, [[0.5, 1, 2]]),
+        lambda: of.TriangleMesh(POINTS, [[0, 1, 2, 3]]),
+        lambda: of.TriangleMesh(POINTS, [[0, 1, 2**31]]),
+        lambda: of.TriangleMesh(POINTS, [[0, 1, 10**30]]),
+        lambda: of.TriangleMesh(POINTS, [[0, 1], [2]]),
+        lambda: of.TriangleMesh(np.array(POINTS) * 1j, []),
+        lambda: of.TetMesh(POINTS, [[0, 1, 2]]),
+        lambda: of.FeatureGraph([0, 1], []),
+        lambda: of.FeatureGraph([], [[0]]),
+        lambda: of.BoundaryConstraints(kind=[300]),
+        lambda: of.SurfaceSingularity([1, 2]),
+        lambda: of.DirectionConstraints(edges=[[0, 1, 2]]),
+        lambda: of.PrincipalDirections(curvatures=[[0, 0, 1]]),
+        lambda: of.DirectionGuide(np.eye(2)),
+        lambda: of.Streamline(triangles=[[0]]),
+        lambda: of.DirectionField(values=["a"]),
+        lambda: of.SingularGraph(curves=[[0.5]]),
+    ],
+)
 def test_wrong_arrays_are_refused_with_the_field_named(build):
-    with pytest.raises(of.InvalidInput, match=r"^(vertices|triangles|tets|edges|corners|kind|position|values|curves|curvatures|directions): "):
+    with pytest.raises(
+        of.InvalidInput,
+        match=r"^(vertices|triangles|tets|edges|corners|kind|position|values|curves|curvatures|directions): ",
+    ):
         build()
 
 

@@ -2,9 +2,8 @@
 
 import meshio
 import numpy as np
-import pytest
-
 import octafield as of
+import pytest
 
 
 def harmonic_turn(points, turns=0.25):
@@ -36,7 +35,9 @@ def test_operators_are_exact_for_linear_functions(box):
     x = box.vertices @ [1.0, 2.0, 3.0]
     assert x @ stiffness @ x == pytest.approx(14)  # |gradient|^2 times the volume
     assert abs(stiffness @ np.ones(len(x))).max() < 1e-12 and abs(stiffness - stiffness.T).max() < 1e-15
-    assert mass.sum() == pytest.approx(1) and x @ mass @ x == pytest.approx(14 * (1 / 12) + 9)  # variance plus mean squared
+    assert mass.sum() == pytest.approx(1) and x @ mass @ x == pytest.approx(
+        14 * (1 / 12) + 9
+    )  # variance plus mean squared
     np.testing.assert_allclose(of.lumped_mass(box), np.asarray(mass.sum(axis=1)).ravel())
 
 
@@ -59,7 +60,9 @@ def test_tetrahedralize_keeps_the_surface(box_surface):
 def test_sector_normals_of_the_cube_are_its_axes(box_surface, box_features):
     sectors = of.sector_normals(box_surface, box_features)
     assert sectors.vertex.dtype == np.int32 and (np.diff(sectors.vertex) >= 0).all()
-    np.testing.assert_allclose(np.sort(np.abs(sectors.normal), axis=1), np.tile([0, 0, 1], (len(sectors.vertex), 1)), atol=1e-14)
+    np.testing.assert_allclose(
+        np.sort(np.abs(sectors.normal), axis=1), np.tile([0, 0, 1], (len(sectors.vertex), 1)), atol=1e-14
+    )
     inside, edge = len(box_surface.vertices) - 12 * 4 - 8, 12 * 4
     assert len(sectors.vertex) == inside + 2 * edge + 3 * 8
 
@@ -93,8 +96,10 @@ def test_smoothing_holds_fixed_frames_and_lowers_the_energy(box, random_field):
     kind = np.zeros(n, dtype=np.uint8)
     kind[::7] = 2
     constraints = of.BoundaryConstraints(kind, np.zeros((n, 3)), random_field, kind > 0, [])
-    results = [of.smooth(box, constraints, random_field, max_iterations=5, linear_solver=s, threads=t)
-               for s, t in (("cholesky", 1), ("cholesky", 4), ("conjugate_gradients", 2))]
+    results = [
+        of.smooth(box, constraints, random_field, max_iterations=5, linear_solver=s, threads=t)
+        for s, t in (("cholesky", 1), ("cholesky", 4), ("conjugate_gradients", 2))
+    ]
     for result in results:
         assert of.distance(result.frames[::7], random_field[::7]).max() < 1e-7
         assert result.energy < of.dirichlet_energy(box, random_field)
@@ -105,7 +110,10 @@ def test_initial_frames_keep_what_is_fixed(box, box_problem):
     _, _, constraints, start = box_problem
     held = constraints.kind == 2
     assert held.any() and of.distance(start[held], constraints.frames[held]).max() < 1e-7
-    assert of.initial_frames(box, constraints, threads=1).tobytes() == of.initial_frames(box, constraints, threads=3).tobytes()
+    assert (
+        of.initial_frames(box, constraints, threads=1).tobytes()
+        == of.initial_frames(box, constraints, threads=3).tobytes()
+    )
 
 
 def test_stopped_smoothing_keeps_the_best_state(box, random_field):
@@ -128,7 +136,10 @@ def test_a_quarter_turn_round_the_axis_is_one_singular_line(turns, quarter_turns
     box.vertices[:] += [0.013, 0.007, 0]  # the axis x = y = 1/2 then misses all vertices and edges
     graph = of.singular_graph(box, harmonic_turn(box.vertices, turns))
     assert graph.complex_triangles == 0 and len(graph.nodes) == 0 and list(graph.curve_quarter_turns) == [quarter_turns]
-    assert {t.quarter_turns for t in graph.triangles} == {quarter_turns} and {t.holonomy for t in graph.triangles} <= {8, 9}
+    assert {t.quarter_turns for t in graph.triangles} == {quarter_turns} and {t.holonomy for t in graph.triangles} <= {
+        8,
+        9,
+    }
     assert graph.length == pytest.approx(1, rel=0.5)
     np.testing.assert_array_equal(graph.points[: len(graph.triangles)], [t.point for t in graph.triangles])
     assert sorted(graph.curves[0]) == list(range(len(graph.points)))
@@ -147,8 +158,9 @@ def test_written_fields_are_read_by_others(box, box_surface, random_field, tmp_p
     np.testing.assert_array_equal(data.cells_dict["tetra"], box.tets)
     np.testing.assert_allclose(data.point_data["quaternion"], random_field, atol=1e-15)
     np.testing.assert_allclose(data.point_data["sh4"], of.sh4_embed(random_field), atol=1e-14)
-    np.testing.assert_allclose(np.stack([data.point_data["frame_" + k] for k in "uvw"], axis=2), of.rotation_matrices(random_field),
-                               atol=1e-14)
+    np.testing.assert_allclose(
+        np.stack([data.point_data["frame_" + k] for k in "uvw"], axis=2), of.rotation_matrices(random_field), atol=1e-14
+    )
 
     import pyvista
 
@@ -156,7 +168,9 @@ def test_written_fields_are_read_by_others(box, box_surface, random_field, tmp_p
     of.write_singular_graph(tmp_path / "singular.vtp", graph, {"seed": "5"})
     lines = pyvista.read(tmp_path / "singular.vtp")
     assert lines.n_lines == len(graph.curves) and lines.length == pytest.approx(3**0.5, rel=0.2)
-    of.write_surface_field(tmp_path / "cross.vtp", box_surface, np.tile([0.0, 0.0, 1.0], (len(box_surface.vertices), 1)))
+    of.write_surface_field(
+        tmp_path / "cross.vtp", box_surface, np.tile([0.0, 0.0, 1.0], (len(box_surface.vertices), 1))
+    )
     cross = pyvista.read(tmp_path / "cross.vtp")
     assert cross.n_points == len(box_surface.vertices) and (cross.point_data["direction"] == [0, 0, 1]).all()
     with pytest.raises(of.IoError):
@@ -167,9 +181,18 @@ WILD = of.TetMesh(np.eye(4)[:, :3], [[0, 1, 2, 10**9]])
 LOST = of.TetMesh(np.eye(4)[:, :3] * np.nan, [[0, 1, 2, 3]])
 FRAMES = np.tile([1.0, 0, 0, 0], (4, 1))
 FREE = of.BoundaryConstraints([0] * 4, np.zeros((4, 3)), FRAMES, [0] * 4, [])
-ON_TETS = [of.tet_volumes, of.boundary_surface, of.stiffness, of.mass, of.lumped_mass, lambda m: of.dirichlet_energy(m, FRAMES),
-           lambda m: of.initial_frames(m, FREE), lambda m: of.smooth(m, FREE, FRAMES), lambda m: of.singular_graph(m, FRAMES),
-           lambda m: of.write_field("never.vtu", m, FRAMES)]
+ON_TETS = [
+    of.tet_volumes,
+    of.boundary_surface,
+    of.stiffness,
+    of.mass,
+    of.lumped_mass,
+    lambda m: of.dirichlet_energy(m, FRAMES),
+    lambda m: of.initial_frames(m, FREE),
+    lambda m: of.smooth(m, FREE, FRAMES),
+    lambda m: of.singular_graph(m, FRAMES),
+    lambda m: of.write_field("never.vtu", m, FRAMES),
+]
 
 
 @pytest.mark.parametrize("call", ON_TETS)
@@ -196,17 +219,34 @@ def test_require_valid_names_tets_as_geometry_errors(box):
 def test_frames_that_do_not_fit_the_mesh_are_refused(box, frames):
     assert len(box.vertices) == 216
     constraints = of.BoundaryConstraints([0] * 216, np.zeros((216, 3)), np.tile(FRAMES[0], (216, 1)), [0] * 216, [])
-    for call in (of.dirichlet_energy, of.singular_graph, lambda m, f: of.smooth(m, constraints, f),
-                 lambda m, f: of.write_field("never.vtu", m, f)):
+    for call in (
+        of.dirichlet_energy,
+        of.singular_graph,
+        lambda m, f: of.smooth(m, constraints, f),
+        lambda m, f: of.write_field("never.vtu", m, f),
+    ):
         with pytest.raises(of.InvalidInput, match="frames|start"):
             call(box, frames)
     with pytest.raises(of.InvalidInput, match="frames"):
-        of.alignment_angles(of.BoundarySurface(of.TriangleMesh(np.eye(3), []), [0, 1, 99]), of.FeatureGraph(), [[2.0, 0, 0, 0]] * 100)
+        of.alignment_angles(
+            of.BoundarySurface(of.TriangleMesh(np.eye(3), []), [0, 1, 99]), of.FeatureGraph(), [[2.0, 0, 0, 0]] * 100
+        )
 
 
-@pytest.mark.parametrize("field, value", [
-    ("kind", [0, 0]), ("kind", [7] * 216), ("axis", np.zeros((3, 3))), ("axis", np.full((216, 3), np.nan)), ("frames", FRAMES),
-    ("frames", np.zeros((216, 4))), ("on_boundary", [1]), ("released_corners", [216]), ("released_corners", [-1])])
+@pytest.mark.parametrize(
+    "field, value",
+    [
+        ("kind", [0, 0]),
+        ("kind", [7] * 216),
+        ("axis", np.zeros((3, 3))),
+        ("axis", np.full((216, 3), np.nan)),
+        ("frames", FRAMES),
+        ("frames", np.zeros((216, 4))),
+        ("on_boundary", [1]),
+        ("released_corners", [216]),
+        ("released_corners", [-1]),
+    ],
+)
 def test_constraints_that_do_not_fit_the_mesh_are_refused(box, field, value):
     constraints = of.BoundaryConstraints([0] * 216, np.zeros((216, 3)), np.tile(FRAMES[0], (216, 1)), [0] * 216, [])
     setattr(constraints, field, value)
@@ -224,8 +264,12 @@ def test_an_axis_that_is_not_unit_is_refused(box):
 def test_boundaries_that_do_not_fit_are_refused(box, box_features, box_problem):
     boundary, directions, _, _ = box_problem
     n, mesh, ids = len(box.vertices), boundary.mesh, boundary.vertex_map
-    for wrong in (of.BoundarySurface(mesh, ids[:-1]), of.BoundarySurface(mesh, ids[::-1]), of.BoundarySurface(mesh, ids + n),
-                  of.BoundarySurface(WILD_SURFACE, [0, 1, 2])):
+    for wrong in (
+        of.BoundarySurface(mesh, ids[:-1]),
+        of.BoundarySurface(mesh, ids[::-1]),
+        of.BoundarySurface(mesh, ids + n),
+        of.BoundarySurface(WILD_SURFACE, [0, 1, 2]),
+    ):
         with pytest.raises(of.InvalidInput, match="vertex_map|triangles"):
             of.boundary_constraints(n, wrong, box_features, directions)
         with pytest.raises(of.InvalidInput, match="vertex_map|triangles"):
@@ -244,10 +288,16 @@ def test_boundaries_that_do_not_fit_are_refused(box, box_features, box_problem):
 WILD_SURFACE = of.TriangleMesh(np.eye(3), [[0, 1, 10**9]])
 
 
-@pytest.mark.parametrize("graph", [
-    of.SingularGraph(points=np.eye(3), curves=[[0, 3]], curve_quarter_turns=[1]), of.SingularGraph(points=np.eye(3), nodes=[-1]),
-    of.SingularGraph(points=np.eye(3), curves=[[0, 1]]), of.SingularGraph(triangles=[of.SingularTriangle()]),
-    of.SingularGraph(points=np.full((2, 3), np.nan))])
+@pytest.mark.parametrize(
+    "graph",
+    [
+        of.SingularGraph(points=np.eye(3), curves=[[0, 3]], curve_quarter_turns=[1]),
+        of.SingularGraph(points=np.eye(3), nodes=[-1]),
+        of.SingularGraph(points=np.eye(3), curves=[[0, 1]]),
+        of.SingularGraph(triangles=[of.SingularTriangle()]),
+        of.SingularGraph(points=np.full((2, 3), np.nan)),
+    ],
+)
 def test_unsound_graphs_are_not_written(graph, tmp_path):
     with pytest.raises(of.InvalidInput, match="graph"):
         of.write_singular_graph(tmp_path / "never.vtp", graph)
@@ -255,9 +305,20 @@ def test_unsound_graphs_are_not_written(graph, tmp_path):
 
 def test_options_out_of_range_are_refused(box, box_surface, box_problem):
     _, _, constraints, start = box_problem
-    for options in ({"max_iterations": -1}, {"tolerance": -1.0}, {"tolerance": np.nan}, {"threads": -1}, {"linear_solver": "magic"}):
+    for options in (
+        {"max_iterations": -1},
+        {"tolerance": -1.0},
+        {"tolerance": np.nan},
+        {"threads": -1},
+        {"linear_solver": "magic"},
+    ):
         with pytest.raises(of.InvalidInput):
             of.smooth(box, constraints, start, **options)
-    for options in ({"radius_edge_ratio": 0.5}, {"radius_edge_ratio": np.nan}, {"min_dihedral": -1.0}, {"edge_length": -1.0}):
+    for options in (
+        {"radius_edge_ratio": 0.5},
+        {"radius_edge_ratio": np.nan},
+        {"min_dihedral": -1.0},
+        {"edge_length": -1.0},
+    ):
         with pytest.raises(of.InvalidInput):
             of.tetrahedralize(box_surface, **options)

@@ -25,7 +25,9 @@ print(vtkVersion.GetVTKVersion())
 """
 
 
-@pytest.mark.parametrize("order", ["octafield._core,vtkmodules.all", "vtkmodules.all,octafield._core", "pyvista,octafield"])
+@pytest.mark.parametrize(
+    "order", ["octafield._core,vtkmodules.all", "vtkmodules.all,octafield._core", "pyvista,octafield"]
+)
 def test_both_load_and_work_in_either_order(order, tmp_path):
     run = subprocess.run([sys.executable, "-c", PROGRAM, order], cwd=tmp_path, capture_output=True, text=True)
     assert run.returncode == 0 and run.stderr == "", run.stderr
@@ -34,5 +36,7 @@ def test_both_load_and_work_in_either_order(order, tmp_path):
 def test_the_extension_shows_nothing_but_its_entry_point():
     from octafield import _core
 
-    symbols = subprocess.run(["nm", "-D", "--defined-only", "--extern-only", _core.__file__], capture_output=True, text=True, check=True)
+    symbols = subprocess.run(
+        ["nm", "-D", "--defined-only", "--extern-only", _core.__file__], capture_output=True, text=True, check=True
+    )
     assert [line.split()[-1] for line in symbols.stdout.splitlines()] == ["PyInit__core"]

@@ -11,13 +11,12 @@ from pathlib import Path
 
 import gmsh
 import numpy as np
-import pytest
-
 import octafield as of
-from octafield.meshes import cad
+import pytest
 from octafield.conversion import convert_file
 from octafield.info import examine
 from octafield.inputs import read_input
+from octafield.meshes import cad
 
 
 @contextlib.contextmanager
@@ -64,7 +63,9 @@ def test_a_model_becomes_a_closed_surface_with_its_curves_as_features(part, tmp_
     assert of.signed_volume(found.surface) == pytest.approx(2 - np.pi * 0.09, rel=0.01)
     ends = np.asarray(found.surface.vertices)[found.lines]
     lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
-    assert lengths.sum() == pytest.approx(4 * (2 + 1 + 1) + 2 * 2 * np.pi * 0.3, rel=0.01)  # the seam of the hole is no feature
+    assert lengths.sum() == pytest.approx(
+        4 * (2 + 1 + 1) + 2 * 2 * np.pi * 0.3, rel=0.01
+    )  # the seam of the hole is no feature
     assert lengths.max() < 0.13 and any("seam" in note for note in found.notes)
     assert len(np.unique(found.faces)) == 7
 
@@ -103,9 +104,18 @@ def test_without_gmsh_the_remedy_is_told(part, tmp_path, monkeypatch):
 
 DEFECTS = {  # of STEP text: what is replaced, by what, the message
     "cut": (lambda text: text[: len(text) // 2], "Line [0-9]+: .*export it again"),
-    "not a number": (lambda text: text.replace("CARTESIAN_POINT('',(0.,0.,1.))", "CARTESIAN_POINT('',(0.,nan,1.))"), "line [0-9]+: a coordinate is nan"),
-    "a word": (lambda text: text.replace("CARTESIAN_POINT('',(0.,0.,1.))", "CARTESIAN_POINT('',(0.,x,1.))"), "damaged .*export it again"),
-    "without solids": (lambda text: text[: text.index("DATA;")] + "DATA;\nENDSEC;\nEND-ISO-10303-21;\n", "damaged|no faces"),
+    "not a number": (
+        lambda text: text.replace("CARTESIAN_POINT('',(0.,0.,1.))", "CARTESIAN_POINT('',(0.,nan,1.))"),
+        "line [0-9]+: a coordinate is nan",
+    ),
+    "a word": (
+        lambda text: text.replace("CARTESIAN_POINT('',(0.,0.,1.))", "CARTESIAN_POINT('',(0.,x,1.))"),
+        "damaged .*export it again",
+    ),
+    "without solids": (
+        lambda text: text[: text.index("DATA;")] + "DATA;\nENDSEC;\nEND-ISO-10303-21;\n",
+        "damaged|no faces",
+    ),
     "a page": (lambda text: "<html></html>", "Gmsh cannot read it .Undefined Parsing: Line 2"),
 }
 
@@ -152,7 +162,9 @@ ENDINGS = {  # what the process does, the message
 
 @pytest.mark.parametrize("work", ENDINGS)
 def test_however_the_process_ends_the_file_is_named(part, tmp_path, monkeypatch, capfd, work):
-    (tmp_path / "worker.py").write_text(f"import os, resource, signal, sys\nresource.setrlimit(resource.RLIMIT_CORE, (0, 0))\n{work}\n")
+    (tmp_path / "worker.py").write_text(
+        f"import os, resource, signal, sys\nresource.setrlimit(resource.RLIMIT_CORE, (0, 0))\n{work}\n"
+    )
     monkeypatch.setattr(cad, "_WORKER", tmp_path / "worker.py")
     with pytest.raises(of.IoError, match=rf"part\.step: Gmsh .*{ENDINGS[work]}"):
         read_input(part / "part.step")
@@ -226,7 +238,9 @@ def test_the_callback_may_cancel(part, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(cad, "_WORKER", tmp_path / "sleeper.py")
     with pytest.raises(of.Cancelled, match="during read"):
-        of.prepare_mesh(part / "part.step", progress=lambda phase, *_: phase != "read" or not (tmp_path / "pid").exists())
+        of.prepare_mesh(
+            part / "part.step", progress=lambda phase, *_: phase != "read" or not (tmp_path / "pid").exists()
+        )
     assert is_gone(tmp_path)
 
 
@@ -332,7 +346,9 @@ def test_solids_that_touch_become_tets_with_a_region_each(models, name):
     assert len(np.unique(triangles, axis=0)) == len(triangles)
     shared = np.asarray(of.triangle_areas(found.surface))[len(triangles) - found.interface_triangles :].sum()
     assert shared == pytest.approx(interface, rel=0.15 if curved else 1e-5)
-    assert any("solids touch" in note for note in found.notes) and found.lines_are_features() and found.ignored_lines == 0
+    assert (
+        any("solids touch" in note for note in found.notes) and found.lines_are_features() and found.ignored_lines == 0
+    )
     assert (found.faces > 0).all()
 
 
@@ -342,7 +358,9 @@ def test_info_tells_the_facts_of_an_assembly(models, name):
     assert record["ok"] and record["regions"] == 2 and any("solids touch" in note for note in record["notes"])
     remedies = {r["kind"]: r["remedy"] for r in record["requirements"] if r["state"] != "pass"}
     assert remedies.pop("locking") == "--split"
-    assert all(kind == "coarse_for_curvature" and remedy.startswith("--edge-length") for kind, remedy in remedies.items())
+    assert all(
+        kind == "coarse_for_curvature" and remedy.startswith("--edge-length") for kind, remedy in remedies.items()
+    )
 
 
 APART = {  # volume, what is noted
@@ -380,7 +398,9 @@ def test_bodies_may_lack_curves_and_models_faces(models):
 def test_faces_that_enclose_nothing_are_not_dropped(models, name):
     record = examine(models / name, of.MeshOptions(edge_length=0.4))
     failed = {r["requirement"]: r["message"] for r in record["requirements"] if r["state"] == "fail"}
-    assert list(failed) == ["closed"] and any("enclose nothing" in note and "export them as solids" in note for note in record["notes"])
+    assert list(failed) == ["closed"] and any(
+        "enclose nothing" in note and "export them as solids" in note for note in record["notes"]
+    )
 
 
 def test_open_faces_of_a_model_are_told_what_to_export(models):
@@ -405,7 +425,9 @@ def test_a_mesh_that_loses_volume_of_the_model_says_how_much(models):
 @pytest.mark.parametrize("suffix", [".step", ".brep"])
 def test_faces_beside_solids_are_left_out_and_told(models, suffix):
     found = read_input(models / f"sheet{suffix}", edge_length=0.5)
-    assert of.signed_volume(found.surface) == pytest.approx(1) and np.asarray(found.surface.vertices)[:, 0].max() == pytest.approx(1)
+    assert of.signed_volume(found.surface) == pytest.approx(1) and np.asarray(found.surface.vertices)[
+        :, 0
+    ].max() == pytest.approx(1)
     assert any("bound no solid were left out: 1" in note for note in found.notes)
 
 
@@ -422,7 +444,10 @@ def test_a_field_is_computed_in_an_assembly(models):
     assert result.record["regions"] == 2 and result.record["feature_alignment_deg"]["max"] < 1e-6
     assert not any("ignored" in note for note in result.record["notes"])
     again = of.compute_field(models / "partial.step", of.FieldOptions(edge_length=0.5))
-    assert again.record["mesh_sha256"] == result.record["mesh_sha256"] and again.record["energy"] == result.record["energy"]
+    assert (
+        again.record["mesh_sha256"] == result.record["mesh_sha256"]
+        and again.record["energy"] == result.record["energy"]
+    )
     finer = of.compute_field(models / "partial.step", of.FieldOptions(edge_length=0.3, interfaces=False))
     assert finer.record["tets"] > 2 * result.record["tets"] and not finer.record.get("interface_triangles")
 
@@ -430,5 +455,9 @@ def test_a_field_is_computed_in_an_assembly(models):
 def test_an_assembly_is_converted_with_its_regions(models, tmp_path):
     done = convert_file(models / "face.step", tmp_path / "face.vtk", edge_length=0.3)
     found, source = read_input(tmp_path / "face.vtk"), read_input(models / "face.step", edge_length=0.3)
-    assert done.kind == "tets" and np.array_equal(found.regions, source.regions) and len(found.lines) == len(source.lines)
-    assert found.interface_triangles == source.interface_triangles > 0 and np.array_equal(np.sort(found.faces), np.sort(source.faces))
+    assert (
+        done.kind == "tets" and np.array_equal(found.regions, source.regions) and len(found.lines) == len(source.lines)
+    )
+    assert found.interface_triangles == source.interface_triangles > 0 and np.array_equal(
+        np.sort(found.faces), np.sort(source.faces)
+    )

@@ -1,18 +1,16 @@
 """Models of which Gmsh's first mesh cannot be used are meshed in other ways; what TetGen cannot fill is remeshed."""
 
 import numpy as np
+import octafield as of
 import pytest
 from conftest import SHARED_DATA
-from pipeline_fixtures import octafield, shared
-from test_cad import part  # noqa: F401: a fixture
-
-import octafield as of
 from octafield import meshing
 from octafield.inputs import read_input
 from octafield.meshes import cad
 from octafield.meshes.cad_worker import WAYS
 from octafield.meshes.grids import Grid
 from octafield.study.generators import generate
+from pipeline_fixtures import octafield, shared
 
 
 @pytest.mark.parametrize("way", range(len(WAYS)))
@@ -29,13 +27,20 @@ def test_the_way_that_helped_is_told(part, monkeypatch):  # noqa: F811
     faults = iter(["4 triangles cross or touch others", "1 triangle has no area", None])
     monkeypatch.setattr(cad, "_fault", lambda grid: next(faults))
     notes = read_input(part / "part.step", edge_length=0.3).notes
-    assert notes[-1] == f"Gmsh's first mesh could not be used (4 triangles cross or touch others); made again: {WAYS[2].name}"
+    assert (
+        notes[-1]
+        == f"Gmsh's first mesh could not be used (4 triangles cross or touch others); made again: {WAYS[2].name}"
+    )
 
 
 def test_where_no_way_helps_the_first_mesh_is_taken_with_a_note(part, monkeypatch):  # noqa: F811
     monkeypatch.setattr(cad, "_fault", lambda grid: "4 triangles cross or touch others")
     notes = read_input(part / "part.step", edge_length=0.3).notes
-    assert notes[-1] == f"Gmsh was asked in {len(WAYS)} ways; none gave triangles that can be used (4 triangles cross or touch others)"
+    assert (
+        notes[-1]
+        == f"Gmsh was asked in {len(WAYS)} ways; none gave triangles that can be used (4 triangles cross or touch"
+        " others)"
+    )
 
 
 def test_crossing_triangles_and_crowded_edges_are_faults_and_open_rims_are_none():
@@ -50,12 +55,23 @@ def test_crossing_triangles_and_crowded_edges_are_faults_and_open_rims_are_none(
 
 
 def test_a_printed_path_is_not_passed_on():
-    said = cad._ending(3, "Traceback\n  File \"/home/builder/src/worker.py\", line 3\n/opt/gmsh/lib.so: undefined symbol x")
+    said = cad._ending(
+        3, 'Traceback\n  File "/home/builder/src/worker.py", line 3\n/opt/gmsh/lib.so: undefined symbol x'
+    )
     assert "/" not in said.replace("exit code 3", "") and "undefined symbol x" in said
 
 
 def test_holder_gives_a_field_or_a_clear_error(tmp_path):
-    done = octafield("field", shared(SHARED_DATA / "wild" / "holder.stp"), "-o", tmp_path / "out", "--rounds", "0", "--streamlines", "0")
+    done = octafield(
+        "field",
+        shared(SHARED_DATA / "wild" / "holder.stp"),
+        "-o",
+        tmp_path / "out",
+        "--rounds",
+        "0",
+        "--streamlines",
+        "0",
+    )
     assert done.returncode in (0, 2)
     for foreign in ("Assertion", "tetgen.cxx", "predicates.cxx", "/build", "Aborted"):
         assert foreign not in done.stderr
@@ -68,7 +84,10 @@ def test_a_surface_that_tetgen_cannot_fill_is_remeshed_finer_with_a_note(monkeyp
     def fails_once(meshed, progress, options):
         calls.append(len(meshed.surface.vertices))
         if len(calls) == 1:
-            raise of.GeometryError("TetGen could not fill the surface, in 6 ways (it stopped at a check of its own); remesh it", "tetgen_failed")
+            raise of.GeometryError(
+                "TetGen could not fill the surface, in 6 ways (it stopped at a check of its own); remesh it",
+                "tetgen_failed",
+            )
         fill(meshed, progress, options)
 
     monkeypatch.setattr(meshing, "_fill", fails_once)

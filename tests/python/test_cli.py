@@ -13,11 +13,10 @@ import numpy as np
 import pytest
 import pyvista
 from conftest import cpu_seconds
-from pipeline_fixtures import SHARED_SURFACES, octafield, shared, write_cube, write_sphere
-
 from octafield.console import error_code
 from octafield.errors import SolverError
 from octafield.results import SURFACE_FILES
+from pipeline_fixtures import SHARED_SURFACES, octafield, shared, write_cube, write_sphere
 
 FAST = ("--edge-length", "0.4")
 
@@ -265,7 +264,9 @@ def test_repair_is_advised_only_where_it_may_help(tmp_path):
     meshio.Mesh(twice, [("tetra", np.arange(8).reshape(2, 4))]).write(tets)
     for command in (("info", tets), ("field", tets, "-o", tmp_path / "out")):
         message = octafield(*command, check=2).stderr
-        assert f"{tets}: 2 vertices coincide" in message and message.endswith("; correct the tet mesh where it was made\n")
+        assert f"{tets}: 2 vertices coincide" in message and message.endswith(
+            "; correct the tet mesh where it was made\n"
+        )
     meshio.Mesh(np.array(points, float), [("tetra", np.array([[0, 1, 2, 3], [0, 1, 4, 5]]))]).write(tets)
     for command in (("info", tets), ("field", tets, "-o", tmp_path / "out")):
         octafield(*command, check=0)  # tets may touch
@@ -291,7 +292,9 @@ def test_view_draws_the_folder_of_a_field_and_refuses_others(tmp_path):
     assert not (tmp_path / "x.png").exists()
 
 
-@pytest.mark.parametrize(("display", "words"), [("", "there is no display"), (":987", "the display :987 cannot be opened")])
+@pytest.mark.parametrize(
+    ("display", "words"), [("", "there is no display"), (":987", "the display :987 cannot be opened")]
+)
 def test_view_without_a_display_says_so_and_names_the_way_to_a_picture(tmp_path, monkeypatch, display, words):
     monkeypatch.setenv("DISPLAY", display)
     for name in ("surface", "singular"):

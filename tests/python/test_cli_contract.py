@@ -7,11 +7,10 @@ import subprocess
 import sys
 
 import pytest
-from pipeline_fixtures import octafield, write_cube
-from typer.testing import CliRunner
-
 from octafield import cli
 from octafield.completion import lists, words
+from pipeline_fixtures import octafield, write_cube
+from typer.testing import CliRunner
 
 COMMANDS = (["field"], ["surface-field"], ["compare"], ["info"], ["view"], ["representations"], ["doctor"],
             ["study", "run"], ["study", "resume"], ["study", "status"], ["study", "report"])  # fmt: skip
@@ -57,7 +56,10 @@ def test_help_fits_80_columns_and_nothing_is_cut(command):
     shown = [*getattr(found, "commands", {})]
     for parameter in found.params:
         assert not parameter.opts[0].startswith("-") or parameter.help or parameter.name == "help", parameter.name
-        shown += [*(o for o in (*parameter.opts, *parameter.secondary_opts) if o.startswith("-")), *([parameter.metavar] if parameter.metavar else [])]
+        shown += [
+            *(o for o in (*parameter.opts, *parameter.secondary_opts) if o.startswith("-")),
+            *([parameter.metavar] if parameter.metavar else []),
+        ]
         shown += [" ".join((getattr(parameter, "help", None) or "").split())]
     assert [word for word in shown if word not in flat] == []
 
@@ -79,7 +81,11 @@ def results(tmp_path_factory):
 
 def test_view_and_the_commands_of_studies_write_json(results, tmp_path):
     record = json.loads(octafield("view", results / "field", "-o", tmp_path / "c.png", "--json", "-", check=0).stdout)
-    assert record == {"folder": str(results / "field"), "files": ["surface.vtp", "singular.vtp"], "picture": str(tmp_path / "c.png")}
+    assert record == {
+        "folder": str(results / "field"),
+        "files": ["surface.vtp", "singular.vtp"],
+        "picture": str(tmp_path / "c.png"),
+    }
     status = json.loads(octafield("study", "status", results / "study", "--json", "-", check=0).stdout)
     report = json.loads(octafield("study", "report", results / "study", "--json", "-", check=0).stdout)
     run = json.loads((results / "run.json").read_text())
@@ -112,7 +118,12 @@ def test_errors_are_one_line_on_stderr_and_one_document(arguments, kind, told, t
         return
     error = document["error"]
     assert list(document) == ["error"] and set(error) == {"type", "kind", "message", "elements", "exit_code"}
-    assert error["exit_code"] == 2 and error["kind"] == kind and " ".join(error["message"].split()) in done.stderr or kind == "usage"
+    assert (
+        error["exit_code"] == 2
+        and error["kind"] == kind
+        and " ".join(error["message"].split()) in done.stderr
+        or kind == "usage"
+    )
     on_stdout = octafield(*arguments, "--json", "-", check=2)
     assert json.loads(on_stdout.stdout) == document
     assert octafield(*arguments, "--json=-", check=2).stdout == on_stdout.stdout
@@ -149,8 +160,15 @@ def test_words_for_completion():
 
 def completed(*typed: str) -> list[str]:
     """What bash is offered for the last word, by the protocol of its completion function."""
-    environment = {**os.environ, "_OCTAFIELD_COMPLETE": "complete_bash", "COMP_WORDS": " ".join(["octafield", *typed]), "COMP_CWORD": str(len(typed))}
-    done = subprocess.run([sys.executable, "-m", "octafield"], env=environment, capture_output=True, text=True, timeout=60)
+    environment = {
+        **os.environ,
+        "_OCTAFIELD_COMPLETE": "complete_bash",
+        "COMP_WORDS": " ".join(["octafield", *typed]),
+        "COMP_CWORD": str(len(typed)),
+    }
+    done = subprocess.run(
+        [sys.executable, "-m", "octafield"], env=environment, capture_output=True, text=True, timeout=60
+    )
     return done.stdout.split()
 
 
@@ -170,11 +188,18 @@ def test_bash_completes_commands_options_and_values(typed, offered):
 
 def test_the_completion_script_of_bash_loads_and_completes(tmp_path):
     environment = {**os.environ, "_OCTAFIELD_COMPLETE": "source_bash"}
-    script = subprocess.run([sys.executable, "-m", "octafield"], env=environment, capture_output=True, text=True, timeout=60).stdout
+    script = subprocess.run(
+        [sys.executable, "-m", "octafield"], env=environment, capture_output=True, text=True, timeout=60
+    ).stdout
     function = re.search(r"(_\w+)\(\)", script)[1]
     (tmp_path / "octafield").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m octafield "$@"\n')
     (tmp_path / "octafield").chmod(0o755)
-    typed = f'{script}\nCOMP_WORDS=(octafield field --solver t); COMP_CWORD=3; {function} octafield; echo "${{COMPREPLY[@]}}"'
+    typed = (
+        f"{script}\nCOMP_WORDS=(octafield field --solver t); COMP_CWORD=3; {function} octafield; echo"
+        ' "${COMPREPLY[@]}"'
+    )
     path = f"{tmp_path}:{os.environ['PATH']}"
-    done = subprocess.run(["bash", "-c", typed], env={**os.environ, "PATH": path}, capture_output=True, text=True, timeout=60)
+    done = subprocess.run(
+        ["bash", "-c", typed], env={**os.environ, "PATH": path}, capture_output=True, text=True, timeout=60
+    )
     assert done.stdout.split() == ["trust_region"], done.stderr

@@ -3,15 +3,14 @@
 import json
 
 import numpy as np
+import octafield as of
 import other_readers as readers
 import pytest
 from conftest import box_tets
 from format_table import axes, frames_at
+from octafield.study.generators import generate
 from octahedral_fixtures import GROUP, matrices
 from pipeline_fixtures import octafield
-
-import octafield as of
-from octafield.study.generators import generate
 
 
 @pytest.fixture(scope="module")
@@ -57,8 +56,13 @@ def test_npz_holds_all_of_it_for_numpy_alone(tmp_path, cylinder, expected):
     points, q = parts["vertices"], matrices(parts["frames"])
     a, b, c = np.swapaxes(points[parts["surface_triangles"]], 0, 1)
     normals = np.cross(b - a, c - a) / np.linalg.norm(np.cross(b - a, c - a), axis=1, keepdims=True)
-    held = np.sign(parts["alignment_triangle_axis"])[:, None] * q[parts["alignment_triangle_tet"], :, np.abs(parts["alignment_triangle_axis"]) - 1]
-    assert np.allclose(np.arccos(np.clip((normals * held).sum(axis=1), -1, 1)), parts["alignment_triangle_angle"], atol=1e-6)
+    held = (
+        np.sign(parts["alignment_triangle_axis"])[:, None]
+        * q[parts["alignment_triangle_tet"], :, np.abs(parts["alignment_triangle_axis"]) - 1]
+    )
+    assert np.allclose(
+        np.arccos(np.clip((normals * held).sum(axis=1), -1, 1)), parts["alignment_triangle_angle"], atol=1e-6
+    )
     assert (parts["singular_quarter_turns"] == 1).all() and len(parts["singular_edges"]) > 8
     assert ((parts["singular_holonomy"] >= 4) & (parts["singular_holonomy"] <= 9)).all()
     original = matrices(of.tet_frames(cylinder.tets, cylinder.frames))
@@ -74,7 +78,10 @@ def test_npz_holds_all_of_it_for_numpy_alone(tmp_path, cylinder, expected):
 def test_holonomies_are_those_of_the_combed_frames(expected):
     parts = expected.arrays()
     recorded = {(e.a, e.b): e.holonomy for e in of.singular_edges(expected.mesh, expected.combed.frames).edges}
-    assert recorded == {tuple(edge): h for edge, h in zip(parts["singular_edges"].tolist(), parts["singular_holonomy"].tolist(), strict=True)}
+    assert recorded == {
+        tuple(edge): h
+        for edge, h in zip(parts["singular_edges"].tolist(), parts["singular_holonomy"].tolist(), strict=True)
+    }
 
 
 def test_ovmb_tells_the_cut(tmp_path, cylinder, expected):
@@ -85,7 +92,9 @@ def test_ovmb_tells_the_cut(tmp_path, cylinder, expected):
     assert cut.sum() == np.asarray(expected.combed.cut).sum() > 0 and set(across[cut == 0].ravel()) <= {-1, 0}
     ends = found["Edges"]
     triangles = {tuple(sorted({v for h in loop for v in ends[h // 2]})) for loop in found["Faces"][cut == 1]}
-    assert triangles == set(map(tuple, np.asarray(expected.combed.faces.triangles)[np.asarray(expected.combed.cut) == 1].tolist()))
+    assert triangles == set(
+        map(tuple, np.asarray(expected.combed.faces.triangles)[np.asarray(expected.combed.cut) == 1].tolist())
+    )
 
 
 def test_perm_lists_the_cut_alone(tmp_path, cylinder, expected):
@@ -93,7 +102,9 @@ def test_perm_lists_the_cut_alone(tmp_path, cylinder, expected):
     count, listed = readers.perm(tmp_path / "a.perm")
     faces, cut = expected.combed.faces, np.asarray(expected.combed.cut) == 1
     assert count == len(cylinder.tets.tets)
-    assert {tuple(row) for row in listed[:, :2].tolist()} <= {tuple(row) for row in np.asarray(faces.tets)[cut].tolist()}
+    assert {tuple(row) for row in listed[:, :2].tolist()} <= {
+        tuple(row) for row in np.asarray(faces.tets)[cut].tolist()
+    }
     triads = readers.fra(tmp_path / "a.fra")
     assert np.allclose(triads, axes(np.asarray(expected.combed.frames)))
     for one, other, *p in listed:
@@ -117,7 +128,11 @@ def test_vtu_and_the_command(tmp_path, cylinder, expected):
     of.write_frames(tmp_path / "a.vtu", cylinder.tets, cylinder.frames)
     done = octafield("convert", tmp_path / "a.vtu", "-o", tmp_path / "b.npz", "--combed", "--json", "-", check=0)
     record = json.loads(done.stdout)
-    assert record["where"] == "tets" and record["frames"] == len(cylinder.tets.tets) and "were found by angle" in done.stderr
+    assert (
+        record["where"] == "tets"
+        and record["frames"] == len(cylinder.tets.tets)
+        and "were found by angle" in done.stderr
+    )
     corresponding(dict(np.load(tmp_path / "b.npz")))
     octafield("convert", tmp_path / "b.npz", "-o", tmp_path / "c.vtu", "--combed", check=0)
     triads = readers.vtk_arrays(tmp_path / "c.vtu", "tets")
@@ -149,4 +164,8 @@ def test_regions_hold_axes_at_their_interface(tmp_path):
     frames = np.tile([1.0, 0, 0, 0], (len(mesh.tets), 1))
     of.write_frames(tmp_path / "a.npz", mesh, frames, "tets", regions=halves, combed=True)
     parts = dict(np.load(tmp_path / "a.npz"))
-    assert len(parts["surface_triangles"]) == 6 * 8 + 8 and parts["alignment_patch_one_axis"].all() and not parts["cut"].any()
+    assert (
+        len(parts["surface_triangles"]) == 6 * 8 + 8
+        and parts["alignment_patch_one_axis"].all()
+        and not parts["cut"].any()
+    )

@@ -3,10 +3,9 @@
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+import octafield as of
 import pytest
 from conftest import box_tets, icosphere
-
-import octafield as of
 
 BALL, BOX, NONE = icosphere(3), box_tets(8), of.FeatureGraph()
 N = len(BOX.vertices)
@@ -15,7 +14,9 @@ FREE = of.BoundaryConstraints([0] * N, np.zeros((N, 3)), FRAMES, [0] * N, [])
 
 
 def metric_field():
-    return of.smooth(BOX, FREE, FRAMES, representation="su2_midpoint", solver="levenberg_marquardt", max_iterations=20).frames
+    return of.smooth(
+        BOX, FREE, FRAMES, representation="su2_midpoint", solver="levenberg_marquardt", max_iterations=20
+    ).frames
 
 
 CALLS = {

@@ -8,17 +8,16 @@ import signal
 
 import meshio
 import numpy as np
+import octafield as of
 import other_readers as readers
 import pytest
 import pyvista
 from conftest import box_tets
 from format_table import frames_at
-from pipeline_fixtures import SHARED_TETS, octafield, shared
-from test_tet_input import cube_edges, halves
-
-import octafield as of
 from octafield.conversion import convert_file
 from octafield.inputs import read_input
+from pipeline_fixtures import SHARED_TETS, octafield, shared
+from test_tet_input import cube_edges, halves
 
 VOLUMES = (".vtk", ".vtu", ".msh", ".mesh", ".meshb", ".ele", ".node", ".ovm", ".ovmb")
 SURFACES = (".obj", ".off", ".ply", ".vtp")
@@ -50,7 +49,9 @@ def feature_lines(found):
 
 @pytest.mark.parametrize("packed", ["", ".gz"])
 @pytest.mark.parametrize("suffix", VOLUMES)
-def test_tets_keep_points_regions_features_and_cad_faces_in_every_format_that_holds_them(halved, tmp_path, suffix, packed):
+def test_tets_keep_points_regions_features_and_cad_faces_in_every_format_that_holds_them(
+    halved, tmp_path, suffix, packed
+):
     before = read_input(halved)
     done = convert_file(halved, tmp_path / f"a{suffix}{packed}")
     after = read_input(tmp_path / f"a{suffix}{packed}")
@@ -118,7 +119,8 @@ def test_trimesh_reads_the_surfaces(halved, tmp_path):
 
 
 def test_medit_files_are_what_the_readers_of_arff_and_cubecover_want(halved, tmp_path):
-    """ARFF: sections in the order Vertices, Triangles, Edges, Tetrahedra; CubeCover: no other sections, version 1 or 2, an End."""
+    """ARFF: sections in the order Vertices, Triangles, Edges, Tetrahedra; CubeCover: no other sections, version 1 or 2,
+    an End."""
     convert_file(halved, tmp_path / "a.mesh")
     words = [line.split()[0] for line in (tmp_path / "a.mesh").read_text().splitlines() if line[:1].isalpha()]
     assert words == ["MeshVersionFormatted", "Dimension", "Vertices", "Triangles", "Edges", "Tetrahedra", "End"]
@@ -140,12 +142,19 @@ def test_legacy_vtk_is_version_2_in_ascii_with_a_colour_per_cell(halved, tmp_pat
     """What OpenVolumeMesh's VtkColorReader, by which AlgoHex reads, insists on, in its order."""
     convert_file(halved, tmp_path / "a.vtk")
     lines = (tmp_path / "a.vtk").read_text().splitlines()
-    assert lines[0] == "# vtk DataFile Version 2.0" and lines[2:5] == ["ASCII", "DATASET UNSTRUCTURED_GRID", "POINTS 125 double"]
+    assert lines[0] == "# vtk DataFile Version 2.0" and lines[2:5] == [
+        "ASCII",
+        "DATASET UNSTRUCTURED_GRID",
+        "POINTS 125 double",
+    ]
     cells = 5 + 125
     count = int(lines[cells].split()[1])
     assert lines[cells].split()[0] == "CELLS" and count == 48 + 6 * 32 + 32 + 384
     assert lines[cells + count + 1] == f"CELL_TYPES {count}" and lines[cells + 2 * count + 2] == f"CELL_DATA {count}"
-    assert lines[cells + 2 * count + 3].split()[0] == "SCALARS" and lines[cells + 2 * count + 4].split()[0] == "LOOKUP_TABLE"
+    assert (
+        lines[cells + 2 * count + 3].split()[0] == "SCALARS"
+        and lines[cells + 2 * count + 4].split()[0] == "LOOKUP_TABLE"
+    )
     assert len(lines) == cells + 3 * count + 5
 
 
@@ -191,11 +200,27 @@ def test_the_command_tells_what_it_did(tmp_path):
     record = json.loads(done.stdout)
     assert (record["kind"], record["frames"], record["where"]) == ("field", 48, "tets")
     assert "nearest to the mean sh4 vector" in done.stderr and "wrote" in done.stderr
-    record = json.loads(octafield("convert", tmp_path / "a.vtu", "-o", tmp_path / "c.mesh", "--json", "-", check=0).stdout)
+    record = json.loads(
+        octafield("convert", tmp_path / "a.vtu", "-o", tmp_path / "c.mesh", "--json", "-", check=0).stdout
+    )
     assert record["kind"] == "tets" and any("frames were left out" in note for note in record["notes"])
-    record = json.loads(octafield("convert", tmp_path / "a.vtu", "-o", tmp_path / "d.txt", "--to", "geogram", "--json", "-", check=0).stdout)
+    record = json.loads(
+        octafield(
+            "convert", tmp_path / "a.vtu", "-o", tmp_path / "d.txt", "--to", "geogram", "--json", "-", check=0
+        ).stdout
+    )
     assert len(readers.geogram(tmp_path / "d.txt")) == 48 == record["frames"]
-    done = octafield("convert", tmp_path / "b.frame", "-o", tmp_path / "e.npy", "--mesh", tmp_path / "c.mesh", "--at", "vertices", check=0)
+    done = octafield(
+        "convert",
+        tmp_path / "b.frame",
+        "-o",
+        tmp_path / "e.npy",
+        "--mesh",
+        tmp_path / "c.mesh",
+        "--at",
+        "vertices",
+        check=0,
+    )
     assert np.load(tmp_path / "e.npy").shape == (27, 4)
 
 
@@ -240,21 +265,35 @@ def test_every_number_is_a_region_in_every_format_that_holds_regions(tmp_path, v
     from_one = np.unique(regions, return_inverse=True)[1] + 1  # Gmsh's groups are positive
     for suffix in VOLUMES:
         done = convert_file(tmp_path / "a.vtu", tmp_path / f"b{suffix}")
-        assert np.array_equal(read_input(tmp_path / f"b{suffix}").regions, from_one if suffix == ".msh" else regions), suffix
+        assert np.array_equal(read_input(tmp_path / f"b{suffix}").regions, from_one if suffix == ".msh" else regions), (
+            suffix
+        )
         assert any("numbered from 1" in note for note in done.notes) == (suffix == ".msh")
     for name, form in of.frame_formats.items():
         if form.holds_regions:
-            notes = of.write_frames(tmp_path / f"c.{name}", mesh, frames_at(mesh, "tets"), "tets", name, regions=regions)
-            assert np.array_equal(of.read_frames(tmp_path / f"c.{name}", format=name).regions, from_one if name == "msh" else regions), name
+            notes = of.write_frames(
+                tmp_path / f"c.{name}", mesh, frames_at(mesh, "tets"), "tets", name, regions=regions
+            )
+            assert np.array_equal(
+                of.read_frames(tmp_path / f"c.{name}", format=name).regions, from_one if name == "msh" else regions
+            ), name
             assert any("numbered from 1" in note for note in notes) == (name == "msh")
 
 
 def test_regions_and_features_that_do_not_fit_are_refused(tmp_path):
     mesh, frames = box_tets(1), frames_at(box_tets(1), "tets")
-    for what in ({"regions": [2**31] * 6}, {"regions": [0.5] * 6}, {"regions": [1]}, {"features": [[0, 8]]}, {"features": [[0, -1]]}):
+    for what in (
+        {"regions": [2**31] * 6},
+        {"regions": [0.5] * 6},
+        {"regions": [1]},
+        {"features": [[0, 8]]},
+        {"features": [[0, -1]]},
+    ):
         with pytest.raises(of.InvalidInput, match="32 bits|are needed|outside 0 .. 7"):
             of.write_frames(tmp_path / "a.npz", mesh, frames, "tets", **what)
-    meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], cell_data={"region": [np.array([1, 2**40, 1, 1, 1, 1])]}).write(tmp_path / "a.vtu")
+    meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], cell_data={"region": [np.array([1, 2**40, 1, 1, 1, 1])]}).write(
+        tmp_path / "a.vtu"
+    )
     with pytest.raises(of.InvalidInput, match=r"tet 1 .* 1099511627776: numbers of regions have 32 bits"):
         read_input(tmp_path / "a.vtu")
 
@@ -273,7 +312,12 @@ def test_what_gmsh_writes_comes_back_with_groups_lines_and_views_by_their_ids(tm
         gmsh.model.occ.synchronize()
         for solid, group in ((1, 11), (2, 7)):
             gmsh.model.addPhysicalGroup(3, [solid], group, name="two words")
-        for name, value in (("Mesh.MeshSizeMax", 0.9), ("Mesh.SaveAll", 1), ("Mesh.MshFileVersion", version), ("Mesh.Binary", binary)):
+        for name, value in (
+            ("Mesh.MeshSizeMax", 0.9),
+            ("Mesh.SaveAll", 1),
+            ("Mesh.MshFileVersion", version),
+            ("Mesh.Binary", binary),
+        ):
             gmsh.option.setNumber(name, value)
         gmsh.model.mesh.generate(3)
         tags = gmsh.model.mesh.getElementsByType(4)[0]
@@ -297,7 +341,11 @@ def test_what_gmsh_writes_comes_back_with_groups_lines_and_views_by_their_ids(tm
 
 def test_pieces_of_vtu_files_are_joined(tmp_path):
     mesh = box_tets(1)
-    meshio.vtu.write(tmp_path / "a.vtu", meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], cell_data={"region": [halves(mesh)]}), binary=False)
+    meshio.vtu.write(
+        tmp_path / "a.vtu",
+        meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], cell_data={"region": [halves(mesh)]}),
+        binary=False,
+    )
     text = (tmp_path / "a.vtu").read_text()
     begin, end = text.index("<Piece"), text.index("</Piece>") + len("</Piece>")
     moved = text[begin:end].replace("0.00000000000e+00", "5.00000000000e+00")
@@ -307,7 +355,21 @@ def test_pieces_of_vtu_files_are_joined(tmp_path):
     assert np.array_equal(found.regions, np.tile(halves(mesh), 2))
 
 
-TARGETS = (*VOLUMES, *SURFACES, ".stl", ".vtk.gz", ".fra", ".bfra", ".qtn", ".frame", ".npy", ".npz", ".pos", ".ff3", ".txt")
+TARGETS = (
+    *VOLUMES,
+    *SURFACES,
+    ".stl",
+    ".vtk.gz",
+    ".fra",
+    ".bfra",
+    ".qtn",
+    ".frame",
+    ".npy",
+    ".npz",
+    ".pos",
+    ".ff3",
+    ".txt",
+)
 
 
 @pytest.mark.parametrize("suffix", TARGETS)
@@ -335,7 +397,11 @@ def test_pipes_and_devices_are_no_files_and_links_are_followed(tmp_path):
     for name in ("pipe.vtu", "pipe.frame", "pipe.stl", "pipe.step"):
         (tmp_path / name).exists() or os.mkfifo(tmp_path / name)
         with pytest.raises(of.IoError, match="is a pipe or a device; save it to a file first"):
-            convert_file(tmp_path / name, tmp_path / ("b.npz" if name.endswith(("vtu", "frame")) else "b.ply"), mesh=tmp_path / "a.vtu")
+            convert_file(
+                tmp_path / name,
+                tmp_path / ("b.npz" if name.endswith(("vtu", "frame")) else "b.ply"),
+                mesh=tmp_path / "a.vtu",
+            )
     (tmp_path / "link.npz").symlink_to(tmp_path / "true.npz")
     convert_file(tmp_path / "a.vtu", tmp_path / "link.npz")
     assert (tmp_path / "link.npz").is_symlink() and len(of.read_frames(tmp_path / "true.npz").frames) == 8
@@ -357,7 +423,9 @@ def test_where_numbers_do_not_tell_the_place_of_frames_a_note_does(tmp_path):
     points = [[0, 0, 1], [0, 0, -1], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 0], [0, 0, 3]]
     tets = [[a, b, c, 6] for i, j in zip(ring, ring[1:] + ring[:1]) for a, b, c in ((0, i, j), (1, j, i))]
     points, tets = np.array(points, float), np.array(tets)
-    tets[np.linalg.det(points[tets[:, 1:]] - points[tets[:, :1]]) < 0] = tets[np.linalg.det(points[tets[:, 1:]] - points[tets[:, :1]]) < 0][:, [0, 2, 1, 3]]
+    tets[np.linalg.det(points[tets[:, 1:]] - points[tets[:, :1]]) < 0] = tets[
+        np.linalg.det(points[tets[:, 1:]] - points[tets[:, :1]]) < 0
+    ][:, [0, 2, 1, 3]]
     mesh = of.TetMesh(points[:7], tets[:7])
     frames = frames_at(mesh, "vertices")
     np.save(tmp_path / "a.npy", frames)

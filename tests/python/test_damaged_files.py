@@ -1,5 +1,6 @@
-"""Laws of all readers, of meshes and of frames: a cut file is refused or reads as the whole one, an altered one is refused or read, a
-foreign one is refused; what editors do to text changes nothing. Errors are octafield's and name the file."""
+"""Laws of all readers, of meshes and of frames: a cut file is refused or reads as the whole one, an altered one is
+refused or read, a foreign one is refused; what editors do to text changes nothing. Errors are octafield's and name the
+file."""
 
 import gzip
 import resource
@@ -7,19 +8,44 @@ import signal
 
 import meshio
 import numpy as np
+import octafield as of
 import pytest
 import vtk
 from conftest import box_tets
 from format_table import frames_at
-from test_tet_input import cube_edges, halves, write_msh4, write_tetgen_boundary
-
-import octafield as of
 from octafield import frame_formats, read_frames, write_frames
 from octafield.conversion import convert_file
 from octafield.inputs import read_input
+from test_tet_input import cube_edges, halves, write_msh4, write_tetgen_boundary
 
-MESHES = (".stl", ".obj", ".off", ".ply", ".vtp", ".vtk", ".vtu", ".msh", ".mesh", ".meshb", ".ele", ".node", ".ovm", ".ovmb")
-DIALECTS = ("msh2 text", "msh4 text", "vtk 5.1 binary", "vtk 4.2 binary", "vtu text", "vtu raw", "vtu packed", "tetgen .node", "tetgen .face", "tetgen .edge")
+MESHES = (
+    ".stl",
+    ".obj",
+    ".off",
+    ".ply",
+    ".vtp",
+    ".vtk",
+    ".vtu",
+    ".msh",
+    ".mesh",
+    ".meshb",
+    ".ele",
+    ".node",
+    ".ovm",
+    ".ovmb",
+)
+DIALECTS = (
+    "msh2 text",
+    "msh4 text",
+    "vtk 5.1 binary",
+    "vtk 4.2 binary",
+    "vtu text",
+    "vtu raw",
+    "vtu packed",
+    "tetgen .node",
+    "tetgen .face",
+    "tetgen .edge",
+)
 FRAMES = tuple(f"frames {name}" for name, form in frame_formats.items() if form.read and form.write)
 NAMES = (*MESHES, *DIALECTS, *FRAMES)
 BESIDE = (".node", ".ele", ".face", ".edge")
@@ -59,7 +85,15 @@ class Samples:
             form = frame_formats[name.split()[1]]
             path = self._file(name, {"geogram": ".txt", "geogram-centres": ".txt"}.get(form.name) or form.extensions[0])
             frames = frames_at(self.mesh, form.where[0])
-            write_frames(path, self.mesh, frames, form.where[0], form.name, features=cube_edges(self.mesh), regions=halves(self.mesh))
+            write_frames(
+                path,
+                self.mesh,
+                frames,
+                form.where[0],
+                form.name,
+                features=cube_edges(self.mesh),
+                regions=halves(self.mesh),
+            )
 
     def _file(self, name, suffix):
         self.files[name] = self.folder / f"{name.replace(' ', '_')}{suffix}"
@@ -80,7 +114,11 @@ class Samples:
             found = read_frames(path, None if form.holds_mesh else self.mesh, form.name)
             return {key: getattr(found, key) for key in ("frames", "features", "regions")}
         found = read_input(path.with_suffix(".node") if path.suffix in (".face", ".edge") else path)
-        tets = {} if found.tets is None else {"points": np.asarray(found.tets.vertices), "tets": np.asarray(found.tets.tets)}
+        tets = (
+            {}
+            if found.tets is None
+            else {"points": np.asarray(found.tets.vertices), "tets": np.asarray(found.tets.tets)}
+        )
         surface = {"vertices": np.asarray(found.surface.vertices), "triangles": np.asarray(found.surface.triangles)}
         return {**tets, **surface, "lines": found.lines, "regions": found.regions}
 
@@ -119,11 +157,25 @@ def test_a_cut_file_is_refused_or_reads_as_the_whole(samples, tmp_path, name):
     assert whole is not None
     rng = np.random.default_rng(1)
     last_line = content.rstrip().rfind(b"\n") if is_text(content) else len(content)
-    for cut in sorted({*range(0, len(content), max(1, len(content) // 40)), *rng.choice(len(content), 20).tolist(), *range(max(0, len(content) - 12), len(content))}):
+    for cut in sorted(
+        {
+            *range(0, len(content), max(1, len(content) // 40)),
+            *rng.choice(len(content), 20).tolist(),
+            *range(max(0, len(content) - 12), len(content)),
+        }
+    ):
         found = read_or_refused(samples, name, path, content[:cut])
         # Where a text ends within its last number, or before sections that need not be there, no reader can tell.
-        undecidable = is_text(content) and (cut > last_line or content[cut - 1 : cut] not in b"\n" or name in NO_COUNT or path.suffix in (".mesh", ".ovm"))
-        assert found is None or same(found, whole) or undecidable or _is_prefix(name, content, cut), (cut, content[:cut][-60:])
+        undecidable = is_text(content) and (
+            cut > last_line
+            or content[cut - 1 : cut] not in b"\n"
+            or name in NO_COUNT
+            or path.suffix in (".mesh", ".ovm")
+        )
+        assert found is None or same(found, whole) or undecidable or _is_prefix(name, content, cut), (
+            cut,
+            content[:cut][-60:],
+        )
 
 
 def _is_prefix(name, content, cut):
@@ -148,7 +200,23 @@ def test_an_altered_file_is_refused_or_read_in_little_time_and_memory(samples, t
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 300_000  # kB
 
 
-WORDS = (b"nan", b"inf", b"-1", b"0", b"1e300", b"1e400", b"99999999999999999999", b"1000000000000000000", b"1.5", b"x", b"1D+00", b"-5", b"", b"4294967295", b"\xff")
+WORDS = (
+    b"nan",
+    b"inf",
+    b"-1",
+    b"0",
+    b"1e300",
+    b"1e400",
+    b"99999999999999999999",
+    b"1000000000000000000",
+    b"1.5",
+    b"x",
+    b"1D+00",
+    b"-5",
+    b"",
+    b"4294967295",
+    b"\xff",
+)
 
 
 def altered(content, rng):
@@ -160,9 +228,13 @@ def altered(content, rng):
         elif how == 1:
             del data[at : at + int(rng.integers(1, 40))]
         elif how == 2:
-            data[at : at + 8] = int(rng.choice([0, 1, -1, 2**63 - 1, -(2**63), 10**18])).to_bytes(8, "little", signed=True)
+            data[at : at + 8] = int(rng.choice([0, 1, -1, 2**63 - 1, -(2**63), 10**18])).to_bytes(
+                8, "little", signed=True
+            )
         elif how == 3:
-            data[at : at + 4] = int(rng.choice([0, -1, 2**31 - 1, -(2**31), 10**9, 8])).to_bytes(4, "little", signed=True)
+            data[at : at + 4] = int(rng.choice([0, -1, 2**31 - 1, -(2**31), 10**9, 8])).to_bytes(
+                4, "little", signed=True
+            )
         else:
             words = bytes(data).split(b" ")
             words[int(rng.integers(0, len(words)))] = WORDS[int(rng.integers(0, len(WORDS)))]
@@ -218,18 +290,38 @@ def test_foreign_files_are_refused(samples, tmp_path, name):
 
 
 CASES = [  # name, what is replaced, by what, what the message says
-    (".vtk", b"POINTS 8", b"POINTS 9", "line 5: POINTS has 24 numbers up to line 13, not 27|line 6: POINTS has 24 numbers"),
+    (
+        ".vtk",
+        b"POINTS 8",
+        b"POINTS 9",
+        "line 5: POINTS has 24 numbers up to line 13, not 27|line 6: POINTS has 24 numbers",
+    ),
     (".vtk", b"CELL_TYPES", b"CELL_TIPES", "unknown section 'CELL_TIPES'"),
     (".vtk", b"POINTS 8", b"POINTS -8", "line 5: POINTS is not followed by the number of points"),
     (".vtk", b"4 0 4 6 7", b"4 0 4 6 x", "line 29: no number: 'x'"),
     (".vtk", b"4 0 4 6 7", b"3 0 4 6 7", "line 14: cell 14 .from 0. of type 10 has 3 vertices, not 4"),
-    (".vtk", b"DATASET UNSTRUCTURED_GRID", b"DATASET POLYDATA", "line 4: DATASET POLYDATA; UNSTRUCTURED_GRID is needed: save surfaces"),
+    (
+        ".vtk",
+        b"DATASET UNSTRUCTURED_GRID",
+        b"DATASET POLYDATA",
+        "line 4: DATASET POLYDATA; UNSTRUCTURED_GRID is needed: save surfaces",
+    ),
     ("msh2 text", b"$EndNodes", b"$EndNodez", "begins before|closes"),
     ("msh2 text", b"2.2 0 8", b"4 0 8", "line 2: version 4 .* write it with Gmsh"),
     ("msh2 text", b"$Nodes\n8", b"$Nodes\n9", r"\$Nodes ends early"),
-    ("vtu text", b'NumberOfPoints="8"', b'NumberOfPoints="9"', "line 9: array Points of Points has 8 rows; the Piece has 9|rows; the Piece has 9"),
+    (
+        "vtu text",
+        b'NumberOfPoints="8"',
+        b'NumberOfPoints="9"',
+        "line 9: array Points of Points has 8 rows; the Piece has 9|rows; the Piece has 9",
+    ),
     ("vtu text", b'Name="offsets"', b'Name="offset"', "Cells have no array offsets"),
-    ("vtu packed", b"vtkZLibDataCompressor", b"vtkLZ4DataCompressor", "packed by vtkLZ4DataCompressor, which is not read; save it"),
+    (
+        "vtu packed",
+        b"vtkZLibDataCompressor",
+        b"vtkLZ4DataCompressor",
+        "packed by vtkLZ4DataCompressor, which is not read; save it",
+    ),
     ("vtu raw", b"</VTKFile>", b"", "ends within AppendedData"),
     (".mesh", b"Tetrahedra\n6", b"Tetrahedra\nnan", "Tetrahedra is not followed by a count"),
     (".mesh", b"Vertices\n8", b"Vertices\n1000000000000000000", "Vertices ends after 8 of 1000000000000000000 rows"),

@@ -10,23 +10,37 @@ import sys
 from collections.abc import Mapping
 
 import numpy as np
+import octafield
+import octafield.study
 import pytest
 import yaml
 from docs_blocks import ROOT, blocks, python_of, run_page
-
-import octafield
-import octafield.study
 from octafield import _core
 from octafield.study.generators import generate
 
 DOCS = ROOT / "docs"
 PAGES = {str(page.relative_to(ROOT)): page for page in [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]}
-RUN = [name for name, page in PAGES.items() if any(b.is_command or b.language == "python" for b in blocks(page)) and name != "README.md"]
-MODULES = [m.name for m in pkgutil.walk_packages(octafield.__path__, "octafield.") if not m.name.endswith(("__main__", "_core"))]
+RUN = [
+    name
+    for name, page in PAGES.items()
+    if any(b.is_command or b.language == "python" for b in blocks(page)) and name != "README.md"
+]
+MODULES = [
+    m.name
+    for m in pkgutil.walk_packages(octafield.__path__, "octafield.")
+    if not m.name.endswith(("__main__", "_core"))
+]
 
 
 def test_the_pages_meant_to_run_do_have_blocks():
-    assert {"docs/first_steps.md", "docs/concepts.md", "docs/studies.md", "docs/reproducibility.md", "docs/install.md", "docs/command_line.md"} <= set(RUN)
+    assert {
+        "docs/first_steps.md",
+        "docs/concepts.md",
+        "docs/studies.md",
+        "docs/reproducibility.md",
+        "docs/install.md",
+        "docs/command_line.md",
+    } <= set(RUN)
 
 
 @pytest.mark.parametrize("name", RUN)  # README.md: test_readme.py
@@ -52,7 +66,15 @@ def test_the_python_of_the_pages_passes_mypy_strict(tmp_path):
     for name, page in PAGES.items():
         if text := python_of(page):
             (tmp_path / (re.sub(r"\W", "_", name) + ".py")).write_text(text)
-    command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", f"--cache-dir={ROOT / '.mypy_cache'}", "."]
+    command = [
+        sys.executable,
+        "-m",
+        "mypy",
+        "--strict",
+        "--follow-imports=silent",
+        f"--cache-dir={ROOT / '.mypy_cache'}",
+        ".",
+    ]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
 
@@ -101,7 +123,11 @@ def test_every_public_name_explains_itself(name):
 
 def test_every_public_name_is_on_one_page_of_the_api():
     pages = (DOCS / "api" / "python").glob("*.md")
-    shown = [name for page in pages for name in re.findall(r"^::: octafield\.(?:compare\.)?(\w+)$", page.read_text(), flags=re.MULTILINE)]
+    shown = [
+        name
+        for page in pages
+        for name in re.findall(r"^::: octafield\.(?:compare\.)?(\w+)$", page.read_text(), flags=re.MULTILINE)
+    ]
     public = set(octafield.__all__) - {"__version__"}
     assert {"missing": public - set(shown), "unknown": set(shown) - public} == {"missing": set(), "unknown": set()}
     assert len(shown) == len(set(shown))
@@ -139,7 +165,9 @@ def test_the_api_pages_show_docstrings_of_the_compiled_module(site):
 
     assert "(n, 9) sh4 vectors of (n, 4) unit quaternions w x y z" in words("api/python/frames.html")
     assert "The same, (n, 15), with (n, 3) axis lengths." in words("api/python/frames.html")  # an overload
-    assert "int32 vertex ids, 0-based, counter-clockwise seen from outside" in words("api/python/meshes.html")  # a field
+    assert "int32 vertex ids, 0-based, counter-clockwise seen from outside" in words(
+        "api/python/meshes.html"
+    )  # a field
     assert "max_iterations: int = 200" in words("api/python/volume_fields.html")  # a default read from C++
     assert "What every embedding of frames into R^d offers" in words("api/cpp.html")
     assert "static_assert(frames::Equivariant&lt;Sh6&gt;)" in words("add_representation.html")

@@ -39,7 +39,9 @@ CALLS = {
     "direction_field_calls_back": "of.direction_field(ball, none, progress=lambda *_: True)",
     "smooth": "of.smooth(box, free, frames, tolerance=0, max_iterations=1000)",
     "smooth_calls_back": "of.smooth(box, free, frames, tolerance=0, max_iterations=1000, progress=lambda *_: True)",
-    "smooth_sleeps_in_its_callback": "of.smooth(box, free, frames, max_iterations=1000, progress=lambda *_: time.sleep(5))",
+    "smooth_sleeps_in_its_callback": (
+        "of.smooth(box, free, frames, max_iterations=1000, progress=lambda *_: time.sleep(5))"
+    ),
     "tetrahedralize": "of.tetrahedralize(ball, edge_length=0.05)",
     "remesh": "of.remesh(ball, none, edge_length=0.05)",
     "rows": "of.su2_project(vectors)",
@@ -49,8 +51,8 @@ ENDS = ("", "sys.exit(7)", "raise SystemExit(7)")
 
 
 def interrupt_until_it_ends(process):
-    """Python itself may miss one, with or without octafield: the system gives it to a thread of Python's or of numpy's, and the main
-    thread is not woken in its join."""
+    """Python itself may miss one, with or without octafield: the system gives it to a thread of Python's or of numpy's,
+    and the main thread is not woken in its join."""
     for _ in range(60):
         os.killpg(process.pid, signal.SIGINT)
         try:
@@ -94,23 +96,20 @@ def test_ctrl_c_while_a_thread_is_joined_ends_by_the_signal(call, request):
 
 def threads_without_interrupts(call, tests):
     """The most threads of a process that did not take SIGINT at one time, while a daemon thread of Python computed."""
-    text = SETUP.format(tests=str(tests), call=CALLS[call]) + (
-        "import pathlib\n"
-        "def status(task):\n"
-        "    try: return (task / 'status').read_text()\n"
-        "    except (FileNotFoundError, ProcessLookupError): return ''  # a thread that has ended\n"
-        "def interrupts_blocked():\n"
-        "    lines = [line for task in pathlib.Path('/proc/self/task').iterdir() for line in status(task).splitlines()]\n"
-        "    return sum(int(line.split()[1], 16) >> 1 & 1 for line in lines if line.startswith('SigBlk'))\n"
-        "most = 0\n"
-        "for _ in range(200):\n"
-        "    most = max(most, interrupts_blocked())\n"
-        "    time.sleep(0.01)\n"
-        "print(most)\n"
+    text = (
+        SETUP.format(tests=str(tests), call=CALLS[call])
+        + "import pathlib\ndef status(task):\n    try: return (task / 'status').read_text()\n    except"
+        " (FileNotFoundError, ProcessLookupError): return ''  # a thread that has ended\ndef interrupts_blocked():\n "
+        "   lines = [line for task in pathlib.Path('/proc/self/task').iterdir() for line in"
+        " status(task).splitlines()]\n    return sum(int(line.split()[1], 16) >> 1 & 1 for line in lines if"
+        " line.startswith('SigBlk'))\nmost = 0\nfor _ in range(200):\n    most = max(most, interrupts_blocked())\n   "
+        " time.sleep(0.01)\nprint(most)\n"
     )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, timeout=60)
     return int(done.stdout.splitlines()[-1])
 
 
 def test_ctrl_c_goes_to_no_thread_that_computes(request):
-    assert threads_without_interrupts("smooth_calls_back", request.path.parent) >= 2  # the one that waits and the one that computes
+    assert (
+        threads_without_interrupts("smooth_calls_back", request.path.parent) >= 2
+    )  # the one that waits and the one that computes

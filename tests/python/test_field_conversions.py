@@ -1,19 +1,19 @@
-"""What a computed field takes along when it becomes another file: feature edges, a size of cells, a mesh whose singular vertices are apart."""
+"""What a computed field takes along when it becomes another file: feature edges, a size of cells, a mesh whose singular
+vertices are apart."""
 
 from dataclasses import replace
 
 import numpy as np
+import octafield as of
 import pytest
 from conftest import box_tets
 from format_table import frames_at
-from typer.testing import CliRunner
-
-import octafield as of
 from octafield.cli import app
 from octafield.conversion import convert_file
 from octafield.files_cli import _cell_edge
 from octafield.inputs import read_input
 from octafield.study.generators import generate
+from typer.testing import CliRunner
 
 WITH_FEATURES = (".ovmb", ".ovm", ".npz", ".vtu", ".msh")
 
@@ -26,7 +26,19 @@ def edges_of(array) -> list[list[int]]:
 def run(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp(request.param)
     of.write_surface(generate("box"), folder / "box.stl")
-    arguments = ["field", str(folder / "box.stl"), "-o", str(folder / "out"), "--sampling", request.param, "--edge-length", "0.3", "-q", "--streamlines", "0"]
+    arguments = [
+        "field",
+        str(folder / "box.stl"),
+        "-o",
+        str(folder / "out"),
+        "--sampling",
+        request.param,
+        "--edge-length",
+        "0.3",
+        "-q",
+        "--streamlines",
+        "0",
+    ]
     assert CliRunner().invoke(app, arguments).exit_code == 0
     return folder / "out"
 
@@ -36,7 +48,9 @@ def test_feature_edges_found_by_field_travel_with_it(run, tmp_path, suffix):
     found = of.read_frames(run / "field.vtu")
     assert len(found.features) == 12 * 4
     points = np.asarray(found.mesh.vertices)[found.features]
-    assert (np.isclose(np.abs(points[:, 0] - points[:, 1]).max(axis=1), np.linalg.norm(points[:, 0] - points[:, 1], axis=1))).all()  # along the axes
+    assert (
+        np.isclose(np.abs(points[:, 0] - points[:, 1]).max(axis=1), np.linalg.norm(points[:, 0] - points[:, 1], axis=1))
+    ).all()  # along the axes
     done = convert_file(run / "field.vtu", tmp_path / f"x{suffix}")
     assert not any("feature" in note for note in done.notes)
     assert edges_of(of.read_frames(tmp_path / f"x{suffix}").features) == edges_of(found.features)
@@ -50,12 +64,16 @@ def test_feature_edges_travel_with_the_mesh_alone(run, tmp_path, suffix):
 
 
 def test_corners_come_back_with_the_feature_edges(run):
-    again = of.analyse(run / "field.vtu", of.read_frames(run / "field.vtu").frames, of.read_frames(run / "field.vtu").where)
+    again = of.analyse(
+        run / "field.vtu", of.read_frames(run / "field.vtu").frames, of.read_frames(run / "field.vtu").where
+    )
     assert len(again.features.corners) == 8 and again.record["feature_source"] == "file"
 
 
 def test_what_cannot_hold_features_or_gets_none_says_so(run, tmp_path):
-    assert any("feature edges were left out" in note for note in convert_file(run / "field.vtu", tmp_path / "x.qtn").notes)
+    assert any(
+        "feature edges were left out" in note for note in convert_file(run / "field.vtu", tmp_path / "x.qtn").notes
+    )
     mesh = box_tets(2)
     notes = of.write_frames(tmp_path / "a.ovmb", mesh, frames_at(mesh, "tets"), "tets")
     assert notes == ["no feature edges were given: the file marks none"]
@@ -73,11 +91,12 @@ def test_a_result_gives_its_features_and_regions_to_the_file(tmp_path):
 @pytest.mark.parametrize("damage", ["7 99999", "0.5 1", "1 2 3"])
 def test_damaged_feature_edges_are_refused(run, tmp_path, damage):
     (tmp_path / "a.vtu").write_text(
-        '<VTKFile type="UnstructuredGrid"><UnstructuredGrid><FieldData><DataArray type="Float64" Name="feature_edges" NumberOfComponents="2" format="ascii">'
-        f'{damage}</DataArray></FieldData><Piece NumberOfPoints="4" NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">'
-        '0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points><Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>'
-        '<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray><DataArray type="UInt8" Name="types" format="ascii">10</DataArray></Cells>'
-        "</Piece></UnstructuredGrid></VTKFile>"
+        '<VTKFile type="UnstructuredGrid"><UnstructuredGrid><FieldData><DataArray type="Float64" Name="feature_edges"'
+        f' NumberOfComponents="2" format="ascii">{damage}</DataArray></FieldData><Piece NumberOfPoints="4"'
+        ' NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0'
+        ' 0 0 1</DataArray></Points><Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2'
+        ' 3</DataArray><DataArray type="Int64" Name="offsets" format="ascii">4</DataArray><DataArray type="UInt8"'
+        ' Name="types" format="ascii">10</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>'
     )
     with pytest.raises(of.IoError, match="feature_edges"):
         read_input(tmp_path / "a.vtu")
@@ -99,7 +118,9 @@ def test_the_edge_of_cells_divides_densities_and_multiplies_edges(tmp_path, suff
     tets, points = np.asarray(mesh.tets), np.asarray(mesh.vertices)
     edges = {tuple(sorted((int(a), int(b)))) for tet in tets for a in tet for b in tet if a != b}
     mean = np.mean([np.linalg.norm(points[a] - points[b]) for a, b in edges])
-    assert np.allclose(lengths_in(tmp_path / f"b{suffix}"), mean**power) and any(f"{mean:.6g}" in note for note in notes)
+    assert np.allclose(lengths_in(tmp_path / f"b{suffix}"), mean**power) and any(
+        f"{mean:.6g}" in note for note in notes
+    )
 
 
 def test_the_edge_of_cells_goes_with_sizes(run, tmp_path):
@@ -121,20 +142,26 @@ def test_an_edge_of_cells_that_is_no_length_is_refused(tmp_path, wrong):
 
 
 def test_a_word_for_the_edge_of_cells_is_bad_usage(run, tmp_path):
-    result = CliRunner().invoke(app, ["convert", str(run / "field.vtu"), "-o", str(tmp_path / "a.fra"), "--cell-edge", "wide"])
+    result = CliRunner().invoke(
+        app, ["convert", str(run / "field.vtu"), "-o", str(tmp_path / "a.fra"), "--cell-edge", "wide"]
+    )
     assert result.exit_code == 2
 
 
 def test_splitting_between_singular_vertices_keeps_frames_singular_edges_and_features(tmp_path):
     mesh = box_tets(3)
     frames = np.asarray(of.random_rotations(len(mesh.tets), 5))
-    features = np.asarray(of.boundary_surface(mesh).vertex_map)[of.detect_features(of.boundary_surface(mesh).mesh).edges]
+    features = np.asarray(of.boundary_surface(mesh).vertex_map)[
+        of.detect_features(of.boundary_surface(mesh).mesh).edges
+    ]
     of.write_frames(tmp_path / "a.vtu", mesh, frames, "tets", features=features, regions=np.arange(len(frames)) % 1)
     done = convert_file(tmp_path / "a.vtu", tmp_path / "b.vtu", split_singular=True)
     found = of.read_frames(tmp_path / "b.vtu")
     split = of.split_between_singular(mesh, of.boundary_surface(mesh), frames)
     assert len(split.edges) > 5 and len(split.left) == 0 and done.cells == len(split.mesh.tets) > len(mesh.tets)
-    assert np.array_equal(found.mesh.tets, split.mesh.tets) and np.allclose(of.distance(found.frames, frames[split.parent]), 0, atol=1e-7)
+    assert np.array_equal(found.mesh.tets, split.mesh.tets) and np.allclose(
+        of.distance(found.frames, frames[split.parent]), 0, atol=1e-7
+    )
     before, after = of.singular_edges(mesh, frames), of.singular_edges(found.mesh, found.frames)
     assert [(e.a, e.b, e.quarter_turns) for e in after.edges] == [(e.a, e.b, e.quarter_turns) for e in before.edges]
     assert edges_of(found.features) == edges_of(features)
@@ -154,42 +181,70 @@ def test_frames_in_tets_have_the_verdict_of_meshability(run):
     import json
 
     record = json.loads((run / "result.json").read_text())
-    assert record["non_meshable_vertices"] == record["non_meshable_corners"] == record["non_meshable_feature_edges"] == 0
+    assert (
+        record["non_meshable_vertices"] == record["non_meshable_corners"] == record["non_meshable_feature_edges"] == 0
+    )
     assert record["hexahedra_at_features"] == {"1": 48}
     assert (run / "features.vtp").exists() and record["undecided_edges"] == 0
 
 
 @pytest.mark.parametrize("interfaces", [True, False])
 def test_field_splits_between_singular_vertices_on_request(tmp_path, interfaces):
-    """The same field on a finer mesh; the box has two regions, so that surfaces with and without interfaces keep their vertices."""
+    """The same field on a finer mesh; the box has two regions, so that surfaces with and without interfaces keep their
+    vertices."""
     mesh = box_tets(3)
     regions = (np.asarray(mesh.vertices)[np.asarray(mesh.tets)].mean(axis=1)[:, 0] > 0.5).astype(np.int32)
     of.write_field(tmp_path / "in.vtu", mesh, np.tile([1.0, 0, 0, 0], (len(mesh.vertices), 1)), {}, regions)
-    options = of.FieldOptions(sampling="tets", boundary="none", interfaces=interfaces, max_iterations=0, rounds=0, streamlines=0)
+    options = of.FieldOptions(
+        sampling="tets", boundary="none", interfaces=interfaces, max_iterations=0, rounds=0, streamlines=0
+    )
     meshed = of.prepare_mesh(tmp_path / "in.vtu", options)
     random = np.asarray(of.random_rotations(len(mesh.tets), 5))
     plain, split = (of.compute_field(meshed, replace(options, split_singular=on), start=random) for on in (False, True))
     counts = split.record["split_singular"]
     assert counts["edges"] > 5 and counts["left"] == 0 and "split_singular" not in plain.record
-    assert len(split.tets.tets) == len(plain.tets.tets) + counts["added_tets"] and len(split.tets.vertices) == len(plain.tets.vertices) + counts["added_vertices"]
+    assert (
+        len(split.tets.tets) == len(plain.tets.tets) + counts["added_tets"]
+        and len(split.tets.vertices) == len(plain.tets.vertices) + counts["added_vertices"]
+    )
     assert np.array_equal(split.tet_frames, plain.tet_frames[split.parent]) and plain.parent is None
     ends = lambda result: [(e.a, e.b, e.quarter_turns) for e in of.singular_edges(result.tets, result.tet_frames).edges]
     assert ends(split) == ends(plain) and split.record["singular_edges"] == plain.record["singular_edges"] > 0
-    assert np.array_equal(split.surface.triangles, plain.surface.triangles) and edges_of(split.feature_edges) == edges_of(plain.feature_edges)
-    assert split.record["boundary_triangles"] == plain.record["boundary_triangles"] and split.record["alignment_deg"] == plain.record["alignment_deg"]
-    assert split.record["mesh_sha256"] != plain.record["mesh_sha256"] and split.record["energy_history"] == plain.record["energy_history"]
+    assert np.array_equal(split.surface.triangles, plain.surface.triangles) and edges_of(
+        split.feature_edges
+    ) == edges_of(plain.feature_edges)
+    assert (
+        split.record["boundary_triangles"] == plain.record["boundary_triangles"]
+        and split.record["alignment_deg"] == plain.record["alignment_deg"]
+    )
+    assert (
+        split.record["mesh_sha256"] != plain.record["mesh_sha256"]
+        and split.record["energy_history"] == plain.record["energy_history"]
+    )
     surface = of.region_surface(split.tets, split.regions).surface if interfaces else of.boundary_surface(split.tets)
     assert len(of.split_between_singular(split.tets, surface, split.tet_frames).edges) == 0
 
 
 def test_field_and_convert_split_alike(tmp_path):
     of.write_surface(generate("ball"), tmp_path / "ball.stl")
-    common = ["field", str(tmp_path / "ball.stl"), "--sampling", "tets", "--edge-length", "0.45", "-q", "--streamlines", "0"]
+    common = [
+        "field",
+        str(tmp_path / "ball.stl"),
+        "--sampling",
+        "tets",
+        "--edge-length",
+        "0.45",
+        "-q",
+        "--streamlines",
+        "0",
+    ]
     for name, more in (("plain", []), ("split", ["--split-singular"])):
         assert CliRunner().invoke(app, [*common, "-o", str(tmp_path / name), *more]).exit_code == 0
     convert_file(tmp_path / "plain" / "field.vtu", tmp_path / "converted.vtu", split_singular=True)
     field, converted = of.read_frames(tmp_path / "split" / "field.vtu"), of.read_frames(tmp_path / "converted.vtu")
     assert len(field.mesh.tets) > len(of.read_frames(tmp_path / "plain" / "field.vtu").mesh.tets)
-    assert np.array_equal(field.mesh.tets, converted.mesh.tets) and np.allclose(of.distance(field.frames, converted.frames), 0, atol=1e-7)
+    assert np.array_equal(field.mesh.tets, converted.mesh.tets) and np.allclose(
+        of.distance(field.frames, converted.frames), 0, atol=1e-7
+    )
     result = CliRunner().invoke(app, [*common[:2], "-o", str(tmp_path / "none"), "--split-singular"])
     assert result.exit_code == 2 and "--sampling tets" in result.output + result.stderr

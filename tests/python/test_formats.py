@@ -5,14 +5,13 @@ from dataclasses import replace
 
 import mesh_table
 import numpy as np
+import octafield
 import other_readers as readers
 import pytest
 from conftest import box_tets
 from format_table import FORMATS_BEGIN, available, axes, frames_at, on_page, rows, table_of, table_of_formats
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-import octafield
 from octafield import frame_formats, read_frames, write_frames
 from octafield.formats.registry import FORMATS
 
@@ -31,11 +30,15 @@ def name_of(folder, name: str, packed: str = ""):
 def test_the_table_of_round_trips_in_the_docs_is_what_this_run_finds(mesh, tmp_path):
     lines = on_page().splitlines()
     here = [line for line in lines if "|" not in line or available((line.split("|") + [""] * 4)[4].strip())]
-    assert here == table_of(rows(mesh, tmp_path)).splitlines(), "PYTHONPATH=tests/python python tests/python/format_table.py"
+    assert here == table_of(rows(mesh, tmp_path)).splitlines(), (
+        "PYTHONPATH=tests/python python tests/python/format_table.py"
+    )
 
 
 def test_the_table_of_mesh_round_trips_in_the_docs_is_what_this_run_finds(tmp_path):
-    assert on_page(mesh_table.BEGIN) == mesh_table.table_of(mesh_table.rows(tmp_path)), "PYTHONPATH=tests/python python tests/python/format_table.py"
+    assert on_page(mesh_table.BEGIN) == mesh_table.table_of(mesh_table.rows(tmp_path)), (
+        "PYTHONPATH=tests/python python tests/python/format_table.py"
+    )
 
 
 def test_the_list_of_formats_in_the_docs_is_that_of_the_program():
@@ -54,7 +57,11 @@ def test_own_round_trips_keep_the_frames_and_the_bits_where_promised(mesh, tmp_p
         assert write_frames(name_of(tmp_path, name, packed), mesh, frames, where, name) == none_given
         found = read_frames(name_of(tmp_path, name, packed), None if form.holds_mesh else mesh, name)
         assert found.where == where and found.format == name and found.deviation == 0 and found.left_handed == 0
-        assert np.array_equal(found.frames, frames) if form.exact else np.max(octafield.distance(found.frames, frames)) < 2e-15
+        assert (
+            np.array_equal(found.frames, frames)
+            if form.exact
+            else np.max(octafield.distance(found.frames, frames)) < 2e-15
+        )
         assert np.array_equal(np.sort(found.mesh.tets, axis=1), np.sort(mesh.tets, axis=1))
         assert np.array_equal(found.mesh.vertices, mesh.vertices)
 
@@ -143,7 +150,9 @@ def test_faces_of_a_cell_are_found_for_every_vertex_order_in_an_ovm_file(tmp_pat
         turned = half_faces[turn:] + half_faces[:turn]
         (tmp_path / "b.ovm").write_text(text.replace(row, "4 " + " ".join(turned)))
         assert octafield.tet_volumes(read_frames(tmp_path / "b.ovm").mesh) == pytest.approx([1 / 6])
-    (tmp_path / "c.ovm").write_text(text.replace(row, f"4 {half_faces[0]} {half_faces[0]} {half_faces[1]} {half_faces[2]}"))
+    (tmp_path / "c.ovm").write_text(
+        text.replace(row, f"4 {half_faces[0]} {half_faces[0]} {half_faces[1]} {half_faces[2]}")
+    )
     with pytest.raises(octafield.InvalidInput, match="cell 0 .* bound no tetrahedron"):
         read_frames(tmp_path / "c.ovm")
 
@@ -161,7 +170,9 @@ def test_lengths_handedness_and_skew_of_axes_are_told(mesh, tmp_path):
     assert np.max(octafield.distance(found.frames, frames)) < 2e-15
     assert np.allclose(found.lengths, lengths, rtol=1e-14) and found.left_handed == left.sum()
     assert any("left-handed" in note for note in found.notes) and any("lengths" in note for note in found.notes)
-    write_frames(tmp_path / "b.ff3", mesh, octafield.tet_frames(mesh, frames), "tets", lengths=np.full((len(mesh.tets), 3), 2.5))
+    write_frames(
+        tmp_path / "b.ff3", mesh, octafield.tet_frames(mesh, frames), "tets", lengths=np.full((len(mesh.tets), 3), 2.5)
+    )
     assert np.allclose(read_frames(tmp_path / "b.ff3", mesh).lengths, 2.5)
     skew = triads.copy()
     skew[:, :, 0] += 0.1 * skew[:, :, 1]  # 5.7 degrees between two axes: half of it for each
@@ -174,7 +185,9 @@ def test_lengths_handedness_and_skew_of_axes_are_told(mesh, tmp_path):
     assert np.allclose(axes(found.frames)[5], polar(unit[5])[0])  # the nearest rotation
 
 
-@pytest.mark.parametrize("bad", ["0 0 0  0 1 0  0 0 1", "1 0 0  0 1 0  1 1 0", "1 0 0  0 1 0  0 0 nan", "1 0 0  0 1 0  0 0 inf"])
+@pytest.mark.parametrize(
+    "bad", ["0 0 0  0 1 0  0 0 1", "1 0 0  0 1 0  1 1 0", "1 0 0  0 1 0  0 0 nan", "1 0 0  0 1 0  0 0 inf"]
+)
 def test_triads_that_are_no_frames_are_refused_with_their_line(mesh, tmp_path, bad):
     path = tmp_path / "a.txt"
     path.write_text("1 0 0 0 1 0 0 0 1\n\n" + bad + "\n")
@@ -187,9 +200,13 @@ def test_numbers_of_frames_tell_where_they_sit(mesh, tmp_path):
     q = frames_at(mesh, "tets")
     np.save(tmp_path / "t.npy", q)
     assert read_frames(tmp_path / "t.npy", mesh).where == "tets"
-    assert read_frames(tmp_path / "t.npy").where == "vertices"  # as numpy files usually have it; there is no mesh to tell
+    assert (
+        read_frames(tmp_path / "t.npy").where == "vertices"
+    )  # as numpy files usually have it; there is no mesh to tell
     assert read_frames(tmp_path / "t.npy", where="tets").where == "tets"
-    with pytest.raises(octafield.InvalidInput, match="162 frames; the mesh has 64 vertices and 162 tets, and frames at vertices"):
+    with pytest.raises(
+        octafield.InvalidInput, match="162 frames; the mesh has 64 vertices and 162 tets, and frames at vertices"
+    ):
         read_frames(tmp_path / "t.npy", mesh, where="vertices")
     with pytest.raises(octafield.InvalidInput, match="162 frames; the mesh has 27 vertices and 48 tets"):
         read_frames(tmp_path / "t.npy", box_tets(2))
@@ -221,7 +238,11 @@ def test_points_that_no_tet_uses_take_their_frames_with_them(mesh, tmp_path):
 
 def test_frames_move_between_vertices_and_tets_by_the_mean(mesh, tmp_path):
     free = octafield.BoundaryConstraints(
-        np.zeros(64, np.uint8), np.zeros((64, 3)), np.tile([1.0, 0, 0, 0], (64, 1)), np.zeros(64, np.uint8), np.empty(0, np.int32)
+        np.zeros(64, np.uint8),
+        np.zeros((64, 3)),
+        np.tile([1.0, 0, 0, 0], (64, 1)),
+        np.zeros(64, np.uint8),
+        np.empty(0, np.int32),
     )
     q = np.asarray(octafield.smooth(mesh, free, frames_at(mesh, "vertices"), max_iterations=3).frames)
     notes = write_frames(tmp_path / "a.frame", mesh, q)
@@ -229,7 +250,10 @@ def test_frames_move_between_vertices_and_tets_by_the_mean(mesh, tmp_path):
     found = read_frames(tmp_path / "a.frame", mesh)
     assert np.max(octafield.distance(found.frames, octafield.tet_frames(mesh, q))) < 2e-15
     write_frames(tmp_path / "b.npy", mesh, found.frames, "tets", at="vertices")
-    assert np.max(octafield.distance(read_frames(tmp_path / "b.npy").frames, octafield.vertex_frames(mesh, found.frames))) < 2e-15
+    assert (
+        np.max(octafield.distance(read_frames(tmp_path / "b.npy").frames, octafield.vertex_frames(mesh, found.frames)))
+        < 2e-15
+    )
     with pytest.raises(octafield.InvalidInput, match="at tets only"):
         write_frames(tmp_path / "c.frame", mesh, q, at="vertices")
 
@@ -238,11 +262,19 @@ def test_sh4_vectors_are_read_with_m_ascending(mesh, tmp_path):
     import meshio
 
     q = frames_at(mesh, "vertices")
-    meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], point_data={"sh4": 3 * octafield.sh4_embed(q)}).write(tmp_path / "a.vtu")
+    meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], point_data={"sh4": 3 * octafield.sh4_embed(q)}).write(
+        tmp_path / "a.vtu"
+    )
     assert np.max(octafield.distance(read_frames(tmp_path / "a.vtu").frames, q)) < 1e-7
 
 
-@given(st.lists(st.lists(st.floats(-1, 1), min_size=4, max_size=4).filter(lambda q: sum(x * x for x in q) > 1e-3), min_size=1, max_size=20))
+@given(
+    st.lists(
+        st.lists(st.floats(-1, 1), min_size=4, max_size=4).filter(lambda q: sum(x * x for x in q) > 1e-3),
+        min_size=1,
+        max_size=20,
+    )
+)
 @settings(max_examples=50, deadline=None)
 def test_any_rotation_goes_through_nine_numbers(tmp_path_factory, values):
     q = np.array(values)
@@ -251,7 +283,9 @@ def test_any_rotation_goes_through_nine_numbers(tmp_path_factory, values):
     write_frames(path, None, q)
     assert np.max(octafield.distance(read_frames(path).frames, q)) < 2e-15
     write_frames(path.with_suffix(".qtn"), None, q, "tets")
-    q = np.where(np.abs(np.linalg.norm(q, axis=1, keepdims=True) - 1) > 1e-15, read_frames(path.with_suffix(".qtn")).frames, q)
+    q = np.where(
+        np.abs(np.linalg.norm(q, axis=1, keepdims=True) - 1) > 1e-15, read_frames(path.with_suffix(".qtn")).frames, q
+    )
     assert np.array_equal(read_frames(path.with_suffix(".qtn")).frames, q)
 
 
@@ -260,7 +294,14 @@ def test_lines_are_written_and_read_without_a_call_each(tmp_path):
     import sys
 
     q, calls = np.tile(octafield.random_rotations(1000, 1), (20, 1)), []
-    sys.setprofile(lambda frame, event, argument: event == "call" and "octafield" in frame.f_code.co_filename and frame.f_code.co_name[0] != "<" and calls.append(frame.f_code.co_name))
+    sys.setprofile(
+        lambda frame, event, argument: (
+            event == "call"
+            and "octafield" in frame.f_code.co_filename
+            and frame.f_code.co_name[0] != "<"
+            and calls.append(frame.f_code.co_name)
+        )
+    )
     try:
         write_frames(tmp_path / "a.txt", None, q)
         found = read_frames(tmp_path / "a.txt")

@@ -1,4 +1,5 @@
-"""Damaged and foreign files: a typed error with the place, never another exception, never more memory than the file deserves."""
+"""Damaged and foreign files: a typed error with the place, never another exception, never more memory than the file
+deserves."""
 
 import gzip
 import struct
@@ -6,13 +7,12 @@ import warnings
 import zipfile
 
 import numpy as np
+import octafield
 import pytest
 from conftest import box_tets
 from format_table import frames_at
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-
-import octafield
 from octafield import frame_formats, read_frames, write_frames
 from octafield.files import numbers_of, parsed_numbers
 from octafield.inputs import read_input
@@ -89,7 +89,11 @@ CASES = {
         ("FRA 1\n1 3 4\n1 0 0\n0 1 0\n", "holds 2 vectors, but its head says 3"),
     ],
     "a.qtn": [("1 0 0 0 1", "line 1: holds 5 numbers"), ("1 0 0 0\n0 0 0 0\n", "line 2: quaternion 1")],
-    "a.ff3": [("9\n", "line 1: '9 N' is needed"), ("6 1\n1 2 3 4 5 6\n", "'9 N' is needed"), ("9 2\n1 0 0 0 1 0 0 0 1\n", "head says 2")],
+    "a.ff3": [
+        ("9\n", "line 1: '9 N' is needed"),
+        ("6 1\n1 2 3 4 5 6\n", "'9 N' is needed"),
+        ("9 2\n1 0 0 0 1 0 0 0 1\n", "head says 2"),
+    ],
     "a.ovm": [
         ("OVM BINARY\n", "begins with 'OVM ASCII'"),
         ("OVM ASCII\nVertices\n1\n0 0\n", "line 4: 2 numbers; 3 are needed"),
@@ -177,7 +181,9 @@ def test_numbers_after_a_bad_word_are_not_lost_where_numpy_only_warns(monkeypatc
     """As NumPy before 2.3 does."""
 
     def warns(text, sep):
-        warnings.warn("string or file could not be read to its end due to unmatched data", DeprecationWarning, stacklevel=1)
+        warnings.warn(
+            "string or file could not be read to its end due to unmatched data", DeprecationWarning, stacklevel=1
+        )
         return np.array([1.0])
 
     monkeypatch.setattr(np, "fromstring", warns)

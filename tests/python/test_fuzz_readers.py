@@ -13,5 +13,8 @@ def test_the_same_seed_alters_alike_and_a_fault_is_kept(tmp_path, monkeypatch):
 
     monkeypatch.setattr(fuzz_readers, "read", fail)
     counts = [fuzz_readers.fuzz(tmp_path / folder, 20, 3) for folder in "ab"]
-    kept = [{path.name: path.read_bytes() for path in (tmp_path / folder / "faults").iterdir() if path.suffix != ".fault"} for folder in "ab"]
+    kept = [
+        {path.name: path.read_bytes() for path in (tmp_path / folder / "faults").iterdir() if path.suffix != ".fault"}
+        for folder in "ab"
+    ]
     assert counts == [20, 20] and kept[0] == kept[1]

@@ -4,11 +4,10 @@ import json
 import re
 
 import numpy as np
-import pytest
-from pipeline_fixtures import octafield as command
-
 import octafield
+import pytest
 from octafield.study.generators import generate
+from pipeline_fixtures import octafield as command
 
 
 @pytest.fixture(scope="module")
@@ -30,14 +29,23 @@ def files(solved, tmp_path_factory):
 
 
 @pytest.mark.parametrize(("sampling", "file"), [("vertices", "theirs.vtu"), ("tets", "theirs.frame")])
-def test_a_given_field_has_a_row_as_it_is_and_one_smoothed_per_boundary_treatment(files, solved, tmp_path, sampling, file):
+def test_a_given_field_has_a_row_as_it_is_and_one_smoothed_per_boundary_treatment(
+    files, solved, tmp_path, sampling, file
+):
     tets, frames = solved
     options = octafield.FieldOptions(sampling=sampling, streamlines=0)
     found = octafield.compare(
-        files / "mesh.mesh", tmp_path / "out", representations=["sh4"], boundaries=["aligned", "none"], options=options, fields={"theirs": files / file}
+        files / "mesh.mesh",
+        tmp_path / "out",
+        representations=["sh4"],
+        boundaries=["aligned", "none"],
+        options=options,
+        fields={"theirs": files / file},
     )
     rows = {(row["label"].split(",")[0], row["boundary"]): row for row in found.rows}
-    assert set(rows) == {(name, boundary) for name in ("sh4", "theirs", "sh4 from theirs") for boundary in ("aligned", "none")}
+    assert set(rows) == {
+        (name, boundary) for name in ("sh4", "theirs", "sh4 from theirs") for boundary in ("aligned", "none")
+    }
     analysed = octafield.read_frames(files / file, tets)
     energy = octafield.analyse(tets, analysed.frames, analysed.where).record["energy"]
     for boundary in ("aligned", "none"):
@@ -63,8 +71,12 @@ def test_the_report_names_given_fields_and_gives_them_no_times(files, tmp_path):
 
 def test_arrays_are_taken_as_they_are(solved, tmp_path):
     tets, frames = solved
-    found = octafield.compare(tets, tmp_path / "out", representations=["sh4"], boundaries=["none"], fields={"mine": frames}, seeds=2)
-    assert [row["energy"] for row in found.rows if row["label"] == "mine"] == pytest.approx([octafield.dirichlet_energy(tets, frames)] * 2)
+    found = octafield.compare(
+        tets, tmp_path / "out", representations=["sh4"], boundaries=["none"], fields={"mine": frames}, seeds=2
+    )
+    assert [row["energy"] for row in found.rows if row["label"] == "mine"] == pytest.approx(
+        [octafield.dirichlet_energy(tets, frames)] * 2
+    )
 
 
 @pytest.mark.parametrize(
@@ -94,9 +106,15 @@ def test_the_command_takes_named_files(files, tmp_path):
     done = command("compare", files / "mesh.mesh", "-o", out, "-q", "--representations", "sh4", "--boundaries", "aligned", "--sampling", "tets",
                    "--field", f"theirs={files / 'theirs.frame'}")  # fmt: skip
     assert done.returncode == 0, done.stderr
-    assert [row["label"] for row in json.loads((out / "results.json").read_text())] == ["sh4, aligned", "sh4 from theirs, aligned", "theirs"]
+    assert [row["label"] for row in json.loads((out / "results.json").read_text())] == [
+        "sh4, aligned",
+        "sh4 from theirs, aligned",
+        "theirs",
+    ]
     for wrong, word in ((["theirs.frame"], "NAME=FILE"), (["a=x", "a=y"], "already")):
-        failed = command("compare", files / "mesh.mesh", "-o", tmp_path / "no", *(part for one in wrong for part in ("--field", one)))
+        failed = command(
+            "compare", files / "mesh.mesh", "-o", tmp_path / "no", *(part for one in wrong for part in ("--field", one))
+        )
         assert failed.returncode == 2 and word in failed.stderr and not (tmp_path / "no").exists()
 
 

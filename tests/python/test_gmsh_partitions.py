@@ -3,14 +3,14 @@
 import gmsh
 import numpy as np
 import pytest
-from test_cad import opened_gmsh
-
 from octafield.inputs import read_input
+from test_cad import opened_gmsh
 
 
 @pytest.fixture(scope="module")
 def gmsh_files(tmp_path_factory):
-    """Two boxes side by side: whole, and in three partitions, with and without groups, topology of partitions and ghost cells, in either version."""
+    """Two boxes side by side: whole, and in three partitions, with and without groups, topology of partitions and ghost
+    cells, in either version."""
     folder = tmp_path_factory.mktemp("gmsh")
     with opened_gmsh() as occ:
         for groups in (False, True):
@@ -32,21 +32,36 @@ def gmsh_files(tmp_path_factory):
                         for binary in (0, 1):
                             gmsh.option.setNumber("Mesh.MshFileVersion", version)
                             gmsh.option.setNumber("Mesh.Binary", binary)
-                            gmsh.write(str(folder / f"{'groups' if groups else 'none'}_{'_'.join(created) or 'plain'}_{parts}_{version}_{binary}.msh"))
+                            gmsh.write(
+                                str(
+                                    folder
+                                    / f"{'groups' if groups else 'none'}_{'_'.join(created) or 'plain'}_{parts}_{version}_{binary}.msh"
+                                )
+                            )
     return folder
 
 
 def as_sets(found):
     points = np.asarray(found.tets.vertices)
-    corners = {tuple(sorted(map(tuple, points[tet].round(9).tolist()))): region for tet, region in zip(np.asarray(found.tets.tets), found.regions, strict=True)}
-    lines = None if found.lines is None else {frozenset(map(tuple, np.asarray(found.surface.vertices)[line].round(9).tolist())) for line in found.lines}
+    corners = {
+        tuple(sorted(map(tuple, points[tet].round(9).tolist()))): region
+        for tet, region in zip(np.asarray(found.tets.tets), found.regions, strict=True)
+    }
+    lines = (
+        None
+        if found.lines is None
+        else {frozenset(map(tuple, np.asarray(found.surface.vertices)[line].round(9).tolist())) for line in found.lines}
+    )
     return corners, lines, found.interface_triangles, found.notes
 
 
 @pytest.mark.parametrize("groups", ["none", "groups"])
 def test_what_gmsh_partitions_reads_as_the_whole_in_either_version(gmsh_files, groups):
     whole = read_input(gmsh_files / f"{groups}_plain_0_4.1_0.msh")
-    assert np.unique(whole.regions).tolist() == ([11, 12] if groups == "groups" else [1, 2]) and whole.interface_triangles > 0
+    assert (
+        np.unique(whole.regions).tolist() == ([11, 12] if groups == "groups" else [1, 2])
+        and whole.interface_triangles > 0
+    )
     assert (whole.lines is None) == (groups == "groups")
     files = sorted(gmsh_files.glob(f"{groups}_*.msh"))
     assert len(files) == 20

@@ -1,12 +1,13 @@
 """A mesh that is there already cannot follow other options of the mesh: they are refused by name."""
 
+import octafield as of
 import pytest
 from octafield.study.generators import generate
 
-import octafield as of
 
-
-@pytest.mark.parametrize("name, value", [("edge_length", 0.2), ("features", "none"), ("remesh", False), ("split", True)])
+@pytest.mark.parametrize(
+    "name, value", [("edge_length", 0.2), ("features", "none"), ("remesh", False), ("split", True)]
+)
 def test_run_refuses_options_it_would_ignore(name, value):
     problem = of.prepare(of.prepare_mesh(generate("box"), of.MeshOptions(edge_length=0.4)))
     with pytest.raises(of.InvalidInput, match=f"{name}={value!r}") as caught:

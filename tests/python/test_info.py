@@ -3,15 +3,14 @@
 import json
 
 import numpy as np
+import octafield as of
 import pytest
 import pyvista
 from conftest import box_tets
-from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, octafield, shared, write_cube, write_sphere
-
-import octafield as of
 from octafield import MeshOptions, estimates, info_checks, info_measures
 from octafield.info import examine
 from octafield.study.generators import generate
+from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, octafield, shared, write_cube, write_sphere
 
 
 def write(mesh, path):
@@ -44,12 +43,18 @@ def scaled(mesh, *factors):
 def test_sound_bodies_pass_every_check(name, tmp_path):
     record = examine(write(generate(name), tmp_path / "body.ply"))
     assert record["ok"] and set(states(record).values()) == {"pass"}
-    assert {r["requirement"] for r in record["requirements"]} >= {"file can be read", "walls are thicker than half an edge", "memory suffices"}
+    assert {r["requirement"] for r in record["requirements"]} >= {
+        "file can be read",
+        "walls are thicker than half an edge",
+        "memory suffices",
+    }
 
 
 def test_the_expected_number_of_tets_is_near_the_true_one(tmp_path):
     for name, length in (("ball", 0.2), ("cylinder", 0.2), ("box", 0.1)):
-        expected = examine(write(generate(name), tmp_path / "b.ply"), MeshOptions(edge_length=length))["expected"]["tets"]
+        expected = examine(write(generate(name), tmp_path / "b.ply"), MeshOptions(edge_length=length))["expected"][
+            "tets"
+        ]
         true = len(of.prepare_mesh(generate(name), MeshOptions(edge_length=length)).tets.tets)
         assert 0.6 < expected / true < 1.6
 
@@ -78,7 +83,11 @@ def test_repair_is_the_remedy_of_broken_surfaces_and_works(name):
     path = shared(SHARED_SURFACES / f"bad_{name}.obj")
     record = examine(path)
     remedies = [r["remedy"] for r in record["requirements"] if r["state"] == "fail"]
-    assert not record["ok"] and remedies and all(remedy.startswith(("--repair merge ", "--repair safe ")) for remedy in remedies)
+    assert (
+        not record["ok"]
+        and remedies
+        and all(remedy.startswith(("--repair merge ", "--repair safe ")) for remedy in remedies)
+    )
     again = examine(path, MeshOptions(repair=True))
     assert again["ok"] and any(note.startswith("repair: ") for note in again["notes"])
 
@@ -86,7 +95,11 @@ def test_repair_is_the_remedy_of_broken_surfaces_and_works(name):
 def test_crossing_faces_need_a_higher_level():
     path = shared(SHARED_SURFACES / "bad_selfcross_s15.obj")
     finding = found(examine(path), "no self-intersection")
-    assert finding["state"] == "fail" and finding["remedy"].startswith("--repair resolve makes it sound (") and finding["elements"]
+    assert (
+        finding["state"] == "fail"
+        and finding["remedy"].startswith("--repair resolve makes it sound (")
+        and finding["elements"]
+    )
     assert examine(path, MeshOptions(repair="resolve"))["ok"]
 
 
@@ -115,7 +128,12 @@ def test_feature_curves_that_end_in_a_face_are_warned_of(tmp_path):
     z = np.maximum(0, 1 - np.abs(y)) * (4 - x) / 4
     top = pyvista.StructuredGrid(x, y, z).extract_surface(algorithm=None).triangulate()
     top.clear_data()
-    body = top.extrude((0, 0, -3), capping=True).triangulate().clean().compute_normals(auto_orient_normals=True, split_vertices=False)
+    body = (
+        top.extrude((0, 0, -3), capping=True)
+        .triangulate()
+        .clean()
+        .compute_normals(auto_orient_normals=True, split_vertices=False)
+    )
     path = write(of.from_pyvista(body), tmp_path / "ridge.ply")
     finding = found(examine(path), "feature curves end at corners")
     assert (finding["state"], finding["kind"]) == ("warn", "open_features") and len(finding["elements"]) >= 1
@@ -172,9 +190,17 @@ def test_walls_are_measured_across_the_body_and_wedges_are_none(tmp_path):
 
 
 def test_curvature_finer_than_the_edges(tmp_path):
-    bent = pyvista.ParametricTorus(ringradius=1, crosssectionradius=0.03, u_res=400, v_res=24, w_res=24).triangulate().clean()
+    bent = (
+        pyvista.ParametricTorus(ringradius=1, crosssectionradius=0.03, u_res=400, v_res=24, w_res=24)
+        .triangulate()
+        .clean()
+    )
     bent = bent.compute_normals(auto_orient_normals=True, split_vertices=False)
-    check_remedy(write(of.from_pyvista(bent), tmp_path / "ring.ply"), "edges are shorter than radii of curvature", "coarse_for_curvature")
+    check_remedy(
+        write(of.from_pyvista(bent), tmp_path / "ring.ply"),
+        "edges are shorter than radii of curvature",
+        "coarse_for_curvature",
+    )
 
 
 def test_thin_triangles_matter_only_where_they_are_kept(tmp_path):
@@ -205,9 +231,13 @@ def test_the_worst_tets_of_a_public_mesh_are_found():
 
 def test_dihedral_angles_are_those_of_known_tets():
     regular = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], float)
-    assert info_measures.dihedral_angles(regular, np.array([[0, 1, 2, 3]])) == pytest.approx(np.degrees(np.arccos(1 / 3)))
+    assert info_measures.dihedral_angles(regular, np.array([[0, 1, 2, 3]])) == pytest.approx(
+        np.degrees(np.arccos(1 / 3))
+    )
     corner = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
-    assert sorted(info_measures.dihedral_angles(corner, np.array([[0, 1, 2, 3]]))[0].round(4)) == [54.7356] * 3 + [90] * 3
+    assert (
+        sorted(info_measures.dihedral_angles(corner, np.array([[0, 1, 2, 3]]))[0].round(4)) == [54.7356] * 3 + [90] * 3
+    )
     assert info_measures.radius_ratios(regular, np.array([[0, 1, 2, 3]])) == pytest.approx(1)
     inradius, circumradius = 1 / (3 + 3**0.5), 3**0.5 / 2
     assert info_measures.radius_ratios(corner, np.array([[0, 1, 2, 3]])) == pytest.approx(3 * inradius / circumradius)
@@ -230,7 +260,9 @@ def test_memory_is_weighed_against_the_machine(tmp_path, monkeypatch):
     finding = found(examine(path, MeshOptions(edge_length=1e-4)), "memory suffices")
     assert (finding["state"], finding["kind"]) == ("warn", "memory")
     again = examine(path, MeshOptions(edge_length=edge_length_of(finding)))
-    assert states(again)["memory suffices"] == "pass" and again["expected"]["memory_mb"] < again["expected"]["machine_mb"]
+    assert (
+        states(again)["memory suffices"] == "pass" and again["expected"]["memory_mb"] < again["expected"]["machine_mb"]
+    )
     monkeypatch.setattr(estimates, "machine_mb", lambda: 100.0)
     assert "machine with" in found(examine(path), "memory suffices")["remedy"]
 

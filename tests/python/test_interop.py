@@ -3,9 +3,8 @@
 import pickle
 
 import numpy as np
-import pytest
-
 import octafield
+import pytest
 
 
 @pytest.fixture(scope="module")
@@ -15,7 +14,11 @@ def result(box):
 
 def same(a, b) -> bool:
     cells = "tets" if isinstance(a, octafield.TetMesh) else "triangles"
-    return type(a) is type(b) and np.array_equal(a.vertices, b.vertices) and np.array_equal(getattr(a, cells), getattr(b, cells))
+    return (
+        type(a) is type(b)
+        and np.array_equal(a.vertices, b.vertices)
+        and np.array_equal(getattr(a, cells), getattr(b, cells))
+    )
 
 
 def test_meshes_come_back_from_pyvista_and_meshio_with_every_bit(box, box_surface, tmp_path):

@@ -1,11 +1,10 @@
 """From a surface or a tet mesh to its field through the public API: the field turns, grows and moves with the part."""
 
 import numpy as np
-import pytest
-from scipy.spatial.transform import Rotation
-
 import octafield as of
+import pytest
 from octafield.study.generators import generate
+from scipy.spatial.transform import Rotation
 
 TURNS = [Rotation.from_rotvec(v) for v in ([0.3, 0.5, -0.2], [0, 0, np.pi / 4], [1.1, -0.7, 2.0])]
 IDS = ["small", "diagonal", "large"]
@@ -70,7 +69,8 @@ def test_the_field_of_a_mesh_elsewhere_is_the_same(tets):
 
 
 def same_part(here, there, scale: float) -> None:
-    """Remeshing a moved part takes other roundings, so other triangles: the length asked for, and with it the field, agree all the same."""
+    """Remeshing a moved part takes other roundings, so other triangles: the length asked for, and with it the field,
+    agree all the same."""
     a, b = here.record, there.record
     assert b["edge_length"] == pytest.approx(scale * a["edge_length"], rel=0.02)
     assert b["tets"] == pytest.approx(a["tets"], rel=0.1)

@@ -3,15 +3,18 @@
 import json
 
 import numpy as np
-import pytest
-from pipeline_fixtures import SHARED_SURFACES, shared, write_sphere
-
 import octafield
+import pytest
 from octafield.options import FieldOptions, SurfaceFieldOptions
 from octafield.pipeline import compute_field, compute_surface_field
+from pipeline_fixtures import SHARED_SURFACES, shared, write_sphere
 
 MANIFEST = SHARED_SURFACES / "manifest.json"
-SOUND = [entry for entry in json.loads(MANIFEST.read_text()) if entry["what"] == "closed, outward"] if MANIFEST.exists() else []
+SOUND = (
+    [entry for entry in json.loads(MANIFEST.read_text()) if entry["what"] == "closed, outward"]
+    if MANIFEST.exists()
+    else []
+)
 
 
 def test_the_cross_field_of_a_sphere_has_eight_points_of_index_one_quarter(tmp_path):
@@ -26,7 +29,9 @@ def test_the_indices_sum_to_the_euler_characteristic_of_every_sound_surface(reme
     assert len(SOUND) >= 6
     for entry in SOUND:
         for suffix in (".stl", ".obj"):
-            record = compute_surface_field(SHARED_SURFACES / (entry["name"] + suffix), SurfaceFieldOptions(remesh=remesh)).record
+            record = compute_surface_field(
+                SHARED_SURFACES / (entry["name"] + suffix), SurfaceFieldOptions(remesh=remesh)
+            ).record
             assert record["euler_characteristic"] == entry["chi"], entry["name"]
             assert record["index_sum"] == entry["chi"], entry["name"]
 
@@ -41,7 +46,9 @@ def test_a_cube_has_no_singular_edge_and_no_energy(boundary):
 
 
 def test_the_singular_curves_of_a_cylinder_run_from_cap_to_cap():
-    result = compute_field(shared(SHARED_SURFACES / "s15_surface.stl"), FieldOptions(boundary="fixed", max_iterations=60))
+    result = compute_field(
+        shared(SHARED_SURFACES / "s15_surface.stl"), FieldOptions(boundary="fixed", max_iterations=60)
+    )
     graph = result.singular_graph
     ends = np.array([[graph.points[c[0]], graph.points[c[-1]]] for c in graph.curves])
     extent = np.ptp(result.surface.vertices, axis=0)

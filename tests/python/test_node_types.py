@@ -3,9 +3,8 @@
 import itertools
 
 import numpy as np
-import pytest
-
 import octafield as of
+import pytest
 
 IDENTITY = (1.0, 0, 0, 0)
 
@@ -29,7 +28,9 @@ def classes(types, elements, product, inverse, one):
     (number of members, whether all turn about one axis)."""
     quarter = np.flatnonzero(np.isclose(elements[:, 0], np.sqrt(0.5)))
     axis = np.abs(elements[:, 1:]).argmax(axis=1)
-    tuples = [t for t in itertools.product(quarter, repeat=4) if product[product[t[0], t[1]], product[t[2], t[3]]] == one]
+    tuples = [
+        t for t in itertools.product(quarter, repeat=4) if product[product[t[0], t[1]], product[t[2], t[3]]] == one
+    ]
     left = {(t, kinds) for t in tuples for kinds in set(itertools.permutations(types))}
     found = []
     while left:
@@ -41,7 +42,9 @@ def classes(types, elements, product, inverse, one):
             for i in range(3):
                 a, b = turns[i], turns[i + 1]
                 swapped = (b, product[product[inverse[b], a], b])
-                reached.append((turns[:i] + swapped + turns[i + 2 :], kinds[:i] + (kinds[i + 1], kinds[i]) + kinds[i + 2 :]))
+                reached.append(
+                    (turns[:i] + swapped + turns[i + 2 :], kinds[:i] + (kinds[i + 1], kinds[i]) + kinds[i + 2 :])
+                )
             for state in reached:
                 if state in left:
                     left.remove(state)

@@ -9,11 +9,10 @@ import types
 import warnings
 
 import numpy as np
+import octafield as of
 import pydantic
 import pytest
 import scipy.sparse
-
-import octafield as of
 from octafield import display, notebook, study
 from octafield.study.generators import generate
 
@@ -139,14 +138,17 @@ def test_reprs_are_one_short_line_with_the_class(cls, objects):
 
 
 def test_reprs_tell_counts_and_ranges(field, objects):
-    assert repr(field.tets).startswith(f"TetMesh({len(field.tets.vertices)} vertices, {len(field.tets.tets)} tets, box [-")
+    assert repr(field.tets).startswith(
+        f"TetMesh({len(field.tets.vertices)} vertices, {len(field.tets.tets)} tets, box [-"
+    )
     assert repr(field).startswith("FieldResult(mesh in memory: ")
     (comparison,) = objects[of.Comparison]
     assert repr(comparison).startswith("Comparison(1 run: 1 input, 1 representation, 1 boundary; E ")
     assert "complex" in repr(field.singular_graph) and "length" in repr(field.singular_graph)
     assert repr(of.VertexConstraints([1, 2], [1, 2])) == "VertexConstraints(2 vertices: 0 free, 1 axis, 1 fixed)"
-    assert repr(study.parse("{name: two, inputs: [{generator: box}], runs: {boundary: [aligned, fixed]}, seeds: 3}")) == (
-        "Study(two: 1 input, boundary: aligned, fixed; 3 seeds)"
+    assert (
+        repr(study.parse("{name: two, inputs: [{generator: box}], runs: {boundary: [aligned, fixed]}, seeds: 3}"))
+        == "Study(two: 1 input, boundary: aligned, fixed; 3 seeds)"
     )
     assert repr(of.metrics["geodesic"]).startswith("Metric(geodesic: ")
 

@@ -1,14 +1,14 @@
-"""Orders of rows, factors, and both sides of tolerances: what a changed constant or a lost index would turn wrong without a word."""
+"""Orders of rows, factors, and both sides of tolerances: what a changed constant or a lost index would turn wrong
+without a word."""
 
 import math
 import re
 from dataclasses import replace
 
 import numpy as np
+import octafield as of
 import pytest
 from conftest import box_tets
-
-import octafield as of
 from octafield.errors import InvalidInput, IoError
 from octafield.formats import placing
 from octafield.formats.base import FrameFile, from_axes, from_quaternions
@@ -39,7 +39,9 @@ def test_energy_at_unit_speed_is_that_of_frames_that_move_by_one_per_radian(mesh
     frames = random_frames(len(mesh.vertices if sampling == "vertices" else mesh.tets))
     record = of.analyse(mesh, frames, sampling).record
     assert record["energy"] > 1 and record["energy_unit_speed"] == pytest.approx(0.15 * record["energy"], rel=1e-12)
-    result = of.compute_field(mesh, FieldOptions(sampling=sampling, boundary="fixed", features="none", streamlines=0, max_iterations=2))
+    result = of.compute_field(
+        mesh, FieldOptions(sampling=sampling, boundary="fixed", features="none", streamlines=0, max_iterations=2)
+    )
     assert result.record["energy_unit_speed"] == pytest.approx(0.15 * result.record["energy"], rel=1e-12)
 
 
@@ -49,13 +51,18 @@ def test_singular_edges_of_frames_in_tets_are_counted_by_turns_from_the_highest_
     record = of.analyse(mesh, frames, "tets").record
     assert len(set(turns)) > 2 and 0 in turns
     names = ["complex" if turn == 0 else f"+{turn}" if turn > 0 else str(turn) for turn in sorted(set(turns))[::-1]]
-    assert list(record["singular_edges_by_turns"].items()) == [(name, turns.count(0 if name == "complex" else int(name))) for name in names]
+    assert list(record["singular_edges_by_turns"].items()) == [
+        (name, turns.count(0 if name == "complex" else int(name))) for name in names
+    ]
 
 
 def test_size_ratio_is_the_largest_over_the_smallest_size(mesh):
     x, y, _ = np.asarray(mesh.vertices).T
     frames = np.asarray(of.quaternion_exp(np.column_stack([0 * x, 0.3 * y, 1.5 * y])))
-    for found, logs in ((one := of.isotropic_scale(mesh, frames), one.log_scale), (axes := of.axis_scales(mesh, frames), axes.values)):
+    for found, logs in (
+        (one := of.isotropic_scale(mesh, frames), one.log_scale),
+        (axes := of.axis_scales(mesh, frames), axes.values),
+    ):
         sizes = np.exp(np.asarray(logs))
         assert sizes.max() > 1.05 * sizes.min()
         assert sizes_record(found)["size_ratio"] == pytest.approx(sizes.max() / sizes.min(), rel=1e-12)
@@ -69,23 +76,39 @@ def test_memory_reserved_is_the_formula_of_the_page_and_more_than_was_measured(r
     """Page: docs/scaling.md, whose tables were measured."""
     page = (request.path.parents[2] / "docs" / "scaling.md").read_text()
     base, formula = re.search(r"(\d+) MB \+ tets × \(([^)]*)\)", page).groups()
-    factor = {name: float(kb) for kb, names in re.findall(r"([\d.]+) kB: ([^;]+)", formula) for name in names.split(", ")}
+    factor = {
+        name: float(kb) for kb, names in re.findall(r"([\d.]+) kB: ([^;]+)", formula) for name in names.split(", ")
+    }
     tets_times = float(re.search(r"([\d.]+) times the bytes per tet where frames live in tets", page).group(1))
-    of_method = {name: run_of(representation=name) for name in ("sh4", "tensor4", "odeco", "su2", "sh469", "odeco_lengths", "geodesic", "su2_midpoint")}
+    of_method = {
+        name: run_of(representation=name)
+        for name in ("sh4", "tensor4", "odeco", "su2", "sh469", "odeco_lengths", "geodesic", "su2_midpoint")
+    }
     of_method |= {f"solver {name}": run_of(solver=name) for name in ("lbfgs", "levenberg_marquardt")}
     for name, run in of_method.items():
         megabytes = int(base) + 2e6 * factor[name] / 1e3
         assert memory.needed_mb(2e6, [run]) == pytest.approx(megabytes), name
         in_tets = replace(run, options=replace(run.options, sampling="tets"))
         assert memory.needed_mb(2e6, [in_tets]) == pytest.approx(int(base) + tets_times * (megabytes - int(base))), name
-        assert memory.needed_mb(2e6, [run, of_method["sh4"]]) == memory.needed_mb(2e6, [of_method["sh4"], run]) == pytest.approx(megabytes), name
+        assert (
+            memory.needed_mb(2e6, [run, of_method["sh4"]])
+            == memory.needed_mb(2e6, [of_method["sh4"], run])
+            == pytest.approx(megabytes)
+        ), name
     assert memory.needed_mb(0, []) == memory.needed_mb(1e9, []) == int(base)
-    head, *rows = [[cell.strip() for cell in line.strip("| ").split("|")] for line in page.splitlines() if line.startswith("| ") and line.count("|") > 10]
+    head, *rows = [
+        [cell.strip() for cell in line.strip("| ").split("|")]
+        for line in page.splitlines()
+        if line.startswith("| ") and line.count("|") > 10
+    ]
     measured = [dict(zip(head, row, strict=True)) for row in rows if len(row) == len(head) and row[0] != "---"]
     number = lambda row, name: float(row[name].replace(",", ""))
     assert len(measured) > 10
     for row in measured:
-        need, reserved = number(row, "process, all MB"), memory.needed_mb(number(row, "tets"), [of_method[row["representation"]]])
+        need, reserved = (
+            number(row, "process, all MB"),
+            memory.needed_mb(number(row, "tets"), [of_method[row["representation"]]]),
+        )
         assert 1.15 * need < reserved < 4 * need, row
 
 
@@ -108,7 +131,10 @@ End
 
 def test_medit_and_tetgen_rows_beyond_the_count_are_refused_with_their_line():
     assert len(read_medit(MEDIT, "a.mesh").points) == 4
-    for wrong, line in ((MEDIT.replace("Vertices\n4", "Vertices\n3"), 8), (MEDIT.replace("3 4 7", "3 4 7\n2 1 3 4 7"), 12)):
+    for wrong, line in (
+        (MEDIT.replace("Vertices\n4", "Vertices\n3"), 8),
+        (MEDIT.replace("3 4 7", "3 4 7\n2 1 3 4 7"), 12),
+    ):
         with pytest.raises(IoError, match=f"line {line}: .* goes on after"):
             read_medit(wrong, "a.mesh")
     node, ele = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n", "1 4 1\n0 0 1 2 3 5\n"
@@ -212,7 +238,9 @@ def test_a_singular_triangle_is_where_the_linear_interpolant_is_shortest(mesh, t
     inside = 0
     for number, triangle in enumerate(graph.triangles):
         ids = [triangle.a, triangle.b, triangle.c]
-        weights = np.linalg.lstsq(np.vstack([points[ids].T, np.ones(3)]), np.append(graph.points[number], 1), rcond=None)[0]
+        weights = np.linalg.lstsq(
+            np.vstack([points[ids].T, np.ones(3)]), np.append(graph.points[number], 1), rcond=None
+        )[0]
         assert weights.min() > -1e-12 and np.allclose(weights @ points[ids], graph.points[number], atol=1e-12)
         inside += weights.min() > 0.01
         shortest = np.linalg.norm(weights @ vectors[ids])

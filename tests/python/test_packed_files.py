@@ -1,4 +1,5 @@
-"""Packed files that would fill the memory are refused by name before they do, however they are packed; sound ones are read."""
+"""Packed files that would fill the memory are refused by name before they do, however they are packed; sound ones are
+read."""
 
 import gzip
 import io
@@ -9,10 +10,9 @@ import zipfile
 import zlib
 
 import numpy as np
+import octafield as of
 import pytest
 from conftest import box_tets
-
-import octafield as of
 from octafield import files
 from octafield.errors import IoError
 from octafield.files import most_unpacked, read_bytes
@@ -26,7 +26,12 @@ def small(monkeypatch):
 
 
 def test_a_packed_file_may_become_256_mib_or_a_hundred_times_its_size():
-    assert [most_unpacked(size) for size in (0, 2 << 20, 3 << 20, 1 << 30)] == [256 << 20, 256 << 20, 300 << 20, 100 << 30]
+    assert [most_unpacked(size) for size in (0, 2 << 20, 3 << 20, 1 << 30)] == [
+        256 << 20,
+        256 << 20,
+        300 << 20,
+        100 << 30,
+    ]
 
 
 @pytest.mark.parametrize("members", [1, 3])
@@ -34,7 +39,12 @@ def test_gzip_of_more_than_its_limit_is_refused_by_name_and_of_less_is_read(tmp_
     zeros = b"".join(gzip.compress(bytes(1 << 19), 9) for _ in range(members))
     path = tmp_path / "a.mesh.gz"
     path.write_bytes(zeros)
-    with pytest.raises(IoError, match=rf"a.mesh.gz: {len(zeros):,} packed bytes become more than {most_unpacked(len(zeros)):,}: .*without packing"):
+    with pytest.raises(
+        IoError,
+        match=(
+            rf"a.mesh.gz: {len(zeros):,} packed bytes become more than {most_unpacked(len(zeros)):,}: .*without packing"
+        ),
+    ):
         read_bytes(path)
     for count in (1 << 16, (1 << 16) + 1):
         path.write_bytes(gzip.compress(bytes(count), 9))
@@ -78,7 +88,8 @@ PACK = {"vtkZLibDataCompressor": lambda data: zlib.compress(data, 9), "vtkLZMADa
 
 
 def vtu(compressor, block=1 << 15, lie=0, count=4, kind="UnstructuredGrid"):
-    """One tet of `count` points, all but four of them at the origin; appended raw, in packed blocks. lie: added to the announced size of a block."""
+    """One tet of `count` points, all but four of them at the origin; appended raw, in packed blocks. lie: added to the
+    announced size of a block."""
     points = np.zeros((count, 3))
     points[1:4] = np.eye(3)
     arrays = {"Points": points, "connectivity": np.arange(4), "offsets": np.array([4]), "types": np.array([10])}
@@ -89,10 +100,13 @@ def vtu(compressor, block=1 << 15, lie=0, count=4, kind="UnstructuredGrid"):
         offsets[name] = len(appended)
         head = [len(blocks), block + lie, len(data) % block and len(data) % block + lie, *map(len, blocks)]
         appended += np.array(head, "<u8").tobytes() + b"".join(blocks)
-    entry = lambda name, kind: f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{3 if name == "Points" else 1}" format="appended" offset="{offsets[name]}"/>'
-    head = f'''<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="{compressor}"><UnstructuredGrid>
+    entry = lambda name, kind: (
+        f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{3 if name == "Points" else 1}" format="appended"'
+        f' offset="{offsets[name]}"/>'
+    )
+    head = f"""<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="{compressor}"><UnstructuredGrid>
 <Piece NumberOfPoints="{count}" NumberOfCells="1"><Points>{entry("Points", "Float64")}</Points><Cells>
-{"".join(entry(name, "Int64") for name in ("connectivity", "offsets", "types"))}</Cells></Piece></UnstructuredGrid><AppendedData encoding="raw">_'''
+{"".join(entry(name, "Int64") for name in ("connectivity", "offsets", "types"))}</Cells></Piece></UnstructuredGrid><AppendedData encoding="raw">_"""
     return head.encode() + appended + b"</AppendedData></VTKFile>"
 
 

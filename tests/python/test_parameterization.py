@@ -7,17 +7,16 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import octafield as of
 import pytest
 import scipy.sparse as sparse
 import scipy.sparse.csgraph as csgraph
 from conftest import SHARED_DATA
-from octahedral_fixtures import GROUP, INVERSE, PRODUCT, closest, matrices
-from pipeline_fixtures import shared, write_cube
-
-import octafield as of
 from octafield.meshing import prepare_mesh
 from octafield.options import FieldOptions
 from octafield.pipeline import compute_field
+from octahedral_fixtures import GROUP, INVERSE, PRODUCT, closest, matrices
+from pipeline_fixtures import shared, write_cube
 
 SMALL = ["s01c", "s02c", "s03c", "s04c", "s06c", "s07c", "s10c", "s11c", "s13c", "s05c"]
 
@@ -35,7 +34,8 @@ def combed(request):
 
 
 def carried(edge, tets, across):
-    """Inverse of the product of matchings round an edge, right-handed, from its lowest tet; None where no loop closes. tets: {tet: (enter, leave)}."""
+    """Inverse of the product of matchings round an edge, right-handed, from its lowest tet; None where no loop closes.
+    tets: {tet: (enter, leave)}."""
     start = tet = min(tets)
     product = 0
     for _ in tets:
@@ -94,7 +94,9 @@ def test_combed_axes_correspond_across_all_faces_but_the_cut(combed):
     assert np.mean(best == faces.matching) > 0.999
     frames = matrices(field.frames)
     np.testing.assert_allclose(frames, matrices(of_tets) @ GROUP[field.element], atol=1e-12)
-    left = np.linalg.norm(np.einsum("fij,fjk->fik", frames[one], GROUP[field.faces.matching]) - frames[other], axis=(1, 2))
+    left = np.linalg.norm(
+        np.einsum("fij,fjk->fik", frames[one], GROUP[field.faces.matching]) - frames[other], axis=(1, 2)
+    )
     np.testing.assert_allclose(left, np.sqrt(8) * np.sin(angle / 2), atol=1e-6)
     uncut = np.asarray(field.cut) == 0
     assert not np.asarray(field.faces.matching)[uncut].any()
@@ -105,7 +107,8 @@ def test_combed_axes_correspond_across_all_faces_but_the_cut(combed):
 
 
 def test_the_complement_of_the_cut_is_simply_connected(combed):
-    """It is what its dual complex is: tets, faces not cut, and the edges and vertices inside that only such faces meet in."""
+    """It is what its dual complex is: tets, faces not cut, and the edges and vertices inside that only such faces meet
+    in."""
     _, mesh, _, faces, field = combed
     tets, cut = np.asarray(mesh.tets), np.asarray(field.cut) == 1
     closed = np.concatenate([np.asarray(faces.triangles)[cut], boundary_of(mesh)])
@@ -154,7 +157,9 @@ def test_tables_tell_the_axes_of_normals_and_feature_edges(combed):
     np.testing.assert_array_equal(np.asarray(surface.vertex_map)[features.edges], found.feature_edges)
     check_axes(frames, found.feature_tet, found.feature_axis, found.feature_angle, points[b] - points[a])
     around = edges_of(mesh)
-    assert [min(around[tuple(sorted(edge))]) for edge in np.asarray(found.feature_edges).tolist()] == list(found.feature_tet)
+    assert [min(around[tuple(sorted(edge))]) for edge in np.asarray(found.feature_edges).tolist()] == list(
+        found.feature_tet
+    )
     np.testing.assert_array_equal(found.triangle_patch, patches(surface.mesh.triangles, features.edges))
 
 
@@ -207,9 +212,18 @@ def test_records_are_pickled_and_other_meshes_refused(box):
 def test_the_study_writes_its_tables_and_picture(tmp_path):
     script = Path(__file__).parents[2] / "studies" / "parameterization.py"
     mesh = shared(SHARED_DATA / "hexme" / "s02c.vtk.gz")
-    done = subprocess.run([sys.executable, script, "-o", tmp_path, write_cube(tmp_path), mesh, "--picture", "s02c"], capture_output=True, text=True, timeout=300)
+    done = subprocess.run(
+        [sys.executable, script, "-o", tmp_path, write_cube(tmp_path), mesh, "--picture", "s02c"],
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
     assert done.returncode == 0, done.stderr
     cuts = (tmp_path / "cuts.md").read_text().splitlines()
     assert cuts[2].startswith("| cube |") and "| 0 | 0 | 0 | 6 | 6 |" in cuts[2] and "| 5 | 5 |" in cuts[3]
-    assert len((tmp_path / "sizes.md").read_text().splitlines()) == len((tmp_path / "seconds.md").read_text().splitlines()) == 4
+    assert (
+        len((tmp_path / "sizes.md").read_text().splitlines())
+        == len((tmp_path / "seconds.md").read_text().splitlines())
+        == 4
+    )
     assert (tmp_path / "cut.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"

@@ -6,16 +6,15 @@ from dataclasses import replace
 
 import meshio
 import numpy as np
-import pytest
-from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared, write_cube, write_sphere
-
 import octafield
+import pytest
 from octafield.inputs import read_input
 from octafield.meshing import prepare_mesh
 from octafield.options import FieldOptions, SurfaceFieldOptions
 from octafield.phases import PHASES
 from octafield.pipeline import compute_field, compute_surface_field, load_surface, prepare, run
 from octafield.results import FIELD_FILES, write_field_result
+from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared, write_cube, write_sphere
 
 COARSE = FieldOptions(edge_length=0.25)
 ROUND = FieldOptions(edge_length=0.35)  # of the sphere that is prepared once

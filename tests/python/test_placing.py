@@ -1,10 +1,9 @@
 """Which frame of a file belongs to which vertex or tet, and what comes with it."""
 
 import numpy as np
+import octafield as of
 import pytest
 from conftest import box_tets
-
-import octafield as of
 from octafield.errors import InvalidInput
 from octafield.formats import placing
 from octafield.formats.base import FrameFile
@@ -35,9 +34,13 @@ def test_the_number_of_frames_tells_where_they_are(mesh):
 def test_another_number_of_frames_is_refused_with_all_numbers(mesh, off, asked):
     counts = {"vertices": len(mesh.vertices), "tets": len(mesh.tets)}
     count = counts[asked or "tets"] + off
-    with pytest.raises(InvalidInput, match=f"a.x: {count} frames; the mesh has {counts['vertices']} vertices and {counts['tets']} tets") as error:
+    with pytest.raises(
+        InvalidInput, match=f"a.x: {count} frames; the mesh has {counts['vertices']} vertices and {counts['tets']} tets"
+    ) as error:
         placing.place(file_of(count), mesh, asked)
-    assert (asked is not None) == (f"frames at {asked} were asked for" in str(error.value)) and error.value.kind == "bad_count"
+    assert (asked is not None) == (
+        f"frames at {asked} were asked for" in str(error.value)
+    ) and error.value.kind == "bad_count"
     other = "vertices" if asked == "tets" else "tets"
     if asked:
         with pytest.raises(InvalidInput, match=f"frames at {asked} were asked for"):
@@ -69,8 +72,12 @@ def two_regions_and_a_stray_point(tmp_path, mesh):
     path = tmp_path / "a.mesh"
     points = np.vstack([[9, 9, 9], np.asarray(mesh.vertices)])
     tets = np.asarray(mesh.tets) + 2
-    text = f"MeshVersionFormatted 2\nDimension 3\nVertices {len(points)}\n" + "".join(f"{x} {y} {z} 0\n" for x, y, z in points)
-    text += f"Tetrahedra {len(tets)}\n" + "".join(f"{a} {b} {c} {d} {1 + (k % 2)}\n" for k, (a, b, c, d) in enumerate(tets))
+    text = f"MeshVersionFormatted 2\nDimension 3\nVertices {len(points)}\n" + "".join(
+        f"{x} {y} {z} 0\n" for x, y, z in points
+    )
+    text += f"Tetrahedra {len(tets)}\n" + "".join(
+        f"{a} {b} {c} {d} {1 + (k % 2)}\n" for k, (a, b, c, d) in enumerate(tets)
+    )
     text += "Edges 1\n2 3 0\nRidges 1\n1\nEnd\n"
     path.write_text(text)
     return read_input(path)
@@ -117,7 +124,11 @@ def test_frames_with_centres_of_every_vertex_or_tet_are_in_order(mesh):
             assert found.where == where and found.notes == [] and found.frames is frames.frames
         other = "tets" if where == "vertices" else "vertices"
         moved = placing.place(file_of(len(sites), centres=sites), mesh, other)
-        assert moved.where == other and len(moved.notes) == 1 and len(moved.frames) == len(mesh.tets if other == "tets" else points)
+        assert (
+            moved.where == other
+            and len(moved.notes) == 1
+            and len(moved.frames) == len(mesh.tets if other == "tets" else points)
+        )
 
 
 def test_the_note_tells_how_far_the_nearest_centres_are_and_tets_are_the_usual_place(mesh):
@@ -126,6 +137,9 @@ def test_the_note_tells_how_far_the_nearest_centres_are_and_tets_are_the_usual_p
     sites = np.asarray(mesh.vertices)[np.asarray(mesh.tets)].mean(axis=1)
     distances = np.linalg.norm(sites[:, None] - centres[None], axis=2)
     assert found.where == "tets" and (found.frames == file_of(2).frames[distances.argmin(axis=1)]).all()
-    assert found.notes == ["before", f"each of the tets took the frame with the nearest centre, {distances.min(axis=1).max():.3g} away at most"]
+    assert found.notes == [
+        "before",
+        f"each of the tets took the frame with the nearest centre, {distances.min(axis=1).max():.3g} away at most",
+    ]
     with pytest.raises(InvalidInput, match="a.x: holds no frames"):
         placing.place(file_of(0, centres=np.empty((0, 3))), mesh, None)

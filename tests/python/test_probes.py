@@ -1,10 +1,9 @@
 """The field at points and on planes, and what slices of its arrays are worth."""
 
 import numpy as np
+import octafield
 import pytest
 import pyvista
-
-import octafield
 from octafield.study.generators import generate
 
 
@@ -34,7 +33,14 @@ def turning(points):
 def multiplied(a, b):
     """Quaternions a b, w x y z."""
     (w, x, y, z), (s, t, u, v) = np.asarray(a).T, np.asarray(b).T
-    return np.column_stack([w * s - x * t - y * u - z * v, w * t + x * s + y * v - z * u, w * u - x * v + y * s + z * t, w * v + x * u - y * t + z * s])
+    return np.column_stack(
+        [
+            w * s - x * t - y * u - z * v,
+            w * t + x * s + y * v - z * u,
+            w * u - x * v + y * s + z * t,
+            w * v + x * u - y * t + z * s,
+        ]
+    )
 
 
 def scrambled(frames, seed=1):
@@ -76,7 +82,9 @@ def test_samples_at_the_vertices_are_the_frames_and_go_on_with_their_labels():
 def test_samples_have_the_same_bits_at_any_number_of_threads():
     mesh = kuhn_cube(9)  # blocks of tets and of points
     points = np.random.default_rng(5).random((3000, 3)) * 1.2 - 0.1
-    one, three = (octafield.sample_frames(mesh, points, turning(mesh.vertices), tolerance=0.05, threads=k) for k in (1, 3))
+    one, three = (
+        octafield.sample_frames(mesh, points, turning(mesh.vertices), tolerance=0.05, threads=k) for k in (1, 3)
+    )
     for name in ("frames", "confidence", "tet", "distance"):
         np.testing.assert_array_equal(getattr(one, name), getattr(three, name))
 
@@ -118,13 +126,19 @@ def test_bad_arguments_are_named(arguments, named, words):
 
 
 def test_confidence_falls_at_singular_curves(ball):
-    centres = np.asarray(ball.tets.vertices)[np.asarray(ball.singular_graph.triangles and [[t.a, t.b, t.c] for t in ball.singular_graph.triangles])].mean(axis=1)
-    there, anywhere = (np.asarray(octafield.sample_frames(ball, points).confidence) for points in (centres, octafield.spread_points(ball.tets, 500)))
+    centres = np.asarray(ball.tets.vertices)[
+        np.asarray(ball.singular_graph.triangles and [[t.a, t.b, t.c] for t in ball.singular_graph.triangles])
+    ].mean(axis=1)
+    there, anywhere = (
+        np.asarray(octafield.sample_frames(ball, points).confidence)
+        for points in (centres, octafield.spread_points(ball.tets, 500))
+    )
     assert there.max() < 0.9 < np.median(anywhere)
 
 
 def wrong_axes(cut):
-    """Degrees between interpolated frame_u, at the points of a cut of pyvista's, and the nearest axis of the field there."""
+    """Degrees between interpolated frame_u, at the points of a cut of pyvista's, and the nearest axis of the field
+    there."""
     return np.degrees(np.arccos(np.clip(np.abs(_against_field(cut)).max(axis=1), 0, 1)))
 
 
@@ -135,7 +149,8 @@ def _against_field(cut):
 
 
 def cut_of(result, frames):
-    """pyvista's slice of the axes of these representatives, with the sampled field beside it, and whether only tets whose axes agree are at a point."""
+    """pyvista's slice of the axes of these representatives, with the sampled field beside it, and whether only tets
+    whose axes agree are at a point."""
     grid = octafield.to_pyvista(result.tets)
     grid.point_data["frame_u"] = np.asarray(octafield.rotation_matrices(frames))[:, :, 0]
     grid.cell_data["axes_agree"] = np.asarray(octafield.axes_agree(result.tets, frames))
@@ -179,7 +194,9 @@ def test_results_and_their_files_are_combed_and_say_where_axes_disagree(ball, tm
         np.testing.assert_array_equal(grid.cell_data["axes_agree"], octafield.axes_agree(ball.tets, ball.frames))
         axes = np.stack([grid.point_data[name] for name in ("frame_u", "frame_v", "frame_w")], axis=2)
         np.testing.assert_allclose(axes, octafield.rotation_matrices(grid.point_data["quaternion"]), atol=1e-14)
-        np.testing.assert_allclose(grid.point_data["sh4"], octafield.representations["sh4"].embed(grid.point_data["quaternion"]), atol=1e-14)
+        np.testing.assert_allclose(
+            grid.point_data["sh4"], octafield.representations["sh4"].embed(grid.point_data["quaternion"]), atol=1e-14
+        )
 
 
 def test_lengths_of_axes_go_with_their_names():
@@ -188,9 +205,13 @@ def test_lengths_of_axes_go_with_their_names():
     result = octafield.compute_field(meshed, octafield.FieldOptions(representation="odeco_lengths", max_iterations=20))
     axes = np.asarray(octafield.rotation_matrices(result.frames))
     tensors = np.einsum("nk,nik,njk->nij", np.asarray(result.lengths), axes, axes)
-    plain = octafield.frame_field(result.tets, result.constraints, representation="odeco_lengths", max_iterations=20).smooth
+    plain = octafield.frame_field(
+        result.tets, result.constraints, representation="odeco_lengths", max_iterations=20
+    ).smooth
     other = np.asarray(octafield.rotation_matrices(plain.frames))
-    np.testing.assert_allclose(tensors, np.einsum("nk,nik,njk->nij", np.asarray(plain.lengths), other, other), atol=1e-9)
+    np.testing.assert_allclose(
+        tensors, np.einsum("nk,nik,njk->nij", np.asarray(plain.lengths), other, other), atol=1e-9
+    )
 
 
 def test_a_plane_probe_has_the_frames_of_the_field_at_its_points(ball):
@@ -204,7 +225,9 @@ def test_a_plane_probe_has_the_frames_of_the_field_at_its_points(ball):
     assert abs(np.asarray(lattice.points) @ [1, 1, 0]).max() < 1e-6
 
 
-@pytest.mark.parametrize("bad", [{"normal": (0, 0, 0)}, {"origin": (0, 0, 9)}, {"spacing": -1.0}, {"spacing": 1e-9}, {"normal": (0, 1)}])
+@pytest.mark.parametrize(
+    "bad", [{"normal": (0, 0, 0)}, {"origin": (0, 0, 9)}, {"spacing": -1.0}, {"spacing": 1e-9}, {"normal": (0, 1)}]
+)
 def test_planes_that_make_no_slice_are_refused(ball, bad):
     with pytest.raises(octafield.InvalidInput):
         octafield.slice_frames(ball, **bad)

@@ -7,9 +7,8 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pytest
-
 import octafield as of
+import pytest
 from octafield import phases, results
 from octafield.study.generators import generate
 
@@ -43,11 +42,20 @@ def test_the_peak_includes_writing(kind, tmp_path, monkeypatch):
 def test_a_record_names_the_machine(kind, monkeypatch):
     monkeypatch.setattr(os, "getloadavg", lambda: (3.25, 1.0, 1.0))
     found = WRITTEN[kind]()[0].record["machine"]
-    models = [line.partition(":")[2].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")]
-    assert found == {"cpu": models[0] if models else found["cpu"], "cores": len(os.sched_getaffinity(0)), "load": 3.25} and found["cpu"]
+    models = [
+        line.partition(":")[2].strip()
+        for line in Path("/proc/cpuinfo").read_text().splitlines()
+        if line.startswith("model name")
+    ]
+    assert (
+        found == {"cpu": models[0] if models else found["cpu"], "cores": len(os.sched_getaffinity(0)), "load": 3.25}
+        and found["cpu"]
+    )
 
 
 def test_cores_are_those_the_process_may_use():
     one = min(os.sched_getaffinity(0))
-    script = f"import os; os.sched_setaffinity(0, {{{one}}}); from octafield import phases; print(phases.machine()['cores'])"
+    script = (
+        f"import os; os.sched_setaffinity(0, {{{one}}}); from octafield import phases; print(phases.machine()['cores'])"
+    )
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "1\n"

@@ -1,19 +1,18 @@
 """Each level of repair mends what it says and no more; what a message recommends works."""
 
 import numpy as np
+import octafield as of
 import pytest
 from conftest import SHARED_DATA
 from damaged_surfaces import ZOO, ball, joined, mesh_of, moved, open_cylinder, sheet, soup
-from pipeline_fixtures import octafield, shared
-from typer.testing import CliRunner
-
-import octafield as of
 from octafield.cli import app
 from octafield.conversion import convert_file
 from octafield.info import examine
 from octafield.meshing import load_surface, read_sound
 from octafield.options import REPAIR_LEVELS, MeshOptions
 from octafield.study.generators import generate
+from pipeline_fixtures import octafield, shared
+from typer.testing import CliRunner
 
 WILD = SHARED_DATA / "wild"
 SOUND = {"ball": ball, "box": lambda: generate("box"), "torus": lambda: generate("torus"), "cavity": lambda: joined(ball(), mesh_of(np.asarray(ball(2).vertices) / 2, np.asarray(ball(2).triangles)[:, ::-1])), "tiny beside large": lambda: joined(ball(), moved(mesh_of(np.asarray(ball(1).vertices) * 1e-5, ball(1).triangles), 2, 0, 0))}  # fmt: skip
@@ -89,8 +88,15 @@ def test_counts_in_actions_are_those_of_the_defects():
     triangles[3:8] = triangles[3:8, ::-1]
     triangles = np.concatenate([np.delete(triangles, [40, 41], axis=0), triangles[:2]])
     actions = of.repair(mesh_of([*points, [9, 9, 9], [8, 8, 8]], triangles)).actions
-    assert [action.partition(" ")[0] + " " + action.split()[1] for action in actions][:3] == ["removed 2", "removed 1", "reversed 5"]
-    assert any(action.startswith("filled 1 hole with 2 triangles") or action.startswith("filled 2 holes with 2 triangles") for action in actions)
+    assert [action.partition(" ")[0] + " " + action.split()[1] for action in actions][:3] == [
+        "removed 2",
+        "removed 1",
+        "reversed 5",
+    ]
+    assert any(
+        action.startswith("filled 1 hole with 2 triangles") or action.startswith("filled 2 holes with 2 triangles")
+        for action in actions
+    )
     assert actions[-1].startswith("left out 5 points")  # and the three of the crumb
 
 
@@ -100,7 +106,10 @@ def test_a_cylinder_gets_a_lid_and_a_ball_its_cap_again():
     cap = of.repair(ZOO["ball without a cap"][0](), level="fill").mesh
     whole = of.signed_volume(ball(4))
     assert of.signed_volume(cap) == pytest.approx(whole, rel=0.01)
-    assert of.signed_volume(of.repair(ZOO["ball without a cap"][0](), level="safe", small_hole_edges=1000).mesh) < 0.985 * whole
+    assert (
+        of.signed_volume(of.repair(ZOO["ball without a cap"][0](), level="safe", small_hole_edges=1000).mesh)
+        < 0.985 * whole
+    )
 
 
 def test_the_bound_of_holes_is_kept_and_told():
@@ -133,9 +142,16 @@ def test_a_wrap_says_how_far_it_lies_and_lies_no_farther():
 def test_unused_points_are_left_out_before_anything_is_measured(tmp_path):
     path = tmp_path / "far.obj"
     points = [*np.asarray(ball().vertices).tolist(), [500, 0, 0]]
-    path.write_text("".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in points) + "".join(f"f {a} {b} {c}\n" for a, b, c in np.asarray(ball().triangles) + 1))
+    path.write_text(
+        "".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in points)
+        + "".join(f"f {a} {b} {c}\n" for a, b, c in np.asarray(ball().triangles) + 1)
+    )
     record = examine(path)
-    assert record["ok"] and record["bounding_box"]["diagonal"] < 4 and record["notes"] == ["1 vertices that no triangle uses were left out"]
+    assert (
+        record["ok"]
+        and record["bounding_box"]["diagonal"] < 4
+        and record["notes"] == ["1 vertices that no triangle uses were left out"]
+    )
 
 
 def test_lines_of_the_file_survive_repair_where_they_are_edges(tmp_path):
@@ -145,7 +161,9 @@ def test_lines_of_the_file_survive_repair_where_they_are_edges(tmp_path):
     points, triangles = np.asarray(box.vertices), np.asarray(box.triangles)
     lines = of.detect_features(box).edges
     path = tmp_path / "turned.vtk"
-    meshio.Mesh(points, [("triangle", np.concatenate([triangles[:3], triangles[3:, ::-1]])), ("line", lines)]).write(path, binary=False)
+    meshio.Mesh(points, [("triangle", np.concatenate([triangles[:3], triangles[3:, ::-1]])), ("line", lines)]).write(
+        path, binary=False
+    )
     sound = read_sound(path, of.MeshOptions(repair="safe", features="file"))
     assert len(sound.features.edges) == 12 and any(note.startswith("repair: reversed 3") for note in sound.found.notes)
 
@@ -233,7 +251,8 @@ def test_every_text_reader_shows_the_word_it_cannot_use(name, content, shown, tm
 
 
 def test_convert_repairs_up_to_the_level_and_says_what_is_left(tmp_path):
-    """A box without one triangle, its points apart: merge leaves the hole and says so, safe fills it; without the option nothing changes."""
+    """A box without one triangle, its points apart: merge leaves the hole and says so, safe fills it; without the
+    option nothing changes."""
     mesh = generate("box")
     triangles = np.asarray(mesh.triangles)[1:]
     apart = of.TriangleMesh(np.asarray(mesh.vertices)[triangles.ravel()], np.arange(triangles.size).reshape(-1, 3))
@@ -243,12 +262,22 @@ def test_convert_repairs_up_to_the_level_and_says_what_is_left(tmp_path):
     assert plain.vertices == len(apart.vertices) and plain.notes == []
     merged = convert_file(tmp_path / "in.obj", tmp_path / "merged.obj", repair=level("merge"))
     assert merged.vertices == len(mesh.vertices) and kinds(of.read_surface(tmp_path / "merged.obj")) == ["not_closed"]
-    assert any(note.startswith("repair: ") for note in merged.notes) and merged.notes[-1].startswith("after --repair merge: ")
+    assert any(note.startswith("repair: ") for note in merged.notes) and merged.notes[-1].startswith(
+        "after --repair merge: "
+    )
     safe = convert_file(tmp_path / "in.obj", tmp_path / "safe.ply", repair=level("safe"))
-    assert kinds(of.read_surface(tmp_path / "safe.ply")) == [] and not any("after --repair" in note for note in safe.notes)
+    assert kinds(of.read_surface(tmp_path / "safe.ply")) == [] and not any(
+        "after --repair" in note for note in safe.notes
+    )
     assert np.isclose(of.signed_volume(of.read_surface(tmp_path / "safe.ply")), of.signed_volume(mesh))
-    done = CliRunner().invoke(app, ["convert", str(tmp_path / "in.obj"), "-o", str(tmp_path / "b.off"), "--repair", "safe", "-q"])
-    assert done.exit_code == 0 and of.read_surface(tmp_path / "b.off").triangles.shape == of.read_surface(tmp_path / "safe.ply").triangles.shape
+    done = CliRunner().invoke(
+        app, ["convert", str(tmp_path / "in.obj"), "-o", str(tmp_path / "b.off"), "--repair", "safe", "-q"]
+    )
+    assert (
+        done.exit_code == 0
+        and of.read_surface(tmp_path / "b.off").triangles.shape
+        == of.read_surface(tmp_path / "safe.ply").triangles.shape
+    )
 
 
 def test_convert_does_not_ignore_repair_of_tets_or_frames(tmp_path):
@@ -257,8 +286,13 @@ def test_convert_does_not_ignore_repair_of_tets_or_frames(tmp_path):
     with pytest.raises(of.InvalidInput, match="surfaces only"):
         convert_file(tmp_path / "a.vtu", tmp_path / "b.ovmb", repair=MeshOptions(repair="safe"))
     convert_file(tmp_path / "a.vtu", tmp_path / "a.mesh")
-    assert any("repair was ignored" in note for note in convert_file(tmp_path / "a.mesh", tmp_path / "b.vtk", repair=MeshOptions(repair="safe")).notes)
-    done = CliRunner().invoke(app, ["convert", str(tmp_path / "a.mesh"), "-o", str(tmp_path / "c.vtk"), "--repair", "saef"])
+    assert any(
+        "repair was ignored" in note
+        for note in convert_file(tmp_path / "a.mesh", tmp_path / "b.vtk", repair=MeshOptions(repair="safe")).notes
+    )
+    done = CliRunner().invoke(
+        app, ["convert", str(tmp_path / "a.mesh"), "-o", str(tmp_path / "c.vtk"), "--repair", "saef"]
+    )
     assert done.exit_code == 2 and "did you mean 'safe'" in done.stderr
 
 
@@ -277,7 +311,11 @@ def test_an_edge_that_is_rounding_is_collapsed_and_a_short_one_is_not(length, co
         triangles += [[middle if v == start else v for v in t], [middle if v == end else v for v in t]]
     step = length * (points[end] - points[start]) / np.linalg.norm(points[end] - points[start])
     done = of.repair(of.TriangleMesh(np.vstack([points, step]), np.array(triangles, np.int32)), level="safe")
-    assert (len(done.mesh.triangles) == len(box.triangles)) == collapsed == any("joined the ends of 1 edge" in a for a in done.actions)
+    assert (
+        (len(done.mesh.triangles) == len(box.triangles))
+        == collapsed
+        == any("joined the ends of 1 edge" in a for a in done.actions)
+    )
     assert kinds(done.mesh) == [] and of.signed_volume(done.mesh) == pytest.approx(of.signed_volume(box))
 
 

@@ -6,15 +6,14 @@ import json
 from io import BytesIO
 from xml.etree import ElementTree
 
+import octafield
 import pytest
 import pyvista
+from octafield.compare import compare
+from octafield.options import FieldOptions
 from PIL import Image
 from pipeline_fixtures import write_cube, write_sphere
 from report_pages import elements, require_sound
-
-import octafield
-from octafield.compare import compare
-from octafield.options import FieldOptions
 
 COARSE = FieldOptions(edge_length=0.4)
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -23,7 +22,9 @@ PNG = b"\x89PNG\r\n\x1a\n"
 @pytest.fixture(scope="module")
 def comparison(tmp_path_factory):
     folder = tmp_path_factory.mktemp("compare")
-    return compare([write_sphere(folder), write_cube(folder)], folder / "out", representations=("sh4", "odeco"), options=COARSE)
+    return compare(
+        [write_sphere(folder), write_cube(folder)], folder / "out", representations=("sh4", "odeco"), options=COARSE
+    )
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +70,9 @@ def test_the_page_is_well_formed_and_asks_nothing_of_the_network(comparison, pag
 def test_pictures_are_small_and_say_something(comparison, page):
     pictures = [a["src"] for tag, a in elements(page) if tag == "img"]
     curves = len({(row["boundary"], row["singular_curves"]) for row in comparison.rows if row["singular_edges"]})
-    assert len(pictures) >= 2 * (2 + 2) + curves  # per input: the surface, streamlines; per boundary treatment a cut; curves that differ
+    assert (
+        len(pictures) >= 2 * (2 + 2) + curves
+    )  # per input: the surface, streamlines; per boundary treatment a cut; curves that differ
     for source in pictures:
         data = base64.b64decode(source.removeprefix("data:image/png;base64,"), validate=True)
         assert data.startswith(PNG) and len(data) < 250_000 and Image.open(BytesIO(data)).width > 500
@@ -90,7 +93,11 @@ def test_captions_state_the_index_sum_and_the_table_the_energy(comparison, page)
 
 
 def test_separatrices_are_drawn_where_there_are_any(comparison, page):
-    drawn = [section for section in page.split('<section class="mesh" id="mesh-')[1:] if "separatrix" in section.split("</section>")[0]]
+    drawn = [
+        section
+        for section in page.split('<section class="mesh" id="mesh-')[1:]
+        if "separatrix" in section.split("</section>")[0]
+    ]
     assert len(drawn) == 1 and drawn[0].startswith("1-sphere-ply")  # those of the cube are its edges
     for row in comparison.rows:
         curves = pyvista.read(comparison.folder / row["folder"] / "surface_separatrices.vtp")
@@ -113,7 +120,9 @@ def test_a_new_comparison_replaces_the_old_one_only(comparison, tmp_path):
     }
     for plot in (out / "figures").glob("*.svg"):
         assert ElementTree.parse(plot).getroot().tag == "{http://www.w3.org/2000/svg}svg"
-    assert {p.name for p in (out / "tables").iterdir()} == {f"{stem}.{end}" for stem in ("summary", "deviations", "inputs", "runs") for end in ("csv", "tex")}
+    assert {p.name for p in (out / "tables").iterdir()} == {
+        f"{stem}.{end}" for stem in ("summary", "deviations", "inputs", "runs") for end in ("csv", "tex")
+    }
 
 
 def test_a_folder_of_something_else_is_refused_and_untouched(tmp_path):
@@ -124,7 +133,14 @@ def test_a_folder_of_something_else_is_refused_and_untouched(tmp_path):
 
 
 def test_seeds_make_rows_of_their_own(tmp_path):
-    rows = compare(write_sphere(tmp_path), tmp_path / "out", representations=("sh4",), boundaries=("aligned",), seeds=2, options=COARSE).rows
+    rows = compare(
+        write_sphere(tmp_path),
+        tmp_path / "out",
+        representations=("sh4",),
+        boundaries=("aligned",),
+        seeds=2,
+        options=COARSE,
+    ).rows
     assert [row["seed"] for row in rows] == [0, 1]
     assert rows[0]["mesh_sha256"] == rows[1]["mesh_sha256"]
 

@@ -10,10 +10,6 @@ import zlib
 import numpy as np
 import pytest
 import pyvista
-from PIL import Image
-from pipeline_fixtures import write_cube, write_sphere
-from report_pages import elements, page_of, record
-
 from octafield import compute_field, from_pyvista, scene
 from octafield.compare import compare
 from octafield.options import COMPARED, SOLVERS, FieldOptions
@@ -21,6 +17,9 @@ from octafield.report import Run, figures, scenes
 from octafield.report.deviations import deviations
 from octafield.report.profiles import lines, performance_profiles
 from octafield.report.records import Results
+from PIL import Image
+from pipeline_fixtures import write_cube, write_sphere
+from report_pages import elements, page_of, record
 
 NAMES = ['<script>alert("1")</script>', "50 % & $x_1^2$ {\\tt}~#", "größe 立方体", "../../etc/passwd", "a\nb"]
 
@@ -30,7 +29,12 @@ def fields(tmp_path_factory):
     folder = tmp_path_factory.mktemp("fields")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scene, "can_draw", lambda: False)
-        return compare(write_sphere(folder), folder / "out", representations=("sh4", "geodesic"), options=FieldOptions(edge_length=0.4))
+        return compare(
+            write_sphere(folder),
+            folder / "out",
+            representations=("sh4", "geodesic"),
+            options=FieldOptions(edge_length=0.4),
+        )
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +42,13 @@ def all_methods(tmp_path_factory):
     folder = tmp_path_factory.mktemp("all_methods")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scene, "can_draw", lambda: False)
-        return compare(write_sphere(folder), folder / "out", representations=(*COMPARED, "odeco_lengths"), boundaries=("aligned",), options=FieldOptions(edge_length=0.4))
+        return compare(
+            write_sphere(folder),
+            folder / "out",
+            representations=(*COMPARED, "odeco_lengths"),
+            boundaries=("aligned",),
+            options=FieldOptions(edge_length=0.4),
+        )
 
 
 def runs_of(comparison) -> list[Run]:
@@ -54,18 +64,27 @@ def test_hostile_names_stay_text(tmp_path):
 
 
 def test_latex_tables_are_rectangles_with_all_specials_escaped(tmp_path):
-    page_of(tmp_path, [(name, record(m, b)) for name in NAMES for m in ("sh4", "su2_midpoint") for b in ("fixed", "aligned")])
+    page_of(
+        tmp_path,
+        [(name, record(m, b)) for name in NAMES for m in ("sh4", "su2_midpoint") for b in ("fixed", "aligned")],
+    )
     for path in (tmp_path / "tables").glob("*.tex"):
         text = path.read_text()
         first, *inside, last = text.strip().splitlines()
         columns = len(re.fullmatch(r"\\begin\{tabular\}\{([lr]+)\}", first)[1])
-        assert last == r"\end{tabular}" and [line for line in inside if "rule" in line and "cmid" not in line] == [r"\toprule", r"\midrule", r"\bottomrule"]
+        assert last == r"\end{tabular}" and [line for line in inside if "rule" in line and "cmid" not in line] == [
+            r"\toprule",
+            r"\midrule",
+            r"\bottomrule",
+        ]
         for line in (line for line in inside if "rule" not in line):
             assert line.endswith(r" \\")
             cells = re.split(r"(?<!\\)&", line.removesuffix(r" \\"))
             widths = [int(w[1]) if (w := re.match(r"\s*\\multicolumn\{(\d+)\}", cell)) else 1 for cell in cells]
             assert sum(widths) == columns, line
-            bare = re.sub(r"\\(multicolumn\{\d+\}\{c\}\{[^}]*\}|text\w+(\{\})?|[&%$#_{}])", "", line.removesuffix(r" \\"))
+            bare = re.sub(
+                r"\\(multicolumn\{\d+\}\{c\}\{[^}]*\}|text\w+(\{\})?|[&%$#_{}])", "", line.removesuffix(r" \\")
+            )
             assert not re.search(r"[%$#_{}~^\\<>]", bare), line
 
 
@@ -73,14 +92,22 @@ def test_csv_tables_hold_full_precision_and_one_column_per_name(fields):
     table = list(csv.DictReader((fields.folder / "tables" / "runs.csv").open()))
     by_energy = sorted(row["energy"] for row in fields.rows)
     assert sorted(float(line["energy E"]) for line in table) == by_energy
-    (head, *_) = csv.reader((fields.folder / "tables" / "runs.csv").open())
+    head, *_ = csv.reader((fields.folder / "tables" / "runs.csv").open())
     assert len(head) == len(set(head)) == len(table[0])
 
 
 def test_numbers_of_a_summary_line_are_those_of_its_runs():
-    rows = [("a", record("sh4", energy=1.0)), ("a", record("su2", energy=2.0)), ("b", record("sh4", energy=3.0)), ("b", record("su2", energy=1.5))]
+    rows = [
+        ("a", record("sh4", energy=1.0)),
+        ("a", record("su2", energy=2.0)),
+        ("b", record("sh4", energy=3.0)),
+        ("b", record("su2", energy=1.5)),
+    ]
     sh4, su2 = lines(Results([Run(row, name) for name, row in rows]))
-    assert (sh4.ratio, sh4.largest, sh4.lowest) == pytest.approx((2**0.5, 2.0, 1)) and (su2.ratio, su2.largest) == pytest.approx((2**0.5, 2.0))
+    assert (sh4.ratio, sh4.largest, sh4.lowest) == pytest.approx((2**0.5, 2.0, 1)) and (
+        su2.ratio,
+        su2.largest,
+    ) == pytest.approx((2**0.5, 2.0))
     assert sh4.solved == sh4.problems == 2 and sh4.seconds == 1.0 and sh4.slowdown == 1.0
 
 
@@ -92,9 +119,15 @@ def test_repeats_count_once_with_their_least_time():
 
 def test_performance_profiles_count_problems():
     found = performance_profiles({"a": [1, 4, 2, 0], "b": [2, 2, float("inf"), 1]})
-    assert found["a"].ratio.tolist() == [1, 1, 1, 2] and found["a"].share.tolist() == pytest.approx([2 / 3, 1 / 3, 2 / 3, 1])
+    assert found["a"].ratio.tolist() == [1, 1, 1, 2] and found["a"].share.tolist() == pytest.approx(
+        [2 / 3, 1 / 3, 2 / 3, 1]
+    )
     assert found["b"].ratio.tolist() == [1, 1, 2] and found["b"].share.tolist() == pytest.approx([1 / 3, 1 / 3, 2 / 3])
-    assert found["a"].at(1) == pytest.approx(2 / 3) and found["a"].at(2) == 1 and found["b"].at(1.5) == pytest.approx(1 / 3)
+    assert (
+        found["a"].at(1) == pytest.approx(2 / 3)
+        and found["a"].at(2) == 1
+        and found["b"].at(1.5) == pytest.approx(1 / 3)
+    )
 
 
 def test_distances_are_symmetric_and_zero_to_itself(fields):
@@ -172,7 +205,9 @@ def test_convergence_ends_with_the_energy_of_the_tables_for_every_method(all_met
         assert curve.energy[-1] == pytest.approx(row["energy"], rel=1e-9)
         assert curve.own[0] == 1 and len(curve.own) == len(curve.energy) - curve.begin
         assert curve.own[-1] * row["objective_history"][0] == pytest.approx(row["objective"], rel=1e-9)
-        assert curve.energy[curve.begin] == pytest.approx(curves[results.methods[0]].energy[-1 if curve.begin else 0], rel=1e-2)  # about where sh4 ended
+        assert curve.energy[curve.begin] == pytest.approx(
+            curves[results.methods[0]].energy[-1 if curve.begin else 0], rel=1e-2
+        )  # about where sh4 ended
 
 
 def test_independent_starts_are_rows_of_their_own_without_a_step_in_sh4(tmp_path):
@@ -180,13 +215,24 @@ def test_independent_starts_are_rows_of_their_own_without_a_step_in_sh4(tmp_path
     found = compare(write_sphere(tmp_path), tmp_path / "out", representations=("sh4", "su2"), boundaries=("aligned",), starts=("sh4", "independent"), options=options)  # fmt: skip
     assert [(row["representation"], row["options"]["rounds"], row["diffusion_steps"] > 0) for row in found.rows] == [
         ("sh4", options.rounds, True), ("su2", options.rounds, True), ("sh4", 0, False), ("su2", 0, False)]  # fmt: skip
-    assert [m.name for m in Results([Run(row, "s") for row in found.rows]).methods] == ["sh4", "su2", "sh4 independent start", "su2 independent start"]
+    assert [m.name for m in Results([Run(row, "s") for row in found.rows]).methods] == [
+        "sh4",
+        "su2",
+        "sh4 independent start",
+        "su2 independent start",
+    ]
     alone = found.rows[3]
     assert len(alone["energy_history"]) == len(alone["objective_history"]) == alone["iterations"] + 1
 
 
 def test_pictures_are_files_of_two_thousand_pixels(tmp_path):
-    found = compare(write_sphere(tmp_path), tmp_path / "out", representations=("sh4",), boundaries=("aligned",), options=FieldOptions(edge_length=0.4))
+    found = compare(
+        write_sphere(tmp_path),
+        tmp_path / "out",
+        representations=("sh4",),
+        boundaries=("aligned",),
+        options=FieldOptions(edge_length=0.4),
+    )
     files = sorted((found.folder / "figures").glob("*.png"))
     assert len(files) >= 3 and {f"figures/{file.name}" for file in files} <= set(found.rows[0]["files"])
     for file in files:
@@ -195,14 +241,26 @@ def test_pictures_are_files_of_two_thousand_pixels(tmp_path):
 
 
 def test_every_input_has_a_section_and_plots_share_no_ids(tmp_path):
-    page = page_of(tmp_path, [(f"part {k}", record(m, b)) for k in range(3) for m in ("sh4", "su2") for b in ("fixed", "aligned")])
+    page = page_of(
+        tmp_path, [(f"part {k}", record(m, b)) for k in range(3) for m in ("sh4", "su2") for b in ("fixed", "aligned")]
+    )
     sections = [a["id"] for tag, a in elements(page) if tag == "section"]
     assert sections == ["mesh-1-part-0", "mesh-2-part-1", "mesh-3-part-2"]
     assert all(f'href="#{anchor}"' in page for anchor in sections) and 'classList.add("paged")' in page
 
 
 def test_plots_keep_the_text_of_their_axes(tmp_path):
-    page = page_of(tmp_path, [("a", record("sh4", wall_seconds=dict.fromkeys(("read", "mesh", "surface", "smooth", "analyse", "write"), 0.0042)))])
+    page = page_of(
+        tmp_path,
+        [
+            (
+                "a",
+                record(
+                    "sh4", wall_seconds=dict.fromkeys(("read", "mesh", "surface", "smooth", "analyse", "write"), 0.0042)
+                ),
+            )
+        ],
+    )
     assert ">0.005<" in page.split("seconds per phase")[1]
 
 
@@ -214,6 +272,10 @@ def test_the_page_is_for_light_and_dark(tmp_path):
 def test_vertices_that_no_frame_serves_are_counted_and_left_out_of_the_held_alignment(tmp_path):
     prism = pyvista.Cylinder(radius=1, height=1, resolution=8).clean().triangulate()
     octagon = compute_field(from_pyvista(prism), FieldOptions(edge_length=0.3, streamlines=0)).record
-    assert octagon["alignment_deg"]["max"] > 20 and octagon["alignment_deg"]["held_max"] < 2 and octagon["unserved_vertices"] > 8
+    assert (
+        octagon["alignment_deg"]["max"] > 20
+        and octagon["alignment_deg"]["held_max"] < 2
+        and octagon["unserved_vertices"] > 8
+    )
     cube = compute_field(write_cube(tmp_path), FieldOptions(edge_length=0.5, streamlines=0)).record
     assert cube["unserved_vertices"] == 0 and cube["alignment_deg"]["held_max"] == cube["alignment_deg"]["max"]

@@ -1,14 +1,13 @@
 """Sizes along the axes: against least squares made with numpy, known maps, and the derivation."""
 
 import numpy as np
+import octafield as of
 import pytest
 import scipy.sparse as sparse
 import scipy.sparse.linalg
 import sympy
 from conftest import box_tets
 from octahedral_fixtures import GROUP, closest, matrices
-
-import octafield as of
 
 
 def smooth_field(mesh):
@@ -22,11 +21,14 @@ def gradient_rows(mesh):
     inverse = np.linalg.inv(points[tets[:, 1:]] - points[tets[:, :1]])  # columns: gradients of hats 1 to 3
     hats = np.concatenate([-inverse.sum(axis=2, keepdims=True), inverse], axis=2)
     rows = np.repeat(np.arange(3 * len(tets)), 4)
-    return sparse.csr_matrix((hats.ravel(), (rows, np.repeat(tets, 3, axis=0).ravel())), shape=(3 * len(tets), len(points)))
+    return sparse.csr_matrix(
+        (hats.ravel(), (rows, np.repeat(tets, 3, axis=0).ravel())), shape=(3 * len(tets), len(points))
+    )
 
 
 def test_scales_are_those_of_least_squares_made_with_numpy(box):
-    """The curl of all tets as one overdetermined system in H, solved by LSQR: no Poisson equation, no integration by parts."""
+    """The curl of all tets as one overdetermined system in H, solved by LSQR: no Poisson equation, no integration by
+    parts."""
     frames, volumes = smooth_field(box), of.tet_volumes(box)
     gradients = gradient_rows(box)
     axes = matrices(frames)  # continuous, and so near to one another that no tet needs another representative
@@ -38,7 +40,9 @@ def test_scales_are_those_of_least_squares_made_with_numpy(box):
     alone, along, curls, loads = [], [], [], []
     for i in range(3):
         jacobian = (gradients @ axes[:, :, i]).reshape(-1, 3, 3)  # [t, direction, component]
-        curl = np.stack([jacobian[:, (k + 1) % 3, (k + 2) % 3] - jacobian[:, (k + 2) % 3, (k + 1) % 3] for k in range(3)], axis=1)
+        curl = np.stack(
+            [jacobian[:, (k + 1) % 3, (k + 2) % 3] - jacobian[:, (k + 2) % 3, (k + 1) % 3] for k in range(3)], axis=1
+        )
         n = centre[:, :, i]
         cross = np.zeros((len(n), 3, 3))  # g x n as a matrix times g
         cross[:, [0, 1, 2], [1, 2, 0]], cross[:, [1, 2, 0], [0, 1, 2]] = n[:, [2, 0, 1]], -n[:, [2, 0, 1]]
@@ -54,7 +58,9 @@ def test_scales_are_those_of_least_squares_made_with_numpy(box):
     x, *_, norm = solve(sparse.vstack(alone), np.concatenate(curls))[:4]
     np.testing.assert_allclose(one.log_scale - one.log_scale.mean(), x - x.mean(), atol=1e-6)
     assert one.after.curl_rms == pytest.approx(norm / np.sqrt(volumes.sum()), rel=1e-6)
-    assert one.before.curl_rms == pytest.approx(np.linalg.norm(np.concatenate(curls)) / np.sqrt(volumes.sum()), rel=1e-12)
+    assert one.before.curl_rms == pytest.approx(
+        np.linalg.norm(np.concatenate(curls)) / np.sqrt(volumes.sum()), rel=1e-12
+    )
 
     three = of.axis_scales(box, frames, along=0.05)
     corners = np.asarray(three.values)[np.asarray(three.unknowns).reshape(-1, 4, 3)]
@@ -67,7 +73,9 @@ def test_scales_are_those_of_least_squares_made_with_numpy(box):
         mine = corners[np.arange(len(which)), :, which]
         exact = x[np.asarray(box.tets)]
         np.testing.assert_allclose(mine - mine.mean(), exact - exact.mean(), atol=1e-6)
-        np.testing.assert_allclose(np.asarray(three.log_scales)[np.arange(len(which)), which], mine.mean(axis=1), atol=1e-14)
+        np.testing.assert_allclose(
+            np.asarray(three.log_scales)[np.arange(len(which)), which], mine.mean(axis=1), atol=1e-14
+        )
     assert three.after.curl_rms == pytest.approx(np.sqrt(left / volumes.sum()), rel=1e-6)
     assert three.parts == 3 and three.after.curl_rms < one.after.curl_rms < one.before.curl_rms
 
@@ -86,12 +94,14 @@ def test_scales_of_polar_coordinates_are_one_over_the_radius():
 
 
 def test_the_derivation_of_the_scales():
-    """By sympy. In the plane grad a = grad H x n (Beaufort 2019, (5.5)) makes exp(H) times the axes gradients, and exp(-H) times them fields that
-    commute."""
+    """By sympy. In the plane grad a = grad H x n (Beaufort 2019, (5.5)) makes exp(H) times the axes gradients, and
+    exp(-H) times them fields that commute."""
     p = sympy.symbols("x y z")
 
     def curl(v):
-        return sympy.Matrix([v[(k + 2) % 3].diff(p[(k + 1) % 3]) - v[(k + 1) % 3].diff(p[(k + 2) % 3]) for k in range(3)])
+        return sympy.Matrix(
+            [v[(k + 2) % 3].diff(p[(k + 1) % 3]) - v[(k + 1) % 3].diff(p[(k + 2) % 3]) for k in range(3)]
+        )
 
     def along(u, v):  # (u . grad) v
         return sympy.Matrix([sum(u[j] * v[i].diff(p[j]) for j in range(3)) for i in range(3)])

@@ -1,15 +1,14 @@
 """Sizes along the axes, part by part: records, arrays of files, which axis is which, and what conversions take."""
 
 import numpy as np
+import octafield as of
 import pytest
 from conftest import box_tets
-from scipy.spatial.transform import Rotation
-
-import octafield as of
 from octafield import FieldOptions, frame_formats, sizes
 from octafield.errors import InvalidInput
 from octafield.formats.base import FrameFile
 from octafield.phases import PhaseClock
+from scipy.spatial.transform import Rotation
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +50,9 @@ def test_a_run_finds_sizes_where_they_are_asked_for_and_says_so(mesh, turned, fo
     assert sizes.sizes_of_run(mesh, turned, FieldOptions(), clock, None) == (None, {})
     assert "sizes" not in clock.wall
     for kind in ("isotropic", "axes"):
-        one, record = sizes.sizes_of_run(mesh, turned, FieldOptions(sizes=kind), clock, lambda phase, *_: told.append(phase) or True)
+        one, record = sizes.sizes_of_run(
+            mesh, turned, FieldOptions(sizes=kind), clock, lambda phase, *_: told.append(phase) or True
+        )
         assert record == {"sizes": sizes.sizes_record(found[kind])} and type(one) is type(found[kind])
     assert told == ["sizes", "sizes"] and "sizes" in clock.wall
 
@@ -68,7 +69,9 @@ def test_arrays_of_files_are_logarithms_curl_and_scaled_axes(mesh, found):
         points, cells = sizes.sizes_arrays(axes, frames)
         assert points == {} and set(cells) == {"curl", "log_scales", "scaled_frame"}
         np.testing.assert_array_equal(cells["log_scales"], axes.log_scales)
-        matrices = Rotation.from_quat(of_tets, scalar_first=True).as_matrix() * np.exp(np.asarray(axes.log_scales))[:, None, :]
+        matrices = (
+            Rotation.from_quat(of_tets, scalar_first=True).as_matrix() * np.exp(np.asarray(axes.log_scales))[:, None, :]
+        )
         np.testing.assert_allclose(cells["scaled_frame"], np.swapaxes(matrices, 1, 2).reshape(-1, 9), atol=1e-12)
     assert np.ptp(np.asarray(axes.log_scales), axis=1).max() > 1e-3
 
@@ -83,7 +86,10 @@ def test_sizes_go_with_their_axes_whatever_these_are_called(found):
         for j in range(3):
             same = np.abs(np.einsum("nij,ni->nj", old, new[:, :, j])).argmax(axis=1)  # the old axis along the new j
             np.testing.assert_array_equal(logs[:, j], np.asarray(axes.log_scales)[np.arange(len(logs)), same])
-        assert (sizes.axis_order(np.array([number]))[0] == np.abs(np.rint(Rotation.from_quat(group[number], scalar_first=True).as_matrix())).argmax(axis=0)).all()
+        assert (
+            sizes.axis_order(np.array([number]))[0]
+            == np.abs(np.rint(Rotation.from_quat(group[number], scalar_first=True).as_matrix())).argmax(axis=0)
+        ).all()
 
 
 def file_of(mesh, frames, where, **more) -> FrameFile:
@@ -100,7 +106,10 @@ def test_lengths_are_densities_of_isotropic_sizes_at_vertices_and_their_mean_in_
         moved, _ = sizes.with_sizes(file_of(mesh, turned, "vertices"), frame_formats[name], "tets", "isotropic")
         mean = logs[np.asarray(mesh.tets)].mean(axis=1)
         np.testing.assert_allclose(moved.lengths, np.repeat(np.exp(sign * mean)[:, None], 3, axis=1), rtol=1e-12)
-        assert moved.where == "tets" and moved.notes == ["before", "the frames were taken to the tets: the nearest to the mean sh4 vector of those around"]
+        assert moved.where == "tets" and moved.notes == [
+            "before",
+            "the frames were taken to the tets: the nearest to the mean sh4 vector of those around",
+        ]
         np.testing.assert_array_equal(moved.frames, of.tet_frames(mesh, turned))
 
 
@@ -128,4 +137,6 @@ def test_what_sizes_cannot_be_is_said(mesh, turned):
         sizes.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["npz"], None, "axes")
     assert error.value.kind == "wrong_sampling"
     none, record = sizes.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["qtn"], None, "isotropic")
-    assert record == {} and none.lengths is None and none.notes[0] == "before" and "sizes were left out" in none.notes[1]
+    assert (
+        record == {} and none.lengths is None and none.notes[0] == "before" and "sizes were left out" in none.notes[1]
+    )

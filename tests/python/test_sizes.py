@@ -1,23 +1,23 @@
-"""The option sizes, from the command line to files and reports: against the core's functions, numpy and independent readers."""
+"""The option sizes, from the command line to files and reports: against the core's functions, numpy and independent
+readers."""
 
 import csv
 import json
 
 import numpy as np
+import octafield as of
 import other_readers as readers
 import pytest
 import pyvista
 from conftest import box_tets
-from octahedral_fixtures import GROUP, matrices
-from pipeline_fixtures import octafield
-from report_pages import require_sound
-
-import octafield as of
 from octafield import study
 from octafield.conversion import convert_file
 from octafield.formats.rotations import quaternions_of
 from octafield.sizes import log_scales_of
 from octafield.study.generators import generate
+from octahedral_fixtures import GROUP, matrices
+from pipeline_fixtures import octafield
+from report_pages import require_sound
 
 
 @pytest.fixture(scope="module")
@@ -40,10 +40,24 @@ def polar(tmp_path_factory):
 
 def test_isotropic_sizes_lower_the_curl_and_go_into_files(tmp_path):
     of.write_surface(generate("ball"), tmp_path / "ball.stl")
-    done = octafield("field", tmp_path / "ball.stl", "-o", tmp_path / "out", "--edge-length", "0.3", "--sizes", "isotropic", "--json", "-", check=0)
+    done = octafield(
+        "field",
+        tmp_path / "ball.stl",
+        "-o",
+        tmp_path / "out",
+        "--edge-length",
+        "0.3",
+        "--sizes",
+        "isotropic",
+        "--json",
+        "-",
+        check=0,
+    )
     record = json.loads(done.stdout)
     found = record["sizes"]
-    assert found["kind"] == "isotropic" and found["curl_rms_after"] <= found["curl_rms_before"] and found["size_ratio"] > 1
+    assert (
+        found["kind"] == "isotropic" and found["curl_rms_after"] <= found["curl_rms_before"] and found["size_ratio"] > 1
+    )
     assert record["wall_seconds"]["sizes"] > 0 and record["options"]["sizes"] == "isotropic"
     grid = pyvista.read(tmp_path / "out" / "field.vtu")
     mesh = of.TetMesh(grid.points, grid.cells_dict[10])
@@ -51,11 +65,15 @@ def test_isotropic_sizes_lower_the_curl_and_go_into_files(tmp_path):
     np.testing.assert_allclose(grid.point_data["log_scale"], again.log_scale, atol=1e-9)
     np.testing.assert_allclose(grid.cell_data["curl"], again.after.curl, rtol=1e-6, atol=1e-9)
     volumes = of.tet_volumes(mesh)
-    assert found["curl_rms_after"] == pytest.approx(np.sqrt(volumes @ grid.cell_data["curl"] ** 2 / volumes.sum()), rel=1e-9)
+    assert found["curl_rms_after"] == pytest.approx(
+        np.sqrt(volumes @ grid.cell_data["curl"] ** 2 / volumes.sum()), rel=1e-9
+    )
     assert abs(volumes @ grid.point_data["log_scale"][grid.cells_dict[10]].mean(axis=1)) < 1e-9 * volumes.sum()
     plain = octafield("analyse", tmp_path / "out" / "field.vtu", "--json", "-", check=0)
     assert "sizes" not in json.loads(plain.stdout)
-    sized = json.loads(octafield("analyse", tmp_path / "out" / "field.vtu", "--sizes", "isotropic", "--json", "-", check=0).stdout)["sizes"]
+    sized = json.loads(
+        octafield("analyse", tmp_path / "out" / "field.vtu", "--sizes", "isotropic", "--json", "-", check=0).stdout
+    )["sizes"]
     assert sized["curl_rms_after"] == pytest.approx(found["curl_rms_after"], rel=1e-6)
 
 
@@ -67,7 +85,9 @@ def test_sizes_per_axis_are_in_the_file_with_the_axes_they_belong_to(ball, tmp_p
     cells = pyvista.read(tmp_path / "field.vtu").cell_data
     np.testing.assert_array_equal(cells["log_scales"], ball.sizes.log_scales)
     scaled = np.swapaxes(cells["scaled_frame"].reshape(-1, 3, 3), 1, 2)
-    np.testing.assert_allclose(scaled, matrices(ball.sizes.of_tets) * np.exp(ball.sizes.log_scales)[:, None, :], atol=1e-12)
+    np.testing.assert_allclose(
+        scaled, matrices(ball.sizes.of_tets) * np.exp(ball.sizes.log_scales)[:, None, :], atol=1e-12
+    )
 
 
 def test_frames_in_tets_have_the_sizes_of_their_own_axes(ball):
@@ -82,7 +102,9 @@ def test_frames_in_tets_have_the_sizes_of_their_own_axes(ball):
     assert of.compute_field(ball.tets, of.FieldOptions(features="none")).sizes is None
 
 
-@pytest.mark.parametrize(("name", "sign"), [("a.fra", 1), ("a.bfra", 1), ("a.txt", 1), ("a.npz", 1), ("a.vtu", 1), ("a.ff3", -1)])
+@pytest.mark.parametrize(
+    ("name", "sign"), [("a.fra", 1), ("a.bfra", 1), ("a.txt", 1), ("a.npz", 1), ("a.vtu", 1), ("a.ff3", -1)]
+)
 def test_lengths_written_are_densities_but_edges_of_cells_in_ff3(polar, tmp_path, name, sign):
     path, mesh, frames = polar
     done = convert_file(path, tmp_path / name, at="tets", sizes="axes")
@@ -93,7 +115,11 @@ def test_lengths_written_are_densities_but_edges_of_cells_in_ff3(polar, tmp_path
     own = np.swapaxes(matrices(expected.of_tets) * np.exp(sign * np.asarray(expected.log_scales))[:, None, :], 1, 2)
     assert back.where == "tets"
     match = np.abs(np.einsum("tik,tjk->tij", axes, own)).argmax(axis=2)
-    np.testing.assert_allclose(np.abs(np.einsum("tik,tik->ti", axes, np.take_along_axis(own, match[:, :, None], 1))), np.linalg.norm(axes, axis=2) ** 2, rtol=1e-9)
+    np.testing.assert_allclose(
+        np.abs(np.einsum("tik,tik->ti", axes, np.take_along_axis(own, match[:, :, None], 1))),
+        np.linalg.norm(axes, axis=2) ** 2,
+        rtol=1e-9,
+    )
     # Of the map: the angle's gradient has length 1 / r.
     centre = np.asarray(mesh.vertices)[mesh.tets].mean(axis=1)
     radius = np.hypot(*centre[:, :2].T)
@@ -140,7 +166,13 @@ def test_what_cannot_be_done_is_said(polar, tmp_path):
 
 def test_the_report_tells_curl_before_and_after(tmp_path):
     options = of.FieldOptions(edge_length=0.4, sizes="isotropic", streamlines=0)
-    found = of.compare([generate("ball"), generate("box")], tmp_path / "out", representations=["sh4", "su2"], boundaries=["aligned"], options=options)
+    found = of.compare(
+        [generate("ball"), generate("box")],
+        tmp_path / "out",
+        representations=["sh4", "su2"],
+        boundaries=["aligned"],
+        options=options,
+    )
     page = (tmp_path / "out" / "report.html").read_text()
     require_sound(page, tmp_path / "out")
     assert "Integrability.</b> One line per run with sizes" in page
@@ -169,5 +201,7 @@ def test_sizes_follow_the_axes_of_combed_frames(ball, tmp_path):
     plain, combed = (np.load(tmp_path / f"{name}.npz") for name in ("plain", "combed"))
     between = np.abs(np.swapaxes(matrices(combed["frames"]), 1, 2) @ matrices(plain["frames"]))
     assert (between.max(axis=2) > 1 - 1e-12).all()
-    np.testing.assert_array_equal(np.take_along_axis(plain["lengths"], between.argmax(axis=2), axis=1), combed["lengths"])
+    np.testing.assert_array_equal(
+        np.take_along_axis(plain["lengths"], between.argmax(axis=2), axis=1), combed["lengths"]
+    )
     assert np.ptp(plain["lengths"]) > 0.1 and combed["element"].any()

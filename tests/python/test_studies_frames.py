@@ -6,16 +6,17 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pytest
-
 import octafield
+import pytest
 
 STUDIES = Path(__file__).parents[2] / "studies"
 LARGEST = 62.7994  # degrees between two frames
 
 
 def run(script: str, output: Path, *options: str) -> Path:
-    done = subprocess.run([sys.executable, STUDIES / script, "-o", output, *options], capture_output=True, text=True, timeout=300)
+    done = subprocess.run(
+        [sys.executable, STUDIES / script, "-o", output, *options], capture_output=True, text=True, timeout=300
+    )
     assert done.returncode == 0, done.stderr
     return output
 
@@ -65,7 +66,11 @@ def test_only_the_figures_asked_for_are_made(tmp_path):
 
 
 def test_an_unknown_figure_is_refused_with_the_list(tmp_path):
-    done = subprocess.run([sys.executable, STUDIES / "thesis_frames.py", "-o", tmp_path, "--figures", "4.9"], capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, STUDIES / "thesis_frames.py", "-o", tmp_path, "--figures", "4.9"],
+        capture_output=True,
+        text=True,
+    )
     assert done.returncode == 2
     assert "4.9" in done.stderr and "4.7a" in done.stderr
 
@@ -91,8 +96,8 @@ def test_figure_4_4_lies_on_the_unit_sphere_of_the_4_norm(thesis):
 def test_figure_4_7a_follows_the_invariants_along_the_three_axes(thesis):
     table = columns(thesis / "frames_4_7a.csv")
     t = np.radians(table["angle_deg"])
-    # About the special axis h0 = exp(4it), h1 = h2 = 0. About another one, with X = sin^2 t and p = X / 4: h0 = 1 - 16 p (1/4 - p),
-    # h1 = p (1 - 4p), h2^2 = h1 (h0^3 - 108 h1^2).
+    # About the special axis h0 = exp(4it), h1 = h2 = 0. About another one, with X = sin^2 t and p = X / 4: h0 = 1 - 16
+    # p (1/4 - p), h1 = p (1 - 4p), h2^2 = h1 (h0^3 - 108 h1^2).
     p = np.sin(t) ** 2 / 4
     h0, h1 = 1 - 4 * p + 16 * p**2, p * (1 - 4 * p)
     other = np.sqrt((1 - h0) ** 2 + h1**2 + np.maximum(h1 * (h0**3 - 108 * h1**2), 0))
@@ -106,7 +111,9 @@ def test_figure_4_7a_follows_the_invariants_along_the_three_axes(thesis):
 
 def test_only_the_printed_4_25_is_invariant_on_the_wrong_side(thesis):
     for name, wrong in (("this project", 1), ("thesis, section 4.2", 1), ("thesis, (4.25) as printed", 0)):
-        changes = [float(x) for x in summary(thesis)[f"largest change of h over the 48 o, q o and o q: {name}"].split(", ")]
+        changes = [
+            float(x) for x in summary(thesis)[f"largest change of h over the 48 o, q o and o q: {name}"].split(", ")
+        ]
         assert changes[wrong] > 0.1
         assert changes[1 - wrong] < 1e-12
 

@@ -5,9 +5,8 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pytest
-
 import octafield
+import pytest
 
 STUDIES = Path(__file__).parents[2] / "studies"
 sys.path[:0] = [str(STUDIES), str(STUDIES / "benchmarks")]
@@ -18,7 +17,9 @@ import surface_points  # noqa: E402
 
 
 def run(script: str, output: Path, *options: str) -> Path:
-    done = subprocess.run([sys.executable, STUDIES / script, "-o", output, *options], capture_output=True, text=True, timeout=300)
+    done = subprocess.run(
+        [sys.executable, STUDIES / script, "-o", output, *options], capture_output=True, text=True, timeout=300
+    )
     assert done.returncode == 0, done.stderr
     return output
 
@@ -37,14 +38,20 @@ def is_picture(path: Path) -> bool:
 
 # ---- meshes
 
+
 def area(mesh) -> float:
     return float(np.sum(octafield.triangle_areas(mesh)))
 
 
-@pytest.mark.parametrize("mesh, triangles, euler, expected", [
-    (surface_meshes.even_disk(0.1), None, 1, np.pi), (surface_meshes.sphere(8), 1280, 2, 4 * np.pi), (surface_meshes.sphere(12, "octahedron"), 1152, 2, 4 * np.pi),
-    (surface_meshes.torus(60, 30), 3600, 0, 2 * np.pi**2),
-])
+@pytest.mark.parametrize(
+    "mesh, triangles, euler, expected",
+    [
+        (surface_meshes.even_disk(0.1), None, 1, np.pi),
+        (surface_meshes.sphere(8), 1280, 2, 4 * np.pi),
+        (surface_meshes.sphere(12, "octahedron"), 1152, 2, 4 * np.pi),
+        (surface_meshes.torus(60, 30), 3600, 0, 2 * np.pi**2),
+    ],
+)
 def test_meshes_are_valid_and_have_the_area_of_their_surface(mesh, triangles, euler, expected):
     octafield.require_valid(mesh, closed=euler != 1)
     assert octafield.euler_characteristic(mesh) == euler
@@ -58,7 +65,9 @@ def test_a_region_with_a_hole_keeps_its_corners_and_follows_the_size_asked_for()
     circle = np.column_stack([np.cos(angle), np.sin(angle)]) / 4
     size = lambda points: 0.02 + 0.15 * abs(np.hypot(*points.T) - 0.25)
     sides = [np.linspace(a, b, 50) for a, b in zip(corners, np.roll(corners, -1, axis=0))]
-    mesh = surface_meshes.region([surface_meshes.resampled(sides, size), surface_meshes.resampled([circle], size)], size)
+    mesh = surface_meshes.region(
+        [surface_meshes.resampled(sides, size), surface_meshes.resampled([circle], size)], size
+    )
     assert octafield.euler_characteristic(mesh) == 0
     assert area(mesh) == pytest.approx(4 - np.pi / 16, rel=2e-3)
     points, edges = np.array(mesh.vertices), np.array(octafield.edge_topology(mesh).edges)
@@ -69,17 +78,22 @@ def test_a_region_with_a_hole_keeps_its_corners_and_follows_the_size_asked_for()
 
 # ---- the common energy of the benchmark
 
+
 def test_common_energy_is_the_dirichlet_integral_of_smooth_fields():
     mesh = surface_meshes.torus(120, 60)
     middle = np.array(mesh.vertices)[np.array(mesh.triangles)].mean(axis=1)
-    along = np.column_stack([-middle[:, 1], middle[:, 0], 0 * middle[:, 0]]) / np.linalg.norm(middle[:, :2], axis=1, keepdims=True)
+    along = np.column_stack([-middle[:, 1], middle[:, 0], 0 * middle[:, 0]]) / np.linalg.norm(
+        middle[:, :2], axis=1, keepdims=True
+    )
     exact = 32 * np.pi**2 * (2 - np.sqrt(3))  # along the curvature lines
     assert surface_fields.common_energy(mesh, octafield.FeatureGraph(), along) == pytest.approx(exact, rel=0.01)
 
 
 def test_common_energy_does_not_know_which_of_the_four_directions_is_given():
     mesh = surface_meshes.torus(40, 20)
-    directions = np.array(octafield.triangle_directions(mesh, octafield.direction_field(mesh, octafield.FeatureGraph(), method="mbo")))
+    directions = np.array(
+        octafield.triangle_directions(mesh, octafield.direction_field(mesh, octafield.FeatureGraph(), method="mbo"))
+    )
     turned = np.cross(octafield.triangle_normals(mesh), directions)
     mixed = np.where(np.arange(len(turned))[:, None] % 2 == 0, directions, turned)
     energies = [surface_fields.common_energy(mesh, octafield.FeatureGraph(), d) for d in (directions, turned, mixed)]
@@ -87,6 +101,7 @@ def test_common_energy_does_not_know_which_of_the_four_directions_is_given():
 
 
 # ---- where singular points are
+
 
 def with_values(mesh, symmetry: int, values: np.ndarray):
     topology = octafield.edge_topology(mesh)
@@ -119,23 +134,32 @@ def test_a_zero_on_the_sphere_is_found_far_below_the_mesh_width(symmetry):
     first = np.cross(axis, [1.0, 0, 0]) / np.linalg.norm(np.cross(axis, [1.0, 0, 0]))
     azimuth = np.arctan2(normal @ np.cross(axis, first), normal @ first)
     east = np.cross(axis, normal)
-    edge = np.arctan2(np.sum(np.cross(east, along) * normal, axis=1), np.sum(east * along, axis=1))  # from east to the edge
+    edge = np.arctan2(
+        np.sum(np.cross(east, along) * normal, axis=1), np.sum(east * along, axis=1)
+    )  # from east to the edge
     wanted = azimuth * (1 / symmetry - 1)  # from east, which itself turns once
     distance = np.linalg.norm(normal - axis, axis=1)
-    field = with_values(mesh, symmetry, distance / np.sqrt(0.03 + distance**2) * np.exp(1j * symmetry * (wanted - edge)))
+    field = with_values(
+        mesh, symmetry, distance / np.sqrt(0.03 + distance**2) * np.exp(1j * symmetry * (wanted - edge))
+    )
     start = (axis + [0.02, 0.01, 0])[None]
     assert np.linalg.norm(surface_points.located_on_sphere(mesh, field, start, 0.15)[0] - axis) < 5e-4
 
 
 # ---- scripts
 
+
 def test_disk_points_come_near_the_radius_of_theory(tmp_path):
     run("surface_disk.py", tmp_path, "--edges", "0.04", "--epsilons", "0.07")
     curves, measured = rows(tmp_path, 0), rows(tmp_path, 1)
-    assert [float(row["least sample of the curve"]) for row in curves] == pytest.approx([(3 / 11) ** (1 / 8), (5 / 17) ** (1 / 12)], abs=1e-3)
+    assert [float(row["least sample of the curve"]) for row in curves] == pytest.approx(
+        [(3 / 11) ** (1 / 8), (5 / 17) ** (1 / 12)], abs=1e-3
+    )
     for row, radius in zip(measured, (0.850, 0.903)):
         assert row["points"] == row["N"]
-        assert float(row["radius"]) == pytest.approx(radius, abs=0.015)  # what is left is of epsilon, alike on every mesh
+        assert float(row["radius"]) == pytest.approx(
+            radius, abs=0.015
+        )  # what is left is of epsilon, alike on every mesh
         assert float(row["largest - smallest radius"]) < 5e-4
         assert float(row["energy"]) == pytest.approx(float(row["asymptotic"]), rel=0.03)
     assert all(is_picture(tmp_path / f"surface_disk_{name}.png") for name in ("energy", "radius", "fields"))
@@ -193,10 +217,13 @@ def test_the_benchmark_tells_every_method_s_points_and_energy(tmp_path):
     run("benchmarks/surface_fields.py", tmp_path, "--surfaces", "sphere", "--sizes", "700")
     table = {row["method"]: row for row in rows(tmp_path, 0)}
     assert set(table) == {*surface_fields.OURS, surface_fields.HELD}
-    assert all(row["singular points"] == "8" and float(row["energy"]) < 120 and row["note"] == "" for row in table.values())
+    assert all(
+        row["singular points"] == "8" and float(row["energy"]) < 120 and row["note"] == "" for row in table.values()
+    )
 
 
 # ---- reliability
+
 
 def test_the_study_of_reliability_tells_right_sums_and_refused_files(tmp_path):
     inputs = tmp_path / "inputs"
@@ -205,7 +232,16 @@ def test_the_study_of_reliability_tells_right_sums_and_refused_files(tmp_path):
     octafield.write_surface(surface_meshes.torus(16, 8), inputs / "torus.ply")
     (inputs / "notes.txt").write_text("no surface")
     (inputs / "bad.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
-    script = [sys.executable, STUDIES / "surface_reliability.py", inputs, "-o", tmp_path / "out", "--symmetries", "4", "1"]
+    script = [
+        sys.executable,
+        STUDIES / "surface_reliability.py",
+        inputs,
+        "-o",
+        tmp_path / "out",
+        "--symmetries",
+        "4",
+        "1",
+    ]
     done = subprocess.run(script, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     table = rows(tmp_path / "out", 0)

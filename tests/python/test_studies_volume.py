@@ -5,9 +5,8 @@ import sys
 from pathlib import Path
 
 import meshio
-from pipeline_fixtures import write_cube, write_sphere
-
 from octafield.pipeline import prepare_mesh
+from pipeline_fixtures import write_cube, write_sphere
 
 ROOT = Path(__file__).parents[2]
 
@@ -75,7 +74,13 @@ def test_samplings_are_compared_on_cubes_and_fields(tmp_path):
 
 
 def test_sizes_take_as_many_steps_on_finer_cubes():
-    done = subprocess.run([sys.executable, ROOT / "studies" / "benchmarks" / "sizes.py", "6", "12"], capture_output=True, text=True, timeout=100, check=True)
+    done = subprocess.run(
+        [sys.executable, ROOT / "studies" / "benchmarks" / "sizes.py", "6", "12"],
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=True,
+    )
     coarse, fine = ([cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines()[2:])
     assert coarse[:2] == ["6", "1,296"] and fine[:2] == ["12", "10,368"]
     assert int(fine[2]) < 20 and int(fine[4]) < 20

@@ -8,11 +8,10 @@ import sys
 import time
 from pathlib import Path
 
-import pytest
-from study_fixtures import BODIES, STALLS, table, trap_workers
-
 import octafield
+import pytest
 from octafield import study
+from study_fixtures import BODIES, STALLS, table, trap_workers
 
 distributed = pytest.importorskip("distributed")
 LARGE = """name: one large

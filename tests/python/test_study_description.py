@@ -1,8 +1,7 @@
 """What a description of a study may say, and where an error in one is."""
 
-import pytest
-
 import octafield
+import pytest
 from octafield import study
 
 SOUND = """name: cubes
@@ -50,14 +49,21 @@ def test_a_key_tells_content_and_options_but_not_names_or_threads(tmp_path, box_
 
 def test_skip_names_inputs_and_the_limit_is_not_part_of_keys():
     chosen = lambda text: {(run.name, run.options.representation) for run in study.plan(study.parse(text))}
-    text = SOUND.replace("skip:\n", "skip:\n  - {input: ball, representation: sh4}\n  - {input: 'box*', boundary: fixed}\n")
+    text = SOUND.replace(
+        "skip:\n", "skip:\n  - {input: ball, representation: sh4}\n  - {input: 'box*', boundary: fixed}\n"
+    )
     assert chosen(text) == {("box x 2", "sh4"), ("box x 2", "geodesic"), ("ball", "geodesic")}
     assert chosen(SOUND + "limit: 3\n") == chosen(SOUND)
-    assert chosen(SOUND.replace("skip:\n", "skip:\n  - {input: ball}\n")) == {("box x 2", "sh4"), ("box x 2", "geodesic")}
+    assert chosen(SOUND.replace("skip:\n", "skip:\n  - {input: ball}\n")) == {
+        ("box x 2", "sh4"),
+        ("box x 2", "geodesic"),
+    }
     limited, free = (study.plan(study.parse(SOUND + line)) for line in ("limit: 2.5\n", ""))
     assert [run.key for run in limited] == [run.key for run in free]
     line = SOUND.splitlines().index("skip:") + 2
-    with pytest.raises(octafield.InvalidInput, match=f"^s.yaml:{line}: no input is called 'bal'; there are: ball, box x 2"):
+    with pytest.raises(
+        octafield.InvalidInput, match=f"^s.yaml:{line}: no input is called 'bal'; there are: ball, box x 2"
+    ):
         study.plan(study.parse(SOUND.replace("skip:\n", "skip:\n  - {input: bal}\n"), name="s.yaml"))
 
 
@@ -72,7 +78,9 @@ def test_files_are_read_again_only_when_they_changed(tmp_path, monkeypatch):
     read = []
     monkeypatch.setattr(digests, "digest_of", lambda path, real=digests.digest_of: read.append(path) or real(path))
     young = digests.Digests()
-    assert young.of(part) == young.of(part) and len(read) == 2 and young.fresh == {}, "it may change again within a tick"
+    assert young.of(part) == young.of(part) and len(read) == 2 and young.fresh == {}, (
+        "it may change again within a tick"
+    )
     monkeypatch.setattr(digests, "_TICKS_NS", -(10**12))
     known = digests.Digests()
     first = known.of(part)

@@ -6,14 +6,13 @@ import shutil
 import sqlite3
 import threading
 
-import pytest
-from study_fixtures import BODIES, STALLS, table, trap_workers
-
 import octafield
+import pytest
 from octafield import study
 from octafield.study import digests
 from octafield.study.generators import generate
 from octafield.study.store import Store
+from study_fixtures import BODIES, STALLS, table, trap_workers
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +31,9 @@ def test_a_run_past_the_limit_is_ended_and_recorded_and_retried_on_request(sound
     assert outcome.status == study.Status(done=2, failed=2, crashed=0, open=0)
     for row in study.rows(outcome.folder):
         late = row["options"]["representation"] == "sh469"
-        assert row["state"] == ("failed" if late else "done") and row.get("error_kind", "") == ("timed_out" if late else "")
+        assert row["state"] == ("failed" if late else "done") and row.get("error_kind", "") == (
+            "timed_out" if late else ""
+        )
         assert not late or row["message"] == "not finished after 9 s, the study's limit"
     assert study.run(study.parse(BODIES + "limit: 90\n"), outcome.folder).computed == []
     monkeypatch.undo()
@@ -41,11 +42,16 @@ def test_a_run_past_the_limit_is_ended_and_recorded_and_retried_on_request(sound
 
 
 def test_a_preparation_past_the_limit_fails_all_its_runs_at_once(tmp_path, monkeypatch):
-    trap_workers(tmp_path, monkeypatch, "import time\nimport octafield.pipeline as p\np.prepare = lambda *a: time.sleep(60)\n")
+    trap_workers(
+        tmp_path, monkeypatch, "import time\nimport octafield.pipeline as p\np.prepare = lambda *a: time.sleep(60)\n"
+    )
     text = BODIES.replace("  - {generator: ball, mesh: {edge_length: 0.4}}\n", "")
     outcome = study.run(study.parse(text + "limit: 1\n"), tmp_path / "out")
     assert outcome.status == study.Status(done=0, failed=2, crashed=0, open=0)
-    assert all(row["message"].startswith("reading, meshing and the cross field: not finished") for row in study.rows(outcome.folder))
+    assert all(
+        row["message"].startswith("reading, meshing and the cross field: not finished")
+        for row in study.rows(outcome.folder)
+    )
 
 
 def test_inputs_that_change_meanwhile_give_no_record_under_the_old_key(tmp_path, monkeypatch):
@@ -142,7 +148,10 @@ def test_a_folder_deleted_meanwhile_is_an_error(tmp_path):
 
 
 def test_whatever_libraries_print_runs_go_on(sound, tmp_path, monkeypatch):
-    code = "print('junk'); print('{}'); print('{\"event\": \"finished\", \"key\": 1}', flush=True); os.write(1, bytes([255, 10]))"
+    code = (
+        "print('junk'); print('{}'); print('{\"event\": \"finished\", \"key\": 1}', flush=True); os.write(1,"
+        " bytes([255, 10]))"
+    )
     trap_workers(tmp_path, monkeypatch, code)
     assert study.run(study.parse(BODIES), tmp_path / "out").status.done == 4
     assert table(tmp_path / "out") == table(sound)
@@ -165,7 +174,11 @@ def test_a_worker_that_cannot_start_is_recorded(tmp_path, monkeypatch):
 
 
 def test_clocks_may_go_backwards(sound, tmp_path, monkeypatch):
-    trap_workers(tmp_path, monkeypatch, "import itertools, time\nback = itertools.count(10**9, -1000)\ntime.time = lambda: float(next(back))\n")
+    trap_workers(
+        tmp_path,
+        monkeypatch,
+        "import itertools, time\nback = itertools.count(10**9, -1000)\ntime.time = lambda: float(next(back))\n",
+    )
     study.run(study.parse(BODIES), tmp_path / "out")
     assert table(tmp_path / "out") == table(sound)
     told = []
@@ -202,7 +215,12 @@ def test_two_leaders_at_once_one_of_them_runs(tmp_path):
 def test_progress_tells_what_is_in_work_and_the_time_left(tmp_path):
     told = []
     text = BODIES.replace("0.4}", "0.25}").replace("sh469", "geodesic, sh469")
-    study.run(study.parse(text), tmp_path / "out", jobs=1, progress=lambda what, fraction, merit: told.append((what, fraction)) or True)
+    study.run(
+        study.parse(text),
+        tmp_path / "out",
+        jobs=1,
+        progress=lambda what, fraction, merit: told.append((what, fraction)) or True,
+    )
     assert any(what.startswith("0 of 6: ball, sh4") for what, _ in told)
     assert any(" left: " in what for what, _ in told), told
     assert told[-1][1] == 1 and " left" not in told[-1][0]
@@ -211,8 +229,12 @@ def test_progress_tells_what_is_in_work_and_the_time_left(tmp_path):
 def test_each_of_hundreds_of_inputs_in_one_glob_is_read_once(tmp_path, monkeypatch):
     box = generate("box")
     for k in range(300):
-        octafield.write_surface(octafield.TriangleMesh(box.vertices * (1 + k / 300), box.triangles), tmp_path / f"b{k:03d}.stl")
-    described = study.parse("{name: x, inputs: ['b*.stl'], runs: {representation: [sh4, su2]}, seeds: 10}", folder=tmp_path)
+        octafield.write_surface(
+            octafield.TriangleMesh(box.vertices * (1 + k / 300), box.triangles), tmp_path / f"b{k:03d}.stl"
+        )
+    described = study.parse(
+        "{name: x, inputs: ['b*.stl'], runs: {representation: [sh4, su2]}, seeds: 10}", folder=tmp_path
+    )
     read = []
     monkeypatch.setattr(digests, "digest_of", lambda path, real=digests.digest_of: read.append(path) or real(path))
     runs = study.plan(described)

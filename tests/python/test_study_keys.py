@@ -7,14 +7,14 @@ import math
 from dataclasses import FrozenInstanceError, replace
 
 import pytest
-
 from octafield import study
 from octafield.errors import InvalidInput
 from octafield.study.plan import Run, has_promised_content
 
 PLAN = importlib.import_module("octafield.study.plan")  # the package has a function of that name
 
-# What a key is the hash of: options as they were when studies began. A new option goes to plan._LATER with the value that leaves old runs as they were.
+# What a key is the hash of: options as they were when studies began. A new option goes to plan._LATER with the value
+# that leaves old runs as they were.
 BEGAN = {
     "boundary": "aligned", "edge_length": 0.0, "feature_angle": math.radians(40), "feature_tolerance": math.radians(20), "features": "default",
     "interfaces": True, "max_iterations": 200, "remesh": True, "repair": False, "representation": "sh4", "rounds": 2, "sampling": "vertices", "seed": 0,
@@ -74,7 +74,10 @@ def test_a_rule_for_no_input_names_the_first_ten_there_are(count):
 
 
 def test_runs_are_grouped_by_mesh_and_cross_field_and_come_back_from_json():
-    text = "{name: k, inputs: [{generator: box}, {generator: ball}], runs: {representation: [sh4, su2], sampling: [vertices, tets]}, seeds: 2}"
+    text = (
+        "{name: k, inputs: [{generator: box}, {generator: ball}], runs: {representation: [sh4, su2], sampling:"
+        " [vertices, tets]}, seeds: 2}"
+    )
     runs = study.plan(study.parse(text))
     assert [Run.from_json(json.loads(json.dumps(run.to_json()))) for run in runs] == runs
     groups = PLAN.groups(runs)
@@ -83,7 +86,11 @@ def test_runs_are_grouped_by_mesh_and_cross_field_and_come_back_from_json():
     ]
     assert [len({f(run) for run in runs}) for f in (PLAN.mesh_of, PLAN.method_of)] == [2, 4]
     (finer,) = study.plan(study.parse("{name: k, inputs: [{generator: box}], mesh: {edge_length: 0.2}}"))
-    assert PLAN.mesh_of(finer) != PLAN.mesh_of(runs[0]) and finer.group != runs[0].group and PLAN.method_of(finer) == PLAN.method_of(runs[0])
+    assert (
+        PLAN.mesh_of(finer) != PLAN.mesh_of(runs[0])
+        and finer.group != runs[0].group
+        and PLAN.method_of(finer) == PLAN.method_of(runs[0])
+    )
     assert has_promised_content(replace(runs[0], source="no such file")) is False
     skipping = text[:-1] + ", skip: [{input: INPUT, representation: su2}]}"
     assert len(study.plan(study.parse(skipping.replace("INPUT", "b*x")))) == len(runs) - 4
@@ -104,7 +111,8 @@ def test_files_of_a_glob_are_runs_in_their_order_named_by_their_stems(tmp_path):
     described = lambda text: study.load(write_text(tmp_path / "k.yaml", text))
     runs = study.plan(described("{name: k, inputs: ['**/*.stl*', {file: b.tet.stl}]}"))
     assert [(run.name, run.source) for run in runs] == [
-        (name, str(tmp_path / path)) for name, path in (("a", "a.stl.gz"), ("b.tet", "b.tet.stl"), ("c", "deep/c.stl"), ("a 2", "deep/er/a.stl"))
+        (name, str(tmp_path / path))
+        for name, path in (("a", "a.stl.gz"), ("b.tet", "b.tet.stl"), ("c", "deep/c.stl"), ("a 2", "deep/er/a.stl"))
     ]
     assert all(has_promised_content(run) for run in runs)
     (tmp_path / "b.tet.stl").write_text("other")

@@ -11,12 +11,11 @@ import sys
 import time
 from pathlib import Path
 
+import octafield
 import pytest
+from octafield import study
 from report_pages import require_sound
 from study_fixtures import table, trap_workers
-
-import octafield
-from octafield import study
 
 TEXT = """name: cubes and balls
 inputs:
@@ -127,13 +126,15 @@ def test_a_run_whose_process_is_killed_is_tried_again(undisturbed, described, tm
 
 
 def test_a_run_that_kills_its_process_twice_is_recorded_and_tried_on_resume(described, tmp_path, monkeypatch):
-    text = "{name: x, inputs: [{generator: ball, mesh: {edge_length: 0.45}}], runs: {representation: [sh4, su2, geodesic]}}"
+    text = (
+        "{name: x, inputs: [{generator: ball, mesh: {edge_length: 0.45}}], runs: {representation: [sh4, su2,"
+        " geodesic]}}"
+    )
     trap_workers(
         tmp_path,
         monkeypatch,
-        "import octafield.pipeline as p\n"
-        "run = p.run\n"
-        "p.run = lambda problem, options, *a: os.abort() if options.representation == 'su2' else run(problem, options, *a)\n",
+        "import octafield.pipeline as p\nrun = p.run\np.run = lambda problem, options, *a: os.abort() if"
+        " options.representation == 'su2' else run(problem, options, *a)\n",
     )
     outcome = study.run(study.parse(text), tmp_path / "out", jobs=1)
     assert outcome.status == study.Status(done=2, failed=0, crashed=1, open=0)
@@ -187,10 +188,15 @@ def test_reports_show_what_every_kind_of_run_has(undisturbed, described, tmp_pat
     page = study.write_report(undisturbed)
     text = page.read_text()
     assert "Runs without a field" in text and "nothing_here_1.stl" in text and 'data-scene="0"' in text
-    assert {path.name for path in (page.parent / "tables").iterdir()} == {f"{stem}.{end}" for stem in ("summary", "deviations", "inputs", "runs") for end in ("csv", "tex")}
+    assert {path.name for path in (page.parent / "tables").iterdir()} == {
+        f"{stem}.{end}" for stem in ("summary", "deviations", "inputs", "runs") for end in ("csv", "tex")
+    }
     assert len(list(csv.DictReader((page.parent / "results.csv").open()))) == 12
     require_sound(text, page.parent)
-    mixed = "{name: m, inputs: [{generator: box, mesh: {edge_length: 0.4}}], runs: {sampling: [vertices, tets]}, fields: false}"
+    mixed = (
+        "{name: m, inputs: [{generator: box, mesh: {edge_length: 0.4}}], runs: {sampling: [vertices, tets]}, fields:"
+        " false}"
+    )
     study.run(study.parse(mixed), tmp_path / "mixed")
     text = study.write_report(tmp_path / "mixed").read_text()
     assert 'data-scene="0"' not in text and "frames in tets" in text

@@ -1,15 +1,16 @@
 """Every surface of the shared test data has fields whose indices add up to its Euler characteristic."""
 
-import pytest
-from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared
-
 import octafield as of
+import pytest
 from octafield.pipeline import MeshOptions, prepare_mesh
+from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared
 
 LARGE = 400_000  # bytes, of a packed tet mesh: those take seconds
 SOUND = [SHARED_SURFACES / f"{name}_surface{end}" for name in ("i10", "s01", "s04", "s15", "s16", "s17")
          for end in (".obj", ".stl", "_binary.stl.gz")]  # fmt: skip
-TETS = sorted(path for path in SHARED_TETS.glob("*.vtk.gz") if path.stat().st_size < LARGE) or [SHARED_TETS / "s01c.vtk.gz"]
+TETS = sorted(path for path in SHARED_TETS.glob("*.vtk.gz") if path.stat().st_size < LARGE) or [
+    SHARED_TETS / "s01c.vtk.gz"
+]
 # What makes them unfit for a field on a surface. A hole does not; equal points are merged on reading STL.
 BAD = {"degenerate_s17": "degenerate_triangle", "fin_s01": "non_manifold_edge", "flipped_s01": "inconsistent_orientation",
        "insideout_s16": "inside_out", "selfcross_s15": "self_intersection", "soup_s04": "soup"}  # fmt: skip

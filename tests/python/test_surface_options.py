@@ -3,13 +3,12 @@
 import json
 
 import numpy as np
-import pytest
-from pipeline_fixtures import SHARED_TETS, octafield, shared, write_sphere
-from surface_fixtures import NONE, cylinder, grid_triangles, square
-
 import octafield as of
+import pytest
 from octafield.inputs import read_input
 from octafield.pipeline import SurfaceFieldOptions, compute_surface_field, prepare_mesh
+from pipeline_fixtures import SHARED_TETS, octafield, shared, write_sphere
+from surface_fixtures import NONE, cylinder, grid_triangles, square
 
 AS_IT_IS = {"remesh": False, "features": "none"}
 
@@ -48,7 +47,8 @@ def test_curvature_makes_the_field_follow_the_lines_of_curvature(make):
     mesh = make()
     # The other methods try the lines of curvature by themselves.
     free, held = (
-        compute_surface_field(mesh, SurfaceFieldOptions(curvature=weight, method="eigen", boundary="none", **AS_IT_IS)) for weight in (0, 1)
+        compute_surface_field(mesh, SurfaceFieldOptions(curvature=weight, method="eigen", boundary="none", **AS_IT_IS))
+        for weight in (0, 1)
     )
     assert degrees_off(mesh, free.direction_field, round_the_axis(mesh)).mean() > 10
     assert degrees_off(mesh, held.direction_field, round_the_axis(mesh)).max() < 0.5
@@ -127,7 +127,8 @@ def test_the_files_features_go_before_the_angle_and_seams_are_none():
     source = read_input(path)
     assert any("3 seam edges" in note for note in source.notes)
     by_default, by_file, by_angle, none = (
-        prepare_mesh(path, SurfaceFieldOptions(features=word), volume=False) for word in ("default", "file", "angle", "none")
+        prepare_mesh(path, SurfaceFieldOptions(features=word), volume=False)
+        for word in ("default", "file", "angle", "none")
     )
     assert by_default.feature_source == by_file.feature_source == "file"
     np.testing.assert_array_equal(by_default.features.edges, by_file.features.edges)
@@ -152,6 +153,7 @@ def test_flat_feature_edges_are_followed_or_not_as_asked(tmp_path):
 
 # ---- what a script can get wrong
 
+
 @pytest.fixture(scope="module")
 def flat():
     mesh = square(5)
@@ -167,7 +169,12 @@ def test_fields_of_any_size_are_traced_and_those_without_numbers_refused(flat):
         lines = of.even_streamlines(mesh, features, scaled, found)
         assert sum(line.length for line in lines) == pytest.approx(sum(line.length for line in usual), rel=1e-3)
         assert of.separatrices(mesh, features, scaled, found) == []
-    for values, symmetry in ((field.values * np.nan, 4), (field.values[:5], 4), (field.values, 0), (field.values, 1001)):
+    for values, symmetry in (
+        (field.values * np.nan, 4),
+        (field.values[:5], 4),
+        (field.values, 0),
+        (field.values, 1001),
+    ):
         wrong = of.DirectionField(symmetry, field.topology, values)
         for call in (of.triangle_directions, of.surface_singularities):
             with pytest.raises(of.InvalidInput, match="field"):

@@ -7,16 +7,15 @@ from dataclasses import replace
 
 import meshio
 import numpy as np
+import octafield as of
 import pytest
 from conftest import box_tets
-from pipeline_fixtures import SHARED_TETS, octafield, shared
-
-import octafield as of
 from octafield.inputs import read_input
 from octafield.meshing import prepare_mesh
 from octafield.options import FieldOptions
 from octafield.pipeline import compute_field, prepare, run
 from octafield.results import write_field_result
+from pipeline_fixtures import SHARED_TETS, octafield, shared
 
 SHARED_ARFF = SHARED_TETS.parent / "arff"
 
@@ -141,7 +140,10 @@ def medit(sections: str) -> str:
 def test_medit_files_of_other_programs_are_read(tmp_path):
     path = tmp_path / "a.mesh"
     path.write_text(
-        medit("# a comment\nTetrahedra\n1 # how many\n1 2 3 4 7\nRequiredTriangles 1 1\nEdges 2\n1 2 0\n3 4 0\nRidges\n1\n2\nEnd\n")
+        medit(
+            "# a comment\nTetrahedra\n1 # how many\n1 2 3 4 7\nRequiredTriangles 1 1\nEdges 2\n1 2 0\n3 4"
+            " 0\nRidges\n1\n2\nEnd\n"
+        )
     )
     found = read_input(path)
     assert found.lines.tolist() == [[2, 3]] and found.lines_are_features()
@@ -189,7 +191,8 @@ def test_a_broken_tetgen_pair_gives_the_line(tmp_path, node, ele, words):
 
 
 def write_tetgen_boundary(stem, tets: of.TetMesh, base: int, extra: bool = False) -> np.ndarray:
-    """.node, .ele, .face with a marker per side of the cube, .edge with marker 0 off the cube's edges. Returns the markers."""
+    """.node, .ele, .face with a marker per side of the cube, .edge with marker 0 off the cube's edges. Returns the
+    markers."""
     points, boundary = np.asarray(tets.vertices), of.boundary_surface(tets)
     triangles = np.asarray(boundary.vertex_map)[np.asarray(boundary.mesh.triangles)]
     corners = points[triangles]
@@ -199,11 +202,19 @@ def write_tetgen_boundary(stem, tets: of.TetMesh, base: int, extra: bool = False
     tables = {
         ".node": (f"{len(points)} 3 0 0", points.tolist()),
         ".ele": (f"{len(tets.tets)} 4 0", (np.asarray(tets.tets) + base).tolist()),
-        ".face": (f"{len(triangles)} 1", np.column_stack([triangles + base, markers, *([markers] if extra else [])]).tolist()),
-        ".edge": (f"{len(lines) + 1} 1", [*np.column_stack([lines + base, lines[:, 0] * 0 + 3]).tolist(), [base, base + 1, 0]]),
+        ".face": (
+            f"{len(triangles)} 1",
+            np.column_stack([triangles + base, markers, *([markers] if extra else [])]).tolist(),
+        ),
+        ".edge": (
+            f"{len(lines) + 1} 1",
+            [*np.column_stack([lines + base, lines[:, 0] * 0 + 3]).tolist(), [base, base + 1, 0]],
+        ),
     }
     for suffix, (head, rows) in tables.items():
-        text = "\n".join([f"# made by rule\n{head}", *(" ".join(map(repr, [n + base, *row])) for n, row in enumerate(rows))])
+        text = "\n".join(
+            [f"# made by rule\n{head}", *(" ".join(map(repr, [n + base, *row])) for n, row in enumerate(rows))]
+        )
         stem.with_suffix(suffix).write_text(text + "\n# end\n")
     return markers
 
@@ -264,7 +275,9 @@ def test_blocks_that_touch_have_the_constant_field(tmp_path, dimensions, words):
     assert any(words in note for note in result.record["notes"])
     assert set(result.record["hexahedra_at_features"]) == {"1"} and result.record["non_meshable_corners"] == 0
     write_field_result(result, tmp_path)
-    without = compute_field(tets, FieldOptions(features="none", boundary="none"))  # edges of contact are features all the same
+    without = compute_field(
+        tets, FieldOptions(features="none", boundary="none")
+    )  # edges of contact are features all the same
     assert (without.record["feature_edges"] > 0) == (dimensions == 2)
     # The doctor says the same.
     of.write_field(tmp_path / "a.vtu", tets, result.frames)

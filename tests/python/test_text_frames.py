@@ -3,13 +3,12 @@
 import re
 
 import numpy as np
-import pytest
-from scipy.spatial.transform import Rotation
-
 import octafield as of
+import pytest
 from octafield.errors import Error
 from octafield.formats import text
 from octafield.formats.base import Field
+from scipy.spatial.transform import Rotation
 
 FRAMES = np.asarray(of.random_rotations(3, 5))
 AXES = Rotation.from_quat(FRAMES, scalar_first=True).as_matrix()
@@ -37,7 +36,13 @@ LAYOUTS = {
 }
 READ = {"arff": text.read_arff, "mouette": text.read_mouette, "geogram": text.read_geogram, "geogram-centres": text.read_geogram_centres,
         "qtn": text.read_qtn, "ff3": text.read_ff3}  # fmt: skip
-WRITE = {"arff": text.write_arff, "mouette": text.write_mouette, "geogram": text.write_geogram, "qtn": text.write_qtn, "ff3": text.write_ff3}
+WRITE = {
+    "arff": text.write_arff,
+    "mouette": text.write_mouette,
+    "geogram": text.write_geogram,
+    "qtn": text.write_qtn,
+    "ff3": text.write_ff3,
+}
 
 
 @pytest.mark.parametrize("name", LAYOUTS)
@@ -121,7 +126,11 @@ DEFECTS = [
     ("geogram-centres", "0 0 0 " + ONE + "0 0 0 " + NONE, "a, line 2: an axis of frame 1"),
     ("geogram-centres", "0 0 0 " + ONE + ONE, "a, line 2: 9 numbers; 12 are needed"),
     ("qtn", "1 0 0 0\n1 0\n\n", "a, line 2: holds 6 numbers; a quaternion has 4"),
-    ("qtn", "1 0 0 0 1 0\n0 0\n" + "1 0 0 0\n" * 7 + "0 0 0 0\n1 0 0 0\n", "a, line 10: quaternion 9 (from 0) is zero or not finite"),
+    (
+        "qtn",
+        "1 0 0 0 1 0\n0 0\n" + "1 0 0 0\n" * 7 + "0 0 0 0\n1 0 0 0\n",
+        "a, line 10: quaternion 9 (from 0) is zero or not finite",
+    ),
     ("ff3", "8 1\n" + ONE, "a, line 1: '9 N' is needed (ASCII .ff3), not '8 1'"),
     ("ff3", "9\n" + ONE, "a, line 1: '9 N' is needed"),
     ("ff3", "9 1 1\n" + ONE, "a, line 1: '9 N' is needed"),
@@ -139,7 +148,10 @@ def test_every_defect_is_told_with_its_line(tmp_path, name, content, message):
         READ[name](tmp_path / "a")
 
 
-@pytest.mark.parametrize(("name", "content"), [("mouette", "FRAME\n0\nEND\n"), ("ff3", "9 0\n"), ("arff", ""), ("qtn", "\n"), ("geogram", "")])
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [("mouette", "FRAME\n0\nEND\n"), ("ff3", "9 0\n"), ("arff", ""), ("qtn", "\n"), ("geogram", "")],
+)
 def test_no_frames_are_read_as_none(tmp_path, name, content):
     (tmp_path / "a").write_text(content)
     assert READ[name](tmp_path / "a").frames.shape == (0, 4)

@@ -4,12 +4,13 @@ import re
 
 import numpy as np
 import pytest
-
 from octafield.errors import IoError
 from octafield.meshes.text_meshes import read_medit, read_tetgen
 
 POINTS = 30
-HEAD = f"MeshVersionFormatted 2\nDimension 3\nVertices\n{POINTS}\n" + "".join(f"{i} {2 * i} {3 * i} 7\n" for i in range(POINTS))
+HEAD = f"MeshVersionFormatted 2\nDimension 3\nVertices\n{POINTS}\n" + "".join(
+    f"{i} {2 * i} {3 * i} 7\n" for i in range(POINTS)
+)
 FIRST = HEAD.count("\n") + 1  # line of what follows the head
 
 # Keyword: meshio's name of the cell and its vertices. Medit's manual of .mesh and libMeshb's keywords.
@@ -45,7 +46,11 @@ def test_ridges_are_rows_of_edges_from_0_and_left_out_where_edges_are_curved():
 def test_a_medit_file_without_end_is_noted_and_dimension_and_remarks_are_optional():
     cut = read_medit(HEAD + "Edges 1\n1 2 0\n", "a.mesh")
     assert cut.notes == ["the file does not end with End, but with Edges: it may be cut"]
-    remarked = HEAD.replace("Dimension 3\n", "").replace("Vertices\n", "  Vertices # points\n").replace("0 0 0 7", "0 0 0 7 # Edges 5")
+    remarked = (
+        HEAD.replace("Dimension 3\n", "")
+        .replace("Vertices\n", "  Vertices # points\n")
+        .replace("0 0 0 7", "0 0 0 7 # Edges 5")
+    )
     found = read_medit(remarked + "Unknown 3 4\nEnd", "a.mesh")
     assert found.points.tolist() == cut.points.tolist() and found.cells == [] and found.notes == []
 
@@ -85,7 +90,10 @@ def test_every_defect_of_a_medit_file_is_told_with_its_line(text, message):
 
 def test_ids_and_references_are_whole_up_to_two_to_the_53():
     largest = 2**53 - 1
-    assert read_medit(f"{HEAD}Edges 2\n1 30 {largest}\n30 1 -{largest}\nEnd\n", "a.mesh").references[0].tolist() == [largest, -largest]
+    assert read_medit(f"{HEAD}Edges 2\n1 30 {largest}\n30 1 -{largest}\nEnd\n", "a.mesh").references[0].tolist() == [
+        largest,
+        -largest,
+    ]
     with pytest.raises(IoError, match="holds a number that is no id"):
         read_medit(f"{HEAD}Edges 1\n1 30 {2**53}\nEnd\n", "a.mesh")
     assert len(read_medit(f"{HEAD}Edges 0\nEnd\n", "a.mesh").cells[0][1]) == 0
@@ -98,7 +106,10 @@ def files(base: int = 1, **changed: str) -> dict[str, tuple[str, str]]:
     """Five points, two tets of regions 4 and 6, three faces and two edges, with markers."""
     b = base
     texts = {
-        "node": f"# points\n5 3 1 1\n{b} 0 0 0 9 1\n{b + 1} 1 0 0 9 1\n{b + 2} 0 1 0 9 1\n{b + 3} 0 0 1 9 1\n{b + 4} 1 1 1 9 1\n",
+        "node": (
+            f"# points\n5 3 1 1\n{b} 0 0 0 9 1\n{b + 1} 1 0 0 9 1\n{b + 2} 0 1 0 9 1\n{b + 3} 0 0 1 9 1\n{b + 4} 1 1 1"
+            " 9 1\n"
+        ),
         "ele": f"2 4 1\n{b} {b} {b + 1} {b + 2} {b + 3} 4\n{b + 1} {b + 1} {b + 2} {b + 3} {b + 4} 6\n",
         "face": f"3 1\n{b} {b} {b + 1} {b + 2} 11\n{b + 1} {b} {b + 2} {b + 3} 12\n{b + 2} {b + 1} {b + 2} {b + 4} 0\n",
         "edge": f"2 1\n{b} {b} {b + 1} 3\n{b + 1} {b + 1} {b + 4} 0\n",
@@ -138,7 +149,9 @@ def test_quadratic_tets_faces_and_edges_are_read_by_their_corners():
     face = "3 1\n1 1 2 3 5 5 5 11\n2 1 3 4 5 5 5 12\n3 2 3 5 5 5 5 0\n"
     quadratic = read_tetgen(files(ele=ele, face=face, edge="2 1\n1 1 2 4 3\n2 2 5 4 0\n"))
     linear = read_tetgen(files())
-    for (kind, cells), (_, expected), refs, wanted in zip(quadratic.cells, linear.cells, quadratic.references, linear.references, strict=True):
+    for (kind, cells), (_, expected), refs, wanted in zip(
+        quadratic.cells, linear.cells, quadratic.references, linear.references, strict=True
+    ):
         assert cells.tolist() == expected.tolist() and refs.tolist() == wanted.tolist(), kind
     assert quadratic.notes == ["cells of higher order were read by their corners, with straight edges: 2 of type tetra"]
     corners_alone = read_tetgen(files(ele=ele))  # TetGen writes them without -nn, too
@@ -146,7 +159,9 @@ def test_quadratic_tets_faces_and_edges_are_read_by_their_corners():
 
 
 def test_columns_that_the_head_does_not_tell_are_left_out():
-    wide = read_tetgen(files(face="3 1\n1 1 2 3 11 1 2\n2 1 3 4 12 1 -1\n\n3 2 3 5 0 2 -1\n", edge="2 0\n1 1 2 7 8\n2 2 5 9 9\n"))
+    wide = read_tetgen(
+        files(face="3 1\n1 1 2 3 11 1 2\n2 1 3 4 12 1 -1\n\n3 2 3 5 0 2 -1\n", edge="2 0\n1 1 2 7 8\n2 2 5 9 9\n")
+    )
     assert wide.cells[1][1].tolist() == [[0, 1, 2], [0, 2, 3], [1, 2, 4]] and wide.references[1].tolist() == [11, 12, 0]
     assert wide.cells[2][1].tolist() == [[0, 1], [1, 4]] and wide.references[2].tolist() == [0, 0]
 
@@ -161,7 +176,11 @@ TETGEN_DEFECTS = [
     ("node", POINT.replace("3 0 0\n1", "3 -2 1\n1"), "its head tells of -2 attributes or markers"),
     ("node", "-1 3 0 0\n", "a.node, line 1: the number of points is -1"),
     ("node", POINT.replace("3 0 1 0", "4 0 1 0"), "a.node: row 3 of the points has number 4; number them in order"),
-    ("node", POINT.replace("\n3 0 1", "\n3 0 nan"), "a.node, line 4: the coordinates of point 3 (from 1) are not finite"),
+    (
+        "node",
+        POINT.replace("\n3 0 1", "\n3 0 nan"),
+        "a.node, line 4: the coordinates of point 3 (from 1) are not finite",
+    ),
     ("node", POINT.replace("\n3 0 1", "\n3 0 y"), "a.node, line 4: no number in points: 'y'"),
     ("node", POINT.replace("1 1 1", "1 1"), "a.node, line 6: points ends after 4 of 5 rows of 4 numbers"),
     ("node", POINT + "6 0 0 0\n", "a.node, line 7: points goes on after the 5 rows of 4 numbers"),
@@ -194,10 +213,18 @@ def test_every_defect_of_a_tetgen_file_is_told_with_its_line(suffix, text, messa
 
 
 BROKEN = [  # one number per line: the line is that of the number that begins the row
-    ("node", "5 3 0 0\n" + "\n".join("1 0 0 0 2 1 nan 0 3 0 1 0 4 0 0 1 5 1 1 1".split()), "a.node, line 6: the coordinates of point 2"),
+    (
+        "node",
+        "5 3 0 0\n" + "\n".join("1 0 0 0 2 1 nan 0 3 0 1 0 4 0 0 1 5 1 1 1".split()),
+        "a.node, line 6: the coordinates of point 2",
+    ),
     ("ele", "2 4 0\n" + "\n".join("1 1 2 3 4 2 2.5 3 4 5".split()), "a.ele, line 7: a vertex id is no whole number"),
     ("ele", "2 4 0\n" + "\n".join("1 1 2 3 4 2 2 3 4 6".split()), "a.ele, line 7: a tet names a point outside"),
-    ("face", "2 1\n1 1 2 3 1\n" + "\n".join("2 1 2 6 1".split()), "a.face, line 3: row 2 of the faces names a point outside"),
+    (
+        "face",
+        "2 1\n1 1 2 3 1\n" + "\n".join("2 1 2 6 1".split()),
+        "a.face, line 3: row 2 of the faces names a point outside",
+    ),
     ("edge", "2 0\n1 1 2\n" + "\n".join("2 0 2".split()), "a.edge, line 3: row 2 of the edges names a point outside"),
     ("ele", "2\n4\n0\n1 1 2 3 4 2 2 3 4 5\n7 1 2 3 4\n", "a.ele, line 5: tets goes on after the 2 rows"),
 ]
@@ -208,7 +235,10 @@ def test_the_line_of_a_row_is_where_its_first_number_is(suffix, text, message):
     with pytest.raises(IoError, match=re.escape(message)):
         read_tetgen(files(**{suffix: text}))
     broken = HEAD + "Edges\n2\n1 2 5 1\n2\n1e20\nEnd\n"
-    for text, what in ((broken, "holds a number that is no id"), (broken.replace("\n2\n1e20", "\n99\n5"), "row 2 of Edges names a number outside")):
+    for text, what in (
+        (broken, "holds a number that is no id"),
+        (broken.replace("\n2\n1e20", "\n99\n5"), "row 2 of Edges names a number outside"),
+    ):
         with pytest.raises(IoError, match=re.escape(f"line {FIRST + 2}: ") + ".*" + what):
             read_medit(text, "a.mesh")
 

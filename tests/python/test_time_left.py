@@ -3,9 +3,8 @@
 import math
 import random
 
-import pytest
-
 import octafield
+import pytest
 from octafield import time_left
 from octafield.console import PlainLines
 from octafield.costs import PREPARE, Costs, Forecast
@@ -39,7 +38,9 @@ def test_a_steady_value_counts_down_and_moves_towards_estimates_without_jumps():
 def test_a_phase_tells_nothing_early_and_follows_its_speed_of_late():
     phase = time_left.PhaseTimeLeft()
     assert phase.at(-1, 0) is None and phase.at(0.0, 0) is None and phase.at(0.5, 0.1) is None
-    steps = [(t, 0.02 * t) for t in range(1, 21)] + [(20 + t, 0.4 + 0.004 * t) for t in range(1, 60)]  # five times slower after 20 s
+    steps = [(t, 0.02 * t) for t in range(1, 21)] + [
+        (20 + t, 0.4 + 0.004 * t) for t in range(1, 60)
+    ]  # five times slower after 20 s
     for now, fraction in steps:
         left = phase.at(fraction, now)
         if now == 20:
@@ -68,14 +69,23 @@ def finished_in_turn(jobs, forecast: Forecast, seconds_of) -> list[tuple[float, 
 def test_where_cost_grows_with_tets_the_estimate_after_a_third_is_within_a_third():
     choose = random.Random(1)
     meshes = [math.exp(choose.uniform(0, 6)) for _ in range(40)]  # thousands of tets, over a range of 400
-    rate = {PREPARE: 0.02, "sh4": 0.05, "geodesic": 0.9, "odd_one": 3.0}  # seconds per thousand tets, not those built in
+    rate = {
+        PREPARE: 0.02,
+        "sh4": 0.05,
+        "geodesic": 0.9,
+        "odd_one": 3.0,
+    }  # seconds per thousand tets, not those built in
     for known_by in ("size of file", "tets"):
         forecast = Forecast(Costs())
         for mesh in meshes:
             if known_by == "tets":
                 forecast.costs.saw_tets(mesh, int(1000 * mesh))
             forecast.costs.saw_file(mesh, int(75_000 * mesh))
-        seen = finished_in_turn([(mesh, ["sh4", "geodesic", "odd_one"]) for mesh in meshes], forecast, lambda method, mesh: rate[method] * mesh)
+        seen = finished_in_turn(
+            [(mesh, ["sh4", "geodesic", "odd_one"]) for mesh in meshes],
+            forecast,
+            lambda method, mesh: rate[method] * mesh,
+        )
         total = seen[-1][0]
         later = [(estimate, truth) for now, estimate, truth in seen if total / 3 <= now < 0.97 * total]
         assert len(later) > 5 and all(estimate == pytest.approx(truth, rel=0.3) for estimate, truth in later), known_by
@@ -138,5 +148,10 @@ def test_a_comparison_counts_its_runs_and_tells_what_is_left_of_all(tmp_path):
 
 def test_a_comparison_that_is_told_to_stop_leaves_nothing(tmp_path):
     with pytest.raises(octafield.Cancelled):
-        octafield.compare(generate("box"), tmp_path / "out", representations=["sh4"], progress=lambda what, fraction, merit: " of 2" not in what)
+        octafield.compare(
+            generate("box"),
+            tmp_path / "out",
+            representations=["sh4"],
+            progress=lambda what, fraction, merit: " of 2" not in what,
+        )
     assert not (tmp_path / "out").exists()

@@ -1,18 +1,18 @@
-"""What other programs put into mesh files beside plain tets: partitions, parameters, higher order, cells twice, cells of other kinds, folds."""
+"""What other programs put into mesh files beside plain tets: partitions, parameters, higher order, cells twice, cells
+of other kinds, folds."""
 
 import warnings
 
 import meshio
 import numpy as np
+import octafield as of
 import pytest
 from conftest import box_tets
-from pipeline_fixtures import SHARED_TETS
-
-import octafield as of
 from octafield import frame_formats, read_frames, write_frames
 from octafield.conversion import convert_file
 from octafield.inputs import from_mesh, read_input
 from octafield.pipeline import compute_field
+from pipeline_fixtures import SHARED_TETS
 
 WILD = SHARED_TETS.parent / "wild"
 
@@ -108,7 +108,9 @@ def test_shared_meshes_of_second_order_are_read_by_their_corners(name):
 
 def quadratic(mesh):
     points, tets = parts_of(mesh)
-    middles = [(points[tets[:, i]] + points[tets[:, j]]) / 2 for i, j in ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))]
+    middles = [
+        (points[tets[:, i]] + points[tets[:, j]]) / 2 for i, j in ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3))
+    ]
     ids = len(points) + np.arange(6 * len(tets)).reshape(6, -1).T
     return np.concatenate([points, *middles]), np.hstack([tets, ids])
 
@@ -120,12 +122,23 @@ def test_tets_of_second_order_are_read_by_their_corners_from_every_format(tmp_pa
     if suffix == ".mesh":
         rows = "\n".join(" ".join(map(str, (*(row + 1), 1))) for row in tets)
         at = "\n".join("%r %r %r 0" % tuple(p) for p in points.tolist())
-        path.write_text(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n{at}\nTetrahedraP2\n{len(tets)}\n{rows}\nEnd\n")
+        path.write_text(
+            "MeshVersionFormatted 2\nDimension"
+            f" 3\nVertices\n{len(points)}\n{at}\nTetrahedraP2\n{len(tets)}\n{rows}\nEnd\n"
+        )
     elif suffix == ".ele":
-        path.write_text(f"{len(tets)} 10 0\n" + "\n".join(f"{i} " + " ".join(map(str, row)) for i, row in enumerate(tets.tolist())) + "\n")
-        path.with_suffix(".node").write_text(f"{len(points)} 3 0 0\n" + "\n".join("%d %r %r %r" % (i, *p) for i, p in enumerate(points.tolist())) + "\n")
+        path.write_text(
+            f"{len(tets)} 10 0\n"
+            + "\n".join(f"{i} " + " ".join(map(str, row)) for i, row in enumerate(tets.tolist()))
+            + "\n"
+        )
+        path.with_suffix(".node").write_text(
+            f"{len(points)} 3 0 0\n" + "\n".join("%d %r %r %r" % (i, *p) for i, p in enumerate(points.tolist())) + "\n"
+        )
     else:
-        meshio.write(path, meshio.Mesh(points, [("tetra10", tets)]), **({"file_format": "gmsh22"} if suffix == ".msh" else {}))
+        meshio.write(
+            path, meshio.Mesh(points, [("tetra10", tets)]), **({"file_format": "gmsh22"} if suffix == ".msh" else {})
+        )
     found = read_input(path)
     np.testing.assert_array_equal(np.asarray(found.tets.tets), np.asarray(box_tets(1).tets))
     assert any(f"{len(tets)} of type tetra" in note for note in found.notes)
@@ -138,12 +151,19 @@ def test_cells_that_are_not_used_are_named(tmp_path, suffix, kind, width, name):
     ids = " ".join(map(str, range(width)))
     points = "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1"
     if suffix == ".vtk":
-        text = f"# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n{points}\nCELLS 1 {width + 1}\n{width} {ids}\nCELL_TYPES 1\n{kind}\n"
-    else:
-        cells = "".join(f'<DataArray type="Int64" Name="{key}" format="ascii">{value}</DataArray>' for key, value in (("connectivity", ids), ("offsets", width), ("types", kind)))
         text = (
-            '<VTKFile type="UnstructuredGrid"><UnstructuredGrid><Piece NumberOfPoints="8" NumberOfCells="1"><Points>'
-            f'<DataArray type="Float64" NumberOfComponents="3" format="ascii">{points}</DataArray></Points><Cells>{cells}</Cells></Piece></UnstructuredGrid></VTKFile>'
+            f"# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n{points}\nCELLS 1"
+            f" {width + 1}\n{width} {ids}\nCELL_TYPES 1\n{kind}\n"
+        )
+    else:
+        cells = "".join(
+            f'<DataArray type="Int64" Name="{key}" format="ascii">{value}</DataArray>'
+            for key, value in (("connectivity", ids), ("offsets", width), ("types", kind))
+        )
+        text = (
+            '<VTKFile type="UnstructuredGrid"><UnstructuredGrid><Piece NumberOfPoints="8"'
+            ' NumberOfCells="1"><Points><DataArray type="Float64" NumberOfComponents="3"'
+            f' format="ascii">{points}</DataArray></Points><Cells>{cells}</Cells></Piece></UnstructuredGrid></VTKFile>'
         )
     (tmp_path / f"a{suffix}").write_text(text)
     with pytest.raises(of.InvalidInput, match=f"holds cells that are not used: 1 of type {name}|cell types: {name}"):
@@ -164,9 +184,15 @@ def test_parametric_nodes_are_nodes(tmp_path):
 def test_parametric_nodes_have_as_many_parameters_as_their_entity_has_dimensions(tmp_path):
     nodes = "1 0 0 0 0 1\n2 1 0 0 1 1 0.5\n3 0 1 0 2 1 0.5 0.25\n4 0 0 1 3 1"
     (tmp_path / "a.msh").write_text(
-        f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n4\n{nodes}\n$EndParametricNodes\n$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n"
+        f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n4\n{nodes}\n$EndParametricNodes\n$Elements\n1\n1 4 2"
+        " 1 1 1 2 3 4\n$EndElements\n"
     )
-    assert np.asarray(read_input(tmp_path / "a.msh").tets.vertices).tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    assert np.asarray(read_input(tmp_path / "a.msh").tets.vertices).tolist() == [
+        [0, 0, 0],
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1],
+    ]
 
 
 def test_shared_overlapping_groups_are_merged():
@@ -180,7 +206,10 @@ def test_tets_in_several_groups_are_read_once_with_the_regions_of_the_model_and_
     entity = np.full(len(tets), 7)
     entity[inner] = 8
     cells = [("tetra", np.concatenate([tets, tets[inner]]))]
-    ids = {"gmsh:physical": [np.concatenate([np.full(len(tets), 1), np.full(len(inner), 2)])], "gmsh:geometrical": [np.concatenate([entity, entity[inner]])]}
+    ids = {
+        "gmsh:physical": [np.concatenate([np.full(len(tets), 1), np.full(len(inner), 2)])],
+        "gmsh:geometrical": [np.concatenate([entity, entity[inner]])],
+    }
     quaternions = np.zeros((len(tets) + len(inner), 4))
     quaternions[:, 0] = 1
     meshio.gmsh.write(tmp_path / "a.msh", meshio.Mesh(points, cells, cell_data=ids), "2.2", binary=False)
@@ -214,7 +243,12 @@ def test_folded_tets_are_named_however_they_are_ordered(turned):
     points, tets = pulled_through(box_tets(4), (0.4, 0.03, 0.02))
     folded = np.flatnonzero(volumes(points, tets) < 0)
     assert len(folded)
-    swap = {"as the others": [], "all": np.arange(len(tets)), "each to positive volume": folded, "at random": np.flatnonzero(np.random.default_rng(1).integers(0, 2, len(tets)))}[turned]
+    swap = {
+        "as the others": [],
+        "all": np.arange(len(tets)),
+        "each to positive volume": folded,
+        "at random": np.flatnonzero(np.random.default_rng(1).integers(0, 2, len(tets))),
+    }[turned]
     tets[swap] = tets[swap][:, [0, 1, 3, 2]]
     with pytest.raises(of.GeometryError, match="folded over neighbours") as caught:
         from_mesh(of.TetMesh(points, tets))
@@ -224,7 +258,9 @@ def test_folded_tets_are_named_however_they_are_ordered(turned):
 @pytest.mark.parametrize("swap", ["all", "at random"])
 def test_tets_that_are_only_ordered_otherwise_are_turned_over(swap):
     points, tets = parts_of(box_tets(3))
-    chosen = np.arange(len(tets)) if swap == "all" else np.flatnonzero(np.random.default_rng(1).integers(0, 2, len(tets)))
+    chosen = (
+        np.arange(len(tets)) if swap == "all" else np.flatnonzero(np.random.default_rng(1).integers(0, 2, len(tets)))
+    )
     tets[chosen] = tets[chosen][:, [0, 1, 3, 2]]
     found = from_mesh(of.TetMesh(points, tets))
     assert (volumes(*parts_of(found.tets)) > 0).all() and any("turned over" in note for note in found.notes)
@@ -245,14 +281,18 @@ def test_wrong_counts_of_vtp_are_typed_errors(name):
 def test_polygons_strips_and_polylines_of_vtp(tmp_path):
     import pyvista
 
-    surface = pyvista.PolyData(np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0.0]]), faces=[4, 0, 1, 2, 3])
+    surface = pyvista.PolyData(
+        np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0.0]]), faces=[4, 0, 1, 2, 3]
+    )
     surface.strips = [4, 1, 4, 2, 5]
     surface.lines = [3, 0, 1, 4]
     for binary in (True, False):
         surface.save(tmp_path / "a.vtp", binary=binary)
         found = read_input(tmp_path / "a.vtp")
         points, triangles = np.asarray(found.surface.vertices), np.asarray(found.surface.triangles)
-        normals = np.cross(points[triangles[:, 1]] - points[triangles[:, 0]], points[triangles[:, 2]] - points[triangles[:, 0]])
+        normals = np.cross(
+            points[triangles[:, 1]] - points[triangles[:, 0]], points[triangles[:, 2]] - points[triangles[:, 0]]
+        )
         assert len(triangles) == 4 and (normals[:, 2] == 1).all()
         assert len(found.lines) == 2
 
@@ -275,7 +315,12 @@ def test_a_format_given_by_name_needs_no_extension(tmp_path, name, place):
     write_frames(source, mesh, frames, where)
     convert_file(source, tmp_path / f"to_{place}", to_format=name)
     assert len(read_frames(tmp_path / f"to_{place}", mesh, name).frames) == len(frames)
-    convert_file(tmp_path / place, tmp_path / "back.npz", from_format=name, mesh=None if form.holds_mesh else _mesh_file(tmp_path, mesh))
+    convert_file(
+        tmp_path / place,
+        tmp_path / "back.npz",
+        from_format=name,
+        mesh=None if form.holds_mesh else _mesh_file(tmp_path, mesh),
+    )
 
 
 def _mesh_file(folder, mesh):

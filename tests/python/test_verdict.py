@@ -1,14 +1,13 @@
 """What a field is told to be worth: no false alarm on simple parts, and the cause where it is coarse."""
 
 import numpy as np
+import octafield as of
 import pytest
 from conftest import SHARED_DATA
-from pipeline_fixtures import octafield, shared
-from octafield.study.generators import generate
-
-import octafield as of
 from octafield import verdict
 from octafield.info import examine
+from octafield.study.generators import generate
+from pipeline_fixtures import octafield, shared
 
 
 @pytest.mark.parametrize("name", ["box", "cylinder"])
@@ -19,7 +18,9 @@ def test_simple_parts_are_fine(name):
 
 @pytest.mark.parametrize("sampling", ["vertices", "tets"])
 def test_places_no_hex_mesh_has_are_counted(sampling):
-    record = of.compute_field(generate("ball"), of.FieldOptions(edge_length=0.3, streamlines=0, sampling=sampling)).record
+    record = of.compute_field(
+        generate("ball"), of.FieldOptions(edge_length=0.3, streamlines=0, sampling=sampling)
+    ).record
     assert record["verdict"]["state"] == "not meshable" and record["non_meshable_vertices"] > 0
     assert f"{record['non_meshable_vertices']:,} singular vertices" in record["verdict"]["sentences"][0]
 
@@ -43,14 +44,18 @@ def test_turns_are_those_of_the_dihedral_angle_and_features_are_left_out():
 
 
 def test_a_thread_finer_than_the_edges_asked_for_is_coarse_and_the_length_told_is_shorter():
-    record = of.compute_field(shared(SHARED_DATA / "wild/screw.stl"), of.FieldOptions(streamlines=0, edge_length=0.53)).record
+    record = of.compute_field(
+        shared(SHARED_DATA / "wild/screw.stl"), of.FieldOptions(streamlines=0, edge_length=0.53)
+    ).record
     assert record["verdict"]["state"] == "coarse" and record["verdict"]["vertices"]
     assert 0 < record["verdict"]["suggested_edge_length"] < record["edge_length"]
 
 
 @pytest.mark.parametrize("name", ["s01", "s15", "i10"])
 def test_no_false_alarm_of_coarseness(name):
-    record = of.compute_field(shared(SHARED_DATA / f"surfaces/{name}_surface.obj"), of.FieldOptions(streamlines=0)).record
+    record = of.compute_field(
+        shared(SHARED_DATA / f"surfaces/{name}_surface.obj"), of.FieldOptions(streamlines=0)
+    ).record
     assert record["verdict"]["state"] != "coarse"
 
 

@@ -1,14 +1,14 @@
-"""Inputs that went wrong once, by the command line's default: what other tests do not say of them yet. Skipped without the data folder."""
+"""Inputs that went wrong once, by the command line's default: what other tests do not say of them yet. Skipped without
+the data folder."""
 
 import json
 import subprocess
 import sys
 
+import octafield as of
 import pytest
 from conftest import SHARED_DATA
 from pipeline_fixtures import octafield, shared
-
-import octafield as of
 
 WILD = SHARED_DATA / "wild"
 
@@ -22,7 +22,9 @@ def field_of(name, folder, *options):
 def test_thin_walls_and_tight_bends_have_a_field_that_follows_them(name):
     path = shared(WILD / name)
     meshed = of.prepare_mesh(path)
-    assert of.signed_volume(meshed.surface) == pytest.approx(of.signed_volume(of.repair(of.read_surface(path), level="merge").mesh), rel=0.01)
+    assert of.signed_volume(meshed.surface) == pytest.approx(
+        of.signed_volume(of.repair(of.read_surface(path), level="merge").mesh), rel=0.01
+    )
     assert not of.find_defects(meshed.surface)
     assert of.compute_field(meshed, of.FieldOptions(streamlines=0)).record["alignment_deg"]["median"] < 1e-6
 
@@ -34,5 +36,7 @@ def test_a_mesh_and_its_rotation_have_one_energy(tmp_path):
 
 
 def test_python_ends_quietly_while_the_example_computes():
-    done = subprocess.run([sys.executable, str(shared(WILD / "exit_while_computing.py"))], capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [sys.executable, str(shared(WILD / "exit_while_computing.py"))], capture_output=True, text=True, timeout=120
+    )
     assert (done.returncode, done.stderr) == (0, "")

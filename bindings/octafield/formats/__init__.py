@@ -20,9 +20,9 @@ from numpy.typing import ArrayLike
 from .. import _core
 from .._core import TetMesh
 from ..errors import InvalidInput
+from ..files import plain_name, reading
 from ..inputs import Input, read_input
 from .base import SITES, Field, FrameFile, FrameFormat
-from ..files import plain_name, reading
 from .placing import place
 from .registry import FORMATS, READERS, WRITERS, find_format
 from .rotations import axes_of, unit_quaternions
@@ -38,15 +38,20 @@ frame_formats: Mapping[str, FrameFormat] = MappingProxyType(FORMATS)
 
 @np.errstate(all="ignore")  # what is not finite is refused by name, without NumPy's warning before
 def read_frames(
-    path: str | Path, mesh: TetMesh | Input | str | Path | None = None, format: str | None = None, *, where: str | None = None
+    path: str | Path,
+    mesh: TetMesh | Input | str | Path | None = None,
+    format: str | None = None,
+    *,
+    where: str | None = None,
 ) -> FrameFile:
     """The frames of a file, as unit quaternions, with what else it holds.
 
-    mesh: the tet mesh they belong to, or its file; without one, the file's own. With a mesh, the number of frames tells whether they sit at
-    its vertices or in its tets. format: a name of frame_formats; None: by the extension, and in .txt by the numbers on the first line. where: "vertices" or
-    "tets", where the file does not tell. Axes of any length and handedness that are not quite at right angles are taken
-    to the nearest frame, which the notes tell. Raises IoError naming the line or byte, and InvalidInput where axes are zero or in one plane,
-    or the number of frames fits nothing.
+    mesh: the tet mesh they belong to, or its file; without one, the file's own. With a mesh, the number of frames tells
+        whether they sit at its vertices or in its tets. format: a name of frame_formats; None: by the extension, and in
+        .txt by the numbers on the first line. where: "vertices" or "tets", where the file does not tell. Axes of any
+        length and handedness that are not quite at right angles are taken to the nearest frame, which the notes tell.
+        Raises IoError naming the line or byte, and InvalidInput where axes are zero or in one plane, or the number of
+        frames fits nothing.
     """
     path = Path(path)
     _require_site(where)
@@ -63,8 +68,17 @@ def read_frames(
         _core.require_valid(found.mesh)
     result = place(found, given, where)
     form = frame_formats[result.format]
-    if where is None and not form.holds_mesh and len(form.where) > 1 and result.mesh is not None and len(result.mesh.vertices) == len(result.mesh.tets):
-        result.notes.append(f"the mesh has as many vertices as tets: the frames are taken to be {'at the vertices' if result.where == 'vertices' else 'in the tets'}")
+    if (
+        where is None
+        and not form.holds_mesh
+        and len(form.where) > 1
+        and result.mesh is not None
+        and len(result.mesh.vertices) == len(result.mesh.tets)
+    ):
+        result.notes.append(
+            "the mesh has as many vertices as tets: the frames are taken to be"
+            f" {'at the vertices' if result.where == 'vertices' else 'in the tets'}"
+        )
     return result
 
 
@@ -85,19 +99,25 @@ def write_frames(
 ) -> list[str]:
     """Writes (n, 4) frames to a file that appears only when complete, packed where the name ends with .gz.
 
-    where: where the frames are, "vertices" or "tets". format: a name of frame_formats; None: by the extension. at: where they shall be in
-    the file; None: where they are, if the format has that; else they are taken there by vertex_frames or tet_frames. lengths: (n, 3) of the axes.
-    features: (k, 2) feature edges, vertex ids. regions: (m,) of the tets. metadata: words for .vtu. combed: the frames go to the
-    tets and are combed (octafield.comb): axes correspond by number and sign across all triangles but a cut; .npz then holds all of
-    octafield.parameterization_input, .ovmb and .ovm the cut, .perm its matchings. mesh: None where the format needs none; a result of compute_field or analyse
-    gives its features and regions, too, where these are None. cell_edge: edge length of the cells that a mesher shall make, input unit, or "auto", the mean edge
-    of the tets: the axes are divided by it (.fra, .bfra: densities of cells) or multiplied (.ff3: edges of cells), on top of their lengths. Returns notes on what
-    was changed or left out. Raises InvalidInput and IoError.
+    where: where the frames are, "vertices" or "tets". format: a name of frame_formats; None: by the extension. at:
+        where they shall be in the file; None: where they are, if the format has that; else they are taken there by
+        vertex_frames or tet_frames. lengths: (n, 3) of the axes.
+    features: (k, 2) feature edges, vertex ids. regions: (m,) of the tets. metadata: words for .vtu. combed: the frames
+        go to the tets and are combed (octafield.comb): axes correspond by number and sign across all triangles but a
+        cut; .npz then holds all of octafield.parameterization_input, .ovmb and .ovm the cut, .perm its matchings. mesh:
+        None where the format needs none; a result of compute_field or analyse gives its features and regions, too,
+        where these are None. cell_edge: edge length of the cells that a mesher shall make, input unit, or "auto", the
+        mean edge of the tets: the axes are divided by it (.fra, .bfra: densities of cells) or multiplied (.ff3: edges
+        of cells), on top of their lengths. Returns notes on what was changed or left out. Raises InvalidInput and
+        IoError.
     """
     if mesh is not None and not isinstance(mesh, TetMesh):
         if not hasattr(mesh, "feature_edges"):
             raise InvalidInput(f"a TetMesh or a result that has one is needed, not {type(mesh).__name__}", "bad_type")
-        features, regions = (mesh.feature_edges if features is None else features), (mesh.regions if regions is None else regions)
+        features, regions = (
+            (mesh.feature_edges if features is None else features),
+            (mesh.regions if regions is None else regions),
+        )
         mesh = mesh.tets
     path = Path(path)
     _require_site(where)
@@ -107,7 +127,15 @@ def write_frames(
     if values.ndim != 2 or values.shape[1] != 4:
         raise InvalidInput(f"frames of shape {values.shape}; (n, 4) quaternions w x y z are needed", "bad_shape")
     values, _ = unit_quaternions(values, lambda i: "frames")
-    field = Field(mesh, values, where, _array(lengths, 3), _ids(features, 2, "features"), _ids(regions, None, "regions"), dict(metadata or {}))
+    field = Field(
+        mesh,
+        values,
+        where,
+        _array(lengths, 3),
+        _ids(features, 2, "features"),
+        _ids(regions, None, "regions"),
+        dict(metadata or {}),
+    )
     _require_fit(field, writer)
     if combed and at == "vertices":
         raise InvalidInput("combed frames sit in the tets; leave out at='vertices'", "unknown_option_value")
@@ -127,17 +155,25 @@ def write_frames(
 
 def _take_cell_edge(field: Field, writer: FrameFormat, cell_edge: float | str) -> list[str]:
     if not writer.holds_lengths:
-        raise InvalidInput(f"{writer.title} files hold no lengths of axes, so no size of cells; leave out the cell edge", "option_not_used")
+        raise InvalidInput(
+            f"{writer.title} files hold no lengths of axes, so no size of cells; leave out the cell edge",
+            "option_not_used",
+        )
     edge = cell_edge
     if edge == "auto":
         if field.mesh is None:
             raise InvalidInput("the mean edge is that of the mesh; give it, or a length", "no_mesh")
         edge = mean_edge(field.mesh)
     if isinstance(edge, bool) or not isinstance(edge, numbers.Real) or not (math.isfinite(edge) and edge > 0):
-        raise InvalidInput(f"the cell edge must be a positive length or 'auto', not {cell_edge!r}", "option_out_of_range")
+        raise InvalidInput(
+            f"the cell edge must be a positive length or 'auto', not {cell_edge!r}", "option_out_of_range"
+        )
     lengths = np.ones((len(field.frames), 3)) if field.lengths is None else np.asarray(field.lengths, float)
     field.lengths = lengths * edge if writer.holds_edges else lengths / edge
-    return [f"the axes are {'edges' if writer.holds_edges else 'densities'} of cells with edges of {float(edge):.6g}" + (", the mean edge of the tets" if cell_edge == "auto" else "")]
+    return [
+        f"the axes are {'edges' if writer.holds_edges else 'densities'} of cells with edges of {float(edge):.6g}"
+        + (", the mean edge of the tets" if cell_edge == "auto" else "")
+    ]
 
 
 def mean_edge(mesh: TetMesh) -> float:
@@ -158,7 +194,11 @@ def _comb(field: Field) -> list[str]:
     if field.lengths is not None:  # axis j of q o is axis i of q, turned round or not, where o has its entry (i, j)
         entries = np.abs(axes_of(np.asarray(_core.octahedral_group()))).argmax(axis=1)
         field.lengths = np.take_along_axis(field.lengths, entries[np.asarray(field.combed.combed.element)], axis=1)
-    found = "" if field.features is not None else f"; no feature edges were given: {len(field.combed.features.edges)} were found by angle"
+    found = (
+        ""
+        if field.features is not None
+        else f"; no feature edges were given: {len(field.combed.features.edges)} were found by angle"
+    )
     return [f"the frames were combed, {int(np.asarray(field.combed.combed.cut).sum())} triangles are cut{found}"]
 
 
@@ -172,7 +212,14 @@ def _array(values: ArrayLike | None, width: int | None) -> np.ndarray | None:
         return None
     result = np.asarray(values)
     if result.ndim != (1 if width is None else 2) or (width and result.shape[1] != width):
-        raise InvalidInput(f"an array of shape {result.shape}; (n, {width}) is needed" if width else f"(m,) ids are needed, not {result.shape}", "bad_shape")
+        raise InvalidInput(
+            (
+                f"an array of shape {result.shape}; (n, {width}) is needed"
+                if width
+                else f"(m,) ids are needed, not {result.shape}"
+            ),
+            "bad_shape",
+        )
     return result
 
 
@@ -201,7 +248,11 @@ def _require_fit(field: Field, writer: FrameFormat) -> None:
         outside = ((field.features < 0) | (field.features >= len(field.mesh.vertices))).any(axis=1)
         if outside.any():
             bad = int(np.argmax(outside))
-            raise InvalidInput(f"feature edge {bad} (from 0) names a vertex outside 0 .. {len(field.mesh.vertices) - 1}", "index_out_of_range", [bad])
+            raise InvalidInput(
+                f"feature edge {bad} (from 0) names a vertex outside 0 .. {len(field.mesh.vertices) - 1}",
+                "index_out_of_range",
+                [bad],
+            )
 
 
 def _move(field: Field, writer: FrameFormat, at: str | None) -> list[str]:

@@ -107,9 +107,12 @@ def _add_transitions(mesh: OvmMesh, field: Field) -> None:
     mesh.properties[VALENCES] = valences_of(mesh, field, mesh.properties[TRANSITIONS], edges)
 
 
-def add_features(mesh: OvmMesh, field: Field, triangles: np.ndarray | None = None, faces: np.ndarray | None = None) -> None:
-    """Edges as given, vertices where other than two of them meet, all faces of the boundary and between regions, by the CAD
-    faces of (t, 3) triangles where these are known, else 1. Where no edges are given AlgoHex finds features itself, unless there are frames."""
+def add_features(
+    mesh: OvmMesh, field: Field, triangles: np.ndarray | None = None, faces: np.ndarray | None = None
+) -> None:
+    """Edges as given, vertices where other than two of them meet, all faces of the boundary and between regions, by the
+    CAD faces of (t, 3) triangles where these are known, else 1. Where no edges are given AlgoHex finds features itself,
+    unless there are frames."""
     if field.regions is not None:
         mesh.properties["cell", "region"] = np.asarray(field.regions).astype(np.int32)
     if field.features is not None:

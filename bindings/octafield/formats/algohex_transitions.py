@@ -1,4 +1,5 @@
-"""Transitions across half-faces and valences of edges as AlgoHex keeps them. Conventions and their sources: docs/formats.md."""
+"""Transitions across half-faces and valences of edges as AlgoHex keeps them. Conventions and their sources:
+docs/formats.md."""
 
 from collections.abc import Sequence
 
@@ -27,7 +28,8 @@ def inner_faces(mesh: OvmMesh) -> np.ndarray:
 
 
 def transitions_of(mesh: OvmMesh, faces: _core.FaceMatchings) -> np.ndarray:
-    """(2f,) t with q t close to the frame beyond, q that of the half-face's own cell; -1 on the boundary. faces: of the same tets."""
+    """(2f,) t with q t close to the frame beyond, q that of the half-face's own cell; -1 on the boundary. faces: of the
+    same tets."""
     own, inner = owners(mesh), inner_faces(mesh)
     half_face = 2 * inner + (own[2 * inner] != np.asarray(faces.tets)[:, 0])
     result = np.full(len(own), -1, np.int32)
@@ -43,13 +45,21 @@ def far_transitions(mesh: OvmMesh, frames: np.ndarray) -> list[str]:
         return []
     here = np.flatnonzero((own >= 0) & (own[np.arange(len(own)) ^ 1] >= 0) & (found >= 0) & (found < 24))
     q, beyond = frames[own[here]], frames[own[here ^ 1]]
-    turned = np.swapaxes(axes_of(q) @ axes_of(np.asarray(_core.octahedral_group()))[found[here]], 1, 2) @ axes_of(beyond)
+    turned = np.swapaxes(axes_of(q) @ axes_of(np.asarray(_core.octahedral_group()))[found[here]], 1, 2) @ axes_of(
+        beyond
+    )
     angle = np.arccos(np.clip((np.trace(turned, axis1=1, axis2=2) - 1) / 2, -1, 1))
     far = int((angle > np.asarray(_core.distance(q, beyond)).reshape(-1) + _NEAR).sum())
-    return [f"{TRANSITIONS[1]} does not lead to the closest axes at {far} half-faces; octafield goes by the frames alone"] if far else []
+    return (
+        [f"{TRANSITIONS[1]} does not lead to the closest axes at {far} half-faces; octafield goes by the frames alone"]
+        if far
+        else []
+    )
 
 
-def valences_of(mesh: OvmMesh, field: Field, transitions: np.ndarray, singular: Sequence[_core.SingularEdge]) -> np.ndarray:
+def valences_of(
+    mesh: OvmMesh, field: Field, transitions: np.ndarray, singular: Sequence[_core.SingularEdge]
+) -> np.ndarray:
     """(e,) hexahedra at each edge less 4, on the boundary less 2. singular: edges inside with a turn."""
     result = np.zeros(len(mesh.edges), np.int32)
     count = len(mesh.vertices)
@@ -64,8 +74,8 @@ def valences_of(mesh: OvmMesh, field: Field, transitions: np.ndarray, singular: 
 
 
 def _boundary_valences(mesh: OvmMesh, axes: np.ndarray, transitions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of the edges of the boundary: the axes nearest to the two normals, the second carried back through the tets between, tell the quarter
-    turns between them."""
+    """Of the edges of the boundary: the axes nearest to the two normals, the second carried back through the tets
+    between, tell the quarter turns between them."""
     own = owners(mesh)
     starts = np.flatnonzero((own >= 0) & (own[np.arange(len(own)) ^ 1] < 0))
     half_edges = _half_edges(mesh, starts)
@@ -91,9 +101,11 @@ def _half_edges(mesh: OvmMesh, half_faces: np.ndarray) -> np.ndarray:
     return half_edges
 
 
-def _across_wedges(mesh: OvmMesh, own: np.ndarray, transitions: np.ndarray, start: np.ndarray, edge: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """From half-faces on the boundary round edges to the next half-face on it: that one, and the product of the transitions into each tet on
-    the way: an axis a of the first tet's frame is product a in the last's."""
+def _across_wedges(
+    mesh: OvmMesh, own: np.ndarray, transitions: np.ndarray, start: np.ndarray, edge: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """From half-faces on the boundary round edges to the next half-face on it: that one, and the product of the
+    transitions into each tet on the way: an axis a of the first tet's frame is product a in the last's."""
     table, sides = np.asarray(_core.octahedral_product_table()), mesh.faces // 2
     here, product = start.copy(), np.zeros(len(start), int)
     going = np.arange(len(start))

@@ -8,8 +8,8 @@ import numpy as np
 
 from .._core import TetMesh
 from ..errors import InvalidInput, IoError
-from .base import SITES, Field, FrameFile, from_axes, from_quaternions
 from ..files import read_bytes, require_unpackable, write_whole
+from .base import SITES, Field, FrameFile, from_axes, from_quaternions
 
 _UNITS = {1: "read_array_header_1_0", 2: "read_array_header_2_0"}
 
@@ -22,7 +22,9 @@ def _frames(path: Path, name: str, where: str, values: np.ndarray) -> FrameFile:
     """(n, 4) quaternions w x y z, (n, 9) axes one after the other, or (n, 3, 3) with the axes in columns."""
     if values.dtype.kind not in "fiu" or values.shape[1:] not in ((4,), (9,), (3, 3)):
         raise InvalidInput(
-            f"{path}: an array of {values.dtype} with shape {values.shape}; (n, 4), (n, 9) or (n, 3, 3) numbers are needed", "bad_shape"
+            f"{path}: an array of {values.dtype} with shape {values.shape}; (n, 4), (n, 9) or (n, 3, 3) numbers are"
+            " needed",
+            "bad_shape",
         )
     values = values.astype(float)
     if values.shape[1:] == (4,):
@@ -42,7 +44,9 @@ def _array(data: bytes, name: str) -> np.ndarray:
     for length in shape:
         count *= length
     if dtype.hasobject or min(shape, default=0) < 0 or len(data) - start != count * dtype.itemsize:
-        raise IoError(f"{name}, byte {start}: {len(data) - start} bytes; an array of {dtype} with shape {shape} is announced")
+        raise IoError(
+            f"{name}, byte {start}: {len(data) - start} bytes; an array of {dtype} with shape {shape} is announced"
+        )
     return np.frombuffer(data, dtype, count, start).reshape(shape, order="F" if fortran else "C")
 
 
@@ -82,7 +86,9 @@ def _members(path: Path) -> dict[str, np.ndarray]:
         with zipfile.ZipFile(io.BytesIO(data)) as folder:
             members = [member for member in folder.infolist() if member.filename.endswith(".npy")]
             require_unpackable(str(path), sum(member.file_size for member in members), path.stat().st_size)
-            return {member.filename[:-4]: _array(folder.read(member), f"{path}:{member.filename}") for member in members}
+            return {
+                member.filename[:-4]: _array(folder.read(member), f"{path}:{member.filename}") for member in members
+            }
     except IoError:
         raise
     except Exception as error:  # damaged members raise what zlib, zipfile and struct raise
@@ -91,7 +97,11 @@ def _members(path: Path) -> dict[str, np.ndarray]:
 
 def _numbers(path: Path, parts: dict[str, np.ndarray], name: str, width: int | None) -> np.ndarray:
     values = parts[name]
-    if values.dtype.kind not in "fiu" or values.ndim != (1 if width is None else 2) or (width and values.shape[1] != width):
+    if (
+        values.dtype.kind not in "fiu"
+        or values.ndim != (1 if width is None else 2)
+        or (width and values.shape[1] != width)
+    ):
         raise InvalidInput(f"{path}: array {name} has shape {values.shape} of {values.dtype}", "bad_shape")
     return values
 

@@ -25,9 +25,10 @@ class FrameFile:
     """What a file of frames held.
 
     frames: (n, 4) unit quaternions w x y z. where: "vertices" or "tets". mesh: the tet mesh, where the file has one or
-    one was given. lengths: (n, 3) of the axes, None where all are 1. deviation: radians, largest angle between an axis in the file and the
-    frame's. left_handed: how many triads were; their third axis was turned round. features: (k, 2) feature edges, vertex ids of mesh. regions: (m,)
-    of the tets. centres: (n, 3) where each frame belongs, if the file tells that and not the order. notes: what was changed in reading, one sentence each.
+    one was given. lengths: (n, 3) of the axes, None where all are 1. deviation: radians, largest angle between an axis
+    in the file and the frame's. left_handed: how many triads were; their third axis was turned round. features: (k, 2)
+    feature edges, vertex ids of mesh. regions: (m,) of the tets. centres: (n, 3) where each frame belongs, if the file
+    tells that and not the order. notes: what was changed in reading, one sentence each.
     """
 
     path: str
@@ -46,7 +47,10 @@ class FrameFile:
     def __repr__(self) -> str:
         mesh = "no mesh" if self.mesh is None else f"{len(self.mesh.tets):,} tets"
         notes = f"; {len(self.notes)} notes" if self.notes else ""
-        return f"FrameFile({self.path}: {self.format}, {len(self.frames):,} frames {'at' if self.where == 'vertices' else 'in'} {self.where}, {mesh}{notes})"
+        return (
+            f"FrameFile({self.path}: {self.format}, {len(self.frames):,} frames"
+            f" {'at' if self.where == 'vertices' else 'in'} {self.where}, {mesh}{notes})"
+        )
 
 
 @dataclass
@@ -94,9 +98,11 @@ def frames_at(found: FrameFile, where: str) -> np.ndarray:
 class FrameFormat:
     """A kind of file with frames.
 
-    where: the sites it can hold, the usual one first. read, write: None where that is not done; write may return notes. holds_mesh: the file has the tets,
-    too. needs_mesh: writing takes one. holds: what is written per frame, with its order. precision: of what is written.
-    exact: quaternions come back bit by bit. holds_lengths: of axes; as its readers take them, gradients of a map or, with holds_edges, edges of cells. source: where the layout was read.
+    where: the sites it can hold, the usual one first. read, write: None where that is not done; write may return notes.
+        holds_mesh: the file has the tets, too. needs_mesh: writing takes one. holds: what is written per frame, with
+        its order. precision: of what is written.
+    exact: quaternions come back bit by bit. holds_lengths: of axes; as its readers take them, gradients of a map or,
+        with holds_edges, edges of cells. source: where the layout was read.
     """
 
     name: str
@@ -131,17 +137,24 @@ def from_axes(path: Path, name: str, where: str, axes: np.ndarray, lines: np.nda
     if len(found.lengths) and np.abs(found.lengths - 1).max() > _WORTH_A_NOTE:
         result.lengths = found.lengths
         low, high = found.lengths.min(), found.lengths.max()
-        result.notes.append(f"the axes have lengths {low:.6g} to {high:.6g}; frames have directions only, kept apart as lengths")
+        result.notes.append(
+            f"the axes have lengths {low:.6g} to {high:.6g}; frames have directions only, kept apart as lengths"
+        )
     if found.left_handed:
-        result.notes.append(f"{found.left_handed} left-handed frames: their third axis was turned round, which is the same frame")
+        result.notes.append(
+            f"{found.left_handed} left-handed frames: their third axis was turned round, which is the same frame"
+        )
     if found.deviation > _WORTH_A_NOTE:
         result.notes.append(
-            f"axes not at right angles were replaced by the nearest frame's: {np.degrees(found.deviation):.3g} degrees at most"
+            f"axes not at right angles were replaced by the nearest frame's: {np.degrees(found.deviation):.3g} degrees"
+            " at most"
         )
     return result
 
 
-def from_quaternions(path: Path, name: str, where: str, values: np.ndarray, lines: np.ndarray | None = None) -> FrameFile:
+def from_quaternions(
+    path: Path, name: str, where: str, values: np.ndarray, lines: np.ndarray | None = None
+) -> FrameFile:
     """values: (n, 4), w x y z."""
     frames, change = unit_quaternions(values, _place_of(path, lines))
     result = FrameFile(str(path), name, frames, where)
@@ -158,7 +171,9 @@ def from_sh4(path: Path, name: str, where: str, values: np.ndarray) -> FrameFile
     frames, distances = _core.sh4_project(values / length[:, None])
     result = FrameFile(str(path), name, np.asarray(frames), where)
     if len(frames) and distances.max() > _WORTH_A_NOTE:
-        result.notes.append(f"sh4 vectors were replaced by the nearest frames: {distances.max():.3g} away at most, length 1")
+        result.notes.append(
+            f"sh4 vectors were replaced by the nearest frames: {distances.max():.3g} away at most, length 1"
+        )
     return result
 
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from .. import _core
 from ..errors import InvalidInput, IoError
-from .base import Field, FrameFile, from_axes
 from ..files import head_of, plain_name, read_bytes, read_text, rows_of, table_of, write_all, write_whole
+from .base import Field, FrameFile, from_axes
 from .rotations import axes_in_rows, axes_of
 from .text import _columns, _count, _require_count
 
@@ -53,7 +53,9 @@ def permutations(field: Field) -> np.ndarray:
     from 1, of the second. Where that is the identity there is no row. Combed frames: rows of the cut alone."""
     faces = field.matchings()
     tets, matched = np.asarray(faces.tets), np.asarray(faces.matching)
-    group = np.rint(axes_of(np.asarray(_core.octahedral_group()))).astype(int)  # R1 o is close to R2: column j of R2 is sum_i R1_i o_ij
+    group = np.rint(axes_of(np.asarray(_core.octahedral_group()))).astype(
+        int
+    )  # R1 o is close to R2: column j of R2 is sum_i R1_i o_ij
     column = np.abs(group).argmax(axis=2)  # row i of o has its entry there
     sign = np.take_along_axis(group, column[:, :, None], axis=2)[:, :, 0]
     rows = (sign * (column + 1))[matched]

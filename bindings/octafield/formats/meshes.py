@@ -10,11 +10,11 @@ import numpy as np
 from .. import _core
 from .._core import TriangleMesh
 from ..errors import InvalidInput, IoError
+from ..files import plain_name, rows_of, write_all, write_whole
 from ..inputs import SURFACE_SUFFIXES, Input
 from ..output import vtp_bytes
 from .algohex import add_features
 from .base import Field, mesh_of
-from ..files import plain_name, rows_of, write_all, write_whole
 from .ovm import write_ovm
 from .ovm_mesh import ovm_of_tets
 from .vtk import through_file
@@ -28,8 +28,8 @@ MESH_SUFFIXES = (*SURFACE_SUFFIXES, ".vtp", *BOTH_SUFFIXES, *TETS_SUFFIXES)
 
 
 def patches(triangles: np.ndarray, lines: np.ndarray | None) -> np.ndarray:
-    """(t,) numbers from 1 of the connected parts of a surface cut along (k, 2) lines. Where a line ends inside a part, a
-    triangle beside it is a part of its own, so that no line has one part on both sides."""
+    """(t,) numbers from 1 of the connected parts of a surface cut along (k, 2) lines. Where a line ends inside a part,
+    a triangle beside it is a part of its own, so that no line has one part on both sides."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
@@ -53,8 +53,8 @@ def patches(triangles: np.ndarray, lines: np.ndarray | None) -> np.ndarray:
 
 @dataclass
 class Parts:
-    """What is written. lines: (k, 2) feature edges or None. triangles: (t, 3); faces: (t,) CAD face of each, 0: none, or None. tets:
-    (m, 4) or None; regions: (m,) or None."""
+    """What is written. lines: (k, 2) feature edges or None. triangles: (t, 3); faces: (t,) CAD face of each, 0: none,
+    or None. tets: (m, 4) or None; regions: (m,) or None."""
 
     points: np.ndarray
     lines: np.ndarray | None = None
@@ -65,8 +65,9 @@ class Parts:
 
     @classmethod
     def of_input(cls, found: Input) -> "Parts":
-        """The tets with their boundary and interfaces, or the surface. Where the file tells no CAD faces, the parts of the surface between
-        feature edges stand for them, for readers take an edge with one face on both sides for a seam."""
+        """The tets with their boundary and interfaces, or the surface. Where the file tells no CAD faces, the parts of
+        the surface between feature edges stand for them, for readers take an edge with one face on both sides for a
+        seam."""
         features = found.lines if found.lines_are_features() else None
         triangles = np.asarray(found.surface.triangles)
         if found.faces is None or (found.faces <= 0).all():
@@ -86,15 +87,20 @@ class Parts:
         return cls(np.asarray(mesh.vertices), field.features, None, None, np.asarray(mesh.tets), field.regions)
 
     def blocks(self) -> list[tuple[str, np.ndarray, np.ndarray]]:
-        """meshio's cell type, connectivity and entity ids (0: none), in the order that ARFF's reader of Medit files wants."""
+        """meshio's cell type, connectivity and entity ids (0: none), in the order that ARFF's reader of Medit files
+        wants."""
         parts = []
         if self.triangles is not None:
-            parts.append(("triangle", self.triangles, np.zeros(len(self.triangles)) if self.faces is None else self.faces))
+            parts.append(
+                ("triangle", self.triangles, np.zeros(len(self.triangles)) if self.faces is None else self.faces)
+            )
         if self.lines is not None and len(self.lines):
             parts.append(("line", self.lines, np.ones(len(self.lines))))
         if self.tets is not None:
             parts.append(("tetra", self.tets, np.ones(len(self.tets)) if self.regions is None else self.regions))
-        return [(kind, np.asarray(cells).astype(np.int64), np.asarray(ids).astype(np.int64)) for kind, cells, ids in parts]
+        return [
+            (kind, np.asarray(cells).astype(np.int64), np.asarray(ids).astype(np.int64)) for kind, cells, ids in parts
+        ]
 
 
 def write_mesh(path: str | Path, found: Input) -> list[str]:
@@ -105,7 +111,11 @@ def write_mesh(path: str | Path, found: Input) -> list[str]:
         raise IoError(f"{path}: unknown kind of mesh file; known are {' '.join(MESH_SUFFIXES)}, also .gz")
     parts = Parts.of_input(found)
     if suffix in TETS_SUFFIXES and parts.tets is None:
-        raise InvalidInput(f"{path}: {suffix} files hold tets, and {found.name} is a surface; write one of {' '.join((*SURFACE_SUFFIXES, *BOTH_SUFFIXES))}", "not_tets")
+        raise InvalidInput(
+            f"{path}: {suffix} files hold tets, and {found.name} is a surface; write one of"
+            f" {' '.join((*SURFACE_SUFFIXES, *BOTH_SUFFIXES))}",
+            "not_tets",
+        )
     if suffix in SURFACE_SUFFIXES:
         surface = found.surface if not found.interface_triangles else _core.boundary_surface(found.volume().tets).mesh
         return _write_surface(path, suffix, surface, parts, found)
@@ -127,7 +137,9 @@ def _write_surface(path: Path, suffix: str, surface: TriangleMesh, parts: Parts,
     notes = [] if parts.tets is None else [f"{suffix} files hold triangles: the boundary of the tets was written"]
     notes += _lost(suffix, ("feature edges", parts.lines), ("CAD faces", found.faces), ("regions", parts.regions))
     if suffix == ".stl":
-        notes.append("STL files hold single precision and no vertex ids: points were rounded, equal ones merge on reading")
+        notes.append(
+            "STL files hold single precision and no vertex ids: points were rounded, equal ones merge on reading"
+        )
     through_file(path, suffix, lambda plain: _core.write_surface(surface, plain))
     return notes
 
@@ -154,7 +166,10 @@ def _write_tetgen(path: Path, suffix: str, parts: Parts) -> list[str]:
     """All of .node, .ele, .face and, where there are features, .edge; ids from 0."""
     name = path.name
     cut = name.lower().rindex(suffix)
-    beside = {kind: path.with_name(name[:cut] + kind + name[cut + len(suffix) :]) for kind in (".node", ".ele", ".face", ".edge")}
+    beside = {
+        kind: path.with_name(name[:cut] + kind + name[cut + len(suffix) :])
+        for kind in (".node", ".ele", ".face", ".edge")
+    }
     ids = np.arange(len(parts.points))
     head = f"{len(parts.points)} 3 0 0\n".encode()
     cells = {kind: (corners, numbers) for kind, corners, numbers in parts.blocks()}
@@ -221,7 +236,9 @@ def _meshio_mesh(parts: Parts, name: str) -> "meshio.Mesh":
     import meshio
 
     blocks = parts.blocks()
-    return meshio.Mesh(parts.points, [(kind, cells) for kind, cells, _ in blocks], cell_data={name: [ids for *_, ids in blocks]})
+    return meshio.Mesh(
+        parts.points, [(kind, cells) for kind, cells, _ in blocks], cell_data={name: [ids for *_, ids in blocks]}
+    )
 
 
 def msh_of(parts: Parts) -> tuple["meshio.Mesh", list[str]]:

@@ -1,5 +1,5 @@
-"""OpenVolumeMesh files, text (.ovm) and binary (.ovmb): tets as edges, faces of half-edges and cells of half-faces, with
-properties. Layouts: docs/formats.md."""
+"""OpenVolumeMesh files, text (.ovm) and binary (.ovmb): tets as edges, faces of half-edges and cells of half-faces,
+with properties. Layouts: docs/formats.md."""
 
 import re
 from collections.abc import Iterator
@@ -16,7 +16,17 @@ SUFFIXES = (".ovm", ".ovmb")
 _SECTIONS = ("Vertices", "Edges", "Faces", "Polyhedra")
 _KEYWORDS = dict(zip(("vprop", "eprop", "fprop", "cprop", "heprop", "hfprop", "mprop"), ENTITIES, strict=True))
 _KEYWORD_OF = dict(zip(ENTITIES, ("VProp", "EProp", "FProp", "CProp", "HEProp", "HFProp", "MProp"), strict=True))
-_WIDTHS = {"int": 1, "unsigned": 1, "short": 1, "long": 1, "unsigned_int": 1, "double": 1, "float": 1, "bool": 1, "char": 1}
+_WIDTHS = {
+    "int": 1,
+    "unsigned": 1,
+    "short": 1,
+    "long": 1,
+    "unsigned_int": 1,
+    "double": 1,
+    "float": 1,
+    "bool": 1,
+    "char": 1,
+}
 _TEXT_TYPE = {("i", 1): "int", ("f", 1): "double", ("f", 2): "vec2d", ("f", 3): "vec3d", ("f", 4): "vec4d"}
 
 
@@ -30,7 +40,9 @@ def read_ovm(path: Path, *, binary: bool) -> OvmMesh:
         outside = ((ids < 0) | (ids >= limit)).any(axis=1)
         if outside.any():
             bad = int(np.argmax(outside))
-            raise InvalidInput(f"{path}: {what} {bad} (from 0) names an element outside 0 .. {limit - 1}", "index_out_of_range", [bad])
+            raise InvalidInput(
+                f"{path}: {what} {bad} (from 0) names an element outside 0 .. {limit - 1}", "index_out_of_range", [bad]
+            )
     return mesh
 
 
@@ -40,7 +52,10 @@ def write_ovm(path: Path, mesh: OvmMesh, *, binary: bool) -> None:
 
 def _read_text(path: Path) -> OvmMesh:
     text = re.sub(r"#[^\n]*", "", read_text(path))
-    heads = [(m.start(), m.end(), m[1].lower(), m[0].strip()) for m in re.finditer(r"^[ \t]*([A-Za-z]\w*)[^\n]*", text, re.MULTILINE)]
+    heads = [
+        (m.start(), m.end(), m[1].lower(), m[0].strip())
+        for m in re.finditer(r"^[ \t]*([A-Za-z]\w*)[^\n]*", text, re.MULTILINE)
+    ]
     if not heads or heads[0][3].lower().split() != ["ovm", "ascii"]:
         raise IoError(f"{path}, line 1: an OVM text file begins with 'OVM ASCII'")
     line = 1
@@ -81,7 +96,9 @@ def _section(body: str, name: str, word: str, line: int) -> np.ndarray:
                 raise IoError(f"{name}, line {first + 1 + offset}: {sides[0]} sides; meshes of tets have {width - 1}")
     rows, lines = table_of(rest, name, width, first_line=first + 1)
     if len(rows) != int(head):
-        raise IoError(f"{name}, line {first + 1 + rest.rstrip().count(chr(10))}: {word} has {len(rows)} rows, not {int(head)}")
+        raise IoError(
+            f"{name}, line {first + 1 + rest.rstrip().count(chr(10))}: {word} has {len(rows)} rows, not {int(head)}"
+        )
     if word == "vertices":
         return rows
     ids = _ids(rows, name, lines)
@@ -101,7 +118,7 @@ def _take_property(mesh: OvmMesh, head: str, body: str, path: Path, line: int) -
     """Whether properties of this type are read."""
     match = re.match(r'(\w+)\s+(.*?)\s*"(.*)"\s*$', head)
     if not match:
-        raise IoError(f"{path}, line {line}: a property is written as: CProp int \"name\"; not {head[:40]!r}")
+        raise IoError(f'{path}, line {line}: a property is written as: CProp int "name"; not {head[:40]!r}')
     entity, kind, name = _KEYWORDS[match[1].lower()], match[2].lower().replace(" ", "_"), match[3]
     vector = re.fullmatch(r"vec([234])(?:d|f|i|ui)", kind)
     if kind not in _WIDTHS and not vector:
@@ -110,8 +127,15 @@ def _take_property(mesh: OvmMesh, head: str, body: str, path: Path, line: int) -
     width = int(vector[1]) if vector else 1
     rows, _ = table_of(body, str(path), width, first_line=line)
     if len(rows) != mesh.count(entity):
-        raise IoError(f"{path}, line {line}: property {name!r} has {len(rows)} rows; there are {mesh.count(entity)} elements")
-    whole = kind[-1] not in "df" and kind not in ("double", "float") and np.isfinite(rows).all() and (np.abs(rows) < 2**53).all()
+        raise IoError(
+            f"{path}, line {line}: property {name!r} has {len(rows)} rows; there are {mesh.count(entity)} elements"
+        )
+    whole = (
+        kind[-1] not in "df"
+        and kind not in ("double", "float")
+        and np.isfinite(rows).all()
+        and (np.abs(rows) < 2**53).all()
+    )
     values = rows.astype(np.int64) if whole else rows
     mesh.properties[entity, name] = values[:, 0] if width == 1 else values
     return True

@@ -12,9 +12,9 @@ ENTITIES = ("vertex", "edge", "face", "cell", "halfedge", "halfface", "mesh")  #
 
 @dataclass
 class OvmMesh:
-    """vertices: (n, 3). edges: (e, 2). faces: (f, 3) half-edges. cells: (m, 4) half-faces; half-edge 2e runs along edge e, 2e + 1
-    back, half-faces likewise. properties: arrays, one row per element, by entity and name. kinds: binary type of a property, where it is
-    not that of its array. skipped: properties of types that are not read."""
+    """vertices: (n, 3). edges: (e, 2). faces: (f, 3) half-edges. cells: (m, 4) half-faces; half-edge 2e runs along edge
+    e, 2e + 1 back, half-faces likewise. properties: arrays, one row per element, by entity and name. kinds: binary type
+    of a property, where it is not that of its array. skipped: properties of types that are not read."""
 
     vertices: np.ndarray
     edges: np.ndarray
@@ -35,8 +35,9 @@ class OvmMesh:
 
 
 def ovm_of_tets(vertices: np.ndarray, tets: np.ndarray) -> OvmMesh:
-    """Half-faces of a cell have normals into the cell, as OpenVolumeMesh has them for tets of positive volume. Faces begin at their lowest vertex and
-    half-faces of a cell ascend, so that the order of a tet's vertices, which files do not keep, makes no difference."""
+    """Half-faces of a cell have normals into the cell, as OpenVolumeMesh has them for tets of positive volume. Faces
+    begin at their lowest vertex and half-faces of a cell ascend, so that the order of a tet's vertices, which files do
+    not keep, makes no difference."""
     tets = np.asarray(tets).astype(np.int64)
     edges = unique_edges(tets)
     outward, of_tet = unique_triangles(tets)

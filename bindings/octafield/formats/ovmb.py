@@ -106,7 +106,7 @@ def _span(chunk: _Cursor, limit: int) -> slice:
 
 def _take_vertices(chunk: _Cursor, mesh: OvmMesh) -> None:
     span = _span(chunk, len(mesh.vertices))
-    (encoding, *_) = chunk.unpack(struct.Struct("<B3B"))
+    encoding, *_ = chunk.unpack(struct.Struct("<B3B"))
     if encoding not in (1, 2):
         raise IoError(f"{chunk.path}, byte {chunk.at - 4}: unknown encoding {encoding} of vertices")
     numbers = chunk.array("<f4" if encoding == 1 else "<f8", 3 * (span.stop - span.start))
@@ -127,7 +127,10 @@ def _take_topology(chunk: _Cursor, mesh: OvmMesh) -> None:
         valences = np.unique(chunk.array(_INTEGERS[of_valence], count))
         valence = int(valences[0]) if len(valences) == 1 else 0
     if valence != width:
-        raise IoError(f"{chunk.path}, byte {start + _SPAN.size + 1}: elements of {ENTITIES[entity]} with other than {width} sides; tets are needed")
+        raise IoError(
+            f"{chunk.path}, byte {start + _SPAN.size + 1}: elements of {ENTITIES[entity]} with other than {width}"
+            " sides; tets are needed"
+        )
     ids = chunk.array(_INTEGERS[of_ids], width * count).astype(np.int64)
     target[first : first + count] = ids.reshape(-1, width) + min(offset, 1 << 40)
 
@@ -172,8 +175,14 @@ def binary_pieces(mesh: OvmMesh) -> Iterator[bytes]:
     kinds = {key: mesh.kinds.get(key) or _TYPE_OF[_signature(values)] for key, values in mesh.properties.items()}
     if kinds:
         yield from _chunk(b"DIRP", b"".join(_entry(*key, kind) for key, kind in kinds.items()))
-    yield from _chunk(b"VERT", _SPAN.pack(0, counts[0]), b"\2\0\0\0", np.ascontiguousarray(mesh.vertices, "<f8").tobytes())
-    for code, ids, limit in ((1, mesh.edges, counts[0]), (2, mesh.faces, 2 * counts[1]), (3, mesh.cells, 2 * counts[2])):
+    yield from _chunk(
+        b"VERT", _SPAN.pack(0, counts[0]), b"\2\0\0\0", np.ascontiguousarray(mesh.vertices, "<f8").tobytes()
+    )
+    for code, ids, limit in (
+        (1, mesh.edges, counts[0]),
+        (2, mesh.faces, 2 * counts[1]),
+        (3, mesh.cells, 2 * counts[2]),
+    ):
         size = 1 if limit < 1 << 8 else 2 if limit < 1 << 16 else 4
         head = _SPAN.pack(0, len(ids)) + _TOPOLOGY.pack(code, ids.shape[1], 0, size, 0)
         yield from _chunk(b"TOPO", head, np.ascontiguousarray(ids, _INTEGERS[size]).tobytes())

@@ -36,7 +36,8 @@ def place(found: FrameFile, given: Input | TetMesh | None, where: str | None) ->
         lengths = None if found.lengths is None else found.lengths[used]
         return replace(found, frames=found.frames[used], lengths=lengths, where="vertices")
     raise InvalidInput(
-        f"{found.path}: {len(found.frames)} frames; the mesh has {counts['vertices']} vertices and {counts['tets']} tets"
+        f"{found.path}: {len(found.frames)} frames; the mesh has {counts['vertices']} vertices and {counts['tets']}"
+        " tets"
         + (f", and frames at {where} were asked for" if where else "")
         + ": give the mesh that the frames were made on",
         "bad_count",

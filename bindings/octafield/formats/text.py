@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import IoError
-from .base import Field, FrameFile, from_axes, from_quaternions
 from ..files import head_of, numbers_of, read_text, rows_of, table_of, words_per_line, write_whole
+from .base import Field, FrameFile, from_axes, from_quaternions
 from .rotations import axes_in_rows
 
 
@@ -91,7 +91,9 @@ def read_ff3(path: Path) -> FrameFile:
     (head,), body, first = head_of(read_text(path), 1)
     words = head.split()
     if len(words) != 2 or words[0] != "9":
-        raise IoError(f"{path}, line 1: '9 N' is needed (ASCII .ff3), not {head[:40]!r}; convert binary files with prog=mat_b2a")
+        raise IoError(
+            f"{path}, line 1: '9 N' is needed (ASCII .ff3), not {head[:40]!r}; convert binary files with prog=mat_b2a"
+        )
     count = _count(words[1], f"{path}, line 1", "frames")
     rows, lines = table_of(body, str(path), 9, first_line=first)
     _require_count(len(rows), count, path, first + body.rstrip().count("\n"), "frames")

@@ -8,11 +8,11 @@ import numpy as np
 
 from .. import _core
 from ..errors import InvalidInput, IoError
-from ..meshes.grids import grid_of_cells, read_cells
+from ..files import write_whole
 from ..inputs import Input, input_of_grid, naming
+from ..meshes.grids import grid_of_cells, read_cells
 from ..output import scratch_folder, vtp_bytes
 from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of
-from ..files import plain_name, write_whole
 from .rotations import axes_of
 
 if TYPE_CHECKING:
@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
 QUATERNIONS = ("quaternion", "frame_quaternion")  # w x y z
 AXES = ("frame_u", "frame_v", "frame_w")
-CONVENTION = "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per vertex: interpolate sh4, or axes only in cells with axes_agree 1"
+CONVENTION = (
+    "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per vertex:"
+    " interpolate sh4, or axes only in cells with axes_agree 1"
+)
 
 
 def read_arrays(path: Path, name: str) -> FrameFile:
@@ -31,7 +34,10 @@ def read_arrays(path: Path, name: str) -> FrameFile:
         raise InvalidInput(f"{path}: holds no tetrahedra", "not_tets")
     with naming(str(path)):
         read = input_of_grid(str(path), grid_of_cells(found))
-    of_tets = {key: np.concatenate([np.asarray(v) for kind, v in zip(blocks, values, strict=True) if kind == "tetra"]) for key, values in found.cell_data.items()}
+    of_tets = {
+        key: np.concatenate([np.asarray(v) for kind, v in zip(blocks, values, strict=True) if kind == "tetra"])
+        for key, values in found.cell_data.items()
+    }
     of_tets = {key: values[read.file_tets] for key, values in of_tets.items()}
     of_points = {key: np.asarray(values)[read.file_points] for key, values in found.point_data.items()}
     for where, data in (("tets", of_tets), ("vertices", of_points)):
@@ -40,7 +46,8 @@ def read_arrays(path: Path, name: str) -> FrameFile:
             break
     else:
         raise InvalidInput(
-            f"{path}: holds no frames: no array {' or '.join(QUATERNIONS)} (4), {', '.join(AXES)} (3 each), frame (9) or sh4 (9)",
+            f"{path}: holds no frames: no array {' or '.join(QUATERNIONS)} (4), {', '.join(AXES)} (3 each), frame (9)"
+            " or sh4 (9)",
             "no_frames",
         )
     if where == "tets" and _frames_in(path, name, "vertices", of_points) is not None:
@@ -93,12 +100,16 @@ def write_vtu(path: Path, field: Field) -> None:
     """As `octafield field` writes it; frames in tets are taken to the vertices as well."""
     of_tets, mesh = field.where == "tets", mesh_of(field)
     frames = _core.vertex_frames(mesh, field.frames) if of_tets else field.frames
-    lengths, regions, features = (() if part is None else part for part in (field.lengths, field.regions, field.features))
+    lengths, regions, features = (
+        () if part is None else part for part in (field.lengths, field.regions, field.features)
+    )
     metadata = {"convention": CONVENTION} | field.metadata
 
     def write(plain: Path) -> None:
         if of_tets:
-            _core.write_field(plain, mesh, frames, metadata, regions, tet_frames=field.frames, tet_lengths=lengths, features=features)
+            _core.write_field(
+                plain, mesh, frames, metadata, regions, tet_frames=field.frames, tet_lengths=lengths, features=features
+            )
         else:
             _core.write_field(plain, mesh, frames, metadata, regions, lengths=lengths, features=features)
 
@@ -113,7 +124,9 @@ def through_file(path: Path, suffix: str, write: Callable[[Path], None]) -> None
             write(plain)
         except OSError as error:  # IoError, too
             reason = error.strerror or str(error).partition(f"{plain}: ")[2].partition(";")[0]
-            raise IoError(f"{path}: cannot be written to a scratch file first ({reason}); is {folder.parent} full?") from error
+            raise IoError(
+                f"{path}: cannot be written to a scratch file first ({reason}); is {folder.parent} full?"
+            ) from error
         write_whole(path, [plain.read_bytes()])
 
 
@@ -131,7 +144,8 @@ def write_vtp(path: Path, field: Field) -> None:
 
 
 def write_msh(path: Path, field: Field) -> list[str]:
-    """Version 2.2, binary, with vector views frame_u, frame_v, frame_w and the tensor view frame (axes one after the other)."""
+    """Version 2.2, binary, with vector views frame_u, frame_v, frame_w and the tensor view frame (axes one after the
+    other)."""
     import meshio
 
     from .meshes import Parts, msh_of

@@ -1,6 +1,7 @@
 """Reader of binary Medit files (.meshb), versions 1 to 4 in either byte order, errors with their byte.
 
-meshio reads these too, but stops at keywords it does not know and takes files that end early as they are. Layout: libMeshb, sources/libmeshb7.c.
+meshio reads these too, but stops at keywords it does not know and takes files that end early as they are. Layout:
+libMeshb, sources/libmeshb7.c.
 """
 
 from collections.abc import Iterator
@@ -21,7 +22,10 @@ def read_binary_medit(data: bytes, name: str) -> TextMesh:
     version = int(np.frombuffer(data, f"{order}i4", 1, 4)[0]) if order and len(data) >= 8 else 0
     if version not in (1, 2, 3, 4):
         raise IoError(f"{name}, byte 0: a binary Medit file begins with 1 and a version of 1 to 4")
-    word, real, place = (order + kind for kind in ("i8" if version == 4 else "i4", "f4" if version == 1 else "f8", "i8" if version >= 3 else "i4"))
+    word, real, place = (
+        order + kind
+        for kind in ("i8" if version == 4 else "i4", "f4" if version == 1 else "f8", "i8" if version >= 3 else "i4")
+    )
     points, lines = None, 0
     mesh = TextMesh(np.empty((0, 3)))
     for keyword, start, end in _keywords(data, name, f"{order}i4", place):
@@ -36,7 +40,9 @@ def read_binary_medit(data: bytes, name: str) -> TextMesh:
         if count < 0:
             raise IoError(f"{name}, byte {start}: the number of elements is {count}")
         if keyword == _VERTICES:
-            points = _numbers(data, name, body, end, np.dtype([("at", real, 3), ("reference", word)]), count)["at"].astype(float)
+            points = _numbers(data, name, body, end, np.dtype([("at", real, 3), ("reference", word)]), count)[
+                "at"
+            ].astype(float)
             mesh.points = points
         elif keyword == _RIDGES:
             mesh.ridges = _numbers(data, name, body, end, word, count).astype(np.int64) - 1
@@ -45,7 +51,9 @@ def read_binary_medit(data: bytes, name: str) -> TextMesh:
             kind, corners = _CELLS[keyword]
             rows = _numbers(data, name, body, end, np.dtype((word, corners + 1)), count).astype(np.int64)
             if points is not None:
-                _require_ids(rows[:, :corners], len(points), f"{name}, byte {{}}", body, rows.shape[1] * np.dtype(word).itemsize)
+                _require_ids(
+                    rows[:, :corners], len(points), f"{name}, byte {{}}", body, rows.shape[1] * np.dtype(word).itemsize
+                )
             mesh.cells.append((kind, rows[:, :corners] - 1))
             mesh.references.append(rows[:, corners])
             lines += count if kind == "line" else 0
@@ -61,15 +69,22 @@ def _keywords(data: bytes, name: str, word: str, place: str) -> Iterator[tuple[i
     at, head = 8, 4 + np.dtype(place).itemsize
     while True:
         if at + 4 > len(data):
-            raise IoError(f"{name}, byte {at}: the file ends without the keyword End: it is cut; write or download it again")
+            raise IoError(
+                f"{name}, byte {at}: the file ends without the keyword End: it is cut; write or download it again"
+            )
         keyword = int(np.frombuffer(data, word, 1, at)[0])
         if keyword == _END:
             return
         if at + head > len(data):
-            raise IoError(f"{name}, byte {at}: the file ends within keyword {keyword}: it is cut; write or download it again")
+            raise IoError(
+                f"{name}, byte {at}: the file ends within keyword {keyword}: it is cut; write or download it again"
+            )
         following = int(np.frombuffer(data, place, 1, at + 4)[0])
         if not at + head <= following <= len(data):
-            raise IoError(f"{name}, byte {at + 4}: keyword {keyword} names byte {following} as its end; the file has {len(data)}: it is cut or damaged")
+            raise IoError(
+                f"{name}, byte {at + 4}: keyword {keyword} names byte {following} as its end; the file has {len(data)}:"
+                " it is cut or damaged"
+            )
         yield keyword, at + head, following
         at = following
 
@@ -84,4 +99,6 @@ def _numbers(data: bytes, name: str, at: int, end: int, kind: DTypeLike, count: 
 def _require_ids(ids: np.ndarray, limit: int, place: str, start: int, size: int) -> None:
     bad = np.flatnonzero(((ids < 1) | (ids > limit)).any(axis=1))
     if len(bad):
-        raise IoError(f"{place.format(start + int(bad[0]) * size)}: row {bad[0] + 1} names a number outside 1 .. {limit}")
+        raise IoError(
+            f"{place.format(start + int(bad[0]) * size)}: row {bad[0] + 1} names a number outside 1 .. {limit}"
+        )

@@ -1,4 +1,5 @@
-"""CAD models, by Gmsh where it is installed: as triangles, or as tets where solids touch; the model's curves are the feature edges.
+"""CAD models, by Gmsh where it is installed: as triangles, or as tets where solids touch; the model's curves are the
+feature edges.
 
 Gmsh works in a process of its own (cad_worker.py): damaged models can crash it or keep it for ever.
 """
@@ -26,18 +27,26 @@ from .grids import Grid
 _FORMATS = {".step": "step", ".stp": "step", ".brep": "brep", ".iges": "iges", ".igs": "iges"}
 CAD_SUFFIXES = tuple(_FORMATS)
 _WORKER = Path(__file__).with_name("cad_worker.py")
-_OF_MESHING = ("degenerate_triangle", "non_manifold_edge", "self_intersection")  # defects that another mesh may not have
+_OF_MESHING = (
+    "degenerate_triangle",
+    "non_manifold_edge",
+    "self_intersection",
+)  # defects that another mesh may not have
 _PAUSE = 0.1  # seconds between questions to the callback
 _NO_NUMBER = re.compile(rb"(?i)[(,\s]\s*([-+]?(?:nan|inf|infinity))\s*[,)\s]")  # on which Open CASCADE does not end
 
 
 def read_cad(path: Path, suffix: str, edge_length: float, progress: Progress | None = None) -> Grid:
-    """Cells with their CAD face and lines along the curves between faces: triangles of the boundary of solids, where there are any, else of all faces;
-    where solids touch, tets with the number of their solid as region. progress: called with phase "read" while Gmsh works; may cancel."""
+    """Cells with their CAD face and lines along the curves between faces: triangles of the boundary of solids, where
+    there are any, else of all faces; where solids touch, tets with the number of their solid as region. progress:
+    called with phase "read" while Gmsh works; may cancel."""
     if not path.is_file():
         raise IoError(f"{path}: no such file")
     if not 0 <= edge_length < float("inf"):
-        raise InvalidInput(f"{path}: the edge length must be positive, or 0 for one from the size of the model; not {edge_length}", "invalid_option")
+        raise InvalidInput(
+            f"{path}: the edge length must be positive, or 0 for one from the size of the model; not {edge_length}",
+            "invalid_option",
+        )
     grid, fault = _meshed(path, suffix, edge_length, 0, progress)
     if fault is None:
         assert grid is not None
@@ -58,17 +67,26 @@ def read_cad(path: Path, suffix: str, edge_length: float, progress: Progress | N
     return grid
 
 
-def _meshed(path: Path, suffix: str, edge_length: float, way: int, progress: Progress | None) -> tuple[Grid | None, str | None]:
+def _meshed(
+    path: Path, suffix: str, edge_length: float, way: int, progress: Progress | None
+) -> tuple[Grid | None, str | None]:
     """The mesh, None where Gmsh gave none for the model it could read, and what is wrong with it. way: number in WAYS."""
     with _scratch(path) as folder:
-        job = {"model": str(_plain(path, suffix, folder)), "format": _FORMATS[suffix], "edge_length": edge_length, "way": way}
+        job = {
+            "model": str(_plain(path, suffix, folder)),
+            "format": _FORMATS[suffix],
+            "edge_length": edge_length,
+            "way": way,
+        }
         code = _run(path, job | {"folder": str(folder), "parent": os.getpid()}, folder, progress)
         try:
             answer = json.loads((folder / "answer.json").read_bytes()) if code == 0 else None
         except (OSError, ValueError):
             answer = None
         if answer is None:
-            raise IoError(f"{path}: {_ending(code, (folder / 'printed').read_text(errors='replace'))}", "reader_stopped")
+            raise IoError(
+                f"{path}: {_ending(code, (folder / 'printed').read_text(errors='replace'))}", "reader_stopped"
+            )
         if answer.get("error") == "not_meshed":
             return None, answer["message"]
         if "error" in answer:
@@ -106,7 +124,10 @@ def _plain(path: Path, suffix: str, folder: Path) -> Path:
     content = read_bytes(path)
     found = _NO_NUMBER.search(content)
     if found:
-        raise IoError(f"{path}, line {content.count(10, 0, found.start(1)) + 1}: a coordinate is {found[1].decode()}; export it again")
+        raise IoError(
+            f"{path}, line {content.count(10, 0, found.start(1)) + 1}: a coordinate is {found[1].decode()}; export it"
+            " again"
+        )
     if not path.name.lower().endswith(".gz"):
         return path.absolute()
     (folder / f"input{suffix}").write_bytes(content)
@@ -128,7 +149,9 @@ def _run(path: Path, job: dict[str, object], folder: Path, progress: Progress | 
                 stdin=subprocess.DEVNULL, stdout=printed, stderr=printed, env={**os.environ, "PYTHONPATH": paths},
             )  # fmt: skip
         except OSError as error:
-            raise IoError(f"{path}: cannot start {sys.executable} to read it ({error.strerror})", "cannot_start") from error
+            raise IoError(
+                f"{path}: cannot start {sys.executable} to read it ({error.strerror})", "cannot_start"
+            ) from error
         try:
             while True:
                 with contextlib.suppress(subprocess.TimeoutExpired):
@@ -142,8 +165,17 @@ def _run(path: Path, job: dict[str, object], folder: Path, progress: Progress | 
 def _ending(code: int, printed: str) -> str:
     """What is to be told of a process that gave no answer."""
     if code == -signal.SIGKILL:
-        return "Gmsh was stopped by signal SIGKILL, most likely because memory ran out; choose a larger edge length (--edge-length)"
+        return (
+            "Gmsh was stopped by signal SIGKILL, most likely because memory ran out; choose a larger edge length"
+            " (--edge-length)"
+        )
     if code < 0:
-        return f"Gmsh was stopped by signal {signal.Signals(-code).name}: the model is damaged, or Gmsh has a defect; export it again"
+        return (
+            f"Gmsh was stopped by signal {signal.Signals(-code).name}: the model is damaged, or Gmsh has a defect;"
+            " export it again"
+        )
     last = re.sub(r"\S*[/\\]\S*", "", printed.strip().rpartition("\n")[2]).strip()  # paths are of no use to anyone
-    return f"Gmsh gave no answer (exit code {code}{': ' if last else ''}{last}); export it again, or mesh it elsewhere and give the mesh"
+    return (
+        f"Gmsh gave no answer (exit code {code}{': ' if last else ''}{last}); export it again, or mesh it elsewhere and"
+        " give the mesh"
+    )

@@ -1,8 +1,10 @@
 """The part of cad.py that runs in a process of its own: Gmsh and Open CASCADE, which damaged models can crash or hang.
 
-A program, not a module of the package: it imports Gmsh and NumPy alone, which halves its start. Its one argument is a JSON object: model (path), format
-(Gmsh's name of it), edge_length (0: from the size), folder and parent (process id). In the folder it leaves answer.json ({"notes": [...]}, or {"error":
-kind, "message": ...}) and grid.npz with the arrays of a Grid; what Open CASCADE prints goes to the standard output, a file that it also reads.
+A program, not a module of the package: it imports Gmsh and NumPy alone, which halves its start. Its one argument is a
+JSON object: model (path), format (Gmsh's name of it), edge_length (0: from the size), folder and parent (process id).
+In the folder it leaves answer.json ({"notes": [...]}, or {"error":
+kind, "message": ...}) and grid.npz with the arrays of a Grid; what Open CASCADE prints goes to the standard output, a
+    file that it also reads.
 """
 
 import ctypes
@@ -31,8 +33,9 @@ _LINE, _TRIANGLE, _TET = 1, 2, 4  # Gmsh's numbers of elements
 
 @dataclass(frozen=True)
 class Way:
-    """One way to mesh a model: Gmsh's options, whether small edges and faces are healed away first, factor of the edge length,
-    edges in a full turn of a surface that bends (0: of one length everywhere), and the least edge length they may have for it, as a share."""
+    """One way to mesh a model: Gmsh's options, whether small edges and faces are healed away first, factor of the edge
+    length, edges in a full turn of a surface that bends (0: of one length everywhere), and the least edge length they
+    may have for it, as a share."""
 
     name: str
     options: dict[str, float] = field(default_factory=dict)
@@ -79,7 +82,10 @@ def main() -> None:
     except Refused as error:
         answer = {"error": error.kind, "message": str(error)}
     except Exception as error:  # Gmsh raises plain exceptions
-        answer = {"error": "unreadable", "message": f"Gmsh cannot read or mesh it ({' '.join(str(error).split()) or type(error).__name__})"}
+        answer = {
+            "error": "unreadable",
+            "message": f"Gmsh cannot read or mesh it ({' '.join(str(error).split()) or type(error).__name__})",
+        }
     Path(job["folder"], "answer.json").write_text(json.dumps(answer))
     os._exit(0)  # libraries that end may crash too
 
@@ -100,7 +106,9 @@ def _answer(job: dict[str, Any]) -> dict[str, Any]:
     try:
         import gmsh
     except (ImportError, OSError) as error:
-        raise Refused("no_gmsh", f"CAD models are read by Gmsh, which is not here ({error}); pip install 'octafield[cad]'") from error
+        raise Refused(
+            "no_gmsh", f"CAD models are read by Gmsh, which is not here ({error}); pip install 'octafield[cad]'"
+        ) from error
     gmsh.initialize(["octafield"], readConfigFiles=False, interruptible=False)
     gmsh.option.setNumber("General.Terminal", 0)
     gmsh.option.setNumber("General.NumThreads", 1)
@@ -116,7 +124,11 @@ def _answer(job: dict[str, Any]) -> dict[str, Any]:
     except Refused:
         raise
     except Exception as error:
-        raise Refused("not_meshed", f"Gmsh cannot mesh it ({' '.join(str(error).split())}); choose another edge length (--edge-length), or export it again") from error
+        raise Refused(
+            "not_meshed",
+            f"Gmsh cannot mesh it ({' '.join(str(error).split())}); choose another edge length (--edge-length), or"
+            " export it again",
+        ) from error
     np.savez(Path(job["folder"], "grid.npz"), **arrays)
     return {"notes": model.notes}
 
@@ -126,7 +138,9 @@ def _import(gmsh: Any, path: str, kind: str) -> None:
     try:
         gmsh.model.occ.importShapes(path, highestDimOnly=False, format=kind)
     except Exception as error:
-        raise Refused("unreadable", f"Gmsh cannot read it ({_first_defect() or ' '.join(str(error).split())}); export it again") from error
+        raise Refused(
+            "unreadable", f"Gmsh cannot read it ({_first_defect() or ' '.join(str(error).split())}); export it again"
+        ) from error
     if defect := _first_defect():
         raise Refused("unreadable", f"damaged ({defect}); export it again")
     gmsh.model.occ.synchronize()
@@ -139,13 +153,16 @@ def _first_defect() -> str:
 
 
 def _with_solids(gmsh: Any) -> Model:
-    """With the solids of the file, or those that its faces enclose; solids that touch share faces, curves and points then."""
+    """With the solids of the file, or those that its faces enclose; solids that touch share faces, curves and points
+    then."""
     left_out = _drop_loose(gmsh)
     solids = gmsh.model.getEntities(3)
     if not solids and not gmsh.model.getEntities(2):
         raise Refused("no_faces", "the model has no faces; export its solids or surfaces")
     box = np.array(gmsh.model.getBoundingBox(-1, -1)).reshape(2, 3)
-    model = Model(gmsh, float(np.linalg.norm(box[1] - box[0])), {tag: number for number, (_, tag) in enumerate(solids, 1)})
+    model = Model(
+        gmsh, float(np.linalg.norm(box[1] - box[0])), {tag: number for number, (_, tag) in enumerate(solids, 1)}
+    )
     model.notes += [f"faces that bound no solid were left out: {left_out}"] * (left_out > 0)
     gmsh.option.setNumber("Geometry.ToleranceBoolean", _CLOSE * model.diagonal)
     if not solids:
@@ -159,7 +176,9 @@ def _drop_loose(gmsh: Any) -> int:
     """Removes what bounds nothing: points, curves and, beside solids, faces. How many faces."""
     faces = 0
     for dimension in (2, 1, 0) if gmsh.model.getEntities(3) else (1, 0):
-        loose = [entity for entity in gmsh.model.getEntities(dimension) if not len(gmsh.model.getAdjacencies(*entity)[0])]
+        loose = [
+            entity for entity in gmsh.model.getEntities(dimension) if not len(gmsh.model.getAdjacencies(*entity)[0])
+        ]
         faces += len(loose) * (dimension == 2)
         gmsh.model.occ.remove(loose, recursive=True)
         gmsh.model.occ.synchronize()
@@ -170,7 +189,9 @@ def _make_conformal(model: Model) -> None:
     gmsh = model.gmsh
     boxes = np.array([gmsh.model.getBoundingBox(3, tag) for tag in model.region])
     low, high = boxes[:, :3] - _CLOSE * model.diagonal, boxes[:, 3:] + _CLOSE * model.diagonal
-    meets = np.array([int((low <= high[i]).all(axis=1)[(low[i] <= high).all(axis=1)].sum()) > 1 for i in range(len(boxes))])
+    meets = np.array(
+        [int((low <= high[i]).all(axis=1)[(low[i] <= high).all(axis=1)].sum()) > 1 for i in range(len(boxes))]
+    )
     near = [(3, tag) for tag, close in zip(model.region, meets, strict=True) if close]
     if not near:
         return
@@ -179,7 +200,10 @@ def _make_conformal(model: Model) -> None:
         _, images = gmsh.model.occ.fragment(near, [])
     except Exception as error:
         reason = " ".join(str(error).split())
-        raise Refused("not_conformal", f"its solids cannot be made to share their faces ({reason}); export them one by one, or fused") from error
+        raise Refused(
+            "not_conformal",
+            f"its solids cannot be made to share their faces ({reason}); export them one by one, or fused",
+        ) from error
     gmsh.model.occ.synchronize()
     owners: dict[int, list[int]] = {}
     for number, image in zip(numbers, images, strict=True):
@@ -194,17 +218,34 @@ def _make_conformal(model: Model) -> None:
         model.region[tag] = of[0] if whole is None else whole
     if any(len(of) > 1 for of in owners.values()):
         new = f", here {', '.join(map(str, shared.values()))}" if shared else ""
-        model.notes.append(f"solids overlap: one that lies inside another is cut out of it, any other overlap is a region of its own{new}")
+        model.notes.append(
+            "solids overlap: one that lies inside another is cut out of it, any other overlap is a region of its"
+            f" own{new}"
+        )
 
 
 def _enclose(model: Model, box: Array) -> None:
-    """Loose faces, as IGES holds them, are sewn and made the boundary of what they enclose; where that is nothing, they stay faces."""
+    """Loose faces, as IGES holds them, are sewn and made the boundary of what they enclose; where that is nothing, they
+    stay faces."""
     gmsh = model.gmsh
-    gmsh.model.occ.healShapes(tolerance=_CLOSE * model.diagonal, fixDegenerated=False, fixSmallEdges=False, fixSmallFaces=False, sewFaces=True, makeSolids=False)
+    gmsh.model.occ.healShapes(
+        tolerance=_CLOSE * model.diagonal,
+        fixDegenerated=False,
+        fixSmallEdges=False,
+        fixSmallFaces=False,
+        sewFaces=True,
+        makeSolids=False,
+    )
     gmsh.model.occ.synchronize()
     shells = _shells(gmsh)
-    one = len(shells) == 1 and not gmsh.model.getBoundary(gmsh.model.getEntities(2), combined=True) and not _has_twins(model)
-    solids = [gmsh.model.occ.addVolume([gmsh.model.occ.addSurfaceLoop(shell)]) for shell in shells]  # repairs poles, which sewing loses
+    one = (
+        len(shells) == 1
+        and not gmsh.model.getBoundary(gmsh.model.getEntities(2), combined=True)
+        and not _has_twins(model)
+    )
+    solids = [
+        gmsh.model.occ.addVolume([gmsh.model.occ.addSurfaceLoop(shell)]) for shell in shells
+    ]  # repairs poles, which sewing loses
     gmsh.model.occ.synchronize()
     faces = gmsh.model.getBoundary([(3, tag) for tag in solids], combined=False, oriented=False)
     if one:
@@ -243,10 +284,15 @@ def _fill(model: Model, box: Array, faces: list[Entity]) -> None:
     solids = sorted(tag for tag, crossed in depth.items() if crossed % 2)
     useful = {tag for _, tag in gmsh.model.getBoundary([(3, tag) for tag in solids], combined=False, oriented=False)}
     if solids and kept - useful:
-        model.notes.append(f"{len(kept - useful)} of the {len(kept)} faces enclose nothing, so that all stay a surface; where solids are meant, export them as solids")
+        model.notes.append(
+            f"{len(kept - useful)} of the {len(kept)} faces enclose nothing, so that all stay a surface; where solids"
+            " are meant, export them as solids"
+        )
         solids = []
     elif any(crossed and crossed % 2 == 0 for crossed in depth.values()):
-        model.notes.append("the file holds faces and no solids: what lies behind an even number of them is taken as empty")
+        model.notes.append(
+            "the file holds faces and no solids: what lies behind an even number of them is taken as empty"
+        )
     model.region = {tag: number for number, tag in enumerate(solids, 1)}
     gmsh.model.occ.remove([(3, tag) for tag in depth if tag not in solids])
     gmsh.model.occ.remove([entity for entity in gmsh.model.getEntities(2) if entity[1] not in kept], recursive=True)
@@ -254,7 +300,8 @@ def _fill(model: Model, box: Array, faces: list[Entity]) -> None:
 
 
 def _has_twins(model: Model) -> bool:
-    """Whether two curves between the same points run close together: shells that touch there, of which sewing joined the wrong faces."""
+    """Whether two curves between the same points run close together: shells that touch there, of which sewing joined
+    the wrong faces."""
     middles: dict[tuple[int, ...], list[Array]] = {}
     for _, curve in model.gmsh.model.getEntities(1):
         middle = np.array(model.gmsh.model.occ.getCenterOfMass(1, curve))
@@ -282,7 +329,14 @@ def _depths(gmsh: Any, faces: set[int]) -> dict[int, int]:
 def _heal(model: Model) -> None:
     """May number faces and solids anew; where the solids do not come through, the model stays as it was meshed before."""
     gmsh, count = model.gmsh, len(model.region)
-    gmsh.model.occ.healShapes(tolerance=_CLOSE * model.diagonal, fixDegenerated=True, fixSmallEdges=True, fixSmallFaces=True, sewFaces=False, makeSolids=False)
+    gmsh.model.occ.healShapes(
+        tolerance=_CLOSE * model.diagonal,
+        fixDegenerated=True,
+        fixSmallEdges=True,
+        fixSmallFaces=True,
+        sewFaces=False,
+        makeSolids=False,
+    )
     gmsh.model.occ.synchronize()
     solids = sorted(tag for _, tag in gmsh.model.getEntities(3))
     if len(solids) != count:
@@ -291,7 +345,8 @@ def _heal(model: Model) -> None:
 
 
 def _meshed(model: Model, size: float, way: Way = WAYS[0]) -> dict[str, Any]:
-    """Triangles of the boundary of solids, where there are any, which follow what bends; where some touch, tets of one edge length."""
+    """Triangles of the boundary of solids, where there are any, which follow what bends; where some touch, tets of one
+    edge length."""
     gmsh, solids = model.gmsh, list(model.region)
     touching = _touching(gmsh, solids)
     _require_few(gmsh, 2, size, 3**0.5 / 4 * size**2)
@@ -300,12 +355,16 @@ def _meshed(model: Model, size: float, way: Way = WAYS[0]) -> dict[str, Any]:
     gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", 0 if touching else way.round)
     gmsh.model.mesh.generate(2)
     if touching:
-        model.notes.append(f"solids touch: Gmsh filled them with tets, {len(set(model.region.values()))} regions with their interfaces")
+        model.notes.append(
+            f"solids touch: Gmsh filled them with tets, {len(set(model.region.values()))} regions with their interfaces"
+        )
     elif len(solids) > 1:
         model.notes.append(f"{len(solids)} solids that do not touch")
     bounding = gmsh.model.getBoundary([(3, tag) for tag in solids], combined=not touching, oriented=False)
     faces = sorted({tag for _, tag in bounding or gmsh.model.getEntities(2)})
-    curves = sorted({tag for _, tag in gmsh.model.getBoundary([(2, tag) for tag in faces], combined=False, oriented=False)})
+    curves = sorted(
+        {tag for _, tag in gmsh.model.getBoundary([(2, tag) for tag in faces], combined=False, oriented=False)}
+    )
     if touching:
         _require_few(gmsh, 3, size, size**3 / 72**0.5)
         gmsh.model.mesh.generate(3)
@@ -333,7 +392,10 @@ def _note_volume(model: Model, arrays: dict[str, Any]) -> None:
         corners = corners[:, 1:] - corners[:, :1]
     volume = abs(np.linalg.det(corners)).sum() / 6 if "tetra" in arrays else abs(np.linalg.det(corners).sum()) / 6
     if of_model > 0 and abs(volume / of_model - 1) > _TOLD:
-        model.notes.append(f"the mesh of the model has {volume / of_model:.1%} of its volume; a shorter --edge-length follows it more closely")
+        model.notes.append(
+            f"the mesh of the model has {volume / of_model:.1%} of its volume; a shorter --edge-length follows it more"
+            " closely"
+        )
 
 
 def _require_few(gmsh: Any, dimension: int, size: float, of_one: float) -> None:
@@ -341,7 +403,10 @@ def _require_few(gmsh: Any, dimension: int, size: float, of_one: float) -> None:
     expected = sum(abs(gmsh.model.occ.getMass(dimension, tag)) for _, tag in gmsh.model.getEntities(dimension)) / of_one
     if expected > _MOST:
         what = {2: "triangles", 3: "tets"}[dimension]
-        raise Refused("invalid_option", f"an edge length of {size:.3g} would give about {expected:.2g} {what}; choose a larger one (--edge-length)")
+        raise Refused(
+            "invalid_option",
+            f"an edge length of {size:.3g} would give about {expected:.2g} {what}; choose a larger one (--edge-length)",
+        )
 
 
 def _touching(gmsh: Any, solids: list[int]) -> bool:
@@ -361,13 +426,23 @@ def _touching(gmsh: Any, solids: list[int]) -> bool:
 
 def _elements(gmsh: Any, entities: list[int], dimension: int, kind: int) -> tuple[Array, Array]:
     """(k, dimension + 1) node tags of the elements on the entities, and (k,) the entity of each."""
-    nodes = [gmsh.model.mesh.getElementsByType(kind, tag)[1].reshape(-1, dimension + 1).astype(np.int64) for tag in entities]
+    nodes = [
+        gmsh.model.mesh.getElementsByType(kind, tag)[1].reshape(-1, dimension + 1).astype(np.int64) for tag in entities
+    ]
     empty = next((tag for tag, part in zip(entities, nodes, strict=True) if dimension > 1 and not len(part)), None)
     if empty is not None:
         what = {2: "face", 3: "solid"}[dimension]
-        raise Refused("not_meshed", f"Gmsh cannot mesh {what} {empty} of the model; choose another edge length (--edge-length), or export it again")
+        raise Refused(
+            "not_meshed",
+            f"Gmsh cannot mesh {what} {empty} of the model; choose another edge length (--edge-length), or export it"
+            " again",
+        )
     ids = [np.full(len(part), tag) for part, tag in zip(nodes, entities, strict=True)]
-    return (np.concatenate(nodes), np.concatenate(ids)) if nodes else (np.empty((0, dimension + 1), np.int64), np.empty(0, np.int64))
+    return (
+        (np.concatenate(nodes), np.concatenate(ids))
+        if nodes
+        else (np.empty((0, dimension + 1), np.int64), np.empty(0, np.int64))
+    )
 
 
 if __name__ == "__main__":

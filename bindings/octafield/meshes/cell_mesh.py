@@ -1,4 +1,5 @@
-"""Cells of any kind with their arrays, as files hold them; and what is done with those that are not linear, or are there twice."""
+"""Cells of any kind with their arrays, as files hold them; and what is done with those that are not linear, or are
+there twice."""
 
 from dataclasses import dataclass, field
 
@@ -25,8 +26,8 @@ class Block:
 
 @dataclass
 class CellMesh:
-    """points: (n, 2 or 3). cell_data: per name an array for each block. features: (n, 2) feature edges, where the file is
-    one of ours. notes: what was changed in reading."""
+    """points: (n, 2 or 3). cell_data: per name an array for each block. features: (n, 2) feature edges, where the file
+    is one of ours. notes: what was changed in reading."""
 
     points: np.ndarray
     cells: list[Block]

@@ -1,8 +1,10 @@
-"""What Gmsh's .msh files of version 4.1 tell of CAD entities and of their partitions. Layout: Gmsh reference manual, MSH file format."""
+"""What Gmsh's .msh files of version 4.1 tell of CAD entities and of their partitions. Layout: Gmsh reference manual,
+MSH file format."""
 
 from .gmsh_sections import Section
 
-# By dimension and tag: the first physical group (0: none) and the tag of the CAD entity; None: the entity lies between partitions alone.
+# By dimension and tag: the first physical group (0: none) and the tag of the CAD entity; None: the entity lies between
+# partitions alone.
 Entities = dict[tuple[int, int], tuple[int, int | None]]
 
 
@@ -16,7 +18,8 @@ def entities(section: Section) -> Entities:
 
 
 def partitioned(section: Section, told: Entities) -> Entities:
-    """Entities of partitions: they stand for their parent where it has their dimension, and bound partitions where it has another."""
+    """Entities of partitions: they stand for their parent where it has their dimension, and bound partitions where it
+    has another."""
     section.size("u8", "partitions")
     section.take("i4", 2 * section.size("u8", "ghost entities"))
     found: Entities = {}
@@ -25,7 +28,10 @@ def partitioned(section: Section, told: Entities) -> Entities:
             tag, of_dimension, parent = section.take("i4", 3).tolist()
             section.take("i4", section.size("u8", "partitions"))
             group = _rest(section, dimension)
-            found[dimension, tag] = (told.get((dimension, parent), (0, parent))[0] or group, parent if of_dimension == dimension else None)
+            found[dimension, tag] = (
+                told.get((dimension, parent), (0, parent))[0] or group,
+                parent if of_dimension == dimension else None,
+            )
     return found
 
 

@@ -1,12 +1,14 @@
-"""Gmsh's .msh files, versions 2 and 4.1, text and binary in either byte order: cells with their tags and views, errors with their line or byte.
+"""Gmsh's .msh files, versions 2 and 4.1, text and binary in either byte order: cells with their tags and views, errors
+with their line or byte.
 
-meshio reads these too, but not views of meshes with cells of several kinds; it takes views by their order instead of their
-ids, and does not say where a file is damaged. Layout: Gmsh reference manual, MSH file format.
+meshio reads these too, but not views of meshes with cells of several kinds; it takes views by their order instead of
+their ids, and does not say where a file is damaged. Layout: Gmsh reference manual, MSH file format.
 """
 
 import codecs
 from collections.abc import Iterator
 from dataclasses import dataclass
+
 import numpy as np
 
 from ..errors import IoError
@@ -14,12 +16,32 @@ from .cell_mesh import Block, CellMesh
 from .gmsh_entities import Entities, entities, partitioned
 from .gmsh_sections import Section, sections, version_of
 
-_CELLS = {15: ("vertex", 1), 1: ("line", 2), 2: ("triangle", 3), 3: ("quad", 4), 4: ("tetra", 4), 5: ("hexahedron", 8), 6: ("wedge", 6), 7: ("pyramid", 5)}
+_CELLS = {
+    15: ("vertex", 1),
+    1: ("line", 2),
+    2: ("triangle", 3),
+    3: ("quad", 4),
+    4: ("tetra", 4),
+    5: ("hexahedron", 8),
+    6: ("wedge", 6),
+    7: ("pyramid", 5),
+}
 _HIGHER = {8: 3, 9: 6, 10: 9, 11: 10, 12: 27, 13: 18, 14: 14, 16: 8, 17: 20, 18: 15, 19: 13, 20: 9, 21: 10, 22: 12, 23: 15, 24: 15, 25: 21, 26: 4, 27: 5,
            28: 6, 29: 20, 30: 35, 31: 56, 92: 64, 93: 125}  # fmt: skip
 _View = tuple[str, np.ndarray, np.ndarray]  # name, ids, values
 _VOLUME, _FLAT, _CURVE = {11, 29, 30, 31}, {9, 20, 21, 22, 23, 24, 25}, {8, 26, 27, 28}
-_QUADRATIC = {10: "quad9", 12: "hexahedron27", 13: "wedge18", 14: "pyramid14", 16: "quad8", 17: "hexahedron20", 18: "wedge15", 19: "pyramid13", 92: "hexahedron64", 93: "hexahedron125"}
+_QUADRATIC = {
+    10: "quad9",
+    12: "hexahedron27",
+    13: "wedge18",
+    14: "pyramid14",
+    16: "quad8",
+    17: "hexahedron20",
+    18: "wedge15",
+    19: "pyramid13",
+    92: "hexahedron64",
+    93: "hexahedron125",
+}
 
 
 @dataclass
@@ -88,10 +110,14 @@ def _nodes4(section: Section) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _parametric_nodes(section: Section) -> tuple[np.ndarray, np.ndarray]:
-    """Version 2: after the coordinates, dimension and tag of the CAD entity and, on curves and faces, a parameter or two."""
+    """Version 2: after the coordinates, dimension and tag of the CAD entity and, on curves and faces, a parameter or
+    two."""
     count = section.count("nodes") if section.order else section.size("i4", "nodes")
     if count > section.end - section.at:
-        raise IoError(f"{section.place()}: $ParametricNodes ends early: {count} nodes do not fit in {section.end - section.at} bytes")
+        raise IoError(
+            f"{section.place()}: $ParametricNodes ends early: {count} nodes do not fit in {section.end - section.at}"
+            " bytes"
+        )
     ids, points = np.empty(count, np.int64), np.empty((count, 3))
     for row in range(count):
         ids[row] = section.take("i4", 1)[0]
@@ -125,7 +151,9 @@ def _elements2(section: Section) -> Iterator[_Elements]:
         first, kind, tags = section.take("i4", 3).tolist()
         if tags < 0 or not (kind in _CELLS or kind in _HIGHER):
             section.taken -= 2
-            raise IoError(f"{section.place()}: $Elements: an element of type {kind} with {tags} tags, which is not read")
+            raise IoError(
+                f"{section.place()}: $Elements: an element of type {kind} with {tags} tags, which is not read"
+            )
         row = [kind, tags, first, *section.take("i4", tags + _width(section, "", kind)).tolist()]
         count -= 1
         if rows and rows[0][:2] != row[:2]:
@@ -138,7 +166,9 @@ def _elements2(section: Section) -> Iterator[_Elements]:
 
 def _run(kind: int, table: np.ndarray, tags: int) -> _Elements:
     none = np.zeros(len(table), np.int64)
-    return _Elements(kind, table[:, 0], table[:, 1 + tags :], table[:, 1] if tags > 0 else none, table[:, 2] if tags > 1 else none)
+    return _Elements(
+        kind, table[:, 0], table[:, 1 + tags :], table[:, 1] if tags > 0 else none, table[:, 2] if tags > 1 else none
+    )
 
 
 def _elements4(section: Section, told: Entities) -> Iterator[_Elements]:
@@ -163,13 +193,17 @@ def _view(section: Section) -> _View:
         raise IoError(f"{place}: ${section.name} begins with a name, and time step, components and rows")
     width, count = whole[1:3]
     if section.order:
-        rows = _rows(section, count, np.dtype([("id", section.order + "i4"), ("values", section.order + "f8", (width,))]))
+        rows = _rows(
+            section, count, np.dtype([("id", section.order + "i4"), ("values", section.order + "f8", (width,))])
+        )
         return names[0], rows["id"].astype(np.int64), rows["values"].astype(float)
     table = section.take("f8", count * (1 + width)).reshape(count, 1 + width)
     return names[0], section._whole(np.ascontiguousarray(table[:, 0]), count * (1 + width)), table[:, 1:]
 
 
-def _mesh(name: str, tags: np.ndarray, points: np.ndarray, runs: list[_Elements], views: dict[str, list[_View]]) -> CellMesh:
+def _mesh(
+    name: str, tags: np.ndarray, points: np.ndarray, runs: list[_Elements], views: dict[str, list[_View]]
+) -> CellMesh:
     if len(np.unique(tags)) < len(tags):
         raise IoError(f"{name}: two nodes have the same number")
     cells = []
@@ -177,13 +211,21 @@ def _mesh(name: str, tags: np.ndarray, points: np.ndarray, runs: list[_Elements]
         nodes = _rows_of(tags, run.nodes.ravel()).reshape(run.nodes.shape)
         if (nodes < 0).any():
             bad = int(np.argmax((nodes < 0).any(axis=1)))
-            raise IoError(f"{name}: element {run.ids[bad]} names node {run.nodes[bad][nodes[bad] < 0][0]}, which is not there")
+            raise IoError(
+                f"{name}: element {run.ids[bad]} names node {run.nodes[bad][nodes[bad] < 0][0]}, which is not there"
+            )
         cells.append(Block(_kind(run.kind), nodes))
     ids = np.concatenate([run.ids for run in runs]) if runs else np.empty(0, np.int64)
     ends = np.cumsum([len(run.ids) for run in runs])[:-1]
     of_points = {key: _placed(values, _rows_of(tags, where), len(tags)) for key, where, values in views["NodeData"]}
-    of_cells = {key: np.split(_placed(values, _rows_of(ids, where), len(ids)), ends) for key, where, values in views["ElementData"]}
-    of_cells["gmsh:physical"], of_cells["gmsh:geometrical"] = [run.physical for run in runs], [run.geometrical for run in runs]
+    of_cells = {
+        key: np.split(_placed(values, _rows_of(ids, where), len(ids)), ends)
+        for key, where, values in views["ElementData"]
+    }
+    of_cells["gmsh:physical"], of_cells["gmsh:geometrical"] = (
+        [run.physical for run in runs],
+        [run.geometrical for run in runs],
+    )
     return CellMesh(points, cells, of_points, of_cells if runs else {})
 
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .binary_medit import read_binary_medit
-from .cell_mesh import Block, Blocks, CellMesh, first_of_equal, linear
 from ..errors import InvalidInput, IoError
 from ..files import read_bytes, read_text, reading
+from .binary_medit import read_binary_medit
+from .cell_mesh import Block, Blocks, CellMesh, first_of_equal, linear
 from .gmsh_mesh import read_gmsh
 from .legacy_vtk import read_legacy_vtk
 from .text_meshes import TextMesh, read_medit, read_tetgen
@@ -29,8 +29,8 @@ LOWER = ("vertex", "line", "triangle")
 @dataclass
 class Grid:
     """Points, connectivity per meshio cell type, and, where the file tells, the CAD face of each triangle, the region
-    of each tet and which lines are creases (all, where it does not). file_tets: (m,) of each tet its number among those of the file. notes: what
-    is odd about the file."""
+    of each tet and which lines are creases (all, where it does not). file_tets: (m,) of each tet its number among those
+    of the file. notes: what is odd about the file."""
 
     points: np.ndarray
     cells: dict[str, np.ndarray]
@@ -94,7 +94,11 @@ def _grid_of_text(mesh: TextMesh) -> Grid:
 def read_cells(path: Path, suffix: str) -> CellMesh:
     """Whatever the reader stumbles over becomes an IoError."""
     with reading(path, suffix):
-        found = read_vtu(_bytes(path), str(path), path.stat().st_size) if suffix == ".vtu" else _READERS[suffix](_bytes(path), str(path))
+        found = (
+            read_vtu(_bytes(path), str(path), path.stat().st_size)
+            if suffix == ".vtu"
+            else _READERS[suffix](_bytes(path), str(path))
+        )
         blocks, found.notes = linear([(block.type, block.data) for block in found.cells])
         found.cells = [Block(kind, data) for kind, data in blocks]
         return found
@@ -105,9 +109,13 @@ def grid_of_cells(found: CellMesh) -> Grid:
     entities = _entity_ids(found, ("CellEntityIds", "gmsh:geometrical"))
     regions, creases = _regions_of(found, entities), None
     if found.features is not None:
-        creases = np.repeat([False, True], [sum(len(data) for kind, data in blocks if kind == "line"), len(found.features)])
+        creases = np.repeat(
+            [False, True], [sum(len(data) for kind, data in blocks if kind == "line"), len(found.features)]
+        )
         blocks.append(("line", found.features))
-        entities, regions = ([*ids, np.zeros(len(found.features), np.int64)] if ids is not None else None for ids in (entities, regions))
+        entities, regions = (
+            [*ids, np.zeros(len(found.features), np.int64)] if ids is not None else None for ids in (entities, regions)
+        )
     grid = _grid(found.points, blocks, entities, regions, creases)
     grid.notes += found.notes
     return grid
@@ -118,12 +126,17 @@ def grid_of_ovm(mesh: "OvmMesh", path: Path) -> Grid:
     from ..formats.ovm_mesh import tets_of_ovm
 
     blocks, faces = [("tetra", tets_of_ovm(mesh, str(path)))], [np.zeros(len(mesh.cells), np.int64)]
-    for entity, name, kind, of in (("edge", "AlgoHex::FeatureEdges", "line", mesh.edges), ("face", "AlgoHex::FeatureFaces", "triangle", mesh.triangles())):
+    for entity, name, kind, of in (
+        ("edge", "AlgoHex::FeatureEdges", "line", mesh.edges),
+        ("face", "AlgoHex::FeatureFaces", "triangle", mesh.triangles()),
+    ):
         tags = mesh.properties.get((entity, name))
         if tags is not None and tags.ndim == 1:
             marked = tags[tags > 0].astype(np.int64)
             blocks.append((kind, of[tags > 0]))
-            faces.append(marked if len(np.unique(marked)) > 1 else 0 * marked)  # one tag for the whole boundary tells no faces apart
+            faces.append(
+                marked if len(np.unique(marked)) > 1 else 0 * marked
+            )  # one tag for the whole boundary tells no faces apart
     regions = mesh.properties.get(("cell", "region"))
     ids = None if regions is None or regions.ndim != 1 else [regions.astype(np.int64), *faces[1:]]
     if not len(mesh.cells):
@@ -132,13 +145,15 @@ def grid_of_ovm(mesh: "OvmMesh", path: Path) -> Grid:
 
 
 def _regions_of(found: CellMesh, entities: list[np.ndarray] | None) -> list[np.ndarray] | None:
-    """Our own files: cell data region, where every number is one. Gmsh: physical volumes where all tets are in one, which is how a
-    file says what belongs together (0: in none), and none in several; else CAD volumes."""
+    """Our own files: cell data region, where every number is one. Gmsh: physical volumes where all tets are in one,
+    which is how a file says what belongs together (0: in none), and none in several; else CAD volumes."""
     ours = _entity_ids(found, ("region",))
     if ours is not None:
         return ours
     groups = _entity_ids(found, ("gmsh:physical",))
-    of_tets = [] if groups is None else [ids for block, ids in zip(found.cells, groups, strict=True) if block.type == "tetra"]
+    of_tets = (
+        [] if groups is None else [ids for block, ids in zip(found.cells, groups, strict=True) if block.type == "tetra"]
+    )
     if not of_tets or not all((ids > 0).all() for ids in of_tets):
         return entities
     tets = np.sort(np.concatenate([block.data for block in found.cells if block.type == "tetra"]), axis=1)
@@ -174,7 +189,8 @@ def _grid(
 
 
 def _without_repeats(grid: Grid) -> Grid:
-    """Each tet once, the first of those with the same vertices. Without tets, each triangle once, where it is there again in the same sense."""
+    """Each tet once, the first of those with the same vertices. Without tets, each triangle once, where it is there
+    again in the same sense."""
     if "tetra" in grid.cells:
         kind, keys, ids = "tetra", grid.cells["tetra"], grid.regions
     elif "triangle" in grid.cells:
@@ -188,7 +204,10 @@ def _without_repeats(grid: Grid) -> Grid:
         grid.file_tets = kept
     if len(kept) == count:
         return grid
-    grid.notes.append(f"{count - len(kept)} of {count} {'tets' if kind == 'tetra' else 'triangles'} are in the file twice or more (as in groups of Gmsh that overlap): each was taken once")
+    grid.notes.append(
+        f"{count - len(kept)} of {count} {'tets' if kind == 'tetra' else 'triangles'} are in the file twice or more (as"
+        " in groups of Gmsh that overlap): each was taken once"
+    )
     grid.cells[kind] = grid.cells[kind][kept]
     if ids is not None:
         setattr(grid, "regions" if kind == "tetra" else "faces", ids[kept])

@@ -1,4 +1,5 @@
-"""Legacy .vtk files, text and binary, versions 1 to 5.1: unstructured grids with their arrays, errors with their line or byte.
+"""Legacy .vtk files, text and binary, versions 1 to 5.1: unstructured grids with their arrays, errors with their line
+or byte.
 
 meshio reads these too, but takes tables that end early as they are, knows no NORMALS, and does not say where.
 """
@@ -32,7 +33,9 @@ class _File:
     name: str
     at: int = 0
     text: bool = True
-    arrays: dict[str, dict[str, np.ndarray]] = field(default_factory=lambda: {"POINT_DATA": {}, "CELL_DATA": {}, "": {}})
+    arrays: dict[str, dict[str, np.ndarray]] = field(
+        default_factory=lambda: {"POINT_DATA": {}, "CELL_DATA": {}, "": {}}
+    )
 
     def place(self, at: int | None = None) -> str:
         at = self.at if at is None else at
@@ -68,7 +71,10 @@ class _File:
         first = self.data.count(10, 0, start) + 1
         numbers = numbers_of(self.data[start : self.at].decode("utf-8", "replace"), self.name, first)
         if len(numbers) != count:
-            raise IoError(f"{self.place(start)}: {what} has {len(numbers)} numbers up to line {max(first, self.data.count(10, 0, self.at))}, not {count}")
+            raise IoError(
+                f"{self.place(start)}: {what} has {len(numbers)} numbers up to line"
+                f" {max(first, self.data.count(10, 0, self.at))}, not {count}"
+            )
         return numbers
 
     def _binary(self, what: str, count: int, kind: str) -> np.ndarray:
@@ -107,7 +113,11 @@ def read_legacy_vtk(data: bytes, name: str) -> CellMesh:
         words[0] = words[0].upper()
         if words[0] == "DATASET":
             if [w.upper() for w in words[1:]] != ["UNSTRUCTURED_GRID"]:
-                raise InvalidInput(f"{file.place(file.line_at)}: {' '.join(words)[:60]}; UNSTRUCTURED_GRID is needed: save surfaces as .vtp or .ply", "unsupported_cells")
+                raise InvalidInput(
+                    f"{file.place(file.line_at)}: {' '.join(words)[:60]}; UNSTRUCTURED_GRID is needed: save surfaces as"
+                    " .vtp or .ply",
+                    "unsupported_cells",
+                )
         elif words[0] == "METADATA":
             _skip_metadata(file)
         elif words[0] in ("POINT_DATA", "CELL_DATA"):
@@ -134,7 +144,9 @@ def _skip_metadata(file: _File) -> None:
 def _geometry(file: _File, words: list[str]) -> Any:
     at = file.line_at
     if words[0] == "POINTS":
-        return file.table("POINTS", file.whole(words, 1, "points"), 3, words[2] if len(words) > 2 else "none given").astype(float)
+        return file.table(
+            "POINTS", file.whole(words, 1, "points"), 3, words[2] if len(words) > 2 else "none given"
+        ).astype(float)
     if words[0] == "CELL_TYPES":
         types = file.table("CELL_TYPES", file.whole(words, 1, "cells"), 1, "int").ravel()
         if not ((types >= 0) & (types < 256) & (types == np.floor(types))).all():
@@ -211,7 +223,9 @@ def _mesh(file: _File, parts: dict[str, Any]) -> CellMesh:
         raise IoError(f"{place}: {count} cells; CELL_TYPES has {len(types)}")
     numbers = whole_numbers(numbers, f"{place}: CELLS")
     starts, sizes = _extents(numbers, types, place) if offsets is None else from_offsets(offsets, len(numbers), place)
-    return mesh_of_cells(parts["POINTS"], numbers, starts, sizes, types, file.arrays["POINT_DATA"], file.arrays["CELL_DATA"], place)
+    return mesh_of_cells(
+        parts["POINTS"], numbers, starts, sizes, types, file.arrays["POINT_DATA"], file.arrays["CELL_DATA"], place
+    )
 
 
 def whole_numbers(numbers: np.ndarray, place: str) -> np.ndarray:
@@ -224,17 +238,30 @@ Arrays = dict[str, np.ndarray]
 
 
 def mesh_of_cells(
-    points: np.ndarray, numbers: np.ndarray, starts: np.ndarray, sizes: np.ndarray, types: np.ndarray, of_points: Arrays, of_cells: Arrays, place: str
+    points: np.ndarray,
+    numbers: np.ndarray,
+    starts: np.ndarray,
+    sizes: np.ndarray,
+    types: np.ndarray,
+    of_points: Arrays,
+    of_cells: Arrays,
+    place: str,
 ) -> CellMesh:
-    """With a block per run of cells of one kind. numbers: ids of all cells. starts, sizes: where each cell's are. Arrays: (n, components)."""
+    """With a block per run of cells of one kind. numbers: ids of all cells. starts, sizes: where each cell's are.
+    Arrays: (n, components)."""
     known = np.array([_SIZES.get(kind, -1) for kind in range(256)])[np.clip(types, 0, 255)]
     wrong = np.flatnonzero((known >= 0) & (sizes != known))
     if len(wrong):
-        raise IoError(f"{place}: cell {wrong[0]} (from 0) of type {types[wrong[0]]} has {sizes[wrong[0]]} vertices, not {known[wrong[0]]}")
+        raise IoError(
+            f"{place}: cell {wrong[0]} (from 0) of type {types[wrong[0]]} has {sizes[wrong[0]]} vertices, not"
+            f" {known[wrong[0]]}"
+        )
     breaks = np.flatnonzero((np.diff(types) != 0) | (np.diff(sizes) != 0)) + 1
     chunks = [c for c in np.split(np.arange(len(types)), breaks) if len(c)]
     blocks = [Block(_kind(types[c[0]]), numbers[starts[c][:, None] + np.arange(sizes[c[0]])]) for c in chunks]
-    flat_points, flat_cells = ({key: v[:, 0] if v.shape[1] == 1 else v for key, v in arrays.items()} for arrays in (of_points, of_cells))
+    flat_points, flat_cells = (
+        {key: v[:, 0] if v.shape[1] == 1 else v for key, v in arrays.items()} for arrays in (of_points, of_cells)
+    )
     split = {key: [values[c] for c in chunks] for key, values in flat_cells.items()}
     return CellMesh(points, blocks, flat_points, split if chunks else {})
 

@@ -1,4 +1,5 @@
-"""Readers of Medit .mesh and TetGen .node/.ele/.face/.edge text: all sections, double precision, errors with their line.
+"""Readers of Medit .mesh and TetGen .node/.ele/.face/.edge text: all sections, double precision, errors with their
+line.
 
 meshio reads these too, but rounds Medit files of version 1 to single precision, stops at sections it does not know, at
 comments inside tables and at TetGen ids that begin elsewhere, and does not say where.
@@ -39,7 +40,8 @@ _MEDIT_CELLS = {
 @dataclass
 class TextMesh:
     """cells, references: per block; a reference is the id of the CAD entity or region, 0 where there is none.
-    ridges: ids of the rows of the line block that are creases; None where the file does not tell. notes: what is odd about the file."""
+    ridges: ids of the rows of the line block that are creases; None where the file does not tell. notes: what is odd
+        about the file."""
 
     points: np.ndarray
     cells: list[tuple[str, np.ndarray]] = field(default_factory=list)
@@ -87,7 +89,8 @@ def read_medit(text: str, name: str) -> TextMesh:
 def read_tetgen(files: dict[str, tuple[str, str]]) -> TextMesh:
     """files: text and name by suffix, ".node" and ".ele", with ".face" and ".edge" where there are such files.
 
-    The first attribute of a tet is its region. Markers of faces are CAD faces where there are several. Edges are feature
+    The first attribute of a tet is its region. Markers of faces are CAD faces where there are several. Edges are
+    feature
     edges: all, or those of a marker other than 0 where both kinds occur.
     """
     (node_text, node_name), (ele_text, ele_name) = files[".node"], files[".ele"]
@@ -121,10 +124,14 @@ def read_tetgen(files: dict[str, tuple[str, str]]) -> TextMesh:
         regions = whole.ravel()
     mesh = TextMesh(nodes[:, 1:4], [("tetra", ids - base)], [regions])
     if quadratic:
-        mesh.notes.append(f"cells of higher order were read by their corners, with straight edges: {len(tets)} of type tetra")
+        mesh.notes.append(
+            f"cells of higher order were read by their corners, with straight edges: {len(tets)} of type tetra"
+        )
     for suffix, kind, corners in ((".face", "triangle", 3), (".edge", "line", 2)):
         if suffix in files:
-            cells, markers = _marked(*files[suffix], corners, base, len(nodes), corners * (corners - 1) // 2 if quadratic else 0)
+            cells, markers = _marked(
+                *files[suffix], corners, base, len(nodes), corners * (corners - 1) // 2 if quadratic else 0
+            )
             if kind == "line" and (markers != 0).any():
                 cells, markers = cells[markers != 0], markers[markers != 0]
             elif len(np.unique(markers[markers > 0])) < 2:
@@ -135,13 +142,15 @@ def read_tetgen(files: dict[str, tuple[str, str]]) -> TextMesh:
 
 
 def _marked(text: str, name: str, corners: int, base: int, count: int, middles: int) -> tuple[np.ndarray, np.ndarray]:
-    """Vertex ids and markers (0: none) of a .face or .edge file. Rows may end with more than the header tells. middles: points on edges, which
-    may stand after the corners of cells of second order."""
+    """Vertex ids and markers (0: none) of a .face or .edge file. Rows may end with more than the header tells. middles:
+    points on edges, which may stand after the corners of cells of second order."""
     section = _Section("faces" if corners == 3 else "edges", _without_comments(text), 1)
     try:
         rows, marked = (int(word) for word in section.text.split(None, 2)[:2])
     except ValueError:
-        raise IoError(f"{name}: does not begin with the number of {section.name} and whether they have markers") from None
+        raise IoError(
+            f"{name}: does not begin with the number of {section.name} and whether they have markers"
+        ) from None
     first = next((line.split() for line in section.text.strip().split("\n")[1:] if line.strip()), [])
     width = max(len(first), 1 + corners + marked)
     table = _table(section, name, width, skip=2, count=rows)
@@ -156,13 +165,17 @@ def _marked(text: str, name: str, corners: int, base: int, count: int, middles: 
     if whole is None or outside.any():
         bad = int(outside.argmax())
         line = _line_of_row(section, bad, width, skip=2)
-        raise IoError(f"{name}, line {line}: row {bad + 1} of the {section.name} names a point outside {base} .. {base + count - 1}")
+        raise IoError(
+            f"{name}, line {line}: row {bad + 1} of the {section.name} names a point outside {base} .."
+            f" {base + count - 1}"
+        )
     ids = whole[:, 1 : 1 + corners]
     return ids, whole[:, 1 + corners] if marked else np.zeros(rows, np.int64)
 
 
 def _headed(text: str, name: str, what: str, second: tuple[int, str], quadratic: int = 0) -> np.ndarray:
-    """Rows of a TetGen file with id, coordinates or vertices, attributes and markers. second: of the head; quadratic: what it may be, too."""
+    """Rows of a TetGen file with id, coordinates or vertices, attributes and markers. second: of the head; quadratic:
+    what it may be, too."""
     section = _Section(what, _without_comments(text), 1)
     first = section.text.split(None, 4)[:4] if what == "points" else section.text.split(None, 3)[:3]
     try:
@@ -195,7 +208,16 @@ def _sections(text: str, name: str) -> list[_Section]:
     return sections
 
 
-def _table(section: _Section, name: str, width: int, *, counted: bool = True, whole: bool = False, skip: int = 1, count: int | None = None) -> np.ndarray:
+def _table(
+    section: _Section,
+    name: str,
+    width: int,
+    *,
+    counted: bool = True,
+    whole: bool = False,
+    skip: int = 1,
+    count: int | None = None,
+) -> np.ndarray:
     """The rows of a section: after `skip` numbers, the first of them their count (unless it is given)."""
     try:
         numbers = parsed_numbers(section.text)
@@ -216,7 +238,10 @@ def _table(section: _Section, name: str, width: int, *, counted: bool = True, wh
         raise IoError(f"{name}, line {last}: {section.name} ends after {have} of {count} rows of {width} numbers")
     if len(numbers) > skip + count * width:
         line = _line_of_row(section, count, width, skip)
-        raise IoError(f"{name}, line {line}: {section.name} goes on after the {count} rows of {width} numbers that its head announces; correct the count")
+        raise IoError(
+            f"{name}, line {line}: {section.name} goes on after the {count} rows of {width} numbers that its head"
+            " announces; correct the count"
+        )
     rows = numbers[skip:].reshape(count, width)
     if not whole:
         return rows
@@ -231,7 +256,10 @@ def _table(section: _Section, name: str, width: int, *, counted: bool = True, wh
 def _finite(section: _Section, name: str, points: np.ndarray, width: int, skip: int = 1) -> np.ndarray:
     bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
     if len(bad):
-        raise IoError(f"{name}, line {_line_of_row(section, int(bad[0]), width, skip)}: the coordinates of point {bad[0] + 1} (from 1) are not finite")
+        raise IoError(
+            f"{name}, line {_line_of_row(section, int(bad[0]), width, skip)}: the coordinates of point {bad[0] + 1}"
+            " (from 1) are not finite"
+        )
     return points
 
 

@@ -1,4 +1,5 @@
-"""VTK's XML files of surfaces and curves (.vtp), by the reader of .vtu: VTK's own ends the process where a count is wrong."""
+"""VTK's XML files of surfaces and curves (.vtp), by the reader of .vtu: VTK's own ends the process where a count is
+wrong."""
 
 import numpy as np
 
@@ -11,24 +12,35 @@ _CELLS = ("Verts", "Lines", "Strips", "Polys")
 
 
 def read_vtp(data: bytes, name: str, size: int = 0) -> CellMesh:
-    """Triangles and line segments: polygons cut by VTK, strips and polylines taken apart; none of them where a result has no curves. Arrays at points and cells are not read.
+    """Triangles and line segments: polygons cut by VTK, strips and polylines taken apart; none of them where a result
+    has no curves. Arrays at points and cells are not read.
     size: of the file, where that is packed as a whole."""
     file = parsed(data, name, "PolyData", ("NumberOfPoints", *(f"NumberOf{kind}" for kind in _CELLS)))
     file.size = size or file.size
     points, triangles, lines, first = [np.empty((0, 3))], [np.empty((0, 3), np.int64)], [np.empty((0, 2), np.int64)], 0
     for piece in file.pieces:
-        arrays = [(array, values_of(file, array)) for array in piece.arrays if array.section == "Points" and array.attributes.get("type") in NUMBERS]
+        arrays = [
+            (array, values_of(file, array))
+            for array in piece.arrays
+            if array.section == "Points" and array.attributes.get("type") in NUMBERS
+        ]
         points.append(points_of(file, piece, arrays))
         cells = {kind: _cells(file, piece, kind, len(points[-1])) for kind in _CELLS}
         lines.append(_segments(*cells["Lines"]) + first)
         triangles += [_of_strips(*cells["Strips"]) + first, _of_polygons(name, points[-1], *cells["Polys"]) + first]
         first += len(points[-1])
-    return CellMesh(np.concatenate(points), [Block("triangle", np.concatenate(triangles)), Block("line", np.concatenate(lines))])
+    return CellMesh(
+        np.concatenate(points), [Block("triangle", np.concatenate(triangles)), Block("line", np.concatenate(lines))]
+    )
 
 
 def _cells(file: File, piece: Piece, kind: str, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Vertex ids of all cells; where each begins and how many it has."""
-    arrays = {array.attributes.get("Name", ""): array for array in piece.arrays if array.section == kind and array.attributes.get("type") in NUMBERS}
+    arrays = {
+        array.attributes.get("Name", ""): array
+        for array in piece.arrays
+        if array.section == kind and array.attributes.get("type") in NUMBERS
+    }
     number = piece.counts[f"NumberOf{kind}"]
     if not number and not ({"connectivity", "offsets"} <= arrays.keys()):
         return np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0, np.int64)
@@ -36,7 +48,9 @@ def _cells(file: File, piece: Piece, kind: str, count: int) -> tuple[np.ndarray,
         if key not in arrays:
             raise IoError(f"{file.name}: {number} {kind} have no array {key}")
     places = {key: f"{file.name}, line {array.line}" for key, array in arrays.items()}
-    ids = whole_numbers(values_of(file, arrays["connectivity"]).ravel(), f"{places['connectivity']}: connectivity of {kind}")
+    ids = whole_numbers(
+        values_of(file, arrays["connectivity"]).ravel(), f"{places['connectivity']}: connectivity of {kind}"
+    )
     ends = values_of(file, arrays["offsets"]).ravel()
     if len(ends) == number + 1 and len(ends) and ends[0] == 0:  # as newer files begin
         ends = ends[1:]
@@ -44,7 +58,9 @@ def _cells(file: File, piece: Piece, kind: str, count: int) -> tuple[np.ndarray,
     starts, sizes = from_offsets(np.concatenate([[0], ends]), len(ids), places["offsets"])
     outside = np.flatnonzero((ids < 0) | (ids >= count))
     if len(outside):
-        raise IoError(f"{places['connectivity']}: {kind} name point {ids[outside[0]]}; there are {count} points, from 0")
+        raise IoError(
+            f"{places['connectivity']}: {kind} name point {ids[outside[0]]}; there are {count} points, from 0"
+        )
     return ids, starts, sizes
 
 
@@ -73,7 +89,9 @@ def _of_polygons(name: str, points: np.ndarray, ids: np.ndarray, starts: np.ndar
         bad = int(np.argmax(sizes < 3))
         raise IoError(f"{name}: polygon {bad} (from 0) has {sizes[bad]} vertices")
     if not np.isfinite(points).all():
-        raise IoError(f"{name}: the coordinates of point {np.argmin(np.isfinite(points).all(axis=1))} (from 0) are not finite")
+        raise IoError(
+            f"{name}: the coordinates of point {np.argmin(np.isfinite(points).all(axis=1))} (from 0) are not finite"
+        )
     import pyvista
 
     rows = np.insert(ids, starts, sizes)

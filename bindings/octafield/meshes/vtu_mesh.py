@@ -1,7 +1,8 @@
-"""VTK's XML files of unstructured grids (.vtu): text, base64 and raw, packed or not, in one or several pieces, errors with their line or byte.
+"""VTK's XML files of unstructured grids (.vtu): text, base64 and raw, packed or not, in one or several pieces, errors
+with their line or byte.
 
-meshio reads these too, but of several pieces keeps the cells of the last alone, leaves out arrays that do not fit, and does
-not say where. Layout: VTK file formats, XML formats.
+meshio reads these too, but of several pieces keeps the cells of the last alone, leaves out arrays that do not fit, and
+does not say where. Layout: VTK file formats, XML formats.
 """
 
 import base64
@@ -21,9 +22,14 @@ from ..files import numbers_of, require_unpackable
 from .cell_mesh import CellMesh
 from .legacy_vtk import from_offsets, mesh_of_cells, whole_numbers
 
-NUMBERS = {f"{sign}{8 * size}": f"{code}{size}" for sign, code in (("Int", "i"), ("UInt", "u")) for size in (1, 2, 4, 8)} | {"Float32": "f4", "Float64": "f8"}
+NUMBERS = {
+    f"{sign}{8 * size}": f"{code}{size}" for sign, code in (("Int", "i"), ("UInt", "u")) for size in (1, 2, 4, 8)
+} | {"Float32": "f4", "Float64": "f8"}
 FEATURES = "feature_edges"  # field data of octafield's own files: pairs of ids of points
-_UNPACK: dict[str, Callable[[], Any]] = {"vtkZLibDataCompressor": zlib.decompressobj, "vtkLZMADataCompressor": lzma.LZMADecompressor}
+_UNPACK: dict[str, Callable[[], Any]] = {
+    "vtkZLibDataCompressor": zlib.decompressobj,
+    "vtkLZMADataCompressor": lzma.LZMADecompressor,
+}
 
 
 @dataclass
@@ -69,8 +75,17 @@ def read_vtu(data: bytes, name: str, size: int = 0) -> CellMesh:
     points, sizes, types = (np.concatenate([part[what] for part in parts]) for what in ("points", "sizes", "types"))
     numbers = np.concatenate([part["numbers"] + first for part, first in zip(parts, start[:-1], strict=True)])
     starts = np.concatenate([part["starts"] + first for part, first in zip(parts, ends[:-1], strict=True)])
-    data_of = {site: {key: _joined([part[site][key] for part in parts]) for key in parts[0][site] if all(key in p[site] for p in parts)} for site in ("PointData", "CellData")}
-    of_points, of_cells = ({key: values for key, values in data_of[site].items() if values is not None} for site in data_of)
+    data_of = {
+        site: {
+            key: _joined([part[site][key] for part in parts])
+            for key in parts[0][site]
+            if all(key in p[site] for p in parts)
+        }
+        for site in ("PointData", "CellData")
+    }
+    of_points, of_cells = (
+        {key: values for key, values in data_of[site].items() if values is not None} for site in data_of
+    )
     mesh = mesh_of_cells(points, numbers, starts, sizes, types, of_points, of_cells, name)
     if file.features is not None and len(parts) == 1:
         edges = values_of(file, file.features)
@@ -85,8 +100,13 @@ def _joined(parts: list[np.ndarray]) -> np.ndarray | None:
 
 
 def parsed(data: bytes, name: str, kind: str, counted: tuple[str, ...]) -> File:
-    """The arrays of a VTKFile of this type, not yet decoded. counted: attributes of its Pieces with their numbers; none: 0, but for the first."""
-    file, path, reading = File(name, size=len(data)), list[str](), list[_Array]()  # reading: the array that text belongs to, or none
+    """The arrays of a VTKFile of this type, not yet decoded. counted: attributes of its Pieces with their numbers;
+    none: 0, but for the first."""
+    file, path, reading = (
+        File(name, size=len(data)),
+        list[str](),
+        list[_Array](),
+    )  # reading: the array that text belongs to, or none
     parser = expat.ParserCreate()
     parser.buffer_text = True
 
@@ -97,10 +117,16 @@ def parsed(data: bytes, name: str, kind: str, counted: tuple[str, ...]) -> File:
         if not path:
             file.root = attributes
             if attributes.get("type") != kind:
-                raise InvalidInput(f"{name}, line {line}: VTKFile of type {attributes.get('type')}; {kind} is needed: name the file by its type", "unsupported_cells")
+                raise InvalidInput(
+                    f"{name}, line {line}: VTKFile of type {attributes.get('type')}; {kind} is needed: name the file by"
+                    " its type",
+                    "unsupported_cells",
+                )
         path.append(tag)
         if tag == "Piece":
-            numbers = {key: attributes.get(key, "" if key == counted[0] or len(counted) == 2 else "0") for key in counted}
+            numbers = {
+                key: attributes.get(key, "" if key == counted[0] or len(counted) == 2 else "0") for key in counted
+            }
             for key, number in numbers.items():
                 if not re.fullmatch(r"\s*\d{1,15}\s*", number):
                     raise file.fail(line, f"Piece with {key} {number[:20]!r}: a number is needed")
@@ -108,7 +134,12 @@ def parsed(data: bytes, name: str, kind: str, counted: tuple[str, ...]) -> File:
         elif tag == "DataArray" and "Piece" in path and len(path) > 2:
             file.pieces[-1].arrays.append(_Array(path[-2], attributes, line))
             reading[:] = file.pieces[-1].arrays[-1:]
-        elif tag == "DataArray" and "FieldData" in path and attributes.get("Name") == FEATURES and attributes.get("type") in NUMBERS:
+        elif (
+            tag == "DataArray"
+            and "FieldData" in path
+            and attributes.get("Name") == FEATURES
+            and attributes.get("type") in NUMBERS
+        ):
             file.features = _Array("FieldData", attributes, line)
             reading[:] = [file.features]
         else:
@@ -128,23 +159,43 @@ def parsed(data: bytes, name: str, kind: str, counted: tuple[str, ...]) -> File:
     try:
         parser.Parse(data if tail is None else data[: tail.start()], tail is None)
     except expat.ExpatError as error:
-        raise file.fail(error.lineno, f"no XML, or damaged ({expat.errors.messages[error.code]}); is the file cut?") from error
+        raise file.fail(
+            error.lineno, f"no XML, or damaged ({expat.errors.messages[error.code]}); is the file cut?"
+        ) from error
     if tail is not None:
         stop = data.rfind(b"</AppendedData>")
         if stop < tail.end() or b"</VTKFile>" not in data[stop:]:
-            raise IoError(f"{name}, byte {len(data)}: ends within AppendedData: the file is cut; write or download it again")
+            raise IoError(
+                f"{name}, byte {len(data)}: ends within AppendedData: the file is cut; write or download it again"
+            )
         file.appended, file.raw, file.appended_at = data[tail.end() : stop], b'"raw"' in tail[1], tail.end()
     if not file.pieces:
         raise IoError(f"{name}: holds no Piece of {'an' if kind[0] in 'AEIOU' else 'a'} {kind}")
-    if any(file.root.get(key) not in known for key, known in (("byte_order", (None, "LittleEndian", "BigEndian")), ("header_type", (None, "UInt32", "UInt64")))):
-        raise IoError(f"{name}, line 1: byte_order {file.root.get('byte_order')!r} with header_type {file.root.get('header_type')!r} is not read")
+    if any(
+        file.root.get(key) not in known
+        for key, known in (
+            ("byte_order", (None, "LittleEndian", "BigEndian")),
+            ("header_type", (None, "UInt32", "UInt64")),
+        )
+    ):
+        raise IoError(
+            f"{name}, line 1: byte_order {file.root.get('byte_order')!r} with header_type"
+            f" {file.root.get('header_type')!r} is not read"
+        )
     if file.root.get("compressor") not in (None, "", *_UNPACK):
-        raise IoError(f"{name}: packed by {file.root['compressor']}, which is not read; save it with ZLib or not packed")
+        raise IoError(
+            f"{name}: packed by {file.root['compressor']}, which is not read; save it with ZLib or not packed"
+        )
     return file
 
 
 def _piece(file: File, piece: Piece) -> dict[str, Any]:
-    sections: dict[str, dict[str, tuple[_Array, np.ndarray]]] = {"Points": {}, "Cells": {}, "PointData": {}, "CellData": {}}
+    sections: dict[str, dict[str, tuple[_Array, np.ndarray]]] = {
+        "Points": {},
+        "Cells": {},
+        "PointData": {},
+        "CellData": {},
+    }
     for array in piece.arrays:
         if array.section in sections and array.attributes.get("type") in NUMBERS:  # others are strings
             sections[array.section][array.attributes.get("Name", "")] = array, values_of(file, array)
@@ -177,7 +228,11 @@ def points_of(file: File, piece: Piece, arrays: list[tuple[_Array, np.ndarray]])
 
 def require_rows(file: File, array: _Array, values: np.ndarray, count: int) -> None:
     if len(values) != count:
-        raise file.fail(array.line, f"array {array.attributes.get('Name', '')} of {array.section} has {len(values)} rows; the Piece has {count}")
+        raise file.fail(
+            array.line,
+            f"array {array.attributes.get('Name', '')} of {array.section} has {len(values)} rows; the Piece has"
+            f" {count}",
+        )
 
 
 def values_of(file: File, array: _Array) -> np.ndarray:
@@ -208,7 +263,9 @@ def _decoded(file: File, array: _Array, how: str, order: str) -> bytes:
     if how == "appended":
         offset = array.attributes.get("offset", "")
         if not re.fullmatch(r"\s*\d{1,18}\s*", offset) or int(offset) >= len(file.appended):
-            raise file.fail(array.line, f"array {name} at offset {offset[:20]!r} of {len(file.appended)} appended bytes")
+            raise file.fail(
+                array.line, f"array {name} at offset {offset[:20]!r} of {len(file.appended)} appended bytes"
+            )
         raw, source = file.raw, file.appended[int(offset) :]
     take = _take_raw if raw else _take_base64
     try:
@@ -218,7 +275,9 @@ def _decoded(file: File, array: _Array, how: str, order: str) -> bytes:
         count = int(np.frombuffer(take(source, 0, head.itemsize), head)[0])
         full, last, *_ = ahead = np.frombuffer(take(source, 0, head.itemsize * (3 + count)), head)[1:].astype(np.int64)
         sizes = ahead[2:]
-        begin = head.itemsize * (3 + count) if raw else 4 * -(-head.itemsize * (3 + count) // 3)  # the head is encoded by itself
+        begin = (
+            head.itemsize * (3 + count) if raw else 4 * -(-head.itemsize * (3 + count) // 3)
+        )  # the head is encoded by itself
         ends = np.cumsum(sizes)
         if (sizes < 0).any() or (len(ends) and ends[-1] > len(source)):
             raise ValueError("blocks beyond the end")
@@ -228,7 +287,9 @@ def _decoded(file: File, array: _Array, how: str, order: str) -> bytes:
             raise ValueError("blocks of less than no bytes")
         file.unpacked += sum(announced)
         require_unpackable(f"{file.name}, line {array.line}", file.unpacked, file.size)
-        return b"".join(_block(file, packed[e - s : e], size) for s, e, size in zip(sizes, ends, announced, strict=True))
+        return b"".join(
+            _block(file, packed[e - s : e], size) for s, e, size in zip(sizes, ends, announced, strict=True)
+        )
     except (ValueError, binascii.Error, zlib.error, lzma.LZMAError, EOFError, OverflowError) as error:
         raise file.fail(array.line, f"array {name} is cut or damaged ({error})") from error
 

@@ -1,4 +1,5 @@
-"""The report of comparisons and studies: one HTML page that needs nothing but itself, its tables as CSV and LaTeX beside it.
+"""The report of comparisons and studies: one HTML page that needs nothing but itself, its tables as CSV and LaTeX
+beside it.
 
     report = Report("Frame fields on part.stl", [Run(record, "part.stl", folder, "part-sh4"), ...])
     write_report(report, folder)  # report.html, results.csv, tables/*.csv, tables/*.tex

@@ -145,7 +145,16 @@ def input_table(results: Results, anchors: dict[str, str]) -> Table:
         record = next((run.row for run in runs if run.done), {})
         chi = record.get("surface_field", {}).get("euler_characteristic")
         seconds = preparation_seconds(record) if record else None
-        rows.append([Link(name, f"#{anchor}"), *(record.get(key) for key in keys), chi, seconds, len(runs), record.get("mesh_sha256")])
+        rows.append(
+            [
+                Link(name, f"#{anchor}"),
+                *(record.get(key) for key in keys),
+                chi,
+                seconds,
+                len(runs),
+                record.get("mesh_sha256"),
+            ]
+        )
     return Table("inputs", columns, rows)
 
 
@@ -172,7 +181,11 @@ def summary_table(results: Results, lines: list[Line], found: Deviations) -> Tab
     )  # fmt: skip
     rows = []
     for line in lines:
-        angles = (0.0, 0.0) if line.method == results.methods[0] and found.lines else found.lines.get((line.setting, line.method), (None, None))
+        angles = (
+            (0.0, 0.0)
+            if line.method == results.methods[0] and found.lines
+            else found.lines.get((line.setting, line.method), (None, None))
+        )
         rows.append((
             line.setting.name, line.method.name, line.solved, line.asked, line.energy, None if line.spread is None else 100 * line.spread, line.own, line.ratio, line.largest, line.lowest,
             line.singular_edges, line.complex_edges, line.non_meshable, *angles, line.seconds, line.slowdown,
@@ -183,7 +196,10 @@ def summary_table(results: Results, lines: list[Line], found: Deviations) -> Tab
 
 def failure_table(results: Results, runs: Sequence[Run]) -> Table:
     columns = [Column(head) for head in ("input", "method", "boundary", "state", "message")]
-    rows = [[run.input, results.method(run).name, results.problem(run).setting.name, run.state, run.row.get("message", "")] for run in runs]
+    rows = [
+        [run.input, results.method(run).name, results.problem(run).setting.name, run.state, run.row.get("message", "")]
+        for run in runs
+    ]
     return Table("failures", columns, rows)
 
 

@@ -15,9 +15,10 @@ _Pairs = list[list[list[float]]]  # of two methods: a figure per problem they ha
 
 @dataclass(frozen=True)
 class Deviations:
-    """Degrees. mean, high: (M, M), mean over problems of the mean and of the 95th percentile over vertices, NaN where two
-    methods have no problem in common. lines: {(setting, method): (mean, high) to the first method}. drawn: per method the
-    angles to the first at the vertices of all problems. sampled: not all vertices, but evenly chosen ones."""
+    """Degrees. mean, high: (M, M), mean over problems of the mean and of the 95th percentile over vertices, NaN where
+    two methods have no problem in common. lines: {(setting, method): (mean, high) to the first method}. drawn: per
+    method the angles to the first at the vertices of all problems. sampled: not all vertices, but evenly chosen ones.
+    """
 
     methods: list[Method]
     mean: np.ndarray
@@ -78,7 +79,10 @@ def _no_pairs(count: int) -> _Pairs:
 
 def _averages(pairs: _Pairs) -> np.ndarray:
     """(M, M), NaN where there is nothing."""
-    rows = [[0.0 if i == j else np.mean(part) if part else np.nan for j, part in enumerate(row)] for i, row in enumerate(pairs)]
+    rows = [
+        [0.0 if i == j else np.mean(part) if part else np.nan for j, part in enumerate(row)]
+        for i, row in enumerate(pairs)
+    ]
     return np.array(rows, float).reshape(len(pairs), len(pairs))
 
 

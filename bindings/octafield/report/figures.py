@@ -1,4 +1,5 @@
-"""Plots of a report. Colour tells representations apart, dashes and marks their variants (solvers), marks of dots settings."""
+"""Plots of a report. Colour tells representations apart, dashes and marks their variants (solvers), marks of dots
+settings."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -51,7 +52,9 @@ def styles(methods: Sequence[Method]) -> dict[Method, Style]:
     for number, method in enumerate(methods):
         place = variants.index(method.variant)
         width = 3.6 - 2.2 * number / max(1, len(methods) - 1) if len(methods) > 1 else 1.8
-        found[method] = Style(colours[method.representation], _DASHES[place % len(_DASHES)], _MARKS[place % len(_MARKS)], width)
+        found[method] = Style(
+            colours[method.representation], _DASHES[place % len(_DASHES)], _MARKS[place % len(_MARKS)], width
+        )
     return found
 
 
@@ -60,7 +63,10 @@ def ratio_plot(results: Results, salt: str = "") -> str:
     figure, both = new_figure(_WIDE, 1.3 + 0.27 * len(results.methods), 2, sharey=True)
     marks = {setting: _MARKS[k % len(_MARKS)] for k, setting in enumerate(results.settings)}
     style, places = styles(results.methods), range(len(results.methods))
-    parts = ((energies, "energy over the lowest of the problem"), (smoothing_seconds, "CPU seconds over the fastest of the problem"))
+    parts = (
+        (energies, "energy over the lowest of the problem"),
+        (smoothing_seconds, "CPU seconds over the fastest of the problem"),
+    )
     for axes, (quantity, label) in zip(both, parts, strict=True):
         means: dict[Method, list[float]] = {}
         largest = 1.0
@@ -83,7 +89,10 @@ def ratio_plot(results: Results, salt: str = "") -> str:
     both[0].set_yticks(list(places), [method.name for method in results.methods])
     both[0].set_ylim(len(results.methods) - 0.5, -0.5)
     if len(results.settings) > 1:
-        _legend(figure, [_handle(marker=mark, color=TEXT, linestyle="none", label=setting.name) for setting, mark in marks.items()])
+        _legend(
+            figure,
+            [_handle(marker=mark, color=TEXT, linestyle="none", label=setting.name) for setting, mark in marks.items()],
+        )
     return to_svg(figure, "energies and seconds relative to the best method of each problem", salt)
 
 
@@ -96,7 +105,12 @@ def profile_plot(parts: Sequence[tuple[Mapping[Method, Profile], str]], salt: st
         largest = max((p.ratio[-1] for p in profiles.values()), default=1.0)
         right = 1 + (min(max(largest, 1.01), _LARGEST) - 1) * 1.05
         for method, profile in profiles.items():
-            axes.step(np.r_[np.minimum(profile.ratio, right), right], np.r_[profile.share, profile.share[-1]], where="post", **style[method].line)
+            axes.step(
+                np.r_[np.minimum(profile.ratio, right), right],
+                np.r_[profile.share, profile.share[-1]],
+                where="post",
+                **style[method].line,
+            )
         _ratio_axis(axes, right)
         axes.set_ylim(0, 1.03)
         axes.set_xlabel(label)
@@ -133,7 +147,8 @@ def is_wide(results: Results, cases: Sequence[Case]) -> bool:
 
 @dataclass(frozen=True)
 class Convergence:
-    """Of one run. energy: E at the start and after each step. own: what was minimised over its first value, from iteration `begin` on."""
+    """Of one run. energy: E at the start and after each step. own: what was minimised over its first value, from
+    iteration `begin` on."""
 
     energy: list[float]
     own: list[float]
@@ -159,7 +174,9 @@ def convergence_plot(results: Results, cases: Sequence[Case], salt: str = "") ->
     methods = [m for m in results.methods if any(m in curves for curves in every)]
     style = styles(methods)
     height = 5.6 + 0.24 * (1 + len(methods) // 8)
-    figure, panels = new_figure(_WIDE if is_wide(results, cases) else _HALF, height, len(cases), rows=2, sharex=True, sharey="row")
+    figure, panels = new_figure(
+        _WIDE if is_wide(results, cases) else _HALF, height, len(cases), rows=2, sharex=True, sharey="row"
+    )
     above, below = panels[: len(cases)], panels[len(cases) :]
     longest = 1
     shared: dict[str, Any] = {}
@@ -213,7 +230,10 @@ def seconds_plot(labels: Sequence[str], runs: Sequence[Run], salt: str = "") -> 
     axes.set_ylim(len(runs) - 0.4, -0.6)
     axes.set_xlabel("seconds by the clock")
     axes.grid(axis="x", alpha=0.25, linewidth=0.6)
-    _legend(figure, [_handle(color=colour, linewidth=7, label=phase) for phase, colour in zip(phases, PALETTE, strict=False)])
+    _legend(
+        figure,
+        [_handle(color=colour, linewidth=7, label=phase) for phase, colour in zip(phases, PALETTE, strict=False)],
+    )
     return to_svg(figure, "seconds per phase", salt)
 
 
@@ -237,7 +257,11 @@ def _method_legend(figure: "Figure", methods: Sequence[Method], more: "Sequence[
     style = styles(methods)
     variants = list(dict.fromkeys(method.variant for method in methods))
     if len(variants) < 2 or len(methods) < 8:
-        _legend(figure, [_handle(**{**style[m].line, "linewidth": 2}, marker=style[m].mark, label=m.name) for m in methods] + list(more))
+        _legend(
+            figure,
+            [_handle(**{**style[m].line, "linewidth": 2}, marker=style[m].mark, label=m.name) for m in methods]
+            + list(more),
+        )
         return
     first = {method.representation: style[method].colour for method in methods}
     handles = [_handle(color=colour, linewidth=5, label=name) for name, colour in first.items()]

@@ -30,7 +30,10 @@ class Front:
     def text(self, exhibits: Exhibits, open_runs: int) -> str:
         """The section: paragraphs, each with what it refers to."""
         results, cite = self.results, exhibits.cite
-        scope = f"{prose.scope(results, open_runs, cite('runs'))} {prose.meshes(results, cite('inputs'))} {prose.starts(results, cite('summary', 'runs'))}".strip()
+        scope = (
+            f"{prose.scope(results, open_runs, cite('runs'))} {prose.meshes(results, cite('inputs'))}"
+            f" {prose.starts(results, cite('summary', 'runs'))}".strip()
+        )
         both, matrix = cite("summary", "ratios"), cite("matrix", "boxes")
         energy = [*prose.energy(self.lines, both or cite("runs"))]
         if self.energy_profiles:
@@ -54,18 +57,24 @@ def make_front(results: Results, lines: list[Line], found: Deviations, exhibits:
     front = Front(results, lines, found)
     if not any(run.done for run in results.runs):
         return front
-    caption = "One line per boundary treatment and method, over all inputs; seeds of one input count once, by their mean."
+    caption = (
+        "One line per boundary treatment and method, over all inputs; seeds of one input count once, by their mean."
+    )
     if found.pairs():
         caption += f" Angles are to the fields of {html.escape(results.methods[0].name)}."
     front.summary = exhibits.table("summary", summary_table(results, lines, found), "Methods", caption)
     if len(results.methods) > 1:
         plot = figures.ratio_plot(results, exhibits.salt)
-        front.ratios = exhibits.figure("ratios", plot, "Energy and time relative to the best method", _ratio_caption(results))
+        front.ratios = exhibits.figure(
+            "ratios", plot, "Energy and time relative to the best method", _ratio_caption(results)
+        )
         if len(results.problems) > 1:
             _add_profiles(front, exhibits)
     if found.pairs():
         kind = "matrix many" if len(results.methods) > MANY else "matrix"
-        table = exhibits.table("matrix", deviation_table(found), "Angles between the fields of two methods", _matrix_caption(found), kind)
+        table = exhibits.table(
+            "matrix", deviation_table(found), "Angles between the fields of two methods", _matrix_caption(found), kind
+        )
         front.matrix = _shaded(table)
     if found.drawn:
         plot = figures.deviation_plot(found.drawn, found.methods[0], exhibits.salt)
@@ -74,11 +83,15 @@ def make_front(results: Results, lines: list[Line], found: Deviations, exhibits:
 
 
 def _add_profiles(front: Front, exhibits: Exhibits) -> None:
-    energy, seconds = (performance_profiles(of(front.results, front.results.problems)) for of in (energies, smoothing_seconds))
-    plot = figures.profile_plot([(energy, "energy over the lowest"), (seconds, "CPU seconds over the fastest")], exhibits.salt)
+    energy, seconds = (
+        performance_profiles(of(front.results, front.results.problems)) for of in (energies, smoothing_seconds)
+    )
+    plot = figures.profile_plot(
+        [(energy, "energy over the lowest"), (seconds, "CPU seconds over the fastest")], exhibits.salt
+    )
     caption = (
-        "Share of the problems on which a method's energy (left) or processor time of smoothing (right) is at most so many "
-        "times the best of the problem; higher is better."
+        "Share of the problems on which a method's energy (left) or processor time of smoothing (right) is at most so"
+        " many times the best of the problem; higher is better."
     )
     front.profiles = exhibits.figure("profiles", plot, "Performance profiles", caption)
     front.energy_profiles = energy
@@ -91,24 +104,24 @@ def _headed(head: str, *texts: str) -> str:
 def _ratio_caption(results: Results) -> str:
     marks = "; marks tell boundary treatments apart" if len(results.settings) > 1 else ""
     return (
-        "One mark per problem: energy over the lowest energy (left) and processor seconds of smoothing over the fastest (right) "
-        f"of all methods on the problem{marks}. Bars are geometric means."
+        "One mark per problem: energy over the lowest energy (left) and processor seconds of smoothing over the"
+        f" fastest (right) of all methods on the problem{marks}. Bars are geometric means."
     )
 
 
 def _matrix_caption(found: Deviations) -> str:
     most = " at evenly chosen vertices" if found.sampled else ""
     return (
-        f"Degrees{most}; below the diagonal the mean over vertices, above it the 95th percentile, each the mean over the problems "
-        "that both methods solve."
+        f"Degrees{most}; below the diagonal the mean over vertices, above it the 95th percentile, each the mean over"
+        " the problems that both methods solve."
     )
 
 
 def _box_caption(found: Deviations) -> str:
     first = html.escape(found.methods[0].name)
     return (
-        f"Angles between a field's frames and those of {first} on the same mesh, at the vertices of all problems, in degrees: median "
-        "(bar), quartiles (box), 5th and 95th percentile (line)."
+        f"Angles between a field's frames and those of {first} on the same mesh, at the vertices of all problems, in"
+        " degrees: median (bar), quartiles (box), 5th and 95th percentile (line)."
     )
 
 

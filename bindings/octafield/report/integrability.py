@@ -71,7 +71,13 @@ def _of_kind(results: Results, kind: str, cite: str) -> str:
     over = f" on geometric mean over {counted(len(curled), 'run')}" if len(curled) > len(left) else ""
     ratios = sorted(sizes_of(run)["size_ratio"] for run in curled)
     ends = " to ".join(dict.fromkeys(f"{ratio:.3g}" for ratio in (ratios[0], ratios[-1])))
-    text = [f"{_KINDS[kind]} leaves {spread(left, '.1f', unit=' %')} of the curl of unit axes{over}; the largest size is {ends} times the smallest {cite}"]
+    text = [
+        f"{_KINDS[kind]} leaves {spread(left, '.1f', unit=' %')} of the curl of unit axes{over}; the largest size is"
+        f" {ends} times the smallest {cite}"
+    ]
     if len(curled) < len(runs):
-        text.append(f"{counted(len(runs) - len(curled), 'run')} without any curl, up to rounding, {'is' if len(runs) - len(curled) == 1 else 'are'} left out")
+        text.append(
+            f"{counted(len(runs) - len(curled), 'run')} without any curl, up to rounding,"
+            f" {'is' if len(runs) - len(curled) == 1 else 'are'} left out"
+        )
     return " ".join(map(sentence, text))

@@ -69,5 +69,7 @@ def picture(image: bytes, title: str, legend: list[tuple[str, str]]) -> tuple[st
     data = base64.b64encode(image).decode()
     kind = "jpeg" if image.startswith(b"\xff\xd8") else "png"
     shown = f'<div class="picture"><img alt="{html.escape(title)}" src="data:image/{kind};base64,{data}"></div>'
-    entries = "".join(f'<li><i style="background:{colour}"></i>{html.escape(meaning)}</li>' for colour, meaning in legend)
+    entries = "".join(
+        f'<li><i style="background:{colour}"></i>{html.escape(meaning)}</li>' for colour, meaning in legend
+    )
     return shown, f'<ul class="legend">{entries}</ul>' if entries else ""

@@ -16,7 +16,8 @@ Values = Sequence[float] | np.ndarray  # one per problem
 
 @dataclass(frozen=True)
 class Profile:
-    """Of one method: share[k] of `problems` problems on which it needs at most ratio[k] times what the best method needs."""
+    """Of one method: share[k] of `problems` problems on which it needs at most ratio[k] times what the best method
+    needs."""
 
     ratio: np.ndarray
     share: np.ndarray
@@ -39,7 +40,8 @@ def performance_profiles(values: Mapping[Method, Values]) -> dict[Method, Profil
 
 
 def ratios_to_best(values: Mapping[Method, Values]) -> dict[Method, np.ndarray]:
-    """Each value over the least of its problem; problems that no method solves, or with a least value of 0, are left out."""
+    """Each value over the least of its problem; problems that no method solves, or with a least value of 0, are left
+    out."""
     table = np.array([list(v) for v in values.values()], float)
     best = table.min(axis=0, initial=np.inf)
     counted = np.isfinite(best) & (best > 0)
@@ -65,13 +67,16 @@ def _energy(row: dict[str, Any]) -> float:
 
 @dataclass(frozen=True)
 class Line:
-    """Of one method in one setting. asked: problems in the setting; problems: those of them with a field of any method, which
-    all else is about; solved: with fields of this one, for each seed that any method has a field for. complete: that is on all of them.
-    energy, own (what the method minimised): where there is one problem, mean over seeds. spread: standard deviation of the energies of a
-    problem's seeds over their mean, mean over the problems with several.
-    zero: problems whose lowest energy is rounding. ratio, largest: energy over the lowest of each problem, geometric mean and largest;
-    lowest: problems on which no method is lower by more than EQUAL. Counts of the singular graphs are sums over problems of the means
-    over seeds, None where they are not defined. seconds: sum over problems; slowdown: over the fastest of each, geometric mean."""
+    """Of one method in one setting. asked: problems in the setting; problems: those of them with a field of any method,
+    which all else is about; solved: with fields of this one, for each seed that any method has a field for. complete:
+    that is on all of them. energy, own (what the method minimised): where there is one problem, mean over seeds.
+    spread: standard deviation of the energies of a problem's seeds over their mean, mean over the problems with
+    several.
+    zero: problems whose lowest energy is rounding. ratio, largest: energy over the lowest of each problem, geometric
+        mean and largest;
+    lowest: problems on which no method is lower by more than EQUAL. Counts of the singular graphs are sums over
+        problems of the means over seeds, None where they are not defined. seconds: sum over problems; slowdown: over
+        the fastest of each, geometric mean."""
 
     setting: Setting
     method: Method
@@ -114,7 +119,9 @@ def _line(
     energy: np.ndarray, best: np.ndarray, over: tuple[dict[Method, np.ndarray], dict[Method, np.ndarray]], seconds: np.ndarray,
 ) -> Line:  # fmt: skip
     cases = {p: results.cases_of(p) for p in within}
-    rows = {p: [run.row for case in of if (run := results.field(method, case)) is not None] for p, of in cases.items() if of}
+    rows = {
+        p: [run.row for case in of if (run := results.field(method, case)) is not None] for p, of in cases.items() if of
+    }
     fields = [rows[p] for p in rows if len(rows[p]) == len(cases[p])]
     alone = fields[0] if len(rows) == 1 and fields else []
     ratio, slowdown = (part[method][np.isfinite(part[method])] for part in over)
@@ -155,7 +162,11 @@ def _total(fields: list[list[dict[str, Any]]], key: str) -> int | None:
 
 def _spread(fields: list[list[dict[str, Any]]]) -> float | None:
     parts = [np.array([row["energy"] for row in rows]) for rows in fields if len(rows) > 1]
-    return float(np.mean([part.std(ddof=1) / part.mean() if part.mean() > 0 else 0.0 for part in parts])) if parts else None
+    return (
+        float(np.mean([part.std(ddof=1) / part.mean() if part.mean() > 0 else 0.0 for part in parts]))
+        if parts
+        else None
+    )
 
 
 def geometric_mean(values: np.ndarray) -> float | None:

@@ -36,8 +36,14 @@ def scope(results: Results, open_runs: int, cite: str) -> str:
         text = [f"one method, {named(results.methods)}, is applied to {where}: {runs} {cite}"]
     else:
         text = [
-            f"the comparison covers {_methods([m for m in results.methods if m not in read])}{others} on {where}: {runs} on {counted(len(results.problems), 'problem')} {cite}",
-            "a problem is an input with a boundary treatment; its fields share one mesh, and energies are compared within a problem only",
+            (
+                f"the comparison covers {_methods([m for m in results.methods if m not in read])}{others} on {where}:"
+                f" {runs} on {counted(len(results.problems), 'problem')} {cite}"
+            ),
+            (
+                "a problem is an input with a boundary treatment; its fields share one mesh, and energies are compared"
+                " within a problem only"
+            ),
         ]
     if seeds > 1:
         text.append("figures of a problem are means over its seeds")
@@ -61,8 +67,14 @@ def starts(results: Results, cite: str) -> str:
     if rounds == {True}:
         return sentence(f"every method starts from the minimum that was found of sh4's energy; {judged}")
     if rounds == {False}:
-        return sentence(f"every method starts for itself, from one linear solve (a random field for seeds other than 0), without a step in sh4; {judged}")
-    each = "methods start from the minimum that was found of sh4's energy; those called “independent start” from one linear solve (a random field for seeds other than 0)"
+        return sentence(
+            "every method starts for itself, from one linear solve (a random field for seeds other than 0), without a"
+            f" step in sh4; {judged}"
+        )
+    each = (
+        "methods start from the minimum that was found of sh4's energy; those called “independent start” from one"
+        " linear solve (a random field for seeds other than 0)"
+    )
     return sentence(f"{each}; {judged}")
 
 
@@ -73,7 +85,10 @@ def _methods(methods: Sequence[Method]) -> str:
     representations = list(dict.fromkeys(method.representation for method in methods))
     if min(len(variants), len(representations)) > 1:
         each = "" if len(representations) * len(variants) == len(methods) else "up to "
-        return f"{count}, {len(representations)} representations ({listed(representations)}) in {each}{counted(len(variants), 'variant')} ({listed(variants)}),"
+        return (
+            f"{count}, {len(representations)} representations ({listed(representations)}) in"
+            f" {each}{counted(len(variants), 'variant')} ({listed(variants)}),"
+        )
     return f"{count} ({named(methods)})"
 
 
@@ -90,7 +105,9 @@ def meshes(results: Results, cite: str) -> str:
 
 def energy(lines: Sequence[Line], cite: str) -> list[str]:
     """Which methods end lowest, and by how much; a paragraph per setting."""
-    return list(_energy_in(setting, list(of), cite) for setting, of in itertools.groupby(lines, lambda line: line.setting))
+    return list(
+        _energy_in(setting, list(of), cite) for setting, of in itertools.groupby(lines, lambda line: line.setting)
+    )
 
 
 def _energy_in(setting: Setting, lines: list[Line], cite: str) -> str:
@@ -110,15 +127,22 @@ def _energy_in(setting: Setting, lines: list[Line], cite: str) -> str:
     elif first.problems == 1:
         text.append(f"{where}, {named([first.method])} ends at E = {first.energy:.6g} {cite}")
     if first.zero and complete[0].ratio is not None and len(lines) > 1:
-        text.append(f"a lowest energy of zero, up to rounding, keeps {counted(first.zero, 'problem')} out of the ratios {cite}")
+        text.append(
+            f"a lowest energy of zero, up to rounding, keeps {counted(first.zero, 'problem')} out of the ratios {cite}"
+        )
     if missing:
-        text.append(f"not ranked, for want of a field on some problem that another method solves: {named(missing)} {cite}")
+        text.append(
+            f"not ranked, for want of a field on some problem that another method solves: {named(missing)} {cite}"
+        )
     return " ".join(map(sentence, text))
 
 
 def _ranking(where: str, complete: list[Line], problems: int, cite: str) -> list[str]:
     """Of methods with a field on every problem."""
-    ratio, largest = _known({line.method: line.ratio for line in complete}), _known({line.method: line.largest for line in complete})
+    ratio, largest = (
+        _known({line.method: line.ratio for line in complete}),
+        _known({line.method: line.largest for line in complete}),
+    )
     low, reach = min(ratio.values()), max(largest, key=lambda method: largest[method])
     lowest = [method for method, value in ratio.items() if value <= low * (1 + EQUAL)]
     others = {method: value for method, value in ratio.items() if method not in lowest}
@@ -130,7 +154,10 @@ def _ranking(where: str, complete: list[Line], problems: int, cite: str) -> list
         return [f"{where}, {every(len(complete), 'method')} end at the same energy within 0.01 %{at} {cite}"]
     farthest = f"single problems reach {largest[reach]:.4f} ({named([reach])})"
     if not others:
-        return [f"{where}, {every(len(complete), 'method')} are equal on geometric mean, at {low:.4f} times the lowest of each problem; {farthest} {cite}"]
+        return [
+            f"{where}, {every(len(complete), 'method')} are equal on geometric mean, at {low:.4f} times the lowest of"
+            f" each problem; {farthest} {cite}"
+        ]
     have, same = _verb(len(lowest), "has", "have"), " (within 0.01 % of each other)" if len(lowest) > 1 else ""
     end = f"{_verb(len(others), 'the other ends', 'the others end')} at {_times(others)}"
     if problems == 1:
@@ -139,7 +166,10 @@ def _ranking(where: str, complete: list[Line], problems: int, cite: str) -> list
     text = f"{where}, {named(lowest, _MANY)} {have} the lowest energies{same}: {over}; {end} it, and {farthest} {cite}"
     most = max(line.lowest for line in complete)
     tops = named([line.method for line in complete if line.lowest == most], _MANY)
-    return [text, f"on {most} of {problems} problems the lowest energy, or one within 0.01 % of it, is that of {tops} {cite}"]
+    return [
+        text,
+        f"on {most} of {problems} problems the lowest energy, or one within 0.01 % of it, is that of {tops} {cite}",
+    ]
 
 
 def _known(values: Mapping[Method, _Figure | None]) -> dict[Method, _Figure]:
@@ -156,7 +186,10 @@ def _who_reach_zero(complete: list[Line]) -> str:
         return f"{every(len(reach), 'method')} reach it" if len(reach) > 1 else f"{named(reach)} reaches it"
     if not reach:
         return "no method reaches it everywhere"
-    return f"{named(reach, _MANY)} {_verb(len(reach), 'reaches', 'reach')} it, the {_verb(len(complete) - len(reach), 'other ends', 'others end')} above"
+    return (
+        f"{named(reach, _MANY)} {_verb(len(reach), 'reaches', 'reach')} it, the"
+        f" {_verb(len(complete) - len(reach), 'other ends', 'others end')} above"
+    )
 
 
 def _on_all(problems: int) -> str:
@@ -179,8 +212,12 @@ def convergence(results: Results, cite: str) -> str:
     stopped = [row for row in fields if not row.get("converged", True)]
     if not stopped:
         return ""
-    reasons = listed(f"“{html.escape(str(reason))}”" for reason in dict.fromkeys(row.get("stop_reason", "") for row in stopped))
-    return sentence(f"the tolerance was not met by {len(stopped)} of {counted(len(fields), 'field')} ({reasons}) {cite}")
+    reasons = listed(
+        f"“{html.escape(str(reason))}”" for reason in dict.fromkeys(row.get("stop_reason", "") for row in stopped)
+    )
+    return sentence(
+        f"the tolerance was not met by {len(stopped)} of {counted(len(fields), 'field')} ({reasons}) {cite}"
+    )
 
 
 def graphs(lines: Sequence[Line], cite: str) -> list[str]:
@@ -234,11 +271,17 @@ def distances(found: Deviations, cite: str) -> str:
     heads = [group[0] for group in groups]
     others = {pair: angles for pair, angles in pairs.items() if all(method in heads for method in pair)}
     if len(others) == 1:
-        ((a, b), (mean, high)) = next(iter(others.items()))
-        text.append(f"the fields of {named([a])} and {named([b])} lie {mean:.2f} degrees apart on average, with a 95th percentile of {high:.2f} degrees {cite}")
+        (a, b), (mean, high) = next(iter(others.items()))
+        text.append(
+            f"the fields of {named([a])} and {named([b])} lie {mean:.2f} degrees apart on average, with a 95th"
+            f" percentile of {high:.2f} degrees {cite}"
+        )
     elif others:
         near, far = (choose(others.items(), key=lambda item: item[1][0]) for choose in (min, max))
-        ends = [f"{mean:.2f} degrees ({named([a])} to {named([b])}; 95th percentile {high:.2f})" for (a, b), (mean, high) in (near, far)]
+        ends = [
+            f"{mean:.2f} degrees ({named([a])} to {named([b])}; 95th percentile {high:.2f})"
+            for (a, b), (mean, high) in (near, far)
+        ]
         which = "fields that do not coincide" if len(heads) < len(found.methods) else "fields"
         text.append(f"pairs of {which} lie between {ends[0]} and {ends[1]} apart on average {cite}")
     return " ".join(map(sentence, text))
@@ -261,7 +304,9 @@ def times(results: Results, cite: str, ratios: str) -> str:
     """What methods cost, those with a field wherever any has one. ratios: where these are shown."""
     seconds = smoothing_seconds(results, results.problems)
     solved = np.isfinite(np.min(list(seconds.values()), axis=0)) if seconds else np.zeros(0, bool)
-    complete = {method: own[solved] for method, own in seconds.items() if solved.any() and np.isfinite(own[solved]).all()}
+    complete = {
+        method: own[solved] for method, own in seconds.items() if solved.any() and np.isfinite(own[solved]).all()
+    }
     if not complete:
         return ""
     total = {method: float(own.sum()) for method, own in complete.items()}
@@ -270,13 +315,19 @@ def times(results: Results, cite: str, ratios: str) -> str:
     over = ratios_to_best(seconds)
     slow = _known({method: geometric_mean(over[method]) for method in complete})
     if len(results.methods) > 1 and slow:
-        text.append(f"relative to the fastest method on each problem that is a factor of {spread(slow, '.2f')} on geometric mean {ratios}")
+        text.append(
+            f"relative to the fastest method on each problem that is a factor of {spread(slow, '.2f')} on geometric"
+            f" mean {ratios}"
+        )
     read = results.read()
     missing = [method for method in results.methods if method not in complete and method not in read]
     if read:
         text.append(f"read from files, without times: {named(read)}")
     if missing:
-        text.append(f"left out of times, for want of a field on some problem that another method solves: {named(missing)} {cite}")
+        text.append(
+            f"left out of times, for want of a field on some problem that another method solves: {named(missing)}"
+            f" {cite}"
+        )
     return " ".join(map(sentence, text))
 
 
@@ -290,7 +341,10 @@ def shared_time(results: Results, cite: str) -> str:
     if not seconds:
         return ""
     span = " to ".join(dict.fromkeys(f"{value:.3g}" for value in (seconds[0], seconds[-1])))
-    return sentence(f"reading, meshing and the surface cross field, which runs on an input share, take {span} seconds by the clock {cite}")
+    return sentence(
+        f"reading, meshing and the surface cross field, which runs on an input share, take {span} seconds by the clock"
+        f" {cite}"
+    )
 
 
 def _verb(count: int, singular: str, plural: str) -> str:

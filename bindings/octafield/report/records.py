@@ -1,8 +1,9 @@
 """The runs of a report, by method and by problem.
 
-A method is what a user would choose between: representation, solver, rounds and other options of smoothing. A problem is
-what it is given: an input with its mesh and a treatment of the boundary (a setting). Energies compare within a problem only. A
-case is a problem with a seed: seeds are no problems of their own, figures of a problem are means over its seeds.
+A method is what a user would choose between: representation, solver, rounds and other options of smoothing. A problem
+is what it is given: an input with its mesh and a treatment of the boundary (a setting). Energies compare within a
+problem only. A case is a problem with a seed: seeds are no problems of their own, figures of a problem are means over
+its seeds.
 """
 
 import math
@@ -20,8 +21,8 @@ OF_SETTINGS = ("boundary", "sampling", "feature_tolerance")
 
 @dataclass(eq=False)
 class Run:
-    """row: the record (result.json; `state` failed or crashed where there is no field). input: its name on the page. folder:
-    of the run's files; link: the same relative to the page."""
+    """row: the record (result.json; `state` failed or crashed where there is no field). input: its name on the page.
+    folder: of the run's files; link: the same relative to the page."""
 
     row: dict[str, Any]
     input: str
@@ -67,8 +68,8 @@ class Run:
 
 @dataclass(frozen=True)
 class Method:
-    """variant: what it is beside the representation, where methods differ in that ("lbfgs", "rounds 2"); empty for the default
-    solver and where nothing else differs."""
+    """variant: what it is beside the representation, where methods differ in that ("lbfgs", "rounds 2"); empty for the
+    default solver and where nothing else differs."""
 
     representation: str
     variant: str = ""
@@ -123,7 +124,9 @@ class Results:
 
     def __post_init__(self) -> None:
         names = (*OF_METHODS, *OF_SETTINGS)
-        self._varying = {name for name in names if len({repr(run.choices.get(name)) for run in self.runs if name in run.choices}) > 1}
+        self._varying = {
+            name for name in names if len({repr(run.choices.get(name)) for run in self.runs if name in run.choices}) > 1
+        }
         self._rounds = {run.choices["rounds"] for run in self.runs if "rounds" in run.choices}
         self._of = {run: (self._method(run.choices), self._case(run)) for run in self.runs}
         self.methods = list(dict.fromkeys(method for method, _ in self._of.values()))
@@ -149,7 +152,11 @@ class Results:
 
     def cases_of(self, problem: Problem) -> list[Case]:
         """Those of its seeds on which any method ended with a field."""
-        return [case for case in self.cases if case.problem == problem and any((m, case) in self._fields for m in self.methods)]
+        return [
+            case
+            for case in self.cases
+            if case.problem == problem and any((m, case) in self._fields for m in self.methods)
+        ]
 
     def rank(self, run: Run) -> tuple[int, ...]:
         """Order by input, setting, seed, method."""
@@ -169,17 +176,22 @@ class Results:
         return next(iter(self.cases_of(Problem(name, setting))), None)
 
     def least(self, value: Callable[[dict[str, Any]], float], problems: Sequence[Problem]) -> dict[Method, np.ndarray]:
-        """value(record) per method and problem: the mean over seeds of the least of the repeats; infinite where a seed is without a
-        field that another method has."""
+        """value(record) per method and problem: the mean over seeds of the least of the repeats; infinite where a seed
+        is without a field that another method has."""
 
         def of(method: Method, problem: Problem) -> float:
-            seeds = [min((value(run.row) for run in self._fields.get((method, case), ())), default=math.inf) for case in self.cases_of(problem)]
+            seeds = [
+                min((value(run.row) for run in self._fields.get((method, case), ())), default=math.inf)
+                for case in self.cases_of(problem)
+            ]
             return sum(seeds) / len(seeds) if seeds else math.inf
 
         return {method: np.array([of(method, problem) for problem in problems], float) for method in self.methods}
 
     def _method(self, options: dict[str, Any]) -> Method:
-        told = self._varying - ({"rounds"} if options.get("rounds") and len(self._rounds - {0}) == 1 else set())  # those with rounds need no word
+        told = self._varying - (
+            {"rounds"} if options.get("rounds") and len(self._rounds - {0}) == 1 else set()
+        )  # those with rounds need no word
         words = [_word(name, options.get(name)) for name in OF_METHODS[1:] if name in told]
         return Method(str(options.get("representation", "unknown")), " ".join(filter(None, words)))
 
@@ -200,4 +212,8 @@ def _word(name: str, value: object) -> str:
         return f"frames at {value}" if value == "vertices" else f"frames in {value}"
     if name == "feature_tolerance" and isinstance(value, (int, float)):
         return f"feature tolerance {math.degrees(value):.4g}\N{DEGREE SIGN}"
-    return f"{name.replace('_', ' ')} {value:g}" if isinstance(value, (int, float)) else f"{name.replace('_', ' ')} {value}"
+    return (
+        f"{name.replace('_', ' ')} {value:g}"
+        if isinstance(value, (int, float))
+        else f"{name.replace('_', ' ')} {value}"
+    )

@@ -1,4 +1,5 @@
-"""A report's page from what was found: numbers its exhibits in the order of the page, then writes the prose that refers to them."""
+"""A report's page from what was found: numbers its exhibits in the order of the page, then writes the prose that refers
+to them."""
 
 import html
 import json
@@ -45,19 +46,37 @@ def render(content: Content) -> tuple[str, Exhibits]:
     results, exhibits, anchors = content.results, Exhibits(), content.anchors
     many = len(results.inputs) > 1
     front = make_front(results, content.lines, content.found, exhibits)
-    inputs = exhibits.table("inputs", input_table(results, anchors), "Inputs", "Every input, its mesh and its features.")
-    meshes = "".join(mesh_section(results, exhibits, anchors, name, content.pictures.get(name, ())) for name in results.inputs)
-    runs = exhibits.table("runs", run_table(results, results.runs, files=not many), "Runs", "One line per run, those on one problem together.")
+    inputs = exhibits.table(
+        "inputs", input_table(results, anchors), "Inputs", "Every input, its mesh and its features."
+    )
+    meshes = "".join(
+        mesh_section(results, exhibits, anchors, name, content.pictures.get(name, ())) for name in results.inputs
+    )
+    runs = exhibits.table(
+        "runs",
+        run_table(results, results.runs, files=not many),
+        "Runs",
+        "One line per run, those on one problem together.",
+    )
     sizes = integrability_table(results)
     if sizes.rows:
-        runs += exhibits.table("integrability", sizes.without_dull("input", "seed"), "Integrability", "One line per run with sizes: curl and jump of the axes before and after.")
+        runs += exhibits.table(
+            "integrability",
+            sizes.without_dull("input", "seed"),
+            "Integrability",
+            "One line per run with sizes: curl and jump of the axes before and after.",
+        )
     body = (
-        f'<div class="front"><h2 id="results" class="first">Results</h2>{front.text(exhibits, content.open_runs)}<h2 id="inputs">Inputs</h2>{inputs}</div>'
-        f'{meshes}<div class="front"><h2 id="runs">Runs</h2>{runs}{runs_without_field(results, results.runs)}'
-        f'<h2 id="methods">Methods</h2><div class="prose">{resource("methods.html")}</div>'
-        f'<h2 id="reproduction">Reproduction</h2>{_reproduction(content, exhibits)}</div>'
+        f'<div class="front"><h2 id="results" class="first">Results</h2>{front.text(exhibits, content.open_runs)}<h2'
+        f' id="inputs">Inputs</h2>{inputs}</div>{meshes}<div class="front"><h2'
+        f' id="runs">Runs</h2>{runs}{runs_without_field(results, results.runs)}<h2 id="methods">Methods</h2><div'
+        f' class="prose">{resource("methods.html")}</div><h2'
+        f' id="reproduction">Reproduction</h2>{_reproduction(content, exhibits)}</div>'
     )
-    return page(content.title, _subtitle(content), body, f"<script>{resource('view.js')}</script>", paged=many), exhibits
+    return (
+        page(content.title, _subtitle(content), body, f"<script>{resource('view.js')}</script>", paged=many),
+        exhibits,
+    )
 
 
 def _subtitle(content: Content) -> str:
@@ -69,21 +88,35 @@ def _subtitle(content: Content) -> str:
 def _reproduction(content: Content, exhibits: Exhibits) -> str:
     runs = content.results.runs
     options = [run.options for run in runs]
-    common = {name: value for name, value in options[0].items() if all(o.get(name) == value for o in options)} if options else {}
+    common = (
+        {name: value for name, value in options[0].items() if all(o.get(name) == value for o in options)}
+        if options
+        else {}
+    )
     varying = list(dict.fromkeys(name for o in options for name in o if name not in common))
     row = next((run.row for run in runs if "versions" in run.row), {})
     software = ", ".join(f"{name} {value}" for name, value in row.get("versions", {}).items())
     machine = row.get("machine")
-    where = f" on {html.escape(str(machine['cpu']))}, {machine['cores']} cores, load {machine['load']}" if machine else ""
+    where = (
+        f" on {html.escape(str(machine['cpu']))}, {machine['cores']} cores, load {machine['load']}" if machine else ""
+    )
     differ = f" The runs differ in {html.escape(', '.join(varying).replace('_', ' '))}." if varying else ""
     text = (
-        f"Computed with {html.escape(software)}{where}. Hashes of the meshes are in {exhibits.cite('inputs').strip('()')}; the options of a run are "
-        f"in its record (<code>result.json</code>), and <code>octafield.FieldOptions(**record[\"options\"])</code> makes them again.{differ} "
+        f"Computed with {html.escape(software)}{where}. Hashes of the meshes are in"
+        f" {exhibits.cite('inputs').strip('()')}; the options of a run are "
+        'in its record (<code>result.json</code>), and <code>octafield.FieldOptions(**record["options"])</code> makes'
+        f" them again.{differ} "
         "The same version, input, options and seed give the same field at any number of threads."
     )
-    shown = f"<details><summary>Options that all runs share</summary><pre>{html.escape(json.dumps(common, indent=1))}</pre></details>"
+    shown = (
+        "<details><summary>Options that all runs"
+        f" share</summary><pre>{html.escape(json.dumps(common, indent=1))}</pre></details>"
+    )
     if content.description:
-        shown += f"<details open><summary>Description of the study</summary><pre>{html.escape(content.description)}</pre></details>"
+        shown += (
+            "<details open><summary>Description of the"
+            f" study</summary><pre>{html.escape(content.description)}</pre></details>"
+        )
     return paragraphs(text) + shown
 
 

@@ -1,10 +1,10 @@
 """Singular curves of the runs on one mesh as lines to turn in a page: a small binary block, drawn by view.js.
 
-A block is base64 of zlib's stream of: uint32 length of the head, the head (JSON, padded to an even length with spaces), then
-int16 coordinates, all little-endian. Coordinates are whole steps along the longest side of the box; the first point of a
-line from the box's corner, each other from the point before. The head:
-    size: of the box in steps; outline: points per line; scenes: a list of {kind: points per line}, of "nodes" one line.
-The coordinates follow in this order, those of the outline first.
+A block is base64 of zlib's stream of: uint32 length of the head, the head (JSON, padded to an even length with spaces),
+then int16 coordinates, all little-endian. Coordinates are whole steps along the longest side of the box; the first
+point of a line from the box's corner, each other from the point before. The head: size: of the box in steps; outline:
+points per line; scenes: a list of {kind: points per line}, of "nodes" one line. The coordinates follow in this order,
+those of the outline first.
 """
 
 import base64
@@ -23,7 +23,12 @@ if TYPE_CHECKING:
     import pyvista
 
 STEPS = 16383
-LEGEND = (("#D55E00", "valence 3"), ("#0072B2", "valence 5"), ("#AA4499", "other singular curves"), ("#7b8794", "sharp edges and middle sections"))
+LEGEND = (
+    ("#D55E00", "valence 3"),
+    ("#0072B2", "valence 5"),
+    ("#AA4499", "other singular curves"),
+    ("#7b8794", "sharp edges and middle sections"),
+)
 KINDS = ("valence 3", "valence 5", "other", "nodes")
 _MOST_SURFACE_POINTS, _MOST_CURVE_POINTS = 5000, 30_000
 
@@ -34,8 +39,8 @@ class _Files(NamedTuple):
 
 
 def encode(runs: Sequence[Run]) -> tuple[str, list[int | None]]:
-    """The block of the runs on one mesh, and the place in it of each run; None where files were not kept. Empty without any.
-    Runs with the same curves share a place."""
+    """The block of the runs on one mesh, and the place in it of each run; None where files were not kept. Empty without
+    any. Runs with the same curves share a place."""
     kept = [_files(run) for run in runs]
     first = next((files for files in kept if files is not None), None)
     if first is None:
@@ -79,7 +84,11 @@ def _files(run: Run) -> _Files | None:
 def _deltas(lines: list[np.ndarray]) -> np.ndarray:
     if not lines:
         return np.zeros(0, "<i2")
-    return np.concatenate([np.diff(line, axis=0, prepend=np.zeros((1, 3), np.int64)) for line in lines]).astype("<i2").ravel()
+    return (
+        np.concatenate([np.diff(line, axis=0, prepend=np.zeros((1, 3), np.int64)) for line in lines])
+        .astype("<i2")
+        .ravel()
+    )
 
 
 def _curves(path: Path) -> dict[str, list[np.ndarray]]:

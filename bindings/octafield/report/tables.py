@@ -11,7 +11,13 @@ from urllib.parse import quote
 
 _LATEX = str.maketrans(
     {c: rf"\{c}" for c in "&%$#_{}"}
-    | {"~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "\\": r"\textbackslash{}", "<": r"\textless{}", ">": r"\textgreater{}"}
+    | {
+        "~": r"\textasciitilde{}",
+        "^": r"\textasciicircum{}",
+        "\\": r"\textbackslash{}",
+        "<": r"\textless{}",
+        ">": r"\textgreater{}",
+    }
     | {"\N{EN DASH}": "--", "\N{DEGREE SIGN}": r"\textdegree{}"}
     | dict.fromkeys(map(chr, range(32)), " ")
 )
@@ -61,11 +67,23 @@ class Table:
 
     def without_empty(self, *heads: str) -> "Table":
         """Without those of these columns that hold nothing."""
-        return self.without(*(c.head for k, c in enumerate(self.columns) if c.head in heads and all(row[k] is None for row in self.rows)))
+        return self.without(
+            *(
+                c.head
+                for k, c in enumerate(self.columns)
+                if c.head in heads and all(row[k] is None for row in self.rows)
+            )
+        )
 
     def without_dull(self, *heads: str) -> "Table":
         """Without those of these columns that hold one and the same value."""
-        return self.without(*(c.head for k, c in enumerate(self.columns) if c.head in heads and len({str(row[k]) for row in self.rows}) < 2))
+        return self.without(
+            *(
+                c.head
+                for k, c in enumerate(self.columns)
+                if c.head in heads and len({str(row[k]) for row in self.rows}) < 2
+            )
+        )
 
     def write_csv(self, path: Path) -> None:
         """Full precision."""
@@ -77,15 +95,27 @@ class Table:
     def write_latex(self, path: Path) -> None:
         """A tabular for booktabs."""
         kinds = "".join("r" if column.form else "l" for column in self.columns)
-        lines = [rf"\begin{{tabular}}{{{kinds}}}", r"\toprule", *self._latex_groups(), _latex_line([c.head for c in self.columns]), r"\midrule"]
+        lines = [
+            rf"\begin{{tabular}}{{{kinds}}}",
+            r"\toprule",
+            *self._latex_groups(),
+            _latex_line([c.head for c in self.columns]),
+            r"\midrule",
+        ]
         lines += [_latex_line(map(Column.show, self.columns, row)) for row in self.rows]
         path.write_text("\n".join([*lines, r"\bottomrule", r"\end{tabular}"]) + "\n", encoding="utf-8")
 
     def html(self, kind: str = "main") -> str:
         """A <table>; of class main its rows sort by a click on a head."""
-        heads = "".join(f'<th scope="col"{_class(c)}><button type="button">{html.escape(c.head)}</button></th>' for c in self.columns)
+        heads = "".join(
+            f'<th scope="col"{_class(c)}><button type="button">{html.escape(c.head)}</button></th>'
+            for c in self.columns
+        )
         body = "".join(f"<tr>{''.join(map(_cell, self.columns, row))}</tr>" for row in self.rows)
-        return f'<div class="scroll"><table class="{kind}"><thead>{self._groups()}<tr>{heads}</tr></thead><tbody>{body}</tbody></table></div>'
+        return (
+            '<div class="scroll"><table'
+            f' class="{kind}"><thead>{self._groups()}<tr>{heads}</tr></thead><tbody>{body}</tbody></table></div>'
+        )
 
     def notes(self) -> str:
         """A list of what the columns mean."""
@@ -100,7 +130,11 @@ class Table:
         if not any(column.group for column in self.columns):
             return ""
         cells = (
-            f'<th class="group" colspan="{width}" scope="colgroup">{html.escape(group)}</th>' if group else f'<td class="none" colspan="{width}"></td>'
+            (
+                f'<th class="group" colspan="{width}" scope="colgroup">{html.escape(group)}</th>'
+                if group
+                else f'<td class="none" colspan="{width}"></td>'
+            )
             for group, width in self._grouped()
         )
         return f"<tr>{''.join(cells)}</tr>"

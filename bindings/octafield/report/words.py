@@ -8,6 +8,7 @@ from .records import Method, Setting
 
 __all__ = ["counted", "every", "listed", "named", "sentence", "spread", "with_boundary"]
 
+
 def every(count: int, singular: str) -> str:
     """ "both methods", "all 3 methods"; of two or more."""
     return f"both {singular}s" if count == 2 else f"all {count:,} {singular}s"
@@ -31,7 +32,11 @@ def named(methods: Iterable[Method], most: int = 0) -> str:
 
 def with_boundary(setting: Setting) -> str:
     """ "with the boundary fixed", "with a free boundary"."""
-    head = {"fixed": "with the boundary fixed", "aligned": "with the boundary aligned", "none": "without boundary constraints"}
+    head = {
+        "fixed": "with the boundary fixed",
+        "aligned": "with the boundary aligned",
+        "none": "without boundary constraints",
+    }
     more = f" ({html.escape(setting.more)})" if setting.more else ""
     return head.get(setting.boundary, f"with boundary {html.escape(setting.boundary)}") + more
 
@@ -42,7 +47,8 @@ def spread(values: Mapping[Method, float], form: str, *, same: float = 0.0, unit
     if high <= low * (1 + same):
         return f"{low:{form}}{unit}"
     ends = [
-        f"{end:{form}}{unit} ({named([m for m, v in values.items() if abs(v - end) <= same * abs(end)], 3)})" for end in (low, high)
+        f"{end:{form}}{unit} ({named([m for m, v in values.items() if abs(v - end) <= same * abs(end)], 3)})"
+        for end in (low, high)
     ]
     return f"{ends[0]} to {ends[1]}"
 

@@ -27,8 +27,8 @@ PAGE_FILE, RECORDS_FILE, TABLES, FIGURES = "report.html", "results.csv", "tables
 @dataclass
 class Report:
     """runs: in the order of the page; the first method is the one that others are measured against. pictures: of
-    octafield.pictures, per input. description: of the study, shown as it is. open_runs: not carried out yet. files: others
-    beside the page to link."""
+    octafield.pictures, per input. description: of the study, shown as it is. open_runs: not carried out yet. files:
+    others beside the page to link."""
 
     title: str
     runs: Sequence[Run]
@@ -39,11 +39,14 @@ class Report:
 
 
 def write_report(report: Report, folder: Path) -> list[str]:
-    """Writes report.html, results.csv (a line per run, all numbers of its record) and tables/*.csv, *.tex (the tables of the
-    page) and figures/*.svg (its plots) and *.png (its pictures, up to 2,000 pixels wide) into an existing folder, each replaced at once; their names."""
+    """Writes report.html, results.csv (a line per run, all numbers of its record) and tables/*.csv, *.tex (the tables
+    of the page) and figures/*.svg (its plots) and *.png (its pictures, up to 2,000 pixels wide) into an existing
+    folder, each replaced at once; their names."""
     results = Results(report.runs)
     found = deviations(results)
-    content = Content(results, lines(results), found, report.pictures, report.title, report.description, report.open_runs, "")
+    content = Content(
+        results, lines(results), found, report.pictures, report.title, report.description, report.open_runs, ""
+    )
     tables = [
         summary_table(results, content.lines, found), deviation_table(found), input_table(results, content.anchors),
         run_table(results, results.runs),
@@ -65,7 +68,9 @@ def _write_figures(folder: Path, exhibits: Exhibits) -> list[str]:
     files = {f"{FIGURES}/{name}.svg": standalone(plot).encode() for name, plot in exhibits.plots.items()}
     files |= {f"{FIGURES}/{name}.png": image for name, image in exhibits.images.items()}
     (folder / FIGURES).mkdir(exist_ok=True)
-    for old in {*(folder / FIGURES).glob("figure-*.svg"), *(folder / FIGURES).glob("figure-*.png")} - {folder / name for name in files}:
+    for old in {*(folder / FIGURES).glob("figure-*.svg"), *(folder / FIGURES).glob("figure-*.png")} - {
+        folder / name for name in files
+    }:
         old.unlink()
     for name, data in files.items():
         _replace(folder / name, lambda partial, data=data: partial.write_bytes(data))  # type: ignore[misc]
@@ -82,7 +87,9 @@ def _write_table(folder: Path, table: Table) -> list[str]:
 def _links(files: Sequence[str], tables: Sequence[str]) -> str:
     records = ", ".join(_link(name, name) for name in files)
     stems = [table.removesuffix(".csv") for table in tables if table.endswith(".csv")]
-    parts = [f"{stem.split('/')[-1]} ({_link(stem + '.csv', 'CSV')}, {_link(stem + '.tex', 'LaTeX')})" for stem in stems]
+    parts = [
+        f"{stem.split('/')[-1]} ({_link(stem + '.csv', 'CSV')}, {_link(stem + '.tex', 'LaTeX')})" for stem in stems
+    ]
     return f"Records: {records}. Tables: {', '.join(parts)}"
 
 

@@ -13,8 +13,9 @@ however often it is interrupted, on one machine or many.
     >>> study.write_report("out").name
     'report.html'
 
-A folder holds study.json (the description), runs.sqlite (one table), runs/KEY (the files of one run, complete or absent) and, after
-write_report(), report.html, results.csv and tables/. KEY is a hash of the input's content, the options and octafield's version.
+A folder holds study.json (the description), runs.sqlite (one table), runs/KEY (the files of one run, complete or
+absent) and, after write_report(), report.html, results.csv and tables/. KEY is a hash of the input's content, the
+options and octafield's version.
 """
 
 from ..display import study_line

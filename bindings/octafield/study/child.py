@@ -23,7 +23,8 @@ Event = dict[str, Any]  # see worker.py
 
 @dataclass(frozen=True)
 class Ending:
-    """How a process ended. code: as of subprocess. late: key of the run that took too long. prepared: whether it had a mesh.
+    """How a process ended. code: as of subprocess. late: key of the run that took too long. prepared: whether it had a
+    mesh.
     message: its own last words."""
 
     code: int
@@ -47,7 +48,9 @@ class Ending:
 class Child:
     """tell(child, event): called from another thread for every event of worker.py; the last is {"event": "ended"}."""
 
-    def __init__(self, folder: Path, runs: list[Run], keep_fields: bool, limit: float, tell: Callable[["Child", Event], None]):
+    def __init__(
+        self, folder: Path, runs: list[Run], keep_fields: bool, limit: float, tell: Callable[["Child", Event], None]
+    ):
         self.runs = list(runs)  # that are not finished, as far as its reader knows
         self._left = [run.key for run in runs]  # the same, as far as it has told
         self._limit, self._tell, self._message = limit, tell, ""
@@ -63,10 +66,14 @@ class Child:
                 )  # fmt: skip
         except OSError as error:
             os.close(reading)
-            raise IoError(f"{folder}: cannot start a process for its runs ({error.strerror})", "cannot_start") from error
+            raise IoError(
+                f"{folder}: cannot start a process for its runs ({error.strerror})", "cannot_start"
+            ) from error
         finally:
             os.close(writing)
-        self._send(json.dumps({"folder": str(folder), "keep_fields": keep_fields, "runs": [run.to_json() for run in runs]}))
+        self._send(
+            json.dumps({"folder": str(folder), "keep_fields": keep_fields, "runs": [run.to_json() for run in runs]})
+        )
         threading.Thread(target=self._listen, args=(reading,), daemon=True).start()
 
     def go(self) -> None:

@@ -1,11 +1,11 @@
 """Runs a study on the workers of a dask scheduler.
 
-Each task carries out one group in a process of its own beside the dask worker, which writes finished runs into the folder of the
-study; all machines see that under one path. The leader enters them into its table. A process or a worker that dies loses the run it
-was in: the group goes to another, which goes on after the last finished one.
+Each task carries out one group in a process of its own beside the dask worker, which writes finished runs into the
+folder of the study; all machines see that under one path. The leader enters them into its table. A process or a worker
+that dies loses the run it was in: the group goes to another, which goes on after the last finished one.
 
-Workers that declare a resource MB get groups whose expected memory fits beside what they have in work. How large a mesh is shows
-once it is made; a group that needs more than it was sent with comes back and is sent where there is enough.
+Workers that declare a resource MB get groups whose expected memory fits beside what they have in work. How large a mesh
+is shows once it is made; a group that needs more than it was sent with comes back and is sent where there is enough.
 """
 
 import contextlib
@@ -39,8 +39,8 @@ _log = logging.getLogger("octafield")
 
 
 def run_on_cluster(leader: Leader, scheduler: str, patience: float) -> None:
-    """Raises IoError where the scheduler cannot be reached, is gone, or has no worker for what is left after `patience` seconds;
-    InvalidInput where dask is not installed."""
+    """Raises IoError where the scheduler cannot be reached, is gone, or has no worker for what is left after `patience`
+    seconds; InvalidInput where dask is not installed."""
     try:
         import distributed
     except ImportError as error:
@@ -114,7 +114,9 @@ class _Cluster:
             self._warn(f"{self.scheduler}: no worker is connected; waiting for one")
         for group in too_large if workers else ():
             need = self.groups[group.number][1]
-            self._warn(f"{group.label}: needs {need:,.0f} MB, the largest worker declares {largest:,.0f}; waiting for another")
+            self._warn(
+                f"{group.label}: needs {need:,.0f} MB, the largest worker declares {largest:,.0f}; waiting for another"
+            )
         if workers and (self.leader.pending or len(too_large) < len(self.groups)):
             self.useful = now
         elif now - self.useful >= self.patience:
@@ -129,7 +131,11 @@ class _Cluster:
         for future in self.futures.values():
             future.cancel()
         if not workers:
-            raise IoError(f"{self.scheduler}: no worker for {self.patience:g} s; start one (dask worker {self.scheduler}) and resume the study", "no_worker")
+            raise IoError(
+                f"{self.scheduler}: no worker for {self.patience:g} s; start one (dask worker {self.scheduler}) and"
+                " resume the study",
+                "no_worker",
+            )
         names = ", ".join(dict.fromkeys(group.runs[0].name for group in too_large))
         need = max(self.groups[group.number][1] for group in too_large)
         raise IoError(
@@ -139,7 +145,11 @@ class _Cluster:
         )  # fmt: skip
 
     def _scheduler_gone(self) -> None:
-        raise IoError(f"{self.scheduler}: the dask scheduler does not answer any more; start it and its workers again and resume the study", "no_scheduler")
+        raise IoError(
+            f"{self.scheduler}: the dask scheduler does not answer any more; start it and its workers again and resume"
+            " the study",
+            "no_scheduler",
+        )
 
     def _warn(self, message: str) -> None:
         if message not in self.warned:
@@ -163,7 +173,9 @@ class _Cluster:
             resources={_RESOURCE: mb} if declared else None,
         )  # fmt: skip
         self.groups[group.number], self.futures[group.number] = (group, mb if declared else 0.0), future
-        future.add_done_callback(lambda done: self.events.put({"event": "returned", "group": group.number, "future": done}))
+        future.add_done_callback(
+            lambda done: self.events.put({"event": "returned", "group": group.number, "future": done})
+        )
 
     def _on(self, event: Event) -> None:
         group, _ = self.groups.get(event["group"], (None, 0))
@@ -181,7 +193,9 @@ class _Cluster:
         elif kind == "finished":
             self.leader.finished(group, event["key"], event["seconds"], event["state"])
         if kind in ("progress", "finished"):
-            self.leader.tell(f"{group.label} on {event['host']}" + (f": {event['phase']}" if kind == "progress" else ""))
+            self.leader.tell(
+                f"{group.label} on {event['host']}" + (f": {event['phase']}" if kind == "progress" else "")
+            )
 
     def _on_returned(self, group: Group, future: Future) -> None:
         from distributed import KilledWorker
@@ -195,7 +209,13 @@ class _Cluster:
             if group.runs:
                 self.leader.crashed(group, f"workers that had this run died {_ALLOWED_DEATHS} times")
         elif error is not None:
-            raise error if isinstance(error, Error) else IoError(f"{self.scheduler}: a worker cannot run octafield ({type(error).__name__}: {error})", "bad_worker")
+            raise (
+                error
+                if isinstance(error, Error)
+                else IoError(
+                    f"{self.scheduler}: a worker cannot run octafield ({type(error).__name__}: {error})", "bad_worker"
+                )
+            )
         else:
             self._settle(group, future.result(timeout=_SCHEDULER_GONE))
         if group.runs:
@@ -217,14 +237,21 @@ def _largest_mb(workers: list[Described]) -> float:
 
 
 def _carry_out(content: dict[str, Any]) -> dict[str, Any]:
-    """On the worker. How it ended: {"ending": of the process, "changed": message of an input, "tets": needs memory for so many}."""
+    """On the worker. How it ended: {"ending": of the process, "changed": message of an input, "tets": needs memory for
+    so many}."""
     from distributed import get_worker
 
     if content["version"] != octafield_version():
-        raise InvalidInput(f"a worker has octafield {octafield_version()}, the leader {content['version']}; install one version everywhere", "bad_worker")
+        raise InvalidInput(
+            f"a worker has octafield {octafield_version()}, the leader {content['version']}; install one version"
+            " everywhere",
+            "bad_worker",
+        )
     folder = Path(content["folder"])
     if not (folder / "runs").is_dir():
-        raise IoError(f"{folder}: a worker does not see this folder; all machines need it under the same path", "bad_worker")
+        raise IoError(
+            f"{folder}: a worker does not see this folder; all machines need it under the same path", "bad_worker"
+        )
     return _Task(content, get_worker()).run(folder)
 
 
@@ -237,7 +264,13 @@ class _Task:
 
     def run(self, folder: Path) -> dict[str, Any]:
         answer: dict[str, Any] = {"ending": None, "changed": "", "tets": 0}
-        child = Child(folder, self.runs, self.content["keep_fields"], self.content["limit"], lambda _, event: self.events.put(event))
+        child = Child(
+            folder,
+            self.runs,
+            self.content["keep_fields"],
+            self.content["limit"],
+            lambda _, event: self.events.put(event),
+        )
         self._tell({"event": "begins"})
         try:
             while True:
@@ -263,7 +296,9 @@ class _Task:
             child.stop()
 
     def _tell(self, event: Event) -> None:
-        self.worker.log_event(self.content["topic"], {**event, "group": self.content["group"], "host": os.uname().nodename})
+        self.worker.log_event(
+            self.content["topic"], {**event, "group": self.content["group"], "host": os.uname().nodename}
+        )
 
     def _wanted(self) -> bool:
         """Whether the scheduler still asks for this task: a leader that is killed takes its tasks back."""

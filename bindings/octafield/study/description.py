@@ -85,10 +85,10 @@ _Input = Annotated[
 
 class Study(_Strict):
     """name: shown in reports. inputs: files, globs, generators. mesh: options of octafield.MeshOptions for all of them
-    (angles in degrees). runs: options of octafield.FieldOptions, one value or a list; every combination is run, but those
-    that `skip` names. seeds: a list, or how many from 0. repeats: of every run, for timings. limit: seconds after which a run
-    is ended and counts as failed; None: none. fields: keep field.vtu and the .vtp files of each run. folder: that relative
-    paths begin at; text: of the file; origin: its name in messages."""
+    (angles in degrees). runs: options of octafield.FieldOptions, one value or a list; every combination is run, but
+    those that `skip` names. seeds: a list, or how many from 0. repeats: of every run, for timings. limit: seconds after
+    which a run is ended and counts as failed; None: none. fields: keep field.vtu and the .vtp files of each run.
+    folder: that relative paths begin at; text: of the file; origin: its name in messages."""
 
     name: str
     inputs: Annotated[list[_Input], Field(min_length=1)]
@@ -183,7 +183,9 @@ def _check_options(study: Study, tree: yaml.Node, name: str) -> None:
         for key, value in options.items():
             try:
                 if key not in known:
-                    raise InvalidInput(f"no option {key!r}; there are: {', '.join(known)}{did_you_mean(key, known)}", "bad_study")
+                    raise InvalidInput(
+                        f"no option {key!r}; there are: {', '.join(known)}{did_you_mean(key, known)}", "bad_study"
+                    )
                 make(**_converted({key: value}))
             except (Error, TypeError) as error:
                 raise InvalidInput(f"{name}:{_line(tree, (*loc, key))}: {error}", "bad_study") from error
@@ -200,7 +202,9 @@ def _check_options(study: Study, tree: yaml.Node, name: str) -> None:
         if not isinstance(rule.get("input", ""), str):
             where = _line(tree, ("skip", k, "input"))
             raise InvalidInput(f"{name}:{where}: input is a name or glob, in quotes where it is a number", "bad_study")
-        check(("skip", k), ("input", *_RUN), {key: value for key, value in rule.items() if key != "input"}, FieldOptions)
+        check(
+            ("skip", k), ("input", *_RUN), {key: value for key, value in rule.items() if key != "input"}, FieldOptions
+        )
         for key in rule:
             if key not in study.runs and key != "input":
                 where = _line(tree, ("skip", k, key))
@@ -214,10 +218,15 @@ def _refuse_aliases_and_depth(text: str, name: str) -> None:
     depth = 0
     for event in yaml.parse(text):
         if isinstance(event, yaml.AliasEvent):
-            raise InvalidInput(f"{name}:{event.start_mark.line + 1}: write the value again in place of an alias", "bad_study")
+            raise InvalidInput(
+                f"{name}:{event.start_mark.line + 1}: write the value again in place of an alias", "bad_study"
+            )
         depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
         if depth > _DEEPEST:
-            raise InvalidInput(f"{name}:{event.start_mark.line + 1}: nested {depth} deep; a study has no more than {_DEEPEST} levels", "bad_study")
+            raise InvalidInput(
+                f"{name}:{event.start_mark.line + 1}: nested {depth} deep; a study has no more than {_DEEPEST} levels",
+                "bad_study",
+            )
 
 
 def _refuse_repeated_keys(node: yaml.Node, name: str) -> None:
@@ -257,7 +266,9 @@ def _keys_beside(loc: Loc) -> list[str]:
 
 
 def _told(error: ErrorDetails) -> str:
-    where = ".".join(str(step) for step in error["loc"] if isinstance(step, str) and step[0] not in "#[" and step not in _TYPES)
+    where = ".".join(
+        str(step) for step in error["loc"] if isinstance(step, str) and step[0] not in "#[" and step not in _TYPES
+    )
     message = error["msg"].removeprefix("Value error, ")
     if error["type"] == "extra_forbidden":
         return f"{where}: no such key{did_you_mean(str(error['loc'][-1]), _keys_beside(error['loc']))}"

@@ -38,7 +38,9 @@ def digest_of(path: Path) -> str:
 
 
 def _twins(path: Path) -> list[Path]:
-    names = [path.name.replace(one, other) for one, other in ((".node", ".ele"), (".ele", ".node")) if one in path.suffixes]
+    names = [
+        path.name.replace(one, other) for one, other in ((".node", ".ele"), (".ele", ".node")) if one in path.suffixes
+    ]
     return [twin for name in names if (twin := path.with_name(name)).is_file()]
 
 

@@ -1,4 +1,5 @@
-"""Runs a study on this machine: one process per group of runs that share a mesh, as many at once as cores and memory allow.
+"""Runs a study on this machine: one process per group of runs that share a mesh, as many at once as cores and memory
+allow.
 
 A crash or a kill of such a process costs the run it was in, which is tried once more; the others go on.
 """
@@ -47,11 +48,12 @@ def run(
     """Carries out what `folder` does not hold yet. Killed at any moment, it goes on from there when called again.
 
     jobs: processes at once (0: one per core). threads: of each run; results do not depend on it. memory_mb: that all
-    processes together may be expected to need (0: four fifths of the machine's). scheduler: address of a dask scheduler,
-    whose workers see `folder` and the inputs under the same paths, in place of this machine; patience: seconds to wait for a
-    worker that can take what is left. retry: runs that failed are tried again. progress: called with what is done, the time left
-    and what is in work, as one text, and the fraction of runs done.
-    Raises InvalidInput (also for a folder of something else, and for inputs that changed meanwhile: their runs stay open), IoError, Cancelled.
+    processes together may be expected to need (0: four fifths of the machine's). scheduler: address of a dask
+    scheduler, whose workers see `folder` and the inputs under the same paths, in place of this machine; patience:
+    seconds to wait for a worker that can take what is left. retry: runs that failed are tried again. progress: called
+    with what is done, the time left and what is in work, as one text, and the fraction of runs done. Raises
+    InvalidInput (also for a folder of something else, and for inputs that changed meanwhile: their runs stay open),
+    IoError, Cancelled.
     """
     jobs = integer_in("jobs", jobs, 0, LARGEST_INT) or len(os.sched_getaffinity(0))
     threads = integer_in("threads", threads, 0, LARGEST_INT)
@@ -122,7 +124,13 @@ class _Local:
 
     def _start(self, group: Group) -> None:
         leader = self.leader
-        child = Child(leader.store.folder, group.runs, leader.keep_fields, leader.limit, lambda child, event: self.events.put((child, event)))
+        child = Child(
+            leader.store.folder,
+            group.runs,
+            leader.keep_fields,
+            leader.limit,
+            lambda child, event: self.events.put((child, event)),
+        )
         self.active[child] = _Job(group, child, needed_mb(0, group.runs))
 
     def _on_ready(self, job: _Job, _event: Event) -> None:

@@ -23,9 +23,9 @@ class Generator:
 
 
 def generate(name: str, **parameters: float) -> TriangleMesh:
-    """A closed surface by rule: "ball" (radius), "box" (x, y, z), "cylinder" (radius, height), "torus" (radius, tube) or
-    "nut" (of the package pyvista). parameters: input unit. Not remeshed: faces are as large as the shape lets them be.
-    Raises InvalidInput.
+    """A closed surface by rule: "ball" (radius), "box" (x, y, z), "cylinder" (radius, height), "torus" (radius, tube)
+    or "nut" (of the package pyvista). parameters: input unit. Not remeshed: faces are as large as the shape lets them
+    be. Raises InvalidInput.
 
         >>> from octafield.study.generators import generate
         >>> generate("box", z=2)

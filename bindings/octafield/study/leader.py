@@ -7,11 +7,11 @@ import time
 from collections import deque
 from dataclasses import dataclass, field
 
+from ..costs import Costs, Forecast
 from ..errors import Cancelled, InvalidInput
 from ..phases import Progress
 from ..time_left import Steady, words
 from .child import Ending
-from ..costs import Costs, Forecast
 from .description import Study
 from .plan import Run, groups, mesh_of, method_of
 from .store import LOG_FILE, Store, write_record
@@ -60,9 +60,14 @@ class Leader:
             self.add(Group(runs))
 
     def _entered(self, plan: list[Run], retry: bool) -> set[str]:
-        """Keys of the plan that need no run: in the table with a folder, or with a folder that a killed leader had not entered."""
+        """Keys of the plan that need no run: in the table with a folder, or with a folder that a killed leader had not
+        entered."""
         states, folders = self.store.states(), self.store.folders()
-        again = {key for key, state in states.items() if state == "crashed" or (retry and state == "failed") or key not in folders}
+        again = {
+            key
+            for key, state in states.items()
+            if state == "crashed" or (retry and state == "failed") or key not in folders
+        }
         if again:
             self.store.forget(list(again))
         known = set(states) - again
@@ -104,7 +109,8 @@ class Leader:
         self.forecast.step_done(group.number, seconds, time.monotonic())
 
     def finished(self, group: Group, key: str, seconds: float = 0.0, state: str = "") -> None:
-        """A run has its folder. Told twice it counts once; a folder that is not whole is removed, and its run stays in the group."""
+        """A run has its folder. Told twice it counts once; a folder that is not whole is removed, and its run stays in
+        the group."""
         if all(run.key != key for run in group.runs) or not self.store.enter([key]):
             return
         group.runs = [run for run in group.runs if run.key != key]
@@ -121,7 +127,9 @@ class Leader:
         if group.runs and ending.late and (not ending.prepared or ending.late == group.runs[0].key):
             step = "" if ending.prepared else "reading, meshing and the cross field: "
             for run in list(late):
-                self._without_result(group, run, "failed", f"{step}not finished after {self.limit:g} s, the study's limit", "timed_out")
+                self._without_result(
+                    group, run, "failed", f"{step}not finished after {self.limit:g} s, the study's limit", "timed_out"
+                )
         elif group.runs and not ending.late:
             self._count_attempt(group, ending.told())
         return bool(group.runs)
@@ -159,7 +167,9 @@ class Leader:
         """After everything else is done."""
         if self.changed:
             more = f" (and {len(self.changed) - 3} more inputs)" if len(self.changed) > 3 else ""
-            raise InvalidInput(f"{'; '.join(self.changed[:3])}{more}. Their runs are open; run the study again", "input_changed")
+            raise InvalidInput(
+                f"{'; '.join(self.changed[:3])}{more}. Their runs are open; run the study again", "input_changed"
+            )
 
     def tell(self, what: str) -> None:
         if self._progress is None:
@@ -167,7 +177,9 @@ class Leader:
         now = time.monotonic()
         if self._left is None or now - self._forecast_at >= _FORECAST_EVERY:
             self._left, self._forecast_at = self.forecast.left(now), now
-        left = "" if self._left is None or self.done == self.total else f", {words(self._steady.follow(self._left, now))}"
+        left = (
+            "" if self._left is None or self.done == self.total else f", {words(self._steady.follow(self._left, now))}"
+        )
         answer = self._progress(f"{self.done} of {self.total}{left}: {what}", self.done / self.total, math.nan)
         if answer is not None and not answer:
             raise Cancelled(f"cancelled after {self.done} of {self.total} runs")

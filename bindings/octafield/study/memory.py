@@ -1,4 +1,5 @@
-"""Peak memory to expect of the process of a group: fitted to measurements (docs/scaling.md), and at least a quarter more."""
+"""Peak memory to expect of the process of a group: fitted to measurements (docs/scaling.md), and at least a quarter
+more."""
 
 from ..options import FieldOptions
 from .plan import Run

@@ -17,14 +17,15 @@ from ..phases import octafield_version
 from .description import FromFile, Generated, Study, field_options, mesh_options, place
 from .digests import Digests, digest_of
 
-
 Source = str | dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Run:
-    """One field to compute. source: a path, or {"generator": name, "with": {...}}. name: of the input, unique in the study.
-    key: 20 hexadecimal digits of the SHA-256 of the input's content, the options but threads, the repeat and octafield's version."""
+    """One field to compute. source: a path, or {"generator": name, "with": {...}}. name: of the input, unique in the
+    study.
+    key: 20 hexadecimal digits of the SHA-256 of the input's content, the options but threads, the repeat and
+        octafield's version."""
 
     key: str
     name: str
@@ -53,23 +54,59 @@ class Run:
 def method_of(run: Run) -> str:
     """Runs of one method cost the same on the same mesh."""
     o = run.options
-    return "/".join(map(str, (o.representation, o.solver, o.sampling, o.boundary, o.rounds, o.max_iterations, o.tolerance, o.streamlines, o.sizes)))
+    return "/".join(
+        map(
+            str,
+            (
+                o.representation,
+                o.solver,
+                o.sampling,
+                o.boundary,
+                o.rounds,
+                o.max_iterations,
+                o.tolerance,
+                o.streamlines,
+                o.sizes,
+            ),
+        )
+    )
 
 
 def mesh_of(run: Run) -> Hashable:
     """Equal for runs whose meshes have the same number of tets."""
     o = run.options
-    return (run.name, o.features, o.feature_angle, o.edge_length, o.remesh, o.repair, o.interfaces, o.split, o.max_hole_edges, o.wrap_alpha, o.wrap_offset, o.max_cells)
+    return (
+        run.name,
+        o.features,
+        o.feature_angle,
+        o.edge_length,
+        o.remesh,
+        o.repair,
+        o.interfaces,
+        o.split,
+        o.max_hole_edges,
+        o.wrap_alpha,
+        o.wrap_offset,
+        o.max_cells,
+    )
 
 
 # Options younger than keys, as they were before: not in the key, so that runs of earlier studies keep theirs.
-_LATER = (("sizes", "none"), ("max_hole_edges", 0), ("wrap_alpha", 0.0), ("wrap_offset", 0.0), ("max_cells", 0), ("split_singular", False))
+_LATER = (
+    ("sizes", "none"),
+    ("max_hole_edges", 0),
+    ("wrap_alpha", 0.0),
+    ("wrap_offset", 0.0),
+    ("max_cells", 0),
+    ("split_singular", False),
+)
 _RENAMED = {("repair", "default"): False, ("repair", "safe"): True}  # values that had other words
 _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))
 
 
 def plan(study: Study, *, threads: int = 1, digests: Digests | None = None) -> list[Run]:
-    """Every combination, inputs outermost, in the order of the file. Raises InvalidInput where a file or glob is not there.
+    """Every combination, inputs outermost, in the order of the file. Raises InvalidInput where a file or glob is not
+    there.
     digests: of files, kept from earlier times.
 
         >>> from octafield import study
@@ -104,7 +141,10 @@ def _require_matching_rules(study: Study, names: set[str]) -> None:
     for k, rule in enumerate(study.skip):
         if "input" in rule and not any(fnmatch.fnmatchcase(name, str(rule["input"])) for name in names):
             known = ", ".join(sorted(names)[:10]) + (" ..." if len(names) > 10 else "")
-            raise InvalidInput(f"{place(study, ('skip', k, 'input'))}: no input is called {rule['input']!r}; there are: {known}", "bad_study")
+            raise InvalidInput(
+                f"{place(study, ('skip', k, 'input'))}: no input is called {rule['input']!r}; there are: {known}",
+                "bad_study",
+            )
 
 
 def groups(runs: list[Run]) -> list[list[Run]]:
@@ -115,7 +155,9 @@ def groups(runs: list[Run]) -> list[list[Run]]:
     return list(found.values())
 
 
-def _runs_on(study: Study, entry: FromFile | Generated, source: Source, name: str, digest: str, threads: int) -> list[Run]:
+def _runs_on(
+    study: Study, entry: FromFile | Generated, source: Source, name: str, digest: str, threads: int
+) -> list[Run]:
     mesh = mesh_options(study, entry)
     rules = [rule for rule in study.skip if fnmatch.fnmatchcase(name, str(rule.get("input", "*")))]
     rules = [{key: value for key, value in rule.items() if key != "input"} for rule in rules]

@@ -11,8 +11,8 @@ from .store import Store
 
 @dataclass(frozen=True)
 class Status:
-    """How many runs of a study are done, failed (the input or an option is at fault, or the study's limit was passed; the
-    record's message says which), crashed (their process died) and open."""
+    """How many runs of a study are done, failed (the input or an option is at fault, or the study's limit was passed;
+    the record's message says which), crashed (their process died) and open."""
 
     done: int
     failed: int
@@ -25,8 +25,8 @@ class Status:
 
 
 def rows(folder: str | Path) -> list[dict[str, Any]]:
-    """Records of the finished runs of the study, in the order of its description; state: done, failed or crashed. Raises
-    InvalidInput where `folder` is not that of a study.
+    """Records of the finished runs of the study, in the order of its description; state: done, failed or crashed.
+    Raises InvalidInput where `folder` is not that of a study.
 
         >>> from octafield import study
         >>> described = study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}")
@@ -43,10 +43,10 @@ def rows(folder: str | Path) -> list[dict[str, Any]]:
 def status(folder: str | Path) -> Status:
     """Of the study that `folder` holds. Raises InvalidInput where it holds none.
 
-        >>> from octafield import study
-        >>> outcome = study.run(study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}"), "folder")
-        >>> study.status("folder")
-        Status(done=1, failed=0, crashed=0, open=0)
+    >>> from octafield import study
+    >>> outcome = study.run(study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}"), "folder")
+    >>> study.status("folder")
+    Status(done=1, failed=0, crashed=0, open=0)
     """
     store = Store(folder)
     return status_of(store, plan(store.study(), digests=store.digests()))

@@ -1,8 +1,8 @@
 """The folder of a study: one table, one folder per run.
 
-A run is finished when runs/KEY exists: it is written elsewhere, to the disk, and renamed. The table runs.sqlite has one line per
-finished run and is written by the process that leads the study only; what a killed leader had not entered is entered by the next,
-which makes the whole table anew from the runs where it is broken.
+A run is finished when runs/KEY exists: it is written elsewhere, to the disk, and renamed. The table runs.sqlite has one
+line per finished run and is written by the process that leads the study only; what a killed leader had not entered is
+entered by the next, which makes the whole table anew from the runs where it is broken.
 """
 
 import contextlib
@@ -39,7 +39,8 @@ class Store:
 
     @contextlib.contextmanager
     def led(self, study: Study) -> Iterator[None]:
-        """For the one process that leads the study: makes the folder, or goes on with it; its description is now `study`."""
+        """For the one process that leads the study: makes the folder, or goes on with it; its description is now
+        `study`."""
         import fcntl
 
         self._make()
@@ -102,7 +103,8 @@ class Store:
                 shutil.rmtree(partial, ignore_errors=True)
 
     def enter(self, keys: Iterable[str]) -> list[str]:
-        """Puts finished runs into the table, in one transaction. Returns their keys without those whose record is not whole: their folders are removed."""
+        """Puts finished runs into the table, in one transaction. Returns their keys without those whose record is not
+        whole: their folders are removed."""
         records = [(key, self.record(key)) for key in keys]
         lines = [(key, r["input"], r["state"], r["message"], json.dumps(r)) for key, r in records if r]
         with self._table() as table:
@@ -144,7 +146,9 @@ class Store:
     def keep(self, digests: Digests) -> None:
         if digests.fresh:
             with self._table() as table:
-                table.executemany("INSERT OR REPLACE INTO digests VALUES (?, ?, ?)", [(p, *kept) for p, kept in digests.fresh.items()])
+                table.executemany(
+                    "INSERT OR REPLACE INTO digests VALUES (?, ?, ?)", [(p, *kept) for p, kept in digests.fresh.items()]
+                )
 
     def _rows(self, query: str) -> list[tuple[Any, ...]]:
         """None where there is no table, or a file without one."""
@@ -163,7 +167,9 @@ class Store:
             with contextlib.closing(sqlite3.connect(self.folder / TABLE_FILE, timeout=60)) as table, table:
                 yield table
         except sqlite3.Error as error:
-            raise IoError(f"{self.folder / TABLE_FILE}: {error}; octafield study resume makes a broken table anew") from error
+            raise IoError(
+                f"{self.folder / TABLE_FILE}: {error}; octafield study resume makes a broken table anew"
+            ) from error
 
     def _open_table(self) -> None:
         """Makes the table; a broken one is emptied first, its lines are entered again from the runs."""
@@ -190,7 +196,9 @@ class Store:
             # Asked after: another leader that fills the folder now has made the table by the time anything is seen.
             ours = any((self.folder / name).exists() for name in (TABLE_FILE, STUDY_FILE))
             if filled and not ours:
-                raise InvalidInput(f"{self.folder}: not empty and not the folder of a study; choose another", "foreign_folder")
+                raise InvalidInput(
+                    f"{self.folder}: not empty and not the folder of a study; choose another", "foreign_folder"
+                )
             self.folder.mkdir(parents=True, exist_ok=True)
             (self.folder / TABLE_FILE).touch()
             (self.folder / RUNS).mkdir(exist_ok=True)
@@ -217,7 +225,9 @@ class Store:
         except IoError:
             raise
         except OSError as error:
-            raise IoError(f"{error.filename or self.folder}: cannot write there ({error.strerror or error})", "cannot_write") from error
+            raise IoError(
+                f"{error.filename or self.folder}: cannot write there ({error.strerror or error})", "cannot_write"
+            ) from error
 
 
 def write_record(folder: Path, run: Run, record: dict[str, Any], state: str, message: str = "") -> None:

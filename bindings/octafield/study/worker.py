@@ -1,9 +1,11 @@
 """Runs of one group, one after the other, in a process of their own.
 
-Speaks JSON lines: reads one job from standard input; writes to the file descriptor that its argument names {"event": "ready"}, {"event": "prepared", "tets": n,
-"seconds": s}, waits for a line (the leader's leave to use that much memory), then {"event": "finished", "key": ..., "seconds": s,
-"state": ...} for each run and "progress" between. Before it ends without having finished all: "changed" (the input is no longer
-what was planned), "unwritable" (the folder) or "broken", each with a "message".
+Speaks JSON lines: reads one job from standard input; writes to the file descriptor that its argument names {"event":
+"ready"}, {"event": "prepared", "tets": n,
+"seconds": s}, waits for a line (the leader's leave to use that much memory), then {"event": "finished", "key": ...,
+    "seconds": s,
+"state": ...} for each run and "progress" between. Before it ends without having finished all: "changed" (the input is
+    no longer what was planned), "unwritable" (the folder) or "broken", each with a "message".
 """
 
 import contextlib
@@ -35,9 +37,16 @@ class InputChanged(InvalidInput):
     """The file of an input is gone or holds something else than when its runs were planned: their keys promise that."""
 
 
-def execute(store: Store, runs: list[Run], keep_fields: bool, prepared: Prepared, finished: Finished, progress: Progress | None = None) -> None:
-    """Runs of one group that are not finished yet. An error that the input or an option is at fault for is the run's result;
-    InputChanged and IoError of the study's folder are raised."""
+def execute(
+    store: Store,
+    runs: list[Run],
+    keep_fields: bool,
+    prepared: Prepared,
+    finished: Finished,
+    progress: Progress | None = None,
+) -> None:
+    """Runs of one group that are not finished yet. An error that the input or an option is at fault for is the run's
+    result; InputChanged and IoError of the study's folder are raised."""
     from ..pipeline import prepare, prepare_mesh
     from ..pipeline import run as compute
 

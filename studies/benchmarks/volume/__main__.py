@@ -1,9 +1,10 @@
 """All benchmarks of frame fields in volumes, and the page of their tables.
 
-    python -m studies.benchmarks.volume -o DIR [--data ../shared/data] [--balls 12,20,32,44] [--seeds 10] [--part energies] ...
+    python -m studies.benchmarks.volume -o DIR [--data ../shared/data] [--balls 12,20,32,44] [--seeds 10] [--part
+    energies] ...
 
-DIR gets benchmarks.md, representations.md (every file in every representation) and a folder per part. Without --part: all of energies,
-growth, parts, large, split; a part that was not run keeps the tables it left in DIR.
+DIR gets benchmarks.md, representations.md (every file in every representation) and a folder per part. Without --part:
+all of energies, growth, parts, large, split; a part that was not run keeps the tables it left in DIR.
 """
 
 import argparse
@@ -23,7 +24,9 @@ def run_part(part: str, a) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     hexme = a.data / "hexme"
     if part == "energies":
-        energies.main([*(str(a.data / "arff" / f"{m}.mesh.gz") for m in MESHES), "-o", str(folder), "--seeds", str(a.seeds)])
+        energies.main(
+            [*(str(a.data / "arff" / f"{m}.mesh.gz") for m in MESHES), "-o", str(folder), "--seeds", str(a.seeds)]
+        )
     elif part == "growth":
         growth.main([str(hexme / "i16c.vtk.gz"), "-o", str(folder), "--balls", a.balls])
     elif part == "parts":

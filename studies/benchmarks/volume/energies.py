@@ -1,13 +1,15 @@
-"""Frame fields in volumes: energy and CPU seconds of the default recipe, its spread over random starts, and the time of linear solves.
+"""Frame fields in volumes: energy and CPU seconds of the default recipe, its spread over random starts, and the time of
+linear solves.
 
     python -m studies.benchmarks.volume.energies -o DIR [--seeds 10] MESH...
 
-MESH: tet meshes or closed surfaces. No features; every boundary vertex aligned with its area-weighted normal, twist free (the conventions of Palmer, Bommes,
-Solomon 2020). Energies: sh4, P1 stiffness. CPU seconds of one thread, smoothing only; least of `--repeats` runs. Units of time, by conjugate gradients of SciPy with the
-Jacobi preconditioner to the relative residual 1e-8, in the same process, without assembly:
-"same constraints": the harmonic sh4 field under the field's own constraints, one system (Ray, Sokolov, Levy 2016): nine unknowns per vertex inside, two at a vertex whose axis is fixed;
-"boundary fixed": the harmonic extension of whole sh4 vectors given at the boundary, nine systems.
-DIR gets summary.md.
+MESH: tet meshes or closed surfaces. No features; every boundary vertex aligned with its area-weighted normal, twist
+    free (the conventions of Palmer, Bommes, Solomon 2020). Energies: sh4, P1 stiffness. CPU seconds of one thread,
+    smoothing only; least of `--repeats` runs. Units of time, by conjugate gradients of SciPy with the Jacobi
+    preconditioner to the relative residual 1e-8, in the same process, without assembly: "same constraints": the
+    harmonic sh4 field under the field's own constraints, one system (Ray, Sokolov, Levy 2016): nine unknowns per vertex
+    inside, two at a vertex whose axis is fixed; "boundary fixed": the harmonic extension of whole sh4 vectors given at
+    the boundary, nine systems. DIR gets summary.md.
 """
 
 import argparse
@@ -15,18 +17,18 @@ import time
 from pathlib import Path
 
 import numpy as np
+import octafield
 import scipy.sparse as sparse
 import scipy.sparse.linalg
-from study_output import markdown_table
-
-import octafield
 from octafield.options import MeshOptions
 from octafield.pipeline import prepare, prepare_mesh
+from study_output import markdown_table
 
 AXIS, FIXED = 1, 2  # of BoundaryConstraints.kind
 
-# Best energy that public codes reached on these meshes in the same conventions, and CPU seconds: of modified MBO and a trust region (Palmer, Bommes, Solomon 2020),
-# in brackets of Ray, Sokolov, Levy 2016, converged; measured on another day.
+# Best energy that public codes reached on these meshes in the same conventions, and CPU seconds: of modified MBO and a
+# trust region (Palmer, Bommes, Solomon 2020), in brackets of Ray, Sokolov, Levy 2016, converged; measured on another
+# day.
 PUBLIC_CODES = {
     "sphere_r0.17": (39.8463, "2.5 (0.21)"),
     "sphere_r0.10": (52.2090, "7.5 (5.2)"),
@@ -63,7 +65,8 @@ def solve(system, columns) -> int:
 
 
 def twist_circles(frames: np.ndarray, axes: np.ndarray) -> tuple:
-    """Centres (k, 9) and orthonormal bases (k, 9, 2) of the planes of the circles that sh4 vectors describe as frames turn about an axis."""
+    """Centres (k, 9) and orthonormal bases (k, 9, 2) of the planes of the circles that sh4 vectors describe as frames
+    turn about an axis."""
     start = octafield.sh4_embed(frames)
     turned = lambda angle: octafield.sh4_rotate(octafield.quaternion_exp(angle * axes), start)
     centre = (start + turned(np.pi / 4)) / 2
@@ -72,8 +75,13 @@ def twist_circles(frames: np.ndarray, axes: np.ndarray) -> tuple:
 
 
 def constrained_system(tets, constraints) -> tuple:
-    """Matrix and right-hand side of the harmonic sh4 field under the constraints: with x = given + B u, B'(L x I)B u = -B'(L x I) given."""
-    stiffness, kind, frames = octafield.stiffness(tets).tocsr(), np.array(constraints.kind), np.array(constraints.frames)
+    """Matrix and right-hand side of the harmonic sh4 field under the constraints: with x = given + B u, B'(L x I)B u =
+    -B'(L x I) given."""
+    stiffness, kind, frames = (
+        octafield.stiffness(tets).tocsr(),
+        np.array(constraints.kind),
+        np.array(constraints.frames),
+    )
     n, turning, fixed = len(kind), np.flatnonzero(kind == AXIS), np.flatnonzero(kind == FIXED)
     given = np.zeros((n, 9))
     given[fixed] = octafield.sh4_embed(frames[fixed])
@@ -81,10 +89,18 @@ def constrained_system(tets, constraints) -> tuple:
     unknowns = np.where(kind == AXIS, 2, np.where(kind == FIXED, 0, 9))
     first = np.cumsum(unknowns) - unknowns
     inside = np.flatnonzero(unknowns == 9)
-    rows = [(9 * inside[:, None] + np.arange(9)).ravel(), (9 * turning[:, None, None] + np.arange(9)[:, None] + [0, 0]).ravel()]
-    columns = [(first[inside][:, None] + np.arange(9)).ravel(), (first[turning][:, None, None] + np.zeros((9, 1), int) + np.arange(2)).ravel()]
+    rows = [
+        (9 * inside[:, None] + np.arange(9)).ravel(),
+        (9 * turning[:, None, None] + np.arange(9)[:, None] + [0, 0]).ravel(),
+    ]
+    columns = [
+        (first[inside][:, None] + np.arange(9)).ravel(),
+        (first[turning][:, None, None] + np.zeros((9, 1), int) + np.arange(2)).ravel(),
+    ]
     values = [np.ones(9 * len(inside)), planes.ravel()]
-    basis = sparse.csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(9 * n, unknowns.sum()))
+    basis = sparse.csr_matrix(
+        (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(9 * n, unknowns.sum())
+    )
     system = (basis.T @ sparse.kron(stiffness, sparse.identity(9), "csr") @ basis).tocsr()
     return system, -basis.T @ (stiffness @ given).ravel()
 
@@ -100,7 +116,9 @@ def problem(path) -> tuple:
     """Mesh and constraints of the comparison."""
     meshed = prepare_mesh(path, MeshOptions(features="none"))
     directions = prepare(meshed).directions
-    return meshed.tets, octafield.boundary_constraints(len(meshed.tets.vertices), meshed.boundary, meshed.features, directions, mode="aligned")
+    return meshed.tets, octafield.boundary_constraints(
+        len(meshed.tets.vertices), meshed.boundary, meshed.features, directions, mode="aligned"
+    )
 
 
 def measure(path, seeds: int = 10, repeats: int = 3) -> tuple:
@@ -116,14 +134,41 @@ def measure(path, seeds: int = 10, repeats: int = 3) -> tuple:
     spread = [run(seed=seed).smooth.energy for seed in range(1, seeds + 1)]
     name = Path(path).name.split(".mesh")[0]
     known, others = PUBLIC_CODES.get(name, ("-", "-"))
-    return (name, f"{len(tets.vertices):,}", f"{len(tets.tets):,}", f"{run(rounds=0).smooth.energy:.4f}", f"{run(rounds=1).smooth.energy:.4f}",
-            f"{result.smooth.energy:.4f}", f"{seconds:.3f}", f"{unit:.3f} ({iterations})", f"{seconds / unit:.1f}", f"{fixed_unit:.3f} ({fixed_iterations})", f"{seconds / fixed_unit:.1f}",
-            f"{min(spread):.4f} to {max(spread):.4f}" if spread else "-", known, others)
+    return (
+        name,
+        f"{len(tets.vertices):,}",
+        f"{len(tets.tets):,}",
+        f"{run(rounds=0).smooth.energy:.4f}",
+        f"{run(rounds=1).smooth.energy:.4f}",
+        f"{result.smooth.energy:.4f}",
+        f"{seconds:.3f}",
+        f"{unit:.3f} ({iterations})",
+        f"{seconds / unit:.1f}",
+        f"{fixed_unit:.3f} ({fixed_iterations})",
+        f"{seconds / fixed_unit:.1f}",
+        f"{min(spread):.4f} to {max(spread):.4f}" if spread else "-",
+        known,
+        others,
+    )
 
 
 def header(seeds: int = 10) -> list:
-    return ["mesh", "vertices", "tets", "E, no diffusion", "E, one round", "E, default", "CPU s", "linear solve, same constraints: CPU s (iterations)", "default over it",
-            "boundary fixed: CPU s (iterations)", "default over it", f"E over {seeds} seeds", "best known", "others, CPU s"]
+    return [
+        "mesh",
+        "vertices",
+        "tets",
+        "E, no diffusion",
+        "E, one round",
+        "E, default",
+        "CPU s",
+        "linear solve, same constraints: CPU s (iterations)",
+        "default over it",
+        "boundary fixed: CPU s (iterations)",
+        "default over it",
+        f"E over {seeds} seeds",
+        "best known",
+        "others, CPU s",
+    ]
 
 
 def main(arguments=None) -> None:

@@ -2,8 +2,9 @@
 
     python -m studies.benchmarks.volume.growth -o DIR [--balls 12,20,32,48] [--threads 0] [FILE...]
 
-A ball of number n is an icosphere of 20 n^2 triangles filled by TetGen; files are surfaces or tet meshes. Each runs as `octafield field` in a process of its own. Wall seconds by
-phase, CPU seconds and peak memory are those of its JSON record. The last line: the exponents p of CPU seconds ~ tets^p by least squares over the balls. DIR gets growth.md.
+A ball of number n is an icosphere of 20 n^2 triangles filled by TetGen; files are surfaces or tet meshes. Each runs as
+`octafield field` in a process of its own. Wall seconds by phase, CPU seconds and peak memory are those of its JSON
+record. The last line: the exponents p of CPU seconds ~ tets^p by least squares over the balls. DIR gets growth.md.
 """
 
 import argparse
@@ -14,14 +15,23 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-
+import octafield
 import surface_meshes
+from octafield.phases import PHASES
 from study_output import markdown_table
 
-import octafield
-from octafield.phases import PHASES
-
-HEADER = ["mesh", "vertices", "tets", *(f"{phase} s" for phase in PHASES), "wall s", "CPU s", "CPU s, smoothing", "peak MB", "E", "singular edges"]
+HEADER = [
+    "mesh",
+    "vertices",
+    "tets",
+    *(f"{phase} s" for phase in PHASES),
+    "wall s",
+    "CPU s",
+    "CPU s, smoothing",
+    "peak MB",
+    "E",
+    "singular edges",
+]
 
 
 def record(path: Path, *options: str) -> dict:
@@ -34,8 +44,18 @@ def record(path: Path, *options: str) -> dict:
 
 def row(name: str, r: dict) -> tuple:
     wall, cpu = r["wall_seconds"], r["cpu_seconds"]
-    return (name, f"{r['vertices']:,}", f"{r['tets']:,}", *(f"{wall[phase]:.2f}" for phase in PHASES), f"{sum(wall.values()):.1f}", f"{sum(cpu.values()):.1f}", f"{cpu['smooth']:.1f}",
-            f"{r['peak_mb']:.0f}", f"{r['energy']:.6g}", f"{r['singular_edges']:,}")
+    return (
+        name,
+        f"{r['vertices']:,}",
+        f"{r['tets']:,}",
+        *(f"{wall[phase]:.2f}" for phase in PHASES),
+        f"{sum(wall.values()):.1f}",
+        f"{sum(cpu.values()):.1f}",
+        f"{cpu['smooth']:.1f}",
+        f"{r['peak_mb']:.0f}",
+        f"{r['energy']:.6g}",
+        f"{r['singular_edges']:,}",
+    )
 
 
 def exponent(sizes, seconds) -> float:
@@ -70,7 +90,10 @@ def main(arguments=None) -> None:
     for path in arguments.file:
         add(path.name.split(".")[0], record(path, "--threads", arguments.threads))
     if len(sizes) > 1:
-        told = f"CPU seconds of the balls grow like tets^{exponent(sizes, seconds):.2f}, of their smoothing like tets^{exponent(sizes, smoothing):.2f}."
+        told = (
+            f"CPU seconds of the balls grow like tets^{exponent(sizes, seconds):.2f}, of their smoothing like"
+            f" tets^{exponent(sizes, smoothing):.2f}."
+        )
         print(told)
         (arguments.output / "exponent.md").write_text(told + "\n")
 

@@ -1,6 +1,7 @@
 """A frame field on every tet mesh of a folder: what is held, how well, what the field is like, and the time it takes.
 
-    python -m studies.benchmarks.volume.parts FOLDER -o DIR [--representations all] [--split] [--skip i16c] [--only s01,i1]
+    python -m studies.benchmarks.volume.parts FOLDER -o DIR [--representations all] [--split] [--skip i16c] [--only
+    s01,i1]
 
 DIR gets fields.csv and fields.md, one line per file, of the default recipe. The alignment error is found anew from the
 mesh, without the program's own sectors: at vertices away from features the angle between the area-weighted normal of
@@ -17,14 +18,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from study_output import markdown_table, write_csv
-
 import octafield
 from octafield.meshing import prepare_mesh
 from octafield.options import COMPARED, FieldOptions
 from octafield.phases import PHASES
 from octafield.pipeline import prepare, run
 from octafield.results import write_field_result
+from study_output import markdown_table, write_csv
 
 HEADER = [
     "file", "vertices", "tets", "regions", "interface", "energy", "singular", "complex", "error deg", "misfit deg",
@@ -119,7 +119,9 @@ def summary_rows(rows: list[list]) -> list[tuple]:
     return result
 
 
-def measure(path: Path, options: FieldOptions, representations: list[str], alone: bool = True) -> tuple[list, list[list]]:
+def measure(
+    path: Path, options: FieldOptions, representations: list[str], alone: bool = True
+) -> tuple[list, list[list]]:
     """The line of fields.md and those of representations.md."""
     meshed = prepare_mesh(path, options)
     problem = prepare(meshed)
@@ -132,7 +134,9 @@ def measure(path: Path, options: FieldOptions, representations: list[str], alone
     return row_of(path, meshed, reference), lines
 
 
-def measure_folder(folder: Path, output: Path, options: FieldOptions, representations=(), skip=(), only=(), alone=True) -> None:
+def measure_folder(
+    folder: Path, output: Path, options: FieldOptions, representations=(), skip=(), only=(), alone=True
+) -> None:
     """Writes the tables after every file, so that an interrupted run leaves those of the files before."""
     output.mkdir(parents=True, exist_ok=True)
     rows, lines = [], []
