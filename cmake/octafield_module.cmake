@@ -15,9 +15,9 @@ function(octafield_precompile target)
   endif()
 endfunction()
 
-function(octafield_module name)
+# The folder's static library TARGET, exported as octafield::NAME, with what its headers need of system headers.
+function(octafield_library target name)
   cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
-  set(target octafield_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(octafield::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
@@ -26,5 +26,39 @@ function(octafield_module name)
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:octafield_warnings>)
   install(TARGETS ${target} EXPORT octafield COMPONENT development ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+  endif()
+endfunction()
+
+function(octafield_module name)
+  octafield_library(octafield_${name} ${name} ${ARGN})
+endfunction()
+
+# octafield_submodule(MODULE NAME USES ... SOURCES ...): the static library octafield_MODULE_NAME of the folder MODULE/NAME/.
+# USES: the sub-modules of the same module below it. Their headers in include/ and their private ones in src/ can be included, those of
+# no other: so the compiler and the linker check the directions.
+function(octafield_submodule module name)
+  cmake_parse_arguments(ARG "" "" "USES;SOURCES" ${ARGN})
+  set(target octafield_${module}_${name})
+  octafield_library(${target} ${module}_${name} SOURCES ${ARG_SOURCES})
+  add_library(${target}_parts INTERFACE)  # the private headers, for its neighbours and tests
+  target_include_directories(${target}_parts INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  foreach(used ${ARG_USES})
+    target_link_libraries(${target} PUBLIC octafield_${module}_${used} PRIVATE $<BUILD_INTERFACE:octafield_${module}_${used}_parts>)
+  endforeach()
+endfunction()
+
+# octafield_submodules(MODULE NAMES...): adds the folders and makes octafield::MODULE, which is all of them.
+function(octafield_submodules module)
+  add_library(octafield_${module} INTERFACE)
+  add_library(octafield::${module} ALIAS octafield_${module})
+  set_target_properties(octafield_${module} PROPERTIES EXPORT_NAME ${module})
+  add_library(octafield_${module}_parts INTERFACE)
+  foreach(name ${ARGN})
+    add_subdirectory(${name})
+    target_link_libraries(octafield_${module} INTERFACE octafield_${module}_${name})
+    target_link_libraries(octafield_${module}_parts INTERFACE octafield_${module}_${name}_parts)
+  endforeach()
+  install(TARGETS octafield_${module} EXPORT octafield COMPONENT development)
 endfunction()

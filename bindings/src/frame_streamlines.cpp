@@ -1,4 +1,5 @@
 // Curves along the axes of frame fields in tet meshes, and where they begin.
+#include "octafield/volume/locate_points.hpp"
 #include "octafield/volume/streamlines.hpp"
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include "checks.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/locking.hpp"
+#include "octafield/volume/singular_split.hpp"
 #include "octafield/volume/regions.hpp"
 #include "octafield/volume/vertex_constraints.hpp"
 #include "record.hpp"

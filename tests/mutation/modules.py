@@ -38,7 +38,7 @@ PYTHON = {
 }  # fmt: skip
 
 CPP = {
-    "surface/src/singular_place.cpp": Module(("FittedPlace.*:SingularPlaces.Zeros*:SingularPlaces.Corners*",), "test_surface", {
+    "surface/field/src/singular_place.cpp": Module(("FittedPlace.*:SingularPlaces.Zeros*:SingularPlaces.Corners*",), "test_surface", {
         "away == 0.0 ?": "a value at the point itself has weight 0",
         "Complex mean = 1": "where the method starts from",
         "std::min(2 * 1.0, std::norm": "how much more the values beyond an edge weigh; a sound field's place does not depend on it",
@@ -54,9 +54,9 @@ CPP = {
         "unexplained <= most": "differs where the angle is the bound to the last bit",
         "std::polar(2 * 1.0": "the angle of a number does not depend on its length",
     }),
-    "surface/src/surface_singularities.cpp": Module(("FittedPlace.*:SingularPoints.*:SingularPlaces.Corners*:SurfaceSingularities.*",), "test_surface", {"assert(": "the check of rounding is not in a release", "1e-3 * (charted.centroid": "a little to the side, whichever",
+    "surface/field/src/surface_singularities.cpp": Module(("FittedPlace.*:SingularPoints.*:SingularPlaces.Corners*:SurfaceSingularities.*",), "test_surface", {"assert(": "the check of rounding is not in a release", "1e-3 * (charted.centroid": "a little to the side, whichever",
         "std::size_t c = 1; c <": "sums of turns are rounded to whole ones, and one corner's is less than half of one"}),
-    "volume/src/singularities.cpp": Module(("Singular*:*/StraightLine*",), "test_volume", {
+    "volume/analysis/src/singularities.cpp": Module(("Singular*:*/StraightLine*",), "test_volume", {
         "norm <= shortest": "which of two sides that are equally near",
         "if (s > 0 && t": "a point on a side is found again as that side's",
         "const int next = (k + 2) % 3": "the same three sides",

@@ -3,7 +3,7 @@
     python tests/mutation/run.py                          # every module of modules.py
     python tests/mutation/run.py sizes.py study/plan.py --most 30 --seed 1
     python tests/mutation/run.py sizes.py --lines 46,102   # of these lines alone, as after a test was added
-    python tests/mutation/run.py volume/src/singularities.cpp --build build/release
+    python tests/mutation/run.py volume/analysis/src/singularities.cpp --build build/release
 
 Python modules are changed in a copy of the package. Of C++ files the changed one is compiled and linked before the
 library into a test program of its own. Neither the sources nor the build are touched. Ends with 1 where the score of a

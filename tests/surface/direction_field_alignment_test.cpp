@@ -1,7 +1,7 @@
 // How a direction field follows boundary and features: strongly, weakly, not at all; corners; surfaces with one side.
 #include "direction_field_fixtures.hpp"
 
-#include "../../surface/src/alignment.hpp"
+#include "alignment.hpp"
 
 namespace octafield::surface {
 namespace {

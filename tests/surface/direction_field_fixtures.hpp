@@ -10,10 +10,10 @@
 #include <numeric>
 #include <random>
 
-#include "../../surface/src/crouzeix_raviart.hpp"
-#include "../../surface/src/free_system.hpp"
-#include "../../surface/src/ginzburg_landau.hpp"
-#include "../../surface/src/line_search.hpp"
+#include "crouzeix_raviart.hpp"
+#include "free_system.hpp"
+#include "ginzburg_landau.hpp"
+#include "line_search.hpp"
 #include "mesh_fixtures.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/directions.hpp"

@@ -1,6 +1,6 @@
 // The fit of a vortex to the values round a point: what it finds, and when it does not tell.
-#include "../../surface/src/charted_field.hpp"
-#include "../../surface/src/singular_place.hpp"
+#include "charted_field.hpp"
+#include "singular_place.hpp"
 #include "direction_field_fixtures.hpp"
 
 namespace octafield::surface {

@@ -4,6 +4,7 @@
 
 #include "field_fixtures.hpp"
 #include "octafield/error.hpp"
+#include "octafield/volume/locate_points.hpp"
 #include "octafield/volume/streamlines.hpp"
 
 namespace octafield::volume {

@@ -1,4 +1,5 @@
 #include "octafield/volume/locking.hpp"
+#include "octafield/volume/singular_split.hpp"
 
 #include <gtest/gtest.h>
 
