@@ -18,6 +18,7 @@ void bind_direction_fields(pybind11::module_& module);
 void bind_streamlines(pybind11::module_& module);
 void bind_renormalised_energy(pybind11::module_& module);
 void bind_volume_types(pybind11::module_& module);
+void bind_domain(pybind11::module_& module);
 void bind_volume(pybind11::module_& module);
 void bind_sampling_types(pybind11::module_& module);
 void bind_sampling(pybind11::module_& module);

@@ -90,33 +90,21 @@ VertexRule vertex_rule(const Directions& edges, const Directions& normals, bool 
     return corner_rule(edges, normals, options.feature_tolerance);
 }
 
-void require_boundary_inputs(Index vertex_count, const BoundarySurface& boundary, const surface::FeatureGraph& features,
-                             const Points& directions, const BoundaryOptions& options) {
-    const Eigen::Index count = boundary.mesh.vertices.rows();
+void require_boundary_inputs(const TetDomain& domain, const Points& directions, const BoundaryOptions& options) {
+    const Eigen::Index count = domain.surface().mesh.vertices.rows();
     if (directions.rows() != count)
         throw InvalidInput("directions has " + std::to_string(directions.rows()) +
-                               " rows; give one per boundary vertex, " + std::to_string(count),
+                               " rows; give one per vertex of the surface, " + std::to_string(count),
                            "wrong_size");
     if (!directions.allFinite()) throw InvalidInput("directions must be finite numbers", "not_finite");
-    if (static_cast<Eigen::Index>(boundary.vertex_map.size()) != count)
-        throw InvalidInput("vertex_map must have one entry per boundary vertex", "wrong_size");
-    for (const Index v : boundary.vertex_map)
-        if (v < 0 || v >= vertex_count)
-            throw InvalidInput("vertex_map refers to vertex " + std::to_string(v) + " of a tet mesh with " +
-                                   std::to_string(vertex_count),
-                               "index_out_of_range", {v});
-    for (const Index v : features.corners)
-        if (v < 0 || v >= count)
-            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the boundary mesh",
-                               "index_out_of_range", {v});
     if (!(options.feature_tolerance >= 0 && options.feature_tolerance <= std::numbers::pi / 2))
         throw InvalidInput("feature_tolerance is in radians, from 0 to pi/2", "feature_tolerance");
 }
 
 }  // namespace
 
-SectorNormals sector_normals(const surface::TriangleMesh& boundary, const surface::FeatureGraph& features) {
-    const BoundaryStars stars(boundary, features);
+SectorNormals sector_normals(const TetDomain& domain) {
+    const BoundaryStars stars(domain.surface().mesh, domain.features());
     SectorNormals result;
     std::vector<Vector3> normals;
     for (Index v = 0; v < stars.vertex_count(); ++v)
@@ -129,10 +117,10 @@ SectorNormals sector_normals(const surface::TriangleMesh& boundary, const surfac
     return result;
 }
 
-BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurface& boundary,
-                                         const surface::FeatureGraph& features, const Points& directions,
+BoundaryConstraints boundary_constraints(const TetDomain& domain, const Points& directions,
                                          const BoundaryOptions& options) {
-    require_boundary_inputs(vertex_count, boundary, features, directions, options);
+    require_boundary_inputs(domain, directions, options);
+    const Index vertex_count = domain.vertex_count();
     BoundaryConstraints result;
     result.kind.assign(vertex_count, VertexConstraint::free);
     result.axis = Points::Zero(vertex_count, 3);
@@ -140,15 +128,15 @@ BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurfa
     result.frames.col(0).setOnes();
     result.on_boundary.assign(vertex_count, 0);
 
-    const BoundaryStars stars(boundary.mesh, features);
+    const BoundaryStars stars(domain.surface().mesh, domain.features());
     std::vector<std::uint8_t> listed(stars.vertex_count(), 0);
-    for (const Index v : features.corners) listed[v] = 1;
+    for (const Index v : domain.features().corners) listed[v] = 1;
     for (Index b = 0; b < stars.vertex_count(); ++b) {
         const Directions normals = stars.sector_normals(b);
         if (normals.empty()) continue;  // in no triangle
         const VertexRule rule =
             vertex_rule(stars.feature_directions(b), normals, listed[b], directions.row(b).transpose(), options);
-        const Index v = boundary.vertex_map[b];
+        const Index v = domain.surface().vertex_map[b];
         result.on_boundary[v] = 1;
         result.frames.row(v) = frames::to_wxyz(rule.frame).transpose();
         if (options.mode == BoundaryMode::none) continue;
@@ -159,10 +147,9 @@ BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurfa
     return result;
 }
 
-Eigen::VectorXd alignment_angles(const BoundarySurface& boundary, const surface::FeatureGraph& features,
-                                 const Quaternions& frames) {
-    const SectorNormals normals = sector_normals(boundary.mesh, features);
-    return angles_to_nearest_axis(boundary, normals.vertex, normals.normal, frames);
+Eigen::VectorXd alignment_angles(const TetDomain& domain, const Quaternions& frames) {
+    const SectorNormals normals = sector_normals(domain);
+    return angles_to_nearest_axis(domain, normals.vertex, normals.normal, frames);
 }
 
 }  // namespace octafield::volume
