@@ -10,6 +10,7 @@
 #include "boundary_star.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/sh4.hpp"
+#include "surface_constraints.hpp"
 
 namespace octafield::volume {
 
@@ -90,8 +91,8 @@ VertexRule vertex_rule(const Directions& edges, const Directions& normals, bool 
     return corner_rule(edges, normals, options.feature_tolerance);
 }
 
-void require_boundary_inputs(const TetDomain& domain, const Points& directions, const BoundaryOptions& options) {
-    const Eigen::Index count = domain.surface().mesh.vertices.rows();
+void require_boundary_inputs(const BoundarySurface& surface, const Points& directions, const BoundaryOptions& options) {
+    const Eigen::Index count = surface.mesh.vertices.rows();
     if (directions.rows() != count)
         throw InvalidInput("directions has " + std::to_string(directions.rows()) +
                                " rows; give one per vertex of the surface, " + std::to_string(count),
@@ -103,8 +104,8 @@ void require_boundary_inputs(const TetDomain& domain, const Points& directions, 
 
 }  // namespace
 
-SectorNormals sector_normals(const TetDomain& domain) {
-    const BoundaryStars stars(domain.surface().mesh, domain.features());
+SectorNormals sector_normals_of(const surface::TriangleMesh& surface, const surface::FeatureGraph& features) {
+    const BoundaryStars stars(surface, features);
     SectorNormals result;
     std::vector<Vector3> normals;
     for (Index v = 0; v < stars.vertex_count(); ++v)
@@ -117,10 +118,14 @@ SectorNormals sector_normals(const TetDomain& domain) {
     return result;
 }
 
-BoundaryConstraints boundary_constraints(const TetDomain& domain, const Points& directions,
-                                         const BoundaryOptions& options) {
-    require_boundary_inputs(domain, directions, options);
-    const Index vertex_count = domain.vertex_count();
+SectorNormals sector_normals(const TetDomain& domain) {
+    return sector_normals_of(domain.surface().mesh, domain.features());
+}
+
+BoundaryConstraints constraints_on_surface(Index vertex_count, const BoundarySurface& surface,
+                                           const surface::FeatureGraph& features, const Points& directions,
+                                           const BoundaryOptions& options) {
+    require_boundary_inputs(surface, directions, options);
     BoundaryConstraints result;
     result.kind.assign(vertex_count, VertexConstraint::free);
     result.axis = Points::Zero(vertex_count, 3);
@@ -128,15 +133,15 @@ BoundaryConstraints boundary_constraints(const TetDomain& domain, const Points& 
     result.frames.col(0).setOnes();
     result.on_boundary.assign(vertex_count, 0);
 
-    const BoundaryStars stars(domain.surface().mesh, domain.features());
+    const BoundaryStars stars(surface.mesh, features);
     std::vector<std::uint8_t> listed(stars.vertex_count(), 0);
-    for (const Index v : domain.features().corners) listed[v] = 1;
+    for (const Index v : features.corners) listed[v] = 1;
     for (Index b = 0; b < stars.vertex_count(); ++b) {
         const Directions normals = stars.sector_normals(b);
         if (normals.empty()) continue;  // in no triangle
         const VertexRule rule =
             vertex_rule(stars.feature_directions(b), normals, listed[b], directions.row(b).transpose(), options);
-        const Index v = domain.surface().vertex_map[b];
+        const Index v = surface.vertex_map[b];
         result.on_boundary[v] = 1;
         result.frames.row(v) = frames::to_wxyz(rule.frame).transpose();
         if (options.mode == BoundaryMode::none) continue;
@@ -147,9 +152,14 @@ BoundaryConstraints boundary_constraints(const TetDomain& domain, const Points& 
     return result;
 }
 
+BoundaryConstraints boundary_constraints(const TetDomain& domain, const Points& directions,
+                                         const BoundaryOptions& options) {
+    return constraints_on_surface(domain.vertex_count(), domain.surface(), domain.features(), directions, options);
+}
+
 Eigen::VectorXd alignment_angles(const TetDomain& domain, const Quaternions& frames) {
     const SectorNormals normals = sector_normals(domain);
-    return angles_to_nearest_axis(domain, normals.vertex, normals.normal, frames);
+    return angles_to_nearest_axis(domain.surface(), normals.vertex, normals.normal, frames);
 }
 
 }  // namespace octafield::volume

@@ -39,7 +39,7 @@ FeatureTangents feature_tangents(const TetDomain& domain) {
 
 Eigen::VectorXd feature_alignment_angles(const TetDomain& domain, const Quaternions& frames) {
     const FeatureTangents found = feature_tangents(domain);
-    return angles_to_nearest_axis(domain, found.vertex, found.tangent, frames);
+    return angles_to_nearest_axis(domain.surface(), found.vertex, found.tangent, frames);
 }
 
 }  // namespace octafield::volume
