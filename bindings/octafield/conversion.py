@@ -13,7 +13,7 @@ from .formats import FrameFile, read_frames, write_frames
 from .formats.base import FrameFormat, frames_at, mesh_of
 from .formats.meshes import MESH_SUFFIXES, write_mesh
 from .formats.registry import FORMATS, READERS, WRITERS, find_format
-from .inputs import SURFACE_SUFFIXES, Input, from_mesh, naming, read_input
+from .inputs import SURFACE_SUFFIXES, Input, domain_of, from_mesh, naming, read_input
 from .meshing import REPAIR_IGNORED
 from .options import SIZES, MeshOptions, require_one_of
 from .repairing import level_of, repair_surface
@@ -124,10 +124,7 @@ def _split(found: FrameFile, writer: FrameFormat, at: str | None) -> FrameFile:
             "singular edges are split by frames in the tets; leave out 'vertices'", "unknown_option_value"
         )
     mesh, frames, notes = mesh_of(found), frames_at(found, "tets"), list(found.notes)
-    surface = (
-        _core.boundary_surface(mesh) if found.regions is None else _core.region_surface(mesh, found.regions).surface
-    )
-    split = _core.split_between_singular(mesh, surface, frames)
+    split = _core.split_between_singular(domain_of(mesh, found.regions), frames)
     parent = np.asarray(split.parent)
     notes.append(
         f"{len(split.edges) - len(split.left)} edges inside between singular vertices were split:"

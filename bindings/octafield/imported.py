@@ -18,6 +18,7 @@ from ._core import (
     Integrability,
     Meshability,
     SingularGraph,
+    TetDomain,
     TetMesh,
     TriangleMesh,
 )
@@ -25,6 +26,7 @@ from .analysis import analyse as analyse_frames
 from .errors import InvalidInput
 from .formats.base import SITES
 from .formats.rotations import unit_quaternions
+from .inputs import regions_of
 from .meshing import MeshedInput, Source, prepare_mesh
 from .options import FieldOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce
@@ -63,7 +65,7 @@ class AnalysedField:
 
     surface: TriangleMesh
     features: FeatureGraph
-    tets: TetMesh
+    tets: TetDomain
     frames: np.ndarray
     singular_graph: SingularGraph
     alignment: np.ndarray
@@ -73,11 +75,15 @@ class AnalysedField:
     integrability: Integrability | None = None
     streamlines: Sequence[FrameStreamline] = ()
     record: dict[str, Any]
-    regions: np.ndarray | None = None
     tet_frames: np.ndarray | None = None
     lengths: np.ndarray | None = None
     sizes: Sizes | None = None
     feature_edges: np.ndarray | None = None
+
+    @property
+    def regions(self) -> np.ndarray | None:
+        """(m,) ids of the tets where the mesh has several."""
+        return regions_of(self.tets)
 
     def __repr__(self) -> str:
         return display.analysed_line(self)
@@ -109,7 +115,7 @@ def analyse(
     meshed = mesh if isinstance(mesh, MeshedInput) else prepare_mesh(mesh, options, progress=progress)
     if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):
         raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
-    values, options = fitting_frames(meshed.volume().tets, frames, where), replace(options, sampling=where)
+    values, options = fitting_frames(meshed.volume(), frames, where), replace(options, sampling=where)
     found = judged(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
     found.record["options"] = asdict(options)
     return found
@@ -127,7 +133,7 @@ def judged(
 ) -> AnalysedField:
     """frames, lengths: where options.sampling has them; the axes of those at vertices are named anew, so that
     neighbours agree but across a cut. about: what the record tells of how the field was made."""
-    tets = meshed.volume().tets
+    tets = meshed.volume()
     parts: dict[str, Any]
     with clock.phase("analyse"):
         announce(progress, "analyse")
@@ -163,13 +169,11 @@ def judged(
         **sizes_entry,
         "verdict": verdict.of_field(meshed, off, figures),
     }
-    _, boundary, features = meshed.volume()
-    feature_edges = np.asarray(boundary.vertex_map)[np.asarray(features.edges)].astype(np.int32).reshape(-1, 2)
+    feature_edges = np.asarray(tets.surface.vertex_map)[np.asarray(tets.features.edges)].astype(np.int32).reshape(-1, 2)
     return AnalysedField(
         surface=meshed.surface,
         features=meshed.features,
         tets=tets,
-        regions=meshed.regions,
         lengths=lengths,
         sizes=sizes,
         record=record,
@@ -179,7 +183,7 @@ def judged(
 
 
 def combed(
-    tets: TetMesh, frames: np.ndarray, lengths: np.ndarray | None, threads: int
+    tets: TetDomain, frames: np.ndarray, lengths: np.ndarray | None, threads: int
 ) -> tuple[np.ndarray, np.ndarray | None]:
     """Frames at the vertices by octafield.comb_vertices, and the lengths of their axes in the new order."""
     found = _core.comb_vertices(tets, frames, threads=threads)
@@ -188,7 +192,7 @@ def combed(
     )
 
 
-def fitting_frames(tets: TetMesh, frames: ArrayLike, where: str) -> np.ndarray:
+def fitting_frames(tets: TetMesh | TetDomain, frames: ArrayLike, where: str) -> np.ndarray:
     """Unit quaternions, as many as the mesh has vertices or tets; InvalidInput otherwise."""
     values = np.asarray(frames, float)
     count = len(tets.vertices if where == "vertices" else tets.tets)

@@ -3,34 +3,33 @@
 import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from . import _core, display
-from ._core import BoundarySurface, FeatureGraph, Sheets, TetMesh, TriangleMesh
+from ._core import FeatureGraph, Sheets, TetDomain, TetMesh, TriangleMesh
 from .errors import GeometryError, InvalidInput
-from .inputs import Input, from_mesh, naming, read_input
+from .inputs import Input, from_mesh, naming, read_input, regions_of
 from .locking import split_on_request
 from .options import MeshOptions
 from .phases import PeakMemory, PhaseClock, Progress, announce, forward
 from .repairing import message_with_remedy, repair_surface
 
 Array = np.ndarray[Any, Any]
-Source = str | Path | TriangleMesh | TetMesh
+Source = str | Path | TriangleMesh | TetMesh | TetDomain
 REPAIR_IGNORED = "repair was ignored: it works on surfaces only"
 TOUCHING = ("non_manifold_edge", "non_manifold_vertex")  # kinds of defects that the boundary of tets may have
 
 
 @dataclass(repr=False)
 class MeshedInput:
-    """A sound input, ready for fields: `surface` is the boundary of `tets` (None where only a surface was wanted).
+    """A sound input, ready for fields: `surface` is that of `tets` (None where only a surface was wanted).
 
-    Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too. There,
-    and where the boundary touches itself, `surface` is `boundary` cut into sheets: manifold, each vertex a copy of
-    vertex `sheet_map` of the boundary. features are those of `surface`, boundary_features those of `boundary`. locking:
-    counts of what split_locking is for. options: what it was prepared with. inner_length: of edges far inside where
-    those of the surface are graded, input unit; else 0.
+    Where a tet mesh has several regions, or its boundary touches itself, `surface` is cut into sheets: manifold, each
+    vertex a copy of vertex `sheet_map` of tets.surface. features are those of `surface`, tets.features those of
+    tets.surface. locking: counts of what split_locking is for. options: what it was prepared with. inner_length: of
+    edges far inside where those of the surface are graded, input unit; else 0.
     """
 
     name: str
@@ -38,14 +37,10 @@ class MeshedInput:
     surface: TriangleMesh
     features: FeatureGraph
     feature_source: str  # "file", "angle" or "none"
-    tets: TetMesh | None = None
-    boundary: BoundarySurface | None = None
+    tets: TetDomain | None = None
     notes: list[str] = field(default_factory=list)
     clock: PhaseClock = field(default_factory=PhaseClock)
     peak_mb: float = 0.0
-    boundary_features: FeatureGraph | None = None
-    regions: np.ndarray | None = None
-    interface_triangles: int = 0
     sheet_map: np.ndarray | None = None
     locking: dict[str, Any] = field(default_factory=dict)
     options: MeshOptions | None = None
@@ -54,14 +49,24 @@ class MeshedInput:
     def __repr__(self) -> str:
         return display.meshed_line(self)
 
-    def volume(self) -> "Volume":
+    @property
+    def interface_triangles(self) -> int:
+        """The last so many of the surface."""
+        return 0 if self.tets is None else self.tets.interface_triangles
+
+    @property
+    def regions(self) -> np.ndarray | None:
+        """(m,) region of each tet, where there are several."""
+        return None if self.tets is None else regions_of(self.tets)
+
+    def volume(self) -> TetDomain:
         """The tets and what goes with them. Raises InvalidInput where only a surface was prepared."""
-        if self.tets is None or self.boundary is None or self.boundary_features is None:
+        if self.tets is None:
             raise InvalidInput(f"{self.name}: was prepared with volume=False; prepare it with its volume", "no_volume")
-        return Volume(self.tets, self.boundary, self.boundary_features)
+        return self.tets
 
     def at_boundary_vertices(self, values: np.ndarray) -> np.ndarray:
-        """Of values at the vertices of the surface, those at the boundary's: of its first copy in each case."""
+        """Of values at the vertices of the surface, those at the vertices of tets.surface: of the first copy each."""
         if self.sheet_map is None:
             return values
         return values[np.unique(self.sheet_map, return_index=True)[1]]
@@ -76,14 +81,6 @@ class MeshedInput:
         sha = hashlib.sha256(np.ascontiguousarray(vertices).tobytes())
         sha.update(np.ascontiguousarray(cells).tobytes())
         return sha.hexdigest()[:16]
-
-
-class Volume(NamedTuple):
-    """Of a MeshedInput that has tets."""
-
-    tets: TetMesh
-    boundary: BoundarySurface
-    boundary_features: FeatureGraph
 
 
 def load_surface(path: str | Path, *, repair: str = "default") -> TriangleMesh:
@@ -102,7 +99,6 @@ class SoundInput:
     feature_source: str
     clock: PhaseClock
     peak_mb: float
-    boundary_features: FeatureGraph
     sheets: Sheets | None
     locking: dict[str, Any]
 
@@ -121,7 +117,7 @@ def read_sound(
         announce(progress, "read")
         if isinstance(source, Input):
             found = source
-        elif isinstance(source, (TriangleMesh, TetMesh)):
+        elif isinstance(source, (TriangleMesh, TetMesh, TetDomain)):
             found = from_mesh(source)
         else:
             found = read_input(
@@ -130,11 +126,28 @@ def read_sound(
         with naming(found.name):
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):
-        locking = {} if found.tets is None else split_on_request(found, options)
-        sheets = _core.cut_into_sheets(found.surface) if found.interface_triangles or found.touches else None
+        locking: dict[str, Any] = {}
+        if found.tets is not None:
+            locking = split_input(found, options)
+        sheets = sheets_of(found)
         features, feature_source = find_features(found, options, sheets)
-        of_surface = features if sheets is None else _lifted(features, sheets)
-    return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), features, sheets, locking)
+        if found.tets is not None:
+            found.tets = found.tets.with_features(features)
+        of_surface = features if sheets is None else _core.features_on_sheets(features, sheets)
+    return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), sheets, locking)
+
+
+def split_input(found: Input, options: MeshOptions) -> dict[str, Any]:
+    """Counts what joins the surface of the tets to itself, and splits it where the options say so."""
+    found.tets, locking = split_on_request(found.volume(), options)
+    if options.split:
+        found.surface = found.tets.surface.mesh
+    return locking
+
+
+def sheets_of(found: Input) -> Sheets | None:
+    """Of a surface of tets that is not manifold."""
+    return found.volume().sheets if found.interface_triangles or found.touches else None
 
 
 def prepare_mesh(
@@ -168,12 +181,8 @@ def prepare_mesh(
             source.features,
             source.feature_source,
             found.tets,
-            found.boundary,
             found.notes,
             clock,
-            boundary_features=source.boundary_features,
-            regions=found.regions,
-            interface_triangles=found.interface_triangles,
             sheet_map=None if source.sheets is None else np.asarray(source.sheets.vertex_map),
             locking=source.locking,
             options=options,
@@ -203,7 +212,7 @@ def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
 def _require_valid(found: Input, options: MeshOptions, **tests: bool) -> None:
     surface = found.surface
     if found.interface_triangles and found.tets is not None:
-        surface = _core.boundary_surface(found.tets).mesh
+        surface = found.tets.boundary.mesh
     try:
         try:
             _core.require_valid(surface, **tests)
@@ -221,7 +230,7 @@ def _accept_touching(found: Input, surface: TriangleMesh) -> None:
     for defect in _core.find_defects(surface, self_intersection=False):
         if defect.kind not in TOUCHING:
             raise GeometryError(defect.message, defect.kind, defect.elements)
-    sheets = _core.cut_into_sheets(surface)
+    sheets = found.volume().sheets
     found.touches = True
     copies = np.bincount(np.asarray(sheets.vertex_map))
     alone = np.setdiff1d(np.flatnonzero(copies > 1), np.asarray(sheets.cuts))
@@ -254,16 +263,6 @@ def find_features(found: Input, options: MeshOptions, sheets: Sheets | None) -> 
             edges = np.asarray(sheets.vertex_map)[edges]
         edges = np.unique(np.sort(np.concatenate([edges, cuts]), axis=1), axis=0)
     return _core.feature_graph(found.surface, edges), source
-
-
-def _lifted(features: FeatureGraph, sheets: Sheets) -> FeatureGraph:
-    """The edges of the sheets that are copies of features."""
-    triangles, copy_of = np.asarray(sheets.mesh.triangles), np.asarray(sheets.vertex_map).astype(np.int64)
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    count = int(copy_of.max()) + 1
-    keys = [low * count + high for low, high in (np.sort(copy_of[edges], axis=1).T, np.asarray(features.edges).T)]
-    chosen = edges[np.isin(keys[0], keys[1])]
-    return _core.feature_graph(sheets.mesh, np.unique(np.sort(chosen, axis=1), axis=0))
 
 
 def _remesh(meshed: MeshedInput, options: MeshOptions, progress: Progress | None, volume: bool) -> None:
@@ -319,13 +318,12 @@ def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: Mes
 def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) -> None:
     announce(progress, "mesh", 0.7)
     count = len(meshed.surface.vertices)
-    meshed.tets = _core.tetrahedralize(meshed.surface, edge_length=meshed.inner_length, notes=meshed.notes)
-    meshed.boundary = _core.boundary_surface(meshed.tets)
-    if not np.array_equal(np.asarray(meshed.boundary.vertex_map), np.arange(count)):
+    mesh = _core.tetrahedralize(meshed.surface, edge_length=meshed.inner_length, notes=meshed.notes)
+    domain = TetDomain(mesh, features=meshed.features)
+    if not np.array_equal(np.asarray(domain.surface.vertex_map), np.arange(count)):
         raise GeometryError("the tet mesh does not keep the vertices of the surface; please report this input")
-    meshed.locking = split_on_request(meshed, options)
-    meshed.surface = meshed.boundary.mesh  # the same vertices; triangles in the order of the tets
-    meshed.boundary_features = meshed.features
+    meshed.tets, meshed.locking = split_on_request(domain, options)
+    meshed.surface = meshed.tets.surface.mesh  # the same vertices; triangles in the order of the tets
 
 
 def _note_unused(meshed: MeshedInput, options: MeshOptions, of_cad: bool) -> None:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
-from ._core import SingularGraph, TetMesh, TriangleMesh
+from ._core import SingularGraph, TetDomain, TetMesh, TriangleMesh
 
 log = logging.getLogger("octafield")
 
@@ -111,7 +111,7 @@ def _can_draw() -> bool:
 
 def describe(value: Any) -> tuple[str, Mapping[str, Any] | list[Mapping[str, Any]]]:
     """A title, and figures by name (a list of them: a line each)."""
-    if isinstance(value, (TriangleMesh, TetMesh, SingularGraph)):
+    if isinstance(value, (TriangleMesh, TetMesh, TetDomain, SingularGraph)):
         return type(value).__name__, _facts_of_arrays(value)
     if type(value).__name__ == "Comparison":
         rows: list[Mapping[str, Any]] = [{name: row[name] for name in _ROW if name in row} for row in value.rows]
@@ -122,7 +122,7 @@ def describe(value: Any) -> tuple[str, Mapping[str, Any] | list[Mapping[str, Any
     return ", ".join([str(record["input"]), *map(str, what)]), {name: record[name] for name in names if name in record}
 
 
-def _facts_of_arrays(value: TriangleMesh | TetMesh | SingularGraph) -> dict[str, Any]:
+def _facts_of_arrays(value: TriangleMesh | TetMesh | TetDomain | SingularGraph) -> dict[str, Any]:
     if isinstance(value, SingularGraph):
         turns = np.asarray(value.curve_quarter_turns)
         kinds = {f"valence {4 - number}": number for number in (3, 2, 1, -1, -2, -3, -4)} | {"complex": 0}
@@ -133,7 +133,9 @@ def _facts_of_arrays(value: TriangleMesh | TetMesh | SingularGraph) -> dict[str,
         }
         return {"curves": len(value.curves), **counts, "nodes": len(value.nodes), "length": float(value.length)}
     points = np.asarray(value.vertices)
-    cells = {"tets": len(value.tets)} if isinstance(value, TetMesh) else {"triangles": len(value.triangles)}
+    cells = (
+        {"tets": len(value.tets)} if isinstance(value, (TetMesh, TetDomain)) else {"triangles": len(value.triangles)}
+    )
     facts: dict[str, Any] = {"vertices": len(points), **cells}
     if len(points):
         sides = zip("xyz", points.min(axis=0), points.max(axis=0), strict=True)
@@ -158,24 +160,26 @@ def _table(facts: Mapping[str, Any] | list[Mapping[str, Any]]) -> str:
 def _picture(value: Any) -> bytes | None:
     from . import scene
 
-    empty = isinstance(value, (TriangleMesh, TetMesh)) and not len(_cells(value))
+    empty = isinstance(value, (TriangleMesh, TetMesh, TetDomain)) and not len(_cells(value))
     if empty or not scene.can_draw():
         return None
     return scene.render(scene_of(value))
 
 
-def _cells(value: TriangleMesh | TetMesh) -> np.ndarray[Any, Any]:
-    return np.asarray(value.tets if isinstance(value, TetMesh) else value.triangles)
+def _cells(value: TriangleMesh | TetMesh | TetDomain) -> np.ndarray[Any, Any]:
+    return np.asarray(value.tets if isinstance(value, (TetMesh, TetDomain)) else value.triangles)
 
 
-def scene_of(value: AnalysedField | SurfaceFieldResult | SingularGraph | TriangleMesh | TetMesh) -> pyvista.Plotter:
+def scene_of(
+    value: AnalysedField | SurfaceFieldResult | SingularGraph | TriangleMesh | TetMesh | TetDomain,
+) -> pyvista.Plotter:
     """A pyvista scene: singular curves inside the translucent surface; singular points and separatrices on it; the
     curves alone; a surface; a tet mesh cut open. Raises IoError without OpenGL."""
     if isinstance(value, SingularGraph):
         return _curves_scene(value)
     if isinstance(value, TriangleMesh):
         return _surface_scene(value)
-    if isinstance(value, TetMesh):
+    if isinstance(value, (TetMesh, TetDomain)):
         return _tets_scene(value)
     from .imported import AnalysedField
 
@@ -196,13 +200,14 @@ def _surface_scene(mesh: TriangleMesh) -> pyvista.Plotter:
     return shape
 
 
-def _tets_scene(tets: TetMesh) -> pyvista.Plotter:
+def _tets_scene(tets: TetMesh | TetDomain) -> pyvista.Plotter:
     """The half behind the middle, so that the inside shows."""
     from . import scene
     from .interop import to_pyvista
 
     if len(tets.tets) > _MOST_OPENED:
-        return _surface_scene(_core.boundary_surface(tets).mesh)
+        whole = tets.boundary if isinstance(tets, TetDomain) else _core.boundary_surface(tets)
+        return _surface_scene(whole.mesh)
     shape = scene.plotter()
     points = np.asarray(tets.vertices)
     axes = scene.principal_axes(points)

@@ -54,7 +54,6 @@ def write_analysis(result: AnalysedField, folder: Path, progress: Progress | Non
 
 
 def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str, str]) -> None:
-    regions: Sequence[int] | np.ndarray = [] if result.regions is None else result.regions
     more = {}
     if result.tet_frames is not None:
         more["tet_frames"] = result.tet_frames
@@ -64,7 +63,7 @@ def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str,
         more["features"] = result.feature_edges
     points, cells = sizes_arrays(result.sizes, result.tet_frames)
     _core.write_field(
-        folder / "field.vtu", result.tets, result.frames, metadata, regions, point_data=points, cell_data=cells, **more
+        folder / "field.vtu", result.tets, result.frames, metadata, point_data=points, cell_data=cells, **more
     )
     _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
     if result.boundary_meshability is not None:
