@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
-from ._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetMesh
+from ._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetDomain
 from .imported import AnalysedField
 from .output import vtp_bytes, write_file, write_json
 from .phases import PeakMemory, PhaseClock, Progress, announce
@@ -121,7 +121,7 @@ def write_streamlines(
     _save(poly, path, metadata)
 
 
-def write_features(path: Path, tets: TetMesh, found: BoundaryMeshability, metadata: dict[str, str]) -> None:
+def write_features(path: Path, tets: TetDomain, found: BoundaryMeshability, metadata: dict[str, str]) -> None:
     """.vtp: corners as vertex cells, then feature edges (one line per wedge), then edges of the surface that a singular
     edge crosses. Cell data kind (0, 1, 2 in this order), meshable (0/1) and hexahedra (lines: the lower number of the
     two ends; corners: what is left for edges inside; octafield.no_number: none), angle (of the wedge, degrees; else 0),

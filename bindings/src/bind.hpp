@@ -29,6 +29,7 @@ void bind_frame_streamline_types(pybind11::module_& module);
 void bind_frame_streamlines(pybind11::module_& module);
 void bind_parameterization_types(pybind11::module_& module);
 void bind_parameterization(pybind11::module_& module);
+void bind_volume_input_types(pybind11::module_& module);
 void bind_volume_input(pybind11::module_& module);
 void add_examples(pybind11::module_& module);  // to docstrings, after everything else
 

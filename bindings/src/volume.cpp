@@ -36,25 +36,27 @@ std::map<std::string, Rows<double, Eigen::Dynamic>> named_arrays(const NamedArra
     return result;
 }
 
-// Binds f(mesh) -> array or matrix after the border checks; Where: TetMesh or DomainOrMesh.
-template <class Where, class Function>
-void def_of(py::module_& m, const char* name, const char* argument, Function function, const char* doc) {
-    const auto call = [function](const Where& where) {
+// Binds f(domain) -> array or matrix; with Plain, f(mesh), which validates nothing.
+template <bool Plain = false, class Function>
+void def_of_domain(py::module_& m, const char* name, Function function, const char* doc) {
+    const auto call = [function](const DomainOrMesh& where) {
         return run_interruptible([where = where, function](Job&) {
-            if constexpr (std::is_same_v<Where, DomainOrMesh>) {
-                return function(domain_of(where));
+            if constexpr (Plain) {
+                if (const auto* mesh = std::get_if<TetMesh>(&where)) {
+                    check(*mesh, false);
+                    return function(*mesh);
+                }
+                return function(std::get<TetDomain>(where).mesh());
             } else {
-                check(where, false);
-                return function(where);
+                return function(domain_of(where));
             }
         });
     };
-    using Result = decltype(call(std::declval<const Where&>()));
-    if constexpr (std::is_same_v<Result, Eigen::VectorXd>)
+    if constexpr (std::is_same_v<decltype(call(std::declval<const DomainOrMesh&>())), Eigen::VectorXd>)
         m.def(
-            name, [call](const Where& where) { return own(call(where)); }, py::arg(argument), doc);
+            name, [call](const DomainOrMesh& where) { return own(call(where)); }, "domain"_a, doc);
     else
-        m.def(name, call, py::arg(argument), doc);
+        m.def(name, call, "domain"_a, doc);
 }
 
 void bind_meshes(py::module_& m) {
@@ -97,19 +99,19 @@ void bind_meshes(py::module_& m) {
             });
         },
         "mesh"_a);
-    def_of<TetMesh>(m, "tet_volumes", "mesh", tet_volumes, "(m,) signed volumes of the tets, cubed input unit.");
-    def_of<TetMesh>(m, "boundary_surface", "mesh", boundary_surface,
+    def_of_domain<true>(m, "tet_volumes", tet_volumes, "(m,) signed volumes of the tets, cubed input unit.");
+    def_of_domain<true>(m, "boundary_surface", boundary_surface,
                 "The triangles that belong to one tet only, as a BoundarySurface. Raises GeometryError (kind "
                 "\"non_manifold_face\") where "
                 "three tets share a triangle.");
 }
 
 void bind_operators(py::module_& m) {
-    def_of<DomainOrMesh>(
-        m, "stiffness", "domain", stiffness,
+    def_of_domain(
+        m, "stiffness", stiffness,
         "(n, n) scipy.sparse matrix of int grad phi_i . grad phi_j over P1 elements; symmetric, rows sum to 0.");
-    def_of<DomainOrMesh>(m, "mass", "domain", mass, "(n, n) scipy.sparse matrix of int phi_i phi_j over P1 elements.");
-    def_of<DomainOrMesh>(m, "lumped_mass", "domain", lumped_mass, "(n,): a quarter of the volume of the tets at each vertex.");
+    def_of_domain(m, "mass", mass, "(n, n) scipy.sparse matrix of int phi_i phi_j over P1 elements.");
+    def_of_domain(m, "lumped_mass", lumped_mass, "(n,): a quarter of the volume of the tets at each vertex.");
     m.def(
         "dirichlet_energy",
         [](const MeshOrSampling& mesh, const ArrayLike& frames, int threads) {
@@ -133,7 +135,7 @@ void bind_operators(py::module_& m) {
 }
 
 void bind_boundary(py::module_& m) {
-    def_of<DomainOrMesh>(m, "sector_normals", "domain", sector_normals,
+    def_of_domain(m, "sector_normals", sector_normals,
                          "One unit normal per vertex of the domain's surface and smooth sector, the triangles round it "
                          "between feature edges, weighted by area, as SectorNormals.");
 

@@ -14,9 +14,7 @@ using namespace volume;
 using py::literals::operator""_a;
 using surface::TriangleMesh;
 
-namespace {
-
-void bind_types(py::module_& m) {
+void bind_volume_input_types(py::module_& m) {
     Record<Sheets>(m, "Sheets", "A surface cut open along the edges that do not have exactly two triangles.")
         .field("mesh", &Sheets::mesh, "TriangleMesh: manifold sheets with rims, triangles in the surface's order.")
         .field("vertex_map", &Sheets::vertex_map, "(n,) int32: vertex of the surface that each is a copy of.")
@@ -73,10 +71,7 @@ void bind_types(py::module_& m) {
         });
 }
 
-}  // namespace
-
 void bind_volume_input(py::module_& m) {
-    bind_types(m);
     m.def(
         "cut_into_sheets",
         [](const TriangleMesh& surface) {

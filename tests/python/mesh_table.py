@@ -12,7 +12,7 @@ import other_writers as writers
 import pyvista
 from conftest import box_tets
 from octafield.formats.meshes import write_mesh
-from octafield.inputs import Input, from_mesh, read_input, with_regions
+from octafield.inputs import Input, domain_of, from_mesh, read_input
 from scipy.spatial import cKDTree
 from test_tet_input import cube_edges, halves
 
@@ -23,7 +23,7 @@ Parts = dict[str, np.ndarray]  # points, cells; of tets: regions (m,), features 
 def box() -> tuple[Input, Parts]:
     """A cube in two regions with its twelve edges as features."""
     tets = box_tets(3)
-    found = with_regions(from_mesh(tets), halves(tets))
+    found = from_mesh(domain_of(tets, halves(tets)))
     lines = cube_edges(tets)
     to_surface = np.full(len(tets.vertices), -1)
     to_surface[np.asarray(found.boundary.vertex_map)] = np.arange(len(found.surface.vertices))
