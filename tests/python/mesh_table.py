@@ -26,7 +26,7 @@ def box() -> tuple[Input, Parts]:
     found = from_mesh(domain_of(tets, halves(tets)))
     lines = cube_edges(tets)
     to_surface = np.full(len(tets.vertices), -1)
-    to_surface[np.asarray(found.boundary.vertex_map)] = np.arange(len(found.surface.vertices))
+    to_surface[np.asarray(found.volume().surface.vertex_map)] = np.arange(len(found.surface.vertices))
     found.lines, found.creases = to_surface[lines].astype(np.int32), True
     return found, {
         "points": np.asarray(tets.vertices),
@@ -125,7 +125,7 @@ def _ours(found: Input) -> Parts:
     if found.regions is not None:
         parts["regions"] = np.asarray(found.regions)
     if found.lines is not None and found.lines_are_features():
-        parts["features"] = np.asarray(found.boundary.vertex_map)[found.lines]
+        parts["features"] = np.asarray(found.volume().surface.vertex_map)[found.lines]
     return parts
 
 

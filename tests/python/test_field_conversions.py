@@ -194,7 +194,8 @@ def test_field_splits_between_singular_vertices_on_request(tmp_path, interfaces)
     vertices."""
     mesh = box_tets(3)
     regions = (np.asarray(mesh.vertices)[np.asarray(mesh.tets)].mean(axis=1)[:, 0] > 0.5).astype(np.int32)
-    of.write_field(tmp_path / "in.vtu", mesh, np.tile([1.0, 0, 0, 0], (len(mesh.vertices), 1)), {}, regions)
+    domain = of.TetDomain(mesh, regions=regions)
+    of.write_field(tmp_path / "in.vtu", domain, np.tile([1.0, 0, 0, 0], (len(mesh.vertices), 1)))
     options = of.FieldOptions(
         sampling="tets", boundary="none", interfaces=interfaces, max_iterations=0, rounds=0, streamlines=0
     )

@@ -106,18 +106,18 @@ def test_what_meshio_writes_comes_back_with_regions_and_lines(tmp_path, kind, pa
     assert np.array_equal(found.regions, halves(tets)[order])
     assert found.interface_triangles == 2 * 4 * 4
     if kind != "tetgen":
-        ends = np.asarray(found.boundary.vertex_map)[found.lines]
+        ends = np.asarray(found.volume().surface.vertex_map)[found.lines]
         assert np.array_equal(np.unique(np.sort(ends, axis=1), axis=0), cube_edges(tets))
 
 
 def test_fields_that_octafield_writes_come_back_with_their_regions(tmp_path):
     tets = box_tets(2)
     frames = np.tile([1.0, 0, 0, 0], (len(tets.vertices), 1))
-    of.write_field(tmp_path / "a.vtu", tets, frames, {}, halves(tets))
+    of.write_field(tmp_path / "a.vtu", of.TetDomain(tets, regions=halves(tets)), frames)
     assert np.array_equal(read_input(tmp_path / "a.vtu").regions, halves(tets))
     assert np.array_equal(meshio.read(tmp_path / "a.vtu").cell_data["region"][0], halves(tets))
     with pytest.raises(of.InvalidInput, match="one per tet"):
-        of.write_field(tmp_path / "b.vtu", tets, frames, {}, [1])
+        of.TetDomain(tets, regions=[1])
 
 
 @pytest.mark.parametrize("name", ["sphere_r0.17.mesh.gz", "78322_gear.2.mesh.gz", "genus3.mesh.gz", "prism.ele.gz"])
@@ -224,7 +224,7 @@ def test_tetgen_edges_are_features_and_markers_of_faces_are_faces(tmp_path, base
     tets = box_tets(3)
     write_tetgen_boundary(tmp_path / "a", tets, base, extra=base == 1)  # with a column that the header does not tell
     found = read_input(tmp_path / "a.node")
-    ends = np.asarray(found.boundary.vertex_map)[found.lines]
+    ends = np.asarray(found.volume().surface.vertex_map)[found.lines]
     assert np.array_equal(np.unique(np.sort(ends, axis=1), axis=0), cube_edges(tets))
     assert prepare_mesh(tmp_path / "a.ele").feature_source == "file"
     (tmp_path / "a.edge").unlink()
