@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from . import _core, display
+from . import _core
 from .defaults import default_of
 from .errors import InvalidInput
+from .view import display
 
 REPRESENTATIONS = _core.smooth_representations
 COMPARED = (*_core.representations, "geodesic", "su2_midpoint")  # what a comparison takes when not told

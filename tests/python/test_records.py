@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import octafield as of
 import pytest
-from octafield import phases, results
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
+from octafield.progress import phases
+from octafield.runs import run_folder as results
 
 MB = 1e6
 WRITTEN = {

@@ -18,12 +18,12 @@ absent) and, after write_report(), report.html, results.csv and tables/. KEY is 
 options and octafield's version.
 """
 
-from ..display import study_line
+from ..view.display import study_line
 from .description import Study, load, parse
-from .engine import Outcome, run
+from .finished_runs import Status, rows, status
 from .plan import Run, plan
 from .report import write_report
-from .results import Status, rows, status
+from .running.engine import Outcome, run
 
 Study.__repr__ = study_line  # type: ignore[method-assign, assignment]
 

@@ -20,9 +20,9 @@ from pydantic import (
     model_validator,
 )
 
+from ..domain.generators import GENERATORS
 from ..errors import Error, InvalidInput, IoError
 from ..options import FieldOptions, MeshOptions, did_you_mean
-from .generators import GENERATORS
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
