@@ -17,7 +17,8 @@ from pathlib import Path
 import numpy as np
 import octafield
 import pyvista
-from octafield.domain.meshing import MeshedInput, prepare_mesh
+from octafield.domain.meshed_input import MeshedInput
+from octafield.domain.meshing import prepare_mesh
 from octafield.fields.frame_field import compute_field
 from octafield.options import FieldOptions
 from octafield.view import scene

@@ -249,7 +249,7 @@ from ._core import (
     write_surface,
     write_surface_field,
 )
-from .domain.meshing import MeshedInput
+from .domain.meshed_input import MeshedInput
 from .domain.parameterization import ParameterizationInput, parameterization_input
 from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from .fields.analysed import AnalysedField, analyse
@@ -270,14 +270,8 @@ from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 # Written in Python.
 from .runs.compare import Comparison, compare
 from .runs.conversion import Conversion, convert_file
-from .view import display as _display
-from .view import notebook as _notebook
-from .view.interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
-
-for _kind in (TriangleMesh, TetMesh, SingularGraph, AnalysedField, SurfaceFieldResult, Comparison):
-    _notebook.shown(_kind)
-del _kind
-Comparison.__repr__ = _display.comparison_line  # type: ignore[method-assign,assignment]
+from .runs.interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
+from .view import arrays as _arrays  # noqa: F401
 
 __all__ = [
     "AlignmentTables",

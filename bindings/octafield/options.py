@@ -12,7 +12,6 @@ import numpy as np
 from . import _core
 from .defaults import default_of
 from .errors import InvalidInput
-from .view import display
 
 REPRESENTATIONS = _core.smooth_representations
 COMPARED = (*_core.representations, "geodesic", "su2_midpoint")  # what a comparison takes when not told
@@ -98,7 +97,9 @@ class MeshOptions:
     max_cells: int = 0
 
     def __repr__(self) -> str:
-        return display.options_line(self)
+        default = type(self)()
+        changed = {name: value for name, value in vars(self).items() if value != getattr(default, name)}
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
 
     def __post_init__(self) -> None:
         require_one_of("features", self.features, FEATURES)

@@ -15,7 +15,7 @@ import pytest
 import scipy.sparse
 from octafield import study
 from octafield.domain.generators import generate
-from octafield.view import display, notebook
+from octafield.view import notebook
 
 CLASSES = sorted({getattr(of, name) for name in of.__all__ if inspect.isclass(getattr(of, name))}
                  | {getattr(study, name) for name in study.__all__ if inspect.isclass(getattr(study, name))}, key=lambda c: c.__name__)  # fmt: skip
@@ -253,7 +253,7 @@ def test_a_backend_that_does_not_work_leaves_the_picture(objects, monkeypatch, f
 
 def test_the_scene_of_a_result_can_be_drawn_without_a_display(field, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
-    scene = display.scene_of(field)
+    scene = field.scene()
     assert scene.screenshot(return_img=True).std() > 1
     scene.close()
 

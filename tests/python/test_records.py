@@ -56,7 +56,5 @@ def test_a_record_names_the_machine(kind, monkeypatch):
 
 def test_cores_are_those_the_process_may_use():
     one = min(os.sched_getaffinity(0))
-    script = (
-        f"import os; os.sched_setaffinity(0, {{{one}}}); from octafield import phases; print(phases.machine()['cores'])"
-    )
+    script = f"import os; os.sched_setaffinity(0, {{{one}}}); from octafield.progress import phases; print(phases.machine()['cores'])"
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "1\n"

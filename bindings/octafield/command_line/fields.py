@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from ..files.process import run_supervised
 from ..options import (
     ALIGNMENTS,
     BOUNDARIES,
@@ -51,7 +52,6 @@ from .options import (
     mesh_options,
 )
 from .study import app as studies
-from .supervise import run_supervised
 
 app = typer.Typer(
     name="octafield",

@@ -143,7 +143,7 @@ def view(
     """The singular curves of a result, in a window or a PNG."""
 
     def work() -> None:
-        from ..view.display import view_folder
+        from ..view.window import view_folder
 
         record = view_folder(folder, output)
         if json:

@@ -13,7 +13,7 @@ from ..options import MeshOptions
 from .inputs import Input, with_regions
 
 if TYPE_CHECKING:
-    from .meshing import MeshedInput
+    from .meshed_input import MeshedInput
 
 
 def split_on_request(mesh: Input | MeshedInput, options: MeshOptions) -> dict[str, Any]:

@@ -11,12 +11,11 @@ from .. import _core
 from .._core import TriangleMesh
 from ..errors import InvalidInput, IoError
 from ..files.reading import plain_name, rows_of, write_all, write_whole
+from ..files.scratch import through_file
 from ..files.writing import vtp_bytes
-from ..frame_files.algohex import add_features
-from ..frame_files.base import Field, mesh_of
-from ..frame_files.vtk import through_file
 from ..meshes.openvolumemesh.mesh import ovm_of_tets
 from ..meshes.openvolumemesh.text import write_ovm
+from .algohex_features import add_features
 from .inputs import SURFACE_SUFFIXES, Input
 
 if TYPE_CHECKING:
@@ -81,11 +80,6 @@ class Parts:
         lines = None if features is None else ids[features]
         return cls(np.asarray(tets.vertices), lines, ids[triangles], faces, np.asarray(tets.tets), found.regions)
 
-    @classmethod
-    def of_field(cls, field: Field) -> "Parts":
-        mesh = mesh_of(field)
-        return cls(np.asarray(mesh.vertices), field.features, None, None, np.asarray(mesh.tets), field.regions)
-
     def blocks(self) -> list[tuple[str, np.ndarray, np.ndarray]]:
         """meshio's cell type, connectivity and entity ids (0: none), in the order that ARFF's reader of Medit files
         wants."""
@@ -126,8 +120,9 @@ def write_mesh(path: str | Path, found: Input) -> list[str]:
     if suffix in (".ovm", ".ovmb"):
         tets = found.volume().tets
         mesh = ovm_of_tets(tets.vertices, tets.tets)
-        field = Field(tets, np.empty((0, 4)), "tets", features=parts.lines, regions=parts.regions)
-        add_features(mesh, field, parts.triangles, parts.faces)
+        add_features(
+            mesh, np.asarray(tets.tets), parts.lines, parts.regions, triangles=parts.triangles, faces=parts.faces
+        )
         write_ovm(path, mesh, binary=suffix == ".ovmb")
         return []
     return _write_by_meshio(path, suffix, parts)

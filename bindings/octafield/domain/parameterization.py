@@ -8,12 +8,12 @@ from numpy.typing import ArrayLike
 from .. import _core
 from .._core import AlignmentTables, BoundarySurface, CombedField, FeatureGraph, SingularEdges, TetMesh
 from ..errors import InvalidInput
-from ..fields.analysed import fitting_frames
-from ..frame_files.base import SITES
 from ..meshes.topology import first_tets_at
 from ..options import MeshOptions
 from .inputs import Input, from_mesh, with_regions
-from .meshing import MeshedInput, Source, prepare_mesh
+from .meshed_input import MeshedInput
+from .meshing import Source, prepare_mesh
+from .sites import SITES, fitting_frames
 
 __all__ = ["ParameterizationInput", "parameterization_input"]
 

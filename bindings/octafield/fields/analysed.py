@@ -21,13 +21,13 @@ from .._core import (
     TetMesh,
     TriangleMesh,
 )
-from ..domain.meshing import MeshedInput, Source, prepare_mesh
-from ..domain.rotations import unit_quaternions
+from ..domain.meshed_input import MeshedInput
+from ..domain.meshing import Source, prepare_mesh
+from ..domain.sites import SITES, fitting_frames
 from ..errors import InvalidInput
-from ..frame_files.base import SITES
 from ..options import FieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
-from ..view import display
+from ..view.notebook import Facts, ShownInNotebooks, facts_of_record
 from . import verdict
 from .direction_field import common_record
 from .sizes import Sizes, axis_order, sizes_of_run
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 
 __all__ = ["AnalysedField", "analyse"]
 
+_SHOWN = ("vertices", "tets", "energy", "singular_edges", "complex_edges", "non_meshable_vertices", "converged")
 _OF_ANALYSIS = (
     "singular_graph",
     "alignment",
@@ -51,7 +52,7 @@ _OF_ANALYSIS = (
 
 
 @dataclass(repr=False, kw_only=True)
-class AnalysedField:
+class AnalysedField(ShownInNotebooks):
     """A frame field and what it is judged by. frames: (n, 4) unit quaternions w x y z, per tet vertex; their axes
     are named so that neighbours agree but across a cut (octafield.comb_vertices). alignment: radians, per boundary
     vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: the JSON
@@ -82,11 +83,29 @@ class AnalysedField:
     feature_edges: np.ndarray | None = None
 
     def __repr__(self) -> str:
-        return display.analysed_line(self)
+        r = self.record
+        return (
+            f"AnalysedField({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; E {r['energy']:.6g},"
+            f" {r['singular_edges']:,} singular edges)"
+        )
+
+    def _facts(self) -> Facts:
+        """For notebooks."""
+        return facts_of_record(self.record, _SHOWN)
 
     def scene(self) -> pyvista.Plotter:
-        """The singular curves inside the translucent surface, to show() in a window or Jupyter."""
-        return display.scene_of(self)
+        """A pyvista scene of the singular curves inside the translucent surface: .show() opens a window, or in Jupyter a
+        view to turn (with trame) or a picture. Without a display .screenshot(PNG) draws it all the same."""
+        from ..view.window import shown_where_possible
+
+        return shown_where_possible(self._drawn())
+
+    def _drawn(self) -> pyvista.Plotter:
+        """The same for pictures, without a window."""
+        from ..view.curves import bad_features, singular_scene
+
+        bad = bad_features(self.tets, self.boundary_meshability)
+        return singular_scene(self.surface, self.features, self.singular_graph, bad)
 
 
 def analyse(
@@ -188,16 +207,3 @@ def combed(
     return np.asarray(found.frames), (
         None if lengths is None else np.take_along_axis(lengths, axis_order(np.asarray(found.element)), axis=1)
     )
-
-
-def fitting_frames(tets: TetMesh, frames: ArrayLike, where: str) -> np.ndarray:
-    """Unit quaternions, as many as the mesh has vertices or tets; InvalidInput otherwise."""
-    values = np.asarray(frames, float)
-    count = len(tets.vertices if where == "vertices" else tets.tets)
-    if values.shape != (count, 4):
-        raise InvalidInput(
-            f"frames of shape {values.shape}; ({count}, 4) are needed, one per"
-            f" {'vertex' if where == 'vertices' else 'tet'}",
-            "bad_count",
-        )
-    return unit_quaternions(values, lambda i: "frames")[0]

@@ -6,7 +6,7 @@ result.directions  # (V, 3), one of the N directions per vertex of result.surfac
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,15 +21,21 @@ from .._core import (
     TriangleMesh,
 )
 from ..domain.inputs import naming
-from ..domain.meshing import MeshedInput, Source, prepare_mesh
+from ..domain.meshed_input import MeshedInput
+from ..domain.meshing import Source, prepare_mesh
 from ..errors import Cancelled, InvalidInput
 from ..options import METHODS, SurfaceFieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, StopNote, forward, machine, octafield_version, versions
-from ..view import display
+from ..view.notebook import Facts, ShownInNotebooks, facts_of_record
+
+if TYPE_CHECKING:
+    import pyvista
+
+_SHOWN = ("triangles", "energy", "epsilon", "euler_characteristic", "index_sum", "converged")
 
 
 @dataclass(repr=False)
-class SurfaceFieldResult:
+class SurfaceFieldResult(ShownInNotebooks):
     """An N-direction field on a surface. directions: (V, 3), one representative per vertex. record: the JSON object."""
 
     surface: TriangleMesh
@@ -41,7 +47,21 @@ class SurfaceFieldResult:
     record: dict[str, Any]
 
     def __repr__(self) -> str:
-        return display.surface_field_line(self)
+        r = self.record
+        return (
+            f"SurfaceFieldResult({r['input']}: {r['triangles']:,} triangles; symmetry {self.direction_field.symmetry}; "
+            f"{len(self.singularities.points):,} singular points, index sum {self.singularities.index_sum:g})"
+        )
+
+    def _facts(self) -> Facts:
+        """For notebooks."""
+        return facts_of_record(self.record, _SHOWN)
+
+    def _drawn(self) -> "pyvista.Plotter":
+        """Singular points and separatrices on the surface."""
+        from ..view.surface_field import surface_field_scene
+
+        return surface_field_scene(self.surface, self.features, self.singularities, self.separatrices)
 
 
 def compute_surface_field(

@@ -19,11 +19,11 @@ from numpy.typing import ArrayLike
 from .. import _core
 from .._core import BoundaryConstraints, DirectionField, Streamline, SurfaceSingularities, TetMesh, VertexConstraints
 from ..domain.locking import split_between_singular
-from ..domain.meshing import MeshedInput, Source, load_surface, prepare_mesh
+from ..domain.meshed_input import MeshedInput
+from ..domain.meshing import Source, load_surface, prepare_mesh
 from ..errors import InvalidInput
 from ..options import OF_A_START, FieldOptions, MeshOptions, SurfaceFieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce, forward
-from ..view import display
 from .analysed import AnalysedField, judged
 from .direction_field import SurfaceFieldResult, compute_surface_field, index_summary, structure
 from .smoothing import held_at_start, smoothed_field
@@ -63,7 +63,10 @@ class Problem:
     peak_mb: float
 
     def __repr__(self) -> str:
-        return display.problem_line(self)
+        return (
+            f"Problem({self.meshed!r}, seed {self.seed}, "
+            f"{len(self.singularities.points):,} singular points on the surface)"
+        )
 
 
 @dataclass(repr=False, kw_only=True)
@@ -82,7 +85,11 @@ class FieldResult(AnalysedField):
     parent: np.ndarray | None = None
 
     def __repr__(self) -> str:
-        return display.field_line(self)
+        r = self.record
+        return (
+            f"FieldResult({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; {r['representation']},"
+            f" {r['boundary']}; E {r['energy']:.6g}, {r['singular_edges']:,} singular edges)"
+        )
 
 
 def compute_field(

@@ -19,9 +19,10 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from .._core import SampledFrames, TetMesh
+from ..domain.sites import fitting_frames
 from ..errors import InvalidInput
 from ..options import require_one_of
-from .analysed import AnalysedField, fitting_frames
+from .analysed import AnalysedField
 
 if TYPE_CHECKING:
     import pyvista

@@ -1,7 +1,6 @@
 """Sizes along the axes for which a field is closest to the gradients of a map (octafield.isotropic_scale, axis_scales):
 in results, their files and conversions."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,8 +8,6 @@ import numpy as np
 from .. import _core
 from .._core import AxisScales, IsotropicScale, TetMesh
 from ..domain.rotations import axes_in_rows, axes_of
-from ..errors import InvalidInput
-from ..frame_files.base import FrameFile, FrameFormat
 from ..options import FieldOptions
 from ..progress.phases import PhaseClock, Progress, announce
 
@@ -75,42 +72,3 @@ def axis_order(elements: np.ndarray) -> np.ndarray:
     group = np.abs(np.rint(axes_of(np.asarray(_core.octahedral_group()))))
     found: np.ndarray = group.argmax(axis=1)[elements]
     return found
-
-
-def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str) -> tuple[FrameFile, dict[str, Any]]:
-    """The frames where the file to write has them, with sizes as the lengths of their axes: densities exp(H), or
-    exp(-H) where the format holds edges of cells (FrameFormat.holds_edges). And what sizes_record tells."""
-    if found.mesh is None:
-        raise InvalidInput("sizes are found on the mesh of the frames; give it with --mesh", "no_mesh")
-    if not writer.holds_lengths:
-        return replace(
-            found, notes=[*found.notes, f"sizes were left out: {writer.title} files hold no lengths of axes"]
-        ), {}
-    where = at or (found.where if found.where in writer.where else writer.where[0])
-    if kind == "axes" and where == "vertices":
-        raise InvalidInput(
-            "sizes per axis are those of frames in the tets; add --at tets, or take --sizes isotropic", "wrong_sampling"
-        )
-    notes = list(found.notes)
-    if where != found.where:
-        notes.append(f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around")
-    at_vertices = (
-        found.frames if found.where == "vertices" else np.asarray(_core.vertex_frames(found.mesh, found.frames))
-    )
-    frames = found.frames
-    if where != found.where:
-        frames = at_vertices if where == "vertices" else np.asarray(_core.tet_frames(found.mesh, at_vertices))
-    sizes = find_sizes(found.mesh, at_vertices, kind)
-    lengths = np.exp((-1 if writer.holds_edges else 1) * _logs_at(sizes, found.mesh, frames, where))
-    if found.lengths is not None:
-        notes.append("the lengths of the axes in the file were replaced by sizes")
-    return replace(found, frames=frames, where=where, lengths=lengths, notes=notes), sizes_record(sizes)
-
-
-def _logs_at(sizes: Sizes, tets: TetMesh, frames: np.ndarray, where: str) -> np.ndarray:
-    if isinstance(sizes, AxisScales):
-        return log_scales_of(sizes, frames)
-    values = np.asarray(sizes.log_scale)
-    return np.repeat(
-        (values if where == "vertices" else values[np.asarray(tets.tets)].mean(axis=1))[:, None], 3, axis=1
-    )

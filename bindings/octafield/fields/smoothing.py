@@ -7,10 +7,10 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from .._core import BoundaryConstraints, Sampling, SmoothResult, TetMesh, VertexConstraints
+from ..domain.sites import fitting_frames
 from ..errors import InvalidInput
 from ..options import OF_A_START, FieldOptions
 from ..progress.phases import Progress, forward
-from .analysed import fitting_frames
 
 
 class _How(TypedDict):

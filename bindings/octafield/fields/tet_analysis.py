@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _core
 from .._core import BoundaryMeshability, Meshability, Sampling, SingularEdges
-from ..domain.meshing import MeshedInput
+from ..domain.meshed_input import MeshedInput
 from . import verdict
 from .vertex_analysis import boundary_record, degrees, meshability_record
 

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from ..domain.meshing import MeshedInput
-from ..inspect.checks import WARN, rounded_down
+from ..domain.meshed_input import MeshedInput
 
 FINE, COARSE, NOT_MESHABLE, NO_FIELD = "fine", "coarse", "not meshable", "no field"
+WARN = "warn"  # the state of a requirement that a field can do without
 OFF = 20.0  # degrees between a normal and the nearest axis of its frame
 BENT = 30.0  # degrees between triangles at an edge that is no feature
 SHARE_OFF, SHARE_COARSE = 0.02, 0.1  # of the area that may be off, and off or bent, before it is worth a word
@@ -108,3 +108,9 @@ def off_vertices(angles: np.ndarray, vertices: np.ndarray) -> np.ndarray:
     """Ids of those whose angle (radians) is above OFF. angles: (k,), vertices: (k,) or (k, 3) of triangles."""
     found: np.ndarray = np.unique(vertices[angles > math.radians(OFF)])
     return found
+
+
+def rounded_down(value: float) -> str:
+    """Two digits, never more than `value`."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return f"{math.floor(value / unit * (1 + 1e-12)) * unit:.2g}"

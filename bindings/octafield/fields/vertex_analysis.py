@@ -24,7 +24,7 @@ from .._core import (
     VertexConstraints,
 )
 from ..defaults import default_of
-from ..domain.meshing import MeshedInput
+from ..domain.meshed_input import MeshedInput
 from . import verdict
 
 

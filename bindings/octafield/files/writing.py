@@ -110,18 +110,6 @@ def write_file(path: Path, content: bytes) -> None:
         raise IoError(f"{path}: cannot write there ({error.strerror})") from error
 
 
-def read_vtp(path: Path) -> "pyvista.PolyData":
-    import pyvista
-
-    from ..meshes.vtk.vtp import read_vtp as checked
-
-    checked(Path(path).read_bytes(), str(path))  # VTK ends the process where a count is wrong
-    found = pyvista.read(path)
-    if not isinstance(found, pyvista.PolyData):
-        raise IoError(f"{path}: holds neither a surface nor curves")
-    return found
-
-
 def vtp_bytes(surface: "pyvista.PolyData") -> bytes:
     """A .vtp file in memory: VTK's writers of files end the process where the disk is full."""
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter

@@ -21,9 +21,10 @@ from .. import _core
 from .._core import TetMesh
 from ..domain.inputs import Input, read_input
 from ..domain.rotations import axes_of, unit_quaternions
+from ..domain.sites import SITES
 from ..errors import InvalidInput
 from ..files.reading import plain_name, reading
-from .base import SITES, Field, FrameFile, FrameFormat
+from .base import Field, FrameFile, FrameFormat
 from .placing import place
 from .registry import FORMATS, READERS, WRITERS, find_format
 from .text import read_txt

@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 
 from .. import _core
+from ..domain.algohex_features import add_features
 from ..domain.inputs import input_of_grid, naming
 from ..domain.rotations import axes_of
 from ..errors import InvalidInput
 from ..meshes.grids import grid_of_ovm
 from ..meshes.openvolumemesh.mesh import OvmMesh, ovm_of_tets
 from ..meshes.openvolumemesh.text import read_ovm, write_ovm
-from ..meshes.topology import unique_triangles
 from .algohex_transitions import CUT, TRANSITIONS, VALENCES, far_transitions, inner_faces, transitions_of, valences_of
 from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of
 from .vtk import AXES, with_mesh
@@ -19,7 +19,6 @@ from .vtk import AXES, with_mesh
 _BINARY_NAME = {"tets": "FrameFieldQuaternions", "vertices": "vertex quaternion"}  # type Quaternion: x y z w
 _COEFFICIENTS = "scaled vertex spherical harmonic coefficients"
 _ENTITY = {"tets": "cell", "vertices": "vertex"}
-FEATURES = {"vertex": "AlgoHex::FeatureVertices", "edge": "AlgoHex::FeatureEdges", "face": "AlgoHex::FeatureFaces"}
 
 
 def read_text(path: Path) -> FrameFile:
@@ -79,7 +78,8 @@ def write_binary(path: Path, field: Field) -> None:
 
 def _write(path: Path, field: Field, *, binary: bool) -> None:
     mesh = ovm_of_tets(mesh_of(field).vertices, mesh_of(field).tets)
-    add_features(mesh, field)
+    tets = np.asarray(mesh_of(field).tets)
+    add_features(mesh, tets, field.features, field.regions, with_frames=len(field.frames) > 0)
     entity = _ENTITY[field.where]
     if binary:
         key = entity, _BINARY_NAME[field.where]
@@ -105,49 +105,3 @@ def _add_transitions(mesh: OvmMesh, field: Field) -> None:
         mesh.properties[CUT][inner_faces(mesh)] = parts["cut"]
     mesh.properties[TRANSITIONS] = transitions_of(mesh, field.matchings())
     mesh.properties[VALENCES] = valences_of(mesh, field, mesh.properties[TRANSITIONS], edges)
-
-
-def add_features(
-    mesh: OvmMesh, field: Field, triangles: np.ndarray | None = None, faces: np.ndarray | None = None
-) -> None:
-    """Edges as given, vertices where other than two of them meet, all faces of the boundary and between regions, by the
-    CAD faces of (t, 3) triangles where these are known, else 1. Where no edges are given AlgoHex finds features itself,
-    unless there are frames."""
-    if field.regions is not None:
-        mesh.properties["cell", "region"] = np.asarray(field.regions).astype(np.int32)
-    if field.features is not None:
-        marked = _marked_edges(mesh, np.asarray(field.features))
-        degree = np.bincount(mesh.edges[marked].ravel(), minlength=len(mesh.vertices))
-        mesh.properties["vertex", FEATURES["vertex"]] = ((degree > 0) & (degree != 2)).astype(np.int32)
-        mesh.properties["edge", FEATURES["edge"]] = marked.astype(np.int32)
-    if field.features is not None or len(field.frames):
-        mesh.properties["face", FEATURES["face"]] = _face_tags(mesh, field, triangles, faces)
-
-
-def _marked_edges(mesh: OvmMesh, features: np.ndarray) -> np.ndarray:
-    count = len(mesh.vertices)
-    features = np.sort(features.astype(np.int64), axis=1)
-    keys = features[:, 0] * count + features[:, 1]
-    marked: np.ndarray = np.isin(mesh.edges[:, 0] * count + mesh.edges[:, 1], keys)
-    if marked.sum() < len(np.unique(keys)):
-        raise InvalidInput("features name pairs of vertices that are no edges of the tet mesh", "bad_features")
-    return marked
-
-
-def _face_tags(mesh: OvmMesh, field: Field, triangles: np.ndarray | None, faces: np.ndarray | None) -> np.ndarray:
-    _, of_tet = unique_triangles(mesh_of(field).tets)
-    on_surface: np.ndarray = np.bincount(of_tet.ravel(), minlength=len(mesh.faces)) == 1
-    if field.regions is not None:
-        ids = np.repeat(np.asarray(field.regions), 4)
-        low, high = np.full(len(mesh.faces), np.iinfo(np.int64).max), np.full(len(mesh.faces), np.iinfo(np.int64).min)
-        np.minimum.at(low, of_tet.ravel(), ids)
-        np.maximum.at(high, of_tet.ravel(), ids)
-        on_surface |= low != high
-    if triangles is None or faces is None:
-        return on_surface.astype(np.int32)
-    both = np.sort(np.concatenate([mesh.triangles(), triangles]), axis=1)
-    ids = np.unique(both, axis=0, return_inverse=True)[1].ravel()
-    of_triangle = np.zeros(ids.max() + 1, np.int64)
-    of_triangle[ids[len(mesh.faces) :]] = np.where(faces > 0, faces, faces.max() + 1)
-    tags: np.ndarray = np.where(on_surface, of_triangle[ids[: len(mesh.faces)]], 0).astype(np.int32)
-    return tags

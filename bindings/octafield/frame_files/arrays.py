@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from .._core import TetMesh
+from ..domain.sites import SITES
 from ..errors import InvalidInput, IoError
 from ..files.reading import read_bytes, require_unpackable, write_whole
-from .base import SITES, Field, FrameFile, from_axes, from_quaternions
+from .base import Field, FrameFile, from_axes, from_quaternions
 
 _UNITS = {1: "read_array_header_1_0", 2: "read_array_header_2_0"}
 

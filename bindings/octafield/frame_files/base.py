@@ -16,7 +16,6 @@ from ..files.reading import plain_name
 if TYPE_CHECKING:
     from ..domain.parameterization import ParameterizationInput
 
-SITES = ("vertices", "tets")
 _WORTH_A_NOTE = 1e-6  # radians, or relative length: what six digits leave
 
 

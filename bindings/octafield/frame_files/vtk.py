@@ -1,6 +1,6 @@
 """Frames in the arrays of mesh files: VTU, legacy VTK and Gmsh's views; and VTP for pictures."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,9 +9,10 @@ import numpy as np
 from .. import _core
 from ..domain.inputs import Input, input_of_grid, naming
 from ..domain.rotations import axes_of
-from ..errors import InvalidInput, IoError
+from ..errors import InvalidInput
 from ..files.reading import write_whole
-from ..files.writing import scratch_folder, vtp_bytes
+from ..files.scratch import through_file
+from ..files.writing import vtp_bytes
 from ..meshes.grids import grid_of_cells, read_cells
 from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of
 
@@ -116,20 +117,6 @@ def write_vtu(path: Path, field: Field) -> None:
     through_file(path, ".vtu", write)
 
 
-def through_file(path: Path, suffix: str, write: Callable[[Path], None]) -> None:
-    """For writers that take a path: writes to a scratch file, then to the place wanted, packed where its name says so."""
-    with scratch_folder() as folder:
-        plain = folder / f"output{suffix}"
-        try:
-            write(plain)
-        except OSError as error:  # IoError, too
-            reason = error.strerror or str(error).partition(f"{plain}: ")[2].partition(";")[0]
-            raise IoError(
-                f"{path}: cannot be written to a scratch file first ({reason}); is {folder.parent} full?"
-            ) from error
-        write_whole(path, [plain.read_bytes()])
-
-
 def write_vtp(path: Path, field: Field) -> None:
     """A point per frame: at the vertices, or at the centroids of the tets."""
     import pyvista
@@ -153,7 +140,9 @@ def write_msh(path: Path, field: Field) -> list[str]:
     axes = np.swapaxes(axes_of(field.frames), 1, 2)
     data = {name: np.ascontiguousarray(axes[:, k]) for k, name in enumerate(AXES)}
     data["frame"] = axes.reshape(-1, 9)
-    mesh, notes = msh_of(Parts.of_field(field))
+    tets = mesh_of(field)
+    parts = Parts(np.asarray(tets.vertices), field.features, tets=np.asarray(tets.tets), regions=field.regions)
+    mesh, notes = msh_of(parts)
     if field.where == "vertices":
         mesh.point_data = data
     else:

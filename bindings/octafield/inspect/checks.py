@@ -12,11 +12,12 @@ from .. import _core
 from .._core import FeatureGraph
 from ..domain.inputs import Input
 from ..errors import Error
+from ..fields.verdict import WARN, rounded_down
 from ..options import MeshOptions
 from . import estimates
 from .measures import curve_lengths, dihedral_angles, wall_samples
 
-PASS, WARN, FAIL, NOT_TESTED = "pass", "warn", "fail", "not tested"
+PASS, FAIL, NOT_TESTED = "pass", "fail", "not tested"
 
 SIZES = 1e-6, 1e6  # of bounding boxes, input unit: what the tests of octafield cover
 _LEAST_ANGLE = 5.0  # degrees, of triangles
@@ -277,12 +278,6 @@ def memory(seen: Examined, tets: int) -> Finding:
         f"about {tets:,} tets need {needed / 1000:,.1f} GB of this machine's {there / 1000:.1f}",
         remedy,
     )
-
-
-def rounded_down(value: float) -> str:
-    """Two digits, never more than `value`."""
-    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
-    return f"{math.floor(value / unit * (1 + 1e-12)) * unit:.2g}"
 
 
 def _rounded_up(value: float) -> str:

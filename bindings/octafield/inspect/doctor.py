@@ -139,7 +139,7 @@ def _files() -> str:
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "cube.vtp"
-        from ..view.interop import to_pyvista
+        from ..runs.interop import to_pyvista
 
         to_pyvista(_cube()).save(path)
         return f"VTK files written and read, {pyvista.read(path).n_cells} triangles"

@@ -16,11 +16,12 @@ from ..domain.meshing import TOUCHING, find_features
 from ..domain.repairing import advise, message_with_remedy, repair_surface
 from ..errors import Error
 from ..fields import verdict
+from ..fields.verdict import WARN
 from ..options import MeshOptions
 from ..progress.phases import octafield_version
 from . import checks as info_checks
 from . import estimates
-from .checks import FAIL, NOT_TESTED, PASS, WARN, Examined, Finding
+from .checks import FAIL, NOT_TESTED, PASS, Examined, Finding
 from .measures import radius_ratios
 
 __all__ = ["FAIL", "NOT_TESTED", "PASS", "WARN", "examine", "first_failure"]

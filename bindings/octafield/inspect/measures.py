@@ -46,7 +46,7 @@ def wall_samples(surface: TriangleMesh) -> tuple[Array, Array]:
     """Evenly chosen triangles (ids), and the distance from each to the face opposite; inf where there is no wall."""
     import vtk
 
-    from ..view.interop import to_pyvista
+    from ..runs.interop import to_pyvista
 
     corners = np.asarray(surface.vertices)[np.asarray(surface.triangles)]
     diagonal = float(_core.bounding_box_diagonal(surface.vertices))

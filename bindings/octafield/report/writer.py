@@ -19,7 +19,7 @@ from .page.html import Exhibits
 from .page.render import Content, render
 
 if TYPE_CHECKING:
-    from ..view.pictures import Picture
+    from ..view.picture import Picture
 
 PAGE_FILE, RECORDS_FILE, TABLES, FIGURES = "report.html", "results.csv", "tables", "figures"
 

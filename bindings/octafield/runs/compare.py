@@ -20,14 +20,17 @@ from ..progress.phases import Progress, announce
 from ..progress.whole_time import Whole
 from ..report import PAGE_FILE, Report, Run, write_report
 from ..report.numbers.records import INDEPENDENT
+from ..view.captions import counted
+from ..view.notebook import Facts, ShownInNotebooks
 from .given_fields import FieldSource, GivenField, given_fields
 from .run_folder import write_analysis, write_field_result
 
 if TYPE_CHECKING:
-    from ..view.pictures import Picture
+    from ..view.picture import Picture
 
 ROWS_FILE = "results.json"
 STARTS = ("sh4", "independent")
+_SHOWN = ("input", "representation", "boundary", "seed", "energy", "singular_edges", "singular_length", "complex_edges")
 _MOST_CURVES = 3  # pictures of singular curves per boundary treatment
 
 
@@ -54,12 +57,31 @@ class _Section:
         return name
 
 
-@dataclass
-class Comparison:
+@dataclass(repr=False)
+class Comparison(ShownInNotebooks):
     """rows: one record per run, in the order of the report. folder: where everything was written."""
 
     rows: list[dict[str, Any]]
     folder: Path
+
+    def __repr__(self) -> str:
+        """inputs, how many runs of what, the range of energies, and where."""
+        energies = [row["energy"] for row in self.rows if "energy" in row]
+
+        def count(name: str, plural: str = "") -> str:
+            return counted(len({row[name] for row in self.rows if name in row}), name, plural)
+
+        spread = f"; E {min(energies):.6g} to {max(energies):.6g}" if energies else ""
+        return (
+            f"Comparison({counted(len(self.rows), 'run')}: {count('input')}, {count('representation')},"
+            f" {count('boundary', 'boundaries')}{spread}; {self.folder})"
+        )
+
+    def _facts(self) -> Facts:
+        """For notebooks: a line per run."""
+        return f"Comparison in {self.folder}", [
+            {name: row[name] for name in _SHOWN if name in row} for row in self.rows
+        ]
 
     def to_html(self) -> str:
         """The report, a self-contained page."""
@@ -229,7 +251,8 @@ def _report(sections: list[_Section], folder: Path) -> Report:
 
 
 def _surface_pictures(problem: Problem) -> "list[Picture]":
-    from ..view import pictures, scene  # brings VTK, which nothing else in the package needs when it is imported
+    from ..view import scene
+    from . import field_pictures as pictures  # brings VTK, which nothing else in the package needs when it is imported
 
     if not scene.can_draw():
         problem.meshed.notes.append(f"no pictures: {scene.NO_OPENGL}")
@@ -240,7 +263,8 @@ def _surface_pictures(problem: Problem) -> "list[Picture]":
 def _volume_pictures(section: _Section, result: FieldResult, label: str) -> "list[Picture]":
     """Of the first method with a boundary treatment: singular curves, frames on a cut, and streamlines once per input,
     since they differ little. Of another: singular curves where they differ in kind."""
-    from ..view import pictures, scene
+    from ..view import scene
+    from . import field_pictures as pictures
 
     if not scene.can_draw():
         return []
@@ -262,7 +286,8 @@ def _volume_pictures(section: _Section, result: FieldResult, label: str) -> "lis
 
 
 def _pictures_of_given(name: str, result: AnalysedField) -> "list[Picture]":
-    from ..view import pictures, scene
+    from ..view import scene
+    from . import field_pictures as pictures
 
     if not scene.can_draw() or not result.record["singular_edges"]:
         return []

@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 
 from .. import _core
+from .._core import AxisScales, TetMesh
 from ..domain.inputs import SURFACE_SUFFIXES, Input, from_mesh, naming, read_input
 from ..domain.mesh_writers import MESH_SUFFIXES, write_mesh
 from ..domain.meshing import REPAIR_IGNORED
 from ..domain.repairing import level_of, repair_surface
 from ..errors import InvalidInput, IoError
-from ..fields.sizes import with_sizes
+from ..fields.sizes import Sizes, find_sizes, log_scales_of, sizes_record
 from ..files.reading import plain_name
 from ..frame_files import FrameFile, read_frames, write_frames
 from ..frame_files.base import FrameFormat, frames_at, mesh_of
@@ -219,3 +220,42 @@ def _site_in_file(target: Path, name: str | None, where: str) -> str:
 
 def _degrees(radians: float) -> float:
     return radians * 57.29577951308232
+
+
+def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str) -> tuple[FrameFile, dict[str, Any]]:
+    """The frames where the file to write has them, with sizes as the lengths of their axes: densities exp(H), or
+    exp(-H) where the format holds edges of cells (FrameFormat.holds_edges). And what sizes_record tells."""
+    if found.mesh is None:
+        raise InvalidInput("sizes are found on the mesh of the frames; give it with --mesh", "no_mesh")
+    if not writer.holds_lengths:
+        return replace(
+            found, notes=[*found.notes, f"sizes were left out: {writer.title} files hold no lengths of axes"]
+        ), {}
+    where = at or (found.where if found.where in writer.where else writer.where[0])
+    if kind == "axes" and where == "vertices":
+        raise InvalidInput(
+            "sizes per axis are those of frames in the tets; add --at tets, or take --sizes isotropic", "wrong_sampling"
+        )
+    notes = list(found.notes)
+    if where != found.where:
+        notes.append(f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around")
+    at_vertices = (
+        found.frames if found.where == "vertices" else np.asarray(_core.vertex_frames(found.mesh, found.frames))
+    )
+    frames = found.frames
+    if where != found.where:
+        frames = at_vertices if where == "vertices" else np.asarray(_core.tet_frames(found.mesh, at_vertices))
+    sizes = find_sizes(found.mesh, at_vertices, kind)
+    lengths = np.exp((-1 if writer.holds_edges else 1) * _logs_at(sizes, found.mesh, frames, where))
+    if found.lengths is not None:
+        notes.append("the lengths of the axes in the file were replaced by sizes")
+    return replace(found, frames=frames, where=where, lengths=lengths, notes=notes), sizes_record(sizes)
+
+
+def _logs_at(sizes: Sizes, tets: TetMesh, frames: np.ndarray, where: str) -> np.ndarray:
+    if isinstance(sizes, AxisScales):
+        return log_scales_of(sizes, frames)
+    values = np.asarray(sizes.log_scale)
+    return np.repeat(
+        (values if where == "vertices" else values[np.asarray(tets.tets)].mean(axis=1))[:, None], 3, axis=1
+    )

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..domain.meshing import SoundInput
+from ..domain.sites import fitting_frames
 from ..errors import InvalidInput
-from ..fields.analysed import fitting_frames
 from ..frame_files import read_frames
 from ..frame_files.base import frames_at
 from ..options import REPRESENTATIONS, FieldOptions

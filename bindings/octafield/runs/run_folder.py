@@ -16,6 +16,7 @@ from ..fields.frame_field import FieldResult, SurfaceFieldResult
 from ..fields.sizes import sizes_arrays
 from ..files.writing import vtp_bytes, write_file, write_json
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
+from ..view.datasets import polylines
 
 if TYPE_CHECKING:
     import pyvista
@@ -154,18 +155,6 @@ def write_features(path: Path, tets: TetMesh, found: BoundaryMeshability, metada
     angles = [0.0] * len(corners) + [np.degrees(w.angle) for w in wedges] + [0.0] * len(crossings)
     poly.cell_data["angle"] = np.array(angles, float)
     _save(poly, path, metadata)
-
-
-def polylines(lines: Sequence[np.ndarray]) -> "pyvista.PolyData":
-    """Polylines, (n, 3) points each, as the cells of a pyvista.PolyData, in their order."""
-    import pyvista
-
-    if not lines:
-        return pyvista.PolyData()
-    counts = [len(line) for line in lines]
-    starts = np.cumsum([0, *counts[:-1]])
-    cells = [np.r_[count, np.arange(start, start + count)] for start, count in zip(starts, counts, strict=True)]
-    return pyvista.PolyData(np.concatenate(lines), lines=np.concatenate(cells))
 
 
 def _save(poly: "pyvista.PolyData", path: Path, metadata: dict[str, str]) -> None:

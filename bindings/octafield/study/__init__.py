@@ -18,13 +18,10 @@ absent) and, after write_report(), report.html, results.csv and tables/. KEY is 
 options and octafield's version.
 """
 
-from ..view.display import study_line
 from .description import Study, load, parse
 from .finished_runs import Status, rows, status
 from .plan import Run, plan
 from .report import write_report
 from .running.engine import Outcome, run
-
-Study.__repr__ = study_line  # type: ignore[method-assign, assignment]
 
 __all__ = ["Outcome", "Run", "Status", "Study", "load", "parse", "plan", "rows", "run", "status", "write_report"]

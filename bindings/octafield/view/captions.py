@@ -6,9 +6,9 @@ from typing import Any
 from .._core import SurfaceSingularities
 
 
-def counted(count: int, singular: str) -> str:
-    """ "1 node", "2 nodes"."""
-    return f"{count:,} {singular}" + ("" if count == 1 else "s")
+def counted(count: int, singular: str, plural: str = "") -> str:
+    """ "1 node", "2 nodes". plural: where it is not with an s."""
+    return f"{count:,} {singular if count == 1 else plural or singular + 's'}"
 
 
 def of_surface(found: SurfaceSingularities) -> str:

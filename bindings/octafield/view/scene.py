@@ -190,3 +190,11 @@ def fewer_colours(image: "Picture", colours: int) -> "Picture":
         values[start : start + 3] = [255, 255, 255]
         reduced.putpalette(values)
     return reduced
+
+
+def three_quarter_view(shape: pyvista.Plotter, points: np.ndarray) -> None:
+    """Of what lies around points; as it is where there are fewer than two."""
+    if len(points) < 2:
+        return
+    along, across, up = principal_axes(points)
+    look(shape, points, -0.45 * along - 0.75 * across + 0.62 * up, up)

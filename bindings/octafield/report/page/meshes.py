@@ -12,7 +12,7 @@ from . import figures, prose, scenes
 from .html import Exhibits, paragraphs, picture
 
 if TYPE_CHECKING:
-    from ...view.pictures import Picture
+    from ...view.picture import Picture
 
 CONVERGENCE = (
     "Above, the energy E of the tables (of sh4, whatever a method minimises) at the start (iteration 0) and after each"

@@ -17,7 +17,7 @@ from .html import Exhibits, page, paragraphs, resource
 from .meshes import mesh_section, runs_without_field
 
 if TYPE_CHECKING:
-    from ...view.pictures import Picture
+    from ...view.picture import Picture
 
 _PARTS = ("results", "inputs", "runs", "methods", "reproduction")
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...files.writing import read_vtp
+from ...view.datasets import read_vtp
 from ..numbers.records import Run
 
 if TYPE_CHECKING:

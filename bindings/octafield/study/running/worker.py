@@ -108,7 +108,7 @@ def _write_failure(store: Store, run: Run, error: Error, begin: float) -> None:
 
 
 def main() -> None:
-    from ...command_line.supervise import die_with_parent
+    from ...files.process import die_with_parent
 
     die_with_parent()
     logging.disable()

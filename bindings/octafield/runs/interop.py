@@ -33,7 +33,7 @@ from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField
 from ..fields.direction_field import SurfaceFieldResult
 from ..fields.probes import put_frames
-from ..runs.run_folder import polylines
+from ..view.datasets import polylines
 
 if TYPE_CHECKING:
     import meshio

@@ -1,54 +1,21 @@
 """Pictures of a report: cross field on the surface, singular curves in the volume, frames on a cut."""
 
-import io
-from dataclasses import dataclass, field
-from pathlib import Path
-
 import numpy as np
 import pyvista
 
 from .. import _core
-from .._core import DirectionField, SingularGraph, TriangleMesh
+from .._core import DirectionField, TriangleMesh
 from ..fields.analysed import AnalysedField
 from ..fields.frame_field import Problem
-from ..files.writing import read_vtp
-from ..runs.run_folder import polylines
-from . import captions, scene
+from ..view import captions, scene
+from ..view.curves import TURNS, add_curves, bad_features, curves_by_kind, glass, kind_of, singular_scene, spheres
+from ..view.datasets import beginning, polylines
+from ..view.picture import Picture
+from ..view.scene import three_quarter_view
 
 MOST_CROSSES = 4000
 MOST_CUBES = 1500
-PAGE_SIZE = (1100, 825)
 CUT = "#f6ecd6"
-TURNS = {
-    1: (scene.VERMILLION, "valence 3 (index +1/4)"),
-    -1: (scene.BLUE, "valence 5 (index \N{MINUS SIGN}1/4)"),
-    2: (scene.GREEN, "valence 2 (index +1/2)"),
-    -2: (scene.BROWN, "valence 6 (index \N{MINUS SIGN}1/2)"),
-    3: (scene.GREY, "valence 1, 7 or 8 (index +3/4, \N{MINUS SIGN}3/4, \N{MINUS SIGN}1)"),
-    0: (scene.PURPLE, "complex: no hex mesh has it"),
-}
-
-
-@dataclass
-class Picture:
-    """A rendered picture with a caption stating facts from the data and a legend of (colour, meaning)."""
-
-    title: str
-    caption: str
-    png: bytes
-    legend: list[tuple[str, str]] = field(default_factory=list)
-
-    @property
-    def small(self) -> bytes:
-        """PNG for a page: no wider than a column needs, in few colours."""
-        from PIL import Image
-
-        with Image.open(io.BytesIO(self.png)) as shot:
-            image = shot.convert("RGB")
-        image.thumbnail(PAGE_SIZE, Image.Resampling.LANCZOS)
-        data = io.BytesIO()
-        scene.fewer_colours(image, 128).save(data, "PNG", optimize=True)
-        return data.getvalue()
 
 
 def surface_cross_field(problem: Problem) -> Picture:
@@ -61,7 +28,7 @@ def surface_cross_field(problem: Problem) -> Picture:
     scene.add_features(shape, mesh, features, 7)
     radius = 0.011 * scene.diagonal(points)
     legend = [(scene.CROSS, "cross")] + [(scene.CURVE, "feature curve")] * (len(features.edges) > 0)
-    beginnings = [_beginning(line.points, scene.diagonal(points)) for line in problem.separatrices]
+    beginnings = [beginning(line.points, scene.diagonal(points)) for line in problem.separatrices]
     curves = polylines([line for line in beginnings if len(line) > 1])
     if curves.n_cells:
         shape.add_mesh(curves.tube(radius=0.16 * radius, n_sides=8), color=scene.GREEN, lighting=False)
@@ -69,9 +36,9 @@ def surface_cross_field(problem: Problem) -> Picture:
     for sign, colour, word in ((1, scene.VERMILLION, "positive"), (-1, scene.BLUE, "negative")):
         centres = np.array([s.position for s in problem.singularities.points if s.index * sign > 0])
         if len(centres):
-            shape.add_mesh(_spheres(centres, radius), color=colour, smooth_shading=True, ambient=0.3)
+            shape.add_mesh(spheres(centres, radius), color=colour, smooth_shading=True, ambient=0.3)
             legend.append((colour, f"singular point, {word} index"))
-    _three_quarter_view(shape, points)
+    three_quarter_view(shape, points)
     return Picture(
         "Cross field on the surface", captions.of_surface(problem.singularities), scene.render(shape), legend
     )
@@ -80,67 +47,31 @@ def surface_cross_field(problem: Problem) -> Picture:
 def singular_curves(result: AnalysedField) -> Picture:
     """Tubes along the singular curves (smoothed), by type, inside the translucent surface; what no hex mesh has."""
     graph = result.singular_graph
-    kinds = {_kind(int(turns)) for turns in graph.curve_quarter_turns}
+    kinds = {kind_of(int(turns)) for turns in graph.curve_quarter_turns}
     legend = [TURNS[kind] for kind in TURNS if kind in kinds] + [(scene.CURVE, "feature curve")] * (
         len(result.features.edges) > 0
     )
     if len(graph.nodes):
         legend.append((scene.INK, "node: three or four curves meet"))
-    if _bad_features(result) is not None:
-        legend.append((scene.ORANGE, "feature edge that no hex mesh has"))
-    return Picture("Singular curves", captions.of_curves(result.record), scene.render(singular_scene(result)), legend)
-
-
-def singular_scene(result: AnalysedField) -> pyvista.Plotter:
-    graph, points = result.singular_graph, np.asarray(result.surface.vertices)
-    radius = 0.0045 * scene.diagonal(points)
-    shape = _glass(scene.surface_mesh(result.surface))
-    scene.add_features(shape, result.surface, result.features, 3)
-    _add_curves(shape, _curves(graph), radius)
-    _add_nodes(shape, np.asarray(graph.points)[np.asarray(graph.nodes, dtype=int)], radius)
-    bad = _bad_features(result)
+    bad = bad_features(result.tets, result.boundary_meshability)
     if bad is not None:
-        shape.add_mesh(bad.tube(radius=0.8 * radius, n_sides=8), color=scene.ORANGE, smooth_shading=True, ambient=0.3)
-    _three_quarter_view(shape, points)
-    return shape
-
-
-def scene_from_files(surface_file: Path, singular_file: Path) -> pyvista.Plotter:
-    """The same from surface.vtp and singular.vtp of a result; sharp edges in place of feature curves."""
-    surface, found = read_vtp(surface_file), read_vtp(singular_file)
-    points = np.asarray(surface.points)
-    curves: dict[int, pyvista.PolyData | None] = {}
-    radius = 0.0045 * scene.diagonal(points)
-    if found.n_lines:
-        of = np.array([_kind(int(t)) for t in np.asarray(found.cell_data["quarter_turns"])[found.n_verts :]])
-        nodes = np.asarray(found.points)[np.asarray(found.point_data["node"], bool)]
-        found.points = np.asarray(found.point_data["smoothed"])
-        for kind in set(of):
-            cells: np.ndarray = found.n_verts + np.flatnonzero(of == kind)
-            curves[kind] = found.extract_cells(cells).extract_surface(algorithm=None)
-    shape = _glass(surface)
-    sharp = surface.extract_feature_edges(35, boundary_edges=False, non_manifold_edges=False)
-    if sharp.n_cells:
-        shape.add_mesh(sharp, color=scene.CURVE, line_width=3, lighting=False)
-    if curves:
-        _add_curves(shape, curves, radius)
-        _add_nodes(shape, nodes, radius)
-    _three_quarter_view(shape, points)
-    return shape
+        legend.append((scene.ORANGE, "feature edge that no hex mesh has"))
+    shape = singular_scene(result.surface, result.features, graph, bad)
+    return Picture("Singular curves", captions.of_curves(result.record), scene.render(shape), legend)
 
 
 def streamlines(result: AnalysedField) -> Picture:
     """Curves along the axes of the frames, and the singular curves that end them."""
     points = np.asarray(result.surface.vertices)
     radius = 0.0025 * scene.diagonal(points)
-    shape = _glass(scene.surface_mesh(result.surface))
+    shape = glass(scene.surface_mesh(result.surface))
     scene.add_features(shape, result.surface, result.features, 3)
     lines = polylines([line.points for line in result.streamlines if len(line.points) > 1])
     if lines.n_cells:
         shape.add_mesh(lines.tube(radius=radius, n_sides=6), color=scene.SKY, smooth_shading=True, ambient=0.3)
-    _add_curves(shape, _curves(result.singular_graph), 1.5 * radius)
-    _three_quarter_view(shape, points)
-    kinds = {_kind(int(turns)) for turns in result.singular_graph.curve_quarter_turns}
+    add_curves(shape, curves_by_kind(result.singular_graph), 1.5 * radius)
+    three_quarter_view(shape, points)
+    kinds = {kind_of(int(turns)) for turns in result.singular_graph.curve_quarter_turns}
     legend = [(scene.SKY, "streamline"), *(TURNS[kind] for kind in TURNS if kind in kinds)]
     return Picture("Streamlines", captions.of_streamlines(result.record["streamlines"]), scene.render(shape), legend)
 
@@ -186,45 +117,6 @@ def frames_on_cut(result: AnalysedField) -> Picture:
     return Picture("Frames on a cut", caption, scene.render(shape), [(scene.SKY, "frame"), (CUT, "cut")])
 
 
-def _glass(surface: pyvista.PolyData) -> pyvista.Plotter:
-    """The translucent surface."""
-    shape = scene.plotter()
-    pyvista.Plotter.enable_depth_peeling(shape, 8)  # so called, its types are right
-    shape.add_mesh(surface, color="#9fb0c3", opacity=0.16, smooth_shading=False, specular=0)
-    return shape
-
-
-def _curves(graph: SingularGraph) -> dict[int, pyvista.PolyData | None]:
-    points = np.asarray(_core.smoothed_curves(graph).points)
-    return {kind: _polylines(graph, points, kind) for kind in TURNS}
-
-
-def _add_curves(shape: pyvista.Plotter, curves: dict[int, pyvista.PolyData | None], radius: float) -> None:
-    for kind, lines in curves.items():
-        if lines is not None:
-            shape.add_mesh(
-                lines.tube(radius=radius, n_sides=12), color=TURNS[kind][0], smooth_shading=True, ambient=0.3
-            )
-
-
-def _add_nodes(shape: pyvista.Plotter, nodes: np.ndarray, radius: float) -> None:
-    if len(nodes):
-        shape.add_mesh(_spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
-
-
-def _bad_features(result: AnalysedField) -> pyvista.PolyData | None:
-    if result.boundary_meshability is None:
-        return None
-    edges = np.array([(w.a, w.b) for w in result.boundary_meshability.wedges if not w.meshable], int).reshape(-1, 2)
-    points = np.asarray(result.tets.vertices)
-    return scene.segments(points[edges[:, 0]], points[edges[:, 1]]) if len(edges) else None
-
-
-def _three_quarter_view(shape: pyvista.Plotter, points: np.ndarray) -> None:
-    along, across, up = scene.principal_axes(points)
-    scene.look(shape, points, -0.45 * along - 0.75 * across + 0.62 * up, up)
-
-
 def _crosses(mesh: TriangleMesh, field: DirectionField) -> pyvista.PolyData:
     corners = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
     normals = np.asarray(_core.triangle_normals(mesh))
@@ -251,32 +143,6 @@ def _spread(points: np.ndarray, spacing: float) -> np.ndarray:
             chosen.append(number)
             taken.setdefault((x, y, z), []).append(number)
     return np.array(chosen, dtype=int)
-
-
-def _spheres(centres: np.ndarray, radius: float) -> pyvista.PolyData:
-    ball = pyvista.Sphere(radius=radius, theta_resolution=24, phi_resolution=24)
-    balls: pyvista.PolyData = pyvista.PolyData(centres).glyph(geom=ball, scale=False, orient=False)
-    return balls
-
-
-def _beginning(points: np.ndarray, length: float) -> np.ndarray:
-    """The points of a polyline until it is longer than `length`."""
-    run = np.linalg.norm(np.diff(points, axis=0), axis=1).cumsum()
-    return points[: 2 + int(np.searchsorted(run, length))]
-
-
-def _kind(turns: int) -> int:
-    return turns if turns in (2, 1, 0, -1, -2) else 3
-
-
-def _polylines(graph: SingularGraph, points: np.ndarray, kind: int) -> pyvista.PolyData | None:
-    cells = [
-        entry
-        for curve, turns in zip(graph.curves, graph.curve_quarter_turns)
-        if _kind(int(turns)) == kind
-        for entry in (len(curve), *map(int, curve))
-    ]
-    return pyvista.PolyData(points, lines=np.array(cells)) if cells else None
 
 
 def _cubes(centres: np.ndarray, quaternions: np.ndarray, size: float) -> pyvista.PolyData:

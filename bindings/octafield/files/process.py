@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
 
-from ..files.writing import on_staging
+from .writing import on_staging
 
 INTERRUPTED = 130
 DEFECT = 1
