@@ -8,12 +8,13 @@ import meshio
 import numpy as np
 import octafield
 import pytest
-from octafield.inputs import read_input
-from octafield.meshing import prepare_mesh
+from octafield.domain.generators import generate
+from octafield.domain.inputs import read_input
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.frame_field import compute_field, compute_surface_field, load_surface, prepare, run
 from octafield.options import FieldOptions, SurfaceFieldOptions
-from octafield.phases import PHASES
-from octafield.pipeline import compute_field, compute_surface_field, load_surface, prepare, run
-from octafield.results import FIELD_FILES, write_field_result
+from octafield.progress.phases import PHASES
+from octafield.runs.run_folder import FIELD_FILES, write_field_result
 from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared, write_cube, write_sphere
 
 COARSE = FieldOptions(edge_length=0.25)
@@ -260,3 +261,15 @@ def test_integers_of_numpy_are_taken_and_fractions_refused():
             FieldOptions(**bad)
     with pytest.raises(octafield.InvalidInput, match="symmetry"):
         SurfaceFieldOptions(symmetry=2**31)
+
+
+@pytest.mark.parametrize("sampling", ["vertices", "tets"])
+@pytest.mark.parametrize("kind", ["surface", "tets"])
+def test_a_run_validates_its_mesh_once(tmp_path, kind, sampling):
+    """Every crossing into C++ that is handed a TetMesh instead of the domain would validate it again."""
+    options = FieldOptions(sampling=sampling, edge_length=0.4, sizes="axes", streamlines=2)
+    source = generate("box") if kind == "surface" else octafield.tetrahedralize(generate("box"), edge_length=0.4)
+    before = octafield.TetDomain.made()
+    result = compute_field(source, options if kind == "surface" else replace(options, edge_length=0))
+    write_field_result(result, tmp_path)
+    assert octafield.TetDomain.made() == before + 1
