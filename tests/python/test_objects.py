@@ -139,9 +139,7 @@ def test_reprs_are_one_short_line_with_the_class(cls, objects):
 
 
 def test_reprs_tell_counts_and_ranges(field, objects):
-    assert repr(field.tets).startswith(
-        f"TetDomain({len(field.tets.vertices)} vertices, {len(field.tets.tets)} tets, box [-"
-    )
+    assert repr(field.tets).startswith(f"TetDomain({len(field.tets.vertices)} vertices, {len(field.tets.tets)} tets, ")
     assert repr(field).startswith("FieldResult(mesh in memory: ")
     (comparison,) = objects[of.Comparison]
     assert repr(comparison).startswith("Comparison(1 run: 1 input, 1 representation, 1 boundary; E ")
