@@ -872,6 +872,7 @@ def boundary_constraints(
 def alignment_angles(boundary: BoundarySurface, features: FeatureGraph, frames: ArrayLike) -> Float64s: ...
 
 smooth_representations: tuple[str, ...]
+constraint_kinds: tuple[str, ...]
 
 def initial_frames(
     mesh: TetMesh | Sampling, constraints: BoundaryConstraints, *, start: str = ..., threads: int = ...

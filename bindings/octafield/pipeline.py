@@ -100,7 +100,7 @@ def compute_field(
         >>> import octafield
         >>> from octafield.study.generators import generate
         >>> meshed = octafield.prepare_mesh(generate("ball"), octafield.MeshOptions(edge_length=0.3))  # or a path
-        >>> held = octafield.VertexConstraints(vertices=[300], kinds=[1], axes=[[0, 0, 1]])  # of meshed.tets
+        >>> held = octafield.VertexConstraints(vertices=[300], kinds=["axis"], axes=[[0, 0, 1]])  # of meshed.tets
         >>> result = octafield.compute_field(meshed, constraints=held)
         >>> result.record["constraints"]["given"]
         1
