@@ -138,7 +138,7 @@ def _boundaries(data: Path, folder: Path) -> Iterator[Case]:
                  *sorted((data / "mc3d").glob("*.hexex.gz"))):  # fmt: skip
         path = folder / f"{mesh.name.removesuffix('.gz').rpartition('.')[0]}_boundary.obj"
         if not path.exists():
-            tets = _hexex(mesh) if mesh.name.endswith(".hexex.gz") else octafield.inputs.read_input(mesh).tets
+            tets = _hexex(mesh) if mesh.name.endswith(".hexex.gz") else octafield.domain.inputs.read_input(mesh).tets
             boundary = octafield.boundary_surface(tets).mesh
             _write(path, np.asarray(boundary.vertices), np.asarray(boundary.triangles), ascii_digits=None)
         yield _measured(Case(path.name, path, f"data/{mesh.parent.name}"))

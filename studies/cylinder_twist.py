@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 import octafield
 import pyvista
-from octafield import pictures
-from octafield.pipeline import prepare, prepare_mesh, run
+from octafield.fields.frame_field import prepare, prepare_mesh, run
+from octafield.view import pictures
 
 
 def generated_cylinder() -> octafield.TriangleMesh:

@@ -23,9 +23,9 @@ from pathlib import Path
 import numpy as np
 import octafield as of
 from octafield import frame_formats, read_frames, write_frames
-from octafield.conversion import convert_file
-from octafield.formats.meshes import MESH_SUFFIXES
-from octafield.inputs import read_input
+from octafield.domain.inputs import read_input
+from octafield.domain.mesh_writers import MESH_SUFFIXES
+from octafield.runs.conversion import convert_file
 
 MEMORY, SECONDS, CHUNK = 3 << 30, 20, 2000
 BESIDE = (".node", ".ele", ".face", ".edge")

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import octafield
-from octafield.plots import PALETTE
+from octafield.view.plots import PALETTE
 from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
 
 IDENTITY = np.array([1.0, 0, 0, 0])

@@ -16,7 +16,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 import octafield
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
 from study_output import markdown_table
 
 BODIES = {"ball": 0.4, "cylinder": 0.4, "torus": 0.35}  # and the edge length

@@ -17,10 +17,11 @@ from pathlib import Path
 import numpy as np
 import octafield
 import pyvista
-from octafield import scene
-from octafield.meshing import MeshedInput, prepare_mesh
+from octafield.domain.meshed_input import MeshedInput
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.frame_field import compute_field
 from octafield.options import FieldOptions
-from octafield.pipeline import compute_field
+from octafield.view import scene
 from PIL import Image
 from study_output import markdown_table
 from surface_pictures import save_with_few_colours

@@ -2,7 +2,7 @@
 
 import numpy as np
 import octafield
-from octafield.plots import PALETTE
+from octafield.view.plots import PALETTE
 
 # ---- the quartic of a frame
 

@@ -16,9 +16,9 @@ from pathlib import Path
 import numpy as np
 import octafield
 import surface_meshes
-from octafield.meshing import prepare_mesh
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.frame_field import compute_field
 from octafield.options import FieldOptions
-from octafield.pipeline import compute_field
 from study_output import markdown_table
 from su2_problems import kuhn_grid
 

@@ -16,7 +16,7 @@ import numpy as np
 import octafield
 import su2_limits
 import su2_thesis
-from octafield.plots import PALETTE
+from octafield.view.plots import PALETTE
 from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
 from su2_problems import Problem, ball, bar, cube, grid_values, minimise, on_cells, random_representatives
 

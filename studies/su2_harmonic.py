@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 import octafield
-from octafield.plots import PALETTE
+from octafield.view.plots import PALETTE
 from scipy.integrate import solve_ivp
 from study_output import markdown_table, new_figure, save_figure, write_csv
 from su2_problems import Problem, held, jittered_cube, kuhn_grid, minimise, on_cells, quaternion_product, tetgen_cube

@@ -102,7 +102,7 @@ def bar(cells: int, ends: np.ndarray) -> Problem:
 
 def ball(path: Path) -> Problem:
     """A tet mesh of a ball, one axis on the area-weighted normal of every boundary vertex, twist free."""
-    read = octafield.inputs.read_input(path)
+    read = octafield.domain.inputs.read_input(path)
     mesh, vertices = read.tets, np.asarray(read.boundary.vertex_map)
     n, normals = len(mesh.vertices), np.asarray(octafield.vertex_normals(read.boundary.mesh))
     kind, axis, frames = np.zeros(n, np.uint8), np.zeros((n, 3)), np.tile([1.0, 0, 0, 0], (n, 1))

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import octafield
 from matplotlib.lines import Line2D
-from octafield.plots import PALETTE
+from octafield.view.plots import PALETTE
 from study_output import markdown_table, new_figure, with_grid, write_csv
 from surface_meshes import even_disk
 from surface_pictures import SEPARATRIX, STREAMLINE, add_lines, add_points, point_legend, save_drawing

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import octafield
-from octafield.plots import PALETTE
+from octafield.view.plots import PALETTE
 from study_output import markdown_table, new_figure, with_grid
 from surface_meshes import even_disk, region, resampled
 from surface_pictures import add_norm, add_points, save_drawing

@@ -14,7 +14,7 @@ from matplotlib import rc_context
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from octafield import scene
+from octafield.view import scene
 from PIL import Image
 from study_output import STYLE
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import octafield
 import pyvista
-from octafield.plots import PALETTE
+from octafield.view.plots import PALETTE
 from study_output import markdown_table, new_figure, with_grid, write_csv
 from surface_meshes import sphere
 from surface_pictures import draw_field, save_drawing

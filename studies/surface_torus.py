@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 import octafield
-from octafield.plots import PALETTE
+from octafield.view.plots import PALETTE
 from study_output import markdown_table, new_figure, with_grid, write_csv
 from surface_meshes import torus
 from surface_pictures import draw_field, save_drawing

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import octafield
-from octafield.plots import PALETTE
+from octafield.view.plots import PALETTE
 from quartic_pictures import (
     draw_frame,
     hits_of_isosurface,

@@ -1,10 +1,10 @@
 """octafield: hexahedral frame fields on surfaces and in volumes.
 
     >>> import octafield
-    >>> from octafield.study.generators import generate
+    >>> from octafield.domain.generators import generate
     >>> surface = generate("box")                     # or octafield.read_surface("part.stl")
     >>> octafield.require_valid(surface)
-    >>> result = octafield.compute_field(surface)     # the whole way, see octafield.pipeline
+    >>> result = octafield.compute_field(surface)     # the whole way, see octafield.fields.frame_field
     >>> result.record["singular_edges"]
     0
     >>> frames = octafield.random_rotations(10)       # or one step at a time
@@ -16,10 +16,8 @@ are numpy views of the C++ memory. Long calls run without the GIL, take progress
 and stop within a second on Ctrl-C. Errors are octafield.Error and its subclasses, with .kind and .elements.
 """
 
-from . import display as _display
-from . import notebook as _notebook
 from . import pickling as _pickling  # noqa: F401
-from ._core import (  # sampling  # volume input
+from ._core import (
     AlignmentTables,
     AxisScales,
     BoundaryConstraints,
@@ -252,18 +250,11 @@ from ._core import (  # sampling  # volume input
     write_surface,
     write_surface_field,
 )
-
-# Written in Python.
-from .compare import Comparison, compare
-from .conversion import Conversion, convert_file
+from .domain.meshed_input import MeshedInput
+from .domain.parameterization import ParameterizationInput, parameterization_input
 from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
-from .formats import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
-from .imported import AnalysedField, analyse
-from .interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
-from .meshing import MeshedInput
-from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
-from .parameterization import ParameterizationInput, parameterization_input
-from .pipeline import (
+from .fields.analysed import AnalysedField, analyse
+from .fields.frame_field import (
     FieldResult,
     Problem,
     SurfaceFieldResult,
@@ -273,12 +264,15 @@ from .pipeline import (
     prepare_mesh,
     run,
 )
-from .probes import sample_frames, slice_frames
+from .fields.probes import sample_frames, slice_frames
+from .frame_files import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
+from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 
-for _kind in (TriangleMesh, TetMesh, SingularGraph, AnalysedField, SurfaceFieldResult, Comparison):
-    _notebook.shown(_kind)
-del _kind
-Comparison.__repr__ = _display.comparison_line  # type: ignore[method-assign,assignment]
+# Written in Python.
+from .runs.compare import Comparison, compare
+from .runs.conversion import Conversion, convert_file
+from .runs.interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
+from .view import arrays as _arrays  # noqa: F401
 
 __all__ = [
     "AlignmentTables",

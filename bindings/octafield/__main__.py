@@ -1,5 +1,5 @@
 """python -m octafield: the command line."""
 
-from .cli import main
+from .command_line.fields import main
 
 main()

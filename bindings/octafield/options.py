@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _core, display
+from . import _core
 from .defaults import default_of
 from .errors import InvalidInput
 
@@ -97,7 +97,9 @@ class MeshOptions:
     max_cells: int = 0
 
     def __repr__(self) -> str:
-        return display.options_line(self)
+        default = type(self)()
+        changed = {name: value for name, value in vars(self).items() if value != getattr(default, name)}
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
 
     def __post_init__(self) -> None:
         require_one_of("features", self.features, FEATURES)

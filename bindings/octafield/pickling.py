@@ -4,7 +4,7 @@ import copyreg
 
 from . import _core
 from ._core import Metric, Representation
-from .formats import FrameFormat, frame_formats
+from .frame_files import FrameFormat, frame_formats
 
 
 def _representation(name: str) -> Representation:

@@ -1,5 +1,5 @@
 // Examples in the docstrings of the module, apart from the functions so that either can be read. They run as tests
-// (tests/python/test_docs.py) after: import numpy as np; import octafield; from octafield.study.generators import
+// (tests/python/test_docs.py) after: import numpy as np; import octafield; from octafield.domain.generators import
 // generate
 #include <pybind11/pybind11.h>
 

@@ -6,7 +6,7 @@ import platform
 import subprocess
 from pathlib import Path
 
-from octafield.phases import octafield_version
+from octafield.progress.phases import octafield_version
 
 
 def when() -> str:

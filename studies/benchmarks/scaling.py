@@ -24,11 +24,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 import numpy as np
 from octafield import study
+from octafield.domain.generators import generate
 from octafield.options import FieldOptions
-from octafield.phases import PeakMemory
-from octafield.study.child import Child
-from octafield.study.generators import generate
+from octafield.progress.phases import PeakMemory
 from octafield.study.memory import needed_mb
+from octafield.study.running.child import Child
 from study_output import markdown_table
 
 from .pages import page, when
@@ -49,7 +49,8 @@ TEXT = Path(__file__).with_name("texts") / "scaling.md"
 
 def measured_run(body: str, tets: int, representation: str) -> dict:
     """Figures of one run. "now": when a step begins, for the one who watches."""
-    from octafield import pipeline, results
+    from octafield.fields import frame_field as pipeline
+    from octafield.runs import run_folder as results
 
     edge = (TETS_PER_CUBED_EDGE[body] / tets) ** (1 / 3)
     steps = {"max_iterations": 3} if representation in BY_CERES and tets > FULL_RUN else {}
@@ -289,7 +290,7 @@ def store_part(folder: Path, runs: int) -> None:
 
 
 def pretend_finished(described, planned, out: Path) -> None:
-    from octafield.pipeline import compute_field
+    from octafield.fields.frame_field import compute_field
     from octafield.study.store import LOG_FILE, RECORD_FILE, STUDY_FILE
 
     record = compute_field(generate("ball"), FieldOptions(edge_length=0.3, threads=1)).record

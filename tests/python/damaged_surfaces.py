@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import octafield as of
 import pyvista
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
 
 
 def mesh_of(points, triangles) -> of.TriangleMesh:

@@ -11,8 +11,8 @@ import other_readers as readers
 import other_writers as writers
 import pyvista
 from conftest import box_tets
-from octafield.formats.meshes import write_mesh
-from octafield.inputs import Input, from_mesh, read_input, with_regions
+from octafield.domain.inputs import Input, from_mesh, read_input, with_regions
+from octafield.domain.mesh_writers import write_mesh
 from scipy.spatial import cKDTree
 from test_tet_input import cube_edges, halves
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from octafield.options import FieldOptions
-from octafield.phases import PHASES
+from octafield.progress.phases import PHASES
 from octafield.report import Report, Run, write_report
 
 

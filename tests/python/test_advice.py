@@ -8,8 +8,8 @@ import octafield as of
 import pytest
 import pyvista
 from conftest import SHARED_DATA
-from octafield.info import examine
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
+from octafield.inspect.info import examine
 from pipeline_fixtures import octafield, shared
 
 MOST_STEPS = 4

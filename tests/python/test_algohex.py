@@ -7,8 +7,8 @@ import other_readers as readers
 import pytest
 from conftest import SHARED_DATA, box_tets
 from format_table import frames_at
-from octafield.formats.ovm import read_ovm, write_ovm
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
+from octafield.meshes.openvolumemesh.text import read_ovm, write_ovm
 from pipeline_fixtures import shared
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components

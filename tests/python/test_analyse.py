@@ -6,7 +6,7 @@ import meshio
 import numpy as np
 import octafield as of
 import pytest
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
 from pipeline_fixtures import octafield
 
 SAME = ("energy", "singular_edges", "singular_length", "complex_edges", "alignment_deg", "feature_alignment_deg", "non_meshable_vertices",

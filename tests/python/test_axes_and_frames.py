@@ -3,8 +3,8 @@
 import numpy as np
 import octafield as of
 import pytest
+from octafield.domain import rotations
 from octafield.errors import InvalidInput
-from octafield.formats import rotations
 from scipy.linalg import polar
 from scipy.spatial.transform import Rotation
 

@@ -5,7 +5,7 @@ import octafield as of
 import pytest
 import pyvista
 from conftest import SHARED_DATA
-from octafield.pipeline import compute_field
+from octafield.fields.frame_field import compute_field
 from pipeline_fixtures import shared
 
 

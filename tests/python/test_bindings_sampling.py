@@ -6,9 +6,9 @@ import numpy as np
 import octafield as of
 import pytest
 import scipy.sparse
+from octafield.fields.frame_field import compute_field
 from octafield.options import FieldOptions
-from octafield.pipeline import compute_field
-from octafield.results import write_field_result
+from octafield.runs.run_folder import write_field_result
 from pipeline_fixtures import octafield as command
 from pipeline_fixtures import write_cube, write_sphere
 

@@ -13,10 +13,10 @@ import gmsh
 import numpy as np
 import octafield as of
 import pytest
-from octafield.conversion import convert_file
-from octafield.info import examine
-from octafield.inputs import read_input
-from octafield.meshes import cad
+from octafield.domain.inputs import read_input
+from octafield.inspect.info import examine
+from octafield.meshes.gmsh import cad
+from octafield.runs.conversion import convert_file
 
 
 @contextlib.contextmanager

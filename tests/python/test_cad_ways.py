@@ -4,12 +4,12 @@ import numpy as np
 import octafield as of
 import pytest
 from conftest import SHARED_DATA
-from octafield import meshing
-from octafield.inputs import read_input
-from octafield.meshes import cad
-from octafield.meshes.cad_worker import WAYS
+from octafield.domain import meshing
+from octafield.domain.generators import generate
+from octafield.domain.inputs import read_input
+from octafield.meshes.gmsh import cad
+from octafield.meshes.gmsh.cad_worker import WAYS
 from octafield.meshes.grids import Grid
-from octafield.study.generators import generate
 from pipeline_fixtures import octafield, shared
 
 

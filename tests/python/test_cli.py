@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 import pyvista
 from conftest import cpu_seconds
-from octafield.console import error_code
+from octafield.command_line.console import error_code
 from octafield.errors import SolverError
-from octafield.results import SURFACE_FILES
+from octafield.runs.run_folder import SURFACE_FILES
 from pipeline_fixtures import SHARED_SURFACES, octafield, shared, write_cube, write_sphere
 
 FAST = ("--edge-length", "0.4")
@@ -181,7 +181,17 @@ def test_an_interrupt_ends_a_comparison_at_once_and_leaves_nothing(tmp_path, sto
     work = tmp_path / "work"
     work.mkdir()
     sphere, out = write_sphere(tmp_path), work / "out"
-    command = [sys.executable, "-m", "octafield.cli", "compare", str(sphere), "-o", str(out), "--edge-length", "0.06"]
+    command = [
+        sys.executable,
+        "-m",
+        "octafield.command_line.fields",
+        "compare",
+        str(sphere),
+        "-o",
+        str(out),
+        "--edge-length",
+        "0.06",
+    ]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 120
     while not leftovers(work) and time.monotonic() < deadline:

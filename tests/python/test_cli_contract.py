@@ -7,8 +7,8 @@ import subprocess
 import sys
 
 import pytest
-from octafield import cli
-from octafield.completion import lists, words
+from octafield.command_line import fields as cli
+from octafield.command_line.completion import lists, words
 from pipeline_fixtures import octafield, write_cube
 from typer.testing import CliRunner
 
@@ -143,7 +143,7 @@ def test_an_unknown_option_names_the_nearest(tmp_path):
 
 def test_a_generator_that_is_not_there_names_the_nearest():
     from octafield import InvalidInput
-    from octafield.study.generators import generate
+    from octafield.domain.generators import generate
 
     with pytest.raises(InvalidInput, match="did you mean 'torus'"):
         generate("taurus")

@@ -8,7 +8,7 @@ import other_readers as readers
 import pytest
 from conftest import box_tets
 from format_table import axes, frames_at
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
 from octahedral_fixtures import GROUP, matrices
 from pipeline_fixtures import octafield
 

@@ -14,8 +14,8 @@ import pytest
 import pyvista
 from conftest import box_tets
 from format_table import frames_at
-from octafield.conversion import convert_file
-from octafield.inputs import read_input
+from octafield.domain.inputs import read_input
+from octafield.runs.conversion import convert_file
 from pipeline_fixtures import SHARED_TETS, octafield, shared
 from test_tet_input import cube_edges, halves
 

@@ -14,8 +14,8 @@ import vtk
 from conftest import box_tets
 from format_table import frames_at
 from octafield import frame_formats, read_frames, write_frames
-from octafield.conversion import convert_file
-from octafield.inputs import read_input
+from octafield.domain.inputs import read_input
+from octafield.runs.conversion import convert_file
 from test_tet_input import cube_edges, halves, write_msh4, write_tetgen_boundary
 
 MESHES = (

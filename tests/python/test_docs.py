@@ -16,7 +16,7 @@ import pytest
 import yaml
 from docs_blocks import ROOT, blocks, python_of, run_page
 from octafield import _core
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
 
 DOCS = ROOT / "docs"
 PAGES = {str(page.relative_to(ROOT)): page for page in [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]}
@@ -84,7 +84,7 @@ def test_examples_in_docstrings_run(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     found = doctest.testmod(importlib.import_module(name))
     assert found.failed == 0
-    if name in ("octafield", "octafield.study", "octafield.interop"):
+    if name in ("octafield", "octafield.study", "octafield.view.interop"):
         assert found.attempted > 2
 
 

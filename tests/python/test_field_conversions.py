@@ -8,11 +8,11 @@ import octafield as of
 import pytest
 from conftest import box_tets
 from format_table import frames_at
-from octafield.cli import app
-from octafield.conversion import convert_file
-from octafield.files_cli import _cell_edge
-from octafield.inputs import read_input
-from octafield.study.generators import generate
+from octafield.command_line.fields import app
+from octafield.command_line.files import _cell_edge
+from octafield.domain.generators import generate
+from octafield.domain.inputs import read_input
+from octafield.runs.conversion import convert_file
 from typer.testing import CliRunner
 
 WITH_FEATURES = (".ovmb", ".ovm", ".npz", ".vtu", ".msh")

@@ -13,7 +13,7 @@ from format_table import FORMATS_BEGIN, available, axes, frames_at, on_page, row
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from octafield import frame_formats, read_frames, write_frames
-from octafield.formats.registry import FORMATS
+from octafield.frame_files.registry import FORMATS
 
 SUFFIX = {"geogram": ".txt", "geogram-centres": ".txt"}
 

@@ -14,8 +14,8 @@ from format_table import frames_at
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from octafield import frame_formats, read_frames, write_frames
-from octafield.files import numbers_of, parsed_numbers
-from octafield.inputs import read_input
+from octafield.domain.inputs import read_input
+from octafield.files.reading import numbers_of, parsed_numbers
 
 READ = [name for name, form in frame_formats.items() if form.read and form.write]
 SUFFIX = {"geogram": ".txt", "geogram-centres": ".txt"}

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import octafield
 import pytest
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
 from pipeline_fixtures import octafield as command
 
 

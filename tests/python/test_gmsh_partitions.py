@@ -3,7 +3,7 @@
 import gmsh
 import numpy as np
 import pytest
-from octafield.inputs import read_input
+from octafield.domain.inputs import read_input
 from test_cad import opened_gmsh
 
 

@@ -2,7 +2,7 @@
 
 import octafield as of
 import pytest
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
 
 
 @pytest.mark.parametrize(

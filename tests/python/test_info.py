@@ -7,9 +7,12 @@ import octafield as of
 import pytest
 import pyvista
 from conftest import box_tets
-from octafield import MeshOptions, estimates, info_checks, info_measures
-from octafield.info import examine
-from octafield.study.generators import generate
+from octafield import MeshOptions
+from octafield.domain.generators import generate
+from octafield.inspect import checks as info_checks
+from octafield.inspect import estimates
+from octafield.inspect import measures as info_measures
+from octafield.inspect.info import examine
 from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, octafield, shared, write_cube, write_sphere
 
 

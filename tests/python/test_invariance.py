@@ -3,7 +3,7 @@
 import numpy as np
 import octafield as of
 import pytest
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
 from scipy.spatial.transform import Rotation
 
 TURNS = [Rotation.from_rotvec(v) for v in ([0.3, 0.5, -0.2], [0, 0, np.pi / 4], [1.1, -0.7, 2.0])]

@@ -13,8 +13,9 @@ import octafield as of
 import pydantic
 import pytest
 import scipy.sparse
-from octafield import display, notebook, study
-from octafield.study.generators import generate
+from octafield import study
+from octafield.domain.generators import generate
+from octafield.view import notebook
 
 CLASSES = sorted({getattr(of, name) for name in of.__all__ if inspect.isclass(getattr(of, name))}
                  | {getattr(study, name) for name in study.__all__ if inspect.isclass(getattr(study, name))}, key=lambda c: c.__name__)  # fmt: skip
@@ -167,7 +168,7 @@ def test_notebooks_get_a_picture_and_the_figures_or_these_alone(name, objects, m
     value = objects[getattr(of, name)][0]
     shown = value._repr_html_()
     assert ("data:image/png;base64," in shown) == (name in SHOWN) and "<table>" in shown and "</div>" in shown
-    monkeypatch.setattr("octafield.scene.can_draw", lambda: False)
+    monkeypatch.setattr("octafield.view.scene.can_draw", lambda: False)
     plain = value._repr_html_()
     assert "<img" not in plain and "<table>" in plain
 
@@ -222,7 +223,7 @@ def test_no_scene_without_a_kernel_without_trame_or_without_opengl(objects, monk
     assert not notebook.live_backend()
     _Display().install(monkeypatch, kernel=True)
     assert notebook.live_backend()
-    monkeypatch.setattr("octafield.scene.can_draw", lambda: False)
+    monkeypatch.setattr("octafield.view.scene.can_draw", lambda: False)
     with pytest.raises(NotImplementedError):
         value._ipython_display_()
     monkeypatch.setattr(notebook, "_installed", lambda package: False)
@@ -252,7 +253,7 @@ def test_a_backend_that_does_not_work_leaves_the_picture(objects, monkeypatch, f
 
 def test_the_scene_of_a_result_can_be_drawn_without_a_display(field, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
-    scene = display.scene_of(field)
+    scene = field.scene()
     assert scene.screenshot(return_img=True).std() > 1
     scene.close()
 

@@ -10,11 +10,11 @@ import octafield as of
 import pytest
 from conftest import box_tets
 from octafield.errors import InvalidInput, IoError
-from octafield.formats import placing
-from octafield.formats.base import FrameFile, from_axes, from_quaternions
+from octafield.fields.sizes import sizes_record
+from octafield.frame_files import placing
+from octafield.frame_files.base import FrameFile, from_axes, from_quaternions
 from octafield.meshes.text_meshes import read_medit, read_tetgen
 from octafield.options import FieldOptions
-from octafield.sizes import sizes_record
 from octafield.study import memory
 from octafield.study.plan import Run
 

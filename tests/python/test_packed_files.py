@@ -13,10 +13,10 @@ import numpy as np
 import octafield as of
 import pytest
 from conftest import box_tets
-from octafield import files
+from octafield.domain.inputs import read_input
 from octafield.errors import IoError
-from octafield.files import most_unpacked, read_bytes
-from octafield.inputs import read_input
+from octafield.files import reading as files
+from octafield.files.reading import most_unpacked, read_bytes
 
 
 @pytest.fixture
@@ -132,12 +132,12 @@ def test_arrays_of_vtk_files_are_bounded_in_all_and_by_the_sizes_of_their_blocks
 
 BOMB = """
 import resource, sys
-import octafield.files
-import numpy, octafield, octafield.inputs
+import octafield.files.reading
+import numpy, octafield, octafield.domain.inputs
 space = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
 resource.setrlimit(resource.RLIMIT_AS, (space + (700 << 20),) * 2)
 try:
-    octafield.inputs.read_input(sys.argv[1])
+    octafield.domain.inputs.read_input(sys.argv[1])
 except octafield.IoError as error:
     print(error)
 """

@@ -12,9 +12,9 @@ import pytest
 import scipy.sparse as sparse
 import scipy.sparse.csgraph as csgraph
 from conftest import SHARED_DATA
-from octafield.meshing import prepare_mesh
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.frame_field import compute_field
 from octafield.options import FieldOptions
-from octafield.pipeline import compute_field
 from octahedral_fixtures import GROUP, INVERSE, PRODUCT, closest, matrices
 from pipeline_fixtures import shared, write_cube
 

@@ -8,12 +8,12 @@ import meshio
 import numpy as np
 import octafield
 import pytest
-from octafield.inputs import read_input
-from octafield.meshing import prepare_mesh
+from octafield.domain.inputs import read_input
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.frame_field import compute_field, compute_surface_field, load_surface, prepare, run
 from octafield.options import FieldOptions, SurfaceFieldOptions
-from octafield.phases import PHASES
-from octafield.pipeline import compute_field, compute_surface_field, load_surface, prepare, run
-from octafield.results import FIELD_FILES, write_field_result
+from octafield.progress.phases import PHASES
+from octafield.runs.run_folder import FIELD_FILES, write_field_result
 from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared, write_cube, write_sphere
 
 COARSE = FieldOptions(edge_length=0.25)

@@ -4,10 +4,10 @@ import numpy as np
 import octafield as of
 import pytest
 from conftest import box_tets
+from octafield.domain.inputs import read_input
 from octafield.errors import InvalidInput
-from octafield.formats import placing
-from octafield.formats.base import FrameFile
-from octafield.inputs import read_input
+from octafield.frame_files import placing
+from octafield.frame_files.base import FrameFile
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import numpy as np
 import octafield
 import pytest
 import pyvista
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
 
 
 def kuhn_cube(n):

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import octafield as of
 import pytest
-from octafield import phases, results
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
+from octafield.progress import phases
+from octafield.runs import run_folder as results
 
 MB = 1e6
 WRITTEN = {
@@ -55,7 +56,5 @@ def test_a_record_names_the_machine(kind, monkeypatch):
 
 def test_cores_are_those_the_process_may_use():
     one = min(os.sched_getaffinity(0))
-    script = (
-        f"import os; os.sched_setaffinity(0, {{{one}}}); from octafield import phases; print(phases.machine()['cores'])"
-    )
+    script = f"import os; os.sched_setaffinity(0, {{{one}}}); from octafield.progress import phases; print(phases.machine()['cores'])"
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "1\n"

@@ -5,12 +5,12 @@ import octafield as of
 import pytest
 from conftest import SHARED_DATA
 from damaged_surfaces import ZOO, ball, joined, mesh_of, moved, open_cylinder, sheet, soup
-from octafield.cli import app
-from octafield.conversion import convert_file
-from octafield.info import examine
-from octafield.meshing import load_surface, read_sound
+from octafield.command_line.fields import app
+from octafield.domain.generators import generate
+from octafield.domain.meshing import load_surface, read_sound
+from octafield.inspect.info import examine
 from octafield.options import REPAIR_LEVELS, MeshOptions
-from octafield.study.generators import generate
+from octafield.runs.conversion import convert_file
 from pipeline_fixtures import octafield, shared
 from typer.testing import CliRunner
 

@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 import octafield
 import pytest
 import pyvista
-from octafield.compare import compare
 from octafield.options import FieldOptions
+from octafield.runs.compare import compare
 from PIL import Image
 from pipeline_fixtures import write_cube, write_sphere
 from report_pages import elements, require_sound
@@ -79,7 +79,7 @@ def test_pictures_are_small_and_say_something(comparison, page):
 
 
 def test_without_opengl_the_report_goes_without_pictures_and_says_so(tmp_path, monkeypatch):
-    from octafield import scene
+    from octafield.view import scene
 
     monkeypatch.setattr(scene, "can_draw", lambda: False)
     page = compare(write_cube(tmp_path), tmp_path / "out", representations=("sh4",), options=COARSE).to_html()

@@ -10,13 +10,15 @@ import zlib
 import numpy as np
 import pytest
 import pyvista
-from octafield import compute_field, from_pyvista, scene
-from octafield.compare import compare
+from octafield import compute_field, from_pyvista
 from octafield.options import COMPARED, SOLVERS, FieldOptions
-from octafield.report import Run, figures, scenes
-from octafield.report.deviations import deviations
-from octafield.report.profiles import lines, performance_profiles
-from octafield.report.records import Results
+from octafield.report import Run
+from octafield.report.numbers.deviations import deviations
+from octafield.report.numbers.profiles import lines, performance_profiles
+from octafield.report.numbers.records import Results
+from octafield.report.page.html import figures, scenes
+from octafield.runs.compare import compare
+from octafield.view import scene
 from PIL import Image
 from pipeline_fixtures import write_cube, write_sphere
 from report_pages import elements, page_of, record

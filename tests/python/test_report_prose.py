@@ -7,9 +7,9 @@ import numpy as np
 import octafield
 import pytest
 import pyvista
-from octafield import scene
-from octafield.compare import compare
 from octafield.options import FieldOptions
+from octafield.runs.compare import compare
+from octafield.view import scene
 from pipeline_fixtures import write_cube, write_sphere
 from report_pages import page_of, prose, record
 

@@ -4,10 +4,11 @@ import numpy as np
 import octafield as of
 import pytest
 from conftest import box_tets
-from octafield import FieldOptions, frame_formats, sizes
+from octafield import FieldOptions, frame_formats
 from octafield.errors import InvalidInput
-from octafield.formats.base import FrameFile
-from octafield.phases import PhaseClock
+from octafield.fields import sizes
+from octafield.frame_files.base import FrameFile
+from octafield.progress.phases import PhaseClock
 from scipy.spatial.transform import Rotation
 
 

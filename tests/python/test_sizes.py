@@ -11,10 +11,10 @@ import pytest
 import pyvista
 from conftest import box_tets
 from octafield import study
-from octafield.conversion import convert_file
-from octafield.formats.rotations import quaternions_of
-from octafield.sizes import log_scales_of
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
+from octafield.domain.rotations import quaternions_of
+from octafield.fields.sizes import log_scales_of
+from octafield.runs.conversion import convert_file
 from octahedral_fixtures import GROUP, matrices
 from pipeline_fixtures import octafield
 from report_pages import require_sound
@@ -78,7 +78,7 @@ def test_isotropic_sizes_lower_the_curl_and_go_into_files(tmp_path):
 
 
 def test_sizes_per_axis_are_in_the_file_with_the_axes_they_belong_to(ball, tmp_path):
-    from octafield.results import write_field_result
+    from octafield.runs.run_folder import write_field_result
 
     assert isinstance(ball.sizes, of.AxisScales) and ball.record["sizes"]["kind"] == "axes"
     write_field_result(ball, tmp_path)

@@ -152,7 +152,7 @@ def test_runs_past_the_limit_end_on_workers_too(cluster, tmp_path, monkeypatch):
 
 
 def test_workers_that_do_not_see_the_folder_are_told(cluster, tmp_path, monkeypatch):
-    from octafield.study import cluster as module
+    from octafield.study.running import cluster as module
 
     with pytest.raises(octafield.IoError, match="does not see this folder"):
         module._carry_out({"version": octafield.__version__, "folder": str(tmp_path / "elsewhere")})

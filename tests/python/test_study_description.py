@@ -145,7 +145,7 @@ def test_a_file_that_is_not_there_is_named(tmp_path):
 
 @pytest.mark.parametrize("name", ["ball", "box", "cylinder", "torus", "nut"])
 def test_generated_surfaces_are_closed_and_oriented(name):
-    from octafield.study.generators import GENERATORS, generate
+    from octafield.domain.generators import GENERATORS, generate
 
     surface = generate(name)
     octafield.require_valid(surface)

@@ -9,8 +9,8 @@ import threading
 import octafield
 import pytest
 from octafield import study
+from octafield.domain.generators import generate
 from octafield.study import digests
-from octafield.study.generators import generate
 from octafield.study.store import Store
 from study_fixtures import BODIES, STALLS, table, trap_workers
 
@@ -43,7 +43,9 @@ def test_a_run_past_the_limit_is_ended_and_recorded_and_retried_on_request(sound
 
 def test_a_preparation_past_the_limit_fails_all_its_runs_at_once(tmp_path, monkeypatch):
     trap_workers(
-        tmp_path, monkeypatch, "import time\nimport octafield.pipeline as p\np.prepare = lambda *a: time.sleep(60)\n"
+        tmp_path,
+        monkeypatch,
+        "import time\nimport octafield.fields.frame_field as p\np.prepare = lambda *a: time.sleep(60)\n",
     )
     text = BODIES.replace("  - {generator: ball, mesh: {edge_length: 0.4}}\n", "")
     outcome = study.run(study.parse(text + "limit: 1\n"), tmp_path / "out")
@@ -60,7 +62,7 @@ def test_inputs_that_change_meanwhile_give_no_record_under_the_old_key(tmp_path,
     described = study.parse("{name: x, inputs: [a.stl, b.stl], mesh: {edge_length: 0.4}}", folder=tmp_path)
     planned = study.plan(described)
     run_study = lambda: study.run(described, tmp_path / "out")
-    from octafield.study import engine
+    from octafield.study.running import engine
 
     def plan_then_change(*arguments, **options):
         found = study.plan(*arguments, **options)
@@ -158,7 +160,7 @@ def test_whatever_libraries_print_runs_go_on(sound, tmp_path, monkeypatch):
 
 
 def test_a_process_without_memory_is_recorded_as_crashed_with_the_reason(tmp_path, monkeypatch):
-    code = "import octafield.pipeline as p\ndef none(*a): raise MemoryError('std::bad_alloc')\np.run = none\n"
+    code = "import octafield.fields.frame_field as p\ndef none(*a): raise MemoryError('std::bad_alloc')\np.run = none\n"
     trap_workers(tmp_path, monkeypatch, code)
     text = "{name: x, inputs: [{generator: box, mesh: {edge_length: 0.5}}]}"
     assert study.run(study.parse(text), tmp_path / "out").status.crashed == 1

@@ -72,7 +72,7 @@ def test_a_finished_study_computes_nothing_again_and_grows_with_its_description(
 
 def test_records_equal_those_of_a_field_computed_alone(undisturbed):
     run = next(r for r in study.plan(study.parse(TEXT.replace("  - nothing_here_*.stl\n", ""))) if r.name == "box x 2")
-    from octafield.study.generators import generate
+    from octafield.domain.generators import generate
 
     alone = octafield.compute_field(generate("box", x=2), run.options)
     (row,) = [row for row in study.rows(undisturbed) if row["key"] == run.key]
@@ -133,7 +133,7 @@ def test_a_run_that_kills_its_process_twice_is_recorded_and_tried_on_resume(desc
     trap_workers(
         tmp_path,
         monkeypatch,
-        "import octafield.pipeline as p\nrun = p.run\np.run = lambda problem, options, *a: os.abort() if"
+        "import octafield.fields.frame_field as p\nrun = p.run\np.run = lambda problem, options, *a: os.abort() if"
         " options.representation == 'su2' else run(problem, options, *a)\n",
     )
     outcome = study.run(study.parse(text), tmp_path / "out", jobs=1)

@@ -2,7 +2,7 @@
 
 import octafield as of
 import pytest
-from octafield.pipeline import MeshOptions, prepare_mesh
+from octafield.fields.frame_field import MeshOptions, prepare_mesh
 from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared
 
 LARGE = 400_000  # bytes, of a packed tet mesh: those take seconds

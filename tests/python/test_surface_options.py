@@ -5,8 +5,8 @@ import json
 import numpy as np
 import octafield as of
 import pytest
-from octafield.inputs import read_input
-from octafield.pipeline import SurfaceFieldOptions, compute_surface_field, prepare_mesh
+from octafield.domain.inputs import read_input
+from octafield.fields.frame_field import SurfaceFieldOptions, compute_surface_field, prepare_mesh
 from pipeline_fixtures import SHARED_TETS, octafield, shared, write_sphere
 from surface_fixtures import NONE, cylinder, grid_triangles, square
 

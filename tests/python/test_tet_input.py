@@ -10,11 +10,11 @@ import numpy as np
 import octafield as of
 import pytest
 from conftest import box_tets
-from octafield.inputs import read_input
-from octafield.meshing import prepare_mesh
+from octafield.domain.inputs import read_input
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.frame_field import compute_field, prepare, run
 from octafield.options import FieldOptions
-from octafield.pipeline import compute_field, prepare, run
-from octafield.results import write_field_result
+from octafield.runs.run_folder import write_field_result
 from pipeline_fixtures import SHARED_TETS, octafield, shared
 
 SHARED_ARFF = SHARED_TETS.parent / "arff"

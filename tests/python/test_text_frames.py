@@ -6,8 +6,8 @@ import numpy as np
 import octafield as of
 import pytest
 from octafield.errors import Error
-from octafield.formats import text
-from octafield.formats.base import Field
+from octafield.frame_files import text
+from octafield.frame_files.base import Field
 from scipy.spatial.transform import Rotation
 
 FRAMES = np.asarray(of.random_rotations(3, 5))

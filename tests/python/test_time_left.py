@@ -5,10 +5,10 @@ import random
 
 import octafield
 import pytest
-from octafield import time_left
-from octafield.console import PlainLines
-from octafield.costs import PREPARE, Costs, Forecast
-from octafield.study.generators import generate
+from octafield.command_line.console import PlainLines
+from octafield.domain.generators import generate
+from octafield.progress import time_left
+from octafield.progress.costs import PREPARE, Costs, Forecast
 
 
 @pytest.mark.parametrize(

@@ -9,9 +9,9 @@ import octafield as of
 import pytest
 from conftest import box_tets
 from octafield import frame_formats, read_frames, write_frames
-from octafield.conversion import convert_file
-from octafield.inputs import from_mesh, read_input
-from octafield.pipeline import compute_field
+from octafield.domain.inputs import from_mesh, read_input
+from octafield.fields.frame_field import compute_field
+from octafield.runs.conversion import convert_file
 from pipeline_fixtures import SHARED_TETS
 
 WILD = SHARED_TETS.parent / "wild"

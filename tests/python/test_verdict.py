@@ -4,9 +4,9 @@ import numpy as np
 import octafield as of
 import pytest
 from conftest import SHARED_DATA
-from octafield import verdict
-from octafield.info import examine
-from octafield.study.generators import generate
+from octafield.domain.generators import generate
+from octafield.fields import verdict
+from octafield.inspect.info import examine
 from pipeline_fixtures import octafield, shared
 
 

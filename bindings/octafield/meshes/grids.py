@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InvalidInput, IoError
-from ..files import read_bytes, read_text, reading
+from ..files.reading import read_bytes, read_text, reading
 from .binary_medit import read_binary_medit
 from .cell_mesh import Block, Blocks, CellMesh, first_of_equal, linear
-from .gmsh_mesh import read_gmsh
-from .legacy_vtk import read_legacy_vtk
+from .gmsh.mesh_file import read_gmsh
 from .text_meshes import TextMesh, read_medit, read_tetgen
-from .vtp_mesh import read_vtp
-from .vtu_mesh import read_vtu
+from .vtk.legacy import read_legacy_vtk
+from .vtk.vtp import read_vtp
+from .vtk.vtu import read_vtu
 
 if TYPE_CHECKING:
-    from ..formats.ovm_mesh import OvmMesh
+    from .openvolumemesh.mesh import OvmMesh
 
 GRID_SUFFIXES = (".vtk", ".vtu", ".vtp", ".msh", ".mesh", ".meshb", ".node", ".ele", ".ovm", ".ovmb")
 _READERS = {".vtk": read_legacy_vtk, ".msh": read_gmsh}
@@ -58,7 +58,7 @@ def read_grid(path: Path, suffix: str) -> Grid:
         if suffix in (".node", ".ele"):
             files = _tetgen_files(path, suffix)
             return _grid_of_text(read_tetgen({kind: (_text(file), str(file)) for kind, file in files.items()}))
-        from ..formats.ovm import read_ovm
+        from .openvolumemesh.text import read_ovm
 
         return grid_of_ovm(read_ovm(path, binary=suffix == ".ovmb"), path)
 
@@ -123,7 +123,7 @@ def grid_of_cells(found: CellMesh) -> Grid:
 
 def grid_of_ovm(mesh: "OvmMesh", path: Path) -> Grid:
     """Feature edges and faces are those that AlgoHex marks; regions: cell property region."""
-    from ..formats.ovm_mesh import tets_of_ovm
+    from .openvolumemesh.mesh import tets_of_ovm
 
     blocks, faces = [("tetra", tets_of_ovm(mesh, str(path)))], [np.zeros(len(mesh.cells), np.int64)]
     for entity, name, kind, of in (

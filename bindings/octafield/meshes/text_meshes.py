@@ -12,7 +12,7 @@ from itertools import zip_longest
 import numpy as np
 
 from ..errors import IoError
-from ..files import parsed_numbers
+from ..files.reading import parsed_numbers
 
 # Section: meshio's name of the cells and how many vertices one has. Every row ends with a reference.
 _MEDIT_CELLS = {

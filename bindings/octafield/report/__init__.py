@@ -7,7 +7,7 @@ beside it.
 The page is made from the records (result.json) of the runs, and from the files beside them where these were kept.
 """
 
-from .records import Run
+from .numbers.records import Run
 from .writer import PAGE_FILE, Report, write_report
 
 __all__ = ["PAGE_FILE", "Report", "Run", "write_report"]

@@ -8,18 +8,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..plots import standalone
-from .columns import deviation_table, input_table, run_table, summary_table
-from .deviations import deviations
-from .integrability import integrability_table
-from .page import Exhibits
-from .profiles import lines
-from .records import Results, Run
-from .render import Content, render
-from .tables import Table, write_records
+from ..view.plots import standalone
+from .numbers.columns import deviation_table, input_table, run_table, summary_table
+from .numbers.deviations import deviations
+from .numbers.integrability import integrability_table
+from .numbers.profiles import lines
+from .numbers.records import Results, Run
+from .numbers.tables import Table, write_records
+from .page.html import Exhibits
+from .page.render import Content, render
 
 if TYPE_CHECKING:
-    from ..pictures import Picture
+    from ..view.picture import Picture
 
 PAGE_FILE, RECORDS_FILE, TABLES, FIGURES = "report.html", "results.csv", "tables", "figures"
 
@@ -27,7 +27,7 @@ PAGE_FILE, RECORDS_FILE, TABLES, FIGURES = "report.html", "results.csv", "tables
 @dataclass
 class Report:
     """runs: in the order of the page; the first method is the one that others are measured against. pictures: of
-    octafield.pictures, per input. description: of the study, shown as it is. open_runs: not carried out yet. files:
+    octafield.view.pictures, per input. description: of the study, shown as it is. open_runs: not carried out yet. files:
     others beside the page to link."""
 
     title: str

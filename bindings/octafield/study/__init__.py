@@ -18,13 +18,10 @@ absent) and, after write_report(), report.html, results.csv and tables/. KEY is 
 options and octafield's version.
 """
 
-from ..display import study_line
 from .description import Study, load, parse
-from .engine import Outcome, run
+from .finished_runs import Status, rows, status
 from .plan import Run, plan
 from .report import write_report
-from .results import Status, rows, status
-
-Study.__repr__ = study_line  # type: ignore[method-assign, assignment]
+from .running.engine import Outcome, run
 
 __all__ = ["Outcome", "Run", "Status", "Study", "load", "parse", "plan", "rows", "run", "status", "write_report"]

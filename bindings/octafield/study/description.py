@@ -20,9 +20,10 @@ from pydantic import (
     model_validator,
 )
 
+from ..domain.generators import GENERATORS
 from ..errors import Error, InvalidInput, IoError
 from ..options import FieldOptions, MeshOptions, did_you_mean
-from .generators import GENERATORS
+from ..view.captions import counted
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
@@ -102,6 +103,13 @@ class Study(_Strict):
     folder: Path = Field(default=Path(), exclude=True)
     text: str = Field(default="", exclude=True)
     origin: str = Field(default="study", exclude=True)
+
+    def __repr__(self) -> str:
+        """What it varies; an input may stand for several files."""
+        varied = "".join(f", {name}: {', '.join(map(str, values))}" for name, values in self.runs.items())
+        repeats = f", {self.repeats} repeats" if self.repeats > 1 else ""
+        inputs, seeds = counted(len(self.inputs), "input"), counted(len(self.seeds), "seed")
+        return f"Study({self.name}: {inputs}{varied}; {seeds}{repeats})"
 
     @field_validator("runs", mode="before")
     @classmethod

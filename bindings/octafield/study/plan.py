@@ -13,7 +13,7 @@ from typing import Any
 
 from ..errors import InvalidInput, IoError
 from ..options import FieldOptions
-from ..phases import octafield_version
+from ..progress.phases import octafield_version
 from .description import FromFile, Generated, Study, field_options, mesh_options, place
 from .digests import Digests, digest_of
 

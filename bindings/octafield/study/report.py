@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from .. import report
-from .results import rows, status
+from .finished_runs import rows, status
 from .store import RUNS, Store
 
 REPORT_FILE = report.PAGE_FILE

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InvalidInput, IoError
-from ..output import require_utf8, write_json
+from ..files.writing import require_utf8, write_json
 from .description import Study, parse
 from .digests import Digests
 from .plan import Run

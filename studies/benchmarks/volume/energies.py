@@ -20,8 +20,8 @@ import numpy as np
 import octafield
 import scipy.sparse as sparse
 import scipy.sparse.linalg
+from octafield.fields.frame_field import prepare, prepare_mesh
 from octafield.options import MeshOptions
-from octafield.pipeline import prepare, prepare_mesh
 from study_output import markdown_table
 
 AXIS, FIXED = 1, 2  # of BoundaryConstraints.kind

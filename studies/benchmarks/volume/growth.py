@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 import octafield
 import surface_meshes
-from octafield.phases import PHASES
+from octafield.progress.phases import PHASES
 from study_output import markdown_table
 
 HEADER = [

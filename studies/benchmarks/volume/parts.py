@@ -19,11 +19,11 @@ from pathlib import Path
 
 import numpy as np
 import octafield
-from octafield.meshing import prepare_mesh
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.frame_field import prepare, run
 from octafield.options import COMPARED, FieldOptions
-from octafield.phases import PHASES
-from octafield.pipeline import prepare, run
-from octafield.results import write_field_result
+from octafield.progress.phases import PHASES
+from octafield.runs.run_folder import write_field_result
 from study_output import markdown_table, write_csv
 
 HEADER = [

@@ -1,0 +1,1 @@
+"""The commands of `octafield`, their options and what they print."""

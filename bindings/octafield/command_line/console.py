@@ -1,0 +1,226 @@
+"""What the command line says: log lines, progress and errors on stderr, JSON."""
+
+import contextlib
+import json
+import logging
+import math
+import os
+import sys
+import time
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+from ..errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
+from ..files.writing import write_json
+from ..progress.phases import Progress as Callback
+from ..progress.time_left import PhaseTimeLeft, words
+
+OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+# kinds of SolverError that another option or another mesh avoids
+_OPTION_AT_FAULT = ("epsilon_too_large", "thin_triangles", "bad_weights")
+
+log = logging.getLogger("octafield")
+_written: list[str] = []  # targets of --json that have their document
+
+
+def set_verbosity(quiet: bool, verbose: bool) -> None:
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(logging.Formatter("octafield: %(message)s"))
+    log.handlers[:] = [handler]
+    log.propagate = False
+    log.setLevel(logging.ERROR if quiet else logging.DEBUG if verbose else logging.INFO)
+
+
+def error_code(error: BaseException) -> int:
+    """Reports an error in one line on stderr (with a traceback under -v where it is ours) and returns the exit code."""
+    if isinstance(error, (KeyboardInterrupt, Cancelled)):
+        _say("interrupted")
+        return INTERRUPTED
+    if isinstance(error, (InvalidInput, GeometryError, IoError)):
+        _say(f"error: {error}")
+        return BAD_INPUT
+    if isinstance(error, SolverError) and error.kind in _OPTION_AT_FAULT:
+        _say(f"error: {error}")
+        return BAD_INPUT
+    if isinstance(error, OSError):
+        _say(f"error: {error.filename or 'file'}: {error.strerror or error}")
+        return BAD_INPUT
+    if log.isEnabledFor(logging.DEBUG):
+        traceback.print_exception(error)
+    what = str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}"
+    _say(f"defect: {what}; please report this (run again with -v for details)")
+    return DEFECT
+
+
+def carry_out(work: Callable[[], None], quiet: bool, verbose: bool, json: str | None) -> None:
+    """Runs a command; an error becomes one line on stderr, an exit code and, with --json, a document."""
+    set_verbosity(quiet, verbose)
+    _written.clear()
+    try:
+        check_json_target(json)
+        work()
+    except typer.Exit:
+        raise
+    except (Exception, KeyboardInterrupt) as error:
+        code = error_code(error)
+        put_error(json, error, code)
+        raise typer.Exit(code) from None
+
+
+def usage_error(error: Exception, arguments: Sequence[str]) -> int:
+    """Reports what typer's parser finds wrong as carry_out does errors. arguments: of the command line."""
+    if not hasattr(error, "format_message"):
+        return error_code(error)
+    code = int(getattr(error, "exit_code", BAD_INPUT))
+    context: Any = getattr(error, "ctx", None)
+    if type(error).__name__ == "NoArgsIsHelpError":
+        typer.echo(context.get_help(), err=True)
+        return code
+    near = getattr(error, "possibilities", None)
+    message = error.format_message()
+    if near:
+        message = message.split(" (Possible")[0].rstrip(".") + f". Did you mean {near[0]}?"
+    path = context.command_path if context else "octafield"
+    _say(f"error: {message.rstrip('.')}" + ("" if message.endswith("?") else ".") + f" Try '{path} --help'.")
+    put_error(_json_target(arguments), InvalidInput(message, "usage"), code)
+    return code
+
+
+def _json_target(arguments: Sequence[str]) -> str | None:
+    for word, after in zip(arguments, [*arguments[1:], ""], strict=True):
+        if word.startswith("--json="):
+            return word.removeprefix("--json=")
+        if word == "--json":
+            return after or None
+    return None
+
+
+def put_error(target: str | None, error: BaseException, code: int) -> None:
+    """The JSON document of a command that failed before it had one."""
+    if target is None or target in _written:
+        return
+    told = {
+        "type": type(error).__name__,
+        "kind": getattr(error, "kind", ""),
+        "message": " ".join(str(error).split()),
+        "elements": [int(i) for i in getattr(error, "elements", [])],
+        "exit_code": code,
+    }
+    with contextlib.suppress(Error):  # the target itself may be what is wrong
+        check_json_target(target)
+        put_json(target, {"error": told})
+
+
+def _say(message: str) -> None:
+    print("octafield: " + " ".join(message.split()), file=sys.stderr, flush=True)
+
+
+def report_notes(record: dict[str, Any]) -> None:
+    for note in record["notes"]:
+        log.info("%s: %s", record["input"], note)
+
+
+@contextlib.contextmanager
+def progress_bar(quiet: bool, whole: bool = False) -> Iterator[Callback | None]:
+    """Yields a progress callback; None when quiet. Draws on stderr when that is a terminal, else writes a plain line
+    there now and then. whole: what is reported is one piece of work, whose text tells the time left itself; else
+    phases, one after the other."""
+    if quiet:
+        yield None
+    elif sys.stderr.isatty():
+        with _drawn(whole) as report:
+            yield report
+    else:
+        yield PlainLines(_say, whole)
+
+
+@contextlib.contextmanager
+def _drawn(whole: bool) -> Iterator[Callback]:
+    columns = (
+        SpinnerColumn(),
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        TextColumn("{task.fields[merit]}"),
+        TimeElapsedColumn(),
+        TextColumn("{task.fields[left]}"),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=None, merit="", left="")
+        shown, left = "", PhaseTimeLeft()
+
+        def report(phase: str, fraction: float, merit: float) -> bool:
+            nonlocal shown, left
+            if phase != shown and not whole:
+                bar.reset(task, merit="", left="")
+                left = PhaseTimeLeft()
+            shown = phase
+            seconds = None if whole else left.at(fraction, time.monotonic())
+            bar.update(
+                task,
+                description=phase,
+                total=1.0 if fraction >= 0 else None,
+                completed=max(fraction, 0.0),
+                merit="" if math.isnan(merit) else f"{merit:.6g}",
+                left="" if seconds is None else words(seconds, most=True),
+            )
+            return True
+
+        yield report
+
+
+class PlainLines:
+    """A progress callback for logs: lines without control codes, the first after some seconds, then ever more rarely."""
+
+    FIRST, GROWTH, LARGEST = 10.0, 1.5, 300.0  # seconds between lines
+
+    def __init__(self, say: Callable[[str], None], whole: bool, clock: Callable[[], float] = time.monotonic):
+        self._say, self._whole, self._clock = say, whole, clock
+        self._wait, self._last = self.FIRST, clock()
+        self._phase, self._left = "", PhaseTimeLeft()
+
+    def __call__(self, phase: str, fraction: float, merit: float) -> bool:
+        now = self._clock()
+        if phase != self._phase:
+            self._phase, self._left = phase, PhaseTimeLeft()
+        seconds = None if self._whole else self._left.at(fraction, now)
+        if now - self._last >= self._wait:
+            share = "" if self._whole or fraction < 0 else f", {fraction:.0%} of the most steps"
+            self._say(phase + share + ("" if seconds is None else f", {words(seconds, most=True)}"))
+            self._last, self._wait = now, min(self._wait * self.GROWTH, self.LARGEST)
+        return True
+
+
+def check_json_target(target: str | None) -> None:
+    """Raises IoError where put_json could not write, so that this is known before the work."""
+    if target is None or target == "-":
+        return
+    path = Path(target)
+    if path.is_dir():
+        raise IoError(f"{target}: cannot write there (is a folder)")
+    existing = path.absolute() if path.exists() else path.absolute().parent
+    while not existing.exists():
+        existing = existing.parent
+    if not path.exists() and not existing.is_dir():
+        raise IoError(f"{target}: cannot write there ({existing} is not a folder)")
+    if not os.access(existing, os.W_OK):
+        raise IoError(f"{target}: cannot write there (no permission)")
+
+
+def put_json(target: str, value: Any) -> None:
+    """Writes the JSON of a command to a file, or to stdout for "-"."""
+    _written.append(target)
+    if target == "-":
+        sys.stdout.write(json.dumps(value, indent=1, allow_nan=False) + "\n")
+        return
+    path = Path(target)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_json(path, value)
+    except OSError as error:
+        raise IoError(f"{target}: cannot write there ({error.strerror})") from error

@@ -1,0 +1,154 @@
+"""Commands that look and tell: info, representations, doctor, view."""
+
+import math
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..errors import InvalidInput
+from ..options import MeshOptions
+from . import console, tables
+from .console import carry_out, log
+from .options import (  # fmt: skip
+    EdgeLength,
+    FeatureAngle,
+    Features,
+    InputFile,
+    Interfaces,
+    Json,
+    MaxCells,
+    MaxHoleEdges,
+    Quiet,
+    Remesh,
+    Repair,
+    Split,
+    Verbose,
+    WrapAlpha,
+    WrapOffset,
+)
+
+app = typer.Typer()
+
+_MESH = MeshOptions()
+_ANGLE = round(math.degrees(_MESH.feature_angle), 6)
+
+
+@app.command()
+def info(
+    input: InputFile,
+    features: Features = _MESH.features,
+    feature_angle: FeatureAngle = _ANGLE,
+    edge_length: EdgeLength = _MESH.edge_length,
+    max_cells: MaxCells = _MESH.max_cells,
+    remesh: Remesh = _MESH.remesh,
+    repair: Repair = _MESH.repair,
+    max_hole_edges: MaxHoleEdges = _MESH.max_hole_edges,
+    wrap_alpha: WrapAlpha = _MESH.wrap_alpha,
+    wrap_offset: WrapOffset = _MESH.wrap_offset,
+    interfaces: Interfaces = _MESH.interfaces,
+    split: Split = _MESH.split,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """What a file holds, and whether it is fit for a field. Pass, warn or fail of each requirement, with the remedy;
+    exit code 2 when one fails."""
+
+    def work() -> None:
+        from ..inspect.info import PASS, examine, first_failure
+
+        options = MeshOptions(
+            features=features,
+            feature_angle=math.radians(feature_angle),
+            edge_length=edge_length,
+            remesh=remesh,
+            repair=repair,
+            interfaces=interfaces,
+            split=split,
+            max_hole_edges=max_hole_edges,
+            wrap_alpha=wrap_alpha,
+            wrap_offset=wrap_offset,
+            max_cells=max_cells,
+        )
+        record = examine(input, options)
+        if json:
+            console.put_json(json, record)
+        unread = record["requirements"][0]["state"] != PASS
+        if json != "-" and not quiet and not unread:
+            tables.show_info(record)
+        failure = first_failure(record)
+        if not failure or repair not in ("default", "none"):  # an error is one line; the document has the notes
+            for note in record["notes"]:
+                log.info("%s: %s", record["input"], note)
+        if failure:
+            message = failure["message"] if str(input) in failure["message"] else f"{input}: {failure['message']}"
+            raise InvalidInput(message, failure["kind"], failure["elements"])
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """Names of representations and of metrics on frames. Options and functions take them."""
+
+    def work() -> None:
+        from .. import metrics
+        from .. import representations as known
+
+        record = {
+            "representations": [
+                {"name": r.name, "dimension": r.dimension, "speed": r.speed, "rotates_linearly": r.rotate is not None}
+                for r in known.values()
+            ],
+            "metrics": [{"name": m.name, "speed": m.speed, "description": m.description} for m in metrics.values()],
+        }
+        if json:
+            console.put_json(json, record)
+        if json != "-" and not quiet:
+            tables.show_registry(record)
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def doctor(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
+    """Whether this installation works. Versions, libraries, cores, memory, and a small run of every part; exit code 1
+    when one fails."""
+
+    def work() -> None:
+        from ..inspect.doctor import examine
+
+        record = examine()
+        if json:
+            console.put_json(json, record)
+        if json != "-" and not quiet:
+            tables.show_doctor(record)
+        if not record["ok"]:
+            raise typer.Exit(console.DEFECT)
+
+    carry_out(work, quiet, verbose, json)
+
+
+@app.command()
+def view(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that `octafield field` wrote.")],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="PNG", help="Write a picture in place of opening a window.")
+    ] = None,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """The singular curves of a result, in a window or a PNG."""
+
+    def work() -> None:
+        from ..view.window import view_folder
+
+        record = view_folder(folder, output)
+        if json:
+            console.put_json(json, record)
+        if output is not None:
+            log.info("wrote %s", output)
+
+    carry_out(work, quiet, verbose, json)

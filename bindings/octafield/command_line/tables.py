@@ -1,0 +1,121 @@
+"""Tables on stdout for people."""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from ..report.numbers.columns import terminal_table
+from ..report.numbers.records import Results, Run
+
+
+def show_record(record: dict[str, Any]) -> None:
+    facts = []
+    for name, value in record.items():
+        if name in ("alignment_deg", "feature_alignment_deg", "integrability", "lengths", "wall_seconds"):
+            facts.append((name, "  ".join(f"{key} {number:.3g}" for key, number in value.items())))
+        elif name == "sizes":
+            facts.append(
+                (
+                    name,
+                    "  ".join(
+                        f"{key} {entry if isinstance(entry, str) else f'{entry:.3g}'}" for key, entry in value.items()
+                    ),
+                )
+            )
+        elif isinstance(value, (str, int, float)) and name != "input":
+            facts.append((name, f"{value:.8g}" if isinstance(value, float) else str(value)))
+    _facts(record["input"], facts)
+    show_verdict(record)
+
+
+def show_comparison(rows: list[dict[str, Any]]) -> None:
+    table = terminal_table(Results([Run(row, Path(row["input"]).name) for row in rows]))
+    cells = [[column.show(value) for column, value in zip(table.columns, line, strict=True)] for line in table.rows]
+    _table([column.name for column in table.columns], cells, left=3)
+
+
+def show_info(record: dict[str, Any]) -> None:
+    facts = [
+        (name, f"{value:.8g}" if isinstance(value, float) else str(value))
+        for name, value in record.items()
+        if isinstance(value, (str, int, float)) and name not in ("input", "ok")
+    ]
+    facts += [
+        (f"{name} {key}", f"{value:.6g}" if isinstance(value, float) else str(value))
+        for name in ("bounding_box", "features", "feature_lines", "tet_quality", "expected")
+        for key, value in record.get(name, {}).items()
+    ]
+    _facts(record["input"], facts)
+    _table(
+        ["", "requirement", "what is wrong", "remedy"],
+        [[r["state"], r["requirement"], _fact(r), r["remedy"]] for r in record["requirements"]],
+        left=4,
+    )
+    show_verdict(record)
+
+
+def show_verdict(record: dict[str, Any]) -> None:
+    for sentence in record["verdict"]["sentences"] if "verdict" in record else ():
+        _stdout().print(Text(f"verdict: {sentence}"), soft_wrap=True)
+
+
+def _fact(requirement: dict[str, Any]) -> str:
+    """The message without the remedy, which has a column of its own."""
+    message = str(requirement["message"])
+    return message.removesuffix(f"; {requirement['remedy']}") if requirement["remedy"] else message
+
+
+def show_doctor(record: dict[str, Any]) -> None:
+    facts = [
+        (name, str(value)) for name, value in {**record["versions"], **record["libraries"]}.items() if name != "vtk"
+    ]
+    facts.append(("VTK of pictures", record["versions"]["vtk"]))
+    facts += [("cores", str(record["cores"])), ("memory", f"{record['memory_gb']:g} GB")]
+    _facts("octafield doctor", facts)
+    _table(["", "part", "what was found"], [[c["state"], c["name"], c["message"]] for c in record["checks"]], left=3)
+
+
+def show_registry(record: dict[str, Any]) -> None:
+    rows = [
+        [r["name"], "yes" if r["rotates_linearly"] else "no", str(r["dimension"]), _speed(r)]
+        for r in record["representations"]
+    ]
+    _table(["representation", "rotates linearly", "numbers", "per radian"], rows, left=2)
+    _table(
+        ["metric", "measures", "per radian"],
+        [[m["name"], m["description"], _speed(m)] for m in record["metrics"]],
+        left=2,
+    )
+
+
+def _speed(entry: dict[str, Any]) -> str:
+    return "varies" if entry["speed"] is None else f"{entry['speed']:.6g}"
+
+
+def _facts(title: str, facts: list[tuple[str, str]]) -> None:
+    _stdout().print(Text(title, style="bold"), soft_wrap=True)
+    table = Table(show_header=False, box=None, pad_edge=False)
+    table.add_column(style="dim")
+    table.add_column(justify="right")
+    for name, value in facts:
+        table.add_row(name, Text(value))
+    _stdout().print(table)
+
+
+def _table(heads: list[str], rows: list[list[str]], left: int = 1) -> None:
+    """A table whose first `left` columns are text and the others numbers."""
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for number, head in enumerate(heads):
+        table.add_column(head, justify="left" if number < left else "right", no_wrap=number >= left)
+    for row in rows:
+        table.add_row(*map(Text, row))  # Text: brackets in file names are no markup
+    _stdout().print(table)
+
+
+def _stdout() -> Console:
+    """Wide where nobody reads on a terminal, so that pipes get whole lines."""
+    return Console(width=None if sys.stdout.isatty() else 280, highlight=False)

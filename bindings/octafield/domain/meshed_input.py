@@ -1,0 +1,81 @@
+"""What every field is computed on: a sound mesh with its features and regions."""
+
+import hashlib
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._core import BoundarySurface, FeatureGraph, TetMesh, TriangleMesh
+from ..errors import InvalidInput
+from ..options import MeshOptions
+from ..progress.phases import PhaseClock
+
+
+class Volume(NamedTuple):
+    """Of a MeshedInput that has tets."""
+
+    tets: TetMesh
+    boundary: BoundarySurface
+    boundary_features: FeatureGraph
+
+
+@dataclass(repr=False)
+class MeshedInput:
+    """A sound input, ready for fields: `surface` is the boundary of `tets` (None where only a surface was wanted).
+
+    Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too. There,
+    and where the boundary touches itself, `surface` is `boundary` cut into sheets: manifold, each vertex a copy of
+    vertex `sheet_map` of the boundary. features are those of `surface`, boundary_features those of `boundary`. locking:
+    counts of what split_locking is for. options: what it was prepared with. inner_length: of edges far inside where
+    those of the surface are graded, input unit; else 0.
+    """
+
+    name: str
+    kind: str  # "surface" or "tets": what the input was
+    surface: TriangleMesh
+    features: FeatureGraph
+    feature_source: str  # "file", "angle" or "none"
+    tets: TetMesh | None = None
+    boundary: BoundarySurface | None = None
+    notes: list[str] = field(default_factory=list)
+    clock: PhaseClock = field(default_factory=PhaseClock)
+    peak_mb: float = 0.0
+    boundary_features: FeatureGraph | None = None
+    regions: np.ndarray | None = None
+    interface_triangles: int = 0
+    sheet_map: np.ndarray | None = None
+    locking: dict[str, Any] = field(default_factory=dict)
+    options: MeshOptions | None = None
+    inner_length: float = 0.0
+
+    def __repr__(self) -> str:
+        tets = "" if self.tets is None else f", {len(self.tets.tets):,} tets"
+        regions = f", {self.interface_triangles:,} interface triangles" if self.interface_triangles else ""
+        return (
+            f"MeshedInput({self.name}: {len(self.surface.triangles):,} triangles{tets}{regions}; "
+            f"{len(self.features.edges):,} feature edges by {self.feature_source})"
+        )
+
+    def volume(self) -> "Volume":
+        """The tets and what goes with them. Raises InvalidInput where only a surface was prepared."""
+        if self.tets is None or self.boundary is None or self.boundary_features is None:
+            raise InvalidInput(f"{self.name}: was prepared with volume=False; prepare it with its volume", "no_volume")
+        return Volume(self.tets, self.boundary, self.boundary_features)
+
+    def at_boundary_vertices(self, values: np.ndarray) -> np.ndarray:
+        """Of values at the vertices of the surface, those at the boundary's: of its first copy in each case."""
+        if self.sheet_map is None:
+            return values
+        return values[np.unique(self.sheet_map, return_index=True)[1]]
+
+    def digest(self) -> str:
+        """SHA-256 of the mesh arrays, first 16 hexadecimal digits: equal for equal meshes."""
+        vertices, cells = (
+            (self.surface.vertices, self.surface.triangles)
+            if self.tets is None
+            else (self.tets.vertices, self.tets.tets)
+        )
+        sha = hashlib.sha256(np.ascontiguousarray(vertices).tobytes())
+        sha.update(np.ascontiguousarray(cells).tobytes())
+        return sha.hexdigest()[:16]

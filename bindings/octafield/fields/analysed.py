@@ -1,0 +1,209 @@
+"""Frames from elsewhere, judged as our own are: singular curves, energy, alignment, meshability."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _core
+from .._core import (
+    BoundaryMeshability,
+    FeatureGraph,
+    FrameStreamline,
+    Integrability,
+    Meshability,
+    SingularGraph,
+    TetMesh,
+    TriangleMesh,
+)
+from ..domain.meshed_input import MeshedInput
+from ..domain.meshing import Source, prepare_mesh
+from ..domain.sites import SITES, fitting_frames
+from ..errors import InvalidInput
+from ..options import FieldOptions
+from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
+from ..view.notebook import Facts, ShownInNotebooks, facts_of_record
+from . import verdict
+from .direction_field import common_record
+from .sizes import Sizes, axis_order, sizes_of_run
+from .tet_analysis import analyse_tets
+from .vertex_analysis import analyse as analyse_frames
+
+if TYPE_CHECKING:
+    import pyvista
+
+__all__ = ["AnalysedField", "analyse"]
+
+_SHOWN = ("vertices", "tets", "energy", "singular_edges", "complex_edges", "non_meshable_vertices", "converged")
+_OF_ANALYSIS = (
+    "singular_graph",
+    "alignment",
+    "feature_alignment",
+    "meshability",
+    "boundary_meshability",
+    "integrability",
+    "streamlines",
+)
+
+
+@dataclass(repr=False, kw_only=True)
+class AnalysedField(ShownInNotebooks):
+    """A frame field and what it is judged by. frames: (n, 4) unit quaternions w x y z, per tet vertex; their axes
+    are named so that neighbours agree but across a cut (octafield.comb_vertices). alignment: radians, per boundary
+    vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: the JSON
+    object of the command line. regions: (m,) ids of the tets where the mesh has several. lengths: (n, 3) of the frames'
+    axes, where they have any. sizes: an IsotropicScale or AxisScales, as the option of that name asks.
+
+    A field that lives in the tets is tet_frames, (m, 4), and so are singular_graph (of singular_edges), alignment (per
+    triangle and tet beside it) and lengths, meshability and boundary_meshability are those of the tets; frames is the
+    field taken to the vertices, integrability is None; sizes are those of frames. feature_edges: (k, 2) ids of tets'
+    vertices."""
+
+    surface: TriangleMesh
+    features: FeatureGraph
+    tets: TetMesh
+    frames: np.ndarray
+    singular_graph: SingularGraph
+    alignment: np.ndarray
+    feature_alignment: np.ndarray
+    meshability: Meshability | None = None
+    boundary_meshability: BoundaryMeshability | None = None
+    integrability: Integrability | None = None
+    streamlines: Sequence[FrameStreamline] = ()
+    record: dict[str, Any]
+    regions: np.ndarray | None = None
+    tet_frames: np.ndarray | None = None
+    lengths: np.ndarray | None = None
+    sizes: Sizes | None = None
+    feature_edges: np.ndarray | None = None
+
+    def __repr__(self) -> str:
+        r = self.record
+        return (
+            f"AnalysedField({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; E {r['energy']:.6g},"
+            f" {r['singular_edges']:,} singular edges)"
+        )
+
+    def _facts(self) -> Facts:
+        """For notebooks."""
+        return facts_of_record(self.record, _SHOWN)
+
+    def scene(self) -> pyvista.Plotter:
+        """A pyvista scene of the singular curves inside the translucent surface: .show() opens a window, or in Jupyter a
+        view to turn (with trame) or a picture. Without a display .screenshot(PNG) draws it all the same."""
+        from ..view.window import shown_where_possible
+
+        return shown_where_possible(self._drawn())
+
+    def _drawn(self) -> pyvista.Plotter:
+        """The same for pictures, without a window."""
+        from ..view.curves import bad_features, singular_scene
+
+        bad = bad_features(self.tets, self.boundary_meshability)
+        return singular_scene(self.surface, self.features, self.singular_graph, bad)
+
+
+def analyse(
+    mesh: Source | MeshedInput,
+    frames: ArrayLike,
+    where: str = "vertices",
+    options: FieldOptions = FieldOptions(),
+    progress: Progress | None = None,
+) -> AnalysedField:
+    """Analyses (n, 4) frames at the vertices or in the tets of a tet mesh (or its file; features as octafield field
+    finds them).
+
+    Of the options, those of features, interfaces, streamlines, sizes and threads count. record has the keys of
+    octafield.compute_field's that do not come from solving. Raises InvalidInput where the frames do not fit the mesh.
+    """
+    if where not in SITES:
+        raise InvalidInput(f"where must be one of: {', '.join(SITES)}; not {where!r}", "unknown_option_value")
+    if options.split or options.split_singular:
+        raise InvalidInput(
+            "splitting makes another mesh than the frames belong to; leave it out", "option_out_of_range"
+        )
+    meshed = mesh if isinstance(mesh, MeshedInput) else prepare_mesh(mesh, options, progress=progress)
+    if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):
+        raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
+    values, options = fitting_frames(meshed.volume().tets, frames, where), replace(options, sampling=where)
+    found = judged(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
+    found.record["options"] = asdict(options)
+    return found
+
+
+def judged(
+    meshed: MeshedInput,
+    frames: np.ndarray,
+    options: FieldOptions,
+    clock: PhaseClock,
+    memory: PeakMemory,
+    progress: Progress | None,
+    about: Mapping[str, Any] = MappingProxyType({}),
+    lengths: np.ndarray | None = None,
+) -> AnalysedField:
+    """frames, lengths: where options.sampling has them; the axes of those at vertices are named anew, so that
+    neighbours agree but across a cut. about: what the record tells of how the field was made."""
+    tets = meshed.volume().tets
+    parts: dict[str, Any]
+    with clock.phase("analyse"):
+        announce(progress, "analyse")
+        if options.sampling == "vertices":
+            frames, lengths = combed(tets, frames, lengths, options.threads)
+        if options.sampling == "tets":
+            of_tets = analyse_tets(meshed, _core.tet_sampling(tets), frames, options.threads)
+            figures, off = of_tets.record, of_tets.off_vertices
+            parts = {
+                "frames": combed(tets, of_tets.frames, None, options.threads)[0],
+                "tet_frames": frames,
+                "singular_graph": of_tets.singular.graph,
+            }
+            parts |= {
+                name: getattr(of_tets, name)
+                for name in ("alignment", "feature_alignment", "meshability", "boundary_meshability")
+            }
+        else:
+            found = analyse_frames(meshed, frames, options.threads, options.streamlines, options.feature_tolerance)
+            figures, off = found.record, found.off_vertices
+            parts = {"frames": frames, **{name: getattr(found, name) for name in _OF_ANALYSIS}}
+    sizes, sizes_entry = sizes_of_run(tets, parts["frames"], options, clock, progress)
+    record = {
+        **common_record(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
+        "vertices": len(tets.vertices),
+        "tets": len(tets.tets),
+        "boundary_triangles": len(meshed.surface.triangles) - meshed.interface_triangles,
+        "regions": 1 if meshed.regions is None else len(np.unique(meshed.regions)),
+        "sampling": options.sampling,
+        **about,
+        "threads": options.threads,
+        **figures,
+        **sizes_entry,
+        "verdict": verdict.of_field(meshed, off, figures),
+    }
+    _, boundary, features = meshed.volume()
+    feature_edges = np.asarray(boundary.vertex_map)[np.asarray(features.edges)].astype(np.int32).reshape(-1, 2)
+    return AnalysedField(
+        surface=meshed.surface,
+        features=meshed.features,
+        tets=tets,
+        regions=meshed.regions,
+        lengths=lengths,
+        sizes=sizes,
+        record=record,
+        feature_edges=feature_edges,
+        **parts,
+    )
+
+
+def combed(
+    tets: TetMesh, frames: np.ndarray, lengths: np.ndarray | None, threads: int
+) -> tuple[np.ndarray, np.ndarray | None]:
+    """Frames at the vertices by octafield.comb_vertices, and the lengths of their axes in the new order."""
+    found = _core.comb_vertices(tets, frames, threads=threads)
+    return np.asarray(found.frames), (
+        None if lengths is None else np.take_along_axis(lengths, axis_order(np.asarray(found.element)), axis=1)
+    )

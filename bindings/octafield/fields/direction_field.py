@@ -1,0 +1,200 @@
+"""From a file to a direction field on its surface: read, mesh, field, singular points, separatrices.
+
+result = compute_surface_field("part.stl", SurfaceFieldOptions(symmetry=4, curvature=1))
+result.directions  # (V, 3), one of the N directions per vertex of result.surface
+"""
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import _core
+from .._core import (
+    DirectionConstraints,
+    DirectionField,
+    DirectionGuide,
+    FeatureGraph,
+    Streamline,
+    SurfaceSingularities,
+    TriangleMesh,
+)
+from ..domain.inputs import naming
+from ..domain.meshed_input import MeshedInput
+from ..domain.meshing import Source, prepare_mesh
+from ..errors import Cancelled, InvalidInput
+from ..options import METHODS, SurfaceFieldOptions
+from ..progress.phases import PeakMemory, PhaseClock, Progress, StopNote, forward, machine, octafield_version, versions
+from ..view.notebook import Facts, ShownInNotebooks, facts_of_record
+
+if TYPE_CHECKING:
+    import pyvista
+
+_SHOWN = ("triangles", "energy", "epsilon", "euler_characteristic", "index_sum", "converged")
+
+
+@dataclass(repr=False)
+class SurfaceFieldResult(ShownInNotebooks):
+    """An N-direction field on a surface. directions: (V, 3), one representative per vertex. record: the JSON object."""
+
+    surface: TriangleMesh
+    features: FeatureGraph
+    direction_field: DirectionField
+    directions: np.ndarray
+    singularities: SurfaceSingularities
+    separatrices: Sequence[Streamline]
+    record: dict[str, Any]
+
+    def __repr__(self) -> str:
+        r = self.record
+        return (
+            f"SurfaceFieldResult({r['input']}: {r['triangles']:,} triangles; symmetry {self.direction_field.symmetry}; "
+            f"{len(self.singularities.points):,} singular points, index sum {self.singularities.index_sum:g})"
+        )
+
+    def _facts(self) -> Facts:
+        """For notebooks."""
+        return facts_of_record(self.record, _SHOWN)
+
+    def _drawn(self) -> "pyvista.Plotter":
+        """Singular points and separatrices on the surface."""
+        from ..view.surface_field import surface_field_scene
+
+        return surface_field_scene(self.surface, self.features, self.singularities, self.separatrices)
+
+
+def compute_surface_field(
+    source: Source | MeshedInput,
+    options: SurfaceFieldOptions = SurfaceFieldOptions(),
+    progress: Progress | None = None,
+    *,
+    constraints: DirectionConstraints | None = None,
+    guide: DirectionGuide | None = None,
+) -> SurfaceFieldResult:
+    """N-direction field on a surface (path or TriangleMesh) or on the boundary of a tet mesh.
+
+    constraints, guide: directions to follow, on the vertices, edges and triangles of the surface the field is computed
+    on. Remeshing makes another surface of the input, so prepare it first:
+
+        >>> import octafield
+        >>> from octafield.domain.generators import generate
+        >>> meshed = octafield.prepare_mesh(generate("ball"), volume=False)  # or a path
+        >>> asked = octafield.DirectionConstraints(vertices=[7], vertex_directions=[[1, 0, 0]])  # of meshed.surface
+        >>> len(octafield.compute_surface_field(meshed, constraints=asked).singularities.points)
+        8
+
+    When progress returns False while the field is computed or after, the best field so far is returned, with
+    record["stopped"] true, converged False where the solver was stopped, and no separatrices; before that, Cancelled is
+    raised.
+    """
+    memory = PeakMemory()
+    if (constraints is not None or guide is not None) and not isinstance(source, MeshedInput):
+        raise InvalidInput(
+            "constraints and guides belong to the surface the field is computed on; "
+            "give the result of prepare_mesh(source, options, volume=False) instead of the source",
+            "not_meshed",
+        )
+    meshed = (
+        source if isinstance(source, MeshedInput) else prepare_mesh(source, options, volume=False, progress=progress)
+    )
+    clock = PhaseClock(meshed.clock)
+    stop = StopNote(progress)
+    with naming(meshed.name), clock.phase("surface"):
+        if options.curvature > 0:
+            guide = _lines_of_curvature(meshed, options, guide)
+        field = _core.direction_field(
+            meshed.surface,
+            meshed.features,
+            symmetry=options.symmetry,
+            method=METHODS[options.method],
+            epsilon=options.epsilon,
+            boundary=options.boundary,
+            least_feature_angle=options.least_feature_angle,
+            constraints=constraints,
+            guide=guide,
+            seed=options.seed,
+            progress=forward(stop.progress, "surface", 0.0, 0.9),
+        )
+        directions, singularities, separatrices = structure(meshed, field, stop.progress, stop)
+    points = [
+        {"position": [float(x) for x in s.position], "index": float(s.index), "boundary": bool(s.boundary)}
+        for s in singularities.points
+    ]
+    record = {
+        **common_record(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
+        "vertices": len(meshed.surface.vertices),
+        "triangles": len(meshed.surface.triangles),
+        "symmetry": options.symmetry,
+        "method": options.method,
+        "seed": options.seed,
+        **index_summary(singularities),
+        "singularities": points,
+        "energy": field.energy,
+        "dirichlet_energy": field.dirichlet_energy,
+        "energy_history": [float(e) for e in field.energy_history],
+        "epsilon": field.epsilon,
+        "iterations": field.iterations,
+        "converged": bool(field.converged),
+        "stopped": stop.stopped,
+        "residual": field.residual,
+        "constraints": 0 if constraints is None else len(constraints.edges) + len(constraints.vertices),
+        "options": asdict(options),
+    }
+    return SurfaceFieldResult(meshed.surface, meshed.features, field, directions, singularities, separatrices, record)
+
+
+def _lines_of_curvature(
+    meshed: MeshedInput, options: SurfaceFieldOptions, guide: DirectionGuide | None
+) -> DirectionGuide:
+    if guide is not None:
+        raise InvalidInput("a guide field and curvature are one too many: set curvature to 0", "two_guides")
+    found = _core.principal_directions(meshed.surface, meshed.features)
+    return DirectionGuide(found.directions, options.curvature * found.anisotropy)
+
+
+def structure(
+    meshed: MeshedInput, field: DirectionField, progress: Progress | None, stop: StopNote | None = None
+) -> tuple[np.ndarray, SurfaceSingularities, list[Streamline]]:
+    """Directions at the vertices, singular points and separatrices of a surface field. Cancelled while it traces, it
+    raises Cancelled; with `stop` it leaves the separatrices out, as when it was stopped before."""
+    surface, features = meshed.surface, meshed.features
+    directions = np.asarray(_core.vertex_directions(surface, features, field))
+    singularities = _core.surface_singularities(surface, field)
+    if stop is not None and stop.stopped:
+        return directions, singularities, []
+    try:
+        separatrices = _core.separatrices(
+            surface, features, field, singularities, progress=forward(progress, "surface", 0.9, 1.0)
+        )
+    except Cancelled:
+        if stop is None:
+            raise
+        separatrices = []
+    return directions, singularities, separatrices
+
+
+def common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dict[str, Any]:
+    return {
+        "input": meshed.name,
+        "version": octafield_version(),
+        "input_kind": meshed.kind,
+        "mesh_sha256": meshed.digest(),
+        "edge_length": float(_core.mean_edge_length(meshed.surface)),
+        "feature_source": meshed.feature_source,
+        "feature_edges": len(meshed.features.edges),
+        "feature_corners": len(meshed.features.corners),
+        "notes": list(meshed.notes),
+        "wall_seconds": clock.wall,
+        "cpu_seconds": clock.cpu,
+        "peak_mb": round(peak_mb, 1),
+        "versions": versions(),
+        "machine": machine(),
+    }
+
+
+def index_summary(singularities: SurfaceSingularities) -> dict[str, Any]:
+    return {
+        "euler_characteristic": singularities.euler_characteristic,
+        "index_sum": singularities.index_sum,
+    }

@@ -1,0 +1,64 @@
+"""The field of a run: by the whole recipe, or smoothed from frames that are given."""
+
+from typing import NotRequired, TypedDict
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _core
+from .._core import BoundaryConstraints, Sampling, SmoothResult, TetMesh, VertexConstraints
+from ..domain.sites import fitting_frames
+from ..errors import InvalidInput
+from ..options import OF_A_START, FieldOptions
+from ..progress.phases import Progress, forward
+
+
+class _How(TypedDict):
+    representation: str
+    max_iterations: int
+    tolerance: float
+    threads: int
+    progress: Progress | None
+    solver: NotRequired[str]
+
+
+def smoothed_field(
+    tets: TetMesh,
+    options: FieldOptions,
+    where: TetMesh | Sampling,
+    held: BoundaryConstraints,
+    start: ArrayLike | None,
+    seed: int,
+    progress: Progress | None,
+) -> tuple[SmoothResult, int]:
+    """The field and how many steps of the heat flow came before. where: what the frames are smoothed on."""
+    how: _How = {
+        "representation": options.representation,
+        "max_iterations": options.max_iterations,
+        "tolerance": options.tolerance,
+        "threads": options.threads,
+        "progress": forward(progress, "smooth", 0.0, 1.0),
+    }
+    if options.solver != "default":
+        how["solver"] = options.solver
+    if start is not None:
+        return _core.smooth(where, held, fitting_frames(tets, start, options.sampling), **how), 0
+    begin = "cross_field" if options.boundary == "none" else "constraints"
+    found = _core.frame_field(where, held, start=begin, seed=seed, rounds=options.rounds, **how)
+    return found.smooth, found.diffusion_steps
+
+
+def held_at_start(
+    tets: TetMesh, options: FieldOptions, free: BoundaryConstraints, start: ArrayLike | None
+) -> BoundaryConstraints:
+    """free: constraints that hold nothing. With the frames on the surface held at those of the start."""
+    if start is None:
+        raise InvalidInput(
+            f"boundary {OF_A_START!r} holds the surface at the frames of a start (--start FILE): give one, or another"
+            " boundary",
+            "no_start",
+        )
+    there = np.flatnonzero(free.on_boundary)
+    frames = fitting_frames(tets, start, options.sampling)[there]
+    fixed = VertexConstraints(vertices=there, kinds=["fixed"] * len(there), frames=frames)
+    return _core.with_constraints(free, fixed)

@@ -1,0 +1,1 @@
+"""Bytes and folders: read packed or not, written whole or not at all."""

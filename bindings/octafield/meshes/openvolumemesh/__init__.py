@@ -1,0 +1,1 @@
+"""Meshes of OpenVolumeMesh: text (.ovm) and binary (.ovmb)."""

@@ -1,0 +1,1 @@
+"""Meshes of VTK: legacy files, .vtu and .vtp."""

@@ -1,0 +1,1 @@
+"""Whole pieces of work on files: comparisons, fields of others, conversions, and the folder of one run."""

@@ -1,0 +1,158 @@
+"""Runs of one group, one after the other, in a process of their own.
+
+Speaks JSON lines: reads one job from standard input; writes to the file descriptor that its argument names {"event":
+"ready"}, {"event": "prepared", "tets": n,
+"seconds": s}, waits for a line (the leader's leave to use that much memory), then {"event": "finished", "key": ...,
+    "seconds": s,
+"state": ...} for each run and "progress" between. Before it ends without having finished all: "changed" (the input is
+    no longer what was planned), "unwritable" (the folder) or "broken", each with a "message".
+"""
+
+import contextlib
+import json
+import logging
+import os
+import sys
+import time
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..._core import TriangleMesh
+from ...errors import Error, InvalidInput
+from ...progress.phases import Progress
+from ..plan import Run, Source, has_promised_content
+from ..store import LOG_FILE, Store, write_record
+
+if TYPE_CHECKING:
+    from ...fields.frame_field import FieldResult
+
+_QUIET = 0.5  # seconds between reports
+Prepared = Callable[[int, float], None]  # called with the number of tets and the seconds it took before the first field
+Finished = Callable[[str, float, str], None]  # called with each key that is finished, its seconds and state
+
+
+class InputChanged(InvalidInput):
+    """The file of an input is gone or holds something else than when its runs were planned: their keys promise that."""
+
+
+def execute(
+    store: Store,
+    runs: list[Run],
+    keep_fields: bool,
+    prepared: Prepared,
+    finished: Finished,
+    progress: Progress | None = None,
+) -> None:
+    """Runs of one group that are not finished yet. An error that the input or an option is at fault for is the run's
+    result; InputChanged and IoError of the study's folder are raised."""
+    from ...fields.frame_field import prepare, prepare_mesh
+    from ...fields.frame_field import run as compute
+
+    runs = [run for run in runs if not store.is_finished(run.key)]
+    if not runs:
+        return
+    begin, clock = time.time(), time.perf_counter()
+    error = None
+    try:
+        meshed = prepare_mesh(_surface(runs[0].source), runs[0].options, progress=progress)
+        problem = prepare(meshed, runs[0].options.seed, progress)
+    except Error as raised:
+        error = raised
+    if not has_promised_content(runs[0]):  # asked after the reading: what was read is what the key stands for
+        raise InputChanged(f"{runs[0].source}: not there, or changed since its runs were planned", "input_changed")
+    if error:
+        for run in runs:
+            _write_failure(store, run, error, begin)
+            finished(run.key, 0.0, "failed")
+        return
+    prepared(len(meshed.volume().tets.tets), time.perf_counter() - clock)
+    for run in runs:
+        begin, clock = time.time(), time.perf_counter()
+        result = None
+        try:
+            result = compute(problem, run.options, progress)
+        except Error as raised:
+            _write_failure(store, run, raised, begin)
+        if result is not None:
+            _write_run(store, run, result, keep_fields, begin)
+        finished(run.key, time.perf_counter() - clock, "failed" if result is None else "done")
+
+
+def _surface(source: Source) -> str | TriangleMesh:
+    from ...domain.generators import generate
+
+    return source if isinstance(source, str) else generate(source["generator"], **source["with"])
+
+
+def _write_run(store: Store, run: Run, result: "FieldResult", keep_fields: bool, begin: float) -> None:
+    from ...runs.run_folder import write_field_result
+
+    with store.new_run(run) as folder:
+        if keep_fields:
+            write_field_result(result, folder)
+        notes = [f"{run.name}: {note}" for note in result.record["notes"]]
+        lines = [*notes, f"{result.record['stop_reason']} after {result.record['iterations']} iterations"]
+        (folder / LOG_FILE).write_text("\n".join(lines) + "\n", encoding="utf-8")
+        times = {"began": begin, "ended": time.time(), "host": os.uname().nodename}
+        write_record(folder, run, {**result.record, **times}, "done")
+
+
+def _write_failure(store: Store, run: Run, error: Error, begin: float) -> None:
+    with store.new_run(run) as folder:
+        (folder / LOG_FILE).write_text("".join(traceback.format_exception(error)), encoding="utf-8")
+        times = {"began": begin, "ended": time.time(), "host": os.uname().nodename}
+        kind = {"error": type(error).__name__, "error_kind": getattr(error, "kind", "")}
+        write_record(folder, run, {**kind, **times}, "failed", str(error))
+
+
+def main() -> None:
+    from ...files.process import die_with_parent
+
+    die_with_parent()
+    logging.disable()
+    out = os.fdopen(int(sys.argv[1]), "w", buffering=1)
+    job = json.loads(sys.stdin.readline())
+    reported = 0.0
+
+    def tell(**event: str | float) -> None:
+        print(json.dumps(event), file=out)
+
+    tell(event="ready")
+    runs = [Run.from_json(content) for content in job["runs"]]
+
+    def prepared(tets: int, seconds: float) -> None:
+        tell(event="prepared", tets=tets, seconds=seconds)
+        if not sys.stdin.readline():
+            sys.exit(1)  # the leader is gone
+
+    def report(phase: str, fraction: float, merit: float) -> None:
+        nonlocal reported
+        now = time.monotonic()
+        if now - reported > _QUIET:
+            reported = now
+            tell(event="progress", phase=phase, fraction=fraction)
+
+    def finished(key: str, seconds: float, state: str) -> None:
+        tell(event="finished", key=key, seconds=seconds, state=state)
+
+    with contextlib.suppress(BrokenPipeError):
+        try:
+            execute(Store(Path(job["folder"])), runs, job["keep_fields"], prepared, finished, report)
+        except InputChanged as error:
+            tell(event="changed", message=str(error))
+        except MemoryError:
+            tell(event="broken", message="memory ran out")
+            raise
+        except BrokenPipeError:
+            pass
+        except OSError as error:
+            tell(event="unwritable", message=str(error))
+        except Exception as error:
+            tell(event="broken", message=f"{type(error).__name__}: {error}")
+            raise
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Pictures, scenes and plots, what notebooks show, and the objects of other packages."""

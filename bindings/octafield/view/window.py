@@ -1,0 +1,63 @@
+"""Windows, and the view of a result's folder in one."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InvalidInput, IoError
+
+if TYPE_CHECKING:
+    import pyvista
+
+
+def shown_where_possible(shape: pyvista.Plotter) -> pyvista.Plotter:
+    """Made for a window or a notebook, where there is one."""
+    import pyvista
+
+    shape.off_screen = bool(pyvista.OFF_SCREEN or shape.notebook or not os.environ.get("DISPLAY"))
+    return shape
+
+
+def _require_display(folder: Path) -> None:
+    """VTK without a display ends the process, or says nothing at all."""
+    import pyvista
+
+    words = f"there is no display to open a window on; write a picture: octafield view {folder} -o curves.png"
+    if sys.platform != "linux":
+        return
+    if not os.environ.get("DISPLAY"):
+        raise InvalidInput(words, "no_display")
+    if not pyvista.system_supports_plotting():
+        raise InvalidInput(
+            f"the display {os.environ['DISPLAY']} cannot be opened; {words.partition('; ')[2]}", "no_display"
+        )
+
+
+def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
+    """Shows the singular curves that `octafield field` wrote, in a window, or writes them to a PNG; what it did, for
+    --json."""
+    from .curves import scene_from_files
+
+    files = folder / "surface.vtp", folder / "singular.vtp"
+    missing = next((path for path in files if not path.is_file()), None)
+    if missing is not None:
+        raise IoError(f"{missing}: no such file; give the folder of a result of `octafield field`")
+    shape = scene_from_files(*files)
+    record = {"folder": str(folder), "files": [path.name for path in files], "picture": picture and str(picture)}
+    if picture is None:
+        _require_display(folder)
+        shape.off_screen = False
+        shape.show(title=f"octafield: {folder}")
+        return record
+    from . import scene
+
+    partial = picture.with_name(f".{picture.name}.partial")
+    try:
+        partial.write_bytes(scene.render(shape))
+        partial.replace(picture)
+    except OSError as error:
+        raise IoError(f"{picture}: cannot write there ({error.strerror})") from error
+    return record

@@ -1,0 +1,94 @@
+"""The package is a house: rooms of a few modules each, imports that go one way, few names at the door."""
+
+import ast
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import octafield
+import pytest
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+PACKAGE = Path(octafield.__file__).parent
+MOST_NAMES, MOST_MODULES = 80, 13
+
+
+def modules_of(package: Path) -> dict[str, Path]:
+    """Path by name within the package: "" is the package itself, "meshes" and "meshes.grids" are within."""
+    found = {}
+    for path in sorted(package.rglob("*.py")):
+        parts = path.relative_to(package).with_suffix("").parts
+        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+def imports_of(name: str, path: Path, modules: dict[str, Path]) -> set[str]:
+    """What a module imports of its package, anywhere in its text: in functions and for type checkers, too. The compiled
+    module and its namespaces import nothing."""
+    around = name.split(".") if name else []
+    if path.name != "__init__.py":
+        around.pop()
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            full = [alias.name.partition(".") for alias in node.names]
+            found |= {inner for package, _, inner in full if package == "octafield"}
+        elif isinstance(node, ast.ImportFrom):
+            if node.level:
+                base = around[: len(around) + 1 - node.level] + (node.module or "").split(".")
+                source = ".".join(filter(None, base))
+            elif (node.module or "").partition(".")[0] == "octafield":
+                source = node.module.partition(".")[2]
+            else:
+                continue
+            inner = [f"{source}.{alias.name}".lstrip(".") for alias in node.names]
+            found |= {one if one in modules else source for one in inner if one != "_core"} - {"_core"}
+    return found - {name}
+
+
+def circles(package: Path) -> list[list[str]]:
+    """Groups of modules of which each imports the others, by whatever way."""
+    modules = modules_of(package)
+    names = list(modules)
+    arrows = [(names.index(a), names.index(b)) for a in names for b in imports_of(a, modules[a], modules)]
+    ends = np.array(arrows, int).reshape(-1, 2).T
+    graph = coo_array((np.ones(ends.shape[1]), tuple(ends)), shape=(len(names), len(names)))
+    labels = connected_components(graph, connection="strong")[1]
+    return [[n for n, at in zip(names, labels) if at == label] for label, k in Counter(labels).items() if k > 1]
+
+
+def test_no_module_imports_itself_by_way_of_others():
+    assert circles(PACKAGE) == []
+
+
+@pytest.mark.parametrize(
+    "back",
+    ["from .. import one", "def f():\n    from ..one import x", "import octafield.one", "from octafield import one"],
+)
+def test_imports_in_functions_and_by_full_names_count(tmp_path, back):
+    (tmp_path / "room").mkdir()
+    (tmp_path / "__init__.py").touch()
+    (tmp_path / "room/__init__.py").touch()
+    (tmp_path / "one.py").write_text(
+        "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from .room.two import y\n"
+    )
+    (tmp_path / "room/two.py").write_text(back)
+    assert circles(tmp_path) == [["one", "room.two"]]
+
+
+def test_rooms_do_not_import_each_other():
+    """Of two rooms one knows the other."""
+    modules = modules_of(PACKAGE)
+    rooms = {
+        (a.partition(".")[0], b.partition(".")[0])
+        for a in modules
+        for b in imports_of(a, modules[a], modules)
+        if a and b
+    }
+    assert sorted((a, b) for a, b in rooms if a < b and (b, a) in rooms) == []
+
+
+def test_a_room_has_few_modules():
+    counts = Counter(path.parent for path in PACKAGE.rglob("*.py"))
+    assert {str(folder): count for folder, count in counts.items() if count > MOST_MODULES} == {}
