@@ -909,6 +909,7 @@ def boundary_constraints(
 def alignment_angles(domain: TetDomain | TetMesh, frames: ArrayLike) -> Float64s: ...
 
 smooth_representations: tuple[str, ...]
+constraint_kinds: tuple[str, ...]
 
 def initial_frames(
     domain: TetDomain | TetMesh | Sampling, constraints: BoundaryConstraints, *, start: str = ..., threads: int = ...

@@ -222,7 +222,7 @@ constexpr Example of_volume_fields[] = {
     True)"},
     {"with_constraints", R"(
     >>> free = octafield.BoundaryConstraints([0, 0], np.zeros((2, 3)), [[1, 0, 0, 0]] * 2, [0, 0])
-    >>> octafield.with_constraints(free, octafield.VertexConstraints([1], [1], [[0, 0, 1]]))
+    >>> octafield.with_constraints(free, octafield.VertexConstraints([1], ["axis"], [[0, 0, 1]]))
     BoundaryConstraints(1 free, 1 axis, 0 fixed))"},
     {"initial_frames", R"(
     >>> problem = octafield.prepare(octafield.prepare_mesh(generate("box")))

@@ -1,6 +1,7 @@
 // What is done to a tet mesh before a field is computed on it: regions, locking tets, constraints of the user's own.
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "constraint_kinds.hpp"
 #include "domain.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/locking.hpp"
@@ -61,10 +62,10 @@ void bind_volume_input_types(py::module_& m) {
     Record<VertexConstraints>(m, "VertexConstraints",
                               "Constraints of the user's own; row i of each array belongs to vertices[i].")
         .field("vertices", &VertexConstraints::vertices, "(k,) int32 tet-mesh ids, each once.")
-        .field("kinds", &VertexConstraints::kinds, "(k,) uint8: 0 free, 1 one axis held, 2 whole frame held.")
-        .field("axes", &VertexConstraints::axes, "(k, 3) float64, of any length, where the kind is 1; or no rows.")
+        .field("kinds", &VertexConstraints::kinds, ("(k,) uint8: " + described_kinds() + "; can be given by name.").c_str())
+        .field("axes", &VertexConstraints::axes, "(k, 3) float64, of any length, where the kind takes an axis; or no rows.")
         .field("frames", &VertexConstraints::frames,
-               "(k, 4) float64 quaternions w x y z where the kind is 2; or no rows.")
+               "(k, 4) float64 quaternions w x y z where the kind takes a frame; or no rows.")
         .finish([](const VertexConstraints& c) {
             return count(static_cast<std::ptrdiff_t>(c.vertices.size()), "vertex", "vertices") + ": " +
                    count_kinds(c.kinds);
@@ -118,6 +119,9 @@ void bind_volume_input(py::module_& m) {
         "domain"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
         "Splits edges inside that join two vertices of singular edges without being singular, at their midpoints, as a "
         "SingularSplit; of_tets[split.parent] are the frames of its tets. Singular edges and surface stay as they are.");
+    py::list kinds;
+    for (const ConstraintKindInfo& kind : ConstraintKinds::info) kinds.append(std::string(kind.name));
+    m.attr("constraint_kinds") = py::tuple(kinds);
     m.def(
         "with_constraints",
         [](const BoundaryConstraints& base, const VertexConstraints& given) {

@@ -402,8 +402,27 @@ def test_constraints_of_the_user_hold_inside_and_are_counted():
         compute_field(box_tets(2), FieldOptions(), constraints=asked)
     with pytest.raises(of.InvalidInput, match="cannot have at vertex 999"):
         compute_field(meshed, FieldOptions(), constraints=of.VertexConstraints([999], [0]))
-    with pytest.raises(of.InvalidInput, match="above 2"):
-        compute_field(meshed, FieldOptions(), constraints=of.VertexConstraints([0], [3]))
+    with pytest.raises(of.InvalidInput, match="a value above"):
+        compute_field(meshed, FieldOptions(), constraints=of.VertexConstraints([0], [len(of.constraint_kinds)]))
+
+
+def test_kinds_of_constraints_are_given_by_name_or_by_number():
+    assert of.constraint_kinds[:3] == ("free", "axis", "fixed")
+    numbers = list(range(len(of.constraint_kinds)))
+    by_name = of.VertexConstraints(vertices=numbers, kinds=of.constraint_kinds)
+    assert np.asarray(by_name.kinds).tolist() == numbers
+    assert np.asarray(of.VertexConstraints(vertices=numbers, kinds=numbers).kinds).tolist() == numbers
+    held = of.BoundaryConstraints(["axis", "free"], [[0, 0, 1], [0, 0, 0]], [[1, 0, 0, 0]] * 2, [1, 0])
+    assert np.asarray(held.kind).tolist() == [1, 0]
+    held.kind = ["free", "fixed"]
+    assert np.asarray(held.kind).tolist() == [0, 2]
+    assert repr(held) == "BoundaryConstraints(1 free, 0 axis, 1 fixed)"
+    with pytest.raises(of.InvalidInput, match="unknown kind 'axes' in row 1; there are 0 free, 1 axis, 2 fixed"):
+        of.VertexConstraints(vertices=[0, 1], kinds=["axis", "axes"])
+    with pytest.raises(of.InvalidInput, match="shape"):
+        of.VertexConstraints(vertices=[0], kinds=[["axis"]])
+    with pytest.raises(of.InvalidInput, match="integers"):
+        of.VertexConstraints(vertices=[0], kinds=[1.5])
 
 
 def test_the_prism_reaches_the_published_energy_with_its_crease_vertices_free():

@@ -60,5 +60,5 @@ def held_at_start(
         )
     there = np.flatnonzero(free.on_boundary)
     frames = fitting_frames(tets, start, options.sampling)[there]
-    fixed = np.full(len(there), 2, np.uint8)
-    return _core.with_constraints(free, VertexConstraints(vertices=there, kinds=fixed, frames=frames))
+    fixed = VertexConstraints(vertices=there, kinds=["fixed"] * len(there), frames=frames)
+    return _core.with_constraints(free, fixed)

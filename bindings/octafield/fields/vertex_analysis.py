@@ -158,7 +158,7 @@ def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolera
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
     directions = tangents[np.searchsorted(vertex, np.arange(len(boundary.mesh.vertices)))]
     held = _core.boundary_constraints(tets, directions, mode="aligned", feature_tolerance=feature_tolerance)
-    loose = np.asarray(held.kind)[np.asarray(boundary.vertex_map)] != 2
+    loose = np.asarray(held.kind)[np.asarray(boundary.vertex_map)] != _core.constraint_kinds.index("fixed")
     several = np.bincount(vertex, minlength=len(loose)) > 1
     found: np.ndarray = (loose & several)[vertex]
     return found
@@ -175,8 +175,9 @@ def spread(lengths: np.ndarray) -> dict[str, float]:
 
 
 def constraint_counts(held: BoundaryConstraints, given: VertexConstraints | None) -> dict[str, int]:
-    free, axis, fixed = np.bincount(np.asarray(held.kind), minlength=3).tolist()
-    return {"free": free, "axis": axis, "fixed": fixed, "given": 0 if given is None else len(given.vertices)}
+    names = _core.constraint_kinds
+    counts = dict(zip(names, np.bincount(np.asarray(held.kind), minlength=len(names)).tolist()))
+    return {**counts, "given": 0 if given is None else len(given.vertices)}
 
 
 def counts_by_index(singularities: SurfaceSingularities) -> dict[str, int]:

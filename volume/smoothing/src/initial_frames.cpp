@@ -42,7 +42,7 @@ Quaternions initial_frames(const Sampling& sampling, const BoundaryConstraints& 
                           "conjugate_gradients");
     const FieldProjector projector(spaces, threads);
     projector.project(field, embedded(frames, threads), frames);
-    projector.twist(field, frames);
+    projector.write_frames(field, frames);
     return frames;
 }
 

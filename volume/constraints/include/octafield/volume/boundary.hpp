@@ -7,6 +7,7 @@
 
 #include "octafield/surface/features.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
+#include "octafield/volume/constraint_kinds.hpp"
 #include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
@@ -18,8 +19,6 @@ enum class BoundaryMode {
     none,     // nothing constrained; the cross field is still the start
 };
 
-enum class VertexConstraint : std::uint8_t { free = 0, axis = 1, fixed = 2 };  // 3, 1 and 0 unknowns
-
 struct BoundaryOptions {
     BoundaryMode mode = BoundaryMode::aligned;
     // A feature vertex keeps its whole frame when one frame fits all its normals and tangents within this angle
@@ -29,13 +28,16 @@ struct BoundaryOptions {
 
 struct BoundaryConstraints {
     std::vector<VertexConstraint> kind;     // (n) per site: tet-mesh vertex, or tet (tet_boundary_constraints)
-    Points axis;                            // (n, 3) unit; the fixed axis where kind is axis, else 0
-    Quaternions frames;                     // (n, 4): the start on the boundary, the value where fixed; identity inside
+    Points axis;                            // (n, 3) unit where the kind takes_axis (constraint_kinds.hpp), else 0
+    Quaternions frames;                     // (n, 4): the value where the kind takes_frame, else the start on the
+                                            // boundary, the identity inside
     std::vector<std::uint8_t> on_boundary;  // (n)
     std::vector<Index> released_corners;    // sites whose directions fit no frame: corners, or tets
-    // (n, 3) or no rows (all 1), above 0; of odeco_lengths (smooth.hpp) alone: held along the axes of `frames` where
-    // fixed; where an axis is, column 0 along it.
+    // (n, 3) or no rows (all 1), above 0; of odeco_lengths (smooth.hpp) alone: which column holds which axis is the
+    // kind's length_columns.
     Points lengths{};
+
+    SiteConstraint of(Index site) const { return {axis.row(site).transpose(), frames.row(site).transpose()}; }
 };
 
 // One normal per boundary vertex and smooth sector (triangles round the vertex between feature edges), weighted by
