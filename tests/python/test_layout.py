@@ -89,6 +89,17 @@ def test_rooms_do_not_import_each_other():
     assert sorted((a, b) for a, b in rooms if a < b and (b, a) in rooms) == []
 
 
+def test_few_names_at_the_door():
+    assert len(octafield.__all__) <= MOST_NAMES
+    within = {name for space in (octafield.frames, octafield.surface, octafield.volume) for name in space.__all__}
+    again = set(octafield.__all__) & within
+    assert again == {
+        "FeatureGraph", "SingularGraph", "TetMesh", "TriangleMesh", "read_surface", "require_valid", "write_surface"
+    }  # fmt: skip
+    public = {name for name in vars(octafield._core) if not name.startswith("_")}
+    assert public == within
+
+
 def test_a_room_has_few_modules():
     counts = Counter(path.parent for path in PACKAGE.rglob("*.py"))
     assert {str(folder): count for folder, count in counts.items() if count > MOST_MODULES} == {}

@@ -21,7 +21,7 @@ def mesh():
 def turned(mesh):
     """Frames that turn through the box, at its vertices."""
     x, y, z = np.asarray(mesh.vertices).T
-    return np.asarray(of.quaternion_exp(np.column_stack([0.3 * z, 0.4 * x, 0.5 * y])))
+    return np.asarray(of.frames.quaternion_exp(np.column_stack([0.3 * z, 0.4 * x, 0.5 * y])))
 
 
 @pytest.fixture(scope="module")
@@ -30,8 +30,8 @@ def found(mesh, turned):
 
 
 def test_kinds_are_the_functions_of_that_name(mesh, turned, found):
-    np.testing.assert_array_equal(found["isotropic"].log_scale, of.isotropic_scale(mesh, turned).log_scale)
-    np.testing.assert_array_equal(found["axes"].values, of.axis_scales(mesh, turned).values)
+    np.testing.assert_array_equal(found["isotropic"].log_scale, of.volume.isotropic_scale(mesh, turned).log_scale)
+    np.testing.assert_array_equal(found["axes"].values, of.volume.axis_scales(mesh, turned).values)
 
 
 @pytest.mark.parametrize("kind", ["isotropic", "axes"])
@@ -79,7 +79,7 @@ def test_arrays_of_files_are_logarithms_curl_and_scaled_axes(mesh, found):
 
 def test_sizes_go_with_their_axes_whatever_these_are_called(found):
     axes = found["axes"]
-    of_tets, group = np.asarray(axes.of_tets), np.asarray(of.octahedral_group())
+    of_tets, group = np.asarray(axes.of_tets), np.asarray(of.frames.octahedral_group())
     for number in range(24):
         renamed = Rotation.from_quat(of_tets, scalar_first=True) * Rotation.from_quat(group[number], scalar_first=True)
         logs = sizes.log_scales_of(axes, renamed.as_quat(scalar_first=True))
@@ -111,15 +111,15 @@ def test_lengths_are_densities_of_isotropic_sizes_at_vertices_and_their_mean_in_
             "before",
             "the frames were taken to the tets: the nearest to the mean sh4 vector of those around",
         ]
-        np.testing.assert_array_equal(moved.frames, of.tet_frames(mesh, turned))
+        np.testing.assert_array_equal(moved.frames, of.volume.tet_frames(mesh, turned))
 
 
 def test_frames_in_tets_keep_theirs_and_go_where_the_format_has_its_own(mesh, turned):
-    of_tets = np.asarray(of.tet_frames(mesh, turned))
+    of_tets = np.asarray(of.volume.tet_frames(mesh, turned))
     ones = np.ones((len(of_tets), 3))
     kept, _ = sizes.with_sizes(file_of(mesh, of_tets, "tets", lengths=ones), frame_formats["npz"], None, "axes")
-    at_vertices = np.asarray(of.vertex_frames(mesh, of_tets))
-    again = of.axis_scales(mesh, at_vertices)
+    at_vertices = np.asarray(of.volume.vertex_frames(mesh, of_tets))
+    again = of.volume.axis_scales(mesh, at_vertices)
     np.testing.assert_array_equal(kept.frames, of_tets)
     np.testing.assert_allclose(kept.lengths, np.exp(sizes.log_scales_of(again, of_tets)), rtol=1e-12)
     assert kept.notes == ["before", "the lengths of the axes in the file were replaced by sizes"]
