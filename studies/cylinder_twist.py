@@ -14,7 +14,7 @@ import numpy as np
 import octafield
 import pyvista
 from octafield.fields.frame_field import prepare, prepare_mesh, run
-from octafield.view import pictures
+from octafield.runs.field_pictures import singular_curves
 
 
 def generated_cylinder() -> octafield.TriangleMesh:
@@ -96,7 +96,7 @@ def main() -> None:
             )
             if arguments.output:
                 arguments.output.mkdir(parents=True, exist_ok=True)
-                (arguments.output / f"{boundary}-{fraction}.png").write_bytes(pictures.singular_curves(result).png)
+                (arguments.output / f"{boundary}-{fraction}.png").write_bytes(singular_curves(result).png)
 
 
 if __name__ == "__main__":
