@@ -20,7 +20,8 @@ from octafield.fields.frame_field import MeshOptions, prepare_mesh
 from octafield.options import METHODS
 from study_output import markdown_table, write_csv
 
-HEADER = ["file", "triangles", "features", "feature edges", "N", "method", "points", "index sum", "chi", "agree", "converged",
+HEADER = ["file", "triangles", "features", "feature edges", "N", "method", "points", "index sum", "chi", "agree",
+          "converged",
           "CPU s"]  # fmt: skip
 
 
