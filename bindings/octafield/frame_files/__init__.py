@@ -86,7 +86,7 @@ def read_frames(
 
 def write_frames(
     path: str | Path,
-    mesh: "TetMesh | AnalysedField | None",
+    mesh: "TetMesh | TetDomain | AnalysedField | None",
     frames: ArrayLike,
     where: str = "vertices",
     format: str | None = None,
