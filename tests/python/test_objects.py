@@ -45,7 +45,7 @@ def objects(field, tmp_path_factory):
     combed = of.volume.comb(tets, of.volume.tet_frames(tets, frames))
     of.write_frames(folder / "field.npz", tets, frames)
     everything = [
-        field, in_tets, meshed, of.prepare(meshed), of.compute_surface_field(generate("torus"), of.SurfaceFieldOptions(curvature=1)),
+        field, in_tets, meshed, of.prepare_field(meshed), of.compute_surface_field(generate("torus"), of.SurfaceFieldOptions(curvature=1)),
         of.compare(generate("box"), folder / "compared", representations=["sh4"], boundaries=["aligned"], options=of.FieldOptions(edge_length=0.5)),
         boundary, of.volume.region_surface(tets, two), of.volume.cut_into_sheets(of.volume.region_surface(tets, two).surface.mesh),
         of.volume.split_locking(tets, boundary), of.surface.find_defects(open_box), of.surface.repair(open_box), of.surface.advise_repair(open_box), of.surface.remesh(generate("box"), of.surface.detect_features(generate("box"))), of.surface.size_field(generate("box"), of.surface.detect_features(generate("box"))),
