@@ -10,14 +10,14 @@ from ..files.reading import head_of, numbers_of, read_text, rows_of, table_of, w
 from .base import Field, FrameFile, from_axes, from_quaternions
 
 
-def columns(rows: np.ndarray) -> np.ndarray:
+def columns_of(rows: np.ndarray) -> np.ndarray:
     """(n, 3, 3) axes in columns of (n, 9) rows with one axis after the other."""
     return np.swapaxes(rows.reshape(-1, 3, 3), 1, 2)
 
 
 def read_arff(path: Path) -> FrameFile:
     rows, lines = table_of(read_text(path), str(path), 9)
-    return from_axes(path, "arff", "vertices", columns(rows), lines)
+    return from_axes(path, "arff", "vertices", columns_of(rows), lines)
 
 
 def write_arff(path: Path, field: Field) -> None:
@@ -35,7 +35,7 @@ def read_mouette(path: Path) -> FrameFile:
         body = ending[:-3]
     rows, lines = table_of(body, str(path), 9, first_line=first)
     require_count(len(rows), count, path, first + body.rstrip().count("\n"), "frames")
-    result = from_axes(path, "mouette", "tets", columns(rows), lines)
+    result = from_axes(path, "mouette", "tets", columns_of(rows), lines)
     if not closed:
         result.notes.append("the file does not end with END: its last number may be cut")
     return result
@@ -50,7 +50,7 @@ def read_geogram(path: Path) -> FrameFile:
     rows, lines = table_of(read_text(path), str(path), 3)
     if len(rows) % 3:
         raise IoError(f"{path}, line {lines[-1]}: ends after {len(rows)} axes; a frame has 3")
-    return from_axes(path, "geogram", "tets", columns(rows.reshape(-1, 9)), lines[::3])
+    return from_axes(path, "geogram", "tets", columns_of(rows.reshape(-1, 9)), lines[::3])
 
 
 def write_geogram(path: Path, field: Field) -> None:
@@ -62,7 +62,7 @@ def read_geogram_centres(path: Path) -> FrameFile:
     bad = np.flatnonzero(~np.isfinite(rows[:, :3]).all(axis=1))
     if len(bad):
         raise IoError(f"{path}, line {lines[bad[0]]}: the centre is not finite")
-    result = from_axes(path, "geogram-centres", "tets", columns(rows[:, 3:]), lines)
+    result = from_axes(path, "geogram-centres", "tets", columns_of(rows[:, 3:]), lines)
     result.centres = rows[:, :3]
     return result
 
@@ -97,7 +97,7 @@ def read_ff3(path: Path) -> FrameFile:
     count = count_in(words[1], f"{path}, line 1", "frames")
     rows, lines = table_of(body, str(path), 9, first_line=first)
     require_count(len(rows), count, path, first + body.rstrip().count("\n"), "frames")
-    return from_axes(path, "ff3", "tets", columns(rows), lines)
+    return from_axes(path, "ff3", "tets", columns_of(rows), lines)
 
 
 def write_ff3(path: Path, field: Field) -> None:
