@@ -15,7 +15,7 @@ import octafield
 import pyvista
 from octafield.domain.meshing import prepare_mesh
 from octafield.fields.frame_field import prepare_field, run_field
-from octafield.view import pictures
+from octafield.runs.field_pictures import singular_curves
 
 
 def generated_cylinder() -> octafield.TriangleMesh:
@@ -97,7 +97,7 @@ def main() -> None:
             )
             if arguments.output:
                 arguments.output.mkdir(parents=True, exist_ok=True)
-                (arguments.output / f"{boundary}-{fraction}.png").write_bytes(pictures.singular_curves(result).png)
+                (arguments.output / f"{boundary}-{fraction}.png").write_bytes(singular_curves(result).png)
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ from . import pickling as _pickling  # noqa: F401
 from ._core import (
     FeatureGraph,
     SingularGraph,
+    TetDomain,
     TetMesh,
     TriangleMesh,
     __version__,
@@ -41,7 +42,7 @@ from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .runs.compare import Comparison, compare
 from .runs.conversion import Conversion, convert_file
 from .runs.interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
-from .view import arrays as _arrays  # noqa: F401  # noqa: F401
+from .view import arrays as _arrays  # noqa: F401
 
 __all__ = [
     "AnalysedField",
@@ -65,6 +66,7 @@ __all__ = [
     "SolverError",
     "SurfaceFieldOptions",
     "SurfaceFieldResult",
+    "TetDomain",
     "TetMesh",
     "TriangleMesh",
     "__version__",

@@ -47,6 +47,14 @@ void require_rows(std::int64_t rows, std::int64_t expected, std::string_view nam
                        "wrong_shape");
 }
 
+void require_known(const std::vector<volume::VertexConstraint>& kinds, std::string_view name) {
+    require_none(
+        static_cast<std::int64_t>(kinds.size()), [&](auto i) { return !volume::is_known(kinds[i]); }, name,
+        "a value above " + std::to_string(volume::ConstraintKinds::info.size() - 1) + " (" + volume::listed_kinds() +
+            ")",
+        "unknown_word");
+}
+
 std::pair<Index, Index> ordered(Index a, Index b) { return std::minmax(a, b); }
 
 std::vector<std::pair<Index, Index>> sorted_edges(const surface::TriangleMesh& mesh) {
@@ -196,24 +204,20 @@ void check(volume::BoundaryConstraints& constraints, Index vertex_count) {
     require_rows(static_cast<std::int64_t>(kind.size()), vertex_count, "constraints.kind", "vertex");
     require_rows(static_cast<std::int64_t>(constraints.on_boundary.size()), vertex_count, "constraints.on_boundary",
                  "vertex");
-    require_none(
-        vertex_count, [&](auto i) { return kind[i] > volume::VertexConstraint::fixed; }, "constraints.kind",
-        "a value above 2 (0 free, 1 axis, 2 fixed)", "unknown_word");
+    require_known(kind, "constraints.kind");
     check_vectors(constraints.axis, vertex_count, "constraints.axis");
     const auto no_axis = [&](auto i) {
-        return kind[i] == volume::VertexConstraint::axis && std::abs(constraints.axis.row(i).norm() - 1) > 1e-6;
+        return volume::info(kind[i]).takes_axis && std::abs(constraints.axis.row(i).norm() - 1) > 1e-6;
     };
-    require_none(vertex_count, no_axis, "constraints.axis", "not of unit length where kind is 1", "not_unit");
+    require_none(vertex_count, no_axis, "constraints.axis", "not of unit length where the kind takes an axis",
+                 "not_unit");
     check_unit(constraints.frames, vertex_count, "constraints.frames");
     require_ids(constraints.released_corners, vertex_count, "constraints.released_corners");
     if (constraints.lengths.rows() > 0) check_vectors(constraints.lengths, vertex_count, "constraints.lengths");
 }
 
 void check(const volume::VertexConstraints& constraints) {
-    const auto& kinds = constraints.kinds;
-    require_none(
-        static_cast<std::int64_t>(kinds.size()), [&](auto i) { return kinds[i] > volume::VertexConstraint::fixed; },
-        "constraints.kinds", "a value above 2 (0 free, 1 axis, 2 fixed)", "unknown_word");
+    require_known(constraints.kinds, "constraints.kinds");
 }
 
 void check(const volume::SingularGraph& graph) {

@@ -87,18 +87,20 @@ constexpr Example of_meshes[] = {
     >>> boundary = octafield.volume.boundary_surface(tets)
     >>> bool((tets.vertices[boundary.vertex_map] == boundary.mesh.vertices).all())
     True)"},
-    {"region_surface", R"(
+    {"features_on_sheets", R"(
     >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], [[0, 1, 2, 3], [1, 4, 2, 3]])
-    >>> octafield.volume.region_surface(tets, [1, 2])
-    RegionSurface(7 triangles, 1 between regions))"},
+    >>> domain = octafield.TetDomain(tets, regions=[1, 2])
+    >>> features = octafield.surface.feature_graph(domain.surface.mesh, domain.sheets.cuts)  # the rim of the interface
+    >>> octafield.volume.features_on_sheets(features, domain.sheets)
+    FeatureGraph(9 edges, 9 corners))"},
     {"find_locking", R"(
     >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
-    >>> octafield.volume.find_locking(tets, octafield.volume.boundary_surface(tets))  # a tet with all four vertices on the surface
+    >>> octafield.volume.find_locking(tets)  # a tet with all four vertices on the surface
     LockingElements(1 tet, 0 edges, 0 triangles))"},
     {"split_locking", R"(
     >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
-    >>> split = octafield.volume.split_locking(tets, octafield.volume.boundary_surface(tets))
-    >>> octafield.volume.find_locking(split.mesh, octafield.volume.boundary_surface(split.mesh))
+    >>> split = octafield.volume.split_locking(tets)
+    >>> octafield.volume.find_locking(split.mesh)
     LockingElements(0 tets, 0 edges, 0 triangles))"},
     {"signed_volume", R"(
     >>> round(octafield.surface.signed_volume(generate("box")), 12)
@@ -210,17 +212,17 @@ constexpr Example of_frames[] = {
 
 constexpr Example of_volume_fields[] = {
     {"boundary_constraints", R"(
-    >>> tets = octafield.volume.tetrahedralize(generate("box"))
-    >>> boundary = octafield.volume.boundary_surface(tets)
-    >>> features = octafield.surface.detect_features(boundary.mesh)
-    >>> field = octafield.surface.direction_field(boundary.mesh, features)
-    >>> directions = octafield.surface.vertex_directions(boundary.mesh, features, field)
-    >>> held = octafield.volume.boundary_constraints(len(tets.vertices), boundary, features, directions)
-    >>> bool((held.kind[boundary.vertex_map] > 0).all())
+    >>> domain = octafield.TetDomain(octafield.volume.tetrahedralize(generate("box")))
+    >>> surface = domain.surface.mesh
+    >>> domain = domain.with_features(octafield.surface.detect_features(surface))
+    >>> field = octafield.surface.direction_field(surface, domain.features)
+    >>> directions = octafield.surface.vertex_directions(surface, domain.features, field)
+    >>> held = octafield.volume.boundary_constraints(domain, directions)
+    >>> bool((held.kind[domain.surface.vertex_map] > 0).all())
     True)"},
     {"with_constraints", R"(
     >>> free = octafield.volume.BoundaryConstraints([0, 0], np.zeros((2, 3)), [[1, 0, 0, 0]] * 2, [0, 0])
-    >>> octafield.volume.with_constraints(free, octafield.volume.VertexConstraints([1], [1], [[0, 0, 1]]))
+    >>> octafield.volume.with_constraints(free, octafield.volume.VertexConstraints([1], ["axis"], [[0, 0, 1]]))
     BoundaryConstraints(1 free, 1 axis, 0 fixed))"},
     {"initial_frames", R"(
     >>> problem = octafield.prepare_field(octafield.prepare_mesh(generate("box")))

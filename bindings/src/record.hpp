@@ -150,14 +150,4 @@ std::string box(const Rows& points) {
     return text;
 }
 
-// "1 free, 2 axis, 1 fixed": how many of the kinds of constraints are there.
-template <class Kinds>
-std::string count_kinds(const Kinds& kinds) {
-    std::ptrdiff_t counts[3] = {};
-    for (const auto kind : kinds)
-        if (static_cast<unsigned>(kind) < 3) ++counts[static_cast<unsigned>(kind)];
-    return std::to_string(counts[0]) + " free, " + std::to_string(counts[1]) + " axis, " + std::to_string(counts[2]) +
-           " fixed";
-}
-
 }  // namespace octafield::bindings

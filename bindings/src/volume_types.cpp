@@ -1,5 +1,6 @@
 // Structs of volume/ as Python classes.
 #include "bind.hpp"
+#include "constraint_kinds.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/frame_field.hpp"
 #include "octafield/volume/singularities.hpp"
@@ -36,8 +37,8 @@ void bind_boundary(py::module_& m) {
     Record<BoundaryConstraints>(m, "BoundaryConstraints",
                                 "What holds the frame at each vertex of a tet mesh, or in each tet.")
         .field("kind", &BoundaryConstraints::kind,
-               "(n,) uint8: 0 free, 1 one axis fixed (the twist is free), 2 frame fixed.")
-        .field("axis", &BoundaryConstraints::axis, "(n, 3) float64 unit axis where kind is 1, else 0.")
+               ("(n,) uint8: " + described_kinds() + "; can be given by name.").c_str())
+        .field("axis", &BoundaryConstraints::axis, "(n, 3) float64 unit axis where the kind takes one, else 0.")
         .field("frames", &BoundaryConstraints::frames,
                "(n, 4) float64 quaternions w x y z: the start on boundary vertices, the value where fixed, identity "
                "inside.")
@@ -45,8 +46,8 @@ void bind_boundary(py::module_& m) {
         .field("released_corners", &BoundaryConstraints::released_corners,
                "int32 ids of corners, or of tets, whose directions fit no frame.")
         .field("lengths", &BoundaryConstraints::lengths,
-               "(n, 3) float64 axis lengths held by odeco_lengths, or no rows (all 1): along the axes of frames where "
-               "kind is 2; along axis, column 0, where it is 1.")
+               "(n, 3) float64 axis lengths held by odeco_lengths, or no rows (all 1): along the axes of frames "
+               "where they are fixed; along axis, column 0, where one is given.")
         .finish([](const BoundaryConstraints& c) {
             return count_kinds(c.kind) +
                    (c.released_corners.empty()

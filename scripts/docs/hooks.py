@@ -19,8 +19,10 @@ LINK = re.compile(r"(\]\()(\.\.?/[^)#\s]+)((?:#[^)\s]*)?\))")
 
 
 def headers(module: str) -> list[Path]:
-    """Public headers, relative to the repository."""
-    return sorted(path.relative_to(ROOT) for path in (ROOT / module / "include").rglob("*.hpp"))
+    """Public headers of a module and of its sub-modules, relative to the repository, sorted by name."""
+    folders = [ROOT / module / "include", *(ROOT / module).glob("*/include")]
+    found = (path.relative_to(ROOT) for folder in folders for path in folder.rglob("*.hpp"))
+    return sorted(found, key=lambda path: path.name)
 
 
 def header_page(header: Path) -> str:
@@ -60,7 +62,9 @@ def site_links(markdown: str, repository_path: str, page: str) -> str:
 
 def header_table(module: str, page: str) -> str:
     start = posixpath.dirname(page) or "."
-    rows = [f"| [`{h.name}`]({posixpath.relpath(header_page(h), start)}) | {first_sentence(h)} |" for h in headers(module)]
+    rows = [
+        f"| [`{h.name}`]({posixpath.relpath(header_page(h), start)}) | {first_sentence(h)} |" for h in headers(module)
+    ]
     return "\n".join(["| header | what it holds |", "|---|---|", *rows])
 
 
@@ -74,9 +78,11 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         add(page, f"{text}\n## Headers\n\n{header_table(module, page)}\n" if module in MODULES else text)
     for module in MODULES:
         for header in headers(module):
-            include = header.relative_to(Path(module) / "include")
+            include = Path(*header.parts[header.parts.index("include") + 1 :])
             code = (ROOT / header).read_text(encoding="utf-8")
-            text = f"# {header.name}\n\n`#include \"{include}\"`, module [{module}](../{module}.md).\n\n```cpp\n{code}```\n"
+            text = (
+                f'# {header.name}\n\n`#include "{include}"`, module [{module}](../{module}.md).\n\n```cpp\n{code}```\n'
+            )
             add(header_page(header), text)
     return files
 

@@ -108,5 +108,5 @@ def box_problem(box, box_surface, box_features):
     boundary = octafield.volume.boundary_surface(box)
     field = octafield.surface.direction_field(box_surface, box_features)
     directions = octafield.surface.vertex_directions(box_surface, box_features, field)
-    constraints = octafield.volume.boundary_constraints(len(box.vertices), boundary, box_features, directions)
+    constraints = octafield.volume.boundary_constraints(octafield.TetDomain(box, features=box_features), directions)
     return boundary, directions, constraints, octafield.volume.initial_frames(box, constraints)

@@ -177,7 +177,6 @@ ON_MESH = [
     lambda m: of.surface.feature_graph(m, []),
     lambda m: of.surface.remesh(m, NONE),
     lambda m: of.surface.direction_field(m, NONE),
-    lambda m: of.volume.sector_normals(m, NONE),
     lambda m: of.surface.vertex_directions(m, NONE, of.surface.DirectionField()),
     lambda m: of.surface.triangle_directions(m, of.surface.DirectionField()),
     lambda m: of.surface.surface_singularities(m, of.surface.DirectionField()),
@@ -220,7 +219,7 @@ def test_an_empty_mesh_is_refused_where_nothing_can_be_said(call):
         call(of.TriangleMesh())
 
 
-def test_features_that_are_not_of_the_mesh_are_refused(box_surface, box_field):
+def test_features_that_are_not_of_the_mesh_are_refused(box, box_surface, box_field):
     far = [int(np.argmin(box_surface.vertices.sum(axis=1))), int(np.argmax(box_surface.vertices.sum(axis=1)))]
     for bad, kind in (
         (of.FeatureGraph([far], []), "not_an_edge"),
@@ -232,7 +231,7 @@ def test_features_that_are_not_of_the_mesh_are_refused(box_surface, box_field):
             lambda f: of.surface.direction_field(box_surface, f),
             lambda f: of.surface.remesh(box_surface, f),
             lambda f: of.surface.vertex_directions(box_surface, f, box_field),
-            lambda f: of.volume.sector_normals(box_surface, f),
+            lambda f: of.TetDomain(box, features=f),
         ):
             with pytest.raises(of.InvalidInput, match="features") as caught:
                 call(bad)

@@ -61,8 +61,8 @@ def test_tetrahedralize_keeps_the_surface(box_surface):
     )
 
 
-def test_sector_normals_of_the_cube_are_its_axes(box_surface, box_features):
-    sectors = of.volume.sector_normals(box_surface, box_features)
+def test_sector_normals_of_the_cube_are_its_axes(box, box_surface, box_features):
+    sectors = of.volume.sector_normals(of.TetDomain(box, features=box_features))
     assert sectors.vertex.dtype == np.int32 and (np.diff(sectors.vertex) >= 0).all()
     np.testing.assert_allclose(
         np.sort(np.abs(sectors.normal), axis=1), np.tile([0, 0, 1], (len(sectors.vertex), 1)), atol=1e-14
@@ -74,7 +74,7 @@ def test_sector_normals_of_the_cube_are_its_axes(box_surface, box_features):
 @pytest.mark.parametrize("mode, face_kind", [("aligned", 1), ("fixed", 2), ("none", 0)])
 def test_constraints_follow_the_mode(box, box_features, box_problem, mode, face_kind):
     boundary, directions, _, _ = box_problem
-    constraints = of.volume.boundary_constraints(len(box.vertices), boundary, box_features, directions, mode=mode)
+    constraints = of.volume.boundary_constraints(of.TetDomain(box, features=box_features), directions, mode=mode)
     on_surface = np.zeros(len(box.vertices), dtype=np.uint8)
     on_surface[boundary.vertex_map] = 1
     np.testing.assert_array_equal(constraints.on_boundary, on_surface)
@@ -91,7 +91,7 @@ def test_smoothing_the_cube_finds_the_constant_field(box, box_features, box_prob
     assert result.energy == pytest.approx(of.volume.dirichlet_energy(box, result.frames), rel=1e-12, abs=1e-20)
     assert result.energy <= result.energy_history[0] * (1 + 1e-12) and result.message
     assert of.frames.distance(result.frames, [1, 0, 0, 0]).max() < 1e-3
-    assert np.degrees(of.volume.alignment_angles(boundary, box_features, result.frames)).max() < 0.1
+    assert np.degrees(of.volume.alignment_angles(of.TetDomain(box, features=box_features), result.frames)).max() < 0.1
     assert all(isinstance(p, str) and isinstance(f, float) and isinstance(m, float) for p, f, m in reports)
 
 
@@ -235,15 +235,10 @@ def test_frames_that_do_not_fit_the_mesh_are_refused(box, frames):
         of.volume.singular_graph,
         lambda m, f: of.volume.smooth(m, constraints, f),
         lambda m, f: of.volume.write_field("never.vtu", m, f),
+        of.volume.alignment_angles,
     ):
         with pytest.raises(of.InvalidInput, match="frames|start"):
             call(box, frames)
-    with pytest.raises(of.InvalidInput, match="frames"):
-        of.volume.alignment_angles(
-            of.volume.BoundarySurface(of.TriangleMesh(np.eye(3), []), [0, 1, 99]),
-            of.FeatureGraph(),
-            [[2.0, 0, 0, 0]] * 100,
-        )
 
 
 @pytest.mark.parametrize(
@@ -278,28 +273,16 @@ def test_an_axis_that_is_not_unit_is_refused(box):
         of.volume.initial_frames(box, constraints)
 
 
-def test_boundaries_that_do_not_fit_are_refused(box, box_features, box_problem):
+def test_directions_that_do_not_fit_the_surface_are_refused(box, box_features, box_problem):
     boundary, directions, _, _ = box_problem
-    n, mesh, ids = len(box.vertices), boundary.mesh, boundary.vertex_map
-    for wrong in (
-        of.volume.BoundarySurface(mesh, ids[:-1]),
-        of.volume.BoundarySurface(mesh, ids[::-1]),
-        of.volume.BoundarySurface(mesh, ids + n),
-        of.volume.BoundarySurface(WILD_SURFACE, [0, 1, 2]),
-    ):
-        with pytest.raises(of.InvalidInput, match="vertex_map|triangles"):
-            of.volume.boundary_constraints(n, wrong, box_features, directions)
-        with pytest.raises(of.InvalidInput, match="vertex_map|triangles"):
-            of.volume.alignment_angles(wrong, box_features, np.tile(FRAMES[0], (n, 1)))
+    domain = of.TetDomain(box, features=box_features)
     for wrong in (directions[:-1], directions[:, :2], directions * np.nan):
         with pytest.raises(of.InvalidInput, match="directions"):
-            of.volume.boundary_constraints(n, boundary, box_features, wrong)
+            of.volume.boundary_constraints(domain, wrong)
         with pytest.raises(of.InvalidInput, match="directions"):
-            of.volume.write_surface_field("never.vtp", mesh, wrong)
+            of.volume.write_surface_field("never.vtp", boundary.mesh, wrong)
     with pytest.raises(of.InvalidInput, match="aligned, fixed, none"):
-        of.volume.boundary_constraints(n, boundary, box_features, directions, mode="loose")
-    with pytest.raises(of.InvalidInput, match="vertex_count"):
-        of.volume.boundary_constraints(-1, boundary, box_features, directions)
+        of.volume.boundary_constraints(domain, directions, mode="loose")
 
 
 WILD_SURFACE = of.TriangleMesh(np.eye(3), [[0, 1, 10**9]])

@@ -196,8 +196,8 @@ worker.main()
 """
 READER = """import sys
 from pathlib import Path
-from octafield import inputs
-from octafield.meshes import cad
+from octafield.domain import inputs
+from octafield.meshes.gmsh import cad
 cad._WORKER = Path("sleeper.py")
 inputs.read_input(sys.argv[1])
 """

@@ -84,7 +84,7 @@ def test_examples_in_docstrings_run(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     found = doctest.testmod(importlib.import_module(name))
     assert found.failed == 0
-    if name in ("octafield", "octafield.study", "octafield.view.interop"):
+    if name in ("octafield", "octafield.study", "octafield.runs.interop"):
         assert found.attempted > 2
 
 

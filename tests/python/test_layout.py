@@ -97,9 +97,8 @@ def test_few_names_at_the_door():
     assert len(octafield.__all__) <= MOST_NAMES
     within = {name for space in (octafield.frames, octafield.surface, octafield.volume) for name in space.__all__}
     again = set(octafield.__all__) & within
-    assert again == {
-        "FeatureGraph", "SingularGraph", "TetMesh", "TriangleMesh", "read_surface", "require_valid", "write_surface"
-    }  # fmt: skip
+    types = {"FeatureGraph", "SingularGraph", "TetDomain", "TetMesh", "TriangleMesh"}
+    assert again == types | {"read_surface", "require_valid", "write_surface"}
     public = {name for name in vars(octafield._core) if not name.startswith("_")}
     assert public == within
 

@@ -47,19 +47,19 @@ def objects(field, tmp_path_factory):
     everything = [
         field, in_tets, meshed, of.prepare_field(meshed), of.compute_surface_field(generate("torus"), of.SurfaceFieldOptions(curvature=1)),
         of.compare(generate("box"), folder / "compared", representations=["sh4"], boundaries=["aligned"], options=of.FieldOptions(edge_length=0.5)),
-        boundary, of.volume.region_surface(tets, two), of.volume.cut_into_sheets(of.volume.region_surface(tets, two).surface.mesh),
-        of.volume.split_locking(tets, boundary), of.surface.find_defects(open_box), of.surface.repair(open_box), of.surface.advise_repair(open_box), of.surface.remesh(generate("box"), of.surface.detect_features(generate("box"))), of.surface.size_field(generate("box"), of.surface.detect_features(generate("box"))),
-        of.surface.edge_topology(surface), of.volume.feature_tangents(surface, field.features), of.volume.sector_normals(surface, field.features),
+        boundary, tets.mesh, of.TetDomain(tets.mesh, regions=two), of.TetDomain(tets.mesh, regions=two).sheets,
+        of.volume.split_locking(tets), of.surface.find_defects(open_box), of.surface.repair(open_box), of.surface.advise_repair(open_box), of.surface.remesh(generate("box"), of.surface.detect_features(generate("box"))), of.surface.size_field(generate("box"), of.surface.detect_features(generate("box"))),
+        of.surface.edge_topology(surface), of.volume.feature_tangents(tets), of.volume.sector_normals(tets),
         of.surface.principal_directions(surface, field.features), of.volume.locate_points(tets, [[0, 0, 0.5], [9, 9, 9]]), of.sample_frames(field, [[0, 0, 0.5]]), of.volume.comb_vertices(tets, field.frames), of.volume.smoothed_curves(field.singular_graph),
         of.volume.frame_field(tets, field.constraints, max_steps=2, max_iterations=2), of.volume.vertex_sampling(tets), of.volume.tet_sampling(tets),
         of.volume.Sampling(of.volume.tet_sampling(tets).stiffness, of.volume.tet_sampling(tets).mass, 1, 1, 2, "tets"),
-        of.volume.singular_edges(tets, in_tets.tet_frames), of.volume.split_between_singular(tets, boundary, in_tets.tet_frames), of.volume.singular_graph(tets, of.frames.random_rotations(len(frames))),
+        of.volume.singular_edges(tets, in_tets.tet_frames), of.volume.split_between_singular(tets, in_tets.tet_frames), of.volume.singular_graph(tets, of.frames.random_rotations(len(frames))),
         of.volume.local_meshability(tets, of.frames.random_rotations(len(frames)), of.volume.singular_graph(tets, of.frames.random_rotations(len(frames)))),
-        of.volume.boundary_meshability(tets, boundary, field.features, of.frames.random_rotations(len(frames))),
-        of.volume.boundary_meshability(box.tets, box.boundary, box.features, of.frames.random_rotations(len(box.tets.vertices))),
+        of.volume.boundary_meshability(tets, of.frames.random_rotations(len(frames))),
+        of.volume.boundary_meshability(box.tets, of.frames.random_rotations(len(box.tets.vertices))),
         of.surface.DirectionConstraints([[0, 1]], [[1, 0, 0]], [2.0]), of.surface.DirectionGuide([[1, 0, 0]], [1], 3), of.volume.VertexConstraints([3], [1], [[0, 0, 1]]),
         of.MeshOptions(repair=True), of.FieldOptions(seed=3), of.SurfaceFieldOptions(symmetry=6), list(of.frames.representations.values()), list(of.frames.metrics.values()),
-        combed, of.volume.alignment_tables(tets, boundary, field.features, combed), of.volume.isotropic_scale(tets, frames), of.volume.axis_scales(tets, frames),
+        combed, of.volume.alignment_tables(tets, combed), of.volume.isotropic_scale(tets, frames), of.volume.axis_scales(tets, frames),
         of.parameterization_input(tets, frames),
         of.read_frames(folder / "field.npz"), of.analyse(tets, frames), of.convert_file(folder / "field.npz", folder / "field.frame"),
         list(of.frame_formats.values()), described, study.plan(described), study.run(described, folder / "study"),
@@ -142,9 +142,7 @@ def test_reprs_are_one_short_line_with_the_class(cls, objects):
 
 
 def test_reprs_tell_counts_and_ranges(field, objects):
-    assert repr(field.tets).startswith(
-        f"TetMesh({len(field.tets.vertices)} vertices, {len(field.tets.tets)} tets, box [-"
-    )
+    assert repr(field.tets).startswith(f"TetDomain({len(field.tets.vertices)} vertices, {len(field.tets.tets)} tets, ")
     assert repr(field).startswith("FieldResult(mesh in memory: ")
     (comparison,) = objects[of.Comparison]
     assert repr(comparison).startswith("Comparison(1 run: 1 input, 1 representation, 1 boundary; E ")

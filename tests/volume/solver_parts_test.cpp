@@ -125,7 +125,7 @@ protected:
         const ConstraintSpaces spaces(constraints, state.frames, laplacian);
         const FieldProjector projector(spaces, threads);
         SiteDescent(laplacian, spaces, projector, threads).sweep(state.field, state.frames);
-        projector.twist(state.field, state.frames);
+        projector.write_frames(state.field, state.frames);
         return state;
     }
     State constrained(const BoundaryConstraints& constraints, Quaternions frames) const {

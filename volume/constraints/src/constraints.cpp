@@ -8,24 +8,6 @@
 #include "require_frames.hpp"
 
 namespace octafield::volume {
-namespace {
-
-using frames::Quaternion;
-using frames::Vector3;
-using frames::Vector4;
-
-// The frame turned by the least rotation that puts its nearest axis on `axis`.
-Quaternion aligned_to(const Quaternion& q, const Vector3& axis) {
-    const Vector3 local = q.conjugate() * axis;
-    int nearest = 0;
-    local.cwiseAbs().maxCoeff(&nearest);
-    const Vector3 from =
-        q * Vector3(local[nearest] < 0 ? Vector3(-Vector3::Unit(nearest)) : Vector3(Vector3::Unit(nearest)));
-    return (frames::rotation_between(from, axis) * q).normalized();
-}
-
-}  // namespace
-
 void require_fitting(const Sampling& sampling, const BoundaryConstraints& constraints) {
     const std::size_t n = sampling.count();
     const std::string sites = sampling.sites == Sites::vertices ? "vertices" : "tets";
@@ -49,7 +31,13 @@ void require_fitting(const Sampling& sampling, const BoundaryConstraints& constr
         throw InvalidInput("lengths of constraints must be finite and above 0", "bad_length");
     std::vector<Index> bad;
     for (std::size_t v = 0; v < n; ++v)
-        if (constraints.kind[v] == VertexConstraint::axis && !(std::abs(constraints.axis.row(v).norm() - 1) < 1e-6))
+        if (!is_known(constraints.kind[v])) bad.push_back(static_cast<Index>(v));
+    if (!bad.empty())
+        throw InvalidInput("unknown kinds of constraints at " + sites + " " + first_few(bad) + "; there are " +
+                               listed_kinds(),
+                           "unknown_word", bad);
+    for (std::size_t v = 0; v < n; ++v)
+        if (info(constraints.kind[v]).takes_axis && !(std::abs(constraints.axis.row(v).norm() - 1) < 1e-6))
             bad.push_back(static_cast<Index>(v));
     if (!bad.empty())
         throw InvalidInput("the fixed axes at " + sites + " " + first_few(bad) + " are not unit vectors", "not_unit",
@@ -63,12 +51,12 @@ void require_fitting(const Sampling& sampling, const BoundaryConstraints& constr
 
 Quaternions constrained_start(const BoundaryConstraints& constraints, const Quaternions& start) {
     Quaternions result = start.rowwise().normalized();
-    for (std::size_t v = 0; v < constraints.kind.size(); ++v) {
-        if (constraints.kind[v] == VertexConstraint::fixed) result.row(v) = constraints.frames.row(v).normalized();
-        if (constraints.kind[v] == VertexConstraint::axis)
-            result.row(v) = frames::to_wxyz(aligned_to(frames::from_wxyz(Vector4(result.row(v).transpose())),
-                                                       constraints.axis.row(v).transpose()))
-                                .transpose();
+    for (Index v = 0; v < static_cast<Index>(constraints.kind.size()); ++v) {
+        if (constraints.kind[v] == VertexConstraint::free) continue;
+        const frames::Quaternion q = frames::from_wxyz(result.row(v));
+        ConstraintKinds::visit(constraints.kind[v], constraints.of(v), [&](const auto& kind) {
+            result.row(v) = frames::to_wxyz(kind.moved(q)).transpose();
+        });
     }
     return result;
 }

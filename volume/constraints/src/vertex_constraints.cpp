@@ -45,9 +45,12 @@ void require_sound(const BoundaryConstraints& base, const VertexConstraints& giv
         given, [&](std::size_t i) { return seen[given.vertices[i]]++ > 0; }, "more than one constraint is given",
         "repeated_value");
     require_none(
+        given, [&](std::size_t i) { return !is_known(given.kinds[i]); },
+        "unknown kinds of constraints (there are " + listed_kinds() + ")", "unknown_word");
+    require_none(
         given,
         [&](std::size_t i) {
-            if (given.kinds[i] != VertexConstraint::axis) return false;
+            if (!info(given.kinds[i]).takes_axis) return false;
             if (given.axes.rows() == 0) return true;
             const double length = given.axes.row(i).stableNorm();
             return !(length > 0 && std::isfinite(length));
@@ -56,7 +59,7 @@ void require_sound(const BoundaryConstraints& base, const VertexConstraints& giv
     require_none(
         given,
         [&](std::size_t i) {
-            if (given.kinds[i] != VertexConstraint::fixed) return false;
+            if (!info(given.kinds[i]).takes_frame) return false;
             return given.frames.rows() == 0 || !(std::abs(given.frames.row(i).squaredNorm() - 1) < 1e-6);
         },
         "a unit quaternion (w, x, y, z) is needed", "not_unit");
@@ -72,10 +75,8 @@ BoundaryConstraints with_constraints(const BoundaryConstraints& base, const Vert
         result.kind[v] = given.kinds[i];
         result.axis.row(v).setZero();
         if (result.lengths.rows() > 0) result.lengths.row(v).setOnes();
-        if (given.kinds[i] == VertexConstraint::axis)
-            result.axis.row(v) = given.axes.row(i).stableNormalized();
-        else if (given.kinds[i] == VertexConstraint::fixed)
-            result.frames.row(v) = given.frames.row(i).normalized();
+        if (info(given.kinds[i]).takes_axis) result.axis.row(v) = given.axes.row(i).stableNormalized();
+        if (info(given.kinds[i]).takes_frame) result.frames.row(v) = given.frames.row(i).normalized();
     }
     const Quaternions moved = constrained_start(result, result.frames);
     for (const Index v : given.vertices) result.frames.row(v) = moved.row(v);

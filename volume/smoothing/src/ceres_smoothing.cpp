@@ -9,8 +9,6 @@
 namespace octafield::volume {
 namespace {
 
-using frames::Vector3;
-
 // Vertices; beyond, the fill of a 3D factorization costs more than inexact steps.
 constexpr Index cholesky_limit = 10000;
 
@@ -75,22 +73,19 @@ ceres::Solver::Options solver_options(const SmoothOptions& options, Index vertex
 
 void set_manifolds(ceres::Problem& problem, Quaternions& quaternions, const BoundaryConstraints& constraints,
                    Manifolds& manifolds) {
-    for (std::size_t v = 0; v < constraints.kind.size(); ++v) {
-        double* parameters = quaternions.row(static_cast<Eigen::Index>(v)).data();
+    for (Index v = 0; v < static_cast<Index>(constraints.kind.size()); ++v) {
+        double* parameters = quaternions.row(v).data();
         if (!problem.HasParameterBlock(parameters)) continue;
-        switch (constraints.kind[v]) {
-            case VertexConstraint::fixed:
+        ConstraintKinds::visit(constraints.kind[v], constraints.of(v), [&]<class Kind>(const Kind& kind) {
+            if constexpr (Kind::unknowns == 0) {
                 problem.SetParameterBlockConstant(parameters);
-                break;
-            case VertexConstraint::axis:
-                manifolds.twists.push_back(
-                    std::make_unique<TwistManifold>(Vector3(constraints.axis.row(v).transpose())));
-                problem.SetManifold(parameters, manifolds.twists.back().get());
-                break;
-            case VertexConstraint::free:
+            } else if constexpr (Kind::unknowns == 3) {
                 problem.SetManifold(parameters, &manifolds.frame);
-                break;
-        }
+            } else {
+                manifolds.parts.push_back(std::make_unique<ConstraintManifold<Kind>>(kind));
+                problem.SetManifold(parameters, manifolds.parts.back().get());
+            }
+        });
     }
 }
 

@@ -11,10 +11,10 @@
 
 namespace octafield::volume {
 
-// Outlives the problem: one manifold per axis-constrained vertex; free vertices share one.
+// Outlives the problem: one manifold per site held in part; free ones share one.
 struct Manifolds {
     FrameManifold frame;
-    std::vector<std::unique_ptr<TwistManifold>> twists;
+    std::vector<std::unique_ptr<ceres::Manifold>> parts;
 };
 
 // The parameter block of a vertex is its row of `quaternions`; vertices in no residual are skipped.

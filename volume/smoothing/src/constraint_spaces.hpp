@@ -1,7 +1,7 @@
-// The affine spaces that boundary constraints leave to the sh4 vectors of a field (Ray, Sokolov, Levy 2016, section 3;
-// Palmer, Bommes, Solomon 2020, section 4.2).
+// The sh4 vectors that boundary constraints leave to a field (constraint_kinds.hpp), site by site.
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "block_laplacian.hpp"
@@ -11,52 +11,43 @@
 
 namespace octafield::volume {
 
-// Frames with one fixed axis have the sh4 vectors centre + radius (cos(4t) u + sin(4t) v): a circle in a plane.
-class TwistCircle {
-public:
-    TwistCircle(const frames::Quaternion& reference, const frames::Vector3& axis);
-
-    const frames::Sh4::Vector& centre() const { return centre_; }
-    frames::Sh4::Vector in_plane(const frames::Sh4::Vector& v) const { return plane_ * (plane_.transpose() * v); }
-    // The point of the circle nearest to a vector; `fallback`, a point of the circle, where all are.
-    frames::Sh4::Vector nearest(const frames::Sh4::Vector& v, const frames::Sh4::Vector& fallback) const;
-    frames::Quaternion frame(const frames::Sh4::Vector& point) const;  // of a point of the circle
-
-private:
-    frames::Quaternion reference_;
-    frames::Vector3 axis_;
-    frames::Sh4::Vector centre_;
-    Eigen::Matrix<double, frames::Sh4::dimension, 2> plane_;  // orthonormal columns u, v
-};
-
-// Of one field: nine unknowns at a free vertex, a plane at one with a fixed axis, a point at a fixed one. Vertices of
-// no tet count as fixed: no equation tells their frame.
+// Of one field: nine unknowns at a free site, the kind's linear space at one held in part, a point at a held one. Sites
+// of no tet count as held: no equation tells their frame.
 class ConstraintSpaces {
+    static constexpr Index free = -1, held = -2;
+
+    template <class Visit>
+    auto at(Index site, const Visit& visit) const {
+        return std::visit(visit, spaces_[place_[site]]);
+    }
+
 public:
     // frames: (n, 4), on the constraints.
     ConstraintSpaces(const BoundaryConstraints& constraints, const Quaternions& frames,
                      const BlockLaplacian& laplacian);
 
-    VertexConstraint kind(Index v) const { return kind_[v]; }
-    const TwistCircle& circle(Index v) const { return circles_[circle_of_[v]]; }
-    // The part of a field that the constraints give: centres of circles, fixed vectors, 0 at free vertices.
+    bool is_free(Index v) const { return place_[v] == free; }
+    bool is_held(Index v) const { return place_[v] == held; }
+    // The part of a field that the constraints give: centres of the linear spaces, held vectors, 0 at free sites.
     const Sh4Field& given() const { return given_; }
-    // The part of v that the unknowns of a vertex reach (orthogonal projection; linear).
-    frames::Sh4::Vector reached(Index vertex, const frames::Sh4::Vector& v) const {
-        switch (kind_[vertex]) {
-            case VertexConstraint::free:
-                return v;
-            case VertexConstraint::axis:
-                return circle(vertex).in_plane(v);
-            default:
-                return frames::Sh4::Vector::Zero();
-        }
+    // The part of v that the unknowns of a site reach (orthogonal projection; linear).
+    frames::Sh4::Vector reached(Index site, const frames::Sh4::Vector& v) const {
+        if (is_free(site)) return v;
+        if (is_held(site)) return frames::Sh4::Vector::Zero();
+        return at(site, [&](const auto& space) -> frames::Sh4::Vector { return space.reached(v); });
+    }
+    // Of sites held in part: the allowed vector nearest to v, `fallback`, an allowed one, where all are; and the frame
+    // of an allowed one.
+    frames::Sh4::Vector nearest(Index site, const frames::Sh4::Vector& v, const frames::Sh4::Vector& fallback) const {
+        return at(site, [&](const auto& space) { return space.nearest(v, fallback); });
+    }
+    frames::Quaternion frame(Index site, const frames::Sh4::Vector& point) const {
+        return at(site, [&](const auto& space) { return space.frame(point); });
     }
 
 private:
-    std::vector<VertexConstraint> kind_;
-    std::vector<Index> circle_of_;  // where kind is axis
-    std::vector<TwistCircle> circles_;
+    std::vector<Index> place_;  // in spaces_, or one of the above
+    std::vector<ConstraintKinds::Space> spaces_;
     Sh4Field given_;
 };
 

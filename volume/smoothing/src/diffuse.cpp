@@ -89,14 +89,9 @@ SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constr
         for (int k = 0; k < sweeps; ++k) descent.sweep(field, frames);
     }
     record(laplacian.multiply(field, before, options.threads) / 2, field);
-    projector.twist(best, result.frames);
+    projector.write_frames(best, result.frames);
     result.objective_history = result.energy_history;
     return result;
-}
-
-SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
-                     const DiffuseOptions& options, const Progress& progress) {
-    return diffuse(vertex_sampling(mesh), constraints, start, options, progress);
 }
 
 }  // namespace octafield::volume

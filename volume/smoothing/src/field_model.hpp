@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "block_laplacian.hpp"
+#include "constraint_turns.hpp"
 #include "octafield/frames/harmonics.hpp"
 #include "octafield/frames/representation.hpp"
 #include "octafield/frames/sh4.hpp"
-#include "octafield/volume/boundary.hpp"
 
 namespace octafield::volume {
 
-// Rotation vectors; 0 where fixed, along the axis where one is fixed.
+// Rotation vectors that the constraints allow.
 using Tangent = Eigen::Vector3f;
 using Tangents = Rows<float, 3>;
 
@@ -22,7 +22,7 @@ template <frames::Representation R>
 class FieldModel {
 public:
     FieldModel(const BlockLaplacian& laplacian, const BoundaryConstraints& constraints, int threads)
-        : laplacian_(laplacian), constraints_(constraints), threads_(threads) {
+        : laplacian_(laplacian), turns_(constraints), threads_(threads) {
         const Index n = laplacian.rows();
         values_.resize(n, R::dimension);
         turned_.resize(n, R::dimension);
@@ -41,10 +41,11 @@ public:
 
     // Gradient, Hessian and preconditioner at the field last evaluated.
     void linearise(const Quaternions& frames) {
+        turns_.move_to(frames, threads_);
         parallel_for(frames.rows(), threads_, [&](std::int64_t v) {
             const typename R::Vector image = images_.row(v).transpose();
             const auto [differential, curvature] = derivatives(frame(frames, v), values_.row(v).transpose(), image);
-            gradient_.row(v) = allowed<double>(v, differential.transpose() * image).transpose();
+            gradient_.row(v) = turns_.allowed<double>(v, differential.transpose() * image).transpose();
             inverses_[v] = inverse_of_block(v, differential, curvature).template cast<float>();
             differentials_[v] = differential.template cast<float>();
             curvatures_[v] = curvature.template cast<float>();
@@ -58,27 +59,14 @@ public:
     double hessian_times(const Tangents& w, Tangents& y) const {
         return laplacian_.for_rows_of_product(turned_, threads_, [&](Index v, const auto& product) {
             const Tangent own = w.row(v).transpose();
-            const Tangent image = allowed<float>(v, differentials_[v].transpose() * product + curvatures_[v] * own);
+            const Tangent image = turns_.allowed<float>(v, differentials_[v].transpose() * product + curvatures_[v] * own);
             y.row(v) = image.transpose();
             return image.dot(own);
         });
     }
     void turn(Index v, const Tangent& w) { turned_.row(v) = (differentials_[v] * w).transpose(); }
 
-    // The part of a rotation vector that the constraints of a vertex allow.
-    template <class Real>
-    Eigen::Matrix<Real, 3, 1> allowed(std::int64_t v, const Eigen::Matrix<Real, 3, 1>& w) const {
-        switch (constraints_.kind[v]) {
-            case VertexConstraint::free:
-                return w;
-            case VertexConstraint::axis: {
-                const Eigen::Matrix<Real, 3, 1> axis = constraints_.axis.row(v).transpose().cast<Real>();
-                return axis * axis.dot(w);
-            }
-            default:
-                return Eigen::Matrix<Real, 3, 1>::Zero();
-        }
-    }
+    const ConstraintTurns& turns() const { return turns_; }  // at the field last linearised
 
 private:
     static frames::Quaternion frame(const Quaternions& frames, std::int64_t v) {
@@ -107,23 +95,34 @@ private:
         constexpr double least = 1e-3;  // of the stiffness part
         const frames::Matrix3 stiff = laplacian_.diagonal()[v] * differential.transpose().lazyProduct(differential);
         const double floor = least * stiff.trace() / 3;
-        if (!(floor > 0) || constraints_.kind[v] == VertexConstraint::fixed) return frames::Matrix3::Zero();
+        const int unknowns = turns_.unknowns(v);
+        if (!(floor > 0) || unknowns == 0) return frames::Matrix3::Zero();
         const frames::Matrix3 block = stiff + curvature;
-        if (constraints_.kind[v] == VertexConstraint::axis) {
-            const frames::Vector3 axis = constraints_.axis.row(v).transpose();
+        if (unknowns == 1) {
+            const frames::Vector3 axis = turns_.basis(v).col(0);
             return axis * axis.transpose() / std::max(std::abs(axis.dot(block * axis)), floor);
+        }
+        if (unknowns == 2) {
+            const TangentBasis<2>& plane = turns_.basis(v);
+            return plane * positive_inverse<2>(plane.transpose() * block * plane, floor) * plane.transpose();
         }
         const frames::Matrix3 above = block - floor * frames::Matrix3::Identity();
         if (above(0, 0) > 0 && above.topLeftCorner<2, 2>().determinant() > 0 && above.determinant() > 0)
             return block.inverse();
-        Eigen::SelfAdjointEigenSolver<frames::Matrix3> solver;
+        return positive_inverse<3>(block, floor);
+    }
+
+    template <int Size>
+    static Eigen::Matrix<double, Size, Size> positive_inverse(const Eigen::Matrix<double, Size, Size>& block,
+                                                              double floor) {
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Size, Size>> solver;
         solver.computeDirect(block);
-        const frames::Vector3 values = solver.eigenvalues().cwiseAbs().cwiseMax(floor);
+        const Eigen::Matrix<double, Size, 1> values = solver.eigenvalues().cwiseAbs().cwiseMax(floor);
         return solver.eigenvectors() * values.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
     }
 
     const BlockLaplacian& laplacian_;
-    const BoundaryConstraints& constraints_;
+    ConstraintTurns turns_;
     int threads_;
     Rows<double, R::dimension> values_, images_;
     Rows<double, 3> gradient_;

@@ -11,7 +11,7 @@ using frames::Vector4;
 
 FieldProjector::FieldProjector(const ConstraintSpaces& spaces, int threads) : spaces_(spaces), threads_(threads) {
     for (Index v = 0; v < spaces.given().rows(); ++v)
-        if (spaces.kind(v) != VertexConstraint::fixed) moving_.push_back(v);
+        if (!spaces.is_held(v)) moving_.push_back(v);
 }
 
 template <class Row>
@@ -28,11 +28,11 @@ void FieldProjector::project_list(const std::vector<Index>& sites, const Row& ro
             for (std::size_t k = block * together; k < end; ++k) {
                 const Index v = sites[k];
                 const Sh4::Vector wanted = row(k);
-                if (spaces_.kind(v) == VertexConstraint::free) {
+                if (spaces_.is_free(v)) {
                     free.push_back(v);
                     values.insert(values.end(), wanted.data(), wanted.data() + Sh4::dimension);
                 } else {
-                    field.row(v) = spaces_.circle(v).nearest(wanted, before.row(v).transpose()).transpose();
+                    field.row(v) = spaces_.nearest(v, wanted, before.row(v).transpose()).transpose();
                 }
             }
             project_free(free, values, field, frames);
@@ -66,11 +66,11 @@ void FieldProjector::project_free(const std::vector<Index>& sites, const std::ve
     }
 }
 
-void FieldProjector::twist(const Sh4Field& field, Quaternions& frames) const {
+void FieldProjector::write_frames(const Sh4Field& field, Quaternions& frames) const {
     parallel_for(field.rows(), threads_, [&](std::int64_t row) {
         const Index v = static_cast<Index>(row);
-        if (spaces_.kind(v) == VertexConstraint::axis)
-            frames.row(v) = frames::to_wxyz(spaces_.circle(v).frame(field.row(v).transpose())).transpose();
+        if (!spaces_.is_free(v) && !spaces_.is_held(v))
+            frames.row(v) = frames::to_wxyz(spaces_.frame(v, field.row(v).transpose())).transpose();
     });
 }
 

@@ -12,15 +12,15 @@ public:
     FieldProjector(const ConstraintSpaces& spaces, int threads);
 
     // The field's rows become the allowed vectors nearest to them. `frames` of free sites: in, guesses for the
-    // projection; out, the frames of the projected field. Where a site turns about an axis only its vector moves, to
-    // the circle (twist() tells the frame); where all its points are equally near it stays as `before`.
+    // projection; out, the frames of the projected field. Where a site is held in part only its vector moves
+    // (write_frames() tells the frame); where all that it may be are equally near it stays as `before`.
     void project(Sh4Field& field, const Sh4Field& before, Quaternions& frames) const;
-    // The same at some sites, which are not fixed: towards row k of `wanted` at site k of the list.
+    // The same at some sites, none of them held: towards row k of `wanted` at site k of the list.
     void project_sites(const std::vector<Index>& sites, const Sh4Field& wanted, Sh4Field& field,
                        Quaternions& frames) const;
 
-    // Writes the frames of vertices that turn about an axis, from a projected field.
-    void twist(const Sh4Field& field, Quaternions& frames) const;
+    // Writes the frames of sites that are held in part, from a projected field.
+    void write_frames(const Sh4Field& field, Quaternions& frames) const;
 
 private:
     // row(k): what site k of the list is projected from.
@@ -32,7 +32,7 @@ private:
 
     const ConstraintSpaces& spaces_;
     int threads_;
-    std::vector<Index> moving_;  // sites that are not fixed
+    std::vector<Index> moving_;  // sites that are not held
 };
 
 }  // namespace octafield::volume

@@ -3,16 +3,8 @@
 namespace octafield::volume {
 namespace {
 
-using frames::Quaternion;
 using frames::Vector3;
 using Jacobian = Eigen::Matrix<double, 4, 3, Eigen::RowMajor>;
-
-Quaternion load(const double* x) { return {x[0], x[1], x[2], x[3]}; }
-
-void store(const Quaternion& q, double* x) {
-    Eigen::Map<Eigen::Vector4d> row(x);
-    row = frames::to_wxyz(q.normalized());
-}
 
 // d exp(w) q / dw at w = 0: columns 1/2 (0, e_k) q. They are orthogonal with norm 1/2.
 Jacobian left_jacobian(const double* x) {
@@ -26,12 +18,12 @@ Jacobian left_jacobian(const double* x) {
     return 0.5 * j;
 }
 
-Vector3 left_difference(const double* y, const double* x) { return frames::log(load(y) * load(x).conjugate()); }
+Vector3 left_difference(const double* y, const double* x) { return frames::log(load_quaternion(y) * load_quaternion(x).conjugate()); }
 
 }  // namespace
 
 bool FrameManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
-    store(frames::exp(Vector3(delta[0], delta[1], delta[2])) * load(x), x_plus_delta);
+    store_quaternion((frames::exp(Vector3(delta[0], delta[1], delta[2])) * load_quaternion(x)).normalized(), x_plus_delta);
     return true;
 }
 
@@ -47,26 +39,6 @@ bool FrameManifold::Minus(const double* y, const double* x, double* y_minus_x) c
 
 bool FrameManifold::MinusJacobian(const double* x, double* jacobian) const {
     Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(jacobian, 3, 4) = 4 * left_jacobian(x).transpose();
-    return true;
-}
-
-bool TwistManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
-    store(frames::exp(delta[0] * axis_) * load(x), x_plus_delta);
-    return true;
-}
-
-bool TwistManifold::PlusJacobian(const double* x, double* jacobian) const {
-    Eigen::Map<Eigen::Vector4d>(jacobian, 4) = left_jacobian(x) * axis_;
-    return true;
-}
-
-bool TwistManifold::Minus(const double* y, const double* x, double* y_minus_x) const {
-    y_minus_x[0] = axis_.dot(left_difference(y, x));
-    return true;
-}
-
-bool TwistManifold::MinusJacobian(const double* x, double* jacobian) const {
-    Eigen::Map<Eigen::RowVector4d>(jacobian, 4) = 4 * (left_jacobian(x) * axis_).transpose();
     return true;
 }
 

@@ -54,7 +54,7 @@ double HeatSolver::begin(const Sh4Field& field, double& energy) {
 double HeatSolver::multiply() {
     return laplacian_.for_rows_of_product(direction_, threads_, [&](Index v, const Vector& product) {
         image_.row(v) = pull_[v] * direction_.row(v);
-        if (spaces_.kind(v) == VertexConstraint::free)
+        if (spaces_.is_free(v))
             image_.row(v) += product.transpose();
         else
             image_.row(v) += spaces_.reached(v, product.cast<double>()).cast<float>().transpose();

@@ -42,12 +42,8 @@ Quaternions initial_frames(const Sampling& sampling, const BoundaryConstraints& 
                           "conjugate_gradients");
     const FieldProjector projector(spaces, threads);
     projector.project(field, embedded(frames, threads), frames);
-    projector.twist(field, frames);
+    projector.write_frames(field, frames);
     return frames;
-}
-
-Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints, Start start, int threads) {
-    return initial_frames(vertex_sampling(mesh), constraints, start, threads);
 }
 
 }  // namespace octafield::volume

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "ceres_smoothing.hpp"
 #include "dirichlet_costs.hpp"
@@ -12,43 +13,57 @@
 namespace octafield::volume {
 namespace {
 
-// The axis of a frame on the constraints that is held: its twist never leaves it.
-int held_axis(const BoundaryConstraints& constraints, const Quaternions& frames, Eigen::Index site) {
-    int axis = 0;
-    const frames::Vector3 held = constraints.axis.row(site).transpose();
-    (frames::from_wxyz(frames.row(site)).conjugate() * held).cwiseAbs().maxCoeff(&axis);
-    return axis;
+// For each axis of a frame on the constraints: the column of the constraints' lengths that holds its length, or -1.
+std::array<int, 3> length_columns(const BoundaryConstraints& constraints, const Quaternions& frames, Index site) {
+    std::array<int, 3> columns = {-1, -1, -1};
+    ConstraintKinds::visit(constraints.kind[site], constraints.of(site), [&](const auto& kind) {
+        columns = kind.length_columns(frames::from_wxyz(frames.row(site)));
+    });
+    return columns;
 }
 
 // Lengths of 1, but for those that the constraints give.
 Points start_lengths(const BoundaryConstraints& constraints, const Quaternions& start) {
     Points lengths = Points::Ones(start.rows(), 3);
     if (constraints.lengths.rows() == 0) return lengths;
-    for (Eigen::Index v = 0; v < lengths.rows(); ++v) {
-        if (constraints.kind[v] == VertexConstraint::fixed) lengths.row(v) = constraints.lengths.row(v);
-        if (constraints.kind[v] == VertexConstraint::axis)
-            lengths(v, held_axis(constraints, start, v)) = constraints.lengths(v, 0);
+    for (Index v = 0; v < static_cast<Index>(lengths.rows()); ++v) {
+        const std::array<int, 3> columns = length_columns(constraints, start, v);
+        for (int axis = 0; axis < 3; ++axis)
+            if (columns[axis] >= 0) lengths(v, axis) = constraints.lengths(v, columns[axis]);
     }
     return lengths;
 }
 
-// One per axis that may be held.
-using LengthManifolds = std::array<ceres::SubsetManifold, 3>;
+// By the axes that are held: bit k for axis k. None for no axis and for all three.
+using LengthManifolds = std::array<std::unique_ptr<ceres::SubsetManifold>, 8>;
 
 void hold_lengths(ceres::Problem& problem, OdecoField& field, const BoundaryConstraints& constraints,
                   LengthManifolds& manifolds) {
     for (Index v = 0; v < static_cast<Index>(constraints.kind.size()); ++v) {
         double* parameters = field.parameters(v, 1);
         if (!problem.HasParameterBlock(parameters)) continue;
-        if (constraints.kind[v] == VertexConstraint::fixed) problem.SetParameterBlockConstant(parameters);
-        if (constraints.kind[v] == VertexConstraint::axis)
-            problem.SetManifold(parameters, &manifolds[held_axis(constraints, field.quaternions(), v)]);
+        const std::array<int, 3> columns = length_columns(constraints, field.quaternions(), v);
+        std::vector<int> held;
+        unsigned which = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            if (columns[axis] >= 0) {
+                held.push_back(axis);
+                which |= 1u << axis;
+            }
+        if (held.empty()) continue;
+        if (held.size() == 3) {
+            problem.SetParameterBlockConstant(parameters);
+            continue;
+        }
+        auto& manifold = manifolds[which];
+        if (!manifold) manifold = std::make_unique<ceres::SubsetManifold>(3, held);
+        problem.SetManifold(parameters, manifold.get());
     }
 }
 
 void require_held(const BoundaryConstraints& constraints) {
-    const auto free = [](VertexConstraint kind) { return kind == VertexConstraint::free; };
-    if (std::all_of(constraints.kind.begin(), constraints.kind.end(), free))
+    const auto none = [](VertexConstraint kind) { return info(kind).held_lengths == 0; };
+    if (std::all_of(constraints.kind.begin(), constraints.kind.end(), none))
         throw InvalidInput(
             "odeco_lengths needs constraints: where no length is held, all of them would shrink to 0; hold the "
             "boundary (aligned or fixed) or choose another representation",
@@ -65,8 +80,7 @@ SmoothResult smooth_odeco_lengths(const Sampling& sampling, const BoundaryConstr
     if (options.solver == SmoothSolver::automatic) chosen.solver = SmoothSolver::lbfgs;
     OdecoField field(start, start_lengths(constraints, start).array().log(), options.threads);
     Manifolds manifolds;
-    LengthManifolds length_manifolds{ceres::SubsetManifold(3, {0}), ceres::SubsetManifold(3, {1}),
-                                     ceres::SubsetManifold(3, {2})};
+    LengthManifolds length_manifolds;
     ceres::Problem problem(problem_options(field));
     add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / sampling.size);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);

@@ -12,7 +12,7 @@ SiteDescent::SiteDescent(const BlockLaplacian& laplacian, const ConstraintSpaces
     std::vector<int> colour(matrix.rows(), none);
     std::vector<Index> taken_by;  // per colour: the last site next to one of that colour
     for (Index v = 0; v < matrix.rows(); ++v) {
-        if (spaces.kind(v) == VertexConstraint::fixed) continue;
+        if (spaces.is_held(v)) continue;
         for (SparseMatrix::InnerIterator entry(matrix, v); entry; ++entry)
             if (const int c = colour[entry.row()]; c != none) taken_by[c] = v;
         std::size_t first = 0;

@@ -142,15 +142,10 @@ template <frames::Representation R>
 Quaternions Solver<R>::turned(const Quaternions& frames) const {
     Quaternions result(frames.rows(), 4);
     parallel_for(frames.rows(), options_.threads, [&](std::int64_t v) {
-        // A step in single precision is beside its axis by its rounding.
-        const Vector3 w = model_.template allowed<double>(v, step_.row(v).transpose().template cast<double>());
-        // An unmoved frame keeps its bits.
-        if (w.isZero(0)) {
-            result.row(v) = frames.row(v);
-            return;
-        }
         const frames::Quaternion q = frames::from_wxyz(Vector4(frames.row(v).transpose()));
-        result.row(v) = frames::to_wxyz((frames::exp(w) * q).normalized()).transpose();
+        // A step in single precision is beside what is allowed by its rounding.
+        const Vector3 w = step_.row(v).transpose().template cast<double>();
+        result.row(v) = frames::to_wxyz(model_.turns().turned(v, q, w)).transpose();
     });
     return result;
 }

@@ -7,7 +7,8 @@
 
 #include "octafield/surface/features.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/constraint_kinds.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -18,8 +19,6 @@ enum class BoundaryMode {
     none,     // nothing constrained; the cross field is still the start
 };
 
-enum class VertexConstraint : std::uint8_t { free = 0, axis = 1, fixed = 2 };  // 3, 1 and 0 unknowns
-
 struct BoundaryOptions {
     BoundaryMode mode = BoundaryMode::aligned;
     // A feature vertex keeps its whole frame when one frame fits all its normals and tangents within this angle
@@ -29,13 +28,16 @@ struct BoundaryOptions {
 
 struct BoundaryConstraints {
     std::vector<VertexConstraint> kind;     // (n) per site: tet-mesh vertex, or tet (tet_boundary_constraints)
-    Points axis;                            // (n, 3) unit; the fixed axis where kind is axis, else 0
-    Quaternions frames;                     // (n, 4): the start on the boundary, the value where fixed; identity inside
+    Points axis;                            // (n, 3) unit where the kind takes_axis (constraint_kinds.hpp), else 0
+    Quaternions frames;                     // (n, 4): the value where the kind takes_frame, else the start on the
+                                            // boundary, the identity inside
     std::vector<std::uint8_t> on_boundary;  // (n)
     std::vector<Index> released_corners;    // sites whose directions fit no frame: corners, or tets
-    // (n, 3) or no rows (all 1), above 0; of odeco_lengths (smooth.hpp) alone: held along the axes of `frames` where
-    // fixed; where an axis is, column 0 along it.
+    // (n, 3) or no rows (all 1), above 0; of odeco_lengths (smooth.hpp) alone: which column holds which axis is the
+    // kind's length_columns.
     Points lengths{};
+
+    SiteConstraint of(Index site) const { return {axis.row(site).transpose(), frames.row(site).transpose()}; }
 };
 
 // One normal per boundary vertex and smooth sector (triangles round the vertex between feature edges), weighted by
@@ -44,11 +46,10 @@ struct SectorNormals {
     std::vector<Index> vertex;  // boundary-mesh vertex id, ascending
     Points normal;              // (k, 3) unit
 };
-SectorNormals sector_normals(const surface::TriangleMesh& boundary, const surface::FeatureGraph& features);
+SectorNormals sector_normals(const TetDomain& domain);
 
 // `directions`: (B, 3) unit tangent cross directions at the boundary's vertices (surface::vertex_directions).
-BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurface& boundary,
-                                         const surface::FeatureGraph& features, const Points& directions,
+BoundaryConstraints boundary_constraints(const TetDomain& domain, const Points& directions,
                                          const BoundaryOptions& options = {});
 
 // For frames in the tets (tet_sampling). A tet with one triangle of the surface has an axis on that triangle's normal,
@@ -58,16 +59,16 @@ BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurfa
 // be split. Tangents of feature curves are not held, only the normals beside them. Interfaces hold the tets on both
 // sides. surface: of the mesh, boundary_surface or that of region_surface; directions: (F, 3) unit tangents in its
 // triangles (surface::triangle_directions). Throws InvalidInput, GeometryError.
-BoundaryConstraints tet_boundary_constraints(const TetMesh& mesh, const BoundarySurface& surface,
+BoundaryConstraints tet_boundary_constraints(const TetDomain& domain,
                                              const Points& directions, const BoundaryOptions& options = {});
 
 // Angle (radians) between the normal of each triangle of the surface and the nearest axis of the frame in the tet
 // behind it, then of an interface's tet ahead of it. frames: (m, 4), one per tet. Throws InvalidInput, GeometryError.
-Eigen::VectorXd tet_alignment_angles(const TetMesh& mesh, const BoundarySurface& surface, const Quaternions& frames);
+Eigen::VectorXd tet_alignment_angles(const TetDomain& domain, const Quaternions& frames);
 
 // Angle (radians) between each sector normal and the nearest axis of the vertex's frame, in the order of
 // sector_normals.
-Eigen::VectorXd alignment_angles(const BoundarySurface& boundary, const surface::FeatureGraph& features,
+Eigen::VectorXd alignment_angles(const TetDomain& domain,
                                  const Quaternions& frames);
 
 }  // namespace octafield::volume
