@@ -20,7 +20,8 @@ from octafield.domain.meshing import prepare_mesh
 from octafield.options import METHODS, MeshOptions
 from study_output import markdown_table, write_csv
 
-HEADER = ["file", "triangles", "features", "feature edges", "N", "method", "points", "index sum", "chi", "agree", "converged",
+HEADER = ["file", "triangles", "features", "feature edges", "N", "method", "points", "index sum", "chi", "agree",
+          "converged",
           "CPU s"]  # fmt: skip
 
 

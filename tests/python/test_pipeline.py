@@ -25,7 +25,8 @@ NUMBER, TEXT = (int, float), str
 CONTRACT = {
     "input": TEXT, "version": TEXT, "vertices": int, "tets": int, "boundary_triangles": int, "representation": TEXT,
     "solver": TEXT, "boundary": TEXT, "seed": int, "threads": int, "energy": NUMBER, "energy_unit_speed": NUMBER,
-    "singular_edges": int, "singular_length": NUMBER, "complex_edges": int, "alignment_deg": dict, "iterations": int, "verdict": dict,
+    "singular_edges": int, "singular_length": NUMBER, "complex_edges": int, "alignment_deg": dict, "iterations": int,
+    "verdict": dict,
     "energy_history": list, "wall_seconds": dict, "cpu_seconds": dict, "peak_mb": NUMBER,
 }  # fmt: skip
 
@@ -161,8 +162,10 @@ def test_a_file_that_is_no_mesh_names_the_file(tmp_path):
         read_input(tmp_path / "absent.vtk")
 
 
-@pytest.mark.parametrize("bad", [{"boundary": "loose"}, {"features": "some"}, {"feature_angle": 4.0}, {"edge_length": -1.0},
-                                 {"edge_length": math.nan}, {"seed": -1}, {"threads": -2}, {"representation": "none"}])  # fmt: skip
+@pytest.mark.parametrize("bad", [{"boundary": "loose"}, {"features": "some"}, {"feature_angle": 4.0},
+                                     {"edge_length": -1.0},
+                                 {"edge_length": math.nan}, {"seed": -1}, {"threads": -2},
+                                 {"representation": "none"}])  # fmt: skip
 def test_options_out_of_range_are_refused(bad):
     with pytest.raises(octafield.InvalidInput):
         FieldOptions(**bad)

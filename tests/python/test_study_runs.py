@@ -82,7 +82,7 @@ def test_records_equal_those_of_a_field_computed_alone(undisturbed):
 def test_kills_at_random_moments_change_nothing(undisturbed, described, tmp_path):
     choose, folder = random.Random(7), tmp_path / "killed"
     seen = set()
-    for k in range(10):
+    for _ in range(10):
         process = subprocess.Popen([sys.executable, "-c", PROGRAM, described, folder], stderr=subprocess.DEVNULL)
         wanted = min(len(seen) + choose.randrange(0, 3), 12)  # let it get on, then strike while the next is in work
         stop = time.monotonic() + 60

@@ -13,7 +13,8 @@ TETS = sorted(path for path in SHARED_TETS.glob("*.vtk.gz") if path.stat().st_si
     SHARED_TETS / "s01c.vtk.gz"
 ]
 # What makes them unfit for a field on a surface. A hole does not; equal points are merged on reading STL.
-BAD = {"degenerate_s17": "degenerate_triangle", "fin_s01": "non_manifold_edge", "flipped_s01": "inconsistent_orientation",
+BAD = {"degenerate_s17": "degenerate_triangle", "fin_s01": "non_manifold_edge",
+       "flipped_s01": "inconsistent_orientation",
        "insideout_s16": "inside_out", "selfcross_s15": "self_intersection", "soup_s04": "soup"}  # fmt: skip
 
 

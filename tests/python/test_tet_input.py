@@ -84,7 +84,8 @@ def write_by_meshio(path, tets: of.TetMesh, kind: str) -> None:
             grid_of(tets, ("CellEntityIds",)).write(path)
 
 
-KINDS = {"msh2": "a.msh", "msh2 binary": "a.msh", "msh4": "a.msh", "mesh": "a.mesh", "meshb": "a.meshb", "tetgen": "a.ele",
+KINDS = {"msh2": "a.msh", "msh2 binary": "a.msh", "msh4": "a.msh", "mesh": "a.mesh", "meshb": "a.meshb",
+         "tetgen": "a.ele",
          "vtk": "a.vtk", "vtu": "a.vtu"}  # fmt: skip
 
 
@@ -338,7 +339,8 @@ def test_the_rim_of_an_interface_is_a_feature_whatever_their_source(two_regions,
 
 
 def test_an_interface_that_is_oblique_turns_the_field_with_it():
-    """Two halves of a cube about a tilted plane are no grid, so the pipeline starts from tets with regions in memory."""
+    """Two halves of a cube about a tilted plane are no grid, so the pipeline starts from tets with regions in
+    memory."""
     tets = box_tets(4)
     points = np.asarray(tets.vertices).copy()
     bump = 0.15 * np.sin(np.pi * points[:, 1]) * np.sin(np.pi * points[:, 0])

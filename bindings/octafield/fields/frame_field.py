@@ -100,7 +100,8 @@ def compute_field(
         >>> import octafield
         >>> from octafield.domain.generators import generate
         >>> meshed = octafield.prepare_mesh(generate("ball"), octafield.MeshOptions(edge_length=0.3))  # or a path
-        >>> held = octafield.volume.VertexConstraints(vertices=[300], kinds=["axis"], axes=[[0, 0, 1]])  # of meshed.tets
+        >>> Held = octafield.volume.VertexConstraints
+        >>> held = Held(vertices=[300], kinds=["axis"], axes=[[0, 0, 1]])  # of meshed.tets
         >>> result = octafield.compute_field(meshed, constraints=held)
         >>> result.record["constraints"]["given"]
         1
@@ -163,7 +164,8 @@ def run_field(
         >>> from octafield.domain.generators import generate
         >>> problem = octafield.prepare_field(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3)))
         >>> for boundary in ("fixed", "aligned"):  # on one mesh, so that energies compare
-        ...     print(boundary, octafield.run_field(problem, octafield.FieldOptions(boundary=boundary)).record["singular_edges"])
+        ...     result = octafield.run_field(problem, octafield.FieldOptions(boundary=boundary))
+        ...     print(boundary, result.record["singular_edges"])
         fixed 0
         aligned 0
     """

@@ -12,7 +12,7 @@ def words(seconds: float, most: bool = False) -> str:
     """As "about 3 min left"; most: an upper bound."""
     if seconds < 10:
         return "a few seconds left"
-    for size, unit, last in ((1, "s", 55), (60, "min", 90), (3600, "h", 36), (86400, "days", math.inf)):
+    for size, unit, last in ((1, "s", 55), (60, "min", 90), (3600, "h", 36), (86400, "days", math.inf)):  # noqa: B007
         number = seconds / size
         if number < last:
             break
@@ -42,7 +42,8 @@ class SteadyTimeLeft:
 
 
 class PhaseTimeLeft:
-    """Of a phase that reports the fraction of its largest number of steps done: an upper bound, from its speed lately."""
+    """Of a phase that reports the fraction of its largest number of steps done: an upper bound, from its speed
+    lately."""
 
     def __init__(self) -> None:
         self._seen: deque[tuple[float, float]] = deque()

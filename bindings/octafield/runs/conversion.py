@@ -59,9 +59,9 @@ def convert_file(
     to_format: names of octafield.frame_formats, where the extensions do not tell. at: "vertices" or "tets", where the
     frames shall be. combed: as of write_frames. edge_length: of triangles on CAD models. sizes: "isotropic" or "axes"
     (see octafield.FieldOptions): lengths of the axes, where the file can hold them. cell_edge: as of write_frames.
-    split_singular: edges inside between singular vertices are split first (octafield.volume.split_between_singular), and the
-    frames are those of the tets. repair: its level and bounds are for a surface, as octafield.prepare_mesh takes them
-    for one that is to be closed; what the level leaves unsound is noted."""
+    split_singular: edges inside between singular vertices are split first (octafield.volume.split_between_singular),
+    and the frames are those of the tets. repair: its level and bounds are for a surface, as octafield.prepare_mesh
+    takes them for one that is to be closed; what the level leaves unsound is noted."""
     require_one_of("sizes", sizes, SIZES)
     source, target = Path(source), Path(target)
     frames = _frames(source, mesh, from_format)
@@ -81,7 +81,8 @@ def convert_file(
                 frames, find_format(target, to_format, to_write=True), "tets" if combed else at, sizes
             )
         notes = write_frames(
-            target, frames.mesh, frames.frames, frames.where, to_format, at=at, lengths=frames.lengths, features=frames.features, regions=frames.regions,
+            target, frames.mesh, frames.frames, frames.where, to_format, at=at, lengths=frames.lengths,
+            features=frames.features, regions=frames.regions,
             combed=combed, cell_edge=cell_edge,
         )  # fmt: skip
         written = "tets" if combed else at or _site_in_file(target, to_format, frames.where)
@@ -136,7 +137,8 @@ def _split(found: FrameFile, writer: FrameFormat, at: str | None) -> FrameFile:
     lengths = found.lengths if found.where == "tets" else None
     return replace(
         found, mesh=split.mesh, frames=frames[parent], where="tets", notes=notes, centres=None,
-        lengths=None if lengths is None else lengths[parent], regions=None if found.regions is None else np.asarray(found.regions)[parent],
+        lengths=None if lengths is None else lengths[parent],
+        regions=None if found.regions is None else np.asarray(found.regions)[parent],
     )  # fmt: skip
 
 

@@ -97,7 +97,8 @@ def representation_row(path: Path, meshed, result, reference) -> list:
     return [
         name_of(path), r["representation"], STARTS[r["options"]["rounds"] > 0], r["energy"], r["objective"],
         r["singular_edges"], r["complex_edges"], r["non_meshable_vertices"],
-        np.degrees(np.mean(octafield.frames.distance(result.frames, reference.frames))), alignment_error(meshed, result),
+        np.degrees(np.mean(octafield.frames.distance(result.frames, reference.frames))),
+        alignment_error(meshed, result),
         r["iterations"], r["converged"], r["cpu_seconds"]["smooth"],
     ]  # fmt: skip
 
