@@ -126,7 +126,7 @@ def test_what_a_script_uses_first_has_an_example():
              "distance", "matching", "slerp", "sh4_embed", "sh4_project", "frame_streamlines", "tet_sampling",
              "Sampling"}  # fmt: skip
     assert first - set(_examples_of_the_compiled_module()) == set()
-    written_here = {"compute_field", "compute_surface_field", "compare", "prepare", "prepare_mesh", "run",
+    written_here = {"compute_field", "compute_surface_field", "compare", "prepare_field", "prepare_mesh", "run_field",
                     "FieldOptions", "to_pyvista",
                     "from_pyvista", "to_meshio", "from_meshio", "to_scipy", "to_pandas", "from_pandas"}  # fmt: skip
     assert [name for name in written_here if ">>> " not in (getattr(octafield, name).__doc__ or "")] == []

@@ -45,7 +45,7 @@ def objects(field, tmp_path_factory):
     combed = of.volume.comb(tets, of.volume.tet_frames(tets, frames))
     of.write_frames(folder / "field.npz", tets, frames)
     everything = [
-        field, in_tets, meshed, of.prepare(meshed), of.compute_surface_field(generate("torus"),
+        field, in_tets, meshed, of.prepare_field(meshed), of.compute_surface_field(generate("torus"),
             of.SurfaceFieldOptions(curvature=1)),
         of.compare(generate("box"), folder / "compared", representations=["sh4"], boundaries=["aligned"],
             options=of.FieldOptions(edge_length=0.5)),

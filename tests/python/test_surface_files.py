@@ -2,7 +2,8 @@
 
 import octafield as of
 import pytest
-from octafield.fields.frame_field import MeshOptions, prepare_mesh
+from octafield.domain.meshing import prepare_mesh
+from octafield.options import MeshOptions
 from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared
 
 LARGE = 400_000  # bytes, of a packed tet mesh: those take seconds

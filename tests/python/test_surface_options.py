@@ -6,7 +6,9 @@ import numpy as np
 import octafield as of
 import pytest
 from octafield.domain.inputs import read_input
-from octafield.fields.frame_field import SurfaceFieldOptions, compute_surface_field, prepare_mesh
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.direction_field import compute_surface_field
+from octafield.options import SurfaceFieldOptions
 from pipeline_fixtures import SHARED_TETS, octafield, shared, write_sphere
 from surface_fixtures import NONE, cylinder, grid_triangles, square
 

@@ -12,7 +12,7 @@ import pytest
 from conftest import box_tets
 from octafield.domain.inputs import read_input
 from octafield.domain.meshing import prepare_mesh
-from octafield.fields.frame_field import compute_field, prepare, run
+from octafield.fields.frame_field import compute_field, prepare_field, run_field
 from octafield.options import FieldOptions
 from octafield.runs.run_folder import write_field_result
 from pipeline_fixtures import SHARED_TETS, octafield, shared
@@ -307,7 +307,7 @@ def two_regions(tmp_path_factory):
 
 def test_an_interface_holds_the_field_as_a_boundary_does(tmp_path, two_regions):
     meshed = prepare_mesh(two_regions)
-    result = run(prepare(meshed), FieldOptions())
+    result = run_field(prepare_field(meshed), FieldOptions())
     assert result.record["regions"] == 2 and result.record["interface_triangles"] == 32
     assert result.record["boundary_triangles"] == 6 * 2 * 4 * 4
     points, kind = np.asarray(result.tets.vertices), np.asarray(result.constraints.kind)

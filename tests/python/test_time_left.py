@@ -27,7 +27,7 @@ def test_words_are_as_coarse_as_the_estimate(seconds, told):
 
 
 def test_a_steady_value_counts_down_and_moves_towards_estimates_without_jumps():
-    steady = time_left.Steady()
+    steady = time_left.SteadyTimeLeft()
     assert steady.follow(100, 0) == 100
     assert steady.follow(90, 10) == pytest.approx(90), "an estimate that comes true is followed exactly"
     before = steady.follow(90, 10)

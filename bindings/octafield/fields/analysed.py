@@ -136,12 +136,12 @@ def analyse(
     if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):
         raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
     values, options = fitting_frames(meshed.volume(), frames, where), replace(options, sampling=where)
-    found = judged(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
+    found = analysed_field(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
     found.record["options"] = asdict(options)
     return found
 
 
-def judged(
+def analysed_field(
     meshed: MeshedInput,
     frames: np.ndarray,
     options: FieldOptions,

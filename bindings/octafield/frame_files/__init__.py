@@ -21,7 +21,7 @@ from .. import _core
 from .._core import TetDomain, TetMesh
 from ..domain.inputs import Input, from_mesh, read_input
 from ..domain.rotations import axes_of, unit_quaternions
-from ..domain.sites import SITES
+from ..domain.sites import SITES, moved_frames
 from ..errors import InvalidInput
 from ..files.reading import plain_name, reading
 from .base import Field, FrameFile, FrameFormat
@@ -267,9 +267,8 @@ def _move(field: Field, writer: FrameFormat, at: str | None) -> list[str]:
         return []
     if field.mesh is None:
         raise InvalidInput(f"frames at {field.where} are taken to {target} with the mesh; give it", "no_mesh")
-    move = _core.tet_frames if target == "tets" else _core.vertex_frames
-    field.frames, field.where = np.asarray(move(field.mesh, field.frames)), target
-    notes = [f"the frames were taken to the {target}: the nearest to the mean sh4 vector of those around"]
+    field.frames, note = moved_frames(field.mesh, field.frames, target)
+    field.where, notes = target, [note]
     if field.lengths is not None:
         field.lengths = None
         notes.append("the lengths of the axes were left out: they stay where they were")

@@ -20,7 +20,7 @@ def words(seconds: float, most: bool = False) -> str:
     return f"{'at most' if most else 'about'} {max(round(number / step), 1) * step:g} {unit} left"
 
 
-class Steady:
+class SteadyTimeLeft:
     """Follows estimates without jumps: between two it counts down, and it moves towards a new one by a share that grows
     with the time passed."""
 
@@ -48,7 +48,7 @@ class PhaseTimeLeft:
     def __init__(self) -> None:
         self._seen: deque[tuple[float, float]] = deque()
         self._begin = 0.0
-        self._steady = Steady()
+        self._steady = SteadyTimeLeft()
 
     def at(self, fraction: float, now: float) -> float | None:
         """None while too little is known."""

@@ -12,6 +12,7 @@ from ..domain.inputs import SURFACE_SUFFIXES, Input, domain_of, from_mesh, namin
 from ..domain.mesh_writers import MESH_SUFFIXES, write_mesh
 from ..domain.meshing import REPAIR_IGNORED
 from ..domain.repairing import level_of, repair_surface
+from ..domain.sites import moved_frames
 from ..errors import InvalidInput, IoError
 from ..fields.sizes import Sizes, find_sizes, log_scales_of, sizes_record
 from ..files.reading import plain_name
@@ -236,14 +237,13 @@ def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str)
             "sizes per axis are those of frames in the tets; add --at tets, or take --sizes isotropic", "wrong_sampling"
         )
     notes = list(found.notes)
-    if where != found.where:
-        notes.append(f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around")
     at_vertices = (
         found.frames if found.where == "vertices" else np.asarray(_core.vertex_frames(found.mesh, found.frames))
     )
     frames = found.frames
     if where != found.where:
-        frames = at_vertices if where == "vertices" else np.asarray(_core.tet_frames(found.mesh, at_vertices))
+        frames, note = moved_frames(found.mesh, found.frames, where)
+        notes.append(note)
     sizes = find_sizes(found.mesh, at_vertices, kind)
     lengths = np.exp((-1 if writer.holds_edges else 1) * _logs_at(sizes, found.mesh, frames, where))
     if found.lengths is not None:

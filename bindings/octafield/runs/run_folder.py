@@ -12,7 +12,8 @@ import numpy as np
 from .. import _core
 from .._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetDomain
 from ..fields.analysed import AnalysedField
-from ..fields.frame_field import FieldResult, SurfaceFieldResult
+from ..fields.direction_field import SurfaceFieldResult
+from ..fields.frame_field import FieldResult
 from ..fields.sizes import sizes_arrays
 from ..files.writing import vtp_bytes, write_file, write_json
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
