@@ -6,7 +6,6 @@ import typer
 
 from ..options import BOUNDARIES, COMPARED, REPRESENTATIONS, FieldOptions
 from . import console, tables
-from .completion import lists
 from .console import carry_out, log
 from .options import (
     ANGLE,
@@ -34,6 +33,7 @@ from .options import (
     mesh_options,
     named_files,
 )
+from .shell_completion import lists
 
 _FIELD = FieldOptions()
 

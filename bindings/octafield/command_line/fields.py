@@ -23,7 +23,6 @@ from . import compare as compare_cli
 from . import console, tables
 from . import files as files_cli
 from . import inspect as cli_inspect
-from .completion import words
 from .console import carry_out, log
 from .options import (
     ANGLE,
@@ -51,6 +50,7 @@ from .options import (
     choices,
     mesh_options,
 )
+from .shell_completion import words
 from .study import app as studies
 
 app = typer.Typer(
@@ -155,7 +155,7 @@ def field(
     def work() -> None:
         from ..fields.frame_field import compute_field
         from ..files.writing import staged_folder
-        from ..runs.field_files import polish_file
+        from ..runs.frame_file_input import polish_file
         from ..runs.run_folder import RECORD_FILE, write_field_result
 
         options = FieldOptions(
@@ -246,7 +246,7 @@ def surface_field(
     separatrices, result.json."""
 
     def work() -> None:
-        from ..fields.frame_field import compute_surface_field
+        from ..fields.direction_field import compute_surface_field
         from ..files.writing import staged_folder
         from ..runs.run_folder import RECORD_FILE, write_surface_result
 

@@ -10,7 +10,6 @@ import typer
 from ..errors import InvalidInput
 from ..options import REPAIRS, SAMPLINGS, SIZES, FieldOptions, MeshOptions
 from . import console, tables
-from .completion import words
 from .console import carry_out, log
 from .options import (  # fmt: skip
     EdgeLength,
@@ -28,6 +27,7 @@ from .options import (  # fmt: skip
     WrapOffset,
     choices,
 )
+from .shell_completion import words
 
 _FIELD = FieldOptions()
 MeshFile = Annotated[
@@ -167,7 +167,7 @@ def analyse(
 
     def work() -> None:
         from ..files.writing import staged_folder
-        from ..runs.field_files import analyse_file
+        from ..runs.frame_file_input import analyse_file
         from ..runs.run_folder import RECORD_FILE, write_analysis
 
         options = FieldOptions(

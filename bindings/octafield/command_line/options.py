@@ -9,7 +9,7 @@ import typer
 
 from ..errors import InvalidInput
 from ..options import FEATURES, REPAIRS, SAMPLINGS, SIZES, MeshOptions
-from .completion import words
+from .shell_completion import words
 
 ANGLE = round(math.degrees(MeshOptions().feature_angle), 6)
 

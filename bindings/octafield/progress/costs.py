@@ -13,7 +13,8 @@ from dataclasses import dataclass, field
 PREPARE = "prepare"  # the method of reading, meshing and the cross field
 # Seconds on a million tets, one thread; they matter until runs of the method are finished.
 _SECONDS_PER_MILLION = {
-    PREPARE: 10.0, "sh4": 30.0, "tensor4": 33.0, "odeco": 33.0, "sh469": 70.0, "su2": 70.0, "geodesic": 160.0, "su2_midpoint": 250.0, "odeco_lengths": 1000.0,
+    PREPARE: 10.0, "sh4": 30.0, "tensor4": 33.0, "odeco": 33.0, "sh469": 70.0, "su2": 70.0, "geodesic": 160.0,
+    "su2_midpoint": 250.0, "odeco_lengths": 1000.0,
 }  # fmt: skip
 _UNKNOWN_METHOD = 100.0
 _LEAST = 0.2  # seconds of a run on any mesh
@@ -96,7 +97,8 @@ class Costs:
         return y - slope * x, slope
 
     def expected(self, method: str, mesh: Hashable) -> float:
-        """Seconds. The factor on the measured rate: of the method's own runs, and, as if it were one run more, of all."""
+        """Seconds. The factor on the measured rate: of the method's own runs, and, as if it were one run more, of
+        all."""
         seen, overall = self._methods.get(method, _Seen()), self._all
         general = overall.seconds / overall.expected if overall.expected > 0 else 1.0
         weight = seen.expected / seen.count if seen.count else 1.0

@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 
 # Okabe and Ito's colours, told apart with any colour vision, and two of Tol's; TEXT is black or white with the page.
 COLOURS = {
-    "sh4": "#0072B2", "tensor4": "#56B4E9", "su2": "#D55E00", "odeco": "#009E73", "sh469": "#E69F00", "geodesic": "#CC79A7",
-    "su2_midpoint": TEXT, "odeco_lengths": "#882255", "su2_geodesic": "#AA3355", "su2_symmetric": "#7b8794", "su2_frozen": "#A58A1F",
+    "sh4": "#0072B2", "tensor4": "#56B4E9", "su2": "#D55E00", "odeco": "#009E73", "sh469": "#E69F00",
+    "geodesic": "#CC79A7",
+    "su2_midpoint": TEXT, "odeco_lengths": "#882255", "su2_geodesic": "#AA3355", "su2_symmetric": "#7b8794",
+    "su2_frozen": "#A58A1F",
 }  # fmt: skip
 _OF_OTHERS = ("#AA4499", "#44AA99", "#999933", "#6699CC")  # fields that were read
 _DASHES, _MARKS = ("-", "--", ":", "-."), ("o", "s", "^", "D", "v", "P")
@@ -59,7 +61,8 @@ def styles(methods: Sequence[Method]) -> dict[Method, Style]:
 
 
 def ratio_plot(results: Results, salt: str = "") -> str:
-    """A dot per method and problem: energy over the lowest, processor seconds over the fastest; a bar: geometric mean."""
+    """A dot per method and problem: energy over the lowest, processor seconds over the fastest; a bar: geometric
+    mean."""
     figure, both = new_figure(_WIDE, 1.3 + 0.27 * len(results.methods), 2, sharey=True)
     marks = {setting: _MARKS[k % len(_MARKS)] for k, setting in enumerate(results.settings)}
     style, places = styles(results.methods), range(len(results.methods))
