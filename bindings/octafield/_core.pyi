@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any, TypeAlias, overload
+from typing import Any, Literal, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -871,7 +871,29 @@ def boundary_constraints(
 ) -> BoundaryConstraints: ...
 def alignment_angles(boundary: BoundarySurface, features: FeatureGraph, frames: ArrayLike) -> Float64s: ...
 
-smooth_representations: tuple[str, ...]
+class Scheme:
+    @property
+    def name(self) -> str: ...
+    @property
+    def sort(self) -> Literal["embedding", "embedding_with_lengths", "metric"]: ...
+    @property
+    def equation(self) -> str: ...
+    @property
+    def meaning(self) -> str: ...
+    @property
+    def consistent(self) -> bool: ...
+    @property
+    def descends(self) -> bool: ...
+    @property
+    def bytes_per_tet(self) -> dict[str, float]: ...
+    @property
+    def seconds_per_million_tets(self) -> float: ...
+    @property
+    def colour(self) -> str: ...
+    @property
+    def compared(self) -> bool: ...
+
+schemes: dict[str, Scheme]
 constraint_kinds: tuple[str, ...]
 
 def initial_frames(

@@ -13,9 +13,10 @@ from . import _core
 from .defaults import default_of
 from .errors import InvalidInput
 
-REPRESENTATIONS = _core.smooth_representations
-COMPARED = (*_core.representations, "geodesic", "su2_midpoint")  # what a comparison takes when not told
-SOLVERS = ("default", "trust_region", "levenberg_marquardt", "lbfgs")  # default: what goes with the representation
+REPRESENTATIONS = tuple(_core.schemes)
+COMPARED = tuple(name for name, scheme in _core.schemes.items() if scheme.compared)  # when a comparison is not told
+# default: what goes with the representation.
+SOLVERS = ("default", *dict.fromkeys(solver for scheme in _core.schemes.values() for solver in scheme.bytes_per_tet))
 BOUNDARIES = ("aligned", "fixed", "none")
 OF_A_START = "start"  # a treatment of the boundary that needs frames to start from
 SAMPLINGS = ("vertices", "tets")

@@ -59,6 +59,7 @@ PYBIND11_MODULE(_core, module) {
     bind_sampling_types(module);
     bind_volume(module);
     bind_sampling(module);
+    bind_schemes(module);
     bind_smoothing(module);
     bind_field_analysis(module);
     bind_parameterization(module);

@@ -129,12 +129,10 @@ void bind_smoothing(py::module_& m) {
         "tolerance"_a = smoothing.tolerance, "linear_solver"_a = to_word(smoothing.linear_solver),
         "midpoint_limit"_a = smoothing.midpoint_limit, "threads"_a = smoothing.threads, "progress"_a = py::none(),
         "Minimise the Dirichlet energy of a frame field from (n, 4) start frames, over one quaternion per vertex, "
-        "constraints held exactly, as a SmoothResult. representation: a name of smooth_representations: an embedding, "
+        "constraints held exactly, as a SmoothResult. representation: a key of schemes: an embedding, "
         "odeco tensors with free axis lengths (\"odeco_lengths\", lengths of held axes are 1 unless "
-        "constraints.lengths "
-        "tells others), or a metric on frames (\"geodesic\", \"su2_midpoint\", \"su2_geodesic\", \"su2_symmetric\", "
-        "and \"su2_frozen\", "
-        "which is inconsistent), which wants a start near its minimum, as frame_field gives. solver: "
+        "constraints.lengths tells others), or a metric on frames, which wants a start near its minimum, as "
+        "frame_field gives. solver: "
         "\"trust_region\" (Newton steps with the exact Hessian; embeddings of frames only), \"levenberg_marquardt\" or "
         "\"lbfgs\" (Ceres), or \"automatic\", the first that goes. tolerance: relative energy decrease at which to "
         "stop; "
@@ -143,7 +141,6 @@ void bind_smoothing(py::module_& m) {
         "depend on threads. Cancelled by progress, the best state is returned with converged False. mesh: a TetMesh or "
         "a Sampling. Raises "
         "InvalidInput, SolverError.");
-    m.attr("smooth_representations") = py::tuple(py::cast(smooth_representations()));
     m.def(
         "frame_field",
         [](const MeshOrSampling& mesh, const BoundaryConstraints& constraints, const std::string& start,
