@@ -71,7 +71,7 @@ def study(path: Path) -> Study:
         meshed,
         octafield.singular_edges(tets, of_tets, threads=1),
         combed,
-        timed("alignment_tables", octafield.alignment_tables, tets, meshed.boundary, meshed.boundary_features, combed),
+        timed("alignment_tables", octafield.alignment_tables, tets, combed),
         timed("isotropic_scale", octafield.isotropic_scale, tets, frames, threads=1),
         timed("axis_scales", octafield.axis_scales, tets, frames, threads=1),
         seconds,
@@ -138,7 +138,7 @@ def curves(s: Study) -> pyvista.PolyData:
 
 
 def picture(s: Study) -> Image.Image:
-    points, surface = np.asarray(s.meshed.tets.vertices), s.meshed.boundary.mesh
+    points, surface = np.asarray(s.meshed.tets.vertices), s.meshed.tets.surface.mesh
     cut = np.asarray(s.combed.cut) == 1
     walls = pyvista.PolyData.from_regular_faces(points, np.asarray(s.combed.faces.triangles)[cut])
     axes = scene.principal_axes(points)
@@ -148,7 +148,7 @@ def picture(s: Study) -> Image.Image:
     left.enable_depth_peeling(8)
     left.add_mesh(scene.surface_mesh(surface), color=scene.BODY, opacity=0.15, lighting=False)
     left.add_mesh(walls, color=scene.SKY, opacity=0.75, ambient=0.5, diffuse=0.6)
-    scene.add_features(left, surface, s.meshed.boundary_features, 2.5)
+    scene.add_features(left, surface, s.meshed.tets.features, 2.5)
     if s.singular.edges:
         left.add_mesh(curves(s), color=scene.VERMILLION, line_width=7, lighting=False)
 
@@ -159,7 +159,7 @@ def picture(s: Study) -> Image.Image:
     plane = (-axes[1], (points.min(0) + points.max(0)) / 2)
     half = body.clip(normal=axes[1], origin=plane[1], invert=False)
     right.add_mesh(half, cmap="cividis", lighting=False, scalar_bar_args=BAR)
-    scene.add_features(right, surface, s.meshed.boundary_features, 2.5, behind=plane)
+    scene.add_features(right, surface, s.meshed.tets.features, 2.5, behind=plane)
     if s.singular.edges:
         right.add_mesh(curves(s), color=scene.VERMILLION, line_width=4, lighting=False, opacity=0.6)
 

@@ -41,7 +41,7 @@ def cube_row(name: str, mesh: octafield.TetMesh) -> tuple:
     at_vertices = np.zeros(len(points), bool)
     at_vertices[surface.vertex_map] = True
     tangents = np.ones((len(surface.mesh.triangles), 3))
-    in_tets = np.asarray(octafield.tet_boundary_constraints(mesh, surface, tangents, mode="none").on_boundary) == 1
+    in_tets = np.asarray(octafield.tet_boundary_constraints(mesh, tangents, mode="none").on_boundary) == 1
     row = [name, f"{len(points):,}", f"{len(tets):,}"]
     for where, sites, on in (
         (mesh, points, at_vertices),

@@ -103,15 +103,15 @@ def bar(cells: int, ends: np.ndarray) -> Problem:
 def ball(path: Path) -> Problem:
     """A tet mesh of a ball, one axis on the area-weighted normal of every boundary vertex, twist free."""
     read = octafield.domain.inputs.read_input(path)
-    mesh, vertices = read.tets, np.asarray(read.boundary.vertex_map)
-    n, normals = len(mesh.vertices), np.asarray(octafield.vertex_normals(read.boundary.mesh))
+    mesh, vertices = read.tets, np.asarray(read.tets.surface.vertex_map)
+    n, normals = len(mesh.vertices), np.asarray(octafield.vertex_normals(read.tets.surface.mesh))
     kind, axis, frames = np.zeros(n, np.uint8), np.zeros((n, 3)), np.tile([1.0, 0, 0, 0], (n, 1))
     kind[vertices], axis[vertices] = AXIS, normals
     frames[vertices] = octafield.frame_from_axes(np.tile([1.0, 0, 0], (len(vertices), 1)), normals)
     constraints = octafield.BoundaryConstraints(kind, axis, frames, (kind > 0).astype(np.uint8))
     return Problem(
         path.name.removesuffix(".mesh.gz"),
-        octafield.mean_edge_length(read.boundary.mesh),
+        octafield.mean_edge_length(read.tets.surface.mesh),
         mesh,
         constraints,
         None,

@@ -1,7 +1,7 @@
 // Analysis of frame fields in volumes: local meshability, alignment with features, integrability.
 #include "arrays.hpp"
 #include "bind.hpp"
-#include "checks.hpp"
+#include "domain.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/boundary_meshability.hpp"
 #include "octafield/volume/feature_alignment.hpp"
@@ -14,8 +14,6 @@ namespace octafield::bindings {
 
 using namespace volume;
 using py::literals::operator""_a;
-using surface::FeatureGraph;
-using surface::TriangleMesh;
 
 namespace {
 
@@ -27,74 +25,61 @@ void bind_meshability(py::module_& m) {
           "valence 6, and with valence 7 or 8, true means that no count forbids it.");
     m.def(
         "local_meshability",
-        [](const TetMesh& mesh, const ArrayLike& frames, const SingularGraph& graph) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, const SingularGraph& graph) {
             return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check(mesh, false);
+                const TetDomain domain = domain_of(mesh);
                 check(graph);
-                check_unit(rows, mesh.vertices.rows(), "frames");
-                return local_meshability(mesh, rows, graph);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return local_meshability(domain, rows, graph);
             });
         },
-        "mesh"_a, "frames"_a, "graph"_a,
-        "Necessary conditions for a hex mesh where the curves of singular_graph(mesh, frames) end (Liu et al. 2018; "
+        "domain"_a, "frames"_a, "graph"_a,
+        "Necessary conditions for a hex mesh where the curves of singular_graph(domain, frames) end (Liu et al. 2018; "
         "Liu, Bommes 2023), as a Meshability. A field that meets them all may still have no hex mesh.");
     m.def(
         "tet_meshability",
-        [](const TetMesh& mesh, const BoundarySurface& surface, const FeatureGraph& features, const ArrayLike& of_tets,
-           const SingularEdges& singular, int threads) {
-            threads_option(threads);
+        [](const DomainOrMesh& mesh, const ArrayLike& of_tets, const SingularEdges& singular) {
             return run_interruptible([=, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
-                check(mesh, false);
-                check(surface, static_cast<Index>(mesh.vertices.rows()));
-                check_unit(rows, mesh.tets.rows(), "of_tets");
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.tet_count(), "of_tets");
                 check(singular.graph);
-                FeatureGraph checked = features;
-                check(checked, surface.mesh);
-                return tet_meshability(mesh, surface, checked, rows, singular, threads);
+                return tet_meshability(domain, rows, singular);
             });
         },
-        "mesh"_a, "surface"_a, "features"_a, "of_tets"_a, "singular"_a, py::kw_only(), "threads"_a = 0,
-        "The same for (m, 4) frames in the tets and their singular_edges(mesh, of_tets).");
+        "domain"_a, "of_tets"_a, "singular"_a,
+        "The same for (m, 4) frames in the tets and their singular_edges(domain, of_tets).");
 }
 
 void bind_boundary_meshability(py::module_& m) {
     m.attr("no_number") = no_number;
     m.def(
         "tet_boundary_meshability",
-        [](const TetMesh& mesh, const BoundarySurface& boundary, const FeatureGraph& features, const ArrayLike& of_tets,
-           int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& of_tets, int threads) {
             threads_option(threads);
             return run_interruptible([=, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.tets.rows(), "of_tets");
-                check(boundary, static_cast<Index>(mesh.vertices.rows()));
-                FeatureGraph checked = features;
-                check(checked, boundary.mesh);
-                return tet_boundary_meshability(mesh, boundary, checked, rows, threads);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.tet_count(), "of_tets");
+                return tet_boundary_meshability(domain, rows, threads);
             });
         },
-        "mesh"_a, "boundary"_a, "features"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
         "boundary_meshability for (m, 4) frames in the tets, carried through the tets between two triangles of the "
         "surface: one number of hexahedra per wedge.");
     m.def(
         "boundary_meshability",
-        [](const TetMesh& mesh, const BoundarySurface& boundary, const FeatureGraph& features, const ArrayLike& frames,
-           int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, int threads) {
             threads_option(threads);
             return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.vertices.rows(), "frames");
-                check(boundary, static_cast<Index>(mesh.vertices.rows()));
-                FeatureGraph checked = features;
-                check(checked, boundary.mesh);
-                return boundary_meshability(mesh, boundary, checked, rows, threads);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return boundary_meshability(domain, rows, threads);
             });
         },
-        "mesh"_a, "boundary"_a, "features"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "Necessary conditions for a hex mesh at feature edges and corners (after Liu et al. 2018; Liu, Bommes 2023), "
         "as "
         "a BoundaryMeshability: how many hexahedra the turn of the field leaves at each, 1 or more; edges of the "
-        "surface on which the field is singular. boundary: boundary_surface(mesh), or that of region_surface.");
+        "surface on which the field is singular.");
     m.def(
         "smoothed_curves",
         [](const SingularGraph& graph, int steps) {
@@ -111,56 +96,49 @@ void bind_boundary_meshability(py::module_& m) {
 void bind_integrability(py::module_& m) {
     m.def(
         "integrability",
-        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, int threads) {
             threads_option(threads);
             return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.vertices.rows(), "frames");
-                return integrability(mesh, rows, threads);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return integrability(domain, rows, threads);
             });
         },
-        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "Jumps and twist of (n, 4) frames at the vertices, as an Integrability. The same bits at any thread count.");
     m.def(
         "tet_frames",
-        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, int threads) {
             threads_option(threads);
             return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.vertices.rows(), "frames");
-                return tet_frames(mesh, rows, threads);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return tet_frames(domain, rows, threads);
             }));
         },
-        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "(m, 4) quaternions w x y z: the frame nearest to the mean sh4 vector of each tet's vertices.");
 }
 
 void bind_feature_alignment(py::module_& m) {
     m.def(
         "feature_tangents",
-        [](const TriangleMesh& boundary, const FeatureGraph& features) {
-            return run_interruptible([boundary = boundary, features = features](Job&) mutable {
-                check(boundary, false);
-                check(features, boundary);
-                return feature_tangents(boundary, features);
-            });
+        [](const DomainOrMesh& mesh) {
+            return run_interruptible([=](Job&) { return feature_tangents(domain_of(mesh)); });
         },
-        "boundary"_a, "features"_a,
-        "Directions of the feature curves at the vertices of a boundary mesh, as FeatureTangents.");
+        "domain"_a, "Directions of a domain's feature curves at the vertices of its surface, as FeatureTangents.");
     m.def(
         "feature_alignment_angles",
-        [](const BoundarySurface& boundary, const FeatureGraph& features, const ArrayLike& frames) {
-            return own(run_interruptible([boundary = boundary, features = features,
-                                          rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check_unit(rows, -1, "frames");
-                check(boundary, static_cast<Index>(rows.rows()));
-                check(features, boundary.mesh);
-                return feature_alignment_angles(boundary, features, rows);
+        [](const DomainOrMesh& mesh, const ArrayLike& frames) {
+            return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return feature_alignment_angles(domain, rows);
             }));
         },
-        "boundary"_a, "features"_a, "frames"_a,
+        "domain"_a, "frames"_a,
         "(k,) angles (radians) between each feature tangent and the nearest axis of its vertex's frame, in the order "
-        "of feature_tangents. frames: (n, 4), one per tet-mesh vertex.");
+        "of feature_tangents. frames: (n, 4), one per vertex of the mesh.");
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ void bind_direction_fields(pybind11::module_& module);
 void bind_streamlines(pybind11::module_& module);
 void bind_renormalised_energy(pybind11::module_& module);
 void bind_volume_types(pybind11::module_& module);
+void bind_domain(pybind11::module_& module);
 void bind_volume(pybind11::module_& module);
 void bind_sampling_types(pybind11::module_& module);
 void bind_sampling(pybind11::module_& module);
@@ -29,6 +30,7 @@ void bind_frame_streamline_types(pybind11::module_& module);
 void bind_frame_streamlines(pybind11::module_& module);
 void bind_parameterization_types(pybind11::module_& module);
 void bind_parameterization(pybind11::module_& module);
+void bind_volume_input_types(pybind11::module_& module);
 void bind_volume_input(pybind11::module_& module);
 void add_examples(pybind11::module_& module);  // to docstrings, after everything else
 

@@ -87,18 +87,20 @@ constexpr Example of_meshes[] = {
     >>> boundary = octafield.boundary_surface(tets)
     >>> bool((tets.vertices[boundary.vertex_map] == boundary.mesh.vertices).all())
     True)"},
-    {"region_surface", R"(
+    {"features_on_sheets", R"(
     >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], [[0, 1, 2, 3], [1, 4, 2, 3]])
-    >>> octafield.region_surface(tets, [1, 2])
-    RegionSurface(7 triangles, 1 between regions))"},
+    >>> domain = octafield.TetDomain(tets, regions=[1, 2])
+    >>> features = octafield.feature_graph(domain.surface.mesh, domain.sheets.cuts)  # the rim of the interface
+    >>> octafield.features_on_sheets(features, domain.sheets)
+    FeatureGraph(9 edges, 9 corners))"},
     {"find_locking", R"(
     >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
-    >>> octafield.find_locking(tets, octafield.boundary_surface(tets))  # a tet with all four vertices on the surface
+    >>> octafield.find_locking(tets)  # a tet with all four vertices on the surface
     LockingElements(1 tet, 0 edges, 0 triangles))"},
     {"split_locking", R"(
     >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
-    >>> split = octafield.split_locking(tets, octafield.boundary_surface(tets))
-    >>> octafield.find_locking(split.mesh, octafield.boundary_surface(split.mesh))
+    >>> split = octafield.split_locking(tets)
+    >>> octafield.find_locking(split.mesh)
     LockingElements(0 tets, 0 edges, 0 triangles))"},
     {"signed_volume", R"(
     >>> round(octafield.signed_volume(generate("box")), 12)
@@ -210,13 +212,13 @@ constexpr Example of_frames[] = {
 
 constexpr Example of_volume_fields[] = {
     {"boundary_constraints", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"))
-    >>> boundary = octafield.boundary_surface(tets)
-    >>> features = octafield.detect_features(boundary.mesh)
-    >>> field = octafield.direction_field(boundary.mesh, features)
-    >>> directions = octafield.vertex_directions(boundary.mesh, features, field)
-    >>> held = octafield.boundary_constraints(len(tets.vertices), boundary, features, directions)
-    >>> bool((held.kind[boundary.vertex_map] > 0).all())
+    >>> domain = octafield.TetDomain(octafield.tetrahedralize(generate("box")))
+    >>> surface = domain.surface.mesh
+    >>> domain = domain.with_features(octafield.detect_features(surface))
+    >>> field = octafield.direction_field(surface, domain.features)
+    >>> directions = octafield.vertex_directions(surface, domain.features, field)
+    >>> held = octafield.boundary_constraints(domain, directions)
+    >>> bool((held.kind[domain.surface.vertex_map] > 0).all())
     True)"},
     {"with_constraints", R"(
     >>> free = octafield.BoundaryConstraints([0, 0], np.zeros((2, 3)), [[1, 0, 0, 0]] * 2, [0, 0])

@@ -7,7 +7,7 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
-#include "checks.hpp"
+#include "domain.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/sample_frames.hpp"
 #include "record.hpp"
@@ -22,44 +22,44 @@ namespace {
 void bind_points(py::module_& m) {
     m.def(
         "locate_points",
-        [](const TetMesh& mesh, const ArrayLike& points, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& points, int threads) {
             threads_option(threads);
             return run_interruptible([=, rows = from_python<Points>(points, "points")](Job&) {
-                check(mesh, false);
+                const TetDomain domain = domain_of(mesh);
                 check_vectors(rows, rows.rows(), "points", "point");
-                return locate_points(mesh, rows, threads);
+                return locate_points(domain, rows, threads);
             });
         },
-        "mesh"_a, "points"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "points"_a, py::kw_only(), "threads"_a = 0,
         "The tet that holds each of (n, 3) points and its barycentric coordinates there, as "
         "LocatedPoints. Of several tets the one it lies deepest in.");
     m.def(
         "interpolate_frames",
-        [](const TetMesh& mesh, const ArrayLike& frames, const ArrayLike& points, double tolerance, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, const ArrayLike& points, double tolerance, int threads) {
             threads_option(threads);
             if (std::isnan(tolerance)) throw InvalidInput("tolerance is not a number", "option_out_of_range");
             return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
                                       at = from_python<Points>(points, "points")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.vertices.rows(), "frames");
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
                 check_vectors(at, at.rows(), "points", "point");
-                return sample_frames(mesh, rows, at, {.tolerance = tolerance, .threads = threads});
+                return sample_frames(domain, rows, at, {.tolerance = tolerance, .threads = threads});
             });
         },
-        "mesh"_a, "frames"_a, "points"_a, py::kw_only(), "tolerance"_a = SampleOptions{}.tolerance, "threads"_a = 0,
+        "domain"_a, "frames"_a, "points"_a, py::kw_only(), "tolerance"_a = SampleOptions{}.tolerance, "threads"_a = 0,
         "What octafield.sample_frames does, on (n, 4) frames at the vertices of a tet mesh and (k, 3) points: their sh4 "
         "vectors are interpolated linearly in the tet that holds a point, and projected to the nearest frame, as "
         "SampledFrames. tolerance: points no farther outside have the frame of the mesh's nearest point (input unit; "
         "below 0: a millionth of the bounding-box diagonal; infinity: all points).");
     m.def(
         "spread_points",
-        [](const TetMesh& mesh, int count) {
+        [](const DomainOrMesh& mesh, int count) {
             return own(run_interruptible([=](Job&) {
-                check(mesh, false);
-                return spread_points(mesh, count);
+                const TetDomain domain = domain_of(mesh);
+                return spread_points(domain, count);
             }));
         },
-        "mesh"_a, "count"_a,
+        "domain"_a, "count"_a,
         "(n, 3): centres of at most `count` tets that fill the mesh evenly, the same at every call "
         "(Poisson disk sampling).");
 }
@@ -68,7 +68,7 @@ void bind_lines(py::module_& m) {
     const FrameStreamlineOptions defaults;
     m.def(
         "frame_streamlines",
-        [](const TetMesh& mesh, const ArrayLike& frames, const ArrayLike& points,
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, const ArrayLike& points,
            const std::optional<ArrayLike>& directions, double max_length, bool both_ways, double closing_distance,
            int threads) {
             threads_option(threads);
@@ -79,16 +79,16 @@ void bind_lines(py::module_& m) {
             if (directions) along = from_python<Points>(*directions, "directions");
             return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
                                       seeds = from_python<Points>(points, "points")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.vertices.rows(), "frames");
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
                 check_vectors(seeds, seeds.rows(), "points", "point");
                 if (along) check_vectors(*along, seeds.rows(), "directions", "point");
-                return frame_streamlines(mesh, rows,
-                                         along ? seeds_at(mesh, seeds, *along) : axis_seeds_at(mesh, rows, seeds),
+                return frame_streamlines(domain, rows,
+                                         along ? seeds_at(domain, seeds, *along) : axis_seeds_at(domain, rows, seeds),
                                          options, threads);
             });
         },
-        "mesh"_a, "frames"_a, "points"_a, "directions"_a = py::none(), py::kw_only(),
+        "domain"_a, "frames"_a, "points"_a, "directions"_a = py::none(), py::kw_only(),
         "max_length"_a = defaults.max_length, "both_ways"_a = defaults.both_ways,
         "closing_distance"_a = defaults.closing_distance, "threads"_a = 0,
         "Curves along the axes of (n, 4) frames at the vertices of a tet mesh, as a list of FrameStreamline: one per "

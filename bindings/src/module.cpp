@@ -57,6 +57,8 @@ PYBIND11_MODULE(_core, module) {
     bind_parameterization_types(module);
     bind_frame_streamline_types(module);
     bind_sampling_types(module);
+    bind_volume_input_types(module);
+    bind_domain(module);
     bind_volume(module);
     bind_sampling(module);
     bind_schemes(module);

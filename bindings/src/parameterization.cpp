@@ -3,7 +3,7 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
-#include "checks.hpp"
+#include "domain.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/alignment_tables.hpp"
 #include "octafield/volume/combing.hpp"
@@ -131,69 +131,65 @@ void bind_scaling_types(py::module_& m) {
 void bind_combing(py::module_& m) {
     m.def(
         "face_matchings",
-        [](const TetMesh& mesh, const ArrayLike& of_tets, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& of_tets, int threads) {
             threads_option(threads);
             return run_interruptible([=, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.tets.rows(), "of_tets");
-                return face_matchings(mesh, rows, threads);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.tet_count(), "of_tets");
+                return face_matchings(domain, rows, threads);
             });
         },
-        "mesh"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
         "Matchings of (m, 4) frames in the tets across every triangle between two, as FaceMatchings.");
     m.def(
         "comb_vertices",
-        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, int threads) {
             threads_option(threads);
             return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.vertices.rows(), "frames");
-                return comb_vertices(mesh, rows, threads);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return comb_vertices(domain, rows, threads);
             });
         },
-        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "Representatives of (n, 4) frames at the vertices, so that axes of neighbours correspond by number and sign but "
         "across a cut that ends at the singular curves that turn them, as CombedVertices. Results of octafield are "
         "combed already. A combed field stays as it is.");
     m.def(
         "axes_agree",
-        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, int threads) {
             threads_option(threads);
             return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.vertices.rows(), "frames");
-                return axes_agree(mesh, rows, threads);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return axes_agree(domain, rows, threads);
             }));
         },
-        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "(m,) uint8 per tet, 1: the axes of its four frames, (n, 4) at the vertices, correspond by number and sign, so "
         "that each may be interpolated by itself; 0: use sample_frames there.");
     m.def(
         "comb",
-        [](const TetMesh& mesh, const ArrayLike& of_tets, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& of_tets, int threads) {
             threads_option(threads);
             return run_interruptible([=, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.tets.rows(), "of_tets");
-                return comb(mesh, rows, threads);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.tet_count(), "of_tets");
+                return comb(domain, rows, threads);
             });
         },
-        "mesh"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
         "(m, 4) frames in the tets with representatives chosen so that the axes of neighbours correspond but across a "
         "cut, which leaves each part of the mesh simply connected and touches every singular edge, as CombedField.");
     m.def(
         "alignment_tables",
-        [](const TetMesh& mesh, const BoundarySurface& surface, const FeatureGraph& features,
-           const CombedField& combed) {
+        [](const DomainOrMesh& mesh, const CombedField& combed) {
             return run_interruptible([=](Job&) {
-                check(mesh, false);
-                check(surface, static_cast<Index>(mesh.vertices.rows()));
-                FeatureGraph checked = features;
-                check(checked, surface.mesh);
-                return alignment_tables(mesh, surface, checked, combed);
+                const TetDomain domain = domain_of(mesh);
+                return alignment_tables(domain, combed);
             });
         },
-        "mesh"_a, "surface"_a, "features"_a, "combed"_a,
+        "domain"_a, "combed"_a,
         "Which axes of a combed field the triangles of a surface, boundary_surface(mesh) or region_surface's, and its "
         "feature edges hold, as AlignmentTables: the boundary conditions of a parameterization.");
 }
@@ -202,29 +198,29 @@ void bind_scaling(py::module_& m) {
     const AxisScaleOptions defaults;
     m.def(
         "isotropic_scale",
-        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, int threads) {
             threads_option(threads);
             return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.vertices.rows(), "frames");
-                return isotropic_scale(mesh, rows, threads);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return isotropic_scale(domain, rows, threads);
             });
         },
-        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "The log-density H, one for all axes, for which (n, 4) frames at the vertices times exp(H) have the least curl "
         "(after Beaufort 2019, conclusion, section 2), as IsotropicScale. The same bits at any thread count.");
     m.def(
         "axis_scales",
-        [](const TetMesh& mesh, const ArrayLike& frames, double along, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, double along, int threads) {
             threads_option(threads);
             const AxisScaleOptions options{along, threads};
             return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.vertices.rows(), "frames");
-                return axis_scales(mesh, rows, options);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return axis_scales(domain, rows, options);
             });
         },
-        "mesh"_a, "frames"_a, py::kw_only(), "along"_a = defaults.along, "threads"_a = 0,
+        "domain"_a, "frames"_a, py::kw_only(), "along"_a = defaults.along, "threads"_a = 0,
         "The same with one log-density per axis, as AxisScales. along: weight in (0, 1] of the change of H_i along its "
         "own axis, which no curl sees.");
 }

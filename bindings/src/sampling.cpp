@@ -17,24 +17,21 @@ using py::literals::operator""_a;
 
 namespace {
 
-std::shared_ptr<Sampling> made(const TetMesh& mesh, Sampling (*make)(const TetMesh&)) {
-    return std::make_shared<Sampling>(run_interruptible([mesh = mesh, make](Job&) {
-        check(mesh);
-        return make(mesh);
-    }));
+std::shared_ptr<Sampling> made(const DomainOrMesh& mesh, Sampling (*make)(const TetDomain&)) {
+    return std::make_shared<Sampling>(run_interruptible([mesh = mesh, make](Job&) { return make(domain_of(mesh)); }));
 }
 
 // Checked here, for functions trust what a Sampling says.
 std::shared_ptr<Sampling> from_matrix(SparseMatrix stiffness, const ArrayLike& mass, double body_radius,
                                       double edge_length, double size, const std::string& sites) {
     const auto refuse = [](const std::string& message, const char* kind) { throw InvalidInput(message, kind); };
-    Sampling made{.sites = from_word<Sites>(sites, "sites"),
-                  .stiffness = std::move(stiffness),
-                  .mass = from_python<Eigen::VectorXd>(mass, "mass"),
-                  .body_radius = finite(body_radius, "body_radius"),
-                  .edge_length = finite(edge_length, "edge_length"),
-                  .size = finite(size, "size"),
-                  .elements = nullptr};
+    Sampling made;
+    made.sites = from_word<Sites>(sites, "sites");
+    made.stiffness = std::move(stiffness);
+    made.mass = from_python<Eigen::VectorXd>(mass, "mass");
+    made.body_radius = finite(body_radius, "body_radius");
+    made.edge_length = finite(edge_length, "edge_length");
+    made.size = finite(size, "size");
     SparseMatrix& matrix = made.stiffness;
     const Eigen::Index n = made.mass.size();
     matrix.makeCompressed();
@@ -74,24 +71,24 @@ py::tuple reduced(const py::object& self) {
 
 void bind_samplings(py::module_& m) {
     m.def(
-        "vertex_sampling", [](const TetMesh& mesh) { return made(mesh, vertex_sampling); }, "mesh"_a,
-        "One frame per vertex, linear elements: the Sampling that functions take a TetMesh for.");
+        "vertex_sampling", [](const DomainOrMesh& mesh) { return made(mesh, vertex_sampling); }, "domain"_a,
+        "One frame per vertex, linear elements: the Sampling that functions take a TetDomain or TetMesh for.");
     m.def(
-        "tet_sampling", [](const TetMesh& mesh) { return made(mesh, tet_sampling); }, "mesh"_a,
+        "tet_sampling", [](const DomainOrMesh& mesh) { return made(mesh, tet_sampling); }, "domain"_a,
         "One frame per tet, coupled across triangles by their area over the distance between the tets' centroids, as "
         "a Sampling. Energies of such two-point fluxes do not tend to those at the vertices (docs/tet_meshes.md).");
     m.def(
         "vertex_frames",
-        [](const TetMesh& mesh, const ArrayLike& of_tets, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& of_tets, int threads) {
             threads_option(threads);
             return own(run_interruptible(
                 [mesh = mesh, threads, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
-                    check(mesh, false);
-                    check_unit(rows, mesh.tets.rows(), "of_tets");
-                    return vertex_frames(mesh, rows, threads);
+                    const TetDomain domain = domain_of(mesh);
+                    check_unit(rows, domain.tet_count(), "of_tets");
+                    return vertex_frames(domain, rows, threads);
                 }));
         },
-        "mesh"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
         "(n, 4) quaternions w x y z: the frame nearest to the mean sh4 vector, weighted by volume, of the tets round "
         "each vertex. of_tets: (m, 4). tet_frames goes the other way.");
 }
@@ -100,49 +97,46 @@ void bind_boundary(py::module_& m) {
     const BoundaryOptions defaults;
     m.def(
         "tet_boundary_constraints",
-        [](const TetMesh& mesh, const BoundarySurface& surface, const ArrayLike& directions, const std::string& mode,
+        [](const DomainOrMesh& mesh, const ArrayLike& directions, const std::string& mode,
            double feature_tolerance) {
             const BoundaryOptions options{.mode = from_word<BoundaryMode>(mode, "mode"),
                                           .feature_tolerance = finite(feature_tolerance, "feature_tolerance")};
             return run_interruptible([=, rows = from_python<Points>(directions, "directions")](Job&) mutable {
-                check(mesh);
-                check(surface, static_cast<Index>(mesh.vertices.rows()));
-                check_vectors(rows, surface.mesh.triangles.rows(), "directions", "triangle");
-                return tet_boundary_constraints(mesh, surface, rows, options);
+                const TetDomain domain = domain_of(mesh);
+                check_vectors(rows, domain.surface().mesh.triangles.rows(), "directions", "triangle");
+                return tet_boundary_constraints(domain, rows, options);
             });
         },
-        "mesh"_a, "surface"_a, "directions"_a, py::kw_only(), "mode"_a = to_word(defaults.mode),
+        "domain"_a, "directions"_a, py::kw_only(), "mode"_a = to_word(defaults.mode),
         "feature_tolerance"_a = defaults.feature_tolerance,
         "Constraints of frames in the tets, as BoundaryConstraints with one row per tet. A tet with one triangle of "
         "the surface has an axis on its normal; with several, on their mean normal where feature_tolerance (radians) "
-        "allows, else a whole frame that fits them so well, else it is released and listed. surface: "
-        "boundary_surface(mesh) or region_surface's; directions: (F, 3) tangents in its triangles "
-        "(triangle_directions). mode: as of boundary_constraints.");
+        "allows, else a whole frame that fits them so well, else it is released and listed. directions: (F, 3) "
+        "tangents in its triangles (triangle_directions). mode: as of boundary_constraints.");
     m.def(
         "tet_alignment_angles",
-        [](const TetMesh& mesh, const BoundarySurface& surface, const ArrayLike& frames) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames) {
             return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check(mesh);
-                check(surface, static_cast<Index>(mesh.vertices.rows()));
-                check_unit(rows, mesh.tets.rows(), "frames");
-                return tet_alignment_angles(mesh, surface, rows);
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.tet_count(), "frames");
+                return tet_alignment_angles(domain, rows);
             }));
         },
-        "mesh"_a, "surface"_a, "frames"_a,
+        "domain"_a, "frames"_a,
         "Angles (radians) between the normal of each triangle of the surface and the nearest axis of the frame in the "
         "tet behind it, then of an interface's tet ahead of it. frames: (m, 4), one per tet.");
     m.def(
         "singular_edges",
-        [](const TetMesh& mesh, const ArrayLike& of_tets, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& of_tets, int threads) {
             threads_option(threads);
             return run_interruptible(
                 [mesh = mesh, threads, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
-                    check(mesh, false);
-                    check_unit(rows, mesh.tets.rows(), "of_tets");
-                    return singular_edges(mesh, rows, threads);
+                    const TetDomain domain = domain_of(mesh);
+                    check_unit(rows, domain.tet_count(), "of_tets");
+                    return singular_edges(domain, rows, threads);
                 });
         },
-        "mesh"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
         "Singular curves of (m, 4) frames in the tets, from the holonomy round every edge inside, lifted to the binary "
         "octahedral group, as SingularEdges. The same result at any thread count.");
 }

@@ -69,8 +69,8 @@ void bind_smoothing(py::module_& m) {
                 return initial_frames(where, held, given, threads);
             }));
         },
-        "mesh"_a, "constraints"_a, py::kw_only(), "start"_a = to_word(recipe.start), "threads"_a = recipe.threads,
-        "(n, 4) start frames: the sh4 field of least Dirichlet energy, one linear solve, projected. mesh: a TetMesh "
+        "domain"_a, "constraints"_a, py::kw_only(), "start"_a = to_word(recipe.start), "threads"_a = recipe.threads,
+        "(n, 4) start frames: the sh4 field of least Dirichlet energy, one linear solve, projected. domain: a TetDomain or TetMesh "
         "(frames "
         "at its vertices) or a Sampling. start: what it "
         "takes as given, \"constraints\" (a fixed axis leaves the plane of its twist free; Ray et al. 2016) or "
@@ -93,7 +93,7 @@ void bind_smoothing(py::module_& m) {
                 },
                 progress);
         },
-        "mesh"_a, "constraints"_a, "start"_a, py::kw_only(), "first_time"_a = diffusion.first_time,
+        "domain"_a, "constraints"_a, "start"_a, py::kw_only(), "first_time"_a = diffusion.first_time,
         "last_time"_a = diffusion.last_time, "time_exponent"_a = diffusion.time_exponent,
         "max_steps"_a = diffusion.max_steps, "linear_tolerance"_a = diffusion.linear_tolerance,
         "keep_best"_a = diffusion.keep_best, "threads"_a = diffusion.threads, "progress"_a = py::none(),
@@ -102,7 +102,7 @@ void bind_smoothing(py::module_& m) {
         "frames, as a SmoothResult of the lowest energy met (of the last step, without keep_best): the start for "
         "smooth. first_time: of the first step over the squared size of the body; last_time: "
         "of the last over the squared mean boundary edge; step k lasts 1/k^time_exponent of the first, with a larger "
-        "exponent where max_steps would not do; linear_tolerance: of the linear solves. mesh: a TetMesh or a Sampling. "
+        "exponent where max_steps would not do; linear_tolerance: of the linear solves. domain: a TetDomain, a TetMesh or a Sampling. "
         "Cancelled by progress, the "
         "best state is returned with converged False. Raises InvalidInput, SolverError.");
 
@@ -124,7 +124,7 @@ void bind_smoothing(py::module_& m) {
                 },
                 progress);
         },
-        "mesh"_a, "constraints"_a, "start"_a, py::kw_only(), "representation"_a = smoothing.representation,
+        "domain"_a, "constraints"_a, "start"_a, py::kw_only(), "representation"_a = smoothing.representation,
         "solver"_a = to_word(smoothing.solver), "max_iterations"_a = smoothing.max_iterations,
         "tolerance"_a = smoothing.tolerance, "linear_solver"_a = to_word(smoothing.linear_solver),
         "midpoint_limit"_a = smoothing.midpoint_limit, "threads"_a = smoothing.threads, "progress"_a = py::none(),
@@ -138,7 +138,7 @@ void bind_smoothing(py::module_& m) {
         "stop; "
         "linear_solver (of levenberg_marquardt): \"automatic\", \"cholesky\" or \"conjugate_gradients\"; "
         "midpoint_limit (of su2_midpoint, radians): beyond it edges are measured by the geodesic; the result does not "
-        "depend on threads. Cancelled by progress, the best state is returned with converged False. mesh: a TetMesh or "
+        "depend on threads. Cancelled by progress, the best state is returned with converged False. domain: a TetDomain, a TetMesh or "
         "a Sampling. Raises "
         "InvalidInput, SolverError.");
     m.def(
@@ -164,7 +164,7 @@ void bind_smoothing(py::module_& m) {
                 },
                 progress);
         },
-        "mesh"_a, "constraints"_a, py::kw_only(), "start"_a = to_word(recipe.start), "seed"_a = recipe.seed,
+        "domain"_a, "constraints"_a, py::kw_only(), "start"_a = to_word(recipe.start), "seed"_a = recipe.seed,
         "rounds"_a = recipe.rounds, "round_time"_a = recipe.round_time, "first_time"_a = diffusion.first_time,
         "last_time"_a = diffusion.last_time, "time_exponent"_a = diffusion.time_exponent,
         "max_steps"_a = diffusion.max_steps, "linear_tolerance"_a = diffusion.linear_tolerance,
@@ -176,7 +176,7 @@ void bind_smoothing(py::module_& m) {
         "seed other than 0: a random start, with five times first_time. round_time: first_time of each round over that "
         "of the one before. Rounds polish in sh4 with the trust region; another representation or solver starts from "
         "the best of them. The "
-        "other options are those of the parts. mesh: a TetMesh or a Sampling. Cancelled by progress, the best state is "
+        "other options are those of the parts. domain: a TetDomain, a TetMesh or a Sampling. Cancelled by progress, the best state is "
         "returned with converged "
         "False. Raises InvalidInput, SolverError.");
 }

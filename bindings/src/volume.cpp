@@ -6,7 +6,7 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
-#include "checks.hpp"
+#include "domain.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/singularities.hpp"
@@ -19,7 +19,6 @@ namespace octafield::bindings {
 
 using namespace volume;
 using py::literals::operator""_a;
-using surface::FeatureGraph;
 using surface::TriangleMesh;
 
 namespace {
@@ -37,20 +36,27 @@ std::map<std::string, Rows<double, Eigen::Dynamic>> named_arrays(const NamedArra
     return result;
 }
 
-// Binds f(mesh) -> array or matrix after the border checks.
-template <class Function>
-void def_of_mesh(py::module_& m, const char* name, Function function, const char* doc) {
-    const auto call = [function](const TetMesh& mesh) {
-        return run_interruptible([mesh = mesh, function](Job&) {
-            check(mesh, false);
-            return function(mesh);
+// Binds f(domain) -> array or matrix; with Plain, f(mesh), which validates nothing.
+template <bool Plain = false, class Function>
+void def_of_domain(py::module_& m, const char* name, Function function, const char* doc) {
+    const auto call = [function](const DomainOrMesh& where) {
+        return run_interruptible([where = where, function](Job&) {
+            if constexpr (Plain) {
+                if (const auto* mesh = std::get_if<TetMesh>(&where)) {
+                    check(*mesh, false);
+                    return function(*mesh);
+                }
+                return function(std::get<TetDomain>(where).mesh());
+            } else {
+                return function(domain_of(where));
+            }
         });
     };
-    if constexpr (std::is_same_v<std::invoke_result_t<Function, const TetMesh&>, Eigen::VectorXd>)
+    if constexpr (std::is_same_v<decltype(call(std::declval<const DomainOrMesh&>())), Eigen::VectorXd>)
         m.def(
-            name, [call](const TetMesh& mesh) { return own(call(mesh)); }, "mesh"_a, doc);
+            name, [call](const DomainOrMesh& where) { return own(call(where)); }, "domain"_a, doc);
     else
-        m.def(name, call, "mesh"_a, doc);
+        m.def(name, call, "domain"_a, doc);
 }
 
 void bind_meshes(py::module_& m) {
@@ -93,19 +99,19 @@ void bind_meshes(py::module_& m) {
             });
         },
         "mesh"_a);
-    def_of_mesh(m, "tet_volumes", tet_volumes, "(m,) signed volumes of the tets, cubed input unit.");
-    def_of_mesh(m, "boundary_surface", boundary_surface,
+    def_of_domain<true>(m, "tet_volumes", tet_volumes, "(m,) signed volumes of the tets, cubed input unit.");
+    def_of_domain<true>(m, "boundary_surface", boundary_surface,
                 "The triangles that belong to one tet only, as a BoundarySurface. Raises GeometryError (kind "
                 "\"non_manifold_face\") where "
                 "three tets share a triangle.");
 }
 
 void bind_operators(py::module_& m) {
-    def_of_mesh(
+    def_of_domain(
         m, "stiffness", stiffness,
         "(n, n) scipy.sparse matrix of int grad phi_i . grad phi_j over P1 elements; symmetric, rows sum to 0.");
-    def_of_mesh(m, "mass", mass, "(n, n) scipy.sparse matrix of int phi_i phi_j over P1 elements.");
-    def_of_mesh(m, "lumped_mass", lumped_mass, "(n,): a quarter of the volume of the tets at each vertex.");
+    def_of_domain(m, "mass", mass, "(n, n) scipy.sparse matrix of int phi_i phi_j over P1 elements.");
+    def_of_domain(m, "lumped_mass", lumped_mass, "(n,): a quarter of the volume of the tets at each vertex.");
     m.def(
         "dirichlet_energy",
         [](const MeshOrSampling& mesh, const ArrayLike& frames, int threads) {
@@ -116,90 +122,68 @@ void bind_operators(py::module_& m) {
                         check_unit(rows, (*sampling)->count(), "frames");
                         return dirichlet_energy(**sampling, rows, threads);
                     }
-                    const TetMesh& tets = std::get<TetMesh>(mesh);
-                    check(tets, false);
-                    check_unit(rows, tets.vertices.rows(), "frames");
-                    return dirichlet_energy(tets, rows, threads);
+                    const TetDomain domain = domain_of(mesh);
+                    check_unit(rows, domain.vertex_count(), "frames");
+                    return dirichlet_energy(domain, rows, threads);
                 });
         },
-        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "E = 1/2 sum_c a_c^T L a_c of (n, 4) frames, a their sh4 vectors and L the stiffness matrix, in the input's "
         "length unit; times "
-        "unit_speed_factor for frames moving at unit speed. mesh: a TetMesh or a Sampling. The same bits at any thread "
+        "unit_speed_factor for frames moving at unit speed. domain: a TetDomain, a TetMesh or a Sampling. The same bits at any thread "
         "count.");
 }
 
 void bind_boundary(py::module_& m) {
-    m.def(
-        "sector_normals",
-        [](const TriangleMesh& boundary, const FeatureGraph& features) {
-            return run_interruptible([boundary = boundary, features = features](Job&) mutable {
-                check(boundary, false);
-                check(features, boundary);
-                return sector_normals(boundary, features);
-            });
-        },
-        "boundary"_a, "features"_a,
-        "One unit normal per vertex of a boundary mesh and smooth sector, the triangles round it between feature "
-        "edges, weighted by area, as "
-        "SectorNormals.");
+    def_of_domain(m, "sector_normals", sector_normals,
+                         "One unit normal per vertex of the domain's surface and smooth sector, the triangles round it "
+                         "between feature edges, weighted by area, as SectorNormals.");
 
     const BoundaryOptions defaults;
     m.def(
         "boundary_constraints",
-        [](Index vertex_count, const BoundarySurface& boundary, const FeatureGraph& features,
-           const ArrayLike& directions, const std::string& mode, double feature_tolerance) {
-            if (vertex_count < 0)
-                throw InvalidInput("vertex_count: " + std::to_string(vertex_count) + " is negative",
-                                   "option_out_of_range");
+        [](const DomainOrMesh& mesh, const ArrayLike& directions, const std::string& mode, double feature_tolerance) {
             const BoundaryOptions options{.mode = from_word<BoundaryMode>(mode, "mode"),
                                           .feature_tolerance = finite(feature_tolerance, "feature_tolerance")};
-            return run_interruptible(
-                [=, features = features, rows = from_python<Points>(directions, "directions")](Job&) mutable {
-                    check(boundary, vertex_count);
-                    check(features, boundary.mesh);
-                    check_vectors(rows, boundary.mesh.vertices.rows(), "directions");
-                    return boundary_constraints(vertex_count, boundary, features, rows, options);
-                });
+            return run_interruptible([=, rows = from_python<Points>(directions, "directions")](Job&) {
+                const TetDomain domain = domain_of(mesh);
+                check_vectors(rows, domain.surface().mesh.vertices.rows(), "directions");
+                return boundary_constraints(domain, rows, options);
+            });
         },
-        "vertex_count"_a, "boundary"_a, "features"_a, "directions"_a, py::kw_only(), "mode"_a = to_word(defaults.mode),
+        "domain"_a, "directions"_a, py::kw_only(), "mode"_a = to_word(defaults.mode),
         "feature_tolerance"_a = defaults.feature_tolerance,
-        "Frames and constraints on the boundary of a tet mesh of vertex_count vertices, as BoundaryConstraints. "
-        "features: of boundary.mesh; directions: "
-        "(B, 3) unit tangents at its vertices (vertex_directions). mode: \"aligned\" (one axis on the normal, twist "
-        "free), \"fixed\" "
-        "(whole frame) or \"none\"; feature_tolerance (radians): how well one frame must fit a feature vertex to be "
-        "kept whole.");
+        "Frames and constraints on the surface of a TetDomain, as BoundaryConstraints with one row per vertex of its "
+        "mesh. directions: (B, 3) unit tangents at the surface's vertices (vertex_directions). mode: \"aligned\" (one "
+        "axis on the normal, twist free), \"fixed\" (whole frame) or \"none\"; feature_tolerance (radians): how well "
+        "one frame must fit a feature vertex to be kept whole.");
     m.def(
         "alignment_angles",
-        [](const BoundarySurface& boundary, const FeatureGraph& features, const ArrayLike& frames) {
-            return own(run_interruptible([boundary = boundary, features = features,
-                                          rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                check_unit(rows, -1, "frames");
-                check(boundary, static_cast<Index>(rows.rows()));
-                check(features, boundary.mesh);
-                return alignment_angles(boundary, features, rows);
+        [](const DomainOrMesh& mesh, const ArrayLike& frames) {
+            return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return alignment_angles(domain, rows);
             }));
         },
-        "boundary"_a, "features"_a, "frames"_a,
+        "domain"_a, "frames"_a,
         "(k,) angles (radians) between each sector normal and the nearest axis of its vertex's frame, in the order of "
-        "sector_normals. frames: "
-        "(n, 4), one per tet-mesh vertex.");
+        "sector_normals. frames: (n, 4), one per vertex of the mesh.");
 }
 
 void bind_analysis(py::module_& m) {
     m.def(
         "singular_graph",
-        [](const TetMesh& mesh, const ArrayLike& frames, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, int threads) {
             threads_option(threads);
             return run_interruptible(
                 [mesh = mesh, threads, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
-                    check(mesh, false);
-                    check_unit(rows, mesh.vertices.rows(), "frames");
-                    return singular_graph(mesh, rows, threads);
+                    const TetDomain domain = domain_of(mesh);
+                    check_unit(rows, domain.vertex_count(), "frames");
+                    return singular_graph(domain, rows, threads);
                 });
         },
-        "mesh"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "Singular curves of (n, 4) frames at the vertices, from the holonomy round every triangle, as a SingularGraph. "
         "The same result at any "
         "thread count.");
@@ -208,33 +192,32 @@ void bind_analysis(py::module_& m) {
 void bind_files(py::module_& m) {
     m.def(
         "write_field",
-        [](const std::filesystem::path& path, const TetMesh& mesh, const ArrayLike& frames, const Metadata& metadata,
-           const ArrayLike& regions, const ArrayLike& tet_frames, const ArrayLike& lengths,
+        [](const std::filesystem::path& path, const DomainOrMesh& mesh, const ArrayLike& frames, const Metadata& metadata,
+           const ArrayLike& tet_frames, const ArrayLike& lengths,
            const ArrayLike& tet_lengths, const NamedArrayLikes& point_data, const NamedArrayLikes& cell_data,
            const ArrayLike& features) {
             run_interruptible([path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames"),
-                               ids = from_python<std::vector<Index>>(regions, "regions"),
                                more = FieldArrays{from_python<Quaternions>(tet_frames, "tet_frames"),
                                                   from_python<Points>(lengths, "lengths"),
                                                   from_python<Points>(tet_lengths, "tet_lengths"),
                                                   named_arrays(point_data), named_arrays(cell_data),
                                                   from_python<Edges>(features, "features")}](Job&) mutable {
-                check(mesh, false);
-                check_unit(rows, mesh.vertices.rows(), "frames");
-                if (more.tet_frames.rows() > 0) check_unit(more.tet_frames, mesh.tets.rows(), "tet_frames");
-                if (more.lengths.rows() > 0) check_vectors(more.lengths, mesh.vertices.rows(), "lengths");
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                if (more.tet_frames.rows() > 0) check_unit(more.tet_frames, domain.tet_count(), "tet_frames");
+                if (more.lengths.rows() > 0) check_vectors(more.lengths, domain.vertex_count(), "lengths");
                 if (more.tet_lengths.rows() > 0)
-                    check_vectors(more.tet_lengths, mesh.tets.rows(), "tet_lengths", "tet");
-                write_field(path, mesh, rows, metadata, ids, more);
+                    check_vectors(more.tet_lengths, domain.tet_count(), "tet_lengths", "tet");
+                write_field(path, domain, rows, metadata, more);
                 return true;
             });
         },
-        "path"_a, "mesh"_a, "frames"_a, "metadata"_a = Metadata{}, "regions"_a = py::tuple(), py::kw_only(),
+        "path"_a, "domain"_a, "frames"_a, "metadata"_a = Metadata{}, py::kw_only(),
         "tet_frames"_a = py::tuple(), "lengths"_a = py::tuple(), "tet_lengths"_a = py::tuple(),
         "point_data"_a = NamedArrayLikes{}, "cell_data"_a = NamedArrayLikes{}, "features"_a = py::tuple(),
         "Write a .vtu file with point data frame_u, frame_v, frame_w (unit axes), quaternion (w x y z), sh4 (9) and "
         "boundary (0/1). frames: (n, 4); "
-        "metadata: words written as field data; regions: (m,) ids written as cell data region, or none; "
+        "metadata: words written as field data; the domain's regions are cell data region; "
         "tet_frames: (m, 4) frames written as cell data under the same names, or none; lengths: (n, 3) point data "
         "frame_lengths, or none, and tet_lengths: (m, 3) cell data; point_data, cell_data: other arrays by name, (n,) "
         "or "

@@ -1,12 +1,11 @@
 // What is done to a tet mesh before a field is computed on it: regions, locking tets, constraints of the user's own.
 #include "arrays.hpp"
 #include "bind.hpp"
-#include "checks.hpp"
 #include "constraint_kinds.hpp"
+#include "domain.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/locking.hpp"
 #include "octafield/volume/singular_split.hpp"
-#include "octafield/volume/regions.hpp"
 #include "octafield/volume/vertex_constraints.hpp"
 #include "record.hpp"
 
@@ -16,21 +15,7 @@ using namespace volume;
 using py::literals::operator""_a;
 using surface::TriangleMesh;
 
-namespace {
-
-void bind_types(py::module_& m) {
-    Record<RegionSurface>(m, "RegionSurface",
-                          "The boundary of a tet mesh and the interfaces between its regions, as one surface.")
-        .field("surface", &RegionSurface::surface,
-               "BoundarySurface: boundary triangles outward, then interfaces, out of the region of the lower id. Edges "
-               "may have three triangles or more.")
-        .field("interface_triangles", &RegionSurface::interface_triangles, "How many of the last triangles lie inside.")
-        .field("sides", &RegionSurface::sides, "(F, 2) int32: tet behind each triangle and tet ahead of it, -1 none.")
-        .finish([](const RegionSurface& r) {
-            return count(r.surface.mesh.triangles.rows(), "triangle") + ", " + std::to_string(r.interface_triangles) +
-                   " between regions";
-        });
-
+void bind_volume_input_types(py::module_& m) {
     Record<Sheets>(m, "Sheets", "A surface cut open along the edges that do not have exactly two triangles.")
         .field("mesh", &Sheets::mesh, "TriangleMesh: manifold sheets with rims, triangles in the surface's order.")
         .field("vertex_map", &Sheets::vertex_map, "(n,) int32: vertex of the surface that each is a copy of.")
@@ -87,21 +72,7 @@ void bind_types(py::module_& m) {
         });
 }
 
-}  // namespace
-
 void bind_volume_input(py::module_& m) {
-    bind_types(m);
-    m.def(
-        "region_surface",
-        [](const TetMesh& mesh, const ArrayLike& regions) {
-            return run_interruptible([mesh = mesh, ids = from_python<std::vector<Index>>(regions, "regions")](Job&) {
-                check(mesh, false);
-                return region_surface(mesh, ids);
-            });
-        },
-        "mesh"_a, "regions"_a,
-        "The triangles of one tet only and those between tets of different regions, as a RegionSurface. regions: (m,) "
-        "an id per tet, or none at all.");
     m.def(
         "cut_into_sheets",
         [](const TriangleMesh& surface) {
@@ -115,41 +86,37 @@ void bind_volume_input(py::module_& m) {
         "can work on where interfaces meet the boundary or each other.");
     m.def(
         "find_locking",
-        [](const TetMesh& mesh, const BoundarySurface& surface) {
-            return run_interruptible([mesh = mesh, surface = surface](Job&) {
-                check(mesh);
-                check(surface, static_cast<Index>(mesh.vertices.rows()));
-                return find_locking(mesh, surface);
+        [](const DomainOrMesh& mesh) {
+            return run_interruptible([mesh = mesh](Job&) {
+                const TetDomain domain = domain_of(mesh);
+                return find_locking(domain);
             });
         },
-        "mesh"_a, "surface"_a,
-        "Tets, edges and triangles inside the mesh that join its surface (of boundary_surface or region_surface) to "
-        "itself, as LockingElements.");
+        "domain"_a,
+        "Tets, edges and triangles inside the mesh that join its surface to itself, as LockingElements.");
     m.def(
         "split_locking",
-        [](const TetMesh& mesh, const BoundarySurface& surface) {
-            return run_interruptible([mesh = mesh, surface = surface](Job&) {
-                check(mesh);
-                check(surface, static_cast<Index>(mesh.vertices.rows()));
-                return split_locking(mesh, surface);
+        [](const DomainOrMesh& mesh) {
+            return run_interruptible([mesh = mesh](Job&) {
+                const TetDomain domain = domain_of(mesh);
+                return split_locking(domain);
             });
         },
-        "mesh"_a, "surface"_a,
+        "domain"_a,
         "Splits those edges at their midpoints, triangles and tets at their centres, as a LockingSplit. The surface "
         "keeps its vertices and triangles; every tet of the result has a vertex inside, but for those too flat.");
     m.def(
         "split_between_singular",
-        [](const TetMesh& mesh, const BoundarySurface& surface, const ArrayLike& of_tets, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& of_tets, int threads) {
             threads_option(threads);
             return run_interruptible(
-                [mesh = mesh, surface = surface, threads, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
-                    check(mesh);
-                    check(surface, static_cast<Index>(mesh.vertices.rows()));
-                    check_unit(rows, mesh.tets.rows(), "of_tets");
-                    return split_between_singular(mesh, surface, rows, threads);
+                [mesh = mesh, threads, rows = from_python<Quaternions>(of_tets, "of_tets")](Job&) mutable {
+                    const TetDomain domain = domain_of(mesh);
+                    check_unit(rows, domain.tet_count(), "of_tets");
+                    return split_between_singular(domain, rows, threads);
                 });
         },
-        "mesh"_a, "surface"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "of_tets"_a, py::kw_only(), "threads"_a = 0,
         "Splits edges inside that join two vertices of singular edges without being singular, at their midpoints, as a "
         "SingularSplit; of_tets[split.parent] are the frames of its tets. Singular edges and surface stay as they are.");
     py::list kinds;

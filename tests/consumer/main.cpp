@@ -21,13 +21,11 @@ int main() {
 
     octafield::volume::TetrahedralizeOptions options;
     options.edge_length = 0.3;
-    const auto mesh = octafield::volume::tetrahedralize(surface, options);
-    const auto boundary = octafield::volume::boundary_surface(mesh);
+    const octafield::volume::TetDomain domain(octafield::volume::tetrahedralize(surface, options), {}, features);
     const auto directions = octafield::surface::vertex_directions(surface, features, field);
-    const auto constraints = octafield::volume::boundary_constraints(
-        static_cast<octafield::Index>(mesh.vertices.rows()), boundary, features, directions);
+    const auto constraints = octafield::volume::boundary_constraints(domain, directions);
     const auto result =
-        octafield::volume::smooth(mesh, constraints, octafield::volume::initial_frames(mesh, constraints));
-    std::printf("%ld tets, energy %g\n", static_cast<long>(mesh.tets.rows()), result.energy);
-    return result.frames.rows() == mesh.vertices.rows() && result.energy >= 0 ? 0 : 1;
+        octafield::volume::smooth(domain, constraints, octafield::volume::initial_frames(domain, constraints));
+    std::printf("%d tets, energy %g\n", domain.tet_count(), result.energy);
+    return result.frames.rows() == domain.vertex_count() && result.energy >= 0 ? 0 : 1;
 }

@@ -108,5 +108,5 @@ def box_problem(box, box_surface, box_features):
     boundary = octafield.boundary_surface(box)
     field = octafield.direction_field(box_surface, box_features)
     directions = octafield.vertex_directions(box_surface, box_features, field)
-    constraints = octafield.boundary_constraints(len(box.vertices), boundary, box_features, directions)
+    constraints = octafield.boundary_constraints(octafield.TetDomain(box, features=box_features), directions)
     return boundary, directions, constraints, octafield.initial_frames(box, constraints)

@@ -11,7 +11,7 @@ import other_readers as readers
 import other_writers as writers
 import pyvista
 from conftest import box_tets
-from octafield.domain.inputs import Input, from_mesh, read_input, with_regions
+from octafield.domain.inputs import Input, domain_of, from_mesh, read_input
 from octafield.domain.mesh_writers import write_mesh
 from scipy.spatial import cKDTree
 from test_tet_input import cube_edges, halves
@@ -23,10 +23,10 @@ Parts = dict[str, np.ndarray]  # points, cells; of tets: regions (m,), features 
 def box() -> tuple[Input, Parts]:
     """A cube in two regions with its twelve edges as features."""
     tets = box_tets(3)
-    found = with_regions(from_mesh(tets), halves(tets))
+    found = from_mesh(domain_of(tets, halves(tets)))
     lines = cube_edges(tets)
     to_surface = np.full(len(tets.vertices), -1)
-    to_surface[np.asarray(found.boundary.vertex_map)] = np.arange(len(found.surface.vertices))
+    to_surface[np.asarray(found.volume().surface.vertex_map)] = np.arange(len(found.surface.vertices))
     found.lines, found.creases = to_surface[lines].astype(np.int32), True
     return found, {
         "points": np.asarray(tets.vertices),
@@ -125,7 +125,7 @@ def _ours(found: Input) -> Parts:
     if found.regions is not None:
         parts["regions"] = np.asarray(found.regions)
     if found.lines is not None and found.lines_are_features():
-        parts["features"] = np.asarray(found.boundary.vertex_map)[found.lines]
+        parts["features"] = np.asarray(found.volume().surface.vertex_map)[found.lines]
     return parts
 
 

@@ -70,18 +70,16 @@ def test_smoothed_curves_are_shorter_and_keep_their_ends(box):
 
 
 def test_a_cube_has_one_hexahedron_at_every_edge(box):
-    boundary = of.boundary_surface(box)
-    features = of.detect_features(boundary.mesh)
+    features = of.detect_features(of.boundary_surface(box).mesh)
+    domain = of.TetDomain(box, features=features)
     frames = np.tile([1.0, 0, 0, 0], (len(box.vertices), 1))
-    found = of.boundary_meshability(box, boundary, features, frames)
+    found = of.boundary_meshability(domain, frames)
     assert {(w.hexahedra_a, w.hexahedra_b, w.around) for w in found.wedges} == {(1, 1, 1)}
     assert len(found.wedges) == len(features.edges) and len(found.corners) == 8 and not found.crossings
     assert found.non_meshable_wedges == found.non_meshable_corners == 0
     assert all(c.meshable and c.inside == 0 and c.feature_edges == c.sectors == 3 for c in found.corners)
     with pytest.raises(of.InvalidInput):
-        of.boundary_meshability(box, boundary, features, frames[:3])
-    with pytest.raises(of.InvalidInput):
-        of.boundary_meshability(of.TetMesh(np.eye(4)[:, :3], [[0, 1, 2, 3]]), boundary, features, frames[:4])
+        of.boundary_meshability(domain, frames[:3])
 
 
 def test_integrability_of_a_screw_field_is_its_twist(box):
@@ -97,11 +95,10 @@ def test_integrability_of_a_screw_field_is_its_twist(box):
 
 
 def test_feature_alignment_of_a_cube_is_the_angle_it_is_turned_by(box):
-    boundary = of.boundary_surface(box)
-    features = of.detect_features(boundary.mesh)
-    tangents = of.feature_tangents(boundary.mesh, features)
+    domain = of.TetDomain(box, features=of.detect_features(of.boundary_surface(box).mesh))
+    tangents = of.feature_tangents(domain)
     frames = of.quaternion_exp(np.tile([0, 0, 0.2], (len(box.vertices), 1)))
-    angles = of.feature_alignment_angles(boundary, features, frames)
+    angles = of.feature_alignment_angles(domain, frames)
     np.testing.assert_allclose(angles, np.where(abs(tangents.tangent[:, 2]) > 0.5, 0, 0.2), atol=1e-14)
 
 

@@ -171,7 +171,6 @@ ON_MESH = [
     lambda m: of.feature_graph(m, []),
     lambda m: of.remesh(m, NONE),
     lambda m: of.direction_field(m, NONE),
-    lambda m: of.sector_normals(m, NONE),
     lambda m: of.vertex_directions(m, NONE, of.DirectionField()),
     lambda m: of.triangle_directions(m, of.DirectionField()),
     lambda m: of.surface_singularities(m, of.DirectionField()),
@@ -214,7 +213,7 @@ def test_an_empty_mesh_is_refused_where_nothing_can_be_said(call):
         call(of.TriangleMesh())
 
 
-def test_features_that_are_not_of_the_mesh_are_refused(box_surface, box_field):
+def test_features_that_are_not_of_the_mesh_are_refused(box, box_surface, box_field):
     far = [int(np.argmin(box_surface.vertices.sum(axis=1))), int(np.argmax(box_surface.vertices.sum(axis=1)))]
     for bad, kind in (
         (of.FeatureGraph([far], []), "not_an_edge"),
@@ -226,7 +225,7 @@ def test_features_that_are_not_of_the_mesh_are_refused(box_surface, box_field):
             lambda f: of.direction_field(box_surface, f),
             lambda f: of.remesh(box_surface, f),
             lambda f: of.vertex_directions(box_surface, f, box_field),
-            lambda f: of.sector_normals(box_surface, f),
+            lambda f: of.TetDomain(box, features=f),
         ):
             with pytest.raises(of.InvalidInput, match="features") as caught:
                 call(bad)

@@ -57,8 +57,8 @@ def test_tetrahedralize_keeps_the_surface(box_surface):
     assert of.tet_volumes(mesh).sum() == pytest.approx(1) and len(boundary.mesh.triangles) == len(box_surface.triangles)
 
 
-def test_sector_normals_of_the_cube_are_its_axes(box_surface, box_features):
-    sectors = of.sector_normals(box_surface, box_features)
+def test_sector_normals_of_the_cube_are_its_axes(box, box_surface, box_features):
+    sectors = of.sector_normals(of.TetDomain(box, features=box_features))
     assert sectors.vertex.dtype == np.int32 and (np.diff(sectors.vertex) >= 0).all()
     np.testing.assert_allclose(
         np.sort(np.abs(sectors.normal), axis=1), np.tile([0, 0, 1], (len(sectors.vertex), 1)), atol=1e-14
@@ -70,7 +70,7 @@ def test_sector_normals_of_the_cube_are_its_axes(box_surface, box_features):
 @pytest.mark.parametrize("mode, face_kind", [("aligned", 1), ("fixed", 2), ("none", 0)])
 def test_constraints_follow_the_mode(box, box_features, box_problem, mode, face_kind):
     boundary, directions, _, _ = box_problem
-    constraints = of.boundary_constraints(len(box.vertices), boundary, box_features, directions, mode=mode)
+    constraints = of.boundary_constraints(of.TetDomain(box, features=box_features), directions, mode=mode)
     on_surface = np.zeros(len(box.vertices), dtype=np.uint8)
     on_surface[boundary.vertex_map] = 1
     np.testing.assert_array_equal(constraints.on_boundary, on_surface)
@@ -87,7 +87,7 @@ def test_smoothing_the_cube_finds_the_constant_field(box, box_features, box_prob
     assert result.energy == pytest.approx(of.dirichlet_energy(box, result.frames), rel=1e-12, abs=1e-20)
     assert result.energy <= result.energy_history[0] * (1 + 1e-12) and result.message
     assert of.distance(result.frames, [1, 0, 0, 0]).max() < 1e-3
-    assert np.degrees(of.alignment_angles(boundary, box_features, result.frames)).max() < 0.1
+    assert np.degrees(of.alignment_angles(of.TetDomain(box, features=box_features), result.frames)).max() < 0.1
     assert all(isinstance(p, str) and isinstance(f, float) and isinstance(m, float) for p, f, m in reports)
 
 
@@ -224,13 +224,10 @@ def test_frames_that_do_not_fit_the_mesh_are_refused(box, frames):
         of.singular_graph,
         lambda m, f: of.smooth(m, constraints, f),
         lambda m, f: of.write_field("never.vtu", m, f),
+        of.alignment_angles,
     ):
         with pytest.raises(of.InvalidInput, match="frames|start"):
             call(box, frames)
-    with pytest.raises(of.InvalidInput, match="frames"):
-        of.alignment_angles(
-            of.BoundarySurface(of.TriangleMesh(np.eye(3), []), [0, 1, 99]), of.FeatureGraph(), [[2.0, 0, 0, 0]] * 100
-        )
 
 
 @pytest.mark.parametrize(
@@ -261,28 +258,16 @@ def test_an_axis_that_is_not_unit_is_refused(box):
         of.initial_frames(box, constraints)
 
 
-def test_boundaries_that_do_not_fit_are_refused(box, box_features, box_problem):
+def test_directions_that_do_not_fit_the_surface_are_refused(box, box_features, box_problem):
     boundary, directions, _, _ = box_problem
-    n, mesh, ids = len(box.vertices), boundary.mesh, boundary.vertex_map
-    for wrong in (
-        of.BoundarySurface(mesh, ids[:-1]),
-        of.BoundarySurface(mesh, ids[::-1]),
-        of.BoundarySurface(mesh, ids + n),
-        of.BoundarySurface(WILD_SURFACE, [0, 1, 2]),
-    ):
-        with pytest.raises(of.InvalidInput, match="vertex_map|triangles"):
-            of.boundary_constraints(n, wrong, box_features, directions)
-        with pytest.raises(of.InvalidInput, match="vertex_map|triangles"):
-            of.alignment_angles(wrong, box_features, np.tile(FRAMES[0], (n, 1)))
+    domain = of.TetDomain(box, features=box_features)
     for wrong in (directions[:-1], directions[:, :2], directions * np.nan):
         with pytest.raises(of.InvalidInput, match="directions"):
-            of.boundary_constraints(n, boundary, box_features, wrong)
+            of.boundary_constraints(domain, wrong)
         with pytest.raises(of.InvalidInput, match="directions"):
-            of.write_surface_field("never.vtp", mesh, wrong)
+            of.write_surface_field("never.vtp", boundary.mesh, wrong)
     with pytest.raises(of.InvalidInput, match="aligned, fixed, none"):
-        of.boundary_constraints(n, boundary, box_features, directions, mode="loose")
-    with pytest.raises(of.InvalidInput, match="vertex_count"):
-        of.boundary_constraints(-1, boundary, box_features, directions)
+        of.boundary_constraints(domain, directions, mode="loose")
 
 
 WILD_SURFACE = of.TriangleMesh(np.eye(3), [[0, 1, 10**9]])

@@ -43,7 +43,7 @@ def halved(tmp_path_factory):
 def feature_lines(found):
     if found.lines is None or not found.lines_are_features():
         return None
-    lines = found.lines if found.tets is None else np.asarray(found.boundary.vertex_map)[found.lines]
+    lines = found.lines if found.tets is None else np.asarray(found.volume().surface.vertex_map)[found.lines]
     return np.unique(np.sort(lines, axis=1), axis=0)
 
 

@@ -157,7 +157,7 @@ def test_splitting_between_singular_vertices_keeps_frames_singular_edges_and_fea
     of.write_frames(tmp_path / "a.vtu", mesh, frames, "tets", features=features, regions=np.arange(len(frames)) % 1)
     done = convert_file(tmp_path / "a.vtu", tmp_path / "b.vtu", split_singular=True)
     found = of.read_frames(tmp_path / "b.vtu")
-    split = of.split_between_singular(mesh, of.boundary_surface(mesh), frames)
+    split = of.split_between_singular(mesh, frames)
     assert len(split.edges) > 5 and len(split.left) == 0 and done.cells == len(split.mesh.tets) > len(mesh.tets)
     assert np.array_equal(found.mesh.tets, split.mesh.tets) and np.allclose(
         of.distance(found.frames, frames[split.parent]), 0, atol=1e-7
@@ -194,7 +194,8 @@ def test_field_splits_between_singular_vertices_on_request(tmp_path, interfaces)
     vertices."""
     mesh = box_tets(3)
     regions = (np.asarray(mesh.vertices)[np.asarray(mesh.tets)].mean(axis=1)[:, 0] > 0.5).astype(np.int32)
-    of.write_field(tmp_path / "in.vtu", mesh, np.tile([1.0, 0, 0, 0], (len(mesh.vertices), 1)), {}, regions)
+    domain = of.TetDomain(mesh, regions=regions)
+    of.write_field(tmp_path / "in.vtu", domain, np.tile([1.0, 0, 0, 0], (len(mesh.vertices), 1)))
     options = of.FieldOptions(
         sampling="tets", boundary="none", interfaces=interfaces, max_iterations=0, rounds=0, streamlines=0
     )
@@ -221,8 +222,7 @@ def test_field_splits_between_singular_vertices_on_request(tmp_path, interfaces)
         split.record["mesh_sha256"] != plain.record["mesh_sha256"]
         and split.record["energy_history"] == plain.record["energy_history"]
     )
-    surface = of.region_surface(split.tets, split.regions).surface if interfaces else of.boundary_surface(split.tets)
-    assert len(of.split_between_singular(split.tets, surface, split.tet_frames).edges) == 0
+    assert len(of.split_between_singular(split.tets, split.tet_frames).edges) == 0
 
 
 def test_field_and_convert_split_alike(tmp_path):

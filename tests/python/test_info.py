@@ -273,7 +273,7 @@ def test_memory_is_weighed_against_the_machine(tmp_path, monkeypatch):
 def test_regions_and_interfaces_are_told(tmp_path, box):
     half = (np.asarray(box.vertices)[np.asarray(box.tets)].mean(axis=1)[:, 0] > 0.4).astype(int) + 1
     path = tmp_path / "two.vtu"
-    of.write_field(path, box, np.tile([1.0, 0, 0, 0], (len(box.vertices), 1)), regions=half)
+    of.write_field(path, of.TetDomain(box, regions=half), np.tile([1.0, 0, 0, 0], (len(box.vertices), 1)))
     record = examine(path)
     assert record["ok"] and record["regions"] == 2 and record["interface_triangles"] == 50
 

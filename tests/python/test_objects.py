@@ -44,19 +44,19 @@ def objects(field, tmp_path_factory):
     everything = [
         field, in_tets, meshed, of.prepare(meshed), of.compute_surface_field(generate("torus"), of.SurfaceFieldOptions(curvature=1)),
         of.compare(generate("box"), folder / "compared", representations=["sh4"], boundaries=["aligned"], options=of.FieldOptions(edge_length=0.5)),
-        boundary, of.region_surface(tets, two), of.cut_into_sheets(of.region_surface(tets, two).surface.mesh),
-        of.split_locking(tets, boundary), of.find_defects(open_box), of.repair(open_box), of.advise_repair(open_box), of.remesh(generate("box"), of.detect_features(generate("box"))), of.size_field(generate("box"), of.detect_features(generate("box"))),
-        of.edge_topology(surface), of.feature_tangents(surface, field.features), of.sector_normals(surface, field.features),
+        boundary, tets.mesh, of.TetDomain(tets.mesh, regions=two), of.TetDomain(tets.mesh, regions=two).sheets,
+        of.split_locking(tets), of.find_defects(open_box), of.repair(open_box), of.advise_repair(open_box), of.remesh(generate("box"), of.detect_features(generate("box"))), of.size_field(generate("box"), of.detect_features(generate("box"))),
+        of.edge_topology(surface), of.feature_tangents(tets), of.sector_normals(tets),
         of.principal_directions(surface, field.features), of.locate_points(tets, [[0, 0, 0.5], [9, 9, 9]]), of.sample_frames(field, [[0, 0, 0.5]]), of.comb_vertices(tets, field.frames), of.smoothed_curves(field.singular_graph),
         of.frame_field(tets, field.constraints, max_steps=2, max_iterations=2), of.vertex_sampling(tets), of.tet_sampling(tets),
         of.Sampling(of.tet_sampling(tets).stiffness, of.tet_sampling(tets).mass, 1, 1, 2, "tets"),
-        of.singular_edges(tets, in_tets.tet_frames), of.split_between_singular(tets, boundary, in_tets.tet_frames), of.singular_graph(tets, of.random_rotations(len(frames))),
+        of.singular_edges(tets, in_tets.tet_frames), of.split_between_singular(tets, in_tets.tet_frames), of.singular_graph(tets, of.random_rotations(len(frames))),
         of.local_meshability(tets, of.random_rotations(len(frames)), of.singular_graph(tets, of.random_rotations(len(frames)))),
-        of.boundary_meshability(tets, boundary, field.features, of.random_rotations(len(frames))),
-        of.boundary_meshability(box.tets, box.boundary, box.features, of.random_rotations(len(box.tets.vertices))),
+        of.boundary_meshability(tets, of.random_rotations(len(frames))),
+        of.boundary_meshability(box.tets, of.random_rotations(len(box.tets.vertices))),
         of.DirectionConstraints([[0, 1]], [[1, 0, 0]], [2.0]), of.DirectionGuide([[1, 0, 0]], [1], 3), of.VertexConstraints([3], [1], [[0, 0, 1]]),
         of.MeshOptions(repair=True), of.FieldOptions(seed=3), of.SurfaceFieldOptions(symmetry=6), list(of.representations.values()), list(of.metrics.values()),
-        combed, of.alignment_tables(tets, boundary, field.features, combed), of.isotropic_scale(tets, frames), of.axis_scales(tets, frames),
+        combed, of.alignment_tables(tets, combed), of.isotropic_scale(tets, frames), of.axis_scales(tets, frames),
         of.parameterization_input(tets, frames),
         of.read_frames(folder / "field.npz"), of.analyse(tets, frames), of.convert_file(folder / "field.npz", folder / "field.frame"),
         list(of.frame_formats.values()), described, study.plan(described), study.run(described, folder / "study"),
@@ -139,9 +139,7 @@ def test_reprs_are_one_short_line_with_the_class(cls, objects):
 
 
 def test_reprs_tell_counts_and_ranges(field, objects):
-    assert repr(field.tets).startswith(
-        f"TetMesh({len(field.tets.vertices)} vertices, {len(field.tets.tets)} tets, box [-"
-    )
+    assert repr(field.tets).startswith(f"TetDomain({len(field.tets.vertices)} vertices, {len(field.tets.tets)} tets, ")
     assert repr(field).startswith("FieldResult(mesh in memory: ")
     (comparison,) = objects[of.Comparison]
     assert repr(comparison).startswith("Comparison(1 run: 1 input, 1 representation, 1 boundary; E ")

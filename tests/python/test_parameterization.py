@@ -146,8 +146,8 @@ def boundary_of(mesh):
 
 def test_tables_tell_the_axes_of_normals_and_feature_edges(combed):
     meshed, mesh, _, _, field = combed
-    surface, features = meshed.boundary, meshed.boundary_features
-    found = of.alignment_tables(mesh, surface, features, field)
+    surface, features = meshed.tets.surface, meshed.tets.features
+    found = of.alignment_tables(meshed.tets, field)
     frames, points = matrices(field.frames), np.asarray(mesh.vertices)
     corners = points[np.asarray(surface.vertex_map)[surface.mesh.triangles]]
     check_axes(frames, found.triangle_tet, found.triangle_axis, found.triangle_angle, of.triangle_normals(surface.mesh))
@@ -189,7 +189,7 @@ def test_a_cylinder_has_one_axis_normal_to_each_of_its_patches_though_four_curve
     meshed, mesh, of_tets = field_of("s02c")
     field = of.comb(mesh, of_tets)
     assert field.cut.any()
-    found = of.alignment_tables(mesh, meshed.boundary, meshed.boundary_features, field)
+    found = of.alignment_tables(meshed.tets, field)
     assert found.patch_one_axis.all()
 
 
@@ -198,11 +198,11 @@ def test_records_are_pickled_and_other_meshes_refused(box):
     assert not field.cut.any() and field.parts == 1 and not field.element.any()
     again = pickle.loads(pickle.dumps(field))
     np.testing.assert_array_equal(again.faces.matching, field.faces.matching)
-    surface = of.boundary_surface(box)
-    features = of.detect_features(surface.mesh)
-    assert len(copy.deepcopy(of.alignment_tables(box, surface, features, again)).patch_one_axis) == 6
+    domain = of.TetDomain(box)
+    domain = domain.with_features(of.detect_features(domain.surface.mesh))
+    assert len(copy.deepcopy(of.alignment_tables(domain, again)).patch_one_axis) == 6
     with pytest.raises(of.InvalidInput):
-        of.alignment_tables(box, surface, features, of.CombedField())
+        of.alignment_tables(domain, of.CombedField())
     with pytest.raises(of.InvalidInput):
         of.comb(box, field.frames[:5])
     with pytest.raises(of.InvalidInput):

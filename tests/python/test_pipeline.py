@@ -8,6 +8,7 @@ import meshio
 import numpy as np
 import octafield
 import pytest
+from octafield.domain.generators import generate
 from octafield.domain.inputs import read_input
 from octafield.domain.meshing import prepare_mesh
 from octafield.fields.frame_field import compute_field, compute_surface_field, load_surface, prepare, run
@@ -260,3 +261,15 @@ def test_integers_of_numpy_are_taken_and_fractions_refused():
             FieldOptions(**bad)
     with pytest.raises(octafield.InvalidInput, match="symmetry"):
         SurfaceFieldOptions(symmetry=2**31)
+
+
+@pytest.mark.parametrize("sampling", ["vertices", "tets"])
+@pytest.mark.parametrize("kind", ["surface", "tets"])
+def test_a_run_validates_its_mesh_once(tmp_path, kind, sampling):
+    """Every crossing into C++ that is handed a TetMesh instead of the domain would validate it again."""
+    options = FieldOptions(sampling=sampling, edge_length=0.4, sizes="axes", streamlines=2)
+    source = generate("box") if kind == "surface" else octafield.tetrahedralize(generate("box"), edge_length=0.4)
+    before = octafield.TetDomain.made()
+    result = compute_field(source, options if kind == "surface" else replace(options, edge_length=0))
+    write_field_result(result, tmp_path)
+    assert octafield.TetDomain.made() == before + 1

@@ -106,18 +106,18 @@ def test_what_meshio_writes_comes_back_with_regions_and_lines(tmp_path, kind, pa
     assert np.array_equal(found.regions, halves(tets)[order])
     assert found.interface_triangles == 2 * 4 * 4
     if kind != "tetgen":
-        ends = np.asarray(found.boundary.vertex_map)[found.lines]
+        ends = np.asarray(found.volume().surface.vertex_map)[found.lines]
         assert np.array_equal(np.unique(np.sort(ends, axis=1), axis=0), cube_edges(tets))
 
 
 def test_fields_that_octafield_writes_come_back_with_their_regions(tmp_path):
     tets = box_tets(2)
     frames = np.tile([1.0, 0, 0, 0], (len(tets.vertices), 1))
-    of.write_field(tmp_path / "a.vtu", tets, frames, {}, halves(tets))
+    of.write_field(tmp_path / "a.vtu", of.TetDomain(tets, regions=halves(tets)), frames)
     assert np.array_equal(read_input(tmp_path / "a.vtu").regions, halves(tets))
     assert np.array_equal(meshio.read(tmp_path / "a.vtu").cell_data["region"][0], halves(tets))
     with pytest.raises(of.InvalidInput, match="one per tet"):
-        of.write_field(tmp_path / "b.vtu", tets, frames, {}, [1])
+        of.TetDomain(tets, regions=[1])
 
 
 @pytest.mark.parametrize("name", ["sphere_r0.17.mesh.gz", "78322_gear.2.mesh.gz", "genus3.mesh.gz", "prism.ele.gz"])
@@ -224,7 +224,7 @@ def test_tetgen_edges_are_features_and_markers_of_faces_are_faces(tmp_path, base
     tets = box_tets(3)
     write_tetgen_boundary(tmp_path / "a", tets, base, extra=base == 1)  # with a column that the header does not tell
     found = read_input(tmp_path / "a.node")
-    ends = np.asarray(found.boundary.vertex_map)[found.lines]
+    ends = np.asarray(found.volume().surface.vertex_map)[found.lines]
     assert np.array_equal(np.unique(np.sort(ends, axis=1), axis=0), cube_edges(tets))
     assert prepare_mesh(tmp_path / "a.ele").feature_source == "file"
     (tmp_path / "a.edge").unlink()
@@ -327,14 +327,14 @@ def test_an_interface_holds_the_field_as_a_boundary_does(tmp_path, two_regions):
 @pytest.mark.parametrize("features", ["file", "angle", "none"])
 def test_the_rim_of_an_interface_is_a_feature_whatever_their_source(two_regions, features):
     meshed = prepare_mesh(two_regions, FieldOptions(features=features))
-    points = np.asarray(meshed.boundary.mesh.vertices)
-    ends = points[np.asarray(meshed.boundary_features.edges)]
+    points = np.asarray(meshed.tets.surface.mesh.vertices)
+    ends = points[np.asarray(meshed.tets.features.edges)]
     assert ((ends[:, :, 0] == 0.5).all(axis=1)).sum() == 16
     assert len(ends) == 16 + (0 if features == "none" else 12 * 4)
     of.edge_topology(meshed.surface)  # raises unless the sheets are manifold
     lifted = np.asarray(meshed.sheet_map)[np.asarray(meshed.features.edges)]
     pairs = {tuple(sorted(edge)) for edge in lifted.tolist()}
-    assert pairs == {tuple(edge) for edge in np.asarray(meshed.boundary_features.edges).tolist()}
+    assert pairs == {tuple(edge) for edge in np.asarray(meshed.tets.features.edges).tolist()}
 
 
 def test_an_interface_that_is_oblique_turns_the_field_with_it():
@@ -344,15 +344,16 @@ def test_an_interface_that_is_oblique_turns_the_field_with_it():
     bump = 0.15 * np.sin(np.pi * points[:, 1]) * np.sin(np.pi * points[:, 0])
     points[:, 0] += bump  # the middle plane becomes curved, the sides x = 0 and 1 stay
     bent = of.TetMesh(points, np.asarray(tets.tets))
-    surface = of.region_surface(bent, halves(tets))
-    features = of.detect_features(of.boundary_surface(bent).mesh)
+    domain = of.TetDomain(bent, regions=halves(tets))
+    surface = domain.surface.mesh
+    features = of.detect_features(domain.boundary.mesh)
     assert len(features.edges) == 48
-    sheets = of.cut_into_sheets(surface.surface.mesh)
+    sheets = domain.sheets
     edges = np.asarray(sheets.vertex_map)[np.asarray(of.detect_features(sheets.mesh).edges)]
-    graph = of.feature_graph(surface.surface.mesh, edges)
-    directions = np.tile([0.3, 0.5, 0.8], (len(surface.surface.mesh.vertices), 1))
-    held = of.boundary_constraints(len(points), surface.surface, graph, directions)
-    frames = np.asarray(of.frame_field(bent, held).smooth.frames)
+    graph = of.feature_graph(surface, edges)
+    directions = np.tile([0.3, 0.5, 0.8], (len(surface.vertices), 1))
+    held = of.boundary_constraints(domain.with_features(graph), directions)
+    frames = np.asarray(of.frame_field(domain, held).smooth.frames)
     normals = np.asarray(held.axis)
     middle = np.flatnonzero((np.asarray(tets.vertices)[:, 0] == 0.5) & (np.asarray(held.kind) == 1))
     assert len(middle) >= 9
@@ -384,8 +385,7 @@ def test_a_surface_is_filled_then_split(tmp_path):
     assert plain.locking["tets"] == split.locking["tets"] > 0
     assert len(split.tets.tets) == len(plain.tets.tets) + split.locking["added_tets"]
     assert np.array_equal(split.surface.vertices, plain.surface.vertices)
-    surface = of.boundary_surface(split.tets)
-    assert len(of.find_locking(split.tets, surface).tets) == 0
+    assert len(of.find_locking(split.tets).tets) == 0
 
 
 def test_constraints_of_the_user_hold_inside_and_are_counted():
@@ -434,7 +434,7 @@ def test_the_prism_reaches_the_published_energy_with_its_crease_vertices_free():
     least = np.ones(len(normals))
     for k in range(3):
         np.minimum.at(least, triangles[:, k], (faces * normals[triangles[:, k]]).sum(axis=1))
-    creases = np.asarray(meshed.boundary.vertex_map)[least < 0]
+    creases = np.asarray(meshed.tets.surface.vertex_map)[least < 0]
     assert len(creases) == 18
     free = of.VertexConstraints(vertices=creases, kinds=np.zeros(18, np.uint8))
     assert compute_field(meshed, options, constraints=free).record["energy"] <= 38.3987 * 1.0005

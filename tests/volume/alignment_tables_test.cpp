@@ -10,7 +10,6 @@
 
 #include "field_fixtures.hpp"
 #include "octafield/error.hpp"
-#include "octafield/volume/regions.hpp"
 #include "tet_fixtures.hpp"
 
 namespace octafield::volume {
@@ -37,7 +36,7 @@ TEST(AlignmentTables, OfACubeHaveSixPatchesOfOneAxisAndTheTurnAsAngle) {
     const BoundarySurface surface = boundary_surface(mesh);
     const surface::FeatureGraph features = surface::detect_features(surface.mesh);
     const CombedField combed = comb(mesh, constant(mesh, {0, 0, 0.2}));
-    const AlignmentTables found = alignment_tables(mesh, surface, features, combed);
+    const AlignmentTables found = alignment_tables(TetDomain(mesh, {}, features), combed);
     const Points normals = surface::triangle_normals(surface.mesh);
     EXPECT_EQ(found.patch_one_axis, std::vector<std::uint8_t>(6, 1));
     for (Eigen::Index f = 0; f < normals.rows(); ++f) {
@@ -78,7 +77,7 @@ TEST(AlignmentTables, CarryTheNormalsAxisAcrossTheCut) {
             return Quaternion(frames::exp({0, 0, std::atan2(turned.y(), turned.x()) / 4}) * frames::exp(to_x));
         });
         const CombedField combed = comb(mesh, field);
-        const AlignmentTables found = alignment_tables(mesh, surface, surface::detect_features(surface.mesh), combed);
+        const AlignmentTables found = alignment_tables(TetDomain(mesh, {}, surface::detect_features(surface.mesh)), combed);
         ASSERT_EQ(found.patch_one_axis.size(), 6u);
         for (Index patch = 0; patch < 6; ++patch) {
             std::set<Index> axes;
@@ -93,7 +92,7 @@ TEST(AlignmentTables, CarryTheNormalsAxisAcrossTheCut) {
             crossed += axes.size() > 1;
         }
         // Without features all of the surface is one patch, which no one axis is normal to.
-        EXPECT_EQ(alignment_tables(mesh, surface, {}, combed).patch_one_axis, std::vector<std::uint8_t>{0});
+        EXPECT_EQ(alignment_tables(mesh, combed).patch_one_axis, std::vector<std::uint8_t>{0});
     }
     EXPECT_GT(crossed, 0);
 }
@@ -105,7 +104,7 @@ TEST(AlignmentTables, OfARoundedFieldTellSidesThatItsNormalAxisLeaves) {
     const CombedField combed = comb(mesh, sample_in_tets(mesh, [](const Vector3& p) {
                                         return frames::exp({2 * std::numbers::pi / 3 * p.y(), 0, 0});
                                     }));
-    const AlignmentTables found = alignment_tables(mesh, surface, surface::detect_features(surface.mesh), combed);
+    const AlignmentTables found = alignment_tables(TetDomain(mesh, {}, surface::detect_features(surface.mesh)), combed);
     const Points normals = surface::triangle_normals(surface.mesh);
     for (Eigen::Index f = 0; f < normals.rows(); ++f)
         EXPECT_EQ(found.patch_one_axis[found.triangle_patch[f]], std::abs(normals(f, 2)) < 0.5);
@@ -115,31 +114,23 @@ TEST(AlignmentTables, TakeTheTetBehindAnInterface) {
     const TetMesh mesh = kuhn_cube(4);
     std::vector<Index> regions;
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) regions.push_back(centroid(mesh, t).x() < 0.5 ? 7 : 2);
-    const RegionSurface surface = region_surface(mesh, regions);
+    const TetDomain domain(mesh, regions);
     const CombedField combed = comb(mesh, constant(mesh, {0, 0, 0}));
-    const AlignmentTables found = alignment_tables(mesh, surface.surface, {}, combed);
-    for (Eigen::Index f = 0; f < surface.sides.rows(); ++f) EXPECT_EQ(found.triangle_tet[f], surface.sides(f, 0));
+    const AlignmentTables found = alignment_tables(domain, combed);
+    for (Eigen::Index f = 0; f < domain.sides().rows(); ++f) EXPECT_EQ(found.triangle_tet[f], domain.sides()(f, 0));
     // Edges where the interface meets the boundary have three triangles and part the patches.
     EXPECT_EQ(found.patch_one_axis, (std::vector<std::uint8_t>{0, 0, 1}));
 }
 
 TEST(AlignmentTables, RefuseWhatIsOfAnotherMesh) {
     const TetMesh mesh = kuhn_cube(2), other = kuhn_cube(3);
-    const BoundarySurface surface = boundary_surface(mesh);
     const CombedField combed = comb(mesh, constant(mesh, {0, 0, 0}));
-    EXPECT_THROW(alignment_tables(other, surface, {}, combed), InvalidInput);
-    EXPECT_THROW(alignment_tables(mesh, boundary_surface(other), {}, combed), InvalidInput);
-    surface::FeatureGraph features;
-    features.edges.resize(1, 2);
-    features.edges << 0, 1000;
-    EXPECT_THROW(alignment_tables(mesh, surface, features, combed), InvalidInput);
-    features.edges << 0, static_cast<Index>(surface.vertex_map.size()) - 1;
-    EXPECT_THROW(alignment_tables(mesh, surface, features, combed), InvalidInput);
+    EXPECT_THROW(alignment_tables(other, combed), InvalidInput);
     CombedField broken = combed;
     broken.faces.matching.pop_back();
-    EXPECT_THROW(alignment_tables(mesh, surface, {}, broken), InvalidInput);
+    EXPECT_THROW(alignment_tables(mesh, broken), InvalidInput);
     broken.faces.matching.push_back(24);
-    EXPECT_THROW(alignment_tables(mesh, surface, {}, broken), InvalidInput);
+    EXPECT_THROW(alignment_tables(mesh, broken), InvalidInput);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 
 #include "octafield/error.hpp"
 #include "octafield/frames/octahedral_group.hpp"
-#include "octafield/volume/regions.hpp"
 #include "tet_fixtures.hpp"
 
 namespace octafield::volume {
@@ -21,8 +20,9 @@ using testing::sample;
 constexpr double degree = std::numbers::pi / 180;
 
 BoundaryMeshability check_field(const TetMesh& mesh, const Quaternions& frames, double angle = 40 * degree) {
-    const BoundarySurface boundary = boundary_surface(mesh);
-    return boundary_meshability(mesh, boundary, surface::detect_features(boundary.mesh, {.angle = angle}), frames);
+    const TetDomain domain(mesh);
+    return boundary_meshability(
+        domain.with_features(surface::detect_features(domain.surface().mesh, {.angle = angle})), frames);
 }
 
 Quaternions constant(const TetMesh& mesh, const Quaternion& q = Quaternion::Identity()) {
@@ -219,10 +219,10 @@ TEST(BoundaryMeshability, AreTheSameForEquivalentFramesAndAnyThreadCount) {
             frames::to_wxyz(frames::from_wxyz(field.row(v)) * frames::binary_octahedral_group()[(5 * v) % 48])
                 .transpose();
     const BoundarySurface boundary = boundary_surface(mesh);
-    const auto features = surface::detect_features(boundary.mesh);
-    const auto one = boundary_meshability(mesh, boundary, features, field, 1);
-    for (const auto& other : {boundary_meshability(mesh, boundary, features, field, 4),
-                              boundary_meshability(mesh, boundary, features, equivalent)}) {
+    const TetDomain domain(mesh, {}, surface::detect_features(boundary.mesh));
+    const auto one = boundary_meshability(domain, field, 1);
+    for (const auto& other : {boundary_meshability(domain, field, 4),
+                              boundary_meshability(domain, equivalent)}) {
         ASSERT_EQ(one.wedges.size(), other.wedges.size());
         for (std::size_t i = 0; i < one.wedges.size(); ++i) {
             EXPECT_EQ(one.wedges[i].hexahedra_a, other.wedges[i].hexahedra_a);
@@ -242,30 +242,26 @@ TEST(BoundaryMeshability, OfInterfacesCountsTheWedgesOnAllSides) {
         for (const Index v : tet) centre += mesh.vertices.row(v).transpose() / 4;
         regions.push_back(centre.maxCoeff() < 0.5);  // a cube in the corner of a cube
     }
-    const RegionSurface surface = region_surface(mesh, regions);
+    const TetDomain domain(mesh, regions);
+    const BoundarySurface& surface = domain.surface();
     Edges edges(2, 2);
     const auto id = [&](double x, double y, double z) {
-        for (std::size_t b = 0; b < surface.surface.vertex_map.size(); ++b)
-            if ((mesh.vertices.row(surface.surface.vertex_map[b]) - Eigen::RowVector3d(x, y, z)).norm() < 1e-9)
+        for (std::size_t b = 0; b < surface.vertex_map.size(); ++b)
+            if ((mesh.vertices.row(surface.vertex_map[b]) - Eigen::RowVector3d(x, y, z)).norm() < 1e-9)
                 return static_cast<Index>(b);
         return Index{-1};
     };
     edges << id(0.5, 0.5, 0.25), id(0.5, 0.5, 0.5), id(0.5, 0, 0.25), id(0.5, 0, 0.5);
-    const auto features = surface::feature_graph(surface.surface.mesh, edges);
-    const auto found = boundary_meshability(mesh, surface.surface, features, constant(mesh));
+    const auto features = surface::feature_graph(surface.mesh, edges);
+    const auto found = boundary_meshability(domain.with_features(features), constant(mesh));
     std::multiset<int> numbers;
     for (const FeatureWedge& w : found.wedges) numbers.insert(w.hexahedra_a);
     EXPECT_EQ(numbers, (std::multiset<int>{1, 3, 1, 1}));  // inside and outside the small cube; both sides on a face
 }
 
 TEST(BoundaryMeshability, RefusesWhatDoesNotFit) {
-    const TetMesh mesh = testing::kuhn_cube(2), other = testing::kuhn_cube(3);
-    const BoundarySurface boundary = boundary_surface(other);
-    EXPECT_THROW(boundary_meshability(mesh, boundary, {}, constant(mesh)), InvalidInput);
-    EXPECT_THROW(boundary_meshability(mesh, boundary_surface(mesh), {}, Quaternions(2, 4)), InvalidInput);
-    surface::FeatureGraph features;
-    features.corners = {99999};
-    EXPECT_THROW(boundary_meshability(mesh, boundary_surface(mesh), features, constant(mesh)), InvalidInput);
+    const TetMesh mesh = testing::kuhn_cube(2);
+    EXPECT_THROW(boundary_meshability(mesh, Quaternions(2, 4)), InvalidInput);
 }
 
 }  // namespace

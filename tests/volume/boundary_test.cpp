@@ -9,6 +9,8 @@
 #include "../surface/mesh_fixtures.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/octahedral_group.hpp"
+#include "alignment.hpp"
+#include "surface_constraints.hpp"
 #include "tet_fixtures.hpp"
 
 namespace octafield::volume {
@@ -39,6 +41,7 @@ struct Cube {
     TetMesh tets = testing::kuhn_cube(4);
     BoundarySurface boundary = boundary_surface(tets);
     FeatureGraph features = surface::detect_features(boundary.mesh);
+    TetDomain domain = TetDomain(tets).with_features(features);
 
     int planes(Index b) const {  // of how many sides of the cube the boundary vertex is part
         int count = 0;
@@ -49,7 +52,7 @@ struct Cube {
 
 TEST(SectorNormals, OfACubeAreItsSidesNormals) {
     const Cube cube;
-    const SectorNormals normals = sector_normals(cube.boundary.mesh, cube.features);
+    const SectorNormals normals = sector_normals(cube.domain);
     std::vector<int> count(cube.boundary.mesh.vertices.rows(), 0);
     for (std::size_t i = 0; i < normals.vertex.size(); ++i) {
         ++count[normals.vertex[i]];
@@ -64,7 +67,7 @@ TEST(SectorNormals, OfACubeAreItsSidesNormals) {
 
 TEST(SectorNormals, WithoutFeaturesThereIsOnePerVertex) {
     const BoundarySurface ball = as_boundary(surface::testing::icosphere(2));
-    const SectorNormals normals = sector_normals(ball.mesh, {});
+    const SectorNormals normals = sector_normals_of(ball.mesh, {});
     ASSERT_EQ(normals.vertex.size(), static_cast<std::size_t>(ball.mesh.vertices.rows()));
     for (std::size_t i = 0; i < normals.vertex.size(); ++i)
         EXPECT_LT((normals.normal.row(i) - ball.mesh.vertices.row(normals.vertex[i])).norm(), 2 * degree);
@@ -74,7 +77,7 @@ TEST(BoundaryConstraints, OfACubeFixTheEdgesAndLeaveTheSidesTheirTwist) {
     const Cube cube;
     const Points directions = everywhere(cube.boundary, {0.3, 0.5, 0.8});
     const auto c =
-        boundary_constraints(static_cast<Index>(cube.tets.vertices.rows()), cube.boundary, cube.features, directions);
+        boundary_constraints(cube.domain, directions);
     EXPECT_TRUE(c.released_corners.empty());
     EXPECT_EQ(std::accumulate(c.on_boundary.begin(), c.on_boundary.end(), 0), cube.boundary.mesh.vertices.rows());
     for (Index b = 0; b < cube.boundary.mesh.vertices.rows(); ++b) {
@@ -94,15 +97,15 @@ TEST(BoundaryConstraints, OfACubeFixTheEdgesAndLeaveTheSidesTheirTwist) {
             EXPECT_EQ(c.kind[v], VertexConstraint::free);
             EXPECT_TRUE(frame_at(c, static_cast<Index>(v)).isApprox(Quaternion::Identity()));
         }
-    EXPECT_LT(alignment_angles(cube.boundary, cube.features, c.frames).maxCoeff(), 1e-7);
+    EXPECT_LT(alignment_angles(cube.domain, c.frames).maxCoeff(), 1e-7);
 }
 
 TEST(BoundaryConstraints, FixedModeHoldsTheCrossFieldToo) {
     const BoundarySurface ball = as_boundary(surface::testing::icosphere(2));
     const Points directions = everywhere(ball, {0.3, 0.5, 0.8});
-    const auto c = boundary_constraints(static_cast<Index>(ball.mesh.vertices.rows()), ball, {}, directions,
-                                        {.mode = BoundaryMode::fixed});
-    const SectorNormals normals = sector_normals(ball.mesh, {});
+    const auto c = constraints_on_surface(static_cast<Index>(ball.mesh.vertices.rows()), ball, {}, directions,
+                                          {.mode = BoundaryMode::fixed});
+    const SectorNormals normals = sector_normals_of(ball.mesh, {});
     for (Index v = 0; v < ball.mesh.vertices.rows(); ++v) {
         EXPECT_EQ(c.kind[v], VertexConstraint::fixed);
         const Vector3 n = normals.normal.row(v).transpose(), d = directions.row(v).transpose();
@@ -113,10 +116,9 @@ TEST(BoundaryConstraints, FixedModeHoldsTheCrossFieldToo) {
 
 TEST(BoundaryConstraints, ModeNoneConstrainsNothingButKeepsTheStart) {
     const Cube cube;
-    const Index n = static_cast<Index>(cube.tets.vertices.rows());
     const Points directions = everywhere(cube.boundary, {0.3, 0.5, 0.8});
-    const auto none = boundary_constraints(n, cube.boundary, cube.features, directions, {.mode = BoundaryMode::none});
-    const auto aligned = boundary_constraints(n, cube.boundary, cube.features, directions);
+    const auto none = boundary_constraints(cube.domain, directions, {.mode = BoundaryMode::none});
+    const auto aligned = boundary_constraints(cube.domain, directions);
     EXPECT_EQ(none.frames, aligned.frames);
     EXPECT_EQ(none.on_boundary, aligned.on_boundary);
     EXPECT_TRUE(none.axis.isZero(0));
@@ -155,8 +157,8 @@ struct Prism {
         for (int i = 0; i < sides; ++i) features.corners.push_back(id(levels - 1, i));
     }
     BoundaryConstraints constraints(const BoundaryOptions& options = {}) const {
-        return boundary_constraints(static_cast<Index>(boundary.mesh.vertices.rows()), boundary, features,
-                                    everywhere(boundary, {1, 0, 0}), options);
+        return constraints_on_surface(static_cast<Index>(boundary.mesh.vertices.rows()), boundary, features,
+                                      everywhere(boundary, {1, 0, 0}), options);
     }
     BoundarySurface boundary;
     FeatureGraph features;
@@ -196,8 +198,8 @@ TEST(BoundaryConstraints, FixedModeHoldsCurvesEvenWhereTheFitIsPoor) {
 TEST(BoundaryConstraints, AFrameOnACurveSharesTheMisfitOfItsTwoNormals) {
     const Prism pentagon(5, 3);  // normals 72 degrees apart: 9 degrees each
     const auto c = pentagon.constraints();
-    const SectorNormals normals = sector_normals(pentagon.boundary.mesh, pentagon.features);
-    const Eigen::VectorXd angles = alignment_angles(pentagon.boundary, pentagon.features, c.frames);
+    const SectorNormals normals = sector_normals_of(pentagon.boundary.mesh, pentagon.features);
+    const Eigen::VectorXd angles = angles_to_nearest_axis(pentagon.boundary, normals.vertex, normals.normal, c.frames);
     int checked = 0;
     for (std::size_t i = 0; i < normals.vertex.size(); ++i)
         if (normals.vertex[i] >= 5 && normals.vertex[i] < 10) {
@@ -228,10 +230,10 @@ TEST(BoundaryConstraints, AFrameOnACurveIsTheBestWeightedFitAboutItsTangent) {
         FeatureGraph features;
         features.edges.resize(2, 2);
         features.edges << 0, 3, 3, 6;
-        const auto c = boundary_constraints(9, roof, features, everywhere(roof, {1, 0, 0}), {.feature_tolerance = 0.7});
+        const auto c = constraints_on_surface(9, roof, features, everywhere(roof, {1, 0, 0}), {.feature_tolerance = 0.7});
         ASSERT_EQ(c.kind[3], VertexConstraint::fixed);
         const auto merit = [&](const Quaternion& q) {
-            const SectorNormals normals = sector_normals(roof.mesh, features);
+            const SectorNormals normals = sector_normals_of(roof.mesh, features);
             double sum = 0;
             for (std::size_t i = 0; i < normals.vertex.size(); ++i)
                 if (normals.vertex[i] == 3)
@@ -264,7 +266,7 @@ TEST(BoundaryConstraints, ACurveThatEndsInASmoothPatchGivesItsEndADirection) {
     features.edges.resize(1, 2);
     features.edges << 12, 18;  // (2, 2) to (3, 3)
     features.corners = {12, 18};
-    const auto c = boundary_constraints(25, grid, features, everywhere(grid, {1, 0, 0}));
+    const auto c = constraints_on_surface(25, grid, features, everywhere(grid, {1, 0, 0}), {});
     EXPECT_TRUE(c.released_corners.empty());
     for (const Index v : {12, 18}) {
         EXPECT_EQ(c.kind[v], VertexConstraint::axis);
@@ -279,7 +281,7 @@ TEST(BoundaryConstraints, AFlatCurveFixesTangentAndNormal) {
     features.edges.resize(2, 2);
     features.edges << 6, 12, 12, 18;  // along the diagonal
     features.corners = {6, 18};
-    const auto c = boundary_constraints(25, grid, features, everywhere(grid, {1, 0, 0}));
+    const auto c = constraints_on_surface(25, grid, features, everywhere(grid, {1, 0, 0}), {});
     EXPECT_EQ(c.kind[12], VertexConstraint::fixed);
     EXPECT_LT(frames::distance(frame_at(c, 12), frames::exp({0, 0, 45 * degree})), 1e-7);
 }
@@ -303,15 +305,16 @@ TEST(AlignmentAngles, AreExactForSmallAndLargeAngles) {
     for (const double angle : {0.0, 1e-10, 1e-3, 0.7}) {
         const Quaternion q = frames::exp(Vector3(1, 0, 0) * angle);
         const Quaternions field = frames::to_wxyz(q).transpose().replicate(4, 1);
-        const Eigen::VectorXd angles = alignment_angles(grid, {}, field);
+        const SectorNormals normals = sector_normals_of(grid.mesh, {});
+        const Eigen::VectorXd angles = angles_to_nearest_axis(grid, normals.vertex, normals.normal, field);
         ASSERT_EQ(angles.size(), 4);
         for (const double a : angles) EXPECT_NEAR(a, angle, 1e-15 + 1e-12 * angle);
     }
 }
 
 TEST(BoundaryConstraints, BadInputIsRefusedWithItsKind) {
-    const BoundarySurface grid = flat_grid(2);
-    const Points directions = everywhere(grid, {1, 0, 0});
+    const Cube cube;
+    const Points directions = everywhere(cube.boundary, {1, 0, 0});
     const auto kind_of = [](const auto& call) -> std::string {
         try {
             call();
@@ -320,18 +323,13 @@ TEST(BoundaryConstraints, BadInputIsRefusedWithItsKind) {
         }
         return "no error";
     };
-    EXPECT_EQ(kind_of([&] { boundary_constraints(9, grid, {}, directions.topRows(3)); }), "wrong_size");
-    EXPECT_EQ(kind_of([&] { boundary_constraints(5, grid, {}, directions); }), "index_out_of_range");
-    EXPECT_EQ(kind_of([&] { boundary_constraints(9, grid, {}, directions, {.feature_tolerance = 20}); }),
+    EXPECT_EQ(kind_of([&] { boundary_constraints(cube.domain, directions.topRows(3)); }), "wrong_size");
+    EXPECT_EQ(kind_of([&] { boundary_constraints(cube.domain, directions, {.feature_tolerance = 20}); }),
               "feature_tolerance");
     Points not_finite = directions;
     not_finite(4, 1) = std::nan("");
-    EXPECT_EQ(kind_of([&] { boundary_constraints(9, grid, {}, not_finite); }), "not_finite");
-    FeatureGraph features;
-    features.edges.resize(1, 2);
-    features.edges << 3, 9;
-    EXPECT_EQ(kind_of([&] { boundary_constraints(9, grid, features, directions); }), "index_out_of_range");
-    EXPECT_EQ(kind_of([&] { alignment_angles(grid, {}, Quaternions::Zero(4, 4)); }), "wrong_size");
+    EXPECT_EQ(kind_of([&] { boundary_constraints(cube.domain, not_finite); }), "not_finite");
+    EXPECT_EQ(kind_of([&] { alignment_angles(cube.domain, Quaternions::Zero(4, 4)); }), "wrong_size");
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 #include "field_fixtures.hpp"
 #include "octafield/frames/quaternion.hpp"
-#include "octafield/volume/regions.hpp"
 #include "octafield/volume/tet_singularities.hpp"
 #include "tet_fixtures.hpp"
 
@@ -36,13 +35,12 @@ std::set<Row> boundary_triangles(const TetMesh& mesh) {
 class Locking : public ::testing::TestWithParam<std::array<int, 3>> {
 protected:
     TetMesh mesh = testing::kuhn_grid(GetParam()[0], GetParam()[1], GetParam()[2], 0.37, {5, -3, 2});
-    BoundarySurface boundary = boundary_surface(mesh);
-    LockingSplit split = split_locking(mesh, boundary);
+    LockingSplit split = split_locking(mesh);
 };
 
 TEST_P(Locking, NothingIsLeftThatJoinsTheBoundaryToItself) {
     EXPECT_TRUE(split.left.empty());
-    const LockingElements after = find_locking(split.mesh, boundary_surface(split.mesh));
+    const LockingElements after = find_locking(split.mesh);
     EXPECT_TRUE(after.tets.empty());
     EXPECT_EQ(after.edges.rows(), 0);
     EXPECT_EQ(after.triangles.rows(), 0);
@@ -65,28 +63,27 @@ INSTANTIATE_TEST_SUITE_P(Grids, Locking,
 
 TEST(FindLocking, CountsThoseOfOneCell) {  // six tets round one diagonal
     const TetMesh cell = testing::kuhn_cube(1);
-    const LockingElements found = find_locking(cell, boundary_surface(cell));
+    const LockingElements found = find_locking(cell);
     EXPECT_EQ(found.tets.size(), 6u);
     ASSERT_EQ(found.edges.rows(), 1);
     EXPECT_NEAR((cell.vertices.row(found.edges(0, 0)) - cell.vertices.row(found.edges(0, 1))).norm(), std::sqrt(3),
                 1e-15);
     EXPECT_EQ(found.triangles.rows(), 0);
-    EXPECT_EQ(split_locking(cell, boundary_surface(cell)).mesh.tets.rows(), 12);
+    EXPECT_EQ(split_locking(cell).mesh.tets.rows(), 12);
 }
 
 TEST(FindLocking, CountsATetAloneAndATriangleBetweenTwo) {
     TetMesh pair{Points(5, 3), Tets(2, 4)};
     pair.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1;
     pair.tets << 0, 1, 2, 3, 0, 2, 1, 4;
-    const BoundarySurface boundary = boundary_surface(pair);
-    const LockingElements found = find_locking(pair, boundary);
+    const LockingElements found = find_locking(pair);
     EXPECT_EQ(found.tets.size(), 2u);
     EXPECT_EQ(found.edges.rows(), 0);
     EXPECT_EQ(found.triangles.rows(), 1);
-    EXPECT_EQ(split_locking(pair, boundary).mesh.tets.rows(), 6);  // three on each side of the triangle
+    EXPECT_EQ(split_locking(pair).mesh.tets.rows(), 6);  // three on each side of the triangle
 
     const TetMesh alone{pair.vertices.topRows(4), pair.tets.topRows(1)};
-    const LockingSplit split = split_locking(alone, boundary_surface(alone));
+    const LockingSplit split = split_locking(alone);
     EXPECT_EQ(split.mesh.tets.rows(), 4);
     EXPECT_TRUE(split.mesh.vertices.row(4).isApprox(Eigen::RowVector3d(0.25, 0.25, 0.25)));
 }
@@ -99,15 +96,15 @@ TEST(SplitLocking, KeepsInterfacesToo) {
         for (const Index v : tet) x += mesh.vertices(v, 0) / 4;
         regions.push_back(x < 0.5 ? 1 : 2);
     }
-    const RegionSurface before = region_surface(mesh, regions);
-    const LockingSplit split = split_locking(mesh, before.surface);
+    const TetDomain before(mesh, regions);
+    const LockingSplit split = split_locking(before);
     std::vector<Index> after_regions;
     for (const Index parent : split.parent) after_regions.push_back(regions[parent]);
-    const RegionSurface after = region_surface(split.mesh, after_regions);
-    EXPECT_EQ(after.interface_triangles, before.interface_triangles);
-    EXPECT_EQ(after.surface.vertex_map, before.surface.vertex_map);
-    EXPECT_TRUE(find_locking(split.mesh, after.surface).tets.empty());
-    EXPECT_FALSE(find_locking(mesh, before.surface).tets.empty());
+    const TetDomain after(split.mesh, after_regions);
+    EXPECT_EQ(after.interface_triangles(), before.interface_triangles());
+    EXPECT_EQ(after.surface().vertex_map, before.surface().vertex_map);
+    EXPECT_TRUE(find_locking(after).tets.empty());
+    EXPECT_FALSE(find_locking(before).tets.empty());
 }
 
 TEST(SplitLocking, LeavesAMeshWithoutSuchTetsAsItIs) {
@@ -122,7 +119,7 @@ TEST(SplitLocking, LeavesAMeshWithoutSuchTetsAsItIs) {
                 if ((x + y + z) % 2 == 0) std::swap(star.tets(t, 2), star.tets(t, 3));
                 ++t;
             }
-    const LockingSplit split = split_locking(star, boundary_surface(star));
+    const LockingSplit split = split_locking(star);
     EXPECT_EQ(split.mesh.tets, star.tets);
     EXPECT_EQ(split.added_vertices, 0);
     EXPECT_TRUE(split.found.tets.empty());
@@ -161,7 +158,7 @@ protected:
         return frames::exp({0.1, -0.2, 0.1}) * frames::exp({0, 0, (angle(1.52) - angle(1.73)) / 4});
     });
     SingularEdges before = singular_edges(mesh, frames);
-    SingularSplit split = split_between_singular(mesh, boundary_surface(mesh), frames);
+    SingularSplit split = split_between_singular(mesh, frames);
     Quaternions of_children = frames(split.parent, Eigen::all);
     SingularEdges after = singular_edges(split.mesh, of_children);
 };

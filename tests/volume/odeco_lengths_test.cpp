@@ -209,7 +209,7 @@ TEST(OdecoLengths, AreSmoothedInTetsToo) {
     const Points normals = surface::triangle_normals(surface.mesh);
     for (Eigen::Index f = 0; f < directions.rows(); ++f)
         directions.row(f) = Vector3(normals.row(f).transpose()).unitOrthogonal().transpose();
-    const SmoothResult result = smooth(tet_sampling(mesh), tet_boundary_constraints(mesh, surface, directions),
+    const SmoothResult result = smooth(tet_sampling(mesh), tet_boundary_constraints(mesh, directions),
                                        frames::random_rotations(mesh.tets.rows(), 8), with_lengths());
     EXPECT_EQ(result.lengths.rows(), mesh.tets.rows());
     EXPECT_LT(result.objective, result.objective_history.front());

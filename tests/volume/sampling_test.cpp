@@ -11,7 +11,6 @@
 #include "octafield/volume/frame_field.hpp"
 #include "octafield/volume/integrability.hpp"
 #include "octafield/volume/locking.hpp"
-#include "octafield/volume/regions.hpp"
 #include "tet_fixtures.hpp"
 
 namespace octafield::volume {
@@ -41,7 +40,7 @@ Points tangents(const BoundarySurface& surface) {
 // The tets at the boundary held at the frames of a field, or one axis of each.
 BoundaryConstraints held_on_boundary(const TetMesh& mesh, const Quaternions& field, VertexConstraint kind) {
     const BoundarySurface surface = boundary_surface(mesh);
-    BoundaryConstraints c = tet_boundary_constraints(mesh, surface, tangents(surface), {.mode = BoundaryMode::none});
+    BoundaryConstraints c = tet_boundary_constraints(mesh, tangents(surface), {.mode = BoundaryMode::none});
     for (Eigen::Index t = 0; t < field.rows(); ++t) {
         if (!c.on_boundary[t]) continue;
         c.kind[t] = kind;
@@ -88,7 +87,7 @@ TEST(TetSampling, OfOneTetHasNoNeighboursAndSolversLeaveItAlone) {
     const Sampling sampling = tet_sampling(mesh);
     const BoundarySurface surface = boundary_surface(mesh);
     const BoundaryConstraints c =
-        tet_boundary_constraints(mesh, surface, tangents(surface), {.mode = BoundaryMode::none});
+        tet_boundary_constraints(mesh, tangents(surface), {.mode = BoundaryMode::none});
     const Quaternions start = frames::random_rotations(1, 3);
     EXPECT_EQ(dirichlet_energy(sampling, start), 0);
     EXPECT_LT(largest_distance(frame_field(sampling, c).smooth.frames, initial_frames(sampling, c)), 1e-7);
@@ -202,11 +201,11 @@ TEST(TetField, RefusesConstraintsOfTheVertices) {
 TEST(TetBoundary, HoldsTheNormalOfEachTriangleExactly) {
     const TetMesh mesh = kuhn_cube(4);
     const BoundarySurface surface = boundary_surface(mesh);
-    const BoundaryConstraints c = tet_boundary_constraints(mesh, surface, tangents(surface));
+    const BoundaryConstraints c = tet_boundary_constraints(mesh, tangents(surface));
     EXPECT_TRUE(c.released_corners.empty());
-    const RegionSurface sides = region_surface(mesh, {});
+    const Edges sides = TetDomain(mesh).sides();
     std::vector<int> triangles(mesh.tets.rows(), 0);
-    for (Eigen::Index f = 0; f < sides.sides.rows(); ++f) ++triangles[sides.sides(f, 0)];
+    for (Eigen::Index f = 0; f < sides.rows(); ++f) ++triangles[sides(f, 0)];
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         EXPECT_EQ(c.on_boundary[t], triangles[t] > 0);
         const VertexConstraint expected = triangles[t] == 0   ? VertexConstraint::free
@@ -217,8 +216,8 @@ TEST(TetBoundary, HoldsTheNormalOfEachTriangleExactly) {
     EXPECT_EQ(*std::max_element(triangles.begin(), triangles.end()), 2);
     const FrameFieldResult result = frame_field(tet_sampling(mesh), c);
     EXPECT_LT(result.smooth.energy, 1e-12);
-    EXPECT_LT(tet_alignment_angles(mesh, surface, result.smooth.frames).maxCoeff(), 1e-7);
-    EXPECT_EQ(tet_alignment_angles(mesh, surface, result.smooth.frames).size(), surface.mesh.triangles.rows());
+    EXPECT_LT(tet_alignment_angles(mesh, result.smooth.frames).maxCoeff(), 1e-7);
+    EXPECT_EQ(tet_alignment_angles(mesh, result.smooth.frames).size(), surface.mesh.triangles.rows());
 }
 
 TEST(TetBoundary, FollowsTheModes) {
@@ -226,7 +225,7 @@ TEST(TetBoundary, FollowsTheModes) {
     const BoundarySurface surface = boundary_surface(mesh);
     const Points directions = tangents(surface);
     const auto with = [&](BoundaryMode mode) {
-        return tet_boundary_constraints(mesh, surface, directions, {.mode = mode});
+        return tet_boundary_constraints(mesh, directions, {.mode = mode});
     };
     const BoundaryConstraints fixed = with(BoundaryMode::fixed), none = with(BoundaryMode::none);
     EXPECT_EQ(fixed.frames, none.frames);
@@ -235,10 +234,10 @@ TEST(TetBoundary, FollowsTheModes) {
         EXPECT_EQ(fixed.kind[t], fixed.on_boundary[t] ? VertexConstraint::fixed : VertexConstraint::free);
     }
     // Normal and direction of a tet with one triangle are axes of its frame.
-    const RegionSurface sides = region_surface(mesh, {});
+    const Edges sides = TetDomain(mesh).sides();
     const Points normals = surface::triangle_normals(surface.mesh);
     for (Eigen::Index f = 0; f < normals.rows(); ++f) {
-        const Index t = sides.sides(f, 0);
+        const Index t = sides(f, 0);
         const Quaternion q = frames::from_wxyz(frames::Vector4(fixed.frames.row(t).transpose()));
         EXPECT_NEAR((q.conjugate() * Vector3(normals.row(f).transpose())).cwiseAbs().maxCoeff(), 1, 1e-12);
     }
@@ -250,49 +249,43 @@ TEST(TetBoundary, ReleasesTetsWhoseNormalsFitNoFrameUntilTheyAreSplit) {
     TetMesh mesh = kuhn_cube(3);
     mesh.vertices.col(0) += mesh.vertices.col(1);
     const BoundarySurface surface = boundary_surface(mesh);
-    const BoundaryConstraints c = tet_boundary_constraints(mesh, surface, tangents(surface));
+    const BoundaryConstraints c = tet_boundary_constraints(mesh, tangents(surface));
     EXPECT_FALSE(c.released_corners.empty());
     for (const Index t : c.released_corners) EXPECT_EQ(c.kind[t], VertexConstraint::free);
     const BoundaryConstraints loose =
-        tet_boundary_constraints(mesh, surface, tangents(surface), {.feature_tolerance = 0.5});
+        tet_boundary_constraints(mesh, tangents(surface), {.feature_tolerance = 0.5});
     EXPECT_TRUE(loose.released_corners.empty());
 
-    const TetMesh split = split_locking(mesh, surface).mesh;
+    const TetMesh split = split_locking(mesh).mesh;
     const BoundarySurface of_split = boundary_surface(split);
-    const BoundaryConstraints held = tet_boundary_constraints(split, of_split, tangents(of_split));
+    const BoundaryConstraints held = tet_boundary_constraints(split, tangents(of_split));
     EXPECT_TRUE(held.released_corners.empty());
     EXPECT_EQ(std::count(held.kind.begin(), held.kind.end(), VertexConstraint::axis), of_split.mesh.triangles.rows());
     const SmoothResult field = frame_field(tet_sampling(split), held).smooth;
-    EXPECT_LT(tet_alignment_angles(split, of_split, field.frames).maxCoeff(), 1e-7);
+    EXPECT_LT(tet_alignment_angles(split, field.frames).maxCoeff(), 1e-7);
 }
 
 TEST(TetBoundary, HoldsBothSidesOfAnInterface) {
     const TetMesh mesh = kuhn_cube(4);
     std::vector<Index> regions(mesh.tets.rows());
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) regions[t] = centroid(mesh, t).z() > 0.5;
-    const RegionSurface surface = region_surface(mesh, regions);
-    const BoundaryConstraints c = tet_boundary_constraints(mesh, surface.surface, tangents(surface.surface));
-    for (Eigen::Index f = 0; f < surface.sides.rows(); ++f)
-        for (const Index t : {surface.sides(f, 0), surface.sides(f, 1)})
+    const TetDomain domain(mesh, regions);
+    const BoundaryConstraints c = tet_boundary_constraints(domain, tangents(domain.surface()));
+    for (Eigen::Index f = 0; f < domain.sides().rows(); ++f)
+        for (const Index t : {domain.sides()(f, 0), domain.sides()(f, 1)})
             EXPECT_TRUE(t < 0 || c.kind[t] != VertexConstraint::free);
     const Quaternions frames = frame_field(tet_sampling(mesh), c).smooth.frames;
-    const Eigen::VectorXd angles = tet_alignment_angles(mesh, surface.surface, frames);
-    EXPECT_EQ(angles.size(), surface.sides.rows() + surface.interface_triangles);
+    const Eigen::VectorXd angles = tet_alignment_angles(domain, frames);
+    EXPECT_EQ(angles.size(), domain.sides().rows() + domain.interface_triangles());
     EXPECT_LT(angles.maxCoeff(), 1e-7);
 }
 
 TEST(TetBoundary, RefusesWhatIsNotOfTheMesh) {
     const TetMesh mesh = kuhn_cube(3);
-    BoundarySurface surface = boundary_surface(mesh);
-    const Points directions = tangents(surface);
-    EXPECT_THROW(tet_boundary_constraints(mesh, surface, directions.topRows(2)), InvalidInput);
-    EXPECT_THROW(tet_boundary_constraints(mesh, surface, directions, {.feature_tolerance = -1}), InvalidInput);
-    BoundarySurface inside = surface;
-    inside.mesh.triangles.row(0) << 0, 1, 40;
-    EXPECT_THROW(tet_boundary_constraints(mesh, inside, directions), InvalidInput);
-    surface.vertex_map.back() = 1000;
-    EXPECT_THROW(tet_boundary_constraints(mesh, surface, directions), InvalidInput);
-    EXPECT_THROW(tet_alignment_angles(mesh, boundary_surface(mesh), Quaternions(2, 4)), InvalidInput);
+    const Points directions = tangents(boundary_surface(mesh));
+    EXPECT_THROW(tet_boundary_constraints(mesh, directions.topRows(2)), InvalidInput);
+    EXPECT_THROW(tet_boundary_constraints(mesh, directions, {.feature_tolerance = -1}), InvalidInput);
+    EXPECT_THROW(tet_alignment_angles(mesh, Quaternions(2, 4)), InvalidInput);
 }
 
 TEST(VertexFrames, FollowSmoothFieldsToFirstOrder) {

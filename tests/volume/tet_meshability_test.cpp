@@ -21,8 +21,7 @@ using testing::sample_in_tets;
 
 struct Judged {
     TetMesh mesh;
-    BoundarySurface surface;
-    surface::FeatureGraph features;
+    TetDomain domain;
     Quaternions frames;
     SingularEdges singular;
     Meshability found;
@@ -31,12 +30,11 @@ struct Judged {
     template <class Field>
     Judged(TetMesh of, const Field& field)
         : mesh(std::move(of)),
-          surface(boundary_surface(mesh)),
-          features(surface::detect_features(surface.mesh)),
+          domain(mesh, {}, surface::detect_features(boundary_surface(mesh).mesh)),
           frames(sample_in_tets(mesh, field)),
           singular(singular_edges(mesh, frames)),
-          found(tet_meshability(mesh, surface, features, frames, singular)),
-          at_boundary(tet_boundary_meshability(mesh, surface, features, frames)) {}
+          found(tet_meshability(domain, frames, singular)),
+          at_boundary(tet_boundary_meshability(domain, frames)) {}
 };
 
 const auto constant = [](const Vector3&) { return frames::Quaternion::Identity(); };
@@ -125,10 +123,9 @@ INSTANTIATE_TEST_SUITE_P(QuarterTurns, CurveThrough, ::testing::Values(1, -1));
 TEST(TetMeshability, OfRandomFieldsHasEveryCurveEndAtAVertexAndNeedsTheEdgesOfTheField) {
     const TetMesh mesh = testing::jittered_cube(4, 0.2, 3);
     const Quaternions frames = frames::random_rotations(mesh.tets.rows(), 8);
-    const BoundarySurface surface = boundary_surface(mesh);
-    const surface::FeatureGraph features = surface::detect_features(surface.mesh);
+    const TetDomain domain(mesh, {}, surface::detect_features(boundary_surface(mesh).mesh));
     const SingularEdges singular = singular_edges(mesh, frames);
-    const Meshability found = tet_meshability(mesh, surface, features, frames, singular);
+    const Meshability found = tet_meshability(domain, frames, singular);
     EXPECT_EQ(found.curve_ends.rows(), static_cast<Eigen::Index>(singular.graph.curves.size()));
     EXPECT_GT(found.non_meshable_vertices, 20);
     int ends = 0;
@@ -138,9 +135,9 @@ TEST(TetMeshability, OfRandomFieldsHasEveryCurveEndAtAVertexAndNeedsTheEdgesOfTh
     EXPECT_EQ(ends, 2 * (static_cast<int>(singular.graph.curves.size()) - found.closed_curves));
     SingularEdges wrong = singular;
     wrong.edges.erase(wrong.edges.begin(), wrong.edges.begin() + static_cast<std::ptrdiff_t>(wrong.edges.size() / 2));
-    EXPECT_THROW(tet_meshability(mesh, surface, features, frames, wrong), InvalidInput);
+    EXPECT_THROW(tet_meshability(domain, frames, wrong), InvalidInput);
     wrong.vertices.pop_back();
-    EXPECT_THROW(tet_meshability(mesh, surface, features, frames, wrong), InvalidInput);
+    EXPECT_THROW(tet_meshability(domain, frames, wrong), InvalidInput);
 }
 
 }  // namespace

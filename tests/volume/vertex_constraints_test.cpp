@@ -18,7 +18,7 @@ struct Cube {
     BoundarySurface boundary = boundary_surface(mesh);
     surface::FeatureGraph features = surface::detect_features(boundary.mesh);
     BoundaryConstraints base = boundary_constraints(
-        static_cast<Index>(mesh.vertices.rows()), boundary, features,
+        TetDomain(mesh, {}, features),
         Eigen::RowVector3d(0.3, 0.5, 0.8).normalized().replicate(boundary.mesh.vertices.rows(), 1));
     Index at(double x, double y, double z) const {
         Index nearest = 0;

@@ -102,7 +102,7 @@ TEST_F(WriteVtk, FramesInTetsAndLengthsAreDataOfTheirOwn) {
     const FieldArrays more{.tet_frames = frames::random_rotations(mesh.tets.rows(), 5),
                            .lengths = Points::Random(mesh.vertices.rows(), 3),
                            .tet_lengths = Points::Random(mesh.tets.rows(), 3)};
-    write_field(folder / "field.vtu", mesh, field, {}, {}, more);
+    write_field(folder / "field.vtu", mesh, field, {}, more);
     const auto reader = read_back<vtkXMLUnstructuredGridReader>(folder / "field.vtu");
     vtkCellData* cells = reader->GetOutput()->GetCellData();
     vtkDataArray* lengths = reader->GetOutput()->GetPointData()->GetArray("frame_lengths");
@@ -116,8 +116,8 @@ TEST_F(WriteVtk, FramesInTetsAndLengthsAreDataOfTheirOwn) {
     }
     for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
         for (int c = 0; c < 3; ++c) EXPECT_EQ(lengths->GetComponent(v, c), more.lengths(v, c));
-    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {}, {.tet_frames = field}), InvalidInput);
-    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {}, {.lengths = Points::Ones(2, 3)}), InvalidInput);
+    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {.tet_frames = field}), InvalidInput);
+    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {.lengths = Points::Ones(2, 3)}), InvalidInput);
 }
 
 TEST_F(WriteVtk, OtherArraysComeBackAndFitTheMesh) {
@@ -126,7 +126,7 @@ TEST_F(WriteVtk, OtherArraysComeBackAndFitTheMesh) {
     FieldArrays more;
     more.point_data["one"] = Rows<double, Eigen::Dynamic>::Random(mesh.vertices.rows(), 1);
     more.cell_data["nine"] = Rows<double, Eigen::Dynamic>::Random(mesh.tets.rows(), 9);
-    write_field(folder / "field.vtu", mesh, field, {}, {}, more);
+    write_field(folder / "field.vtu", mesh, field, {}, more);
     const auto reader = read_back<vtkXMLUnstructuredGridReader>(folder / "field.vtu");
     vtkDataArray* one = reader->GetOutput()->GetPointData()->GetArray("one");
     vtkDataArray* nine = reader->GetOutput()->GetCellData()->GetArray("nine");
@@ -136,8 +136,8 @@ TEST_F(WriteVtk, OtherArraysComeBackAndFitTheMesh) {
     FieldArrays few, taken;
     few.point_data["one"] = more.cell_data["nine"];
     taken.point_data["boundary"] = more.point_data["one"];
-    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {}, few), InvalidInput);
-    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, {}, taken), InvalidInput);
+    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, few), InvalidInput);
+    EXPECT_THROW(write_field(folder / "a.vtu", mesh, field, {}, taken), InvalidInput);
 }
 
 TEST_F(WriteVtk, SingularGraphsComeBack) {

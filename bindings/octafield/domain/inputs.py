@@ -4,12 +4,11 @@ import contextlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import _core
-from .._core import BoundarySurface, TetMesh, TriangleMesh
+from .._core import TetDomain, TetMesh, TriangleMesh
 from ..errors import GeometryError, InvalidInput, IoError, SolverError
 from ..files.writing import require_utf8
 from ..meshes.gmsh.cad import CAD_SUFFIXES, read_cad
@@ -20,20 +19,12 @@ SURFACE_SUFFIXES = (".stl", ".obj", ".off", ".ply")
 _VOLUMES = ("tetra", "hexahedron", "wedge", "pyramid", "penta", "voxel", "polyhedron")  # meshio's names begin so
 
 
-class TetPart(NamedTuple):
-    """Of an Input that has tets."""
-
-    tets: TetMesh
-    boundary: BoundarySurface
-
-
 @dataclass
 class Input:
     """What a file held, before any test of its soundness.
 
-    surface: the triangles, or the boundary of the tets. boundary: the same with the map to tet vertices. regions: (m,)
-    region of each tet, where there are several; surface and boundary then hold the interfaces between them too, as the
-    last `interface_triangles`. touches: the boundary of the tets touches itself at edges or vertices. lines: (n, 2)
+    surface: the triangles, or the surface of the tets, with interfaces where there are several regions. tets: with no
+    features yet; None for surfaces. touches: the boundary of the tets touches itself at edges or vertices. lines: (n, 2)
     feature edges given by the file, vertex ids of `surface`; None when it has no line cells. creases: the file tells
     that they are. faces: CAD face of each triangle of `surface`, -1 where the file tells none.
     file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file; file_tets: (m,) of the tets
@@ -43,13 +34,10 @@ class Input:
 
     name: str
     surface: TriangleMesh
-    tets: TetMesh | None = None
-    boundary: BoundarySurface | None = None
+    tets: TetDomain | None = None
     lines: np.ndarray | None = None
     ignored_lines: int = 0
     creases: bool = False
-    regions: np.ndarray | None = None
-    interface_triangles: int = 0
     touches: bool = False
     faces: np.ndarray | None = None
     file_points: np.ndarray | None = None
@@ -62,18 +50,28 @@ class Input:
     def kind(self) -> str:
         return "surface" if self.tets is None else "tets"
 
-    def volume(self) -> TetPart:
-        """The tets and their surface. Raises InvalidInput where the input is a surface."""
-        if self.tets is None or self.boundary is None:
+    @property
+    def interface_triangles(self) -> int:
+        """The last so many of the surface."""
+        return 0 if self.tets is None else self.tets.interface_triangles
+
+    @property
+    def regions(self) -> np.ndarray | None:
+        """(m,) region of each tet, where there are several."""
+        return None if self.tets is None else regions_of(self.tets)
+
+    def volume(self) -> TetDomain:
+        """The tets. Raises InvalidInput where the input is a surface."""
+        if self.tets is None:
             raise InvalidInput(f"{self.name}: holds triangles; tets are needed", "not_tets")
-        return TetPart(self.tets, self.boundary)
+        return self.tets
 
     def features_of_tets(self) -> np.ndarray | None:
         """(n, 2) feature edges given by the file, vertex ids of `tets`; None where it has no lines or they are not
         features."""
         if self.lines is None or not self.lines_are_features():
             return None
-        features: np.ndarray = np.asarray(self.volume().boundary.vertex_map)[self.lines]
+        features: np.ndarray = np.asarray(self.volume().surface.vertex_map)[self.lines]
         return features
 
     def lines_are_features(self) -> bool:
@@ -164,13 +162,20 @@ def _refuse(counts: dict[str, int]) -> None:
 
 
 @np.errstate(all="ignore")
-def from_mesh(mesh: TriangleMesh | TetMesh) -> Input:
-    """Input made from a mesh in memory."""
+def from_mesh(mesh: TriangleMesh | TetMesh | TetDomain) -> Input:
+    """Input made from a mesh in memory. Features of a TetDomain are taken as those of a file."""
     if isinstance(mesh, TriangleMesh):
         return Input("mesh in memory", mesh)
+    if isinstance(mesh, TetDomain):
+        found = Input("mesh in memory", mesh.surface.mesh, mesh, file_tets=np.arange(mesh.tet_count))
+        found.file_points, found.points_in_file = np.arange(mesh.vertex_count), mesh.vertex_count
+        edges = np.asarray(mesh.features.edges)
+        if len(edges):
+            found.lines, found.creases = edges, True
+        return found
     if isinstance(mesh, TetMesh):
         return _tet_input("mesh in memory", Grid(np.asarray(mesh.vertices), {"tetra": np.asarray(mesh.tets)}))
-    raise InvalidInput(f"a path, TriangleMesh or TetMesh is needed, not {type(mesh).__name__}")
+    raise InvalidInput(f"a path, TriangleMesh, TetMesh or TetDomain is needed, not {type(mesh).__name__}")
 
 
 def _suffix(path: Path) -> str:
@@ -213,14 +218,11 @@ def _tet_input(name: str, grid: Grid) -> Input:
     if inverted.any():
         tets[inverted] = tets[inverted][:, [0, 1, 3, 2]]
         notes.append(f"{int(inverted.sum())} of {len(tets)} tets were turned over to positive volume")
-    mesh = TetMesh(points_used, tets.astype(np.int32))
-    _core.require_valid(mesh)
-    found = Input(
-        name, TriangleMesh(), mesh, notes=notes, file_points=np.flatnonzero(new_id >= 0), points_in_file=len(points)
-    )
+    domain = domain_of(TetMesh(points_used, tets.astype(np.int32)), grid.regions)
+    found = Input(name, domain.surface.mesh, domain, notes=notes, points_in_file=len(points))
+    found.file_points = np.flatnonzero(new_id >= 0)
     found.file_tets = np.arange(len(tets)) if grid.file_tets is None else grid.file_tets
-    with_regions(found, grid.regions)
-    lines = _to_boundary(found, new_id)
+    lines = np.append(to_surface_ids(domain), -1)[new_id]
     if grid.faces is not None:
         found.faces = _face_of(np.asarray(found.surface.triangles).astype(np.int64), lines, grid)
     if "line" in cells:
@@ -228,37 +230,33 @@ def _tet_input(name: str, grid: Grid) -> Input:
     return found
 
 
-def with_regions(found: Any, regions: np.ndarray | None) -> Any:
-    """Sets the surface of a tet mesh (Input or MeshedInput): its boundary, and the interfaces where there is more than
-    one region."""
-    if regions is not None and (regions == regions[0]).all():
-        regions = None
-    found.regions, found.interface_triangles = None, 0
-    if regions is None:
-        found.boundary = _core.boundary_surface(found.tets)
-    else:
-        wide = np.asarray(regions)
-        if (wide.astype(np.int32) != wide).any():
-            bad = int(np.argmax(wide.astype(np.int32) != wide))
-            raise InvalidInput(
-                f"tet {bad} (from 0) is of region {wide[bad]}: numbers of regions have 32 bits; number them anew",
-                "bad_regions",
-                [bad],
-            )
-        found.regions = wide.astype(np.int32)
-        surface = _core.region_surface(found.tets, found.regions)
-        found.boundary, found.interface_triangles = surface.surface, surface.interface_triangles
-    found.surface = found.boundary.mesh
-    return found
+def domain_of(mesh: TetMesh, regions: np.ndarray | None) -> TetDomain:
+    """regions: (m,) ids; None, or all the same: one region. Raises InvalidInput, GeometryError (unsound mesh)."""
+    if regions is None or (regions == regions[0]).all():
+        return TetDomain(mesh)
+    wide = np.asarray(regions)
+    if (wide.astype(np.int32) != wide).any():
+        bad = int(np.argmax(wide.astype(np.int32) != wide))
+        raise InvalidInput(
+            f"tet {bad} (from 0) is of region {wide[bad]}: numbers of regions have 32 bits; number them anew",
+            "bad_regions",
+            [bad],
+        )
+    return TetDomain(mesh, regions=wide.astype(np.int32))
 
 
-def _to_boundary(found: Input, new_id: np.ndarray) -> np.ndarray:
-    """Surface vertex of each point of the file; -1: none."""
-    tets, boundary = found.volume()
-    to_boundary = np.full(len(tets.vertices), -1)
-    to_boundary[np.asarray(boundary.vertex_map)] = np.arange(len(found.surface.vertices))
-    result: np.ndarray = np.append(to_boundary, -1)[new_id]
-    return result
+def regions_of(domain: TetDomain) -> np.ndarray | None:
+    """(m,) ids, None where all tets are one region."""
+    regions = np.asarray(domain.regions)
+    return regions if len(regions) else None
+
+
+def to_surface_ids(domain: TetDomain) -> np.ndarray:
+    """(n,) vertex of the surface that each vertex of the tets is; -1: none."""
+    vertex_map = np.asarray(domain.surface.vertex_map)
+    ids: np.ndarray = np.full(domain.vertex_count, -1)
+    ids[vertex_map] = np.arange(len(vertex_map))
+    return ids
 
 
 def _surface_input(name: str, grid: Grid) -> Input:

@@ -8,31 +8,32 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _core
-from .._core import LockingElements
+from .._core import LockingElements, TetDomain, TetMesh
 from ..options import MeshOptions
-from .inputs import Input, with_regions
+from .inputs import domain_of, regions_of
 
 if TYPE_CHECKING:
     from .meshed_input import MeshedInput
 
 
-def split_on_request(mesh: Input | MeshedInput, options: MeshOptions) -> dict[str, Any]:
-    """Counts what joins the surface to itself and splits it on request: tets, regions and boundary change, surface
-    vertices and features stay."""
-    if mesh.tets is None or mesh.boundary is None:
-        return {}
+def split_on_request(domain: TetDomain, options: MeshOptions) -> tuple[TetDomain, dict[str, Any]]:
+    """Counts what joins the surface to itself and splits it on request: the domain, where tets and regions have changed
+    then, and counts. Surface vertices and features stay."""
     if not options.split:
-        found = _core.find_locking(mesh.tets, mesh.boundary)
-        return _locking_record(found)
-    split = _core.split_locking(mesh.tets, mesh.boundary)
-    mesh.tets = split.mesh
-    regions = None if mesh.regions is None else np.asarray(mesh.regions)[np.asarray(split.parent)]
-    with_regions(mesh, regions)
-    return _locking_record(split.found) | {
+        return domain, _locking_record(_core.find_locking(domain))
+    split = _core.split_locking(domain)
+    return split_domain(domain, split.mesh, np.asarray(split.parent)), _locking_record(split.found) | {
         "added_vertices": split.added_vertices,
         "added_tets": len(split.parent) - len(np.unique(split.parent)),
         "left": len(split.left),
     }
+
+
+def split_domain(domain: TetDomain, mesh: TetMesh, parent: np.ndarray) -> TetDomain:
+    """The finer mesh with the regions and features of the domain. parent: (m,) old tet that each is part of. Vertices of
+    the surface have kept their ids."""
+    regions = regions_of(domain)
+    return domain_of(mesh, None if regions is None else regions[parent]).with_features(domain.features)
 
 
 def split_between_singular(
@@ -41,17 +42,15 @@ def split_between_singular(
     """A field in the tets on a mesh whose edges between singular vertices are split: mesh, frames, lengths, (m,) tet
     that each is part of, and counts. Vertices and features of the surface stay; its triangles come in the order of the
     new tets."""
-    tets, boundary, _ = mesh.volume()
-    split = _core.split_between_singular(tets, boundary, frames, threads=threads)
+    domain = mesh.volume()
+    split = _core.split_between_singular(domain, frames, threads=threads)
     parent = np.asarray(split.parent)
-    finer = replace(mesh, tets=split.mesh)
-    with_regions(finer, None if mesh.regions is None else np.asarray(mesh.regions)[parent])
-    finer.surface = mesh.surface
+    finer = replace(mesh, tets=split_domain(domain, split.mesh, parent))
     counts = {
         "edges": len(split.edges),
         "left": len(split.left),
         "added_vertices": split.added_vertices,
-        "added_tets": len(parent) - len(tets.tets),
+        "added_tets": len(parent) - domain.tet_count,
     }
     return finer, frames[parent], None if lengths is None else lengths[parent], parent, counts
 

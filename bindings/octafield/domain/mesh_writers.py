@@ -75,8 +75,8 @@ class Parts:
             faces = np.maximum(found.faces, 0)
         if found.tets is None:
             return cls(np.asarray(found.surface.vertices), features, triangles, faces)
-        tets, boundary = found.volume()
-        ids = np.asarray(boundary.vertex_map)
+        tets = found.volume()
+        ids = np.asarray(tets.surface.vertex_map)
         lines = None if features is None else ids[features]
         return cls(np.asarray(tets.vertices), lines, ids[triangles], faces, np.asarray(tets.tets), found.regions)
 
@@ -111,14 +111,14 @@ def write_mesh(path: str | Path, found: Input) -> list[str]:
             "not_tets",
         )
     if suffix in SURFACE_SUFFIXES:
-        surface = found.surface if not found.interface_triangles else _core.boundary_surface(found.volume().tets).mesh
+        surface = found.surface if not found.interface_triangles else found.volume().boundary.mesh
         return _write_surface(path, suffix, surface, parts, found)
     if suffix == ".vtp":
         return _write_vtp(path, parts, found)
     if suffix in (".node", ".ele"):
         return _write_tetgen(path, suffix, parts)
     if suffix in (".ovm", ".ovmb"):
-        tets = found.volume().tets
+        tets = found.volume().mesh
         mesh = ovm_of_tets(tets.vertices, tets.tets)
         add_features(
             mesh, np.asarray(tets.tets), parts.lines, parts.regions, triangles=parts.triangles, faces=parts.faces

@@ -2,33 +2,25 @@
 
 import hashlib
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from .._core import BoundarySurface, FeatureGraph, TetMesh, TriangleMesh
+from .._core import FeatureGraph, TetDomain, TriangleMesh
 from ..errors import InvalidInput
 from ..options import MeshOptions
 from ..progress.phases import PhaseClock
-
-
-class Volume(NamedTuple):
-    """Of a MeshedInput that has tets."""
-
-    tets: TetMesh
-    boundary: BoundarySurface
-    boundary_features: FeatureGraph
+from .inputs import regions_of
 
 
 @dataclass(repr=False)
 class MeshedInput:
-    """A sound input, ready for fields: `surface` is the boundary of `tets` (None where only a surface was wanted).
+    """A sound input, ready for fields: `surface` is that of `tets` (None where only a surface was wanted).
 
-    Where a tet mesh has several regions (`regions`: (m,) ids), `boundary` holds the interfaces between them too. There,
-    and where the boundary touches itself, `surface` is `boundary` cut into sheets: manifold, each vertex a copy of
-    vertex `sheet_map` of the boundary. features are those of `surface`, boundary_features those of `boundary`. locking:
-    counts of what split_locking is for. options: what it was prepared with. inner_length: of edges far inside where
-    those of the surface are graded, input unit; else 0.
+    Where a tet mesh has several regions, or its boundary touches itself, `surface` is cut into sheets: manifold, each
+    vertex a copy of vertex `sheet_map` of tets.surface. features are those of `surface`, tets.features those of
+    tets.surface. locking: counts of what split_locking is for. options: what it was prepared with. inner_length: of
+    edges far inside where those of the surface are graded, input unit; else 0.
     """
 
     name: str
@@ -36,14 +28,10 @@ class MeshedInput:
     surface: TriangleMesh
     features: FeatureGraph
     feature_source: str  # "file", "angle" or "none"
-    tets: TetMesh | None = None
-    boundary: BoundarySurface | None = None
+    tets: TetDomain | None = None
     notes: list[str] = field(default_factory=list)
     clock: PhaseClock = field(default_factory=PhaseClock)
     peak_mb: float = 0.0
-    boundary_features: FeatureGraph | None = None
-    regions: np.ndarray | None = None
-    interface_triangles: int = 0
     sheet_map: np.ndarray | None = None
     locking: dict[str, Any] = field(default_factory=dict)
     options: MeshOptions | None = None
@@ -57,14 +45,24 @@ class MeshedInput:
             f"{len(self.features.edges):,} feature edges by {self.feature_source})"
         )
 
-    def volume(self) -> "Volume":
+    @property
+    def interface_triangles(self) -> int:
+        """The last so many of the surface."""
+        return 0 if self.tets is None else self.tets.interface_triangles
+
+    @property
+    def regions(self) -> np.ndarray | None:
+        """(m,) region of each tet, where there are several."""
+        return None if self.tets is None else regions_of(self.tets)
+
+    def volume(self) -> TetDomain:
         """The tets and what goes with them. Raises InvalidInput where only a surface was prepared."""
-        if self.tets is None or self.boundary is None or self.boundary_features is None:
+        if self.tets is None:
             raise InvalidInput(f"{self.name}: was prepared with volume=False; prepare it with its volume", "no_volume")
-        return Volume(self.tets, self.boundary, self.boundary_features)
+        return self.tets
 
     def at_boundary_vertices(self, values: np.ndarray) -> np.ndarray:
-        """Of values at the vertices of the surface, those at the boundary's: of its first copy in each case."""
+        """Of values at the vertices of the surface, those at the vertices of tets.surface: of the first copy each."""
         if self.sheet_map is None:
             return values
         return values[np.unique(self.sheet_map, return_index=True)[1]]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from .._core import FeatureGraph, Sheets, TetMesh, TriangleMesh
+from .._core import FeatureGraph, Sheets, TetDomain, TetMesh, TriangleMesh
 from ..errors import GeometryError, InvalidInput
 from ..options import MeshOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce, forward
@@ -17,7 +17,7 @@ from .meshed_input import MeshedInput
 from .repairing import message_with_remedy, repair_surface
 
 Array = np.ndarray[Any, Any]
-Source = str | Path | TriangleMesh | TetMesh
+Source = str | Path | TriangleMesh | TetMesh | TetDomain
 REPAIR_IGNORED = "repair was ignored: it works on surfaces only"
 TOUCHING = ("non_manifold_edge", "non_manifold_vertex")  # kinds of defects that the boundary of tets may have
 
@@ -38,7 +38,6 @@ class SoundInput:
     feature_source: str
     clock: PhaseClock
     peak_mb: float
-    boundary_features: FeatureGraph
     sheets: Sheets | None
     locking: dict[str, Any]
 
@@ -57,7 +56,7 @@ def read_sound(
         announce(progress, "read")
         if isinstance(source, Input):
             found = source
-        elif isinstance(source, (TriangleMesh, TetMesh)):
+        elif isinstance(source, (TriangleMesh, TetMesh, TetDomain)):
             found = from_mesh(source)
         else:
             found = read_input(
@@ -66,11 +65,28 @@ def read_sound(
         with naming(found.name):
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):
-        locking = {} if found.tets is None else split_on_request(found, options)
-        sheets = _core.cut_into_sheets(found.surface) if found.interface_triangles or found.touches else None
+        locking: dict[str, Any] = {}
+        if found.tets is not None:
+            locking = split_input(found, options)
+        sheets = sheets_of(found)
         features, feature_source = find_features(found, options, sheets)
-        of_surface = features if sheets is None else _lifted(features, sheets)
-    return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), features, sheets, locking)
+        if found.tets is not None:
+            found.tets = found.tets.with_features(features)
+        of_surface = features if sheets is None else _core.features_on_sheets(features, sheets)
+    return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), sheets, locking)
+
+
+def split_input(found: Input, options: MeshOptions) -> dict[str, Any]:
+    """Counts what joins the surface of the tets to itself, and splits it where the options say so."""
+    found.tets, locking = split_on_request(found.volume(), options)
+    if options.split:
+        found.surface = found.tets.surface.mesh
+    return locking
+
+
+def sheets_of(found: Input) -> Sheets | None:
+    """Of a surface of tets that is not manifold."""
+    return found.volume().sheets if found.interface_triangles or found.touches else None
 
 
 def prepare_mesh(
@@ -104,12 +120,8 @@ def prepare_mesh(
             source.features,
             source.feature_source,
             found.tets,
-            found.boundary,
             found.notes,
             clock,
-            boundary_features=source.boundary_features,
-            regions=found.regions,
-            interface_triangles=found.interface_triangles,
             sheet_map=None if source.sheets is None else np.asarray(source.sheets.vertex_map),
             locking=source.locking,
             options=options,
@@ -139,7 +151,7 @@ def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
 def _require_valid(found: Input, options: MeshOptions, **tests: bool) -> None:
     surface = found.surface
     if found.interface_triangles and found.tets is not None:
-        surface = _core.boundary_surface(found.tets).mesh
+        surface = found.tets.boundary.mesh
     try:
         try:
             _core.require_valid(surface, **tests)
@@ -157,7 +169,7 @@ def _accept_touching(found: Input, surface: TriangleMesh) -> None:
     for defect in _core.find_defects(surface, self_intersection=False):
         if defect.kind not in TOUCHING:
             raise GeometryError(defect.message, defect.kind, defect.elements)
-    sheets = _core.cut_into_sheets(surface)
+    sheets = found.volume().sheets
     found.touches = True
     copies = np.bincount(np.asarray(sheets.vertex_map))
     alone = np.setdiff1d(np.flatnonzero(copies > 1), np.asarray(sheets.cuts))
@@ -190,16 +202,6 @@ def find_features(found: Input, options: MeshOptions, sheets: Sheets | None) -> 
             edges = np.asarray(sheets.vertex_map)[edges]
         edges = np.unique(np.sort(np.concatenate([edges, cuts]), axis=1), axis=0)
     return _core.feature_graph(found.surface, edges), source
-
-
-def _lifted(features: FeatureGraph, sheets: Sheets) -> FeatureGraph:
-    """The edges of the sheets that are copies of features."""
-    triangles, copy_of = np.asarray(sheets.mesh.triangles), np.asarray(sheets.vertex_map).astype(np.int64)
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    count = int(copy_of.max()) + 1
-    keys = [low * count + high for low, high in (np.sort(copy_of[edges], axis=1).T, np.asarray(features.edges).T)]
-    chosen = edges[np.isin(keys[0], keys[1])]
-    return _core.feature_graph(sheets.mesh, np.unique(np.sort(chosen, axis=1), axis=0))
 
 
 def _remesh(meshed: MeshedInput, options: MeshOptions, progress: Progress | None, volume: bool) -> None:
@@ -255,13 +257,12 @@ def _fill_or_refine(meshed: MeshedInput, progress: Progress | None, options: Mes
 def _fill(meshed: MeshedInput, progress: Progress | None, options: MeshOptions) -> None:
     announce(progress, "mesh", 0.7)
     count = len(meshed.surface.vertices)
-    meshed.tets = _core.tetrahedralize(meshed.surface, edge_length=meshed.inner_length, notes=meshed.notes)
-    meshed.boundary = _core.boundary_surface(meshed.tets)
-    if not np.array_equal(np.asarray(meshed.boundary.vertex_map), np.arange(count)):
+    mesh = _core.tetrahedralize(meshed.surface, edge_length=meshed.inner_length, notes=meshed.notes)
+    domain = TetDomain(mesh, features=meshed.features)
+    if not np.array_equal(np.asarray(domain.surface.vertex_map), np.arange(count)):
         raise GeometryError("the tet mesh does not keep the vertices of the surface; please report this input")
-    meshed.locking = split_on_request(meshed, options)
-    meshed.surface = meshed.boundary.mesh  # the same vertices; triangles in the order of the tets
-    meshed.boundary_features = meshed.features
+    meshed.tets, meshed.locking = split_on_request(domain, options)
+    meshed.surface = meshed.tets.surface.mesh  # the same vertices; triangles in the order of the tets
 
 
 def _note_unused(meshed: MeshedInput, options: MeshOptions, of_cad: bool) -> None:

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from .._core import AlignmentTables, BoundarySurface, CombedField, FeatureGraph, SingularEdges, TetMesh
+from .._core import AlignmentTables, CombedField, SingularEdges, TetDomain, TetMesh
 from ..errors import InvalidInput
 from ..meshes.topology import first_tets_at
 from ..options import MeshOptions
-from .inputs import Input, from_mesh, with_regions
+from .inputs import domain_of, from_mesh, to_surface_ids
 from .meshed_input import MeshedInput
 from .meshing import Source, prepare_mesh
 from .sites import SITES, fitting_frames
@@ -30,17 +30,15 @@ class ParameterizationInput:
     singular: the edges inside with a turn, as octafield.singular_edges has them of the frames before combing. surface:
         with interfaces between regions; features: its. tables: axes held at both."""
 
-    mesh: TetMesh
+    tets: TetDomain
     combed: CombedField
     singular: SingularEdges
-    surface: BoundarySurface
-    features: FeatureGraph
     tables: AlignmentTables
 
     def __repr__(self) -> str:
         cut, edges = int(np.asarray(self.combed.cut).sum()), len(self.singular.edges)
         return (
-            f"ParameterizationInput({len(self.mesh.tets):,} tets, {cut:,} cut triangles, {edges:,} singular edges,"
+            f"ParameterizationInput({len(self.tets.tets):,} tets, {cut:,} cut triangles, {edges:,} singular edges,"
             f" {len(self.tables.patch_one_axis):,} patches)"
         )
 
@@ -57,7 +55,7 @@ class ParameterizationInput:
             "singular_edges": ends,
             "singular_holonomy": self._holonomies(ends),
             "singular_quarter_turns": np.array([e.quarter_turns for e in edges], np.int32),
-            "surface_triangles": np.asarray(self.surface.vertex_map)[np.asarray(self.surface.mesh.triangles)],
+            "surface_triangles": np.asarray(self.tets.surface.vertex_map)[np.asarray(self.tets.surface.mesh.triangles)],
         }
         return {k: np.asarray(v) for k, v in parts.items()} | {
             f"alignment_{k}": np.asarray(getattr(self.tables, k)) for k in _TABLES
@@ -66,7 +64,7 @@ class ParameterizationInput:
     def _holonomies(self, ends: np.ndarray) -> np.ndarray:
         """Of the combed frame q g of the lowest tet at each edge: g^-1 h g."""
         h = np.array([e.holonomy for e in self.singular.edges], np.int32)
-        g = np.asarray(self.combed.element)[first_tets_at(np.asarray(self.mesh.tets), ends)]
+        g = np.asarray(self.combed.element)[first_tets_at(np.asarray(self.tets.tets), ends)]
         product, inverse = np.asarray(_core.octahedral_product_table()), np.asarray(_core.octahedral_inverse_table())
         conjugates: np.ndarray = product[product[inverse[g], h], g]
         return conjugates
@@ -83,22 +81,20 @@ def parameterization_input(
     meshed = mesh if isinstance(mesh, MeshedInput) else prepare_mesh(mesh, options)
     if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):
         raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
-    tets, surface, features = meshed.volume()
+    tets = meshed.volume()
     of_tets = fitting_frames(tets, frames, where)
     if where == "vertices":
         of_tets = np.asarray(_core.tet_frames(tets, of_tets))
     combed = _core.comb(tets, of_tets)
-    tables = _core.alignment_tables(tets, surface, features, combed)
-    return ParameterizationInput(tets, combed, _core.singular_edges(tets, of_tets), surface, features, tables)
+    tables = _core.alignment_tables(tets, combed)
+    return ParameterizationInput(tets, combed, _core.singular_edges(tets, of_tets), tables)
 
 
 def with_parts(mesh: TetMesh, features: np.ndarray | None, regions: np.ndarray | None) -> MeshedInput:
     """The mesh as its file would be read. features: (k, 2) vertex ids of the tet mesh; None: found by angle."""
-    found: Input = with_regions(from_mesh(mesh), regions)
+    found = from_mesh(domain_of(mesh, regions))
     if features is not None:
-        to_surface = np.full(len(mesh.vertices), -1)
-        to_surface[np.asarray(found.volume().boundary.vertex_map)] = np.arange(len(found.surface.vertices))
-        found.lines, found.creases = to_surface[features].astype(np.int32), True
+        found.lines, found.creases = to_surface_ids(found.volume())[features].astype(np.int32), True
         if (found.lines < 0).any():
             raise InvalidInput("features name vertices that are not on the surface", "bad_features")
     return prepare_mesh(found)

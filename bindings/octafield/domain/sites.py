@@ -3,14 +3,14 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .._core import TetMesh
+from .._core import TetDomain, TetMesh
 from ..errors import InvalidInput
 from .rotations import unit_quaternions
 
 SITES = ("vertices", "tets")
 
 
-def fitting_frames(tets: TetMesh, frames: ArrayLike, where: str) -> np.ndarray:
+def fitting_frames(tets: TetMesh | TetDomain, frames: ArrayLike, where: str) -> np.ndarray:
     """Unit quaternions, as many as the mesh has vertices or tets; InvalidInput otherwise."""
     values = np.asarray(frames, float)
     count = len(tets.vertices if where == "vertices" else tets.tets)

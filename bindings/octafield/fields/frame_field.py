@@ -17,7 +17,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from .._core import BoundaryConstraints, DirectionField, Streamline, SurfaceSingularities, TetMesh, VertexConstraints
+from .._core import (
+    BoundaryConstraints,
+    DirectionField,
+    Streamline,
+    SurfaceSingularities,
+    TetDomain,
+    TetMesh,
+    VertexConstraints,
+)
 from ..domain.locking import split_between_singular
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source, load_surface, prepare_mesh
@@ -119,7 +127,7 @@ def compute_field(
     progress(phase, fraction, merit): False cancels. Raises InvalidInput, GeometryError, IoError, SolverError,
     Cancelled.
     """
-    if start is not None and not isinstance(source, (MeshedInput, TetMesh)):
+    if start is not None and not isinstance(source, (MeshedInput, TetMesh, TetDomain)):
         raise InvalidInput(
             "a start belongs to a tet mesh; give that, or the result of prepare_mesh(source, options)", "not_meshed"
         )
@@ -176,7 +184,7 @@ def run(
     memory = PeakMemory()
     meshed, clock = problem.meshed, PhaseClock(problem.clock)
     _refuse_ignored(meshed, options)
-    tets = meshed.volume().tets
+    tets = meshed.volume()
     with clock.phase("smooth"):
         announce(progress, "smooth")
         in_tets = _core.tet_sampling(tets) if options.sampling == "tets" else None
@@ -257,12 +265,10 @@ def _refuse_ignored(meshed: MeshedInput, options: FieldOptions) -> None:
 
 def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryConstraints:
     meshed = problem.meshed
-    tets, boundary, features = meshed.volume()
+    tets = meshed.volume()
     mode, tolerance = "none" if options.boundary == OF_A_START else options.boundary, options.feature_tolerance
     if options.sampling == "tets":  # triangles of the surface are those of the boundary, sheets or not
         directions = _core.triangle_directions(meshed.surface, problem.direction_field)
-        return _core.tet_boundary_constraints(tets, boundary, directions, mode=mode, feature_tolerance=tolerance)
+        return _core.tet_boundary_constraints(tets, directions, mode=mode, feature_tolerance=tolerance)
     directions = meshed.at_boundary_vertices(problem.directions)
-    return _core.boundary_constraints(
-        len(tets.vertices), boundary, features, directions, mode=mode, feature_tolerance=tolerance
-    )
+    return _core.boundary_constraints(tets, directions, mode=mode, feature_tolerance=tolerance)

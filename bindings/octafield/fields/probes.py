@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from .._core import SampledFrames, TetMesh
+from .._core import SampledFrames, TetDomain, TetMesh
 from ..domain.sites import fitting_frames
 from ..errors import InvalidInput
 from ..options import require_one_of
@@ -34,7 +34,7 @@ MOST_POINTS = 10_000_000  # of a lattice
 
 
 def sample_frames(
-    field: AnalysedField | TetMesh,
+    field: AnalysedField | TetMesh | TetDomain,
     points: ArrayLike,
     frames: ArrayLike | None = None,
     *,
@@ -83,7 +83,7 @@ def sample_frames(
 
 
 def slice_frames(
-    field: AnalysedField | TetMesh,
+    field: AnalysedField | TetMesh | TetDomain,
     origin: ArrayLike | None = None,
     normal: ArrayLike = (0.0, 0.0, 1.0),
     frames: ArrayLike | None = None,
@@ -149,12 +149,14 @@ def put_frames(data: pyvista.DataSetAttributes, frames: np.ndarray) -> None:
     data["sh4"] = np.asarray(_core.representations["sh4"].embed(frames))
 
 
-def _parts(field: AnalysedField | TetMesh, frames: ArrayLike | None) -> tuple[TetMesh, np.ndarray]:
+def _parts(
+    field: AnalysedField | TetMesh | TetDomain, frames: ArrayLike | None
+) -> tuple[TetMesh | TetDomain, np.ndarray]:
     if isinstance(field, AnalysedField):
         if frames is not None:
             raise InvalidInput("a result has frames of its own; give frames with a TetMesh only", "bad_type")
         return field.tets, np.asarray(field.frames)
-    if not isinstance(field, TetMesh):
+    if not isinstance(field, (TetMesh, TetDomain)):
         raise InvalidInput(
             "a field is a result (octafield.compute_field, analyse) or a TetMesh with frames, not"
             f" {type(field).__name__}",

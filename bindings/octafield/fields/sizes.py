@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from .._core import AxisScales, IsotropicScale, TetMesh
+from .._core import AxisScales, IsotropicScale, TetDomain, TetMesh
 from ..domain.rotations import axes_in_rows, axes_of
 from ..options import FieldOptions
 from ..progress.phases import PhaseClock, Progress, announce
@@ -14,14 +14,14 @@ from ..progress.phases import PhaseClock, Progress, announce
 Sizes = IsotropicScale | AxisScales
 
 
-def find_sizes(tets: TetMesh, frames: np.ndarray, kind: str, threads: int = 0) -> Sizes:
+def find_sizes(tets: TetMesh | TetDomain, frames: np.ndarray, kind: str, threads: int = 0) -> Sizes:
     """kind: "isotropic" or "axes". frames: (n, 4), at the vertices."""
     find = _core.isotropic_scale if kind == "isotropic" else _core.axis_scales
     return find(tets, frames, threads=threads)
 
 
 def sizes_of_run(
-    tets: TetMesh, frames: np.ndarray, options: FieldOptions, clock: PhaseClock, progress: Progress | None
+    tets: TetDomain, frames: np.ndarray, options: FieldOptions, clock: PhaseClock, progress: Progress | None
 ) -> tuple[Sizes | None, dict[str, Any]]:
     """What options.sizes asks for, and the record's entry."""
     if options.sizes == "none":

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from .._core import BoundaryConstraints, Sampling, SmoothResult, TetMesh, VertexConstraints
+from .._core import BoundaryConstraints, Sampling, SmoothResult, TetDomain, VertexConstraints
 from ..domain.sites import fitting_frames
 from ..errors import InvalidInput
 from ..options import OF_A_START, FieldOptions
@@ -23,9 +23,9 @@ class _How(TypedDict):
 
 
 def smoothed_field(
-    tets: TetMesh,
+    tets: TetDomain,
     options: FieldOptions,
-    where: TetMesh | Sampling,
+    where: TetDomain | Sampling,
     held: BoundaryConstraints,
     start: ArrayLike | None,
     seed: int,
@@ -49,7 +49,7 @@ def smoothed_field(
 
 
 def held_at_start(
-    tets: TetMesh, options: FieldOptions, free: BoundaryConstraints, start: ArrayLike | None
+    tets: TetDomain, options: FieldOptions, free: BoundaryConstraints, start: ArrayLike | None
 ) -> BoundaryConstraints:
     """free: constraints that hold nothing. With the frames on the surface held at those of the start."""
     if start is None:

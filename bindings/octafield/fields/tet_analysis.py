@@ -30,18 +30,19 @@ class TetFieldAnalysis:
 
 
 def analyse_tets(meshed: MeshedInput, sampling: Sampling, of_tets: np.ndarray, threads: int = 0) -> TetFieldAnalysis:
-    tets, boundary, features = meshed.volume()
+    tets = meshed.volume()
+    boundary = tets.surface
     frames = np.asarray(_core.vertex_frames(tets, of_tets, threads=threads))
     found = _core.singular_edges(tets, of_tets, threads=threads)
-    alignment = np.asarray(_core.tet_alignment_angles(tets, boundary, of_tets))
+    alignment = np.asarray(_core.tet_alignment_angles(tets, of_tets))
     sides = np.where(
         np.arange(len(boundary.mesh.triangles)) < len(boundary.mesh.triangles) - meshed.interface_triangles, 1, 2
     )
     off = verdict.off_vertices(alignment, np.repeat(np.asarray(boundary.mesh.triangles), sides, axis=0))
-    feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
+    feature_alignment = np.asarray(_core.feature_alignment_angles(tets, frames))
     energy = float(_core.dirichlet_energy(sampling, of_tets, threads=threads))
-    meshability = _core.tet_meshability(tets, boundary, features, of_tets, found, threads=threads)
-    at_boundary = _core.tet_boundary_meshability(tets, boundary, features, of_tets, threads=threads)
+    meshability = _core.tet_meshability(tets, of_tets, found)
+    at_boundary = _core.tet_boundary_meshability(tets, of_tets, threads=threads)
     turns = [int(edge.quarter_turns) for edge in found.edges]
     record = {
         "energy": energy,

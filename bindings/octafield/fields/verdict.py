@@ -29,7 +29,8 @@ def of_field(meshed: MeshedInput, off: np.ndarray, figures: dict[str, Any]) -> d
 
     Record entry: state, sentences, vertices (ids of the tet mesh, the first 100), suggested_edge_length (input unit, or
     None)."""
-    _, boundary, features = meshed.volume()
+    domain = meshed.volume()
+    boundary, features = domain.surface, domain.features
     points, triangles = np.asarray(boundary.mesh.vertices), np.asarray(boundary.mesh.triangles)
     edges, turns = smooth_turns(points, triangles, np.asarray(features.edges))
     bent = edges[turns > BENT]

@@ -53,18 +53,18 @@ def analyse(
     feature_tolerance: float = default_of("boundary_constraints", "feature_tolerance"),
 ) -> FieldAnalysis:
     """streamlines: number of seeds, three curves each. feature_tolerance: radians, of the constraints."""
-    tets, boundary, features = meshed.volume()
+    tets = meshed.volume()
     graph = _core.singular_graph(tets, frames, threads=threads)
     meshability = _core.local_meshability(tets, frames, graph)
-    at_boundary = _core.boundary_meshability(tets, boundary, features, frames, threads=threads)
+    at_boundary = _core.boundary_meshability(tets, frames, threads=threads)
     integrability = _core.integrability(tets, frames, threads=threads)
-    alignment = np.asarray(_core.alignment_angles(boundary, features, frames))
-    sectors = _core.sector_normals(boundary.mesh, features)
+    alignment = np.asarray(_core.alignment_angles(tets, frames))
+    sectors = _core.sector_normals(tets)
     unserved = unserved_sectors(meshed, sectors, feature_tolerance)
     off = verdict.off_vertices(alignment[~unserved], np.asarray(sectors.vertex)[~unserved])
-    feature_alignment = np.asarray(_core.feature_alignment_angles(boundary, features, frames))
+    feature_alignment = np.asarray(_core.feature_alignment_angles(tets, frames))
     energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
-    size = _core.shape_size(boundary.mesh)
+    size = _core.shape_size(tets.surface.mesh)
     seeds = _core.spread_points(tets, streamlines)
     lines = _core.frame_streamlines(tets, frames, seeds, max_length=2 * size, threads=threads) if len(seeds) else []
     record = {
@@ -151,14 +151,13 @@ def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolera
     """(k,) true: at a vertex where smooth sectors meet and no frame fits all their normals and the tangents within the
     tolerance, so that constraints do not hold the normals (octafield.boundary_constraints): the field may be off by up
     to 45 degrees there, whatever the method."""
-    tets, boundary, features = meshed.volume()
+    tets = meshed.volume()
+    boundary = tets.surface
     vertex, normal = np.asarray(sectors.vertex), np.asarray(sectors.normal)
     tangents = np.cross(normal, np.eye(3)[np.abs(normal).argmin(axis=1)])  # any will do: on features the normals decide
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
     directions = tangents[np.searchsorted(vertex, np.arange(len(boundary.mesh.vertices)))]
-    held = _core.boundary_constraints(
-        len(tets.vertices), boundary, features, directions, mode="aligned", feature_tolerance=feature_tolerance
-    )
+    held = _core.boundary_constraints(tets, directions, mode="aligned", feature_tolerance=feature_tolerance)
     loose = np.asarray(held.kind)[np.asarray(boundary.vertex_map)] != _core.constraint_kinds.index("fixed")
     several = np.bincount(vertex, minlength=len(loose)) > 1
     found: np.ndarray = (loose & several)[vertex]

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from .._core import TetMesh
-from ..domain.inputs import Input, read_input
+from .._core import TetDomain, TetMesh
+from ..domain.inputs import Input, from_mesh, read_input
 from ..domain.rotations import axes_of, unit_quaternions
 from ..domain.sites import SITES
 from ..errors import InvalidInput
@@ -58,6 +58,7 @@ def read_frames(
     _require_site(where)
     reader = find_format(path, format)
     given = read_input(mesh) if isinstance(mesh, (str, Path)) else mesh
+    given = from_mesh(given) if isinstance(given, TetDomain) else given
     if given is not None and not isinstance(given, (Input, TetMesh)):
         raise InvalidInput(f"a TetMesh or its file is needed, not {type(given).__name__}", "bad_type")
     if isinstance(given, Input) and given.tets is None:
@@ -112,6 +113,7 @@ def write_frames(
         of cells), on top of their lengths. Returns notes on what was changed or left out. Raises InvalidInput and
         IoError.
     """
+    mesh = mesh.mesh if isinstance(mesh, TetDomain) else mesh
     if mesh is not None and not isinstance(mesh, TetMesh):
         if not hasattr(mesh, "feature_edges"):
             raise InvalidInput(f"a TetMesh or a result that has one is needed, not {type(mesh).__name__}", "bad_type")
@@ -119,7 +121,7 @@ def write_frames(
             (mesh.feature_edges if features is None else features),
             (mesh.regions if regions is None else regions),
         )
-        mesh = mesh.tets
+        mesh = mesh.tets.mesh
     path = Path(path)
     _require_site(where)
     _require_site(at)
@@ -198,7 +200,7 @@ def _comb(field: Field) -> list[str]:
     found = (
         ""
         if field.features is not None
-        else f"; no feature edges were given: {len(field.combed.features.edges)} were found by angle"
+        else f"; no feature edges were given: {len(field.combed.tets.features.edges)} were found by angle"
     )
     return [f"the frames were combed, {int(np.asarray(field.combed.combed.cut).sum())} triangles are cut{found}"]
 

@@ -14,7 +14,7 @@ _SAME_PLACE = 1e-6  # of the bounding-box diagonal
 
 def place(found: FrameFile, given: Input | TetMesh | None, where: str | None) -> FrameFile:
     """Sets where and mesh; orders frames by the centres that the file may have."""
-    mesh = found.mesh if given is None else given.tets if isinstance(given, Input) else given
+    mesh = found.mesh if given is None else given.volume().mesh if isinstance(given, Input) else given
     if mesh is None:
         return replace(found, where=where or found.where)
     if isinstance(given, Input):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import _core
+from .._core import TetDomain
 from ..domain.inputs import Input, input_of_grid, naming
 from ..domain.rotations import axes_of
 from ..errors import InvalidInput
@@ -58,7 +59,7 @@ def read_arrays(path: Path, name: str) -> FrameFile:
 
 def with_mesh(result: FrameFile, read: Input) -> FrameFile:
     """Adds what was read beside the frames."""
-    result.mesh, result.regions = read.tets, read.regions
+    result.mesh, result.regions = read.volume().mesh, read.regions
     features = read.features_of_tets()
     if features is not None:
         result.features = features
@@ -101,18 +102,17 @@ def write_vtu(path: Path, field: Field) -> None:
     """As `octafield field` writes it; frames in tets are taken to the vertices as well."""
     of_tets, mesh = field.where == "tets", mesh_of(field)
     frames = _core.vertex_frames(mesh, field.frames) if of_tets else field.frames
-    lengths, regions, features = (
-        () if part is None else part for part in (field.lengths, field.regions, field.features)
-    )
+    lengths, features = (() if part is None else part for part in (field.lengths, field.features))
+    domain = TetDomain(mesh, regions=() if field.regions is None else field.regions)
     metadata = {"convention": CONVENTION} | field.metadata
 
     def write(plain: Path) -> None:
         if of_tets:
             _core.write_field(
-                plain, mesh, frames, metadata, regions, tet_frames=field.frames, tet_lengths=lengths, features=features
+                plain, domain, frames, metadata, tet_frames=field.frames, tet_lengths=lengths, features=features
             )
         else:
-            _core.write_field(plain, mesh, frames, metadata, regions, lengths=lengths, features=features)
+            _core.write_field(plain, domain, frames, metadata, lengths=lengths, features=features)
 
     through_file(path, ".vtu", write)
 

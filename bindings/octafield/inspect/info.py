@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from .._core import TetMesh
+from .._core import TetDomain
 from ..domain.inputs import Input, naming, read_input
-from ..domain.locking import split_on_request
-from ..domain.meshing import TOUCHING, find_features
+from ..domain.meshing import TOUCHING, find_features, sheets_of, split_input
 from ..domain.repairing import advise, message_with_remedy, repair_surface
 from ..errors import Error
 from ..fields import verdict
@@ -75,8 +74,7 @@ def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict[str,
         repair_surface(found, options)
         whole = found.surface
         if found.interface_triangles:
-            assert found.tets is not None
-            found.surface = _core.boundary_surface(found.tets).mesh  # interfaces are sound where the tets are
+            found.surface = found.volume().boundary.mesh  # interfaces are sound where the tets are
         findings = [Finding("file can be read", PASS), *_defects(found, options)]
         failed = {f.requirement for f in findings if f.state != PASS}
         facts: dict[str, Any] = {}
@@ -151,8 +149,8 @@ def _defects(found: Input, options: MeshOptions) -> list[Finding]:
 def _beyond_defects(found: Input, options: MeshOptions) -> tuple[list[Finding], dict[str, Any]]:
     """Of a sound input: what makes fields poor, slow or impossible to compute."""
     facts: dict[str, Any] = {}
-    locking = {} if found.tets is None else split_on_request(found, options)
-    sheets = _core.cut_into_sheets(found.surface) if found.interface_triangles or found.touches else None
+    locking = {} if found.tets is None else split_input(found, options)
+    sheets = sheets_of(found)
     try:
         features, source = find_features(found, options, sheets)
     except Error as error:
@@ -195,7 +193,7 @@ def _beyond_defects(found: Input, options: MeshOptions) -> tuple[list[Finding], 
     return [*findings, info_checks.memory(seen, count)], facts
 
 
-def _quality(seen: Examined, tets: TetMesh) -> dict[str, Any]:
+def _quality(seen: Examined, tets: TetDomain) -> dict[str, Any]:
     """radius_ratio: 3 inradius / circumradius, 1 for regular tets."""
     angles = seen.dihedral_angles
     ratio = radius_ratios(np.asarray(tets.vertices), np.asarray(tets.tets))

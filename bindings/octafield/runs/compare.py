@@ -147,7 +147,7 @@ def compare(
                 if seed != options.seed:
                     whole.begins()
                 problem = prepare(meshed, seed, whole.labelled(name))
-                whole.prepared(len(meshed.volume().tets.tets))
+                whole.prepared(meshed.volume().tet_count)
                 _run_all(problem, section, steps, whole)
                 _add_given(problem, section, boundaries, given)
             sections.append(section)

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from .._core import AxisScales, TetMesh
-from ..domain.inputs import SURFACE_SUFFIXES, Input, from_mesh, naming, read_input
+from .._core import AxisScales, TetDomain, TetMesh
+from ..domain.inputs import SURFACE_SUFFIXES, Input, domain_of, from_mesh, naming, read_input
 from ..domain.mesh_writers import MESH_SUFFIXES, write_mesh
 from ..domain.meshing import REPAIR_IGNORED
 from ..domain.repairing import level_of, repair_surface
@@ -125,10 +125,7 @@ def _split(found: FrameFile, writer: FrameFormat, at: str | None) -> FrameFile:
             "singular edges are split by frames in the tets; leave out 'vertices'", "unknown_option_value"
         )
     mesh, frames, notes = mesh_of(found), frames_at(found, "tets"), list(found.notes)
-    surface = (
-        _core.boundary_surface(mesh) if found.regions is None else _core.region_surface(mesh, found.regions).surface
-    )
-    split = _core.split_between_singular(mesh, surface, frames)
+    split = _core.split_between_singular(domain_of(mesh, found.regions), frames)
     parent = np.asarray(split.parent)
     notes.append(
         f"{len(split.edges) - len(split.left)} edges inside between singular vertices were split:"
@@ -252,7 +249,7 @@ def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str)
     return replace(found, frames=frames, where=where, lengths=lengths, notes=notes), sizes_record(sizes)
 
 
-def _logs_at(sizes: Sizes, tets: TetMesh, frames: np.ndarray, where: str) -> np.ndarray:
+def _logs_at(sizes: Sizes, tets: TetMesh | TetDomain, frames: np.ndarray, where: str) -> np.ndarray:
     if isinstance(sizes, AxisScales):
         return log_scales_of(sizes, frames)
     values = np.asarray(sizes.log_scale)

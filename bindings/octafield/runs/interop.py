@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from .. import _core
-from .._core import BoundarySurface, FrameStreamline, SingularGraph, Streamline, TetMesh, TriangleMesh
+from .._core import BoundarySurface, FrameStreamline, SingularGraph, Streamline, TetDomain, TetMesh, TriangleMesh
 from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField
 from ..fields.direction_field import SurfaceFieldResult
@@ -50,6 +50,7 @@ def to_pyvista(
     value: TriangleMesh
     | BoundarySurface
     | TetMesh
+    | TetDomain
     | SingularGraph
     | AnalysedField
     | SurfaceFieldResult
@@ -81,7 +82,7 @@ def to_pyvista(
         faces: Any = np.array(value.triangles)
         surface: pyvista.PolyData = pyvista.PolyData.from_regular_faces(np.array(value.vertices), faces)
         return surface
-    if isinstance(value, TetMesh):
+    if isinstance(value, (TetMesh, TetDomain)):
         return pyvista.UnstructuredGrid({pyvista.CellType.TETRA: np.array(value.tets)}, np.array(value.vertices))
     lines: pyvista.PolyData
     if isinstance(value, SingularGraph):
@@ -158,7 +159,7 @@ def _triangles(surface: pyvista.PolyData) -> TriangleMesh:
     return TriangleMesh(np.array(flat.points, float), flat.faces.reshape(-1, 4)[:, 1:].astype(np.int32))
 
 
-def to_meshio(value: TriangleMesh | TetMesh | AnalysedField) -> meshio.Mesh:
+def to_meshio(value: TriangleMesh | TetMesh | TetDomain | AnalysedField) -> meshio.Mesh:
     """A meshio.Mesh; of a field (AnalysedField, FieldResult) with the data of to_pyvista. Raises InvalidInput for
     anything else.
 
@@ -171,7 +172,7 @@ def to_meshio(value: TriangleMesh | TetMesh | AnalysedField) -> meshio.Mesh:
 
     if isinstance(value, TriangleMesh):
         return meshio.Mesh(np.array(value.vertices), [("triangle", np.array(value.triangles))])
-    if isinstance(value, TetMesh):
+    if isinstance(value, (TetMesh, TetDomain)):
         return meshio.Mesh(np.array(value.vertices), [("tetra", np.array(value.tets))])
     if isinstance(value, AnalysedField):
         grid = to_pyvista(value)
@@ -197,7 +198,7 @@ def from_meshio(mesh: meshio.Mesh) -> TriangleMesh | TetMesh:
     raise InvalidInput("the mesh has no cells of kind tetra or triangle", "no_cells")
 
 
-def to_scipy(value: TriangleMesh | TetMesh | SingularGraph | AnalysedField) -> scipy.sparse.csr_array:
+def to_scipy(value: TriangleMesh | TetMesh | TetDomain | SingularGraph | AnalysedField) -> scipy.sparse.csr_array:
     """A graph as a scipy.sparse matrix, for scipy.sparse.csgraph. Meshes: (n, n) symmetric, the length (input unit) of
     the edge between two vertices. SingularGraph: the same between its points, along its curves. AnalysedField,
     FieldResult: int32 entry (a, b), a < b, of each edge of its tets: the element of octahedral_group() that brings the
@@ -221,7 +222,7 @@ def to_scipy(value: TriangleMesh | TetMesh | SingularGraph | AnalysedField) -> s
         points = np.asarray(value.points)
         pairs = [np.column_stack([curve[:-1], curve[1:]]) for curve in map(np.asarray, value.curves)]
         edges = np.unique(np.sort(np.concatenate([np.empty((0, 2), int), *pairs]), axis=1), axis=0)
-    elif isinstance(value, (TriangleMesh, TetMesh)):
+    elif isinstance(value, (TriangleMesh, TetMesh, TetDomain)):
         points = np.asarray(value.vertices)
         edges = _edges_of(np.asarray(value.triangles if isinstance(value, TriangleMesh) else value.tets))
     else:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _core
-from .._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetMesh
+from .._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetDomain
 from ..fields.analysed import AnalysedField
 from ..fields.frame_field import FieldResult, SurfaceFieldResult
 from ..fields.sizes import sizes_arrays
@@ -55,7 +55,6 @@ def write_analysis(result: AnalysedField, folder: Path, progress: Progress | Non
 
 
 def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str, str]) -> None:
-    regions: Sequence[int] | np.ndarray = [] if result.regions is None else result.regions
     more = {}
     if result.tet_frames is not None:
         more["tet_frames"] = result.tet_frames
@@ -65,7 +64,7 @@ def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str,
         more["features"] = result.feature_edges
     points, cells = sizes_arrays(result.sizes, result.tet_frames)
     _core.write_field(
-        folder / "field.vtu", result.tets, result.frames, metadata, regions, point_data=points, cell_data=cells, **more
+        folder / "field.vtu", result.tets, result.frames, metadata, point_data=points, cell_data=cells, **more
     )
     _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
     if result.boundary_meshability is not None:
@@ -123,7 +122,7 @@ def write_streamlines(
     _save(poly, path, metadata)
 
 
-def write_features(path: Path, tets: TetMesh, found: BoundaryMeshability, metadata: dict[str, str]) -> None:
+def write_features(path: Path, tets: TetDomain, found: BoundaryMeshability, metadata: dict[str, str]) -> None:
     """.vtp: corners as vertex cells, then feature edges (one line per wedge), then edges of the surface that a singular
     edge crosses. Cell data kind (0, 1, 2 in this order), meshable (0/1) and hexahedra (lines: the lower number of the
     two ends; corners: what is left for edges inside; octafield.no_number: none), angle (of the wedge, degrees; else 0),

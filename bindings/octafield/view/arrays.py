@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _core
-from .._core import SingularGraph, TetMesh, TriangleMesh
+from .._core import SingularGraph, TetDomain, TetMesh, TriangleMesh
 from .notebook import Facts, display_live, html_of
 
 if TYPE_CHECKING:
     import pyvista
 
-Arrays = TriangleMesh | TetMesh | SingularGraph
+Arrays = TriangleMesh | TetMesh | TetDomain | SingularGraph
 
 
-def _figures(value: TriangleMesh | TetMesh | SingularGraph) -> dict[str, Any]:
+def _figures(value: TriangleMesh | TetMesh | TetDomain | SingularGraph) -> dict[str, Any]:
     if isinstance(value, SingularGraph):
         turns = np.asarray(value.curve_quarter_turns)
         kinds = {f"valence {4 - number}": number for number in (3, 2, 1, -1, -2, -3, -4)} | {"complex": 0}
@@ -27,7 +27,9 @@ def _figures(value: TriangleMesh | TetMesh | SingularGraph) -> dict[str, Any]:
         }
         return {"curves": len(value.curves), **counts, "nodes": len(value.nodes), "length": float(value.length)}
     points = np.asarray(value.vertices)
-    cells = {"tets": len(value.tets)} if isinstance(value, TetMesh) else {"triangles": len(value.triangles)}
+    cells = (
+        {"tets": len(value.tets)} if isinstance(value, (TetMesh, TetDomain)) else {"triangles": len(value.triangles)}
+    )
     facts: dict[str, Any] = {"vertices": len(points), **cells}
     if len(points):
         sides = zip("xyz", points.min(axis=0), points.max(axis=0), strict=True)
@@ -45,7 +47,7 @@ def _surface_scene(mesh: TriangleMesh) -> pyvista.Plotter:
     return shape
 
 
-def _tets_scene(tets: TetMesh) -> pyvista.Plotter:
+def _tets_scene(tets: TetMesh | TetDomain) -> pyvista.Plotter:
     """The half behind the middle, so that the inside shows."""
     import pyvista
 
@@ -115,7 +117,7 @@ def _display(value: Arrays) -> None:
     display_live(_facts(value), lambda: scene_of(value))
 
 
-for _kind in (TriangleMesh, TetMesh, SingularGraph):
+for _kind in (TriangleMesh, TetMesh, TetDomain, SingularGraph):
     setattr(_kind, "_repr_html_", _html)
     setattr(_kind, "_ipython_display_", _display)
 del _kind

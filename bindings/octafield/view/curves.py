@@ -6,7 +6,7 @@ import numpy as np
 import pyvista
 
 from .. import _core
-from .._core import BoundaryMeshability, FeatureGraph, SingularGraph, TetMesh, TriangleMesh
+from .._core import BoundaryMeshability, FeatureGraph, SingularGraph, TetDomain, TriangleMesh
 from . import scene
 from .datasets import read_vtp
 from .scene import three_quarter_view
@@ -87,7 +87,7 @@ def _add_nodes(shape: pyvista.Plotter, nodes: np.ndarray, radius: float) -> None
         shape.add_mesh(spheres(nodes, 1.8 * radius), color=scene.INK, smooth_shading=True)
 
 
-def bad_features(tets: TetMesh, found: BoundaryMeshability | None) -> pyvista.PolyData | None:
+def bad_features(tets: TetDomain, found: BoundaryMeshability | None) -> pyvista.PolyData | None:
     """Feature edges that no hex mesh has; None where there are none."""
     if found is None:
         return None

@@ -116,9 +116,7 @@ def problem(path) -> tuple:
     """Mesh and constraints of the comparison."""
     meshed = prepare_mesh(path, MeshOptions(features="none"))
     directions = prepare(meshed).directions
-    return meshed.tets, octafield.boundary_constraints(
-        len(meshed.tets.vertices), meshed.boundary, meshed.features, directions, mode="aligned"
-    )
+    return meshed.tets, octafield.boundary_constraints(meshed.tets, directions, mode="aligned")
 
 
 def measure(path, seeds: int = 10, repeats: int = 3) -> tuple:

@@ -53,7 +53,7 @@ def to_nearest_axis(frames: np.ndarray, directions: np.ndarray) -> np.ndarray:
 
 def alignment_error(meshed, result) -> float:
     """Largest angle at vertices held to a normal or to the tangent of a curve."""
-    mesh, features = meshed.boundary.mesh, meshed.boundary_features
+    mesh, features = meshed.tets.surface.mesh, meshed.tets.features
     points, triangles = np.asarray(mesh.vertices), np.asarray(mesh.triangles)
     edges, corners = np.asarray(features.edges), np.asarray(features.corners)
     p = points[triangles]
@@ -69,7 +69,7 @@ def alignment_error(meshed, result) -> float:
         first[a] = True
     on_curve = degree == 2
     on_curve[corners] = False
-    frames = np.asarray(result.frames)[np.asarray(meshed.boundary.vertex_map)]
+    frames = np.asarray(result.frames)[np.asarray(meshed.tets.surface.vertex_map)]
     smooth = degree == 0
     errors = [to_nearest_axis(frames[smooth], normals[smooth]), to_nearest_axis(frames[on_curve], tangents[on_curve])]
     return float(np.concatenate(errors).max(initial=0))
@@ -80,8 +80,8 @@ def row_of(path: Path, meshed, result) -> list:
     with tempfile.TemporaryDirectory() as folder:
         write_field_result(result, Path(folder))
     r = result.record
-    held, vertex_map = result.constraints, np.asarray(meshed.boundary.vertex_map)
-    on_features = vertex_map[np.unique(np.asarray(meshed.boundary_features.edges))]
+    held, vertex_map = result.constraints, np.asarray(meshed.tets.surface.vertex_map)
+    on_features = vertex_map[np.unique(np.asarray(meshed.tets.features.edges))]
     return [
         name_of(path), r["vertices"], r["tets"], r["regions"], r["interface_triangles"], r["energy"],
         r["singular_edges"], r["complex_edges"], alignment_error(meshed, result), r["alignment_deg"]["max"],

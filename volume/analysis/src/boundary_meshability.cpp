@@ -113,21 +113,6 @@ private:
     std::multimap<EdgeKey, const FeatureWedge*> by_edge_;
 };
 
-void require_fitting(const TetMesh& mesh, const BoundarySurface& surface, const surface::FeatureGraph& features) {
-    const Eigen::Index count = surface.mesh.vertices.rows();
-    if (static_cast<Eigen::Index>(surface.vertex_map.size()) != count)
-        throw InvalidInput("vertex_map must have one entry per boundary vertex", "wrong_size");
-    for (const Index v : surface.vertex_map)
-        if (v < 0 || v >= mesh.vertices.rows())
-            throw InvalidInput("vertex_map refers to vertex " + std::to_string(v) + " of a tet mesh with " +
-                                   std::to_string(mesh.vertices.rows()),
-                               "index_out_of_range", {v});
-    for (const Index v : features.corners)
-        if (v < 0 || v >= count)
-            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the boundary mesh",
-                               "index_out_of_range", {v});
-}
-
 // Edges of the surface that are no features, once each.
 std::vector<SurfaceCrossing> find_crossings(const BoundarySurface& surface, const BoundaryStars& stars,
                                             const std::vector<EdgeKey>& keys, const TurnCounter& counter) {
@@ -196,15 +181,15 @@ std::vector<EdgeKey> surface_keys(const BoundarySurface& surface) {
 
 }  // namespace
 
-BoundaryMeshability boundary_meshability(const TetMesh& mesh, const BoundarySurface& surface,
-                                         const surface::FeatureGraph& features, const Quaternions& frames,
+BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaternions& frames,
                                          int threads) {
-    require_valid(mesh);
+    const TetMesh& mesh = domain.mesh();
+    const BoundarySurface& surface = domain.surface();
+    const surface::FeatureGraph& features = domain.features();
     require_frames(frames, mesh.vertices.rows());
-    require_fitting(mesh, surface, features);
     const BoundaryStars stars(surface.mesh, features);
     const std::vector<EdgeKey> keys = feature_keys(surface, features);
-    const std::vector<Wedge> wedges = surface_wedges(mesh, surface, keys, threads);
+    const std::vector<Wedge> wedges = surface_wedges(domain, keys, threads);
     const TurnCounter counter(mesh, frames);
     BoundaryMeshability result;
     result.wedges.resize(wedges.size());
@@ -218,14 +203,14 @@ BoundaryMeshability boundary_meshability(const TetMesh& mesh, const BoundarySurf
     return result;
 }
 
-BoundaryMeshability tet_boundary_meshability(const TetMesh& mesh, const BoundarySurface& surface,
-                                             const surface::FeatureGraph& features, const Quaternions& of_tets,
+BoundaryMeshability tet_boundary_meshability(const TetDomain& domain, const Quaternions& of_tets,
                                              int threads) {
-    require_valid(mesh);
+    const TetMesh& mesh = domain.mesh();
+    const BoundarySurface& surface = domain.surface();
+    const surface::FeatureGraph& features = domain.features();
     require_frames(of_tets, mesh.tets.rows());
-    require_fitting(mesh, surface, features);
     const std::vector<EdgeKey> keys = feature_keys(surface, features);
-    const std::vector<Wedge> wedges = surface_wedges(mesh, surface, surface_keys(surface), threads);
+    const std::vector<Wedge> wedges = surface_wedges(domain, surface_keys(surface), threads);
     const TetTurnCounter counter(mesh, of_tets, wedges);
     BoundaryMeshability result;
     for (const Wedge& w : wedges)

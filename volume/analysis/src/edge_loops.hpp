@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "octafield/arrays.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 

@@ -35,10 +35,10 @@ void require_length(double value, const char* name) {
 
 }  // namespace
 
-std::vector<FrameStreamline> frame_streamlines(const TetMesh& mesh, const Quaternions& frames,
+std::vector<FrameStreamline> frame_streamlines(const TetDomain& domain, const Quaternions& frames,
                                                const std::vector<FrameStreamlineSeed>& seeds,
                                                const FrameStreamlineOptions& options, int threads) {
-    require_valid(mesh);
+    const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
     require_seeds(mesh, seeds);
     require_length(options.max_length, "max_length");
@@ -46,21 +46,20 @@ std::vector<FrameStreamline> frame_streamlines(const TetMesh& mesh, const Quater
     std::vector<FrameStreamline> lines(seeds.size());
     if (seeds.empty()) return lines;
     FrameStreamlineOptions used = options;
-    if (used.max_length == 0) used.max_length = 4 * surface::shape_size(boundary_surface(mesh).mesh);
-    const TriangleTable table = triangle_table(mesh, threads);
-    const FrameTracer tracer(mesh, frames, table, used);
+    if (used.max_length == 0) used.max_length = 4 * surface::shape_size(domain.boundary().mesh);
+    const FrameTracer tracer(mesh, frames, domain.triangles(), used);
     parallel_for(
         static_cast<std::int64_t>(seeds.size()), threads, [&](std::int64_t i) { lines[i] = tracer.trace(seeds[i]); },
         1);
     return lines;
 }
 
-std::vector<FrameStreamlineSeed> seeds_at(const TetMesh& mesh, const Points& points, const Points& directions) {
+std::vector<FrameStreamlineSeed> seeds_at(const TetDomain& domain, const Points& points, const Points& directions) {
     if (points.rows() != directions.rows())
         throw InvalidInput("there are " + std::to_string(points.rows()) + " points and " +
                                std::to_string(directions.rows()) + " directions; give one per point",
                            "wrong_size");
-    const LocatedPoints located = locate_points(mesh, points);
+    const LocatedPoints located = locate_points(domain, points);
     std::vector<Index> outside;
     std::vector<FrameStreamlineSeed> seeds;
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
@@ -73,11 +72,13 @@ std::vector<FrameStreamlineSeed> seeds_at(const TetMesh& mesh, const Points& poi
     return seeds;
 }
 
-std::vector<FrameStreamlineSeed> axis_seeds_at(const TetMesh& mesh, const Quaternions& frames, const Points& points) {
+std::vector<FrameStreamlineSeed> axis_seeds_at(const TetDomain& domain, const Quaternions& frames,
+                                               const Points& points) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
     const VertexAxes axes(frames);
     std::vector<FrameStreamlineSeed> result;
-    for (const FrameStreamlineSeed& seed : seeds_at(mesh, points, Points::Zero(points.rows(), 3))) {
+    for (const FrameStreamlineSeed& seed : seeds_at(domain, points, Points::Zero(points.rows(), 3))) {
         Eigen::Index nearest;
         seed.weights.maxCoeff(&nearest);
         for (int axis = 0; axis < 3; ++axis) {

@@ -5,7 +5,7 @@
 
 #include "axis_numbers.hpp"
 #include "octafield/volume/streamlines.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 

@@ -7,7 +7,7 @@
 #include "octafield/parallel.hpp"
 #include "require_frames.hpp"
 #include "tet_axes.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -44,8 +44,8 @@ double tet_twist(const TetMesh& mesh, const Quaternions& frames, const Quaternio
 
 }  // namespace
 
-Quaternions tet_frames(const TetMesh& mesh, const Quaternions& frames, int threads) {
-    require_valid(mesh);
+Quaternions tet_frames(const TetDomain& domain, const Quaternions& frames, int threads) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
     const Eigen::Index count = mesh.tets.rows();
     Quaternions result(count, 4);
@@ -58,8 +58,9 @@ Quaternions tet_frames(const TetMesh& mesh, const Quaternions& frames, int threa
     return result;
 }
 
-Integrability integrability(const TetMesh& mesh, const Quaternions& frames, int threads) {
-    const Quaternions of_tets = tet_frames(mesh, frames, threads);
+Integrability integrability(const TetDomain& domain, const Quaternions& frames, int threads) {
+    const TetMesh& mesh = domain.mesh();
+    const Quaternions of_tets = tet_frames(domain, frames, threads);
     Integrability result;
     result.twist.resize(mesh.tets.rows());
     parallel_for(mesh.tets.rows(), threads, [&](std::int64_t t) {
@@ -68,7 +69,7 @@ Integrability integrability(const TetMesh& mesh, const Quaternions& frames, int 
     result.twist_rms = weighted_rms(result.twist, tet_volumes(mesh));
     result.twist_max = largest_of(result.twist);
 
-    const TriangleTable table = triangle_table(mesh, threads);
+    const TriangleTable& table = domain.triangles();
     Eigen::VectorXd jumps = Eigen::VectorXd::Zero(table.triangles.rows()), areas = jumps;
     parallel_for(jumps.size(), threads, [&](std::int64_t t) {
         if (table.sides(t, 1) < 0) return;

@@ -142,7 +142,8 @@ void find_curve_ends(const Quaternions& frames, const SingularGraph& graph, Mesh
 
 }  // namespace
 
-Meshability local_meshability(const TetMesh& mesh, const Quaternions& frames, const SingularGraph& graph) {
+Meshability local_meshability(const TetDomain& domain, const Quaternions& frames, const SingularGraph& graph) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
     require_fitting(mesh, graph);
     Meshability result = singular_vertices(graph, boundary_points(graph));

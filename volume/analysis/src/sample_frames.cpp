@@ -18,7 +18,7 @@
 #include "octafield/parallel.hpp"
 #include "octafield/volume/locate_points.hpp"
 #include "require_frames.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -33,8 +33,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // The triangles with a tet on one side only.
 class Boundary {
 public:
-    Boundary(const TetMesh& mesh, int threads) : mesh_(mesh) {
-        const TriangleTable table = triangle_table(mesh, threads);
+    explicit Boundary(const TetDomain& domain) : mesh_(domain.mesh()) {
+        const TetMesh& mesh = domain.mesh();
+        const TriangleTable& table = domain.triangles();
         vtkNew<vtkPoints> points;
         points->SetDataTypeToDouble();
         points->SetNumberOfPoints(mesh.vertices.rows());
@@ -89,13 +90,13 @@ private:
 };
 
 // Moves points outside to the mesh where the tolerance lets them.
-void bring_to_mesh(const TetMesh& mesh, const Points& points, double tolerance, int threads, LocatedPoints& located,
+void bring_to_mesh(const TetDomain& domain, const Points& points, double tolerance, int threads, LocatedPoints& located,
                    std::vector<double>& distance) {
     std::vector<Index> outside;
     for (std::size_t i = 0; i < located.tet.size(); ++i)
         if (located.tet[i] < 0) outside.push_back(static_cast<Index>(i));
-    if (outside.empty() || mesh.tets.rows() == 0) return;
-    const Boundary boundary(mesh, threads);
+    if (outside.empty() || domain.tet_count() == 0) return;
+    const Boundary boundary(domain);
     parallel_for(static_cast<std::int64_t>(outside.size()), threads, [&](std::int64_t k) {
         const Index i = outside[k];
         Eigen::Vector4d weights;
@@ -108,18 +109,19 @@ void bring_to_mesh(const TetMesh& mesh, const Points& points, double tolerance, 
 
 }  // namespace
 
-SampledFrames sample_frames(const TetMesh& mesh, const Quaternions& frames, const Points& points,
+SampledFrames sample_frames(const TetDomain& domain, const Quaternions& frames, const Points& points,
                             const SampleOptions& options) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
     if (std::isnan(options.tolerance)) throw InvalidInput("tolerance is not a number", "option_out_of_range");
     const double tolerance = options.tolerance >= 0
                                  ? options.tolerance
                                  : default_tolerance * surface::bounding_box_diagonal(mesh.vertices);
-    LocatedPoints located = locate_points(mesh, points, options.threads);
+    LocatedPoints located = locate_points(domain, points, options.threads);
     const auto count = static_cast<std::int64_t>(points.rows());
     SampledFrames result{Quaternions::Constant(count, 4, std::numeric_limits<double>::quiet_NaN()),
                          std::vector<double>(count, 0), {}, std::vector<double>(count, 0)};
-    bring_to_mesh(mesh, points, tolerance, options.threads, located, result.distance);
+    bring_to_mesh(domain, points, tolerance, options.threads, located, result.distance);
 
     parallel_for(
         (count + together - 1) / together, options.threads,

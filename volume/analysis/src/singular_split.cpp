@@ -7,10 +7,10 @@ namespace octafield::volume {
 
 using namespace splitting;
 
-SingularSplit split_between_singular(const TetMesh& mesh, const BoundarySurface& surface, const Quaternions& of_tets,
-                                     int threads) {
-    const SingularEdges singular = singular_edges(mesh, of_tets, threads);
-    Surface held = surface_of(mesh, surface);
+SingularSplit split_between_singular(const TetDomain& domain, const Quaternions& of_tets, int threads) {
+    const TetMesh& mesh = domain.mesh();
+    const SingularEdges singular = singular_edges(domain, of_tets, threads);
+    Surface held = surface_of(domain);
     std::vector<std::uint8_t> on_singular(mesh.vertices.rows(), 0);
     std::vector<Key<2>> kept = held.edges;
     for (const SingularEdge& e : singular.edges) {

@@ -11,7 +11,7 @@
 #include "quarter_turns.hpp"
 #include "require_frames.hpp"
 #include "singular_curves.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -159,10 +159,10 @@ std::vector<Segment> typed_segments(const DualGraph& dual, const SingularGraph& 
 
 }  // namespace
 
-SingularGraph singular_graph(const TetMesh& mesh, const Quaternions& frames, int threads) {
-    require_valid(mesh);
+SingularGraph singular_graph(const TetDomain& domain, const Quaternions& frames, int threads) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
-    const TriangleTable table = triangle_table(mesh, threads);
+    const TriangleTable& table = domain.triangles();
     const Eigen::Index count = table.triangles.rows();
     std::vector<std::uint8_t> holonomies(count), ties(count), lifts;
     parallel_for(count, threads, [&](std::int64_t t) {

@@ -5,8 +5,7 @@
 #include <tuple>
 
 #include "octafield/parallel.hpp"
-#include "surface_rows.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -71,10 +70,10 @@ private:
 
 }  // namespace
 
-std::vector<Wedge> surface_wedges(const TetMesh& mesh, const BoundarySurface& surface,
+std::vector<Wedge> surface_wedges(const TetDomain& domain,
                                   const std::vector<std::pair<Index, Index>>& edges, int threads) {
-    const TriangleTable table = triangle_table(mesh, threads);
-    const std::vector<Index> rows = surface_rows(mesh, table, surface);
+    const TriangleTable& table = domain.triangles();
+    const std::vector<Index>& rows = domain.surface_rows();
     std::vector<std::uint8_t> on_surface(table.triangles.rows(), 0);
     for (Eigen::Index t = 0; t < table.triangles.rows(); ++t) on_surface[t] = table.sides(t, 1) < 0;
     for (const Index row : rows) on_surface[row] = 1;
@@ -91,7 +90,7 @@ std::vector<Wedge> surface_wedges(const TetMesh& mesh, const BoundarySurface& su
         return std::tie(x.a, x.b, x.row, x.tet) < std::tie(y.a, y.b, y.row, y.tet);
     });
     std::vector<Wedge> wedges(beginnings.size());
-    const Walk walk(mesh, table, on_surface);
+    const Walk walk(domain.mesh(), table, on_surface);
     parallel_for(static_cast<std::int64_t>(beginnings.size()), threads,
                  [&](std::int64_t i) { wedges[i] = walk.from(beginnings[i]); });
     std::erase_if(wedges, [](const Wedge& w) { return w.link.empty(); });

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -15,9 +15,8 @@ struct Wedge {
     std::vector<Index> tets;  // these, one less
 };
 
-// Those at the given edges (tet-mesh ids, lower first; sorted). Ordered by a, b, and the first triangle. Throws
-// InvalidInput where a triangle of the surface is none of the mesh.
-std::vector<Wedge> surface_wedges(const TetMesh& mesh, const BoundarySurface& surface,
+// Those at the given edges (tet-mesh ids, lower first; sorted). Ordered by a, b, and the first triangle.
+std::vector<Wedge> surface_wedges(const TetDomain& domain,
                                   const std::vector<std::pair<Index, Index>>& edges, int threads);
 
 }  // namespace octafield::volume

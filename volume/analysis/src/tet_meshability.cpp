@@ -114,40 +114,27 @@ struct SurfaceVertices {
     Points normals;  // (n, 3) sums over the triangles, weighted by area; out of the mesh where it is its boundary
 };
 
-SurfaceVertices surface_vertices(const TetMesh& mesh, const BoundarySurface& surface,
-                                 const surface::FeatureGraph& features) {
-    const auto require_below = [](Index id, std::size_t count, const char* what) {
-        if (id < 0 || static_cast<std::size_t>(id) >= count)
-            throw InvalidInput(std::string(what) + " refers to vertex " + std::to_string(id) + " of " +
-                                   std::to_string(count),
-                               "index_out_of_range", {id});
-    };
+SurfaceVertices surface_vertices(const TetDomain& domain) {
+    const TetMesh& mesh = domain.mesh();
+    const BoundarySurface& surface = domain.surface();
     SurfaceVertices result{std::vector<std::uint8_t>(mesh.vertices.rows(), 0),
                            std::vector<std::uint8_t>(mesh.vertices.rows(), 0), Points::Zero(mesh.vertices.rows(), 3)};
-    for (const Index v : surface.vertex_map) require_below(v, mesh.vertices.rows(), "vertex_map");
-    for (const Index v : boundary_surface(mesh).vertex_map) result.on_boundary[v] = 1;
+    for (const Index v : domain.boundary().vertex_map) result.on_boundary[v] = 1;
     for (const auto triangle : surface.mesh.triangles.rowwise()) {
         std::array<Vector3, 3> p;
-        for (int k = 0; k < 3; ++k) {
-            require_below(triangle[k], surface.vertex_map.size(), "a triangle of the surface");
-            p[k] = mesh.vertices.row(surface.vertex_map[triangle[k]]).transpose();
-        }
+        for (int k = 0; k < 3; ++k) p[k] = mesh.vertices.row(surface.vertex_map[triangle[k]]).transpose();
         for (int k = 0; k < 3; ++k)
             result.normals.row(surface.vertex_map[triangle[k]]) += (p[1] - p[0]).cross(p[2] - p[0]).transpose();
     }
-    for (const auto edge : features.edges.rowwise())
-        for (int k = 0; k < 2; ++k) {
-            require_below(edge[k], surface.vertex_map.size(), "a feature edge");
-            result.on_feature[surface.vertex_map[edge[k]]] = 1;
-        }
+    for (const Index v : domain.features().edges.reshaped()) result.on_feature[surface.vertex_map[v]] = 1;
     return result;
 }
 
 }  // namespace
 
-Meshability tet_meshability(const TetMesh& mesh, const BoundarySurface& surface, const surface::FeatureGraph& features,
-                            const Quaternions& of_tets, const SingularEdges& singular, int threads) {
-    require_valid(mesh);
+Meshability tet_meshability(const TetDomain& domain,
+                            const Quaternions& of_tets, const SingularEdges& singular) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(of_tets, mesh.tets.rows());
     const SingularGraph& graph = singular.graph;
     if (singular.vertices.size() != static_cast<std::size_t>(graph.points.rows()))
@@ -158,7 +145,7 @@ Meshability tet_meshability(const TetMesh& mesh, const BoundarySurface& surface,
         if (v < 0 || v >= mesh.vertices.rows())
             throw InvalidInput("the singular edges are not those of this mesh; give singular_edges(mesh, of_tets)",
                                "wrong_mesh", {v});
-    const SurfaceVertices on = surface_vertices(mesh, surface, features);
+    const SurfaceVertices on = surface_vertices(domain);
     std::vector<std::uint8_t> boundary_points;
     for (const Index v : singular.vertices) boundary_points.push_back(on.on_boundary[v]);
     Meshability result = singular_vertices(graph, boundary_points);
@@ -182,8 +169,7 @@ Meshability tet_meshability(const TetMesh& mesh, const BoundarySurface& surface,
             ends[v].push_back(end);
         }
 
-    const TriangleTable table = triangle_table(mesh, threads);
-    Star star(mesh, table, axes);
+    Star star(mesh, domain.triangles(), axes);
     for (std::size_t i = 0; i < result.vertices.size(); ++i) {
         SingularVertex& v = result.vertices[i];
         const Index id = singular.vertices[v.point];

@@ -8,7 +8,7 @@
 #include "quarter_turns.hpp"
 #include "require_frames.hpp"
 #include "singular_curves.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -37,7 +37,8 @@ void set_quarter_turns(const TetMesh& mesh, const std::vector<Turn>& turns, std:
     }
 }
 
-void add_curves(const TetMesh& mesh, SingularEdges& result) {
+void add_curves(const TetDomain& domain, SingularEdges& result) {
+    const TetMesh& mesh = domain.mesh();
     std::vector<Index> number(mesh.vertices.rows(), -1), degree(mesh.vertices.rows(), 0);
     for (const SingularEdge& e : result.edges) ++degree[e.a], ++degree[e.b];
     for (std::size_t v = 0; v < number.size(); ++v) {
@@ -54,7 +55,7 @@ void add_curves(const TetMesh& mesh, SingularEdges& result) {
         result.complex_edges += e.quarter_turns == 0;
     }
     std::vector<std::uint8_t> on_boundary(mesh.vertices.rows(), 0);
-    for (const Index v : boundary_surface(mesh).vertex_map) on_boundary[v] = 1;
+    for (const Index v : domain.boundary().vertex_map) on_boundary[v] = 1;
     for (const Index v : result.vertices)
         if (degree[v] != 2 && !on_boundary[v]) graph.nodes.push_back(number[v]);
     std::vector<std::uint8_t> ends;
@@ -66,10 +67,10 @@ void add_curves(const TetMesh& mesh, SingularEdges& result) {
 
 }  // namespace
 
-SingularEdges singular_edges(const TetMesh& mesh, const Quaternions& of_tets, int threads) {
-    require_valid(mesh);
+SingularEdges singular_edges(const TetDomain& domain, const Quaternions& of_tets, int threads) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(of_tets, mesh.tets.rows());
-    const TriangleTable table = triangle_table(mesh, threads);
+    const TriangleTable& table = domain.triangles();
     const std::vector<TetAtEdge> tets = tets_at_edges(mesh, table, threads);
     const LiftedMatchings matchings = lifted_matchings(table, of_tets, threads);
     SingularEdges result;
@@ -84,7 +85,7 @@ SingularEdges singular_edges(const TetMesh& mesh, const Quaternions& of_tets, in
     set_quarter_turns(mesh, turns, result.edges);
     for (const SingularEdge& e : result.edges) result.undecided_edges += e.undecided;
     for (const std::uint8_t tie : matchings.tie) result.tied_triangles += tie;
-    add_curves(mesh, result);
+    add_curves(domain, result);
     return result;
 }
 

@@ -16,19 +16,17 @@ double angle_to_nearest_axis(const frames::Quaternion& frame, const frames::Vect
     return std::atan2(axes.col(nearest).cross(direction).norm(), std::abs(axes.col(nearest).dot(direction)));
 }
 
-Eigen::VectorXd angles_to_nearest_axis(const BoundarySurface& boundary, const std::vector<Index>& vertex,
+Eigen::VectorXd angles_to_nearest_axis(const BoundarySurface& surface, const std::vector<Index>& vertex,
                                        const Points& direction, const Quaternions& frames) {
-    if (static_cast<Eigen::Index>(boundary.vertex_map.size()) != boundary.mesh.vertices.rows())
-        throw InvalidInput("vertex_map must have one entry per boundary vertex", "wrong_size");
-    for (const Index v : boundary.vertex_map)
-        if (v < 0 || v >= frames.rows())
-            throw InvalidInput("frames has " + std::to_string(frames.rows()) + " rows, but the boundary uses vertex " +
-                                   std::to_string(v),
-                               "wrong_size", {v});
+    const std::vector<Index>& vertex_map = surface.vertex_map;  // ascending
+    if (!vertex_map.empty() && vertex_map.back() >= frames.rows())
+        throw InvalidInput("frames has " + std::to_string(frames.rows()) + " rows, but the surface uses vertex " +
+                               std::to_string(vertex_map.back()),
+                           "wrong_size", {vertex_map.back()});
     require_frames(frames, frames.rows());
     Eigen::VectorXd angles(static_cast<Eigen::Index>(vertex.size()));
     for (Eigen::Index i = 0; i < angles.size(); ++i)
-        angles[i] = angle_to_nearest_axis(frames::from_wxyz(frames.row(boundary.vertex_map[vertex[i]])),
+        angles[i] = angle_to_nearest_axis(frames::from_wxyz(frames.row(vertex_map[vertex[i]])),
                                           direction.row(i).transpose());
     return angles;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "octafield/frames/quaternion.hpp"
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -13,7 +13,7 @@ double angle_to_nearest_axis(const frames::Quaternion& frame, const frames::Vect
 
 // Radians, one per direction; `vertex`: boundary-mesh ids, `direction`: (k, 3) unit, `frames`: one per tet-mesh vertex.
 // Throws InvalidInput for frames that are missing or not unit.
-Eigen::VectorXd angles_to_nearest_axis(const BoundarySurface& boundary, const std::vector<Index>& vertex,
+Eigen::VectorXd angles_to_nearest_axis(const BoundarySurface& surface, const std::vector<Index>& vertex,
                                        const Points& direction, const Quaternions& frames);
 
 }  // namespace octafield::volume

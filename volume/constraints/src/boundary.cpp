@@ -10,6 +10,7 @@
 #include "boundary_star.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/sh4.hpp"
+#include "surface_constraints.hpp"
 
 namespace octafield::volume {
 
@@ -90,33 +91,21 @@ VertexRule vertex_rule(const Directions& edges, const Directions& normals, bool 
     return corner_rule(edges, normals, options.feature_tolerance);
 }
 
-void require_boundary_inputs(Index vertex_count, const BoundarySurface& boundary, const surface::FeatureGraph& features,
-                             const Points& directions, const BoundaryOptions& options) {
-    const Eigen::Index count = boundary.mesh.vertices.rows();
+void require_boundary_inputs(const BoundarySurface& surface, const Points& directions, const BoundaryOptions& options) {
+    const Eigen::Index count = surface.mesh.vertices.rows();
     if (directions.rows() != count)
         throw InvalidInput("directions has " + std::to_string(directions.rows()) +
-                               " rows; give one per boundary vertex, " + std::to_string(count),
+                               " rows; give one per vertex of the surface, " + std::to_string(count),
                            "wrong_size");
     if (!directions.allFinite()) throw InvalidInput("directions must be finite numbers", "not_finite");
-    if (static_cast<Eigen::Index>(boundary.vertex_map.size()) != count)
-        throw InvalidInput("vertex_map must have one entry per boundary vertex", "wrong_size");
-    for (const Index v : boundary.vertex_map)
-        if (v < 0 || v >= vertex_count)
-            throw InvalidInput("vertex_map refers to vertex " + std::to_string(v) + " of a tet mesh with " +
-                                   std::to_string(vertex_count),
-                               "index_out_of_range", {v});
-    for (const Index v : features.corners)
-        if (v < 0 || v >= count)
-            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the boundary mesh",
-                               "index_out_of_range", {v});
     if (!(options.feature_tolerance >= 0 && options.feature_tolerance <= std::numbers::pi / 2))
         throw InvalidInput("feature_tolerance is in radians, from 0 to pi/2", "feature_tolerance");
 }
 
 }  // namespace
 
-SectorNormals sector_normals(const surface::TriangleMesh& boundary, const surface::FeatureGraph& features) {
-    const BoundaryStars stars(boundary, features);
+SectorNormals sector_normals_of(const surface::TriangleMesh& surface, const surface::FeatureGraph& features) {
+    const BoundaryStars stars(surface, features);
     SectorNormals result;
     std::vector<Vector3> normals;
     for (Index v = 0; v < stars.vertex_count(); ++v)
@@ -129,10 +118,14 @@ SectorNormals sector_normals(const surface::TriangleMesh& boundary, const surfac
     return result;
 }
 
-BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurface& boundary,
-                                         const surface::FeatureGraph& features, const Points& directions,
-                                         const BoundaryOptions& options) {
-    require_boundary_inputs(vertex_count, boundary, features, directions, options);
+SectorNormals sector_normals(const TetDomain& domain) {
+    return sector_normals_of(domain.surface().mesh, domain.features());
+}
+
+BoundaryConstraints constraints_on_surface(Index vertex_count, const BoundarySurface& surface,
+                                           const surface::FeatureGraph& features, const Points& directions,
+                                           const BoundaryOptions& options) {
+    require_boundary_inputs(surface, directions, options);
     BoundaryConstraints result;
     result.kind.assign(vertex_count, VertexConstraint::free);
     result.axis = Points::Zero(vertex_count, 3);
@@ -140,7 +133,7 @@ BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurfa
     result.frames.col(0).setOnes();
     result.on_boundary.assign(vertex_count, 0);
 
-    const BoundaryStars stars(boundary.mesh, features);
+    const BoundaryStars stars(surface.mesh, features);
     std::vector<std::uint8_t> listed(stars.vertex_count(), 0);
     for (const Index v : features.corners) listed[v] = 1;
     for (Index b = 0; b < stars.vertex_count(); ++b) {
@@ -148,7 +141,7 @@ BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurfa
         if (normals.empty()) continue;  // in no triangle
         const VertexRule rule =
             vertex_rule(stars.feature_directions(b), normals, listed[b], directions.row(b).transpose(), options);
-        const Index v = boundary.vertex_map[b];
+        const Index v = surface.vertex_map[b];
         result.on_boundary[v] = 1;
         result.frames.row(v) = frames::to_wxyz(rule.frame).transpose();
         if (options.mode == BoundaryMode::none) continue;
@@ -159,10 +152,14 @@ BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurfa
     return result;
 }
 
-Eigen::VectorXd alignment_angles(const BoundarySurface& boundary, const surface::FeatureGraph& features,
-                                 const Quaternions& frames) {
-    const SectorNormals normals = sector_normals(boundary.mesh, features);
-    return angles_to_nearest_axis(boundary, normals.vertex, normals.normal, frames);
+BoundaryConstraints boundary_constraints(const TetDomain& domain, const Points& directions,
+                                         const BoundaryOptions& options) {
+    return constraints_on_surface(domain.vertex_count(), domain.surface(), domain.features(), directions, options);
+}
+
+Eigen::VectorXd alignment_angles(const TetDomain& domain, const Quaternions& frames) {
+    const SectorNormals normals = sector_normals(domain);
+    return angles_to_nearest_axis(domain.surface(), normals.vertex, normals.normal, frames);
 }
 
 }  // namespace octafield::volume

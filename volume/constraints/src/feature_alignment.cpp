@@ -1,11 +1,9 @@
 #include "octafield/volume/feature_alignment.hpp"
 
 #include <cmath>
-#include <string>
 
 #include "alignment.hpp"
 #include "boundary_star.hpp"
-#include "octafield/error.hpp"
 #include "octafield/frames/quaternion.hpp"
 
 namespace octafield::volume {
@@ -23,15 +21,10 @@ std::vector<Vector3> tangents(const std::vector<Vector3>& edges, bool corner) {
 
 }  // namespace
 
-FeatureTangents feature_tangents(const surface::TriangleMesh& boundary, const surface::FeatureGraph& features) {
-    const BoundaryStars stars(boundary, features);
+FeatureTangents feature_tangents(const TetDomain& domain) {
+    const BoundaryStars stars(domain.surface().mesh, domain.features());
     std::vector<std::uint8_t> corner(stars.vertex_count(), 0);
-    for (const Index v : features.corners) {
-        if (v < 0 || v >= stars.vertex_count())
-            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the boundary mesh",
-                               "index_out_of_range", {v});
-        corner[v] = 1;
-    }
+    for (const Index v : domain.features().corners) corner[v] = 1;
     FeatureTangents result;
     std::vector<Vector3> all;
     for (Index v = 0; v < stars.vertex_count(); ++v)
@@ -44,10 +37,9 @@ FeatureTangents feature_tangents(const surface::TriangleMesh& boundary, const su
     return result;
 }
 
-Eigen::VectorXd feature_alignment_angles(const BoundarySurface& boundary, const surface::FeatureGraph& features,
-                                         const Quaternions& frames) {
-    const FeatureTangents found = feature_tangents(boundary.mesh, features);
-    return angles_to_nearest_axis(boundary, found.vertex, found.tangent, frames);
+Eigen::VectorXd feature_alignment_angles(const TetDomain& domain, const Quaternions& frames) {
+    const FeatureTangents found = feature_tangents(domain);
+    return angles_to_nearest_axis(domain.surface(), found.vertex, found.tangent, frames);
 }
 
 }  // namespace octafield::volume

@@ -7,8 +7,7 @@
 #include "octafield/error.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "require_frames.hpp"
-#include "surface_rows.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -21,9 +20,9 @@ struct Side {
     Index tet, triangle;
 };
 
-std::vector<Side> sides_of(const TetMesh& mesh, const BoundarySurface& surface) {
-    const TriangleTable table = triangle_table(mesh);
-    const std::vector<Index> rows = surface_rows(mesh, table, surface);
+std::vector<Side> sides_of(const TetDomain& domain) {
+    const TriangleTable& table = domain.triangles();
+    const std::vector<Index>& rows = domain.surface_rows();
     std::vector<Side> sides;
     for (std::size_t f = 0; f < rows.size(); ++f)
         for (int side = 0; side < 2; ++side)
@@ -75,11 +74,12 @@ void require_sound(const BoundarySurface& surface, const Points& directions, con
 
 }  // namespace
 
-BoundaryConstraints tet_boundary_constraints(const TetMesh& mesh, const BoundarySurface& surface,
+BoundaryConstraints tet_boundary_constraints(const TetDomain& domain,
                                              const Points& directions, const BoundaryOptions& options) {
-    require_valid(mesh);
+    const TetMesh& mesh = domain.mesh();
+    const BoundarySurface& surface = domain.surface();
     require_sound(surface, directions, options);
-    std::vector<Side> sides = sides_of(mesh, surface);
+    std::vector<Side> sides = sides_of(domain);
     const Points normals = surface::triangle_normals(surface.mesh);
     const Eigen::VectorXd areas = surface::triangle_areas(surface.mesh);
     std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
@@ -113,10 +113,11 @@ BoundaryConstraints tet_boundary_constraints(const TetMesh& mesh, const Boundary
     return result;
 }
 
-Eigen::VectorXd tet_alignment_angles(const TetMesh& mesh, const BoundarySurface& surface, const Quaternions& frames) {
-    require_valid(mesh);
+Eigen::VectorXd tet_alignment_angles(const TetDomain& domain, const Quaternions& frames) {
+    const TetMesh& mesh = domain.mesh();
+    const BoundarySurface& surface = domain.surface();
     require_frames(frames, mesh.tets.rows());
-    const std::vector<Side> sides = sides_of(mesh, surface);
+    const std::vector<Side> sides = sides_of(domain);
     const Points normals = surface::triangle_normals(surface.mesh);
     Eigen::VectorXd angles(static_cast<Eigen::Index>(sides.size()));
     for (Eigen::Index i = 0; i < angles.size(); ++i)

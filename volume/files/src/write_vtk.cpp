@@ -189,19 +189,16 @@ void add_meshability(vtkPointData* data, const Meshability& meshability, Eigen::
 
 }  // namespace
 
-void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& frames, const Metadata& metadata,
-                 const std::vector<Index>& regions, const FieldArrays& more) {
-    const BoundarySurface boundary = boundary_surface(mesh);
+void write_field(const fs::path& path, const TetDomain& domain, const Quaternions& frames, const Metadata& metadata,
+                 const FieldArrays& more) {
+    const TetMesh& mesh = domain.mesh();
+    const std::vector<Index>& regions = domain.regions();
     require_frames(frames, mesh.vertices.rows());
     if (more.tet_frames.rows() > 0) require_frames(more.tet_frames, mesh.tets.rows());
     require_lengths(more.lengths, mesh.vertices.rows(), "vertex");
     require_lengths(more.tet_lengths, mesh.tets.rows(), "tet");
-    if (!regions.empty() && static_cast<Eigen::Index>(regions.size()) != mesh.tets.rows())
-        throw InvalidInput("regions has " + std::to_string(regions.size()) + " ids; give one per tet, " +
-                               std::to_string(mesh.tets.rows()) + ", or none",
-                           "wrong_size");
     std::vector<std::uint8_t> on_boundary(mesh.vertices.rows(), 0);
-    for (const Index v : boundary.vertex_map) on_boundary[v] = 1;
+    for (const Index v : domain.boundary().vertex_map) on_boundary[v] = 1;
 
     vtkNew<vtkUnstructuredGrid> grid;
     grid->SetPoints(to_points(mesh.vertices));
@@ -215,7 +212,7 @@ void write_field(const fs::path& path, const TetMesh& mesh, const Quaternions& f
     if (!regions.empty())
         add_array<vtkIntArray>(grid->GetCellData(), "region", 1, mesh.tets.rows(),
                                [&](Eigen::Index i) { return one(regions[i]); });
-    const std::vector<std::uint8_t> agree = axes_agree(mesh, frames);
+    const std::vector<std::uint8_t> agree = axes_agree(domain, frames);
     add_array<vtkUnsignedCharArray>(grid->GetCellData(), "axes_agree", 1, mesh.tets.rows(),
                                     [&](Eigen::Index i) { return one(agree[i]); });
     add_named(grid->GetPointData(), more.point_data, mesh.vertices.rows(), "vertex");

@@ -6,7 +6,7 @@
 
 #include "flat_tets.hpp"
 #include "octafield/error.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {

@@ -1,7 +1,7 @@
 // Tets that overlap the neighbours they share a triangle with.
 #pragma once
 
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 

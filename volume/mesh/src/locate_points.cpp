@@ -141,8 +141,8 @@ std::vector<Index> take_apart(const Points& centres, double distance) {
 
 }  // namespace
 
-LocatedPoints locate_points(const TetMesh& mesh, const Points& points, int threads) {
-    require_valid(mesh);
+LocatedPoints locate_points(const TetDomain& domain, const Points& points, int threads) {
+    const TetMesh& mesh = domain.mesh();
     if (!points.allFinite()) throw InvalidInput("points must be finite numbers", "not_finite");
     LocatedPoints result{std::vector<Index>(points.rows(), -1), Rows<double, 4>::Zero(points.rows(), 4)};
     if (points.rows() == 0) return result;
@@ -167,8 +167,8 @@ LocatedPoints locate_points(const TetMesh& mesh, const Points& points, int threa
     return result;
 }
 
-Points spread_points(const TetMesh& mesh, int count) {
-    require_valid(mesh);
+Points spread_points(const TetDomain& domain, int count) {
+    const TetMesh& mesh = domain.mesh();
     if (count < 0)
         throw InvalidInput("the number of points is " + std::to_string(count) + "; give 0 or more",
                            "option_out_of_range");

@@ -11,14 +11,14 @@ LockingElements elements(const Found& found) { return {found.tets, rows_of(found
 
 }  // namespace
 
-LockingElements find_locking(const TetMesh& mesh, const BoundarySurface& surface) {
-    require_valid(mesh);
-    return elements(find(list_of(mesh.tets), surface_of(mesh, surface)));
+LockingElements find_locking(const TetDomain& domain) {
+    const TetMesh& mesh = domain.mesh();
+    return elements(find(list_of(mesh.tets), surface_of(domain)));
 }
 
-LockingSplit split_locking(const TetMesh& mesh, const BoundarySurface& surface) {
-    require_valid(mesh);
-    Splitter splitter(mesh, surface_of(mesh, surface));
+LockingSplit split_locking(const TetDomain& domain) {
+    const TetMesh& mesh = domain.mesh();
+    Splitter splitter(mesh, surface_of(domain));
     const Found found = splitter.find();
     splitter.split(found.edges, edge_corners);
     splitter.split(splitter.find().triangles, triangle_corners);

@@ -7,7 +7,8 @@
 
 #include "flat_tets.hpp"
 #include "octafield/error.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
+#include "surface_of_tets.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -59,35 +60,7 @@ std::vector<Index> flat_tets(const TetMesh& mesh, double least) {
 
 BoundarySurface boundary_surface(const TetMesh& mesh) {
     require_indices_in_range(mesh);
-    const TriangleTable table = triangle_table(mesh);
-    std::vector<Index> compact(mesh.vertices.rows(), -1);
-    Eigen::Index count = 0;
-    for (Eigen::Index t = 0; t < table.triangles.rows(); ++t)
-        if (table.sides(t, 1) < 0) {
-            ++count;
-            for (int k = 0; k < 3; ++k) compact[table.triangles(t, k)] = 0;
-        }
-
-    BoundarySurface boundary;
-    for (std::size_t v = 0; v < compact.size(); ++v)
-        if (compact[v] == 0) {
-            compact[v] = static_cast<Index>(boundary.vertex_map.size());
-            boundary.vertex_map.push_back(static_cast<Index>(v));
-        }
-    boundary.mesh.vertices.resize(boundary.vertex_map.size(), 3);
-    for (std::size_t b = 0; b < boundary.vertex_map.size(); ++b)
-        boundary.mesh.vertices.row(b) = mesh.vertices.row(boundary.vertex_map[b]);
-
-    boundary.mesh.triangles.resize(count, 3);
-    Eigen::Index row = 0;
-    for (Eigen::Index t = 0; t < table.triangles.rows(); ++t) {
-        if (table.sides(t, 1) >= 0) continue;
-        const Index tet = table.sides(t, 0) / 4;
-        const auto& face = tet_face[table.sides(t, 0) % 4];
-        for (int k = 0; k < 3; ++k) boundary.mesh.triangles(row, k) = compact[mesh.tets(tet, face[k])];
-        ++row;
-    }
-    return boundary;
+    return surface_of_tets(mesh, triangle_table(mesh), {}).surface;
 }
 
 void require_valid(const TetMesh& mesh) {

@@ -1,30 +1,18 @@
 #include "tet_splitter.hpp"
 
-#include <string>
-
-#include "octafield/error.hpp"
+#include <utility>
 
 namespace octafield::volume::splitting {
 
-Surface surface_of(const TetMesh& mesh, const BoundarySurface& boundary) {
+Surface surface_of(const TetDomain& domain) {
     Surface result;
-    result.holds.assign(mesh.vertices.rows(), 0);
-    const Index count = static_cast<Index>(boundary.vertex_map.size());
-    for (const Index v : boundary.vertex_map)
-        if (v < 0 || v >= mesh.vertices.rows())
-            throw InvalidInput("vertex_map refers to vertex " + std::to_string(v) + ", which the mesh does not have",
-                               "index_out_of_range", {v});
-    for (const auto triangle : boundary.mesh.triangles.rowwise()) {
-        if (triangle.minCoeff() < 0 || triangle.maxCoeff() >= count)
-            throw InvalidInput("a triangle of the surface refers to a vertex that is not in vertex_map",
-                               "index_out_of_range");
-        Key<3> key;
-        for (int k = 0; k < 3; ++k) key[k] = boundary.vertex_map[triangle[k]];
-        for (const Index v : key) result.holds[v] = 1;
-        std::sort(key.begin(), key.end());
-        result.triangles.push_back(key);
+    result.holds.assign(domain.vertex_count(), 0);
+    for (const Index row : domain.surface_rows()) {
+        const auto ids = domain.triangles().triangles.row(row);
+        for (const Index v : ids) result.holds[v] = 1;
+        result.triangles.push_back({ids[0], ids[1], ids[2]});
         for (const auto& [a, b] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)})
-            result.edges.push_back({key[a], key[b]});
+            result.edges.push_back({ids[a], ids[b]});
     }
     sort_unique(result.edges);
     sort_unique(result.triangles);

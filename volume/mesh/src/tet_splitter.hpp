@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume::splitting {
 
@@ -48,8 +48,7 @@ struct Surface {
     std::vector<Key<3>> triangles;
 };
 
-// Throws InvalidInput where the surface refers to vertices that the mesh does not have.
-Surface surface_of(const TetMesh& mesh, const BoundarySurface& boundary);
+Surface surface_of(const TetDomain& domain);
 
 struct Found {
     std::vector<Index> tets;

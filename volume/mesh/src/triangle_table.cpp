@@ -1,4 +1,4 @@
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 #include <algorithm>
 

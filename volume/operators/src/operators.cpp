@@ -24,8 +24,8 @@ Eigen::Matrix3d tet_edges(const TetMesh& mesh, Eigen::Index t) {
     return e;
 }
 
-SparseMatrix stiffness(const TetMesh& mesh) {
-    require_valid(mesh);
+SparseMatrix stiffness(const TetDomain& domain) {
+    const TetMesh& mesh = domain.mesh();
     return assemble(mesh.tets, static_cast<Index>(mesh.vertices.rows()), [&](Index tet, int k) -> Eigen::Vector4d {
         const Eigen::Matrix3d e = tet_edges(mesh, tet);
         const Gradients g = hat_gradients(e);
@@ -34,16 +34,16 @@ SparseMatrix stiffness(const TetMesh& mesh) {
     });
 }
 
-SparseMatrix mass(const TetMesh& mesh) {
-    require_valid(mesh);
+SparseMatrix mass(const TetDomain& domain) {
+    const TetMesh& mesh = domain.mesh();
     return assemble(mesh.tets, static_cast<Index>(mesh.vertices.rows()), [&](Index tet, int k) -> Eigen::Vector4d {
         const double volume = tet_edges(mesh, tet).determinant() / 6;
         return (Eigen::Vector4d::Ones() + Eigen::Vector4d::Unit(k)) * (volume / 20);
     });
 }
 
-Eigen::VectorXd lumped_mass(const TetMesh& mesh) {
-    require_valid(mesh);
+Eigen::VectorXd lumped_mass(const TetDomain& domain) {
+    const TetMesh& mesh = domain.mesh();
     const Eigen::VectorXd volumes = tet_volumes(mesh);
     Eigen::VectorXd lumped = Eigen::VectorXd::Zero(mesh.vertices.rows());
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
@@ -51,8 +51,8 @@ Eigen::VectorXd lumped_mass(const TetMesh& mesh) {
     return lumped;
 }
 
-double dirichlet_energy(const TetMesh& mesh, const Quaternions& frames, int threads) {
-    require_valid(mesh);
+double dirichlet_energy(const TetDomain& domain, const Quaternions& frames, int threads) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
     using frames::Sh4;
     Rows<double, Sh4::dimension> a(frames.rows(), Sh4::dimension);

@@ -9,15 +9,15 @@
 #include "octafield/frames/sh4_projection.hpp"
 #include "require_frames.hpp"
 #include "sh4_field.hpp"
-#include "triangle_table.hpp"
+#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {
 
 // All but what depends on the sites.
-Sampling sampling_of(const TetMesh& mesh) {
-    require_valid(mesh);
-    const surface::TriangleMesh boundary = boundary_surface(mesh).mesh;
+Sampling sampling_of(const TetDomain& domain) {
+    const TetMesh& mesh = domain.mesh();
+    const surface::TriangleMesh& boundary = domain.boundary().mesh;
     Sampling sampling;
     sampling.body_radius = 3 * tet_volumes(mesh).sum() / surface::triangle_areas(boundary).sum();
     sampling.edge_length = surface::mean_edge_length(boundary);
@@ -71,19 +71,22 @@ constexpr Eigen::Index vertices_per_block = 256;
 
 }  // namespace
 
-Sampling vertex_sampling(const TetMesh& mesh) {
-    Sampling sampling = sampling_of(mesh);
-    sampling.stiffness = stiffness(mesh);
-    sampling.mass = lumped_mass(mesh);
-    sampling.elements = std::make_shared<const TetMesh>(mesh);
+Sampling::Sampling(const TetDomain& domain) : Sampling(vertex_sampling(domain)) {}
+
+Sampling vertex_sampling(const TetDomain& domain) {
+    Sampling sampling = sampling_of(domain);
+    sampling.stiffness = stiffness(domain);
+    sampling.mass = lumped_mass(domain);
+    sampling.elements = domain.shared_mesh();
     return sampling;
 }
 
-Sampling tet_sampling(const TetMesh& mesh) {
-    Sampling sampling = sampling_of(mesh);
+Sampling tet_sampling(const TetDomain& domain) {
+    const TetMesh& mesh = domain.mesh();
+    Sampling sampling = sampling_of(domain);
     sampling.sites = Sites::tets;
     sampling.mass = tet_volumes(mesh);
-    const TriangleTable table = triangle_table(mesh);
+    const TriangleTable& table = domain.triangles();
     const Points centres = centroids(mesh);
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(table.triangles.rows());
     for (Eigen::Index t = 0; t < weights.size(); ++t) {
@@ -95,8 +98,8 @@ Sampling tet_sampling(const TetMesh& mesh) {
     return sampling;
 }
 
-Quaternions vertex_frames(const TetMesh& mesh, const Quaternions& of_tets, int threads) {
-    require_valid(mesh);
+Quaternions vertex_frames(const TetDomain& domain, const Quaternions& of_tets, int threads) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(of_tets, mesh.tets.rows());
     const Eigen::VectorXd volumes = tet_volumes(mesh);
     const Sh4Field field = embedded(of_tets, threads);

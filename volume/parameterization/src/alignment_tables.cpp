@@ -10,7 +10,6 @@
 #include "octafield/disjoint_sets.hpp"
 #include "octafield/error.hpp"
 #include "require_frames.hpp"
-#include "surface_rows.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -46,18 +45,6 @@ std::vector<std::uint8_t> matchings_by_row(const TriangleTable& table, const Fac
                                "; give what comb returns for this mesh",
                            "wrong_mesh");
     return result;
-}
-
-// The side of the triangle that its normal points out of: the tet runs it the other way round than the tet ahead.
-Index tet_behind(const TetMesh& mesh, const TriangleTable& table, const BoundarySurface& surface, Index f, Index row) {
-    if (table.sides(row, 1) < 0) return table.sides(row, 0) / 4;
-    const auto corners = surface.mesh.triangles.row(f);
-    const Index side = table.sides(row, 0), first = surface.vertex_map[corners[0]];
-    const auto& face = tet_face[side % 4];
-    int k = 0;
-    while (mesh.tets(side / 4, face[k]) != first) ++k;
-    const bool outward = mesh.tets(side / 4, face[(k + 1) % 3]) == surface.vertex_map[corners[1]];
-    return table.sides(row, outward ? 0 : 1) / 4;
 }
 
 // A side of a triangle of the surface.
@@ -120,15 +107,17 @@ private:
     std::vector<std::uint8_t> matching_, on_surface_;
 };
 
-void tell_triangles(const TetMesh& mesh, const BoundarySurface& surface, const std::vector<Edge>& features,
+void tell_triangles(const TetDomain& domain, const std::vector<Edge>& features,
                     const CombedField& combed, AlignmentTables& result) {
-    const TriangleTable table = triangle_table(mesh);
-    const std::vector<Index> rows = surface_rows(mesh, table, surface);
+    const TetMesh& mesh = domain.mesh();
+    const BoundarySurface& surface = domain.surface();
+    const TriangleTable& table = domain.triangles();
+    const std::vector<Index>& rows = domain.surface_rows();
     const Points normals = surface::triangle_normals(surface.mesh);
     const Index count = static_cast<Index>(rows.size());
     result.triangle_angle.resize(count);
     for (Index f = 0; f < count; ++f) {
-        result.triangle_tet.push_back(tet_behind(mesh, table, surface, f, rows[f]));
+        result.triangle_tet.push_back(domain.sides()(f, 0));
         const auto [axis, angle] = nearest(combed.frames, result.triangle_tet[f], normals.row(f).transpose());
         result.triangle_axis.push_back(axis);
         result.triangle_angle[f] = angle;
@@ -194,20 +183,15 @@ void tell_features(const TetMesh& mesh, const BoundarySurface& surface, const su
 
 }  // namespace
 
-AlignmentTables alignment_tables(const TetMesh& mesh, const BoundarySurface& surface,
-                                 const surface::FeatureGraph& features, const CombedField& combed) {
-    require_valid(mesh);
+AlignmentTables alignment_tables(const TetDomain& domain, const CombedField& combed) {
+    const TetMesh& mesh = domain.mesh();
+    const BoundarySurface& surface = domain.surface();
+    const surface::FeatureGraph& features = domain.features();
     require_frames(combed.frames, mesh.tets.rows());
-    const Index count = static_cast<Index>(surface.vertex_map.size());
     std::vector<Edge> edges;
-    for (Index e = 0; e < features.edges.rows(); ++e) {
-        if (features.edges.row(e).minCoeff() < 0 || features.edges.row(e).maxCoeff() >= count)
-            throw InvalidInput("feature edge " + std::to_string(e) + " refers to a vertex the surface does not have",
-                               "index_out_of_range", {e});
-        edges.push_back(std::minmax({features.edges(e, 0), features.edges(e, 1)}));
-    }
+    for (const auto edge : features.edges.rowwise()) edges.push_back(std::minmax({edge[0], edge[1]}));
     AlignmentTables result;
-    tell_triangles(mesh, surface, edges, combed, result);
+    tell_triangles(domain, edges, combed, result);
     tell_features(mesh, surface, features, combed, result);
     return result;
 }

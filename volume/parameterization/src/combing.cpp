@@ -119,17 +119,17 @@ void prune(const std::vector<TetAtEdge>& tets, const RegularEdges& edges, std::v
 
 }  // namespace
 
-FaceMatchings face_matchings(const TetMesh& mesh, const Quaternions& of_tets, int threads) {
-    require_valid(mesh);
+FaceMatchings face_matchings(const TetDomain& domain, const Quaternions& of_tets, int threads) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(of_tets, mesh.tets.rows());
-    const TriangleTable table = triangle_table(mesh, threads);
+    const TriangleTable& table = domain.triangles();
     return interior(table, triangle_matchings(table, of_tets, threads));
 }
 
-CombedField comb(const TetMesh& mesh, const Quaternions& of_tets, int threads) {
-    require_valid(mesh);
+CombedField comb(const TetDomain& domain, const Quaternions& of_tets, int threads) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(of_tets, mesh.tets.rows());
-    const TriangleTable table = triangle_table(mesh, threads);
+    const TriangleTable& table = domain.triangles();
     std::vector<std::uint8_t> matching = triangle_matchings(table, of_tets, threads);
     SpanningTree tree = spanning_tree(table, matching, of_tets);
     std::vector<std::uint8_t> cut(matching.size(), 0);

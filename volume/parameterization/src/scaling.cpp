@@ -22,8 +22,9 @@ using frames::Vector3;
 // The axes in the tets and their curls.
 class CurlField {
 public:
-    CurlField(const TetMesh& mesh, const Quaternions& frames, int threads)
-        : of_tets_(tet_frames(mesh, frames, threads)), curls_(mesh.tets.rows(), 9) {
+    CurlField(const TetDomain& domain, const Quaternions& frames, int threads)
+        : of_tets_(tet_frames(domain, frames, threads)), curls_(domain.tet_count(), 9) {
+        const TetMesh& mesh = domain.mesh();
         parallel_for(mesh.tets.rows(), threads, [&](std::int64_t t) {
             Eigen::Map<Matrix3>(curls_.row(t).data()) = axis_curls(mesh, frames, frames::from_wxyz(of_tets_.row(t)), t);
         });
@@ -94,11 +95,11 @@ Tets compact_numbers(const TetMesh& mesh, std::vector<Index>& vertices) {
 
 }  // namespace
 
-IsotropicScale isotropic_scale(const TetMesh& mesh, const Quaternions& frames, int threads) {
-    require_valid(mesh);
+IsotropicScale isotropic_scale(const TetDomain& domain, const Quaternions& frames, int threads) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
-    const CurlField field(mesh, frames, threads);
-    const FaceMatchings faces = face_matchings(mesh, field.of_tets(), threads);
+    const CurlField field(domain, frames, threads);
+    const FaceMatchings faces = face_matchings(domain, field.of_tets(), threads);
     const Eigen::VectorXd volumes = tet_volumes(mesh);
     std::vector<Index> vertices;
     const Tets elements = compact_numbers(mesh, vertices);
@@ -132,13 +133,13 @@ IsotropicScale isotropic_scale(const TetMesh& mesh, const Quaternions& frames, i
     return result;
 }
 
-AxisScales axis_scales(const TetMesh& mesh, const Quaternions& frames, const AxisScaleOptions& options) {
-    require_valid(mesh);
+AxisScales axis_scales(const TetDomain& domain, const Quaternions& frames, const AxisScaleOptions& options) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
     if (!(options.along > 0 && options.along <= 1))
         throw InvalidInput("along is a weight above 0 and at most 1", "along");
-    const CurlField field(mesh, frames, options.threads);
-    const FaceMatchings faces = face_matchings(mesh, field.of_tets(), options.threads);
+    const CurlField field(domain, frames, options.threads);
+    const FaceMatchings faces = face_matchings(domain, field.of_tets(), options.threads);
     const Eigen::VectorXd volumes = tet_volumes(mesh);
     AxisOrbits orbits = axis_orbits(mesh, faces);
 

@@ -95,8 +95,8 @@ void shorten_cut(const Neighbours& near, std::vector<std::uint8_t>& element) {
 
 }  // namespace
 
-CombedVertices comb_vertices(const TetMesh& mesh, const Quaternions& of_vertices, int threads) {
-    require_valid(mesh);
+CombedVertices comb_vertices(const TetDomain& domain, const Quaternions& of_vertices, int threads) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(of_vertices, mesh.vertices.rows());
     const Neighbours near(mesh, of_vertices, threads);
     CombedVertices result{of_vertices, std::vector<std::uint8_t>(of_vertices.rows(), 0), {}, 0};
@@ -118,12 +118,12 @@ CombedVertices comb_vertices(const TetMesh& mesh, const Quaternions& of_vertices
         [&](Index parent, Index child, std::size_t) {
             if (result.frames.row(child).dot(result.frames.row(parent)) < 0) result.frames.row(child) *= -1;
         });
-    result.agree = axes_agree(mesh, result.frames, threads);
+    result.agree = axes_agree(domain, result.frames, threads);
     return result;
 }
 
-std::vector<std::uint8_t> axes_agree(const TetMesh& mesh, const Quaternions& of_vertices, int threads) {
-    require_valid(mesh);
+std::vector<std::uint8_t> axes_agree(const TetDomain& domain, const Quaternions& of_vertices, int threads) {
+    const TetMesh& mesh = domain.mesh();
     require_frames(of_vertices, mesh.vertices.rows());
     std::vector<std::uint8_t> agree(mesh.tets.rows());
     parallel_for(mesh.tets.rows(), threads, [&](std::int64_t t) {

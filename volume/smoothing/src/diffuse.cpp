@@ -94,9 +94,4 @@ SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constr
     return result;
 }
 
-SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
-                     const DiffuseOptions& options, const Progress& progress) {
-    return diffuse(vertex_sampling(mesh), constraints, start, options, progress);
-}
-
 }  // namespace octafield::volume

@@ -109,11 +109,4 @@ FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints
     return result;
 }
 
-FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
-                             const FrameFieldOptions& options, const Progress& progress) {
-    require_sound(options);
-    require_sound(options.smooth);
-    return frame_field(vertex_sampling(mesh), constraints, options, progress);
-}
-
 }  // namespace octafield::volume

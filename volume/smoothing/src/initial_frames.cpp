@@ -46,8 +46,4 @@ Quaternions initial_frames(const Sampling& sampling, const BoundaryConstraints& 
     return frames;
 }
 
-Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints, Start start, int threads) {
-    return initial_frames(vertex_sampling(mesh), constraints, start, threads);
-}
-
 }  // namespace octafield::volume

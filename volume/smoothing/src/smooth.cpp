@@ -51,10 +51,4 @@ SmoothResult smooth(const Sampling& sampling, const BoundaryConstraints& constra
     return result;
 }
 
-SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
-                    const SmoothOptions& options, const Progress& progress) {
-    require_sound(options);
-    return smooth(vertex_sampling(mesh), constraints, start, options, progress);
-}
-
 }  // namespace octafield::volume

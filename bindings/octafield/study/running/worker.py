@@ -67,7 +67,7 @@ def execute(
             _write_failure(store, run, error, begin)
             finished(run.key, 0.0, "failed")
         return
-    prepared(len(meshed.volume().tets.tets), time.perf_counter() - clock)
+    prepared(meshed.volume().tet_count, time.perf_counter() - clock)
     for run in runs:
         begin, clock = time.time(), time.perf_counter()
         result = None

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "octafield/surface/features.hpp"
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -61,8 +61,7 @@ struct BoundaryMeshability {
 
 // surface: of the mesh, boundary_surface or that of region_surface; features of it. frames: (n, 4) unit quaternions
 // w x y z. Near linear; the same result at any thread count. Throws InvalidInput, GeometryError (unsound mesh).
-BoundaryMeshability boundary_meshability(const TetMesh& mesh, const BoundarySurface& surface,
-                                         const surface::FeatureGraph& features, const Quaternions& frames,
+BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaternions& frames,
                                          int threads = 0);
 
 }  // namespace octafield::volume

@@ -1,7 +1,7 @@
 // How far a frame field is from the gradients of a map: jumps across faces, and the twist of its axes.
 #pragma once
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -27,9 +27,9 @@ struct Integrability {
 
 // frames: (n, 4) unit quaternions w x y z. Near linear; the same bits at any thread count. Throws InvalidInput and
 // GeometryError (unsound mesh).
-Integrability integrability(const TetMesh& mesh, const Quaternions& frames, int threads = 0);
+Integrability integrability(const TetDomain& domain, const Quaternions& frames, int threads = 0);
 
 // (m, 4) unit quaternions w x y z: the frame nearest to the mean sh4 vector of each tet's vertices.
-Quaternions tet_frames(const TetMesh& mesh, const Quaternions& frames, int threads = 0);
+Quaternions tet_frames(const TetDomain& domain, const Quaternions& frames, int threads = 0);
 
 }  // namespace octafield::volume

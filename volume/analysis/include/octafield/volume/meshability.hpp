@@ -91,6 +91,6 @@ struct Meshability {
 
 // graph: singular_graph(mesh, frames). frames: (n, 4) unit quaternions w x y z. Feature curves of the boundary are not
 // looked at. Linear in the graph. Throws InvalidInput where the sizes do not fit together.
-Meshability local_meshability(const TetMesh& mesh, const Quaternions& frames, const SingularGraph& graph);
+Meshability local_meshability(const TetDomain& domain, const Quaternions& frames, const SingularGraph& graph);
 
 }  // namespace octafield::volume

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -28,7 +28,7 @@ struct SampleOptions {
 // Linear interpolation of the sh4 vectors in the tet that holds the point, projected to the nearest frame: second order
 // in the mesh width where the field is smooth, whatever the labels of the axes. frames: (n, 4) unit quaternions w x y z
 // at the vertices. Throws InvalidInput (points that are not finite, a tolerance that is NaN), GeometryError.
-SampledFrames sample_frames(const TetMesh& mesh, const Quaternions& frames, const Points& points,
+SampledFrames sample_frames(const TetDomain& domain, const Quaternions& frames, const Points& points,
                             const SampleOptions& options = {});
 
 }  // namespace octafield::volume

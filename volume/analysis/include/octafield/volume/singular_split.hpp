@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -19,7 +19,7 @@ struct SingularSplit {
 // Splits edges at their midpoints that are no edges of the surface, not singular, and join two vertices of singular
 // edges. With the frames of the parents, the singular edges are those of the old mesh, none split, and the new vertices
 // are on none of them. of_tets: (m, 4) unit quaternions w x y z. Near linear. Throws InvalidInput, GeometryError.
-SingularSplit split_between_singular(const TetMesh& mesh, const BoundarySurface& surface, const Quaternions& of_tets,
+SingularSplit split_between_singular(const TetDomain& domain, const Quaternions& of_tets,
                                      int threads = 0);
 
 }  // namespace octafield::volume

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -45,6 +45,6 @@ struct SingularGraph {
 
 // frames: (n, 4) unit quaternions w x y z, n the number of vertices. Throws InvalidInput. The same result at any thread
 // count.
-SingularGraph singular_graph(const TetMesh& mesh, const Quaternions& frames, int threads = 0);
+SingularGraph singular_graph(const TetDomain& domain, const Quaternions& frames, int threads = 0);
 
 }  // namespace octafield::volume

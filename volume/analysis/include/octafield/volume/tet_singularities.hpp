@@ -38,6 +38,6 @@ struct SingularEdges {
 
 // of_tets: (m, 4) unit quaternions w x y z. Near linear; the same result at any thread count. Throws InvalidInput,
 // GeometryError (unsound mesh).
-SingularEdges singular_edges(const TetMesh& mesh, const Quaternions& of_tets, int threads = 0);
+SingularEdges singular_edges(const TetDomain& domain, const Quaternions& of_tets, int threads = 0);
 
 }  // namespace octafield::volume

@@ -8,7 +8,7 @@
 #include "octafield/surface/features.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
 #include "octafield/volume/constraint_kinds.hpp"
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -46,11 +46,10 @@ struct SectorNormals {
     std::vector<Index> vertex;  // boundary-mesh vertex id, ascending
     Points normal;              // (k, 3) unit
 };
-SectorNormals sector_normals(const surface::TriangleMesh& boundary, const surface::FeatureGraph& features);
+SectorNormals sector_normals(const TetDomain& domain);
 
 // `directions`: (B, 3) unit tangent cross directions at the boundary's vertices (surface::vertex_directions).
-BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurface& boundary,
-                                         const surface::FeatureGraph& features, const Points& directions,
+BoundaryConstraints boundary_constraints(const TetDomain& domain, const Points& directions,
                                          const BoundaryOptions& options = {});
 
 // For frames in the tets (tet_sampling). A tet with one triangle of the surface has an axis on that triangle's normal,
@@ -60,16 +59,16 @@ BoundaryConstraints boundary_constraints(Index vertex_count, const BoundarySurfa
 // be split. Tangents of feature curves are not held, only the normals beside them. Interfaces hold the tets on both
 // sides. surface: of the mesh, boundary_surface or that of region_surface; directions: (F, 3) unit tangents in its
 // triangles (surface::triangle_directions). Throws InvalidInput, GeometryError.
-BoundaryConstraints tet_boundary_constraints(const TetMesh& mesh, const BoundarySurface& surface,
+BoundaryConstraints tet_boundary_constraints(const TetDomain& domain,
                                              const Points& directions, const BoundaryOptions& options = {});
 
 // Angle (radians) between the normal of each triangle of the surface and the nearest axis of the frame in the tet
 // behind it, then of an interface's tet ahead of it. frames: (m, 4), one per tet. Throws InvalidInput, GeometryError.
-Eigen::VectorXd tet_alignment_angles(const TetMesh& mesh, const BoundarySurface& surface, const Quaternions& frames);
+Eigen::VectorXd tet_alignment_angles(const TetDomain& domain, const Quaternions& frames);
 
 // Angle (radians) between each sector normal and the nearest axis of the vertex's frame, in the order of
 // sector_normals.
-Eigen::VectorXd alignment_angles(const BoundarySurface& boundary, const surface::FeatureGraph& features,
+Eigen::VectorXd alignment_angles(const TetDomain& domain,
                                  const Quaternions& frames);
 
 }  // namespace octafield::volume

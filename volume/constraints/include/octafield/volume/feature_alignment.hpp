@@ -14,12 +14,12 @@ struct FeatureTangents {
     Points tangent;             // (k, 3) unit, sign arbitrary
 };
 // Throws InvalidInput where the features are not of this mesh.
-FeatureTangents feature_tangents(const surface::TriangleMesh& boundary, const surface::FeatureGraph& features);
+FeatureTangents feature_tangents(const TetDomain& domain);
 
 // Angle (radians, at most 0.9554, of the diagonal) between each feature tangent and the nearest axis of its vertex's
 // frame, in the order of feature_tangents. frames: (n, 4) unit quaternions w x y z, one per tet-mesh vertex. Throws
 // InvalidInput.
-Eigen::VectorXd feature_alignment_angles(const BoundarySurface& boundary, const surface::FeatureGraph& features,
+Eigen::VectorXd feature_alignment_angles(const TetDomain& domain,
                                          const Quaternions& frames);
 
 }  // namespace octafield::volume

@@ -9,7 +9,7 @@
 #include "octafield/surface/surface_singularities.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
 #include "octafield/volume/meshability.hpp"
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -32,12 +32,12 @@ struct FieldArrays {
 };
 
 // .vtu with point data: frame_u, frame_v, frame_w (unit axes), quaternion (w x y z, named components), sh4 (9, named
-// -4..4), boundary (0/1), and cell data axes_agree (0/1: combing.hpp) and region where `regions` holds an id per tet.
+// -4..4), boundary (0/1), and cell data axes_agree (0/1: combing.hpp) and region where the domain has any.
 // frames: (n, 4) unit quaternions w x y z. Axes are labelled vertex by vertex, as these quaternions are: what is
 // interpolated from frame_u, frame_v, frame_w or quaternion (slices, clips, stream tracers) mixes axes where axes_agree
 // is 0. Give frames of comb_vertices, so that such tets are few; sh4 may be interpolated everywhere (sample_frames).
-void write_field(const std::filesystem::path& path, const TetMesh& mesh, const Quaternions& frames,
-                 const Metadata& metadata = {}, const std::vector<Index>& regions = {}, const FieldArrays& more = {});
+void write_field(const std::filesystem::path& path, const TetDomain& domain, const Quaternions& frames,
+                 const Metadata& metadata = {}, const FieldArrays& more = {});
 
 // .vtp polylines with cell data quarter_turns, index (quarter_turns / 4), curve (0-based); nodes as vertex cells with
 // point data node (0/1) and smoothed (3: the point's place in smoothed_curves), their cell data 0, 0, -1. Vertex cells

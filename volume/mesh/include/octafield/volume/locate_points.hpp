@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -14,10 +14,10 @@ struct LocatedPoints {
 
 // The tet that holds each point: of several, the one it lies deepest in. Points within 1e-9 of a tet's heights count
 // as inside. Linear in the tets for points that are spread. The same at any thread count.
-LocatedPoints locate_points(const TetMesh& mesh, const Points& points, int threads = 0);
+LocatedPoints locate_points(const TetDomain& domain, const Points& points, int threads = 0);
 
 // Centres of at most `count` tets, at random (the same at every call) but none nearer than a certain distance to
 // another, so that they fill the mesh evenly (Poisson disk sampling). Throws InvalidInput for a negative count.
-Points spread_points(const TetMesh& mesh, int count);
+Points spread_points(const TetDomain& domain, int count);
 
 }  // namespace octafield::volume

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -15,7 +15,7 @@ struct LockingElements {
 };
 
 // surface: of the mesh, boundary_surface or that of region_surface. Throws InvalidInput, GeometryError.
-LockingElements find_locking(const TetMesh& mesh, const BoundarySurface& surface);
+LockingElements find_locking(const TetDomain& domain);
 
 struct LockingSplit {
     TetMesh mesh;               // old vertices first, with their ids
@@ -28,6 +28,6 @@ struct LockingSplit {
 // Splits edges at their midpoints, then triangles and last tets at their centres. The surface keeps its vertices and
 // triangles; no tet of the result has all its vertices there, and none is inverted, but for `left`. Near linear; the
 // order of splits is that of the vertex ids. Throws InvalidInput, GeometryError.
-LockingSplit split_locking(const TetMesh& mesh, const BoundarySurface& surface);
+LockingSplit split_locking(const TetDomain& domain);
 
 }  // namespace octafield::volume

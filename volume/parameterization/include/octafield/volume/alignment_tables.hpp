@@ -29,7 +29,6 @@ struct AlignmentTables {
 
 // surface: of the mesh, boundary_surface or that of region_surface; features: its. combed: of comb(mesh, ...). Near
 // linear. Throws InvalidInput, GeometryError (unsound mesh).
-AlignmentTables alignment_tables(const TetMesh& mesh, const BoundarySurface& surface,
-                                 const surface::FeatureGraph& features, const CombedField& combed);
+AlignmentTables alignment_tables(const TetDomain& domain, const CombedField& combed);
 
 }  // namespace octafield::volume

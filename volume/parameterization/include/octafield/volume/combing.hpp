@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -21,7 +21,7 @@ struct FaceMatchings {
 
 // of_tets: (m, 4) unit quaternions w x y z. Near linear; the same result at any thread count. Throws InvalidInput,
 // GeometryError (unsound mesh).
-FaceMatchings face_matchings(const TetMesh& mesh, const Quaternions& of_tets, int threads = 0);
+FaceMatchings face_matchings(const TetDomain& domain, const Quaternions& of_tets, int threads = 0);
 
 // The field with representatives chosen so that the axes of neighbouring tets correspond by number and sign but across
 // the cut: triangles that leave each connected part of the mesh simply connected and touch every singular edge. By
@@ -38,7 +38,7 @@ struct CombedField {
 };
 
 // As face_matchings.
-CombedField comb(const TetMesh& mesh, const Quaternions& of_tets, int threads = 0);
+CombedField comb(const TetDomain& domain, const Quaternions& of_tets, int threads = 0);
 
 // The field at the vertices with representatives chosen so that the axes of neighbouring vertices correspond by number
 // and sign but across a cut, which ends at the singular curves that turn them: labels by a breadth-first spanning tree,
@@ -51,10 +51,10 @@ struct CombedVertices {
 };
 
 // As face_matchings, with (n, 4) frames at the vertices.
-CombedVertices comb_vertices(const TetMesh& mesh, const Quaternions& of_vertices, int threads = 0);
+CombedVertices comb_vertices(const TetDomain& domain, const Quaternions& of_vertices, int threads = 0);
 
 // Per tet, 1: the axes of its four frames correspond by number and sign, each being nearest to the one of the same
 // name, so that they may be interpolated one by one. 0: the tet lies on the cut or at a singular curve.
-std::vector<std::uint8_t> axes_agree(const TetMesh& mesh, const Quaternions& of_vertices, int threads = 0);
+std::vector<std::uint8_t> axes_agree(const TetDomain& domain, const Quaternions& of_vertices, int threads = 0);
 
 }  // namespace octafield::volume

@@ -1,7 +1,7 @@
 // Sizes along the axes of a frame field for which they are closest to the gradients of a map.
 #pragma once
 
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -34,7 +34,7 @@ struct IsotropicScale {
 };
 // frames: (n, 4) unit quaternions w x y z, one per vertex. Near linear; the same bits at any thread count. Throws
 // InvalidInput, GeometryError (unsound mesh), SolverError.
-IsotropicScale isotropic_scale(const TetMesh& mesh, const Quaternions& frames, int threads = 0);
+IsotropicScale isotropic_scale(const TetDomain& domain, const Quaternions& frames, int threads = 0);
 
 struct AxisScaleOptions {
     // eps, in (0, 1]: weight of the change of H_i along its own axis, which no curl sees: a new parameter on the same
@@ -57,6 +57,6 @@ struct AxisScales {
     int iterations = 0;
 };
 // As isotropic_scale.
-AxisScales axis_scales(const TetMesh& mesh, const Quaternions& frames, const AxisScaleOptions& options = {});
+AxisScales axis_scales(const TetDomain& domain, const Quaternions& frames, const AxisScaleOptions& options = {});
 
 }  // namespace octafield::volume

@@ -29,7 +29,5 @@ struct DiffuseOptions {
 // GeometryError (unsound mesh), SolverError.
 SmoothResult diffuse(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                      const DiffuseOptions& options = {}, const Progress& progress = {});
-SmoothResult diffuse(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
-                     const DiffuseOptions& options = {}, const Progress& progress = {});
 
 }  // namespace octafield::volume

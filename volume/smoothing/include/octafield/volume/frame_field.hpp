@@ -33,7 +33,5 @@ struct FrameFieldResult {
 // Throws InvalidInput, GeometryError (unsound mesh), SolverError.
 FrameFieldResult frame_field(const Sampling& sampling, const BoundaryConstraints& constraints,
                              const FrameFieldOptions& options = {}, const Progress& progress = {});
-FrameFieldResult frame_field(const TetMesh& mesh, const BoundaryConstraints& constraints,
-                             const FrameFieldOptions& options = {}, const Progress& progress = {});
 
 }  // namespace octafield::volume

@@ -70,8 +70,6 @@ enum class Start {
 // onto frames. Without anything given: identities. Throws InvalidInput, GeometryError (unsound mesh), SolverError.
 Quaternions initial_frames(const Sampling& sampling, const BoundaryConstraints& constraints,
                            Start start = Start::constraints, int threads = 0);
-Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& constraints,
-                           Start start = Start::constraints, int threads = 0);
 
 // Metrics keep the matchings of a rough start, so begin them near a minimum of sh4 (frame_field does); su2_frozen does
 // not lower any energy and may never converge.
@@ -81,8 +79,6 @@ Quaternions initial_frames(const TetMesh& mesh, const BoundaryConstraints& const
 // thread and silence glog below fatal: what Ceres would log is in the exception. Throws InvalidInput, GeometryError
 // (unsound mesh), SolverError.
 SmoothResult smooth(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
-                    const SmoothOptions& options = {}, const Progress& progress = {});
-SmoothResult smooth(const TetMesh& mesh, const BoundaryConstraints& constraints, const Quaternions& start,
                     const SmoothOptions& options = {}, const Progress& progress = {});
 
 }  // namespace octafield::volume
