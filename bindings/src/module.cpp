@@ -51,6 +51,7 @@ PYBIND11_MODULE(_core, module) {
     py::register_local_exception_translator(translate);
     bind_frames(module);
     bind_surface_types(module);
+    bind_option_types(module);
     bind_surface(module);
     bind_volume_types(module);
     bind_field_analysis_types(module);

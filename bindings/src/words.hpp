@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "octafield/error.hpp"
 #include "octafield/surface/direction_field.hpp"
@@ -107,6 +108,13 @@ std::string to_word(Enum value) {
     for (const auto& [word, meaning] : Words<Enum>::list)
         if (meaning == value) return word;
     return {};
+}
+
+template <class Enum>
+std::vector<std::string> words_of() {
+    std::vector<std::string> words;
+    for (const auto& [word, meaning] : Words<Enum>::list) words.emplace_back(word);
+    return words;
 }
 
 template <class Enum>

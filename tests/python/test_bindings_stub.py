@@ -91,10 +91,10 @@ points: NDArray[np.float64] = mesh.vertices
 def report(phase: str, fraction: float, merit: float) -> bool | None:
     return fraction < 1
 features = octafield.detect_features(mesh, angle=0.5)
-field: octafield.DirectionField = octafield.direction_field(mesh, features, method="eigenvector", progress=report)
+field: octafield.DirectionField = octafield.direction_field(mesh, features, method="eigen", progress=report)
 guided = octafield.direction_field(
     mesh, features, edge_epsilon=np.ones(3), constraints=octafield.DirectionConstraints([[0, 1]], [[1, 0, 0]]),
-    guide=octafield.DirectionGuide(octafield.principal_directions(mesh, features).directions), boundary="weak")
+    guide=octafield.DirectionGuide(octafield.principal_directions(mesh, features).directions), boundary_alignment="weak")
 found: octafield.SurfaceSingularities = octafield.surface_singularities(mesh, field)
 lines: list[octafield.Streamline] = octafield.separatrices(mesh, features, field, found, progress=report)
 length: float = sum(line.length for line in lines) + octafield.core_energy

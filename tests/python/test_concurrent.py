@@ -20,7 +20,7 @@ def metric_field():
 
 
 CALLS = {
-    "ginzburg_landau": lambda: of.direction_field(BALL, NONE).values,
+    "gl": lambda: of.direction_field(BALL, NONE).values,
     "mbo": lambda: of.direction_field(BALL, NONE, method="mbo").values,
     "ceres": metric_field,
 }

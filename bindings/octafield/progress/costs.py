@@ -29,10 +29,7 @@ def _seconds_per_million(method: str) -> float:
 
 def field_seconds(representation: str, tets: float) -> float:
     """Of one field from file to analysis, one thread, where nothing else is known."""
-    return (
-        _LEAST
-        + (_PREPARING + _seconds_per_million(representation)) * tets / 1e6
-    )
+    return _LEAST + (_PREPARING + _seconds_per_million(representation)) * tets / 1e6
 
 
 @dataclass
