@@ -45,9 +45,9 @@ def collect(folder: Path, data: Path | None, extra: list[Path]) -> list[Case]:
 
 def truth(mesh: octafield.TriangleMesh) -> tuple[float, int] | None:
     """Volume and Euler characteristic of a surface without defects, but for crossings, which are not looked for."""
-    if octafield.find_defects(mesh, self_intersection=False):
+    if octafield.surface.find_defects(mesh, self_intersection=False):
         return None
-    return float(octafield.signed_volume(mesh)), int(octafield.euler_characteristic(mesh))
+    return float(octafield.surface.signed_volume(mesh)), int(octafield.surface.euler_characteristic(mesh))
 
 
 def _measured(case: Case) -> Case:
@@ -139,7 +139,7 @@ def _boundaries(data: Path, folder: Path) -> Iterator[Case]:
         path = folder / f"{mesh.name.removesuffix('.gz').rpartition('.')[0]}_boundary.obj"
         if not path.exists():
             tets = _hexex(mesh) if mesh.name.endswith(".hexex.gz") else octafield.domain.inputs.read_input(mesh).tets
-            boundary = octafield.boundary_surface(tets).mesh
+            boundary = octafield.volume.boundary_surface(tets).mesh
             _write(path, np.asarray(boundary.vertices), np.asarray(boundary.triangles), ascii_digits=None)
         yield _measured(Case(path.name, path, f"data/{mesh.parent.name}"))
 

@@ -69,14 +69,14 @@ def axis_angles(
     locator.SetDataSet(volume)
     locator.BuildLocator()
     ids = np.array([locator.FindClosestPoint(p) for p in result.points[chosen]], int)
-    axes = np.asarray(octafield.rotation_matrices(np.asarray(volume.point_data["quaternion"], float)[ids]))
+    axes = np.asarray(octafield.frames.rotation_matrices(np.asarray(volume.point_data["quaternion"], float)[ids]))
     cosines = np.abs(np.einsum("nck,nc->nk", axes, normals)).max(axis=1)
     return np.degrees(np.arccos(np.clip(cosines, 0, 1)))
 
 
 def vertex_areas(mesh: octafield.TriangleMesh) -> np.ndarray:
     """(n,) A third of the triangles round each vertex."""
-    triangles, areas = np.asarray(mesh.triangles), np.asarray(octafield.triangle_areas(mesh))
+    triangles, areas = np.asarray(mesh.triangles), np.asarray(octafield.surface.triangle_areas(mesh))
     return np.bincount(triangles.ravel(), np.repeat(areas / 3, 3), len(mesh.vertices))
 
 
@@ -95,8 +95,8 @@ def judge(case: Case, path: Path, output: Path, record: dict[str, Any]) -> dict[
     mesh = octafield.TriangleMesh(np.asarray(result.points, float), faces.astype(np.int32))
     source = octafield.read_surface(path) if path.suffix != ".vtp" else None
     wrong, size = [], float(np.linalg.norm(np.ptp(result.points, axis=0)))
-    found_volume = float(octafield.signed_volume(mesh))
-    euler = int(octafield.euler_characteristic(mesh))
+    found_volume = float(octafield.surface.signed_volume(mesh))
+    euler = int(octafield.surface.euler_characteristic(mesh))
     row: dict[str, Any] = {
         "tets": record["tets"],
         "energy": record["energy"],
@@ -128,7 +128,7 @@ def judge(case: Case, path: Path, output: Path, record: dict[str, Any]) -> dict[
         away &= np.array(gap) > 0.5 * record["edge_length"]
     if away.any():
         near = 0.5 * record["edge_length"]
-        wide = max(near, min(octafield.mean_edge_length(source), 0.5 * octafield.shape_size(mesh) / 25))
+        wide = max(near, min(octafield.surface.mean_edge_length(source), 0.5 * octafield.surface.shape_size(mesh) / 25))
         # An input's normals are known no better than to its own triangles: that of one, or the mean of those around.
         angles = np.minimum(
             *(
@@ -144,7 +144,7 @@ def judge(case: Case, path: Path, output: Path, record: dict[str, Any]) -> dict[
 
 
 def _with_area(mesh: octafield.TriangleMesh) -> np.ndarray:
-    return np.asarray(octafield.triangle_areas(mesh)) > 0
+    return np.asarray(octafield.surface.triangle_areas(mesh)) > 0
 
 
 def _picture(result: pyvista.PolyData, output: Path) -> None:

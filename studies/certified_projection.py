@@ -7,8 +7,8 @@ Two groups of unit vectors in R^9: random directions, and sums of frames at equa
 near which several frames or whole curves of frames are about equally near (six families). For each family the table
 counts
 
-- misses: inputs where branch and bound (octafield.sh4_project_certified) finds a frame better than
-  octafield.sh4_project by more than 1e-9 in v . embed(frame), and the largest loss;
+- misses: inputs where branch and bound (octafield.frames.sh4_project_certified) finds a frame better than
+  octafield.frames.sh4_project by more than 1e-9 in v . embed(frame), and the largest loss;
 - uncertified inputs and the largest certified gap;
 - on the first --sdp inputs the relaxation of Palmer, Bommes and Solomon (2020, "Algebraic representations for
   volumetric frame fields", section 4.3), solved with Clarabel: how far its upper bound lies above the certified value,
@@ -111,7 +111,7 @@ def unit_rows(v):
 def sums_of_frames(family: str, q: np.ndarray, generator) -> np.ndarray:
     """Sums of frames of which q is one, (n, 9)."""
     n = len(q)
-    embed = octafield.sh4_embed
+    embed = octafield.frames.sh4_embed
     if family == "farthest pair":  # 62.8 degrees, the corner of the Voronoi cell
         t = np.tan(np.pi / 8)
         return embed(q) + embed(multiply(q, np.array([1, t, t, 1 - 2 * t]) / np.linalg.norm([1, t, t, 1 - 2 * t])))
@@ -155,14 +155,14 @@ def make_inputs(count: int, seed: int) -> dict[str, np.ndarray]:
 
 
 def values(v, frames):
-    return np.einsum("ij,ij->i", v, octafield.sh4_embed(frames))
+    return np.einsum("ij,ij->i", v, octafield.frames.sh4_embed(frames))
 
 
 def compare(v: np.ndarray, relaxation: Relaxation, sdp: int) -> dict:
     """Figures of one family; see the top of this file."""
-    fast, _ = octafield.sh4_project(v)
+    fast, _ = octafield.frames.sh4_project(v)
     start = time.process_time()
-    certified, _, gaps = octafield.sh4_project_certified(v)
+    certified, _, gaps = octafield.frames.sh4_project_certified(v)
     seconds = time.process_time() - start
     fast_values, best_values = values(v, fast), values(v, certified)
     loss = best_values - fast_values
@@ -209,7 +209,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
-    relaxation = Relaxation(octafield.sh4_embed(octafield.random_rotations(200, seed=arguments.seed)))
+    relaxation = Relaxation(octafield.frames.sh4_embed(octafield.frames.random_rotations(200, seed=arguments.seed)))
     rows, missed = [], []
     for family, v in make_inputs(arguments.count, arguments.seed).items():
         r = compare(v, relaxation, arguments.sdp)

@@ -14,13 +14,13 @@ import numpy as np
 import octafield
 import pyvista
 from octafield.fields.frame_field import prepare, prepare_mesh, run
-from octafield.view import pictures
+from octafield.runs.field_pictures import singular_curves
 
 
 def generated_cylinder() -> octafield.TriangleMesh:
     solid = pyvista.Cylinder(radius=1, height=3, direction=(0, 0, 1), resolution=96).triangulate().clean()
     mesh = octafield.TriangleMesh(solid.points.astype(float), solid.regular_faces)
-    return octafield.repair(mesh).mesh  # pyvista's caps and wall do not share vertices
+    return octafield.surface.repair(mesh).mesh  # pyvista's caps and wall do not share vertices
 
 
 def cylinder_frame(points: np.ndarray):
@@ -79,7 +79,7 @@ def main() -> None:
     parser.add_argument("--edge-lengths", default="0.06,0.045")
     arguments = parser.parse_args()
     surface = octafield.read_surface(arguments.surface) if arguments.surface else generated_cylinder()
-    diagonal = octafield.bounding_box_diagonal(surface.vertices)
+    diagonal = octafield.surface.bounding_box_diagonal(surface.vertices)
 
     for fraction in map(float, arguments.edge_lengths.split(",")):
         problem = prepare(prepare_mesh(surface, octafield.MeshOptions(edge_length=fraction * diagonal)))
@@ -96,7 +96,7 @@ def main() -> None:
             )
             if arguments.output:
                 arguments.output.mkdir(parents=True, exist_ok=True)
-                (arguments.output / f"{boundary}-{fraction}.png").write_bytes(pictures.singular_curves(result).png)
+                (arguments.output / f"{boundary}-{fraction}.png").write_bytes(singular_curves(result).png)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
     python studies/metric_distortion.py -o DIR [--pairs 20000] [--seed 1] [--threads 0]
 
-For every entry of octafield.metrics and a list of angles: pairs of frames exactly that far apart (a random frame, a
+For every entry of octafield.frames.metrics and a list of angles: pairs of frames exactly that far apart (a random frame, a
 random direction of rotation among those in which the angle is the shortest way), and over the pairs minimum, maximum
 and the 1 %, 50 % and 99 % quantiles of distance / (angle x speed). 1 is no distortion. A metric whose speed depends on
 frame and direction is divided by its median at the smallest angle instead. DIR gets distortion.csv, distortion.md and
@@ -46,30 +46,30 @@ def directions_at(angle: float, count: int, rng: np.random.Generator) -> np.ndar
     kept, missing = [], count
     while missing > 0:
         candidates = unit_rows(rng.normal(size=(100_000, 3)))
-        reached = octafield.distance(IDENTITY, octafield.quaternion_exp(angle * candidates))
+        reached = octafield.frames.distance(IDENTITY, octafield.frames.quaternion_exp(angle * candidates))
         kept.append(candidates[abs(reached - angle) < 1e-9][:missing])
         missing -= len(kept[-1])
     return np.concatenate(kept)
 
 
 def frame_pairs(angle: float, count: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    first = octafield.random_rotations(count, seed=int(rng.integers(2**31)))
+    first = octafield.frames.random_rotations(count, seed=int(rng.integers(2**31)))
     in_frame = directions_at(
         angle, count, rng
     )  # how far a turn leads depends on its direction against the frame's axes
-    in_world = np.einsum("nij,nj->ni", octafield.rotation_matrices(first), in_frame)
-    return first, octafield.frame_exp(first, angle * in_world)
+    in_world = np.einsum("nij,nj->ni", octafield.frames.rotation_matrices(first), in_frame)
+    return first, octafield.frames.frame_exp(first, angle * in_world)
 
 
 def measure(pairs: int, seed: int, threads: int) -> tuple[dict[str, np.ndarray], dict[str, float]]:
     """Per metric (angles, quantiles) of distance / (angle x speed), and the speeds used."""
     rng = np.random.default_rng(seed)
-    ratios = {name: [] for name in octafield.metrics}
+    ratios = {name: [] for name in octafield.frames.metrics}
     for angle in np.radians(ANGLES):
         first, second = frame_pairs(angle, pairs, rng)
-        for name, metric in octafield.metrics.items():
+        for name, metric in octafield.frames.metrics.items():
             ratios[name].append(np.quantile(metric.distance(first, second, threads=threads) / angle, QUANTILES))
-    speeds = {name: metric.speed or ratios[name][0][2] for name, metric in octafield.metrics.items()}
+    speeds = {name: metric.speed or ratios[name][0][2] for name, metric in octafield.frames.metrics.items()}
     return {name: np.array(rows) / speeds[name] for name, rows in ratios.items()}, speeds
 
 

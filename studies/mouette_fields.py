@@ -3,7 +3,7 @@
     pip install mouette==1.2.8      # not a dependency of octafield
     python studies/mouette_fields.py -o out/mouette
 
-mouette has one frame per tet. E: Dirichlet energy of frames in tets (octafield.tet_sampling), of mouette's field, of
+mouette has one frame per tet. E: Dirichlet energy of frames in tets (octafield.volume.tet_sampling), of mouette's field, of
 octafield's smoothing from there with one axis on the normal of the surface, and of octafield's own field. No features.
 DIR/BODY-report/report.html shows them side by side.
 """

@@ -3,8 +3,8 @@
     python studies/odeco_nearest.py [-o DIR] [--count 2000] [--starts 1000] [--seed 1]
 
 Inputs: odeco tensors with normally distributed lengths plus noise of 1 %, 10 % and 30 % of their norm, and random
-    vectors of R^15. For each, octafield.odeco_nearest is compared with the best of --starts local ascents
-    (octafield.odeco_nearest_local) from random frames; farther by more than 1e-9 of the input's norm counts as a miss.
+    vectors of R^15. For each, octafield.frames.odeco_nearest is compared with the best of --starts local ascents
+    (octafield.frames.odeco_nearest_local) from random frames; farther by more than 1e-9 of the input's norm counts as a miss.
 """
 
 import argparse
@@ -19,8 +19,8 @@ def inputs(kind: str, count: int, random: np.random.Generator) -> np.ndarray:
     noise = random.normal(size=(count, 15))
     if kind == "random":
         return noise
-    v = octafield.odeco_embed(
-        octafield.random_rotations(count, int(random.integers(2**31))), random.normal(size=(count, 3))
+    v = octafield.frames.odeco_embed(
+        octafield.frames.random_rotations(count, int(random.integers(2**31))), random.normal(size=(count, 3))
     )
     level = float(kind.rstrip(" %")) / 100
     return v + level * np.linalg.norm(v, axis=1, keepdims=True) * noise / np.linalg.norm(noise, axis=1, keepdims=True)
@@ -28,8 +28,8 @@ def inputs(kind: str, count: int, random: np.random.Generator) -> np.ndarray:
 
 def best_of_random_starts(v: np.ndarray, starts: int) -> np.ndarray:
     best = np.full(len(v), np.inf)
-    for start in octafield.random_rotations(starts, 7):
-        best = np.minimum(best, octafield.odeco_nearest_local(v, start)[2])
+    for start in octafield.frames.random_rotations(starts, 7):
+        best = np.minimum(best, octafield.frames.odeco_nearest_local(v, start)[2])
     return best
 
 
@@ -44,7 +44,7 @@ def main() -> None:
     rows = []
     for kind in ("1 %", "10 %", "30 %", "random"):
         v = inputs(kind, arguments.count, random)
-        excess = (octafield.odeco_nearest(v)[2] - best_of_random_starts(v, arguments.starts)) / np.linalg.norm(
+        excess = (octafield.frames.odeco_nearest(v)[2] - best_of_random_starts(v, arguments.starts)) / np.linalg.norm(
             v, axis=1
         )
         rows.append([kind, str(len(v)), str(int((excess > 1e-9).sum())), f"{max(excess.max(), 0):.1e}"])

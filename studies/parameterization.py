@@ -43,11 +43,11 @@ BAR = {
 class Study:
     name: str
     meshed: MeshedInput
-    singular: octafield.SingularEdges
-    combed: octafield.CombedField
-    tables: octafield.AlignmentTables
-    isotropic: octafield.IsotropicScale
-    axes: octafield.AxisScales
+    singular: octafield.volume.SingularEdges
+    combed: octafield.volume.CombedField
+    tables: octafield.volume.AlignmentTables
+    isotropic: octafield.volume.IsotropicScale
+    axes: octafield.volume.AxisScales
     seconds: dict[str, float]
 
 
@@ -64,16 +64,16 @@ def study(path: Path) -> Study:
     meshed = prepare_mesh(path, options)
     tets = meshed.tets
     frames = timed("field", compute_field, meshed, options).frames
-    of_tets = octafield.tet_frames(tets, frames, threads=1)
-    combed = timed("comb", octafield.comb, tets, of_tets, threads=1)
+    of_tets = octafield.volume.tet_frames(tets, frames, threads=1)
+    combed = timed("comb", octafield.volume.comb, tets, of_tets, threads=1)
     return Study(
         path.name.split(".")[0],
         meshed,
-        octafield.singular_edges(tets, of_tets, threads=1),
+        octafield.volume.singular_edges(tets, of_tets, threads=1),
         combed,
-        timed("alignment_tables", octafield.alignment_tables, tets, combed),
-        timed("isotropic_scale", octafield.isotropic_scale, tets, frames, threads=1),
-        timed("axis_scales", octafield.axis_scales, tets, frames, threads=1),
+        timed("alignment_tables", octafield.volume.alignment_tables, tets, combed),
+        timed("isotropic_scale", octafield.volume.isotropic_scale, tets, frames, threads=1),
+        timed("axis_scales", octafield.volume.axis_scales, tets, frames, threads=1),
         seconds,
     )
 
@@ -116,7 +116,7 @@ def size_row(s: Study) -> tuple:
 def near_singular_edges(s: Study) -> str:
     """Shares of the squared curl left per axis, and of the volume, in tets that a singular edge ends in."""
     ends = np.asarray(s.singular.vertices)
-    near, volumes = np.isin(s.meshed.tets.tets, ends).any(axis=1), octafield.tet_volumes(s.meshed.tets)
+    near, volumes = np.isin(s.meshed.tets.tets, ends).any(axis=1), octafield.volume.tet_volumes(s.meshed.tets)
     squares = volumes * np.asarray(s.axes.after.curl) ** 2
     return f"{squares[near].sum() / squares.sum():.0%} ({volumes[near].sum() / volumes.sum():.1%})"
 

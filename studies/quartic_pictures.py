@@ -9,18 +9,18 @@ from octafield.view.plots import PALETTE
 
 def quartic(points: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Sum of the fourth powers of the coordinates along the axes of frame q, (1, 4), at (n, 3) points."""
-    return np.sum((points @ octafield.rotation_matrices(q)[0]) ** 4, axis=1)
+    return np.sum((points @ octafield.frames.rotation_matrices(q)[0]) ** 4, axis=1)
 
 
 def quartic_by_harmonics(directions: np.ndarray, q: np.ndarray) -> np.ndarray:
     sh4 = (
-        octafield.sh4_embed(q)[0] * (4 * np.sqrt(np.pi) / 15) / np.sqrt(7 / 12)
+        octafield.frames.sh4_embed(q)[0] * (4 * np.sqrt(np.pi) / 15) / np.sqrt(7 / 12)
     )  # the identity frame is sqrt(7/12) at Y40
-    return 3 / 5 + octafield.harmonics_evaluate(4, directions) @ sh4
+    return 3 / 5 + octafield.frames.harmonics_evaluate(4, directions) @ sh4
 
 
 def quartic_by_tensor(points: np.ndarray, q: np.ndarray) -> np.ndarray:
-    tensor = octafield.tensor4_full(octafield.tensor4_embed(q))[0]
+    tensor = octafield.frames.tensor4_full(octafield.frames.tensor4_embed(q))[0]
     return np.einsum("ijkl,ni,nj,nk,nl->n", tensor, points, points, points, points, optimize=True)
 
 
@@ -69,7 +69,7 @@ def hits_of_sphere(plane: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def hits_of_isosurface(plane: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Points where quartic = 1 first meets the line of sight, whether it does, and the unit normals. The quartic is
     convex along a line, so Newton steps from outside come down on the root without passing it."""
-    axes = octafield.rotation_matrices(q)[0]
+    axes = octafield.frames.rotation_matrices(q)[0]
     start, along = plane @ axes, SIGHT @ axes
     depth = np.full(len(plane), 2.0)
     for _ in range(40):
@@ -91,7 +91,7 @@ def lit(normals: np.ndarray) -> np.ndarray:
 
 def draw_frame(axes, q: np.ndarray, length: float = 1.45) -> None:
     """The frame's axes where the solid, on which they end at distance 1, does not hide them."""
-    for direction, color in zip(octafield.rotation_matrices(q)[0].T, (PALETTE[1], PALETTE[2], PALETTE[3])):
+    for direction, color in zip(octafield.frames.rotation_matrices(q)[0].T, (PALETTE[1], PALETTE[2], PALETTE[3])):
         for end in (direction, -direction):
             line = np.outer((1, length), end)
             axes.plot(line @ RIGHT, line @ UP, color=color, linewidth=2.4, zorder=3 if end @ SIGHT > 0 else 0)

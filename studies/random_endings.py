@@ -32,11 +32,11 @@ import octafield as of
 from conftest import box_tets, icosphere
 ball, box, none = icosphere(3), box_tets(8), of.FeatureGraph()
 n = len(box.vertices)
-frames, of_tets = of.random_rotations(n, 1), of.random_rotations(len(box.tets), 2)
-free = of.BoundaryConstraints([0] * n, np.zeros((n, 3)), frames, [0] * n, [])
-smooth = of.quaternion_exp(0.3 * np.asarray(box.vertices))
-cross = of.direction_field(ball, none)
-points = of.surface_singularities(ball, cross)
+frames, of_tets = of.frames.random_rotations(n, 1), of.frames.random_rotations(len(box.tets), 2)
+free = of.volume.BoundaryConstraints([0] * n, np.zeros((n, 3)), frames, [0] * n, [])
+smooth = of.frames.quaternion_exp(0.3 * np.asarray(box.vertices))
+cross = of.surface.direction_field(ball, none)
+points = of.surface.surface_singularities(ball, cross)
 vectors = np.random.default_rng(1).normal(size=(20_000, 9))
 answer = dict(progress=lambda *_: True)
 def forever(call):
@@ -51,30 +51,30 @@ print("ready", flush=True)
 
 # CALL may be given a callback: {} or {**answer}.
 CALLS = {
-    "direction_field": "lambda: of.direction_field(ball, none, {})",
-    "mbo": "lambda: of.direction_field(ball, none, method='mbo', {})",
-    "remesh": "lambda: of.remesh(ball, none, edge_length=0.08, {})",
-    "tetrahedralize": "lambda: of.tetrahedralize(ball, edge_length=0.15, {})",
-    "separatrices": "lambda: of.separatrices(ball, none, cross, points, {})",
-    "even_streamlines": "lambda: of.even_streamlines(ball, none, cross, points, spacing=0.1, {})",
-    "smooth": "lambda: of.smooth(box, free, frames, tolerance=0, max_iterations=1000, {})",
-    "smooth_lbfgs": "lambda: of.smooth(box, free, frames, solver='lbfgs', tolerance=0, max_iterations=1000, {})",
-    "smooth_metric": "lambda: of.smooth(box, free, smooth, representation='geodesic', tolerance=0, {})",
-    "diffuse": "lambda: of.diffuse(box, free, frames, {})",
-    "frame_field": "lambda: of.frame_field(box, free, {})",
+    "direction_field": "lambda: of.surface.direction_field(ball, none, {})",
+    "mbo": "lambda: of.surface.direction_field(ball, none, method='mbo', {})",
+    "remesh": "lambda: of.surface.remesh(ball, none, edge_length=0.08, {})",
+    "tetrahedralize": "lambda: of.volume.tetrahedralize(ball, edge_length=0.15, {})",
+    "separatrices": "lambda: of.surface.separatrices(ball, none, cross, points, {})",
+    "even_streamlines": "lambda: of.surface.even_streamlines(ball, none, cross, points, spacing=0.1, {})",
+    "smooth": "lambda: of.volume.smooth(box, free, frames, tolerance=0, max_iterations=1000, {})",
+    "smooth_lbfgs": "lambda: of.volume.smooth(box, free, frames, solver='lbfgs', tolerance=0, max_iterations=1000, {})",
+    "smooth_metric": "lambda: of.volume.smooth(box, free, smooth, representation='geodesic', tolerance=0, {})",
+    "diffuse": "lambda: of.volume.diffuse(box, free, frames, {})",
+    "frame_field": "lambda: of.volume.frame_field(box, free, {})",
 }
 PLAIN = {
-    "sh4_project": "lambda: of.sh4_project(vectors)",
-    "sh4_project_few": "lambda: of.sh4_project(vectors[:300])",
-    "sh4_project_certified": "lambda: of.sh4_project_certified(vectors[:200])",
-    "singular_graph": "lambda: of.singular_graph(box, frames)",
-    "singular_edges": "lambda: of.singular_edges(box, of_tets)",
-    "vertex_frames": "lambda: of.vertex_frames(box, of_tets)",
-    "integrability": "lambda: of.integrability(box, smooth)",
-    "axis_scales": "lambda: of.axis_scales(box, smooth)",
-    "comb": "lambda: of.comb(box, of_tets)",
-    "frame_streamlines": "lambda: of.frame_streamlines(box, smooth, of.spread_points(box, 50))",
-    "find_defects": "lambda: of.find_defects(ball)",
+    "sh4_project": "lambda: of.frames.sh4_project(vectors)",
+    "sh4_project_few": "lambda: of.frames.sh4_project(vectors[:300])",
+    "sh4_project_certified": "lambda: of.frames.sh4_project_certified(vectors[:200])",
+    "singular_graph": "lambda: of.volume.singular_graph(box, frames)",
+    "singular_edges": "lambda: of.volume.singular_edges(box, of_tets)",
+    "vertex_frames": "lambda: of.volume.vertex_frames(box, of_tets)",
+    "integrability": "lambda: of.volume.integrability(box, smooth)",
+    "axis_scales": "lambda: of.volume.axis_scales(box, smooth)",
+    "comb": "lambda: of.volume.comb(box, of_tets)",
+    "frame_streamlines": "lambda: of.volume.frame_streamlines(box, smooth, of.volume.spread_points(box, 50))",
+    "find_defects": "lambda: of.surface.find_defects(ball)",
 }
 # Last lines of the program, its status, and whether Ctrl-C is sent.
 ENDS = {

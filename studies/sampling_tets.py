@@ -26,42 +26,46 @@ EXACT = 10 / 3
 
 
 def twist(points: np.ndarray) -> np.ndarray:
-    return octafield.quaternion_exp(np.column_stack([0 * points[:, 0], 0 * points[:, 0], points[:, 2]]))
+    return octafield.frames.quaternion_exp(np.column_stack([0 * points[:, 0], 0 * points[:, 0], points[:, 2]]))
 
 
-def held(values: np.ndarray, on_boundary: np.ndarray) -> octafield.BoundaryConstraints:
+def held(values: np.ndarray, on_boundary: np.ndarray) -> octafield.volume.BoundaryConstraints:
     kind = np.where(on_boundary, 2, 0).astype(np.uint8)
     frames = np.where(on_boundary[:, None], values, [1.0, 0, 0, 0])
-    return octafield.BoundaryConstraints(kind, np.zeros((len(kind), 3)), frames, on_boundary.astype(np.uint8), [])
+    return octafield.volume.BoundaryConstraints(
+        kind, np.zeros((len(kind), 3)), frames, on_boundary.astype(np.uint8), []
+    )
 
 
 def cube_row(name: str, mesh: octafield.TetMesh) -> tuple:
     points, tets = np.asarray(mesh.vertices), np.asarray(mesh.tets)
-    surface = octafield.boundary_surface(mesh)
+    surface = octafield.volume.boundary_surface(mesh)
     at_vertices = np.zeros(len(points), bool)
     at_vertices[surface.vertex_map] = True
     tangents = np.ones((len(surface.mesh.triangles), 3))
-    in_tets = np.asarray(octafield.tet_boundary_constraints(mesh, tangents, mode="none").on_boundary) == 1
+    in_tets = np.asarray(octafield.volume.tet_boundary_constraints(mesh, tangents, mode="none").on_boundary) == 1
     row = [name, f"{len(points):,}", f"{len(tets):,}"]
     for where, sites, on in (
         (mesh, points, at_vertices),
-        (octafield.tet_sampling(mesh), points[tets].mean(axis=1), in_tets),
+        (octafield.volume.tet_sampling(mesh), points[tets].mean(axis=1), in_tets),
     ):
         exact = twist(sites)
         constraints = held(exact, on)
-        found = octafield.smooth(where, constraints, octafield.initial_frames(where, constraints), tolerance=1e-10)
-        angles = np.degrees(octafield.distance(found.frames, exact))[~on]
+        found = octafield.volume.smooth(
+            where, constraints, octafield.volume.initial_frames(where, constraints), tolerance=1e-10
+        )
+        angles = np.degrees(octafield.frames.distance(found.frames, exact))[~on]
         row += [
             f"{found.energy / EXACT:.4f}",
-            f"{octafield.dirichlet_energy(where, exact) / EXACT:.4f}",
+            f"{octafield.volume.dirichlet_energy(where, exact) / EXACT:.4f}",
             f"{angles.mean():.3f} ({angles.max():.2f})",
         ]
     return tuple(row)
 
 
 def tetgen_cube(n: int) -> octafield.TetMesh:
-    surface = octafield.boundary_surface(kuhn_grid(n, n, n, 1 / n)).mesh
-    return octafield.tetrahedralize(surface)
+    surface = octafield.volume.boundary_surface(kuhn_grid(n, n, n, 1 / n)).mesh
+    return octafield.volume.tetrahedralize(surface)
 
 
 def field_rows(name: str, mesh) -> tuple[tuple, list[tuple]]:
@@ -72,9 +76,9 @@ def field_rows(name: str, mesh) -> tuple[tuple, list[tuple]]:
         results.append(compute_field(meshed, FieldOptions(features=features, sampling=sampling, threads=1)))
         seconds.append(results[-1].record["cpu_seconds"]["smooth"])
     vertices, tets = results
-    sampling = octafield.tet_sampling(meshed.tets)
+    sampling = octafield.volume.tet_sampling(meshed.tets)
     a, b = vertices.record, tets.record
-    other = octafield.dirichlet_energy(sampling, octafield.tet_frames(meshed.tets, vertices.frames))
+    other = octafield.volume.dirichlet_energy(sampling, octafield.volume.tet_frames(meshed.tets, vertices.frames))
     row = (
         name,
         f"{a['vertices']:,}",
@@ -98,12 +102,12 @@ def field_rows(name: str, mesh) -> tuple[tuple, list[tuple]]:
 
 def odeco_rows(name: str, meshed, field) -> list[tuple]:
     start = time.process_time()
-    found = octafield.smooth(
+    found = octafield.volume.smooth(
         meshed.tets, field.constraints, field.frames, representation="odeco_lengths", max_iterations=1000, threads=1
     )
     seconds = time.process_time() - start
     lengths = np.asarray(found.lengths)
-    graph = octafield.singular_graph(meshed.tets, found.frames)
+    graph = octafield.volume.singular_graph(meshed.tets, found.frames)
     return [
         (
             name,

@@ -11,7 +11,7 @@ from io import BytesIO
 from pathlib import Path
 
 import octafield
-from octafield.view.pictures import singular_curves
+from octafield.runs.field_pictures import singular_curves
 from PIL import Image, ImageDraw, ImageFont
 from study_output import markdown_table
 from surface_pictures import save_with_few_colours

@@ -28,14 +28,14 @@ PARTS = ("bar", "cube", "starts", "thesis", "ball")
 
 
 def degrees(a: np.ndarray, b: np.ndarray, where: np.ndarray) -> np.ndarray:
-    return np.degrees(octafield.distance(a, b))[where]
+    return np.degrees(octafield.frames.distance(a, b))[where]
 
 
 def edge_angles(problem: Problem, frames: np.ndarray) -> np.ndarray:
     tets = np.asarray(problem.mesh.tets)
     pairs = np.concatenate([tets[:, [i, j]] for i in range(4) for j in range(i + 1, 4)])
     i, j = np.unique(np.sort(pairs, 1), axis=0).T
-    return np.degrees(octafield.distance(frames[i], frames[j]))
+    return np.degrees(octafield.frames.distance(frames[i], frames[j]))
 
 
 def orders(values, spacings) -> list[str]:
@@ -52,8 +52,8 @@ def save(folder: Path, name: str, header, rows) -> None:
 
 
 def study_bar(folder: Path) -> None:
-    first = octafield.quaternion_exp(np.array([[0.3, 0.2, -0.1]]))
-    ends = np.vstack([first, octafield.frame_exp(first, np.array([[0.25, 0.3, -0.3]]))])
+    first = octafield.frames.quaternion_exp(np.array([[0.3, 0.2, -0.1]]))
+    ends = np.vstack([first, octafield.frames.frame_exp(first, np.array([[0.25, 0.3, -0.3]]))])
     limits = {"su2": "naive", "su2_frozen": "frozen"}
     shown = ("geodesic", "su2_midpoint", "su2_frozen", "su2")
     found, rows = {}, []
@@ -74,10 +74,10 @@ def study_bar(folder: Path) -> None:
     )
     figure, axes = new_figure(7.5, 3.4)
     fine = np.linspace(0, 1, 101)
-    straight = octafield.slerp(np.tile(ends[0], (101, 1)), np.tile(ends[1], (101, 1)), fine)
+    straight = octafield.frames.slerp(np.tile(ends[0], (101, 1)), np.tile(ends[1], (101, 1)), fine)
     for scheme in shown:
         limit = su2_limits.path(limits[scheme], ends, fine) if scheme in limits else straight
-        axes.plot(fine, np.degrees(octafield.distance(limit, straight)), color=COLOURS[scheme], linewidth=1)
+        axes.plot(fine, np.degrees(octafield.frames.distance(limit, straight)), color=COLOURS[scheme], linewidth=1)
         x, line = found[scheme, 32]
         axes.plot(x, line, "o", markersize=3, color=COLOURS[scheme], label=scheme)
     axes.set(
@@ -100,7 +100,7 @@ def study_cube(folder: Path, amplitude: float) -> None:
     for family in ("kuhn", "jittered", "tetgen"):
         for n in SIZES:
             problem = cube(family, n, amplitude)
-            sh4 = minimise(problem, "sh4", octafield.initial_frames(problem.mesh, problem.constraints))
+            sh4 = minimise(problem, "sh4", octafield.volume.initial_frames(problem.mesh, problem.constraints))
             exact = grid_values(reference, FINE, np.asarray(problem.mesh.vertices))
             for scheme in SCHEMES:
                 result = sh4 if scheme == "sh4" else minimise(problem, scheme, sh4.frames)
@@ -179,14 +179,14 @@ def study_starts(folder: Path) -> None:
     rows = []
     for family, n in (("kuhn", 8), ("tetgen", 8)):
         problem, rng = cube(family, n), np.random.default_rng(1)
-        linear = octafield.initial_frames(problem.mesh, problem.constraints)
+        linear = octafield.volume.initial_frames(problem.mesh, problem.constraints)
         sh4 = minimise(problem, "sh4", linear).frames
         noise = rng.uniform(-1, 1, (len(sh4), 3))
         starts = {
             "sh4": sh4,
-            "diffusion": octafield.diffuse(problem.mesh, problem.constraints, linear).frames,
-            **{f"target + {a}": octafield.frame_exp(problem.target, a * noise) for a in (0.05, 0.3, 0.5)},
-            "random": octafield.random_rotations(len(sh4), seed=2),
+            "diffusion": octafield.volume.diffuse(problem.mesh, problem.constraints, linear).frames,
+            **{f"target + {a}": octafield.frames.frame_exp(problem.target, a * noise) for a in (0.05, 0.3, 0.5)},
+            "random": octafield.frames.random_rotations(len(sh4), seed=2),
         }
         for label, start in starts.items():
             row = [family, label]
@@ -218,7 +218,7 @@ def study_thesis(folder: Path) -> None:
         }
         for label, frames in attempts.items():
             away = degrees(frames, sh4.frames, problem.free)
-            energy = octafield.dirichlet_energy(problem.mesh, frames)
+            energy = octafield.volume.dirichlet_energy(problem.mesh, frames)
             rows.append([label, n, away.mean(), away.max(), energy / sh4.energy - 1])
     rows.sort(key=lambda row: list(attempts).index(row[0]))
     save(folder, "thesis", ["scheme", "n", "mean from sh4", "max from sh4", "E / E(sh4) - 1"], rows)
@@ -236,15 +236,15 @@ def study_ball(folder: Path, paths: list[Path]) -> None:
     rows, drawn, edges = [], [], []
     for path in paths:
         problem, rng = ball(path), np.random.default_rng(4)
-        field = octafield.frame_field(problem.mesh, problem.constraints).smooth
+        field = octafield.volume.frame_field(problem.mesh, problem.constraints).smooth
         noise = rng.uniform(-1, 1, field.frames.shape[:1] + (3,))
         edges.append(
             [problem.name, *(float(np.mean(edge_angles(problem, field.frames) < limit)) for limit in LIMITS[:-1])]
         )
         starts = {
             "frame_field": field.frames,
-            **{f"+ {a} rad": octafield.frame_exp(field.frames, a * noise) for a in (0.1, 0.3)},
-            "linear": octafield.initial_frames(problem.mesh, problem.constraints),
+            **{f"+ {a} rad": octafield.frames.frame_exp(field.frames, a * noise) for a in (0.1, 0.3)},
+            "linear": octafield.volume.initial_frames(problem.mesh, problem.constraints),
         }
         if len(field.frames) > 2000:
             starts = {"frame_field": field.frames}
@@ -253,7 +253,7 @@ def study_ball(folder: Path, paths: list[Path]) -> None:
                 begin = time.process_time()
                 result = minimise(problem, scheme, start, 1e-7, **options)
                 seconds = time.process_time() - begin
-                graph = octafield.singular_graph(problem.mesh, result.frames)
+                graph = octafield.volume.singular_graph(problem.mesh, result.frames)
                 away = degrees(result.frames, field.frames, problem.free)
                 name = scheme + (f" {np.degrees(options['midpoint_limit']):.0f}" if options else "")
                 rows.append(

@@ -53,14 +53,14 @@ def exact_frames(points: np.ndarray) -> np.ndarray:
     radius = np.linalg.norm(y, axis=1)
     direction = y / np.maximum(radius, 1e-300)[:, None]
     a = angle_of(radius)
-    turned = np.repeat(octafield.quaternion_exp(TURNED), len(points), axis=0)
+    turned = np.repeat(octafield.frames.quaternion_exp(TURNED), len(points), axis=0)
     return quaternion_product(turned, np.column_stack([np.cos(a), np.sin(a)[:, None] * direction]))
 
 
 def problem_of(family: str, n: int) -> Problem:
     mesh = FAMILIES[family](n)
     frames = exact_frames(np.asarray(mesh.vertices))
-    boundary = np.asarray(octafield.boundary_surface(mesh).vertex_map)
+    boundary = np.asarray(octafield.volume.boundary_surface(mesh).vertex_map)
     return Problem(
         f"{family} n = {n}",
         1 / n,
@@ -71,17 +71,17 @@ def problem_of(family: str, n: int) -> Problem:
     )
 
 
-def solved(problem: Problem, scheme: str) -> octafield.SmoothResult:
+def solved(problem: Problem, scheme: str) -> octafield.volume.SmoothResult:
     """From the linear field of sh4, as every method here starts."""
-    start = octafield.initial_frames(problem.mesh, problem.constraints)
+    start = octafield.volume.initial_frames(problem.mesh, problem.constraints)
     return minimise(problem, scheme, start)
 
 
 def errors(problem: Problem, frames: np.ndarray) -> dict[str, float]:
     """In degrees: root mean square over the cube, of the gradient (degrees per side), and the largest."""
     assert problem.target is not None
-    difference = np.degrees(octafield.frame_log(problem.target, frames))
-    mass, stiffness = np.asarray(octafield.lumped_mass(problem.mesh)), octafield.stiffness(problem.mesh)
+    difference = np.degrees(octafield.frames.frame_log(problem.target, frames))
+    mass, stiffness = np.asarray(octafield.volume.lumped_mass(problem.mesh)), octafield.volume.stiffness(problem.mesh)
     return {
         "L2": float(np.sqrt(mass @ np.sum(difference**2, axis=1) / mass.sum())),
         "H1": float(np.sqrt(max(0.0, np.sum(difference * (stiffness @ difference))) / mass.sum())),
@@ -139,7 +139,7 @@ def main() -> None:
     parser.add_argument(
         "--schemes",
         default=",".join(SCHEMES),
-        help="names of representations and metrics of octafield.smooth, with commas",
+        help="names of representations and metrics of octafield.volume.smooth, with commas",
     )
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)

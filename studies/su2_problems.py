@@ -19,10 +19,10 @@ class Problem:
     name: str
     spacing: float
     mesh: octafield.TetMesh
-    constraints: octafield.BoundaryConstraints
+    constraints: octafield.volume.BoundaryConstraints
     target: np.ndarray | None  # (n, 4) the smooth frames whose boundary values are held
     free: np.ndarray  # vertices that are not fixed
-    boundary: octafield.BoundarySurface | None = None
+    boundary: octafield.volume.BoundarySurface | None = None
 
 
 def kuhn_grid(nx: int, ny: int, nz: int, h: float) -> octafield.TetMesh:
@@ -54,23 +54,25 @@ def jittered_cube(n: int, amount: float, seed: int) -> octafield.TetMesh:
 
 def tetgen_cube(n: int) -> octafield.TetMesh:
     """TetGen inside the boundary of the Kuhn cube, inner points by its own rules."""
-    surface = octafield.boundary_surface(kuhn_grid(n, n, n, 1 / n)).mesh
-    return octafield.tetrahedralize(surface, edge_length=1 / n)
+    surface = octafield.volume.boundary_surface(kuhn_grid(n, n, n, 1 / n)).mesh
+    return octafield.volume.tetrahedralize(surface, edge_length=1 / n)
 
 
 def smooth_frames(points: np.ndarray, amplitude: float) -> np.ndarray:
     """Smooth, without singularities, far from constant: turns by 0.6 to 1 rad across the cube at amplitude 1."""
     x, y, z = points.T
-    return octafield.quaternion_exp(amplitude * np.stack([0.4 * np.sin(2 * y), 0.5 * x * z, 0.6 * x - 0.3 * z], 1))
+    return octafield.frames.quaternion_exp(
+        amplitude * np.stack([0.4 * np.sin(2 * y), 0.5 * x * z, 0.6 * x - 0.3 * z], 1)
+    )
 
 
-def held(mesh: octafield.TetMesh, frames: np.ndarray, vertices: np.ndarray) -> octafield.BoundaryConstraints:
+def held(mesh: octafield.TetMesh, frames: np.ndarray, vertices: np.ndarray) -> octafield.volume.BoundaryConstraints:
     n = len(mesh.vertices)
     kind, on_boundary, values = np.zeros(n, np.uint8), np.zeros(n, np.uint8), np.tile([1.0, 0, 0, 0], (n, 1))
     kind[vertices] = FIXED
-    on_boundary[octafield.boundary_surface(mesh).vertex_map] = 1
+    on_boundary[octafield.volume.boundary_surface(mesh).vertex_map] = 1
     values[vertices] = frames[vertices]
-    return octafield.BoundaryConstraints(kind, np.zeros((n, 3)), values, on_boundary)
+    return octafield.volume.BoundaryConstraints(kind, np.zeros((n, 3)), values, on_boundary)
 
 
 def cube(family: str, n: int, amplitude: float = 1) -> Problem:
@@ -80,7 +82,7 @@ def cube(family: str, n: int, amplitude: float = 1) -> Problem:
         "tetgen": lambda: tetgen_cube(n),
     }[family]()
     target = smooth_frames(np.asarray(mesh.vertices), amplitude)
-    boundary = np.asarray(octafield.boundary_surface(mesh).vertex_map)
+    boundary = np.asarray(octafield.volume.boundary_surface(mesh).vertex_map)
     return Problem(
         f"{family} n = {n}",
         1 / n,
@@ -95,7 +97,7 @@ def bar(cells: int, ends: np.ndarray) -> Problem:
     """[0, 1] x [0, 2 / cells]^2 with frames held at x = 0 and x = 1 only: a problem in one dimension."""
     mesh = kuhn_grid(cells, 2, 2, 1 / cells)
     x = np.asarray(mesh.vertices)[:, 0]
-    target = octafield.slerp(np.tile(ends[0], (len(x), 1)), np.tile(ends[1], (len(x), 1)), x)
+    target = octafield.frames.slerp(np.tile(ends[0], (len(x), 1)), np.tile(ends[1], (len(x), 1)), x)
     fixed = np.flatnonzero((x < 1e-9) | (x > 1 - 1e-9))
     return Problem("bar", 1 / cells, mesh, held(mesh, target, fixed), target, np.setdiff1d(np.arange(len(x)), fixed))
 
@@ -104,14 +106,14 @@ def ball(path: Path) -> Problem:
     """A tet mesh of a ball, one axis on the area-weighted normal of every boundary vertex, twist free."""
     read = octafield.domain.inputs.read_input(path)
     mesh, vertices = read.tets, np.asarray(read.tets.surface.vertex_map)
-    n, normals = len(mesh.vertices), np.asarray(octafield.vertex_normals(read.tets.surface.mesh))
+    n, normals = len(mesh.vertices), np.asarray(octafield.surface.vertex_normals(read.tets.surface.mesh))
     kind, axis, frames = np.zeros(n, np.uint8), np.zeros((n, 3)), np.tile([1.0, 0, 0, 0], (n, 1))
     kind[vertices], axis[vertices] = AXIS, normals
-    frames[vertices] = octafield.frame_from_axes(np.tile([1.0, 0, 0], (len(vertices), 1)), normals)
-    constraints = octafield.BoundaryConstraints(kind, axis, frames, (kind > 0).astype(np.uint8))
+    frames[vertices] = octafield.frames.frame_from_axes(np.tile([1.0, 0, 0], (len(vertices), 1)), normals)
+    constraints = octafield.volume.BoundaryConstraints(kind, axis, frames, (kind > 0).astype(np.uint8))
     return Problem(
         path.name.removesuffix(".mesh.gz"),
-        octafield.mean_edge_length(read.tets.surface.mesh),
+        octafield.surface.mean_edge_length(read.tets.surface.mesh),
         mesh,
         constraints,
         None,
@@ -122,9 +124,9 @@ def ball(path: Path) -> Problem:
 
 def minimise(
     problem: Problem, scheme: str, start: np.ndarray, tolerance: float = 1e-12, **options
-) -> octafield.SmoothResult:
+) -> octafield.volume.SmoothResult:
     solver = "trust_region" if scheme == "sh4" else "levenberg_marquardt"
-    return octafield.smooth(
+    return octafield.volume.smooth(
         problem.mesh,
         problem.constraints,
         start,
@@ -147,14 +149,14 @@ def on_cells(axes: Any, cells: Sequence[int], title: str) -> None:
 def grid_values(frames: np.ndarray, n: int, points: np.ndarray) -> np.ndarray:
     """Frames of a Kuhn cube at points: exact at its vertices, else trilinear in sh4 and projected."""
     axis = np.linspace(0, 1, n + 1)
-    table = octafield.sh4_embed(frames).reshape(n + 1, n + 1, n + 1, 9)
+    table = octafield.frames.sh4_embed(frames).reshape(n + 1, n + 1, n + 1, 9)
     values = RegularGridInterpolator((axis, axis, axis), table)(np.clip(points, 0, 1))
-    return octafield.sh4_project(values)[0]
+    return octafield.frames.sh4_project(values)[0]
 
 
 def random_representatives(frames: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     """Each quaternion times one of the 48 of the binary octahedral group: the same frames."""
-    group = np.asarray(octafield.binary_octahedral_group())[rng.integers(48, size=len(frames))]
+    group = np.asarray(octafield.frames.binary_octahedral_group())[rng.integers(48, size=len(frames))]
     return quaternion_product(frames, group)
 
 

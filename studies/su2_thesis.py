@@ -13,17 +13,17 @@ def _fixed(problem: Problem) -> np.ndarray:
 
 def linear(problem: Problem) -> np.ndarray:
     """4.4.1: h0, h1, h2 harmonic. The thesis leaves them off the model surface; here the nearest frames of each."""
-    stiff, free, fixed = octafield.stiffness(problem.mesh).tocsc(), problem.free, _fixed(problem)
-    h = octafield.su2_embed(problem.target)
+    stiff, free, fixed = octafield.volume.stiffness(problem.mesh).tocsc(), problem.free, _fixed(problem)
+    h = octafield.frames.su2_embed(problem.target)
     h[free] = splu(stiff[free][:, free]).solve(-stiff[free][:, fixed] @ h[fixed])
     frames = problem.target.copy()
-    frames[free] = octafield.su2_project(h[free])[0]
+    frames[free] = octafield.frames.su2_project(h[free])[0]
     return frames
 
 
 def euler_angles(problem: Problem, start: np.ndarray) -> np.ndarray:
     """4.4.2: the Dirichlet energy of h over Euler angles about z, y, z at every vertex, by L-BFGS."""
-    stiff, free = octafield.stiffness(problem.mesh).tocsr(), problem.free
+    stiff, free = octafield.volume.stiffness(problem.mesh).tocsr(), problem.free
 
     def quaternions(angles):
         a, b, c = angles.reshape(-1, 3).T
@@ -41,18 +41,18 @@ def euler_angles(problem: Problem, start: np.ndarray) -> np.ndarray:
 
     def energy(angles):
         frames[free] = quaternions(angles)
-        h = octafield.su2_embed(frames)
+        h = octafield.frames.su2_embed(frames)
         pull = stiff @ h
         turn = np.einsum(
-            "nij,ni->nj", octafield.su2_differential(frames[free]), pull[free]
+            "nij,ni->nj", octafield.frames.su2_differential(frames[free]), pull[free]
         )  # by world rotation vectors
         a = angles.reshape(-1, 3)[:, 0]
         about_b = np.stack([-np.sin(a), np.cos(a), 0 * a], 1)
-        about_c = octafield.rotation_matrices(frames[free])[:, :, 2]
+        about_c = octafield.frames.rotation_matrices(frames[free])[:, :, 2]
         gradient = np.stack([turn[:, 2], np.sum(turn * about_b, 1), np.sum(turn * about_c, 1)], 1)
         return 0.5 * np.sum(h * pull), gradient.ravel()
 
-    r = octafield.rotation_matrices(start[free])
+    r = octafield.frames.rotation_matrices(start[free])
     begin = np.stack(
         [
             np.arctan2(r[:, 1, 2], r[:, 0, 2]),
@@ -88,9 +88,12 @@ def held_metric(problem: Problem, start: np.ndarray, steps: int = 200) -> np.nda
     inside = np.broadcast_to(((rows >= 0) & (columns >= 0)), np.broadcast_shapes(rows.shape, columns.shape))
     rows, columns = (np.broadcast_to(x, inside.shape)[inside] for x in (rows, columns))
     for _ in range(steps):
-        m = octafield.su2_pulled_back(frames)[tets].mean(1)  # (m, 3, 3)
-        h, d = octafield.su2_complex(octafield.su2_embed(frames)), octafield.su2_differential(frames)
-        d = np.stack([octafield.su2_complex(np.ascontiguousarray(d[:, :, k])) for k in range(3)], 2)[
+        m = octafield.frames.su2_pulled_back(frames)[tets].mean(1)  # (m, 3, 3)
+        h, d = (
+            octafield.frames.su2_complex(octafield.frames.su2_embed(frames)),
+            octafield.frames.su2_differential(frames),
+        )
+        d = np.stack([octafield.frames.su2_complex(np.ascontiguousarray(d[:, :, k])) for k in range(3)], 2)[
             tets
         ]  # (m, 4, 3 of h, 3)
         pulled = np.einsum("tvik,tij->tvkj", d.conj(), m)
@@ -102,7 +105,7 @@ def held_metric(problem: Problem, start: np.ndarray, steps: int = 200) -> np.nda
         step = -splu(matrix).solve(gradient[free].ravel()).reshape(-1, 3)
         largest = np.linalg.norm(step, axis=1).max()
         step *= min(1, 0.1 / largest)
-        frames[free] = octafield.frame_exp(frames[free], step)
+        frames[free] = octafield.frames.frame_exp(frames[free], step)
         if largest < 1e-8:
             break
     return frames

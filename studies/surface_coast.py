@@ -93,7 +93,10 @@ def draw(output: Path, mesh, features, drawn, size: float) -> None:
         field, singular = drawn[name]
         for axes, spacing in ((upper, 0.055), (lower, 1.6 * size)):
             add_lines(
-                axes, octafield.even_streamlines(mesh, features, field, singular, spacing=spacing), STREAMLINE, 0.5
+                axes,
+                octafield.surface.even_streamlines(mesh, features, field, singular, spacing=spacing),
+                STREAMLINE,
+                0.5,
             )
             axes.add_collection(LineCollection(points[np.array(features.edges)], colors="black", linewidths=0.8))
             axes.set(aspect="equal", xticks=(), yticks=())
@@ -119,13 +122,13 @@ def main() -> None:
     arguments.output.mkdir(parents=True, exist_ok=True)
     loops = outlines(arguments.levels, arguments.seed, arguments.edge)
     mesh = region(loops, lambda points: np.full(len(points), arguments.edge))
-    features, mean_edge = octafield.detect_features(mesh), float(octafield.mean_edge_length(mesh))
+    features, mean_edge = octafield.surface.detect_features(mesh), float(octafield.surface.mean_edge_length(mesh))
     rows, drawn = [], {}
     for name, options in runs(mean_edge).items():
         start = time.process_time()
-        field = octafield.direction_field(mesh, features, **options)
+        field = octafield.surface.direction_field(mesh, features, **options)
         seconds = time.process_time() - start
-        singular = octafield.surface_singularities(mesh, field)
+        singular = octafield.surface.surface_singularities(mesh, field)
         inside = [s.index for s in singular.points if not s.boundary]
         drawn[name] = (field, singular)
         rows.append(
@@ -139,7 +142,7 @@ def main() -> None:
                 (
                     "-"
                     if field.symmetry != 4
-                    else f"{common_energy(mesh, features, np.array(octafield.triangle_directions(mesh, field))):.1f}"
+                    else f"{common_energy(mesh, features, np.array(octafield.surface.triangle_directions(mesh, field))):.1f}"
                 ),
                 f"{field.energy:.2f}",
                 field.iterations,

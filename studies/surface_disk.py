@@ -26,16 +26,16 @@ PRINTED = {4: 0.85, 6: 0.90}  # Beaufort et al. 2017, caption of figure 8
 
 def solve(edge: float, symmetry: int, epsilon: float, seed: int):
     mesh = even_disk(edge)
-    features = octafield.detect_features(mesh)
-    field = octafield.direction_field(mesh, features, symmetry=symmetry, epsilon=epsilon, seed=seed)
-    return mesh, features, field, octafield.surface_singularities(mesh, field)
+    features = octafield.surface.detect_features(mesh)
+    field = octafield.surface.direction_field(mesh, features, symmetry=symmetry, epsilon=epsilon, seed=seed)
+    return mesh, features, field, octafield.surface.surface_singularities(mesh, field)
 
 
 def measured(edge: float, symmetry: int, epsilon: float, seed: int) -> dict:
     mesh, _, field, singular = solve(edge, symmetry, epsilon, seed)
     points = np.array([s.position for s in singular.points])
     inside = located_in_plane(mesh, field, points[[not s.boundary for s in singular.points]], epsilon)
-    renormalised = octafield.disk_renormalised_energy(inside)
+    renormalised = octafield.surface.disk_renormalised_energy(inside)
     return {
         "d": symmetry,
         "triangles": len(mesh.triangles),
@@ -45,7 +45,7 @@ def measured(edge: float, symmetry: int, epsilon: float, seed: int) -> dict:
         "spread": abs(inside).max() - abs(inside).min(),
         "index_sum": singular.index_sum,
         "energy": field.energy,
-        "asymptotic": octafield.asymptotic_energy(symmetry, renormalised, epsilon),
+        "asymptotic": octafield.surface.asymptotic_energy(symmetry, renormalised, epsilon),
         "dirichlet": field.dirichlet_energy,
         "iterations": field.iterations,
         "converged": field.converged,
@@ -55,7 +55,7 @@ def measured(edge: float, symmetry: int, epsilon: float, seed: int) -> dict:
 def table(rows: list[dict]) -> str:
     lines = []
     for row in rows:
-        best = octafield.disk_polygon_radius(row["d"])
+        best = octafield.surface.disk_polygon_radius(row["d"])
         lines.append(
             (
                 row["d"],
@@ -95,14 +95,16 @@ def figure_3_8(output: Path) -> str:
     radii = np.linspace(0.5, 0.99, 491)
     curves, lines = [], []
     for axes, d, color in zip(panels, PRINTED, PALETTE):
-        best = octafield.disk_polygon_radius(d)
-        curves.append([octafield.disk_polygon_energy(d, r) for r in radii])
+        best = octafield.surface.disk_polygon_radius(d)
+        curves.append([octafield.surface.disk_polygon_energy(d, r) for r in radii])
         axes.plot(radii, curves[-1], color=color)
-        axes.plot(best, octafield.disk_polygon_energy(d, best), "o", color=color)
+        axes.plot(best, octafield.surface.disk_polygon_energy(d, best), "o", color=color)
         axes.set(title=f"{d} critical points", xlabel="radius", ylabel="W")
         with_grid(axes)
         sampled = radii[np.argmin(curves[-1])]
-        lines.append((d, PRINTED[d], f"{best:.5f}", f"{sampled:.3f}", f"{octafield.disk_polygon_energy(d, best):.5f}"))
+        lines.append(
+            (d, PRINTED[d], f"{best:.5f}", f"{sampled:.3f}", f"{octafield.surface.disk_polygon_energy(d, best):.5f}")
+        )
     save_drawing(figure, output / "surface_disk_energy.png")
     write_csv(output / "surface_disk_energy.csv", ["r", "W_4", "W_6"], np.column_stack([radii, *curves]).tolist())
     return markdown_table(
@@ -115,12 +117,17 @@ def figure_3_9(output: Path, edge: float, epsilon: float, seed: int) -> None:
     figure, panels = new_figure(7.8, 4.4, 1, 2)
     for axes, d in zip(panels, PRINTED):
         mesh, features, field, singular = solve(edge, d, epsilon, seed)
-        add_lines(axes, octafield.even_streamlines(mesh, features, field, singular, spacing=0.07), STREAMLINE, 0.6)
         add_lines(
-            axes, octafield.separatrices(mesh, features, field, singular, singular_radius=3 * edge), SEPARATRIX, 1.3
+            axes, octafield.surface.even_streamlines(mesh, features, field, singular, spacing=0.07), STREAMLINE, 0.6
+        )
+        add_lines(
+            axes,
+            octafield.surface.separatrices(mesh, features, field, singular, singular_radius=3 * edge),
+            SEPARATRIX,
+            1.3,
         )
         angle = np.linspace(0, 2 * np.pi, 361)
-        best = octafield.disk_polygon_radius(d)
+        best = octafield.surface.disk_polygon_radius(d)
         axes.plot(np.cos(angle), np.sin(angle), color="black", linewidth=1)
         axes.plot(best * np.cos(angle), best * np.sin(angle), ":", color="black", linewidth=1.2)
         add_points(axes, singular)
@@ -136,7 +143,11 @@ def figure_error(output: Path, rows: list[dict]) -> None:
     meshes = sorted({row["triangles"] for row in rows})
     styles, colors = dict(zip(meshes, (":", "-.", "--", "-"))), dict(zip(PRINTED, PALETTE))
     for row_of, axes in zip(
-        (lambda r: r["radius"] - octafield.disk_polygon_radius(r["d"]), lambda r: r["energy"] - r["asymptotic"]), panels
+        (
+            lambda r: r["radius"] - octafield.surface.disk_polygon_radius(r["d"]),
+            lambda r: r["energy"] - r["asymptotic"],
+        ),
+        panels,
     ):
         for d in PRINTED:
             for triangles in meshes:

@@ -24,17 +24,17 @@ ELL = np.array([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2.0]])
 
 
 def midpoints(mesh) -> np.ndarray:
-    return np.array(mesh.vertices)[np.array(octafield.edge_topology(mesh).edges)].mean(axis=1)[:, :2]
+    return np.array(mesh.vertices)[np.array(octafield.surface.edge_topology(mesh).edges)].mean(axis=1)[:, :2]
 
 
 def disk_rows(edge: float, epsilon: float, output: Path) -> list[tuple]:
     mesh = even_disk(edge)
-    features, radii = octafield.detect_features(mesh), np.linalg.norm(midpoints(mesh), axis=1)
+    features, radii = octafield.surface.detect_features(mesh), np.linalg.norm(midpoints(mesh), axis=1)
     figure, panels = new_figure(9.8, 3.0, 1, 3, width_ratios=(1, 1.16, 1.3))
     rows = []
     for axes, name, eps, color in zip(panels, ("Laplacian smoothing", "Ginzburg-Landau"), (HARMONIC, epsilon), PALETTE):
-        field = octafield.direction_field(mesh, features, epsilon=eps)
-        singular = octafield.surface_singularities(mesh, field)
+        field = octafield.surface.direction_field(mesh, features, epsilon=eps)
+        singular = octafield.surface.surface_singularities(mesh, field)
         norm = abs(np.array(field.values))
         shown = add_norm(axes, mesh, field)
         add_points(axes, singular, 4)
@@ -43,7 +43,8 @@ def disk_rows(edge: float, epsilon: float, output: Path) -> list[tuple]:
         order = np.argsort(radii)[:: max(1, len(radii) // 3000)]
         panels[2].plot(radii[order], norm[order], ".", color=color, markersize=2, label=name)
         area = np.bincount(
-            np.array(field.topology.triangle_edges).ravel(), np.repeat(np.array(octafield.triangle_areas(mesh)) / 3, 3)
+            np.array(field.topology.triangle_edges).ravel(),
+            np.repeat(np.array(octafield.surface.triangle_areas(mesh)) / 3, 3),
         )
         rows.append(
             (
@@ -72,11 +73,11 @@ def disk_rows(edge: float, epsilon: float, output: Path) -> list[tuple]:
 def ell_rows(edge: float, epsilon: float) -> list[tuple]:
     size = lambda points: np.full(len(points), edge)
     mesh = region([resampled([np.linspace(a, b, 50) for a, b in zip(ELL, np.roll(ELL, -1, axis=0))], size)], size)
-    features = octafield.detect_features(mesh)
+    features = octafield.surface.detect_features(mesh)
     rows = []
     for name, options in (("strong", {}), ("weak, L = eps", {"boundary": "weak", "alignment_length": epsilon})):
-        field = octafield.direction_field(mesh, features, epsilon=epsilon, **options)
-        singular = octafield.surface_singularities(mesh, field)
+        field = octafield.surface.direction_field(mesh, features, epsilon=epsilon, **options)
+        singular = octafield.surface.surface_singularities(mesh, field)
         signs = [s.index > 0 for s in singular.points]
         rows.append(
             (

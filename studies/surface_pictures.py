@@ -46,10 +46,10 @@ def draw_field(
     )
     towards = np.array(view, float) / np.linalg.norm(view)
     lifted = 2e-3 * scene.diagonal(np.array(mesh.vertices)) * towards  # lines in front of the facets they lie in
-    lines = polylines(octafield.even_streamlines(mesh, features, field, singular, spacing=spacing))
+    lines = polylines(octafield.surface.even_streamlines(mesh, features, field, singular, spacing=spacing))
     shape.add_mesh(lines.translate(lifted), color=STREAMLINE, line_width=2, lighting=False)
     if separatrix:
-        lines = polylines(octafield.separatrices(mesh, features, field, singular, max_length=separatrix))
+        lines = polylines(octafield.surface.separatrices(mesh, features, field, singular, max_length=separatrix))
         shape.add_mesh(lines.translate(1.5 * lifted), color=SEPARATRIX, line_width=5, lighting=False)
     radius = 0.012 * scene.diagonal(np.array(mesh.vertices))
     ball = pyvista.Sphere(radius=radius, theta_resolution=48, phi_resolution=48)

@@ -59,18 +59,20 @@ def mesh_of(symmetry: int, n: int) -> octafield.TriangleMesh:
 
 def solve(symmetry: int, n: int, epsilon: float, seed: int):
     mesh = mesh_of(symmetry, n)
-    features = octafield.detect_features(mesh, angle=2.0)
-    field = octafield.direction_field(mesh, features, symmetry=symmetry, epsilon=epsilon, seed=seed)
-    return mesh, features, field, octafield.surface_singularities(mesh, field)
+    features = octafield.surface.detect_features(mesh, angle=2.0)
+    field = octafield.surface.direction_field(mesh, features, symmetry=symmetry, epsilon=epsilon, seed=seed)
+    return mesh, features, field, octafield.surface.surface_singularities(mesh, field)
 
 
 def measured(symmetry: int, n: int, epsilon: float, seed: int) -> tuple:
     mesh, _, field, singular = solve(symmetry, n, epsilon, seed)
     points = located_on_sphere(mesh, field, np.array([s.position for s in singular.points]), epsilon)
-    logarithmic = octafield.logarithmic_energy(points)
+    logarithmic = octafield.surface.logarithmic_energy(points)
     if len(points) == 2 * symmetry:
         distances = ", ".join(f"{g.min():.4f} to {g.max():.4f}" for g in grouped(points, symmetry))
-        theory = octafield.asymptotic_energy(len(points), octafield.sphere_renormalised_energy(points), epsilon)
+        theory = octafield.surface.asymptotic_energy(
+            len(points), octafield.surface.sphere_renormalised_energy(points), epsilon
+        )
     else:
         distances, theory = "-", float("nan")
     return (
@@ -96,7 +98,8 @@ def figure_3_11(output: Path) -> str:
     twists = np.linspace(0, 90, 181)
     heights = {"1/sqrt(3), the cube's": 1 / np.sqrt(3), f"{HEIGHT}, the best": HEIGHT}
     curves = {
-        name: [octafield.logarithmic_energy(squares(z, np.radians(t))) for t in twists] for name, z in heights.items()
+        name: [octafield.surface.logarithmic_energy(squares(z, np.radians(t))) for t in twists]
+        for name, z in heights.items()
     }
     figure, axes = new_figure(5.4, 3.4)
     for (name, values), color, style in zip(curves.items(), PALETTE, ("-", "--")):

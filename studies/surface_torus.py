@@ -47,7 +47,7 @@ def azimuthal(vertex: np.ndarray) -> np.ndarray:
     )
 
 
-def constraints(mesh, around: int, points: int, weight: float) -> octafield.DirectionConstraints | None:
+def constraints(mesh, around: int, points: int, weight: float) -> octafield.surface.DirectionConstraints | None:
     """Of the state with so many points; fewer than 6 need more places."""
     across, m = around // 2, points // 2
     count = 2 * m if m > 2 else 24
@@ -64,7 +64,7 @@ def constraints(mesh, around: int, points: int, weight: float) -> octafield.Dire
         angle = turns * phi / 4
         vertices.append(ids)
         directions.append(np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * second)
-    return octafield.DirectionConstraints(
+    return octafield.surface.DirectionConstraints(
         vertices=np.concatenate(vertices),
         vertex_directions=np.concatenate(directions),
         vertex_weights=np.full(2 * count, weight),
@@ -73,7 +73,7 @@ def constraints(mesh, around: int, points: int, weight: float) -> octafield.Dire
 
 def free_energy(mesh, features, field) -> float:
     """E of the field without its constraints: Dirichlet part and penalty."""
-    share = np.repeat(np.array(octafield.triangle_areas(mesh)) / 3, 3)
+    share = np.repeat(np.array(octafield.surface.triangle_areas(mesh)) / 3, 3)
     masses = np.bincount(np.array(field.topology.triangle_edges).ravel(), share)
     return field.dirichlet_energy + float(np.sum(masses * (abs(np.array(field.values)) ** 2 - 1) ** 2)) / (
         4 * field.epsilon**2
@@ -85,8 +85,10 @@ def state(mesh, around: int, points: int, epsilon: float):
     features = octafield.FeatureGraph()
     for weight in WEIGHTS:
         held = constraints(mesh, around, points, weight)
-        field = octafield.direction_field(mesh, features, epsilon=epsilon, first_epsilon=epsilon, constraints=held)
-        singular = octafield.surface_singularities(mesh, field)
+        field = octafield.surface.direction_field(
+            mesh, features, epsilon=epsilon, first_epsilon=epsilon, constraints=held
+        )
+        singular = octafield.surface.surface_singularities(mesh, field)
         if len(singular.points) == points:
             break
     return features, field, singular, weight
@@ -145,8 +147,8 @@ def free_table(around: int, epsilons: list[float]) -> str:
     """Without constraints: each method as it is, and guided by the principal directions. mbo and eigen do not
     depend on epsilon."""
     mesh, features, rows = torus(around, around // 2), octafield.FeatureGraph(), []
-    principal = octafield.principal_directions(mesh)
-    guide = octafield.DirectionGuide(principal.directions, principal.anisotropy)
+    principal = octafield.surface.principal_directions(mesh)
+    guide = octafield.surface.DirectionGuide(principal.directions, principal.anisotropy)
     runs = [
         (name, epsilon, {"epsilon": epsilon, **options})
         for epsilon in epsilons
@@ -158,8 +160,8 @@ def free_table(around: int, epsilons: list[float]) -> str:
     ]
     runs += [(name, None, {"method": name}) for name in ("mbo", "eigen")]
     for name, epsilon, options in runs:
-        field = octafield.direction_field(mesh, features, **options)
-        found = counts(octafield.surface_singularities(mesh, field))
+        field = octafield.surface.direction_field(mesh, features, **options)
+        found = counts(octafield.surface.surface_singularities(mesh, field))
         rows.append(
             (
                 "-" if epsilon is None else f"{epsilon:g}",
@@ -175,11 +177,11 @@ def free_table(around: int, epsilons: list[float]) -> str:
 def aligned(around: int) -> float:
     """Dirichlet energy of |f| = 1 along the curvature lines."""
     mesh = torus(around, around // 2)
-    topology = octafield.edge_topology(mesh)
+    topology = octafield.surface.edge_topology(mesh)
     edges, points = np.array(topology.edges), np.array(mesh.vertices)
     middle = points[edges].mean(axis=1)
-    held = octafield.DirectionConstraints(edges, azimuthal(middle))
-    return octafield.direction_field(
+    held = octafield.surface.DirectionConstraints(edges, azimuthal(middle))
+    return octafield.surface.direction_field(
         mesh, octafield.FeatureGraph(), method="eigen", constraints=held
     ).dirichlet_energy
 

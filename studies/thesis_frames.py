@@ -33,7 +33,7 @@ from quartic_pictures import (
 from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
 
 IDENTITY = np.array([1.0, 0, 0, 0])
-TURNED = octafield.quaternion_exp([[0.5, 0.3, 0.4]])  # the rotated frame of figures 4.3 and 4.4
+TURNED = octafield.frames.quaternion_exp([[0.5, 0.3, 0.4]])  # the rotated frame of figures 4.3 and 4.4
 SHARED_AXIS = np.array([[2.0, 6.0, 3.0]]) / 7  # of figure 4.8; the thesis does not name its own
 Y44_TO_Y40 = np.sqrt(5 / 7)
 EXPANSION = 4 * np.sqrt(np.pi) / 15  # thesis: x^4 + y^4 + z^4 = EXPANSION (Y40 + Y44_TO_Y40 Y44) + 3/5 on the sphere
@@ -59,7 +59,7 @@ CONVENTIONS = {
 
 
 def invariants(q: np.ndarray, convention: str = "this project") -> np.ndarray:
-    return octafield.su2_complex(octafield.su2_embed(CONVENTIONS[convention](q)))
+    return octafield.frames.su2_complex(octafield.frames.su2_embed(CONVENTIONS[convention](q)))
 
 
 def c3_distance(q: np.ndarray, convention: str = "this project") -> np.ndarray:
@@ -69,7 +69,7 @@ def c3_distance(q: np.ndarray, convention: str = "this project") -> np.ndarray:
 
 def r4_distance(q: np.ndarray) -> np.ndarray:
     """To the Cartesian frame: the nearest of the 48 unit quaternions to 1."""
-    return np.linalg.norm(octafield.closest_representative(q, IDENTITY) - IDENTITY, axis=1)
+    return np.linalg.norm(octafield.frames.closest_representative(q, IDENTITY) - IDENTITY, axis=1)
 
 
 def quaternion_product(p: np.ndarray, q: np.ndarray) -> np.ndarray:
@@ -107,7 +107,7 @@ def figure_4_3(output: Path, options) -> list[tuple]:
         ["x", "y", "z", "f", "f_by_harmonics", "f_rotated", "f_rotated_by_harmonics"],
         np.column_stack([grid, direct[0], summed[0], direct[1], summed[1]]).tolist(),
     )
-    harmonics = octafield.harmonics_evaluate(4, grid)
+    harmonics = octafield.frames.harmonics_evaluate(4, grid)
     fitted = np.linalg.lstsq(harmonics, direct[0] - 3 / 5, rcond=None)[0]
     y40, y44 = printed_y40_y44(grid)
     without_12 = y44 - 3 / 16 * np.sqrt(35 / np.pi) * 12
@@ -157,7 +157,7 @@ def figure_4_4(output: Path, options) -> list[tuple]:
 
 
 def turns(angles: np.ndarray, axis: int) -> np.ndarray:
-    return octafield.quaternion_exp(angles[:, None] * np.eye(3)[axis])
+    return octafield.frames.quaternion_exp(angles[:, None] * np.eye(3)[axis])
 
 
 def figure_4_7a(output: Path, options) -> list[tuple]:
@@ -205,8 +205,8 @@ def figure_4_7a(output: Path, options) -> list[tuple]:
 
 def invariance_rows(seed: int) -> list[tuple]:
     """On which side the octahedral group leaves h unchanged: it must be the right one."""
-    q = octafield.random_rotations(100, seed=seed)[:, None, :]
-    group = octafield.binary_octahedral_group()
+    q = octafield.frames.random_rotations(100, seed=seed)[:, None, :]
+    group = octafield.frames.binary_octahedral_group()
     rows = []
     for name in CONVENTIONS:
         start = invariants(q[:, 0], name)[:, None]
@@ -221,7 +221,7 @@ def invariance_rows(seed: int) -> list[tuple]:
                 f"{change[0]:.1e}, {change[1]:.1e}",
             )
         )
-    quarter = octafield.quaternion_exp([0, np.pi / 2, 0])  # takes z to x
+    quarter = octafield.frames.quaternion_exp([0, np.pi / 2, 0])  # takes z to x
     turned = invariants(quaternion_product(quarter[None], q[:, 0]))
     rows.append(
         (
@@ -234,12 +234,12 @@ def invariance_rows(seed: int) -> list[tuple]:
 
 
 def figure_4_7b(output: Path, options) -> list[tuple]:
-    q = octafield.random_rotations(options.frames, seed=options.seed)
+    q = octafield.frames.random_rotations(options.frames, seed=options.seed)
     r4 = r4_distance(q)
     clouds = {
         "this project": c3_distance(q),
         "thesis, section 4.2": c3_distance(q, "thesis, section 4.2"),
-        "sh4, for comparison": octafield.metrics["sh4"].distance(q, IDENTITY),
+        "sh4, for comparison": octafield.frames.metrics["sh4"].distance(q, IDENTITY),
     }
     figure, panels = new_figure(9, 4, 1, 2)
     for axes, name, label in zip(
@@ -280,13 +280,13 @@ def figure_4_7b(output: Path, options) -> list[tuple]:
 
 def frames_about(axis: np.ndarray, angles: np.ndarray) -> np.ndarray:
     across = np.cross(axis, [[0, 0, 1.0]])
-    start = octafield.frame_from_axes(across / np.linalg.norm(across), axis)
-    return octafield.frame_exp(start, angles[:, None] * axis)
+    start = octafield.frames.frame_from_axes(across / np.linalg.norm(across), axis)
+    return octafield.frames.frame_exp(start, angles[:, None] * axis)
 
 
 def ellipses_here(n: np.ndarray, angles: np.ndarray) -> tuple[complex, np.ndarray, np.ndarray]:
     a = 1j * (n[0, 1] + 1j * n[0, 2]) / 2
-    center0, center1, plus, minus, ratio = octafield.su2_axis_ellipse(n)[0]
+    center0, center1, plus, minus, ratio = octafield.frames.su2_axis_ellipse(n)[0]
     wave = plus * np.exp(4j * angles) + minus * np.exp(-4j * angles)
     return a, (center0 + wave) / a**4, (center1 + ratio * wave) / a**6
 

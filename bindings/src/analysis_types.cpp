@@ -106,13 +106,13 @@ void bind_boundary_types(py::module_& m) {
         .field("angle", &FeatureWedge::angle, "Of the wedge, radians.")
         .field(
             "hexahedra_a", &FeatureWedge::hexahedra_a,
-            "Hexahedra that fill it by the frame of a; below 1 no hex mesh; octafield.no_number where the frame does "
+            "Hexahedra that fill it by the frame of a; below 1 no hex mesh; octafield.volume.no_number where the frame does "
             "not follow the edge.")
         .field("hexahedra_b", &FeatureWedge::hexahedra_b, "The same by the frame of b.")
         .field(
             "around", &FeatureWedge::around,
             "By the frame of a carried through the tets of the wedge and back: another number where a singular curve "
-            "runs through them; octafield.no_number where the frames come back turned about another axis.")
+            "runs through them; octafield.volume.no_number where the frames come back turned about another axis.")
         .field("meshable", &FeatureWedge::meshable, "Whether there is a number and none below 1, at the ends.")
         .finish([](const FeatureWedge& w) {
             return std::to_string(w.a) + ", " + std::to_string(w.b) + ", hexahedra " + std::to_string(w.hexahedra_a) +

@@ -37,7 +37,7 @@ void bind_requests(py::module_& m) {
         .field("directions", &DirectionGuide::directions,
                "(F, 3) float64, projected into the triangles; empty: no guide.")
         .field("weights", &DirectionGuide::weights, "(F,) float64, 0 leaves a triangle alone; empty: 1 everywhere.")
-        .field("length", &DirectionGuide::length, "Input unit; 0: a tenth of octafield.shape_size.")
+        .field("length", &DirectionGuide::length, "Input unit; 0: a tenth of octafield.surface.shape_size.")
         .finish([](const DirectionGuide& g) {
             return count(g.directions.rows(), "direction") + ", length " + number(g.length);
         });

@@ -46,7 +46,7 @@ void bind_direction_field(py::module_& m) {
         "symmetry: N, 4 for crosses. method: \"gl\", a local minimum of the Ginzburg-Landau functional; "
         "\"mbo\", diffusion and projection (Viertel and Osting 2019), close to it at a fraction of the time; "
         "\"eigen\", the globally smoothest (Knoeppel et al. 2013), the start of both. epsilon: coherence length, "
-        "input unit, 0 means 2 mean edge lengths, at most a tenth of octafield.shape_size; edge_epsilon: (E,) "
+        "input unit, 0 means 2 mean edge lengths, at most a tenth of octafield.surface.shape_size; edge_epsilon: (E,) "
         "one per edge instead, in the order of edge_topology; first_epsilon: where the continuation in epsilon starts, "
         "0 means a tenth of the size. max_iterations: of the descent, or of diffusion and projection; tolerance: "
         "on the residual; energy_tolerance: relative decrease of a round of steps at which to stop; seed: of the "

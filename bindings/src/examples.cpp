@@ -24,13 +24,13 @@ constexpr Example of_meshes[] = {
     >>> mesh
     TriangleMesh(3 vertices, 1 triangle, box [0, 1] x [0, 1] x [0, 0])
     >>> mesh.vertices[2, 1] = 5  # a view of the mesh's memory
-    >>> float(octafield.triangle_areas(mesh)[0])
+    >>> float(octafield.surface.triangle_areas(mesh)[0])
     2.5)"},
     {"TetMesh", R"(
     >>> octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
     TetMesh(4 vertices, 1 tet, box [0, 1] x [0, 1] x [0, 1]))"},
     {"FeatureGraph", R"(
-    >>> octafield.detect_features(generate("box"))
+    >>> octafield.surface.detect_features(generate("box"))
     FeatureGraph(12 edges, 8 corners))"},
     {"read_surface", R"(
     >>> octafield.write_surface(generate("box"), "box.stl")
@@ -40,89 +40,89 @@ constexpr Example of_meshes[] = {
     >>> octafield.write_surface(generate("box"), "box.ply"))"},
     {"find_defects", R"(
     >>> box = generate("box")
-    >>> octafield.find_defects(box)
+    >>> octafield.surface.find_defects(box)
     []
     >>> box.triangles = box.triangles[1:]  # a hole
-    >>> [defect.kind for defect in octafield.find_defects(box)]
+    >>> [defect.kind for defect in octafield.surface.find_defects(box)]
     ['not_closed'])"},
     {"require_valid", R"(
     >>> octafield.require_valid(generate("torus"))  # says nothing where all is well)"},
     {"repair", R"(
     >>> box = generate("box")
     >>> box.triangles = box.triangles[1:]
-    >>> octafield.repair(box)
+    >>> octafield.surface.repair(box)
     RepairResult(8 vertices, 12 triangles, box [0, 1] x [0, 1] x [0, 1], 1 action))"},
     {"advise_repair", R"(
     >>> box = generate("box")
     >>> box.triangles = box.triangles[1:]
-    >>> octafield.advise_repair(box)
+    >>> octafield.surface.advise_repair(box)
     RepairAdvice(safe, 1 action))"},
     {"coordinate_precision", R"(
-    >>> float(octafield.coordinate_precision([[0, 0, 1], [0.1, 0, 0.123456789]]))  # nine digits
+    >>> float(octafield.surface.coordinate_precision([[0, 0, 1], [0.1, 0, 0.123456789]]))  # nine digits
     1e-08)"},
     {"detect_features", R"(
-    >>> features = octafield.detect_features(generate("box"), angle=np.radians(40))
+    >>> features = octafield.surface.detect_features(generate("box"), angle=np.radians(40))
     >>> len(features.edges), len(features.corners)
     (12, 8))"},
     {"feature_graph", R"(
     >>> box = generate("box")
-    >>> octafield.feature_graph(box, [box.triangles[0, :2]])  # one edge, its ends are corners
+    >>> octafield.surface.feature_graph(box, [box.triangles[0, :2]])  # one edge, its ends are corners
     FeatureGraph(1 edge, 2 corners))"},
     {"remesh", R"(
     >>> box = generate("box")
-    >>> finer = octafield.remesh(box, octafield.detect_features(box), edge_length=0.25)
-    >>> bool(octafield.mean_edge_length(finer.mesh) < 0.3), len(finer.features.corners)
+    >>> finer = octafield.surface.remesh(box, octafield.surface.detect_features(box), edge_length=0.25)
+    >>> bool(octafield.surface.mean_edge_length(finer.mesh) < 0.3), len(finer.features.corners)
     (True, 8))"},
     {"size_field", R"(
     >>> cylinder = generate("cylinder", radius=0.05, height=3.0)
-    >>> sizes = octafield.size_field(cylinder, octafield.detect_features(cylinder))
+    >>> sizes = octafield.surface.size_field(cylinder, octafield.surface.detect_features(cylinder))
     >>> bool(sizes.lengths.min() < 0.02 < 0.1 < sizes.longest)
     True)"},
     {"tetrahedralize", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"))
-    >>> round(float(octafield.tet_volumes(tets).sum()), 12)
+    >>> tets = octafield.volume.tetrahedralize(generate("box"))
+    >>> round(float(octafield.volume.tet_volumes(tets).sum()), 12)
     1.0)"},
     {"boundary_surface", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"))
-    >>> boundary = octafield.boundary_surface(tets)
+    >>> tets = octafield.volume.tetrahedralize(generate("box"))
+    >>> boundary = octafield.volume.boundary_surface(tets)
     >>> bool((tets.vertices[boundary.vertex_map] == boundary.mesh.vertices).all())
     True)"},
     {"features_on_sheets", R"(
     >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], [[0, 1, 2, 3], [1, 4, 2, 3]])
     >>> domain = octafield.TetDomain(tets, regions=[1, 2])
-    >>> features = octafield.feature_graph(domain.surface.mesh, domain.sheets.cuts)  # the rim of the interface
-    >>> octafield.features_on_sheets(features, domain.sheets)
+    >>> features = octafield.surface.feature_graph(domain.surface.mesh, domain.sheets.cuts)  # the rim of the interface
+    >>> octafield.volume.features_on_sheets(features, domain.sheets)
     FeatureGraph(9 edges, 9 corners))"},
     {"find_locking", R"(
     >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
-    >>> octafield.find_locking(tets)  # a tet with all four vertices on the surface
+    >>> octafield.volume.find_locking(tets)  # a tet with all four vertices on the surface
     LockingElements(1 tet, 0 edges, 0 triangles))"},
     {"split_locking", R"(
     >>> tets = octafield.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
-    >>> split = octafield.split_locking(tets)
-    >>> octafield.find_locking(split.mesh)
+    >>> split = octafield.volume.split_locking(tets)
+    >>> octafield.volume.find_locking(split.mesh)
     LockingElements(0 tets, 0 edges, 0 triangles))"},
     {"signed_volume", R"(
-    >>> round(octafield.signed_volume(generate("box")), 12)
+    >>> round(octafield.surface.signed_volume(generate("box")), 12)
     1.0)"},
     {"euler_characteristic", R"(
-    >>> octafield.euler_characteristic(generate("torus"))
+    >>> octafield.surface.euler_characteristic(generate("torus"))
     0)"},
     {"mean_edge_length", R"(
-    >>> round(octafield.mean_edge_length(generate("box")), 3)  # 12 edges and 6 diagonals
+    >>> round(octafield.surface.mean_edge_length(generate("box")), 3)  # 12 edges and 6 diagonals
     1.138)"},
     {"shape_size", R"(
-    >>> round(octafield.shape_size(generate("box")) / 3**0.5, 2)  # of the diagonal
+    >>> round(octafield.surface.shape_size(generate("box")) / 3**0.5, 2)  # of the diagonal
     1.12)"},
     {"default_edge_length", R"(
-    >>> round(octafield.shape_size(generate("box")) / octafield.default_edge_length(generate("box")), 12)
+    >>> round(octafield.surface.shape_size(generate("box")) / octafield.surface.default_edge_length(generate("box")), 12)
     25.0)"},
     {"bounding_box_diagonal", R"(
-    >>> octafield.bounding_box_diagonal([[0, 0, 0], [1, 2, 2]])
+    >>> octafield.surface.bounding_box_diagonal([[0, 0, 0], [1, 2, 2]])
     3.0)"},
     {"principal_directions", R"(
     >>> cylinder = generate("cylinder")
-    >>> found = octafield.principal_directions(cylinder, octafield.detect_features(cylinder))
+    >>> found = octafield.surface.principal_directions(cylinder, octafield.surface.detect_features(cylinder))
     >>> found.curvatures.shape == (len(cylinder.triangles), 2)
     True)"},
 };
@@ -130,177 +130,177 @@ constexpr Example of_meshes[] = {
 constexpr Example of_surface_fields[] = {
     {"direction_field", R"(
     >>> ball = generate("ball")
-    >>> field = octafield.direction_field(ball, octafield.detect_features(ball))
-    >>> field.symmetry, field.converged, len(octafield.surface_singularities(ball, field).points)
+    >>> field = octafield.surface.direction_field(ball, octafield.surface.detect_features(ball))
+    >>> field.symmetry, field.converged, len(octafield.surface.surface_singularities(ball, field).points)
     (4, True, 8))"},
     {"surface_singularities", R"(
     >>> ball = generate("ball")
-    >>> field = octafield.direction_field(ball, octafield.detect_features(ball), symmetry=6)
-    >>> octafield.surface_singularities(ball, field)  # 12 points of index 1/6
+    >>> field = octafield.surface.direction_field(ball, octafield.surface.detect_features(ball), symmetry=6)
+    >>> octafield.surface.surface_singularities(ball, field)  # 12 points of index 1/6
     SurfaceSingularities(12 points, index sum 2, Euler characteristic 2))"},
     {"separatrices", R"(
     >>> ball = generate("ball")
-    >>> features = octafield.detect_features(ball)
-    >>> field = octafield.direction_field(ball, features)
-    >>> len(octafield.separatrices(ball, features, field, octafield.surface_singularities(ball, field)))
+    >>> features = octafield.surface.detect_features(ball)
+    >>> field = octafield.surface.direction_field(ball, features)
+    >>> len(octafield.surface.separatrices(ball, features, field, octafield.surface.surface_singularities(ball, field)))
     24)"},
     {"vertex_directions", R"(
     >>> torus = generate("torus")
-    >>> features = octafield.detect_features(torus)
-    >>> directions = octafield.vertex_directions(torus, features, octafield.direction_field(torus, features))
+    >>> features = octafield.surface.detect_features(torus)
+    >>> directions = octafield.surface.vertex_directions(torus, features, octafield.surface.direction_field(torus, features))
     >>> bool(np.allclose(np.linalg.norm(directions, axis=1), 1))
     True)"},
 };
 
 constexpr Example of_frames[] = {
     {"random_rotations", R"(
-    >>> octafield.random_rotations(3, seed=1).shape
+    >>> octafield.frames.random_rotations(3, seed=1).shape
     (3, 4))"},
     {"rotation_matrices", R"(
-    >>> octafield.rotation_matrices([1, 0, 0, 0])
+    >>> octafield.frames.rotation_matrices([1, 0, 0, 0])
     array([[1., 0., 0.],
            [0., 1., 0.],
            [0., 0., 1.]]))"},
     {"frame_from_axes", R"(
-    >>> q = octafield.frame_from_axes([1, 1, 0], [0, 0, 1])  # along a diagonal, normal z
-    >>> round(float(np.degrees(octafield.distance(q, [1, 0, 0, 0]))), 10)
+    >>> q = octafield.frames.frame_from_axes([1, 1, 0], [0, 0, 1])  # along a diagonal, normal z
+    >>> round(float(np.degrees(octafield.frames.distance(q, [1, 0, 0, 0]))), 10)
     45.0)"},
     {"distance", R"(
     >>> quarter = [np.cos(np.pi / 4), 0, 0, np.sin(np.pi / 4)]  # a quarter turn leaves the frame as it is
-    >>> round(octafield.distance([1, 0, 0, 0], quarter), 12)
+    >>> round(octafield.frames.distance([1, 0, 0, 0], quarter), 12)
     0.0)"},
     {"matching", R"(
-    >>> q = octafield.random_rotations(5)
-    >>> octafield.matching(q, q)  # the identity is element 0
+    >>> q = octafield.frames.random_rotations(5)
+    >>> octafield.frames.matching(q, q)  # the identity is element 0
     array([0, 0, 0, 0, 0], dtype=int32))"},
     {"slerp", R"(
-    >>> a, b = octafield.random_rotations(2)
-    >>> half = octafield.slerp(a, b, 0.5)
-    >>> bool(np.isclose(octafield.distance(a, half), octafield.distance(a, b) / 2))
+    >>> a, b = octafield.frames.random_rotations(2)
+    >>> half = octafield.frames.slerp(a, b, 0.5)
+    >>> bool(np.isclose(octafield.frames.distance(a, half), octafield.frames.distance(a, b) / 2))
     True)"},
     {"frame_mean", R"(
-    >>> q = octafield.random_rotations(1)[0]
-    >>> mean, *_ = octafield.frame_mean([q, q, q])
-    >>> bool(octafield.distance(mean, q) < 1e-7)
+    >>> q = octafield.frames.random_rotations(1)[0]
+    >>> mean, *_ = octafield.frames.frame_mean([q, q, q])
+    >>> bool(octafield.frames.distance(mean, q) < 1e-7)
     True)"},
     {"sh4_embed", R"(
-    >>> a = octafield.sh4_embed(octafield.random_rotations(10))
+    >>> a = octafield.frames.sh4_embed(octafield.frames.random_rotations(10))
     >>> a.shape, bool(np.allclose(np.linalg.norm(a, axis=1), 1))
     ((10, 9), True))"},
     {"sh4_project", R"(
-    >>> q = octafield.random_rotations(4)
-    >>> found, off = octafield.sh4_project(octafield.sh4_embed(q))
-    >>> bool((octafield.distance(found, q) < 1e-7).all()), bool((off < 1e-7).all())
+    >>> q = octafield.frames.random_rotations(4)
+    >>> found, off = octafield.frames.sh4_project(octafield.frames.sh4_embed(q))
+    >>> bool((octafield.frames.distance(found, q) < 1e-7).all()), bool((off < 1e-7).all())
     (True, True))"},
     {"convert", R"(
-    >>> a = octafield.sh4_embed(octafield.random_rotations(4))
-    >>> octafield.convert(a, "sh4", "odeco").shape
+    >>> a = octafield.frames.sh4_embed(octafield.frames.random_rotations(4))
+    >>> octafield.frames.convert(a, "sh4", "odeco").shape
     (4, 15))"},
     {"su2_embed", R"(
-    >>> q = octafield.random_rotations(1)[0]
-    >>> found, _ = octafield.su2_project(octafield.su2_embed(q))
-    >>> bool(octafield.distance(found, q) < 1e-6)
+    >>> q = octafield.frames.random_rotations(1)[0]
+    >>> found, _ = octafield.frames.su2_project(octafield.frames.su2_embed(q))
+    >>> bool(octafield.frames.distance(found, q) < 1e-6)
     True)"},
     {"odeco_embed", R"(
-    >>> octafield.odeco_embed([1, 0, 0, 0], lengths=[1, 2, 3]).shape
+    >>> octafield.frames.odeco_embed([1, 0, 0, 0], lengths=[1, 2, 3]).shape
     (15,))"},
     {"tensor4_embed", R"(
-    >>> full = octafield.tensor4_full(octafield.tensor4_embed([1, 0, 0, 0]))  # sum of x^4, y^4 and z^4
+    >>> full = octafield.frames.tensor4_full(octafield.frames.tensor4_embed([1, 0, 0, 0]))  # sum of x^4, y^4 and z^4
     >>> full.shape, round(float(full[0, 0, 0, 0]), 12)
     ((3, 3, 3, 3), 1.0))"},
 };
 
 constexpr Example of_volume_fields[] = {
     {"boundary_constraints", R"(
-    >>> domain = octafield.TetDomain(octafield.tetrahedralize(generate("box")))
+    >>> domain = octafield.TetDomain(octafield.volume.tetrahedralize(generate("box")))
     >>> surface = domain.surface.mesh
-    >>> domain = domain.with_features(octafield.detect_features(surface))
-    >>> field = octafield.direction_field(surface, domain.features)
-    >>> directions = octafield.vertex_directions(surface, domain.features, field)
-    >>> held = octafield.boundary_constraints(domain, directions)
+    >>> domain = domain.with_features(octafield.surface.detect_features(surface))
+    >>> field = octafield.surface.direction_field(surface, domain.features)
+    >>> directions = octafield.surface.vertex_directions(surface, domain.features, field)
+    >>> held = octafield.volume.boundary_constraints(domain, directions)
     >>> bool((held.kind[domain.surface.vertex_map] > 0).all())
     True)"},
     {"with_constraints", R"(
-    >>> free = octafield.BoundaryConstraints([0, 0], np.zeros((2, 3)), [[1, 0, 0, 0]] * 2, [0, 0])
-    >>> octafield.with_constraints(free, octafield.VertexConstraints([1], ["axis"], [[0, 0, 1]]))
+    >>> free = octafield.volume.BoundaryConstraints([0, 0], np.zeros((2, 3)), [[1, 0, 0, 0]] * 2, [0, 0])
+    >>> octafield.volume.with_constraints(free, octafield.volume.VertexConstraints([1], ["axis"], [[0, 0, 1]]))
     BoundaryConstraints(1 free, 1 axis, 0 fixed))"},
     {"initial_frames", R"(
     >>> problem = octafield.prepare(octafield.prepare_mesh(generate("box")))
     >>> meshed = problem.meshed
-    >>> held = octafield.boundary_constraints(len(meshed.tets.vertices), meshed.boundary, meshed.features, problem.directions)
-    >>> octafield.initial_frames(meshed.tets, held).shape == (len(meshed.tets.vertices), 4)
+    >>> held = octafield.volume.boundary_constraints(len(meshed.tets.vertices), meshed.boundary, meshed.features, problem.directions)
+    >>> octafield.volume.initial_frames(meshed.tets, held).shape == (len(meshed.tets.vertices), 4)
     True)"},
     {"smooth", R"(
     >>> result = octafield.compute_field(generate("box"), octafield.FieldOptions(edge_length=0.3))
-    >>> again = octafield.smooth(result.tets, result.constraints, result.frames, representation="su2")
+    >>> again = octafield.volume.smooth(result.tets, result.constraints, result.frames, representation="su2")
     >>> again.converged, bool(again.energy < 1e-9)  # the field of a cube is constant
     (True, True))"},
     {"diffuse", R"(
     >>> result = octafield.compute_field(generate("box"), octafield.FieldOptions(edge_length=0.3))
-    >>> start = octafield.random_rotations(len(result.frames))
-    >>> bool(octafield.diffuse(result.tets, result.constraints, start).energy < octafield.dirichlet_energy(result.tets, start))
+    >>> start = octafield.frames.random_rotations(len(result.frames))
+    >>> bool(octafield.volume.diffuse(result.tets, result.constraints, start).energy < octafield.volume.dirichlet_energy(result.tets, start))
     True)"},
     {"frame_field", R"(
     >>> result = octafield.compute_field(generate("box"), octafield.FieldOptions(edge_length=0.3))
-    >>> found = octafield.frame_field(result.tets, result.constraints, seed=1)  # another, random start
+    >>> found = octafield.volume.frame_field(result.tets, result.constraints, seed=1)  # another, random start
     >>> bool(found.smooth.energy < 1e-9)
     True)"},
     {"tet_sampling", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"))
-    >>> len(octafield.tet_sampling(tets)) == len(tets.tets)
+    >>> tets = octafield.volume.tetrahedralize(generate("box"))
+    >>> len(octafield.volume.tet_sampling(tets)) == len(tets.tets)
     True)"},
     {"Sampling", R"(
     >>> import scipy.sparse
     >>> path = scipy.sparse.csr_array([[1, -1, 0], [-1, 2, -1], [0, -1, 1.0]])  # three sites in a row
-    >>> sampling = octafield.Sampling(path, [1, 1, 1], body_radius=1, edge_length=1, size=2)
-    >>> octafield.dirichlet_energy(sampling, octafield.random_rotations(1).repeat(3, axis=0))
+    >>> sampling = octafield.volume.Sampling(path, [1, 1, 1], body_radius=1, edge_length=1, size=2)
+    >>> octafield.volume.dirichlet_energy(sampling, octafield.frames.random_rotations(1).repeat(3, axis=0))
     0.0)"},
     {"singular_graph", R"(
     >>> result = octafield.compute_field(generate("ball"), octafield.FieldOptions(edge_length=0.3))
-    >>> graph = octafield.singular_graph(result.tets, result.frames)
+    >>> graph = octafield.volume.singular_graph(result.tets, result.frames)
     >>> len(graph.points) == len(graph.triangles) + len(graph.nodes), graph.length > 8  # about a cube's edges
     (True, True))"},
     {"dirichlet_energy", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"))
+    >>> tets = octafield.volume.tetrahedralize(generate("box"))
     >>> same = np.tile([1.0, 0, 0, 0], (len(tets.vertices), 1))
-    >>> octafield.dirichlet_energy(tets, same) < 1e-20
+    >>> octafield.volume.dirichlet_energy(tets, same) < 1e-20
     True)"},
     {"stiffness", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"))
-    >>> L = octafield.stiffness(tets)  # a scipy.sparse matrix
+    >>> tets = octafield.volume.tetrahedralize(generate("box"))
+    >>> L = octafield.volume.stiffness(tets)  # a scipy.sparse matrix
     >>> x = tets.vertices[:, 0]
     >>> round(float(x @ L @ x), 12)  # the integral of |grad x|^2 is the volume
     1.0)"},
     {"mass", R"(
-    >>> round(float(octafield.mass(octafield.tetrahedralize(generate("box"))).sum()), 12)
+    >>> round(float(octafield.volume.mass(octafield.volume.tetrahedralize(generate("box"))).sum()), 12)
     1.0)"},
     {"lumped_mass", R"(
-    >>> round(float(octafield.lumped_mass(octafield.tetrahedralize(generate("box"))).sum()), 12)
+    >>> round(float(octafield.volume.lumped_mass(octafield.volume.tetrahedralize(generate("box"))).sum()), 12)
     1.0)"},
     {"spread_points", R"(
-    >>> octafield.spread_points(octafield.tetrahedralize(generate("box")), 5).shape
+    >>> octafield.volume.spread_points(octafield.volume.tetrahedralize(generate("box")), 5).shape
     (5, 3))"},
     {"locate_points", R"(
-    >>> octafield.locate_points(octafield.tetrahedralize(generate("box")), [[0.5, 0.5, 0.5], [9, 9, 9]])
+    >>> octafield.volume.locate_points(octafield.volume.tetrahedralize(generate("box")), [[0.5, 0.5, 0.5], [9, 9, 9]])
     LocatedPoints(2 points, 1 outside))"},
     {"interpolate_frames", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"))
-    >>> octafield.interpolate_frames(tets, octafield.random_rotations(len(tets.vertices)), [[0.5, 0.5, 0.5], [9, 9, 9]])
+    >>> tets = octafield.volume.tetrahedralize(generate("box"))
+    >>> octafield.volume.interpolate_frames(tets, octafield.frames.random_rotations(len(tets.vertices)), [[0.5, 0.5, 0.5], [9, 9, 9]])
     SampledFrames(2 frames, 1 outside))"},
     {"comb_vertices", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"))
-    >>> mixed = octafield.octahedral_group()[np.arange(len(tets.vertices)) % 24]  # one frame, all labels
-    >>> int(octafield.comb_vertices(tets, mixed).agree.min()), int(octafield.axes_agree(tets, mixed).min())
+    >>> tets = octafield.volume.tetrahedralize(generate("box"))
+    >>> mixed = octafield.frames.octahedral_group()[np.arange(len(tets.vertices)) % 24]  # one frame, all labels
+    >>> int(octafield.volume.comb_vertices(tets, mixed).agree.min()), int(octafield.volume.axes_agree(tets, mixed).min())
     (1, 0))"},
     {"frame_streamlines", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"))
+    >>> tets = octafield.volume.tetrahedralize(generate("box"))
     >>> same = np.tile([1.0, 0, 0, 0], (len(tets.vertices), 1))
-    >>> lines = octafield.frame_streamlines(tets, same, [[0.5, 0.5, 0.4]])
+    >>> lines = octafield.volume.frame_streamlines(tets, same, [[0.5, 0.5, 0.4]])
     >>> [round(line.length, 9) for line in lines]  # along x, y and z
     [1.0, 1.0, 1.0])"},
     {"write_field", R"(
-    >>> tets = octafield.tetrahedralize(generate("box"))
-    >>> octafield.write_field("field.vtu", tets, octafield.random_rotations(len(tets.vertices)), {"made by": "a test"}))"},
+    >>> tets = octafield.volume.tetrahedralize(generate("box"))
+    >>> octafield.volume.write_field("field.vtu", tets, octafield.frames.random_rotations(len(tets.vertices)), {"made by": "a test"}))"},
 };
 
 // What pybind11 does itself when an overload is added.

@@ -93,7 +93,7 @@ void bind_lines(py::module_& m) {
         "closing_distance"_a = defaults.closing_distance, "threads"_a = 0,
         "Curves along the axes of (n, 4) frames at the vertices of a tet mesh, as a list of FrameStreamline: one per "
         "point along the axis nearest to its direction, or three, one per axis, where no directions are given. "
-        "max_length: input unit, from the seed each way, 0 means 4 times octafield.shape_size; both_ways: against "
+        "max_length: input unit, from the seed each way, 0 means 4 times octafield.surface.shape_size; both_ways: against "
         "the direction as well; closing_distance: a curve that comes back to its seed so near is closed, 0 means a "
         "tenth of an edge. A curve ends at the boundary and a tet before a singular curve that turns its axis. The "
         "same bits at any thread count. Raises InvalidInput naming the points outside the mesh.");

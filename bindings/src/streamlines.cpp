@@ -74,7 +74,7 @@ void bind_seeded(py::module_& m) {
         "stop_at_features"_a = defaults.stop_at_features, "singular_radius"_a = defaults.singular_radius,
         "One curve along the field per seed, as a list of Streamline. Seed i lies in triangles[i] and takes, of the N "
         "directions there, the one nearest to directions[i]; weights: (n, 3) barycentric, the centroids if left out. "
-        "max_length: input unit, from the seed each way, 0 means 4 times octafield.shape_size; both_ways: against "
+        "max_length: input unit, from the seed each way, 0 means 4 times octafield.surface.shape_size; both_ways: against "
         "the direction as well; singular_radius: a curve ends that near to a singular point, 0 means half the mean "
         "edge length. Raises InvalidInput naming the seeds that are outside the mesh or have no direction in their "
         "triangle's plane.");
@@ -131,7 +131,7 @@ void bind_even(py::module_& m) {
         "singular_radius"_a = defaults.tracing.singular_radius, "progress"_a = py::none(),
         "Curves that cover the surface at an even distance, one family per direction (2 for crosses; after Jobard and "
         "Lefer 1997), as a list of Streamline. spacing: between neighbours, input unit, 0 means 1/60 of "
-        "octafield.shape_size; stop_ratio: a curve ends nearer to another one than this part of it, in (0, 1]; min_length: "
+        "octafield.surface.shape_size; stop_ratio: a curve ends nearer to another one than this part of it, in (0, 1]; min_length: "
         "shorter curves are dropped unless closed, 0 means the spacing; the others as for streamlines. Raises "
         "InvalidInput, Cancelled.");
 }

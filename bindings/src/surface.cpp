@@ -53,8 +53,8 @@ void bind_elementary(py::module_& m) {
                 "one triangle.",
                 true);
     def_of_mesh(m, "default_edge_length", default_edge_length,
-                "The length of octafield.remesh where none is given and the shape asks for no shorter one "
-                "(octafield.size_field), input unit: 1/25 of octafield.shape_size. Needs at least one triangle.",
+                "The length of octafield.surface.remesh where none is given and the shape asks for no shorter one "
+                "(octafield.surface.size_field), input unit: 1/25 of octafield.surface.shape_size. Needs at least one triangle.",
                 true);
     def_of_mesh(m, "euler_characteristic", euler_characteristic,
                 "V - E + F over the vertices in use. Raises GeometryError where edge_topology does.");
@@ -241,8 +241,8 @@ void bind_remesh(py::module_& m) {
         "mesh"_a, "features"_a, py::kw_only(), "progress"_a = py::none(),
         "Isotropic remeshing, features kept (Botsch, Kobbelt 2004), as a RemeshResult. The input must be valid, and the "
         "result is, with the same topology. edge_length: input unit; 0 means lengths that fit the shape "
-        "(octafield.size_field, with max_cells), lowered where triangles would cross, or the new surface would leave "
-        "the input's by more than 1/400 of octafield.shape_size or change its volume by more than 1 %. A length that "
+        "(octafield.surface.size_field, with max_cells), lowered where triangles would cross, or the new surface would leave "
+        "the input's by more than 1/400 of octafield.surface.shape_size or change its volume by more than 1 %. A length that "
         "is given is shortened only where the surface would not be sound; the input's triangles are kept where none "
         "is. iterations: rounds, at least 1. max_cells: without a length, triangles (and tets inside) to be expected.");
     list_options<RemeshOptions>(m, "remesh");
@@ -257,10 +257,10 @@ void bind_remesh(py::module_& m) {
             });
         },
         "mesh"_a, "features"_a,
-        "Edge lengths that fit a surface, as a SizeField: what octafield.remesh starts from where no length is given. "
+        "Edge lengths that fit a surface, as a SizeField: what octafield.surface.remesh starts from where no length is given. "
         "At each vertex angle (radians, the turn along one edge) over the curvature, twice the width of walls, gaps "
         "and strips between feature curves, within shortest (0: 1/16 of longest) and longest (0: "
-        "octafield.default_edge_length), changing by at most growth per distance. Where more than max_cells triangles "
+        "octafield.surface.default_edge_length), changing by at most growth per distance. Where more than max_cells triangles "
         "or tets would be needed, all lengths are multiplied by one number, and a note says so. The mesh must be "
         "valid. Raises InvalidInput, GeometryError.");
     list_options<SizeFieldOptions>(m, "size_field");

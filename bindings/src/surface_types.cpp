@@ -97,7 +97,7 @@ void bind_results(py::module_& m) {
         .field("deviation", &RemeshResult::deviation,
                "Input unit: no vertex of the input is farther from the new surface.")
         .field("inner_length", &RemeshResult::inner_length,
-               "Of edges far inside (octafield.tetrahedralize, edge_length), input unit; 0: the mean of the surface's.")
+               "Of edges far inside (octafield.volume.tetrahedralize, edge_length), input unit; 0: the mean of the surface's.")
         .finish([](const RemeshResult& r) { return repr_mesh(r.mesh) + ", " + repr_features(r.features); });
 }
 

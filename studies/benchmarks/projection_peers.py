@@ -32,7 +32,10 @@ def main() -> None:
     generator = np.random.default_rng(arguments.seed)
     directions = generator.normal(size=(arguments.count, 9))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    near = octafield.sh4_embed(octafield.random_rotations(arguments.count, seed=arguments.seed)) + 0.17 * directions
+    near = (
+        octafield.frames.sh4_embed(octafield.frames.random_rotations(arguments.count, seed=arguments.seed))
+        + 0.17 * directions
+    )
     print(
         f"{'input':>18} {'mouette/s':>10} {'octafield/s, each':>18} {'octafield/s, batch':>19} {'ratio, batch':>13}"
         f" {'farther':>8}"
@@ -40,12 +43,12 @@ def main() -> None:
     for name, v in (("random direction", directions), ("frame and noise", near)):
         theirs = []
         peer = rate(lambda: theirs.extend(project_to_frame(Vec(row))[1] for row in v), len(v))
-        each = rate(lambda: [octafield.sh4_project(row, threads=1) for row in v], len(v))
+        each = rate(lambda: [octafield.frames.sh4_project(row, threads=1) for row in v], len(v))
         large = np.tile(v, (max(1, 100000 // len(v)), 1))
-        batch = rate(lambda: octafield.sh4_project(large, threads=1), len(large))
-        distances = octafield.sh4_project(v, threads=1)[1]
+        batch = rate(lambda: octafield.frames.sh4_project(large, threads=1), len(large))
+        distances = octafield.frames.sh4_project(v, threads=1)[1]
         # mouette's vectors are of the same harmonics in the same order: its result is a frame of ours.
-        off = octafield.sh4_project(np.array(theirs), threads=1)[1].max()
+        off = octafield.frames.sh4_project(np.array(theirs), threads=1)[1].max()
         if off > 1e-5:
             raise SystemExit(f"mouette's results are not frames in octafield's convention (off by {off:.1e})")
         farther = np.sum(np.linalg.norm(v - np.array(theirs), axis=1) > distances + 1e-6)

@@ -31,7 +31,7 @@ def bent_cube(n: int) -> tuple[octafield.TetMesh, np.ndarray]:
         if np.linalg.det(np.eye(3)[list(order)]) < 0:
             tets[k] = tets[k][:, [0, 2, 1, 3]]
     points = np.column_stack([(1 + x) * np.cos(ANGLE * y), (1 + x) * np.sin(ANGLE * y), z])
-    return octafield.TetMesh(points, np.concatenate(tets)), octafield.quaternion_exp(
+    return octafield.TetMesh(points, np.concatenate(tets)), octafield.frames.quaternion_exp(
         np.column_stack([0 * x, 0 * x, ANGLE * y])
     )
 
@@ -42,7 +42,7 @@ def main() -> None:
     for n in map(int, sys.argv[1:] or ("8", "16", "32", "48")):
         mesh, frames = bent_cube(n)
         cells = [str(n), f"{len(mesh.tets):,}"]
-        for scale in (octafield.isotropic_scale, octafield.axis_scales):
+        for scale in (octafield.volume.isotropic_scale, octafield.volume.axis_scales):
             start = time.process_time()
             found = scale(mesh, frames, threads=1)
             cells += [str(found.iterations), f"{time.process_time() - start:.2f}"]

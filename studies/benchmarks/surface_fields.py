@@ -44,7 +44,7 @@ LARGEST_MESHED = 110_000  # finer disks and parts are split
 
 def split(mesh: octafield.TriangleMesh) -> octafield.TriangleMesh:
     """Every triangle in four."""
-    topology = octafield.edge_topology(mesh)
+    topology = octafield.surface.edge_topology(mesh)
     points, (a, b, c) = np.array(mesh.vertices), np.array(mesh.triangles).T
     x, y, z = len(points) + np.array(topology.triangle_edges).T
     middles = points[np.array(topology.edges)].mean(axis=1)
@@ -55,8 +55,8 @@ def split(mesh: octafield.TriangleMesh) -> octafield.TriangleMesh:
 def part(path: Path, size: int) -> octafield.TriangleMesh:
     """The file's surface, remeshed to about `size` triangles."""
     mesh = octafield.read_surface(path)
-    edge = np.sqrt(4 / np.sqrt(3) * float(np.sum(octafield.triangle_areas(mesh))) / size)
-    return octafield.remesh(mesh, octafield.detect_features(mesh), edge_length=edge).mesh
+    edge = np.sqrt(4 / np.sqrt(3) * float(np.sum(octafield.surface.triangle_areas(mesh))) / size)
+    return octafield.surface.remesh(mesh, octafield.surface.detect_features(mesh), edge_length=edge).mesh
 
 
 def surface(name: str, size: int, file: Path | None) -> octafield.TriangleMesh:
@@ -70,9 +70,12 @@ def surface(name: str, size: int, file: Path | None) -> octafield.TriangleMesh:
 
 
 def common_energy(mesh: octafield.TriangleMesh, features: octafield.FeatureGraph, directions: np.ndarray) -> float:
-    topology = octafield.edge_topology(mesh)
+    topology = octafield.surface.edge_topology(mesh)
     edges, sides, points = (np.array(x) for x in (topology.edges, topology.edge_triangles, mesh.vertices))
-    normals, areas = np.array(octafield.triangle_normals(mesh)), np.array(octafield.triangle_areas(mesh))
+    normals, areas = (
+        np.array(octafield.surface.triangle_normals(mesh)),
+        np.array(octafield.surface.triangle_areas(mesh)),
+    )
     along = points[edges[:, 1]] - points[edges[:, 0]]
 
     def crosses(t: np.ndarray) -> np.ndarray:  # of triangle t, from the edge's direction; 0 where there is no triangle
@@ -151,7 +154,7 @@ def main() -> None:
     for name in names:
         for size in sizes:
             mesh = surface(name, size, arguments.part)
-            features = octafield.detect_features(mesh)
+            features = octafield.surface.detect_features(mesh)
             for method, python in pythons.items():
                 if method in PEERS and size > 200_000 or method == HELD and len(features.edges):
                     continue

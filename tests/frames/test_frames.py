@@ -52,140 +52,148 @@ def real_harmonics_4(direction):
 
 
 def test_rotation_matrices_agree_with_scipy(q):
-    np.testing.assert_allclose(of.rotation_matrices(q), Rotation.from_quat(q[:, [1, 2, 3, 0]]).as_matrix(), atol=1e-14)
+    np.testing.assert_allclose(
+        of.frames.rotation_matrices(q), Rotation.from_quat(q[:, [1, 2, 3, 0]]).as_matrix(), atol=1e-14
+    )
 
 
 def test_exp_agrees_with_scipy_and_log_inverts_it(q):
     vectors = Rotation.from_quat(q[:, [1, 2, 3, 0]]).as_rotvec()
-    result = of.quaternion_exp(vectors)
+    result = of.frames.quaternion_exp(vectors)
     expected = Rotation.from_rotvec(vectors).as_quat()[:, WXYZ]
     np.testing.assert_allclose(np.abs(np.sum(result * expected, axis=1)), 1, atol=1e-14)
-    np.testing.assert_allclose(of.quaternion_log(result), vectors, atol=1e-9)
+    np.testing.assert_allclose(of.frames.quaternion_log(result), vectors, atol=1e-9)
 
 
 def test_random_rotations_are_uniform_and_repeatable():
-    frames = of.random_rotations(20000, seed=7)
+    frames = of.frames.random_rotations(20000, seed=7)
     np.testing.assert_allclose(np.linalg.norm(frames, axis=1), 1, atol=1e-14)
-    np.testing.assert_array_equal(frames, of.random_rotations(20000, seed=7))
-    assert not np.array_equal(frames, of.random_rotations(20000, seed=8))
-    assert np.abs(of.rotation_matrices(frames).mean(axis=0)).max() < 0.02
+    np.testing.assert_array_equal(frames, of.frames.random_rotations(20000, seed=7))
+    assert not np.array_equal(frames, of.frames.random_rotations(20000, seed=8))
+    assert np.abs(of.frames.rotation_matrices(frames).mean(axis=0)).max() < 0.02
 
 
 def test_frame_from_axes_keeps_the_normal_and_follows_the_direction(q):
-    direction, normal = of.rotation_matrices(q)[:, :, 0], of.rotation_matrices(q[::-1])[:, :, 2]
-    axes = of.rotation_matrices(of.frame_from_axes(direction, 3 * normal))
+    direction, normal = of.frames.rotation_matrices(q)[:, :, 0], of.frames.rotation_matrices(q[::-1])[:, :, 2]
+    axes = of.frames.rotation_matrices(of.frames.frame_from_axes(direction, 3 * normal))
     np.testing.assert_allclose(axes[:, :, 2], normal, atol=1e-12)
     assert (np.sum(axes[:, :, 0] * direction, axis=1) > 0).all()
     assert np.allclose(np.linalg.det(np.stack([axes[:, :, 0], direction, normal], axis=1)), 0, atol=1e-12)
 
 
 def test_octahedral_group_is_the_group_of_the_cube():
-    group = of.octahedral_group()
-    matrices = of.rotation_matrices(group)
+    group = of.frames.octahedral_group()
+    matrices = of.frames.rotation_matrices(group)
     assert group.shape == (24, 4) and (group[:, 0] >= 0).all()
     assert set(np.round(matrices).ravel()) == {-1, 0, 1} and np.abs(matrices - np.round(matrices)).max() < 1e-15
     assert len({m.round().astype(int).tobytes() for m in matrices}) == 24
-    np.testing.assert_array_equal(of.binary_octahedral_group(), np.concatenate([group, -group]))
+    np.testing.assert_array_equal(of.frames.binary_octahedral_group(), np.concatenate([group, -group]))
 
 
 def test_product_and_inverse_tables_match_matrix_products():
-    matrices = of.rotation_matrices(of.octahedral_group())
-    table = of.octahedral_product_table()
+    matrices = of.frames.rotation_matrices(of.frames.octahedral_group())
+    table = of.frames.octahedral_product_table()
     assert table.dtype == np.int32 and table.shape == (24, 24)
     np.testing.assert_allclose(matrices[table], np.einsum("aij,bjk->abik", matrices, matrices), atol=1e-14)
-    assert (table[np.arange(24), of.octahedral_inverse_table()] == 0).all()
+    assert (table[np.arange(24), of.frames.octahedral_inverse_table()] == 0).all()
 
 
 def test_distance_is_the_smallest_angle_over_the_group(q):
-    distances = of.distance(q, q[::-1])
+    distances = of.frames.distance(q, q[::-1])
     np.testing.assert_allclose(distances, brute_force_distance(q, q[::-1]), atol=1e-7)
     assert distances.max() <= np.radians(62.7994 + 1e-4)
 
 
 def test_matching_brings_the_frames_closest(q):
-    matches = of.matching(q, q[::-1])
+    matches = of.frames.matching(q, q[::-1])
     assert matches.dtype == np.int32
-    moved = multiply(q, of.octahedral_group()[matches])
+    moved = multiply(q, of.frames.octahedral_group()[matches])
     angle = 2 * np.arccos(np.minimum(np.abs(np.sum(moved * q[::-1], axis=1)), 1))
     np.testing.assert_allclose(angle, brute_force_distance(q, q[::-1]), atol=1e-7)
 
 
 def test_closest_representative_is_the_same_frame_near_the_reference(q):
-    result = of.closest_representative(q, q[::-1])
+    result = of.frames.closest_representative(q, q[::-1])
     assert (np.sum(result * q[::-1], axis=1) > 0).all()
     np.testing.assert_allclose(
-        2 * np.arccos(np.minimum(np.sum(result * q[::-1], axis=1), 1)), of.distance(q, q[::-1]), atol=1e-7
+        2 * np.arccos(np.minimum(np.sum(result * q[::-1], axis=1), 1)), of.frames.distance(q, q[::-1]), atol=1e-7
     )
-    np.testing.assert_allclose(of.distance(result, q), 0, atol=1e-7)
+    np.testing.assert_allclose(of.frames.distance(result, q), 0, atol=1e-7)
 
 
 def test_sh4_embedding_is_the_sum_of_spherical_harmonics(q):
-    axes = of.rotation_matrices(q[:50])
+    axes = of.frames.rotation_matrices(q[:50])
     expected = [np.sqrt(16 * np.pi / 189) * sum(real_harmonics_4(r[:, k]) for k in range(3)) for r in axes]
-    np.testing.assert_allclose(of.sh4_embed(q[:50]), expected, atol=1e-13)
+    np.testing.assert_allclose(of.frames.sh4_embed(q[:50]), expected, atol=1e-13)
 
 
 def test_sh4_differential_is_the_derivative_of_the_embedding(q):
     step = 1e-5
-    differential = of.sh4_differential(q[:100])
+    differential = of.frames.sh4_differential(q[:100])
     for k in range(3):
-        turn = of.quaternion_exp(step * np.eye(3)[k])
-        back = of.quaternion_exp(-step * np.eye(3)[k])
-        numeric = (of.sh4_embed(multiply(turn, q[:100])) - of.sh4_embed(multiply(back, q[:100]))) / (2 * step)
+        turn = of.frames.quaternion_exp(step * np.eye(3)[k])
+        back = of.frames.quaternion_exp(-step * np.eye(3)[k])
+        numeric = (of.frames.sh4_embed(multiply(turn, q[:100])) - of.frames.sh4_embed(multiply(back, q[:100]))) / (
+            2 * step
+        )
         np.testing.assert_allclose(differential[:, :, k], numeric, atol=1e-8)
 
 
 def test_sh4_projection_finds_the_nearest_frame(q):
     rng = np.random.default_rng(2)
     vectors = rng.normal(size=(60, 9))
-    frames, distances = of.sh4_project(vectors)
-    np.testing.assert_allclose(distances, np.linalg.norm(vectors - of.sh4_embed(frames), axis=1), rtol=1e-12)
-    others = np.linalg.norm(vectors[:, None] - of.sh4_embed(q)[None], axis=2)
+    frames, distances = of.frames.sh4_project(vectors)
+    np.testing.assert_allclose(distances, np.linalg.norm(vectors - of.frames.sh4_embed(frames), axis=1), rtol=1e-12)
+    others = np.linalg.norm(vectors[:, None] - of.frames.sh4_embed(q)[None], axis=2)
     assert (distances[:, None] <= others).all()
-    again, _ = of.sh4_project(vectors, frames)
-    assert of.distance(frames, again).max() < 1e-7
+    again, _ = of.frames.sh4_project(vectors, frames)
+    assert of.frames.distance(frames, again).max() < 1e-7
 
 
 def test_projection_of_an_embedding_is_the_frame(q):
-    frames, distances = of.sh4_project(of.sh4_embed(q))
-    assert of.distance(frames, q).max() < 1e-7 and distances.max() < 1e-7
+    frames, distances = of.frames.sh4_project(of.frames.sh4_embed(q))
+    assert of.frames.distance(frames, q).max() < 1e-7 and distances.max() < 1e-7
 
 
 def test_registry_leads_to_the_module_functions(q):
-    entry = of.representations["sh4"]
+    entry = of.frames.representations["sh4"]
     assert entry.name == "sh4" and entry.dimension == 9 and repr(entry) == "Representation(sh4, dimension 9)"
-    np.testing.assert_array_equal(entry.embed(q), of.sh4_embed(q))
-    np.testing.assert_array_equal(entry.differential(q), of.sh4_differential(q))
-    np.testing.assert_array_equal(entry.project(entry.embed(q[:9]))[0], of.sh4_project(of.sh4_embed(q[:9]))[0])
+    np.testing.assert_array_equal(entry.embed(q), of.frames.sh4_embed(q))
+    np.testing.assert_array_equal(entry.differential(q), of.frames.sh4_differential(q))
+    np.testing.assert_array_equal(
+        entry.project(entry.embed(q[:9]))[0], of.frames.sh4_project(of.frames.sh4_embed(q[:9]))[0]
+    )
 
 
 def test_a_single_input_gives_a_single_result(q):
     one = q[0]
-    assert of.sh4_embed(one).shape == (9,) and of.sh4_differential(one).shape == (9, 3)
-    assert of.rotation_matrices(one).shape == (3, 3) and of.quaternion_log(one).shape == (3,)
-    assert of.quaternion_exp([0, 0, 1]).shape == (4,) and of.closest_representative(one, q[1]).shape == (4,)
-    assert isinstance(of.distance(one, q[1]), float) and isinstance(of.matching(one, q[1]), int)
-    frame, distance = of.sh4_project(of.sh4_embed(one))
+    assert of.frames.sh4_embed(one).shape == (9,) and of.frames.sh4_differential(one).shape == (9, 3)
+    assert of.frames.rotation_matrices(one).shape == (3, 3) and of.frames.quaternion_log(one).shape == (3,)
+    assert of.frames.quaternion_exp([0, 0, 1]).shape == (4,) and of.frames.closest_representative(one, q[1]).shape == (
+        4,
+    )
+    assert isinstance(of.frames.distance(one, q[1]), float) and isinstance(of.frames.matching(one, q[1]), int)
+    frame, distance = of.frames.sh4_project(of.frames.sh4_embed(one))
     assert frame.shape == (4,) and isinstance(distance, float)
-    assert of.sh4_embed(q[:1]).shape == (1, 9)
+    assert of.frames.sh4_embed(q[:1]).shape == (1, 9)
 
 
 def test_a_single_frame_goes_with_every_row_of_the_other(q):
-    np.testing.assert_array_equal(of.distance(q[0], q), of.distance(np.repeat(q[:1], len(q), axis=0), q))
-    np.testing.assert_array_equal(of.matching(q, q[0]), of.matching(q, np.repeat(q[:1], len(q), axis=0)))
+    np.testing.assert_array_equal(of.frames.distance(q[0], q), of.frames.distance(np.repeat(q[:1], len(q), axis=0), q))
+    np.testing.assert_array_equal(of.frames.matching(q, q[0]), of.frames.matching(q, np.repeat(q[:1], len(q), axis=0)))
 
 
 @pytest.mark.parametrize(
     "call",
     [
-        lambda q, t: of.sh4_embed(q, threads=t),
-        lambda q, t: of.sh4_differential(q, threads=t),
-        lambda q, t: np.column_stack(of.sh4_project(of.sh4_embed(q) + 0.1, threads=t)),
-        lambda q, t: of.distance(q, q[::-1], threads=t),
-        lambda q, t: of.matching(q, q[::-1], threads=t),
-        lambda q, t: of.closest_representative(q, q[::-1], threads=t),
-        lambda q, t: of.quaternion_log(q, threads=t),
-        lambda q, t: of.rotation_matrices(q, threads=t),
+        lambda q, t: of.frames.sh4_embed(q, threads=t),
+        lambda q, t: of.frames.sh4_differential(q, threads=t),
+        lambda q, t: np.column_stack(of.frames.sh4_project(of.frames.sh4_embed(q) + 0.1, threads=t)),
+        lambda q, t: of.frames.distance(q, q[::-1], threads=t),
+        lambda q, t: of.frames.matching(q, q[::-1], threads=t),
+        lambda q, t: of.frames.closest_representative(q, q[::-1], threads=t),
+        lambda q, t: of.frames.quaternion_log(q, threads=t),
+        lambda q, t: of.frames.rotation_matrices(q, threads=t),
     ],
 )
 def test_results_have_the_same_bits_at_any_thread_count(q, call):
@@ -193,12 +201,14 @@ def test_results_have_the_same_bits_at_any_thread_count(q, call):
 
 
 def test_empty_input_gives_empty_output():
-    assert of.sh4_embed([]).shape == (0, 9) and of.distance(np.zeros((0, 4)), np.zeros((0, 4))).shape == (0,)
-    assert of.random_rotations(0).shape == (0, 4)
+    assert of.frames.sh4_embed([]).shape == (0, 9) and of.frames.distance(np.zeros((0, 4)), np.zeros((0, 4))).shape == (
+        0,
+    )
+    assert of.frames.random_rotations(0).shape == (0, 4)
 
 
 def test_nearly_unit_quaternions_are_normalised():
-    assert of.sh4_embed([1 + 1e-7, 0, 0, 0]) == pytest.approx(of.sh4_embed([1, 0, 0, 0]), abs=1e-15)
+    assert of.frames.sh4_embed([1 + 1e-7, 0, 0, 0]) == pytest.approx(of.frames.sh4_embed([1, 0, 0, 0]), abs=1e-15)
 
 
 def test_the_first_row_that_is_not_unit_is_named(q):
@@ -206,38 +216,38 @@ def test_the_first_row_that_is_not_unit_is_named(q):
     bad[17] *= 1.01
     bad[40] = 0
     with pytest.raises(of.InvalidInput, match="row 17") as caught:
-        of.sh4_embed(bad)
+        of.frames.sh4_embed(bad)
     assert caught.value.kind == "not_unit" and caught.value.elements == [17]
 
 
 @pytest.mark.parametrize(
     "call",
     [
-        lambda: of.sh4_embed(np.ones((3, 3))),
-        lambda: of.sh4_embed(np.ones(5)),
-        lambda: of.sh4_embed(np.ones((2, 2, 4))),
-        lambda: of.sh4_embed(1.0),
-        lambda: of.sh4_embed("word"),
-        lambda: of.sh4_embed(None),
-        lambda: of.sh4_embed([[1, 0], [1]]),
-        lambda: of.sh4_embed(np.array([1j, 0, 0, 0])),
-        lambda: of.sh4_embed([np.nan, 0, 0, 0]),
-        lambda: of.sh4_embed([1, 0, 0, 0], threads=-1),
-        lambda: of.sh4_differential(np.ones((3, 9))),
-        lambda: of.sh4_project(np.ones((2, 4))),
-        lambda: of.sh4_project(np.full(9, np.inf)),
-        lambda: of.sh4_project(np.ones((2, 9)), np.eye(4)[[0, 0, 0]]),
-        lambda: of.sh4_project(np.ones(9), [2, 0, 0, 0]),
-        lambda: of.distance(np.eye(4)[:2], np.eye(4)[:3]),
-        lambda: of.matching([1, 0, 0, 0], [1, 0, 0]),
-        lambda: of.closest_representative([1, 0, 0, 0], [0, 0, 0, 0]),
-        lambda: of.quaternion_exp([1, 2]),
-        lambda: of.quaternion_exp([np.nan, 0, 0]),
-        lambda: of.quaternion_log([1, 1, 1, 1]),
-        lambda: of.rotation_matrices(np.ones((4, 3))),
-        lambda: of.random_rotations(-1),
-        lambda: of.frame_from_axes([1, 0, 0], [0, 0, 0]),
-        lambda: of.frame_from_axes([1, 0], [0, 0, 1]),
+        lambda: of.frames.sh4_embed(np.ones((3, 3))),
+        lambda: of.frames.sh4_embed(np.ones(5)),
+        lambda: of.frames.sh4_embed(np.ones((2, 2, 4))),
+        lambda: of.frames.sh4_embed(1.0),
+        lambda: of.frames.sh4_embed("word"),
+        lambda: of.frames.sh4_embed(None),
+        lambda: of.frames.sh4_embed([[1, 0], [1]]),
+        lambda: of.frames.sh4_embed(np.array([1j, 0, 0, 0])),
+        lambda: of.frames.sh4_embed([np.nan, 0, 0, 0]),
+        lambda: of.frames.sh4_embed([1, 0, 0, 0], threads=-1),
+        lambda: of.frames.sh4_differential(np.ones((3, 9))),
+        lambda: of.frames.sh4_project(np.ones((2, 4))),
+        lambda: of.frames.sh4_project(np.full(9, np.inf)),
+        lambda: of.frames.sh4_project(np.ones((2, 9)), np.eye(4)[[0, 0, 0]]),
+        lambda: of.frames.sh4_project(np.ones(9), [2, 0, 0, 0]),
+        lambda: of.frames.distance(np.eye(4)[:2], np.eye(4)[:3]),
+        lambda: of.frames.matching([1, 0, 0, 0], [1, 0, 0]),
+        lambda: of.frames.closest_representative([1, 0, 0, 0], [0, 0, 0, 0]),
+        lambda: of.frames.quaternion_exp([1, 2]),
+        lambda: of.frames.quaternion_exp([np.nan, 0, 0]),
+        lambda: of.frames.quaternion_log([1, 1, 1, 1]),
+        lambda: of.frames.rotation_matrices(np.ones((4, 3))),
+        lambda: of.frames.random_rotations(-1),
+        lambda: of.frames.frame_from_axes([1, 0, 0], [0, 0, 0]),
+        lambda: of.frames.frame_from_axes([1, 0], [0, 0, 1]),
     ],
 )
 def test_wrong_input_is_refused(call):

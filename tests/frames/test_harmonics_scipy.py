@@ -56,30 +56,30 @@ def sphere_rule(points: int) -> tuple[np.ndarray, np.ndarray]:
 def test_values_are_scipys(degree):
     poles = [[0, 0, 1], [0, 0, -1], [1, 0, 0], [0, -1, 0], [1e-7, 0, np.sqrt(1 - 1e-14)]]
     x = np.concatenate([random_directions(200), poles])
-    np.testing.assert_allclose(octafield.harmonics_evaluate(degree, x), scipy_harmonics(degree, x), atol=2e-14)
+    np.testing.assert_allclose(octafield.frames.harmonics_evaluate(degree, x), scipy_harmonics(degree, x), atol=2e-14)
 
 
 def test_the_sign_convention_is_the_documented_one():
     x = np.array([0.8, 0.0, 0.6])
-    y = octafield.harmonics_evaluate(2, x)
+    y = octafield.frames.harmonics_evaluate(2, x)
     assert y[2 + 1] > 0  # Y_21 ~ + x z; with the Condon-Shortley phase it would be negative
-    assert octafield.harmonics_evaluate(2, [0.0, 0.8, 0.6])[2 - 1] > 0  # Y_2,-1 ~ + y z
+    assert octafield.frames.harmonics_evaluate(2, [0.0, 0.8, 0.6])[2 - 1] > 0  # Y_2,-1 ~ + y z
 
 
 @pytest.mark.parametrize("degree", DEGREES)
 def test_rotation_is_the_map_of_scipys_values(degree):
     x = random_directions(60)
-    for q in octafield.random_rotations(20, seed=2):
+    for q in octafield.frames.random_rotations(20, seed=2):
         before, after = scipy_harmonics(degree, x), scipy_harmonics(degree, x @ matrices(q).T)
         expected = np.linalg.lstsq(before, after, rcond=None)[0].T  # after = before D^T, 60 rows for 2 l + 1 unknowns
-        np.testing.assert_allclose(octafield.harmonics_rotation(degree, q), expected, atol=1e-12)
+        np.testing.assert_allclose(octafield.frames.harmonics_rotation(degree, q), expected, atol=1e-12)
 
 
 def test_sh4_is_the_sum_of_scipys_values_at_the_axes():
-    q = octafield.random_rotations(200, seed=3)
+    q = octafield.frames.random_rotations(200, seed=3)
     axes = matrices(q).transpose(0, 2, 1)  # row k: axis k
     expected = SH4_FACTOR * scipy_harmonics(4, axes).sum(axis=1)
-    np.testing.assert_allclose(octafield.sh4_embed(q), expected, atol=1e-14)
+    np.testing.assert_allclose(octafield.frames.sh4_embed(q), expected, atol=1e-14)
 
 
 def test_sh469_bands_are_the_invariant_functions_turned_by_the_frame():
@@ -93,9 +93,9 @@ def test_sh469_bands_are_the_invariant_functions_turned_by_the_frame():
     basis = scipy_harmonics(9, nodes)
     ninth = lambda r: (weights * chiral(nodes @ r)) @ basis
     sign = np.sign(ninth(np.eye(3))[9 - 4])  # ours is positive at m = -4
-    q = octafield.random_rotations(50, seed=4)
+    q = octafield.frames.random_rotations(50, seed=4)
     weight = np.array([0.5, 2.0, 3.0])
-    embedded = octafield.sh469_embed(q, weight)
+    embedded = octafield.frames.sh469_embed(q, weight)
     for row, r in zip(embedded, matrices(q)):
         bands = [scipy_harmonics(4, r.T).sum(axis=0), scipy_harmonics(6, r.T).sum(axis=0), sign * ninth(r)]
         expected = [np.sqrt(w) * band / np.linalg.norm(band) for w, band in zip(weight, bands)]
@@ -103,11 +103,11 @@ def test_sh469_bands_are_the_invariant_functions_turned_by_the_frame():
 
 
 def test_tensor4_is_the_fourth_power_sum_contracted_by_numpy():
-    q = octafield.random_rotations(50, seed=5)
+    q = octafield.frames.random_rotations(50, seed=5)
     r = matrices(q)
     full = np.einsum("nim,njm,nkm,nlm->nijkl", r, r, r, r)
     norm = np.sqrt(((full[:, None] - full[None]) ** 2).sum(axis=(2, 3, 4, 5)))
-    a, t = octafield.sh4_embed(q), octafield.tensor4_embed(q)
+    a, t = octafield.frames.sh4_embed(q), octafield.frames.tensor4_embed(q)
     np.testing.assert_allclose(np.linalg.norm(t[:, None] - t[None], axis=2), norm, atol=1e-13)
     np.testing.assert_allclose(np.sqrt(1.2) * np.linalg.norm(a[:, None] - a[None], axis=2), norm, atol=1e-13)
 
@@ -117,8 +117,8 @@ def test_odeco_coordinates_are_the_harmonic_coefficients_of_the_polynomial():
     nodes, weights = sphere_rule(6)
     basis = np.concatenate([scipy_harmonics(l, nodes) for l in (0, 2, 4)], axis=1)
     unit = SH4_FACTOR / (32 * np.pi / 315)
-    q = octafield.random_rotations(50, seed=6)
+    q = octafield.frames.random_rotations(50, seed=6)
     lengths = np.random.default_rng(7).normal(size=(50, 3))
-    for row, r, scale in zip(octafield.odeco_embed(q, lengths), matrices(q), lengths):
+    for row, r, scale in zip(octafield.frames.odeco_embed(q, lengths), matrices(q), lengths):
         polynomial = ((nodes @ r) ** 4) @ scale
         np.testing.assert_allclose(row, unit * (weights * polynomial) @ basis, atol=1e-13)

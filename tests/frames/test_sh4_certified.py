@@ -14,7 +14,7 @@ from certified_projection import FAMILIES, Relaxation, make_inputs, values  # no
 
 @pytest.fixture(scope="module")
 def relaxation():
-    return Relaxation(of.sh4_embed(of.random_rotations(200, seed=1)))
+    return Relaxation(of.frames.sh4_embed(of.frames.random_rotations(200, seed=1)))
 
 
 @pytest.fixture(scope="module")
@@ -29,11 +29,11 @@ def test_embedded_frames_satisfy_fifteen_quadratic_equations(relaxation):
 @pytest.mark.parametrize("family", ("random direction", *FAMILIES))
 def test_fast_and_certified_values_reach_the_upper_bound_of_the_relaxation(relaxation, inputs, family):
     v = inputs[family]
-    fast, _ = of.sh4_project(v)
-    certified, distances, gaps = of.sh4_project_certified(v)
+    fast, _ = of.frames.sh4_project(v)
+    certified, distances, gaps = of.frames.sh4_project_certified(v)
     assert np.all(gaps <= 1e-9)
     np.testing.assert_allclose(values(v, fast), values(v, certified), atol=1e-9)
-    np.testing.assert_allclose(distances, np.linalg.norm(v - of.sh4_embed(certified), axis=1), atol=1e-12)
+    np.testing.assert_allclose(distances, np.linalg.norm(v - of.frames.sh4_embed(certified), axis=1), atol=1e-12)
     bounds = np.array([relaxation.solve(row)[0] for row in v])
     np.testing.assert_allclose(bounds, values(v, certified), atol=1e-7)
 
@@ -44,9 +44,9 @@ def test_relaxation_has_rank_one_where_one_frame_is_nearest(relaxation, inputs):
 
 def test_certificate_reports_its_gap_and_checks_its_arguments():
     v = np.ones(9)
-    frame, distance, gap = of.sh4_project_certified(v)
+    frame, distance, gap = of.frames.sh4_project_certified(v)
     assert frame.shape == (4,)
     assert 0 <= gap <= 1e-9
-    np.testing.assert_allclose(distance, np.linalg.norm(v - of.sh4_embed(frame)), atol=1e-14)
+    np.testing.assert_allclose(distance, np.linalg.norm(v - of.frames.sh4_embed(frame)), atol=1e-14)
     with pytest.raises(of.InvalidInput):
-        of.sh4_project_certified(v * np.nan)
+        of.frames.sh4_project_certified(v * np.nan)

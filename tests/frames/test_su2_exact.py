@@ -21,7 +21,7 @@ def exact_values(forms, q):
 
 
 def su2_points(q):
-    return octafield.su2_complex(octafield.su2_embed(q))
+    return octafield.frames.su2_complex(octafield.frames.su2_embed(q))
 
 
 def test_embedding_is_the_exact_one():
@@ -36,14 +36,14 @@ def test_embedding_is_the_exact_one():
 def test_invariants_are_the_exact_ones_off_the_unit_sphere_too(group):
     q = [tuple(c * sp.Rational(7, 8) for c in row) for row in exact_quaternions()]
     expected = np.array([exact_values(FORMS[group], row) for row in q])
-    found = octafield.binary_group_invariants(group, np.array(q, dtype=float))
+    found = octafield.frames.binary_group_invariants(group, np.array(q, dtype=float))
     assert np.abs(found - expected).max() < 1e-13
 
 
 def test_inverse_holds_the_quaternion_among_48_with_the_same_exact_invariants():
     q = np.array(exact_quaternions(), dtype=float)
     h = np.array([exact_values(OCTAHEDRAL, row) for row in exact_quaternions()])
-    found = octafield.su2_inverse(h)
+    found = octafield.frames.su2_inverse(h)
     assert found.shape == (len(q), 48, 4)
     assert np.linalg.norm(found - q[:, None], axis=2).min(axis=1).max() < 1e-14
     flat = found.reshape(-1, 4)
@@ -53,14 +53,14 @@ def test_inverse_holds_the_quaternion_among_48_with_the_same_exact_invariants():
 def test_inverse_of_a_scaled_point_has_its_norm():
     q = [tuple(3 * c for c in row) for row in exact_quaternions()]
     h = np.array([exact_values(OCTAHEDRAL, row) for row in q])
-    assert np.abs(np.linalg.norm(octafield.su2_inverse(h), axis=2) - 3).max() < 1e-14
-    assert np.abs(octafield.su2_squared_norm(h) - 9).max() < 1e-14
+    assert np.abs(np.linalg.norm(octafield.frames.su2_inverse(h), axis=2) - 3).max() < 1e-14
+    assert np.abs(octafield.frames.su2_squared_norm(h) - 9).max() < 1e-14
 
 
 def test_turns_about_an_axis_are_the_exact_ellipses():
     t = np.linspace(0, np.pi / 2, 9)
     for n in ((Fraction(1, 3), Fraction(2, 3), Fraction(-2, 3)), (-1, 0, 0), (0, Fraction(3, 5), Fraction(4, 5))):
-        found = octafield.su2_axis_turn(np.array(n, dtype=float), t)
+        found = octafield.frames.su2_axis_turn(np.array(n, dtype=float), t)
         nx, ny, nz = (sp.Rational(c) for c in n)
         a = sp.I * (ny + sp.I * nz) / 2
         first = sp.sqrt((1 + nx) / 2)
@@ -76,6 +76,6 @@ def test_turns_about_an_axis_are_the_exact_ellipses():
 
 def test_points_off_the_model_surface_are_refused():
     with pytest.raises(octafield.InvalidInput, match="model surface"):
-        octafield.su2_inverse(np.array([[1, 0, 0.1 + 0j]]))
+        octafield.frames.su2_inverse(np.array([[1, 0, 0.1 + 0j]]))
     with pytest.raises(octafield.InvalidInput):
-        octafield.su2_inverse(np.array([[np.nan, 0, 0j]]))
+        octafield.frames.su2_inverse(np.array([[np.nan, 0, 0j]]))

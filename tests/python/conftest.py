@@ -105,8 +105,8 @@ def sphere() -> octafield.TriangleMesh:
 @pytest.fixture(scope="session")
 def box_problem(box, box_surface, box_features):
     """Boundary, cross directions, constraints and start of the cube."""
-    boundary = octafield.boundary_surface(box)
-    field = octafield.direction_field(box_surface, box_features)
-    directions = octafield.vertex_directions(box_surface, box_features, field)
-    constraints = octafield.boundary_constraints(octafield.TetDomain(box, features=box_features), directions)
-    return boundary, directions, constraints, octafield.initial_frames(box, constraints)
+    boundary = octafield.volume.boundary_surface(box)
+    field = octafield.surface.direction_field(box_surface, box_features)
+    directions = octafield.surface.vertex_directions(box_surface, box_features, field)
+    constraints = octafield.volume.boundary_constraints(octafield.TetDomain(box, features=box_features), directions)
+    return boundary, directions, constraints, octafield.volume.initial_frames(box, constraints)

@@ -166,14 +166,14 @@ def three_leaves():
 def boxes_sharing_a_face():
     """Two boxes with a wall between them, their points merged."""
     box = generate("box")
-    return of.repair(
+    return of.surface.repair(
         joined(box, moved(reversed_(mesh_of(np.asarray(box.vertices) * [-1, 1, 1], box.triangles)), 0, 0, 0)),
         level="merge",
     ).mesh
 
 
 def boxes_sharing_an_edge():
-    return of.repair(joined(generate("box"), moved(generate("box"), 1, 1, 0)), level="merge").mesh
+    return of.surface.repair(joined(generate("box"), moved(generate("box"), 1, 1, 0)), level="merge").mesh
 
 
 ZOO: dict[str, tuple[Callable[[], of.TriangleMesh], str | None]] = {

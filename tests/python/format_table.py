@@ -42,7 +42,7 @@ class Row:
 
 
 def frames_at(mesh: octafield.TetMesh, where: str) -> np.ndarray:
-    return np.asarray(octafield.random_rotations(len(mesh.vertices if where == "vertices" else mesh.tets), 11))
+    return np.asarray(octafield.frames.random_rotations(len(mesh.vertices if where == "vertices" else mesh.tets), 11))
 
 
 def axes(frames: np.ndarray) -> np.ndarray:

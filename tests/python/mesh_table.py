@@ -37,7 +37,7 @@ def box() -> tuple[Input, Parts]:
 
 
 def skin() -> Parts:
-    boundary = octafield.boundary_surface(box_tets(3)).mesh
+    boundary = octafield.volume.boundary_surface(box_tets(3)).mesh
     return {"points": np.asarray(boundary.vertices), "cells": np.asarray(boundary.triangles)}
 
 

@@ -75,7 +75,7 @@ def test_info_and_field_agree_on_lengths_and_cells(tmp_path, radius):
     of.write_surface(tube(radius), path)
     expected = examine(path)
     meshed = of.prepare_mesh(path)
-    assert expected["edge_lengths"]["median"] == pytest.approx(of.mean_edge_length(meshed.surface), rel=0.2)
+    assert expected["edge_lengths"]["median"] == pytest.approx(of.surface.mean_edge_length(meshed.surface), rel=0.2)
     assert 0.6 < expected["expected"]["tets"] / len(meshed.tets.tets) < 1.6
     assert set(expected["notes"]) == set(meshed.notes)
 
@@ -106,9 +106,9 @@ def test_edges_far_inside_are_as_long_as_the_shape_lets_them_be():
         points, np.concatenate([np.asarray(ball.triangles), np.asarray(ring.triangles) + len(ball.vertices)])
     )
     meshed = of.prepare_mesh(both)
-    assert meshed.inner_length == pytest.approx(of.default_edge_length(both))
+    assert meshed.inner_length == pytest.approx(of.surface.default_edge_length(both))
     centres = np.asarray(meshed.tets.vertices)[np.asarray(meshed.tets.tets)].mean(axis=1)
     inside = np.linalg.norm(centres, axis=1) < 0.5
-    volume = of.tet_volumes(meshed.tets)[inside].mean()
+    volume = of.volume.tet_volumes(meshed.tets)[inside].mean()
     regular = meshed.inner_length**3 / (6 * np.sqrt(2))
     assert 0.4 < volume / regular < 1.5

@@ -30,9 +30,9 @@ def cylinder():
 
 
 def test_the_24_elements_are_those_of_algohex_in_its_order():
-    assert np.array_equal(of.octahedral_group(), algohex.TRANSITIONS)
-    assert np.array_equal(of.octahedral_product_table(), algohex.PRODUCT)
-    assert all(algohex.PRODUCT[a][b] == 0 for a, b in enumerate(of.octahedral_inverse_table()))
+    assert np.array_equal(of.frames.octahedral_group(), algohex.TRANSITIONS)
+    assert np.array_equal(of.frames.octahedral_product_table(), algohex.PRODUCT)
+    assert all(algohex.PRODUCT[a][b] == 0 for a, b in enumerate(of.frames.octahedral_inverse_table()))
 
 
 @pytest.mark.parametrize("combed", [False, True])
@@ -49,7 +49,7 @@ def test_random_frames_have_edges_of_every_kind(tmp_path, combed):
 
 def test_valence_2_and_6_are_told_apart(tmp_path):
     mesh = box_tets(5)
-    of.write_frames(tmp_path / "a.ovmb", mesh, of.random_rotations(len(mesh.tets), 2), "tets")
+    of.write_frames(tmp_path / "a.ovmb", mesh, of.frames.random_rotations(len(mesh.tets), 2), "tets")
     counts = checked(tmp_path / "a.ovmb")
     assert min(counts.get(("valence", valence), 0) for valence in (-2, -1, 1, 2)) > 0
 
@@ -121,7 +121,7 @@ def test_transitions_that_lead_elsewhere_are_told(tmp_path, cylinder):
     mesh = read_ovm(tmp_path / "a.ovmb", binary=True)
     values = np.array(mesh.properties["halfface", "HalffaceTransiton"])
     inner = np.flatnonzero(values >= 0)[:3]
-    values[inner] = of.octahedral_product_table()[values[inner], 4]
+    values[inner] = of.frames.octahedral_product_table()[values[inner], 4]
     mesh.properties["halfface", "HalffaceTransiton"] = values
     mesh.kinds = {key: kind for key, kind in mesh.kinds.items() if kind == "Quaternion"}
     write_ovm(tmp_path / "b.ovmb", mesh, binary=True)

@@ -72,7 +72,7 @@ def test_a_start_at_the_minimum_stays_there_and_a_worse_one_is_polished(ball, tm
     assert again.record["energy"] == pytest.approx(best.record["energy"], rel=1e-5)
     assert again.record["diffusion_steps"] == 0 and again.record["start"] == "given"
     rng = np.random.default_rng(1)
-    rough = of.frame_exp(best.frames, 0.2 * rng.normal(size=(len(best.frames), 3)))
+    rough = of.frames.frame_exp(best.frames, 0.2 * rng.normal(size=(len(best.frames), 3)))
     before = of.analyse(ball.tets, rough, options=options).record["energy"]
     of.write_frames(tmp_path / "rough.txt", None, rough)
     meshio.Mesh(ball.tets.vertices, [("tetra", ball.tets.tets)]).write(tmp_path / "ball.mesh")

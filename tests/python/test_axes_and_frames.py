@@ -128,7 +128,7 @@ def test_axes_in_one_plane_are_refused_below_a_millionth_of_their_largest_singul
 
 
 def test_quaternions_within_rounding_of_length_1_keep_their_bits_and_others_are_scaled():
-    unit = np.asarray(of.random_rotations(100, 8))
+    unit = np.asarray(of.frames.random_rotations(100, 8))
     values, change = rotations.unit_quaternions(unit, place)
     assert values.tobytes() == unit.tobytes() and change < 4 * EPS
     one = np.array([[1.0, 0, 0, 0]])
@@ -145,7 +145,7 @@ def test_quaternions_within_rounding_of_length_1_keep_their_bits_and_others_are_
 
 @pytest.mark.parametrize("value", [0.0, np.nan, np.inf, 1e200])
 def test_the_first_quaternion_that_is_none_is_named(value):
-    values = np.asarray(of.random_rotations(6, 1)).copy()
+    values = np.asarray(of.frames.random_rotations(6, 1)).copy()
     values[2] = values[4] = value
     with pytest.raises(InvalidInput, match=r"line 12: quaternion 2 \(from 0\) is zero or not finite") as error:
         rotations.unit_quaternions(values, place)
@@ -153,7 +153,7 @@ def test_the_first_quaternion_that_is_none_is_named(value):
 
 
 def test_rows_hold_one_axis_after_the_other_times_its_length():
-    frames, lengths = np.asarray(of.random_rotations(20, 2)), np.random.default_rng(3).uniform(1, 2, (20, 3))
+    frames, lengths = np.asarray(of.frames.random_rotations(20, 2)), np.random.default_rng(3).uniform(1, 2, (20, 3))
     matrices = Rotation.from_quat(frames, scalar_first=True).as_matrix()
     np.testing.assert_allclose(rotations.axes_of(frames), matrices, atol=1e-15)
     rows = rotations.axes_in_rows(frames)

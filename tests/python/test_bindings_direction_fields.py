@@ -18,20 +18,20 @@ def angles_of(mesh, field):
 
 
 def guide_at(mesh, angle, **more):
-    return of.DirectionGuide(np.tile(at_angle(angle), (len(mesh.triangles), 1)), **more)
+    return of.surface.DirectionGuide(np.tile(at_angle(angle), (len(mesh.triangles), 1)), **more)
 
 
 @pytest.mark.parametrize("method", ["gl", "mbo", "eigen"])
 def test_a_constant_guide_is_the_field_where_nothing_else_is_asked(flat, method):
-    field = of.direction_field(flat, NONE, method=method, boundary_alignment="none", guide=guide_at(flat, 0.3))
+    field = of.surface.direction_field(flat, NONE, method=method, boundary_alignment="none", guide=guide_at(flat, 0.3))
     np.testing.assert_allclose(angles_of(flat, field), 0.3, atol=1e-6)
     np.testing.assert_allclose(np.abs(field.values), 1, atol=1e-6)
-    assert of.surface_singularities(flat, field).boundary_deviation == pytest.approx(0.3, abs=1e-6)
+    assert of.surface.surface_singularities(flat, field).boundary_deviation == pytest.approx(0.3, abs=1e-6)
 
 
 def test_the_guides_weights_and_length_count(flat):
     def largest(**more):
-        field = of.direction_field(flat, NONE, guide=guide_at(flat, 0.3, **more))
+        field = of.surface.direction_field(flat, NONE, guide=guide_at(flat, 0.3, **more))
         angles = angles_of(flat, field)[(field.topology.edge_triangles >= 0).all(axis=1)]
         return np.minimum(angles, np.pi / 2 - angles).max()
 
@@ -43,10 +43,10 @@ def test_the_guides_weights_and_length_count(flat):
 def test_the_boundary_is_followed_as_strongly_as_asked(flat):
     deviation = {}
     for word in ("strong", "weak", "none"):
-        field = of.direction_field(
+        field = of.surface.direction_field(
             flat, NONE, boundary_alignment=word, alignment_length=0.05, guide=guide_at(flat, 0.3, length=0.1)
         )
-        deviation[word] = of.surface_singularities(flat, field).boundary_deviation
+        deviation[word] = of.surface.surface_singularities(flat, field).boundary_deviation
     assert deviation["strong"] == pytest.approx(0, abs=1e-12)
     assert deviation["none"] == pytest.approx(0.3, abs=1e-6) and 0.01 < deviation["weak"] < 0.29
 
@@ -55,7 +55,7 @@ def test_features_are_followed_on_request_only(box_surface, box_features):
     features = {tuple(e) for e in box_features.edges.tolist()}
 
     def on_features(**options):
-        field = of.direction_field(box_surface, box_features, method="eigen", seed=1, **options)
+        field = of.surface.direction_field(box_surface, box_features, method="eigen", seed=1, **options)
         return field.values[[tuple(e) in features for e in field.topology.edges.tolist()]]
 
     np.testing.assert_allclose(on_features(), 1)
@@ -66,95 +66,99 @@ def test_features_are_followed_on_request_only(box_surface, box_features):
 
 
 def test_edges_of_the_constraints_hold_the_direction_given(sphere):
-    topology = of.edge_topology(sphere)
+    topology = of.surface.edge_topology(sphere)
     edge = topology.edges[100]
     along = np.diff(sphere.vertices[edge], axis=0)[0]
-    normal = of.triangle_normals(sphere)[topology.edge_triangles[100]].sum(axis=0)
+    normal = of.surface.triangle_normals(sphere)[topology.edge_triangles[100]].sum(axis=0)
     along, normal = along / np.linalg.norm(along), normal / np.linalg.norm(normal)
     direction = np.cos(0.2) * along + np.sin(0.2) * np.cross(normal, along)
     for given in (edge, edge[::-1]):
-        asked = of.DirectionConstraints([given], [5 * direction + normal])
-        field = of.direction_field(sphere, NONE, constraints=asked)
+        asked = of.surface.DirectionConstraints([given], [5 * direction + normal])
+        field = of.surface.direction_field(sphere, NONE, constraints=asked)
         assert field.values[100] == pytest.approx(np.exp(0.8j), abs=1e-12)
-    loose = of.direction_field(sphere, NONE, constraints=of.DirectionConstraints([edge], [direction], [1e-3]))
+    loose = of.surface.direction_field(
+        sphere, NONE, constraints=of.surface.DirectionConstraints([edge], [direction], [1e-3])
+    )
     assert 1e-6 < abs(loose.values[100] - np.exp(0.8j))
 
 
 def test_vertices_of_the_constraints_turn_the_edges_around_them(flat):
     middle = int(np.argmin(np.linalg.norm(flat.vertices - [0.5, 0.5, 0], axis=1)))
-    asked = of.DirectionConstraints(vertices=[middle], vertex_directions=[at_angle(0.3)], vertex_weights=[np.inf])
-    field = of.direction_field(flat, NONE, constraints=asked)
+    asked = of.surface.DirectionConstraints(
+        vertices=[middle], vertex_directions=[at_angle(0.3)], vertex_weights=[np.inf]
+    )
+    field = of.surface.direction_field(flat, NONE, constraints=asked)
     here = (field.topology.edges == middle).any(axis=1)
     assert here.sum() == 6
     np.testing.assert_allclose(angles_of(flat, field)[here], 0.3)
 
 
 def test_one_coherence_length_per_edge_overrides_the_common_one(sphere):
-    count = len(of.edge_topology(sphere).edges)
-    common = of.direction_field(sphere, NONE, epsilon=0.15)
-    same = of.direction_field(sphere, NONE, epsilon=9.0, edge_epsilon=np.full(count, 0.15))
+    count = len(of.surface.edge_topology(sphere).edges)
+    common = of.surface.direction_field(sphere, NONE, epsilon=0.15)
+    same = of.surface.direction_field(sphere, NONE, epsilon=9.0, edge_epsilon=np.full(count, 0.15))
     assert same.epsilon == common.epsilon == 0.15 and same.energy == pytest.approx(common.energy, rel=1e-6)
-    graded = of.direction_field(sphere, NONE, edge_epsilon=np.linspace(0.1, 0.2, count))
+    graded = of.surface.direction_field(sphere, NONE, edge_epsilon=np.linspace(0.1, 0.2, count))
     assert graded.epsilon == 0.1 and graded.energy != common.energy
 
 
 @pytest.mark.parametrize("method", ["gl", "mbo", "eigen"])
 def test_the_square_has_no_singular_point_and_its_corners_make_the_characteristic(flat, method):
-    found = of.surface_singularities(flat, of.direction_field(flat, NONE, method=method))
+    found = of.surface.surface_singularities(flat, of.surface.direction_field(flat, NONE, method=method))
     assert found.euler_characteristic == 1 and found.agree and found.index_sum == pytest.approx(1)
     assert all(p.boundary and p.index_times_symmetry == 1 for p in found.points) and len(found.points) == 4
 
 
 def test_indices_that_contradict_the_surface_are_seen(flat):
-    field = of.direction_field(flat, NONE)
+    field = of.surface.direction_field(flat, NONE)
     values = field.values.copy()
     values[np.flatnonzero((field.topology.edge_triangles >= 0).all(axis=1))[40]] *= -1
-    found = of.surface_singularities(flat, of.DirectionField(4, field.topology, values))
+    found = of.surface.surface_singularities(flat, of.surface.DirectionField(4, field.topology, values))
     assert found.index_sum == pytest.approx(1) and found.agree  # of any field: Poincare and Hopf
 
 
 def test_principal_directions_of_a_cylinder_run_round_it():
     mesh = cylinder(radius=2.0, height=3.0, around=48, along=12)
-    found = of.principal_directions(mesh)
+    found = of.surface.principal_directions(mesh)
     inside = np.abs(mesh.vertices[mesh.triangles].mean(axis=1)[:, 2] - 1.5) < 1
     np.testing.assert_allclose(found.curvatures[inside], np.tile([0.5, 0], (inside.sum(), 1)), atol=0.01)
     np.testing.assert_allclose(found.directions[:, 2], 0, atol=0.01)
     np.testing.assert_allclose(np.linalg.norm(found.directions, axis=1), 1)
     assert found.anisotropy.min() > 0.5
-    guide = of.DirectionGuide(found.directions, found.anisotropy, 0.1)
-    field = of.direction_field(mesh, NONE, boundary_alignment="none", symmetry=2, guide=guide)
-    np.testing.assert_allclose(of.triangle_directions(mesh, field)[:, 2], 0, atol=0.02)
+    guide = of.surface.DirectionGuide(found.directions, found.anisotropy, 0.1)
+    field = of.surface.direction_field(mesh, NONE, boundary_alignment="none", symmetry=2, guide=guide)
+    np.testing.assert_allclose(of.surface.triangle_directions(mesh, field)[:, 2], 0, atol=0.02)
 
 
 def test_principal_directions_do_not_reach_across_features(box_surface, box_features):
-    assert np.abs(of.principal_directions(box_surface, box_features).curvatures).max() < 1e-9
-    assert np.abs(of.principal_directions(box_surface).curvatures).max() > 1
+    assert np.abs(of.surface.principal_directions(box_surface, box_features).curvatures).max() < 1e-9
+    assert np.abs(of.surface.principal_directions(box_surface).curvatures).max() > 1
     with pytest.raises(of.InvalidInput, match="features"):
-        of.principal_directions(box_surface, of.FeatureGraph([[0, 10**6]]))
+        of.surface.principal_directions(box_surface, of.FeatureGraph([[0, 10**6]]))
 
 
 def test_constraints_and_guides_that_do_not_fit_are_refused(flat):
     count = len(flat.triangles)
     x = [1.0, 0, 0]
-    edge = of.edge_topology(flat).edges[50]
+    edge = of.surface.edge_topology(flat).edges[50]
     bad = [
-        ("edges", of.DirectionConstraints([[0, len(flat.vertices) - 1]], [x])),
-        ("edges", of.DirectionConstraints([[0, 10**9]], [x])),
-        ("vertices", of.DirectionConstraints(vertices=[-1], vertex_directions=[x])),
-        ("edge_directions", of.DirectionConstraints([edge])),
-        ("edge_directions", of.DirectionConstraints([edge], [[np.nan, 0, 0]])),
-        ("vertex_directions", of.DirectionConstraints(vertices=[3, 4], vertex_directions=[x])),
-        ("edge_weights", of.DirectionConstraints([edge], [x], [0.0])),
-        ("edge_weights", of.DirectionConstraints([edge], [x], [np.nan])),
-        ("vertex_weights", of.DirectionConstraints(vertices=[3], vertex_directions=[x], vertex_weights=[1, 2])),
-        ("direction", of.DirectionConstraints([edge], [[0, 0, 1.0]])),
+        ("edges", of.surface.DirectionConstraints([[0, len(flat.vertices) - 1]], [x])),
+        ("edges", of.surface.DirectionConstraints([[0, 10**9]], [x])),
+        ("vertices", of.surface.DirectionConstraints(vertices=[-1], vertex_directions=[x])),
+        ("edge_directions", of.surface.DirectionConstraints([edge])),
+        ("edge_directions", of.surface.DirectionConstraints([edge], [[np.nan, 0, 0]])),
+        ("vertex_directions", of.surface.DirectionConstraints(vertices=[3, 4], vertex_directions=[x])),
+        ("edge_weights", of.surface.DirectionConstraints([edge], [x], [0.0])),
+        ("edge_weights", of.surface.DirectionConstraints([edge], [x], [np.nan])),
+        ("vertex_weights", of.surface.DirectionConstraints(vertices=[3], vertex_directions=[x], vertex_weights=[1, 2])),
+        ("direction", of.surface.DirectionConstraints([edge], [[0, 0, 1.0]])),
     ]
     for name, constraints in bad:
         with pytest.raises(of.InvalidInput, match=name):
-            of.direction_field(flat, NONE, constraints=constraints)
+            of.surface.direction_field(flat, NONE, constraints=constraints)
     for guide in (
-        of.DirectionGuide([x]),
-        of.DirectionGuide(np.zeros((count, 3))),
+        of.surface.DirectionGuide([x]),
+        of.surface.DirectionGuide(np.zeros((count, 3))),
         guide_at(flat, 0.3, length=-1.0),
         guide_at(flat, 0.3, length=np.inf),
         guide_at(flat, np.nan),
@@ -163,7 +167,7 @@ def test_constraints_and_guides_that_do_not_fit_are_refused(flat):
         guide_at(flat, 0.3, weights=np.full(count, np.nan)),
     ):
         with pytest.raises(of.InvalidInput, match="guide"):
-            of.direction_field(flat, NONE, guide=guide)
+            of.surface.direction_field(flat, NONE, guide=guide)
 
 
 @pytest.mark.parametrize("options", [
@@ -172,6 +176,6 @@ def test_constraints_and_guides_that_do_not_fit_are_refused(flat):
     {"edge_epsilon": [0.1]}, {"edge_epsilon": "wide"}])  # fmt: skip
 def test_options_out_of_range_are_refused(flat, options):
     with pytest.raises(of.InvalidInput, match=next(iter(options))):
-        of.direction_field(flat, NONE, **options)
+        of.surface.direction_field(flat, NONE, **options)
     with pytest.raises(TypeError):
-        of.direction_field(flat, NONE, constraints=[[0, 1]])
+        of.surface.direction_field(flat, NONE, constraints=[[0, 1]])

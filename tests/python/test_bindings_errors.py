@@ -27,7 +27,7 @@ def test_errors_are_also_the_usual_python_ones():
 
 def test_a_callback_that_says_nothing_goes_on(box, box_problem):
     _, _, constraints, start = box_problem
-    assert of.smooth(box, constraints, start, progress=lambda *_: None).frames.shape == start.shape
+    assert of.volume.smooth(box, constraints, start, progress=lambda *_: None).frames.shape == start.shape
 
 
 def test_an_exception_in_a_callback_comes_out_as_it_is(box, box_surface, box_features, box_problem):
@@ -39,9 +39,9 @@ def test_an_exception_in_a_callback_comes_out_as_it_is(box, box_surface, box_fea
 
     _, _, constraints, start = box_problem
     for call in (
-        lambda: of.smooth(box, constraints, start, progress=fail),
-        lambda: of.direction_field(box_surface, box_features, progress=fail),
-        lambda: of.remesh(box_surface, box_features, progress=fail),
+        lambda: of.volume.smooth(box, constraints, start, progress=fail),
+        lambda: of.surface.direction_field(box_surface, box_features, progress=fail),
+        lambda: of.surface.remesh(box_surface, box_features, progress=fail),
     ):
         with pytest.raises(Unlike) as caught:
             call()
@@ -50,23 +50,23 @@ def test_an_exception_in_a_callback_comes_out_as_it_is(box, box_surface, box_fea
 
 def test_a_callback_of_the_wrong_kind_is_refused(box_surface, box_features):
     with pytest.raises(TypeError):
-        of.direction_field(box_surface, box_features, progress=3)
+        of.surface.direction_field(box_surface, box_features, progress=3)
     with pytest.raises(TypeError):
-        of.direction_field(box_surface, box_features, progress=lambda: None)
+        of.surface.direction_field(box_surface, box_features, progress=lambda: None)
 
 
 def test_where_there_is_no_best_state_stopping_raises(box_surface, box_features):
     with pytest.raises(of.Cancelled):
-        of.remesh(box_surface, box_features, progress=lambda *_: False)
+        of.surface.remesh(box_surface, box_features, progress=lambda *_: False)
 
 
 def test_calls_work_from_other_threads_at_the_same_time():
-    frames = of.random_rotations(200000, 1)
-    expected = of.sh4_embed(frames)
+    frames = of.frames.random_rotations(200000, 1)
+    expected = of.frames.sh4_embed(frames)
     results = [None] * 4
 
     def work(i):
-        results[i] = of.sh4_embed(frames, threads=1)
+        results[i] = of.frames.sh4_embed(frames, threads=1)
 
     threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
     for thread in threads:
@@ -84,11 +84,11 @@ def test_other_threads_run_during_a_call():
         while not stop.wait(0.001):
             counts.append(1)
 
-    vectors = of.su2_embed(of.random_rotations(5000, 1))
+    vectors = of.frames.su2_embed(of.frames.random_rotations(5000, 1))
     ticker = threading.Thread(target=tick)
     ticker.start()
     before = len(counts)
-    of.su2_project(vectors)
+    of.frames.su2_project(vectors)
     during = len(counts) - before
     stop.set()
     ticker.join()

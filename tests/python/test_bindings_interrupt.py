@@ -27,24 +27,24 @@ RANDOM_BOX = """
 from conftest import box_tets
 box = box_tets(30)
 n = len(box.vertices)
-frames = of.random_rotations(n, 1)
-free = of.BoundaryConstraints([0] * n, np.zeros((n, 3)), frames, [0] * n, [])
+frames = of.frames.random_rotations(n, 1)
+free = of.volume.BoundaryConstraints([0] * n, np.zeros((n, 3)), frames, [0] * n, [])
 """
 
 # Each takes far more than a second when left alone: projection sees the flag, smoothing its progress callback, TetGen
 # runs in a process of its own, generation of random numbers sees nothing at all, so that its worker is abandoned.
 CASES = {
-    "flag": ("vectors = np.random.default_rng(1).normal(size=(300_000, 6))", "of.su2_project(vectors)"),
-    "progress": (RANDOM_BOX, "of.smooth(box, free, frames, tolerance=0, max_iterations=100000)"),
+    "flag": ("vectors = np.random.default_rng(1).normal(size=(300_000, 6))", "of.frames.su2_project(vectors)"),
+    "progress": (RANDOM_BOX, "of.volume.smooth(box, free, frames, tolerance=0, max_iterations=100000)"),
     "python_progress": (
         RANDOM_BOX,
-        "of.smooth(box, free, frames, tolerance=0, max_iterations=100000, progress=lambda *_: True)",
+        "of.volume.smooth(box, free, frames, tolerance=0, max_iterations=100000, progress=lambda *_: True)",
     ),
     "other_process": (
         "from conftest import icosphere\nball = icosphere(3)",
-        "of.tetrahedralize(ball, edge_length=0.015)",
+        "of.volume.tetrahedralize(ball, edge_length=0.015)",
     ),
-    "abandoned": ("", "of.random_rotations(150_000_000)"),
+    "abandoned": ("", "of.frames.random_rotations(150_000_000)"),
 }
 
 

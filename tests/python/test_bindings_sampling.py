@@ -14,34 +14,38 @@ from pipeline_fixtures import write_cube, write_sphere
 
 
 def tangents(surface):
-    normals = of.triangle_normals(surface.mesh)
+    normals = of.surface.triangle_normals(surface.mesh)
     return np.cross(normals, np.roll(normals, 1, axis=1) + [0.1, 0.2, 0.3])
 
 
 @pytest.fixture(scope="module")
 def held(box):
-    surface = of.boundary_surface(box)
-    return of.tet_boundary_constraints(box, tangents(surface))
+    surface = of.volume.boundary_surface(box)
+    return of.volume.tet_boundary_constraints(box, tangents(surface))
 
 
 def test_a_sampling_is_the_coupling_of_its_sites(box):
-    vertices, tets = of.vertex_sampling(box), of.tet_sampling(box)
+    vertices, tets = of.volume.vertex_sampling(box), of.volume.tet_sampling(box)
     assert (vertices.sites, len(vertices)) == ("vertices", len(box.vertices))
     assert (tets.sites, len(tets)) == ("tets", len(box.tets)) and repr(tets).startswith(
         f"Sampling({len(box.tets)} tets, "
     )
-    assert abs(vertices.stiffness - of.stiffness(box)).max() == 0
-    np.testing.assert_array_equal(vertices.mass, of.lumped_mass(box))
-    np.testing.assert_allclose(tets.mass, of.tet_volumes(box))
-    assert tets.body_radius == pytest.approx(0.5) and tets.edge_length == vertices.edge_length == of.mean_edge_length(
-        of.boundary_surface(box).mesh
-    )
+    assert abs(vertices.stiffness - of.volume.stiffness(box)).max() == 0
+    np.testing.assert_array_equal(vertices.mass, of.volume.lumped_mass(box))
+    np.testing.assert_allclose(tets.mass, of.volume.tet_volumes(box))
+    assert tets.body_radius == pytest.approx(
+        0.5
+    ) and tets.edge_length == vertices.edge_length == of.surface.mean_edge_length(of.volume.boundary_surface(box).mesh)
     with pytest.raises(TypeError):
-        of.Sampling()
+        of.volume.Sampling()
 
 
 def test_weights_are_area_over_distance_of_centroids(box):
-    points, tets, stiffness = np.asarray(box.vertices), np.asarray(box.tets), of.tet_sampling(box).stiffness.tocoo()
+    points, tets, stiffness = (
+        np.asarray(box.vertices),
+        np.asarray(box.tets),
+        of.volume.tet_sampling(box).stiffness.tocoo(),
+    )
     centroids = points[tets].mean(axis=1)
     for s, t, value in list(zip(stiffness.row, stiffness.col, stiffness.data))[::50]:
         if s != t:
@@ -51,30 +55,30 @@ def test_weights_are_area_over_distance_of_centroids(box):
 
 
 def test_every_solver_takes_a_sampling(box, held):
-    sampling = of.tet_sampling(box)
-    start = of.initial_frames(sampling, held)
+    sampling = of.volume.tet_sampling(box)
+    start = of.volume.initial_frames(sampling, held)
     assert start.shape == (len(box.tets), 4)
     for result in (
-        of.diffuse(sampling, held, start),
-        of.smooth(sampling, held, start),
-        of.frame_field(sampling, held).smooth,
+        of.volume.diffuse(sampling, held, start),
+        of.volume.smooth(sampling, held, start),
+        of.volume.frame_field(sampling, held).smooth,
     ):
         assert result.energy == pytest.approx(0, abs=1e-9)
-        assert of.dirichlet_energy(sampling, result.frames) == pytest.approx(0, abs=1e-9)
-    assert of.tet_alignment_angles(box, result.frames).max() < 1e-6
-    assert of.distance(of.vertex_frames(box, result.frames), [1, 0, 0, 0]).max() < 1e-3
-    assert of.singular_edges(box, result.frames).edges == []
-    random = of.random_rotations(len(box.tets), 3)
-    assert of.dirichlet_energy(of.vertex_sampling(box), of.vertex_frames(box, random)) == pytest.approx(
-        of.dirichlet_energy(box, of.vertex_frames(box, random))
-    )
+        assert of.volume.dirichlet_energy(sampling, result.frames) == pytest.approx(0, abs=1e-9)
+    assert of.volume.tet_alignment_angles(box, result.frames).max() < 1e-6
+    assert of.frames.distance(of.volume.vertex_frames(box, result.frames), [1, 0, 0, 0]).max() < 1e-3
+    assert of.volume.singular_edges(box, result.frames).edges == []
+    random = of.frames.random_rotations(len(box.tets), 3)
+    assert of.volume.dirichlet_energy(
+        of.volume.vertex_sampling(box), of.volume.vertex_frames(box, random)
+    ) == pytest.approx(of.volume.dirichlet_energy(box, of.volume.vertex_frames(box, random)))
 
 
 def test_a_straight_line_is_one_curve_of_singular_edges(box):
     centroids = np.asarray(box.vertices)[np.asarray(box.tets)].mean(axis=1)
     x, y, _ = (centroids - [0.53, 0.51, 0]).T
     angle = np.arctan2(y, x) / 4
-    found = of.singular_edges(box, of.quaternion_exp(np.column_stack([0 * angle, 0 * angle, angle])))
+    found = of.volume.singular_edges(box, of.frames.quaternion_exp(np.column_stack([0 * angle, 0 * angle, angle])))
     assert len(found.graph.curves) == 1 and list(found.graph.curve_quarter_turns) == [1]
     assert {edge.quarter_turns for edge in found.edges} == {1} and found.complex_edges == 0
     np.testing.assert_array_equal(found.graph.points, np.asarray(box.vertices)[found.vertices])
@@ -85,11 +89,11 @@ def test_a_straight_line_is_one_curve_of_singular_edges(box):
 def test_what_does_not_fit_is_refused(box, held, box_problem):
     _, _, of_vertices, start = box_problem
     with pytest.raises(of.InvalidInput):
-        of.smooth(of.tet_sampling(box), of_vertices, start)
+        of.volume.smooth(of.volume.tet_sampling(box), of_vertices, start)
     with pytest.raises(of.InvalidInput):
-        of.tet_boundary_constraints(box, [[1, 0, 0]])
+        of.volume.tet_boundary_constraints(box, [[1, 0, 0]])
     with pytest.raises(of.InvalidInput, match="one per vertex|row"):
-        of.dirichlet_energy(of.tet_sampling(box), start)
+        of.volume.dirichlet_energy(of.volume.tet_sampling(box), start)
     with pytest.raises(of.InvalidInput, match="sampling"):
         FieldOptions(sampling="edges")
 
@@ -99,18 +103,18 @@ def test_lengths_are_interpolated_between_two_faces(box):
     kind = np.where((z == 0) | (z == 1), 2, 0).astype(np.uint8)
     frames = np.tile([1.0, 0, 0, 0], (len(z), 1))
     lengths = np.where(z[:, None] == 1, [3, 1, 0.5], [1, 2, 1.5])
-    constraints = of.BoundaryConstraints(kind, np.zeros((len(z), 3)), frames, kind > 0, [], lengths)
-    assert of.schemes["odeco_lengths"].sort == "embedding_with_lengths"
-    result = of.smooth(box, constraints, frames, representation="odeco_lengths", tolerance=1e-10)
+    constraints = of.volume.BoundaryConstraints(kind, np.zeros((len(z), 3)), frames, kind > 0, [], lengths)
+    assert of.volume.schemes["odeco_lengths"].sort == "embedding_with_lengths"
+    result = of.volume.smooth(box, constraints, frames, representation="odeco_lengths", tolerance=1e-10)
     expected = (1 - z)[:, None] * [1, 2, 1.5] + z[:, None] * [3, 1, 0.5]
     assert abs(np.asarray(result.lengths) - expected).max() < 5e-3
-    assert len(of.smooth(box, constraints, frames, representation="odeco").lengths) == 0
+    assert len(of.volume.smooth(box, constraints, frames, representation="odeco").lengths) == 0
     constraints.lengths = np.zeros((len(z), 3))
     with pytest.raises(of.InvalidInput, match="above 0"):
-        of.smooth(box, constraints, frames, representation="odeco_lengths")
+        of.volume.smooth(box, constraints, frames, representation="odeco_lengths")
     with pytest.raises(of.InvalidInput, match="shrink"):
-        free = of.BoundaryConstraints(0 * kind, np.zeros((len(z), 3)), frames, kind > 0, [])
-        of.smooth(box, free, frames, representation="odeco_lengths")
+        free = of.volume.BoundaryConstraints(0 * kind, np.zeros((len(z), 3)), frames, kind > 0, [])
+        of.volume.smooth(box, free, frames, representation="odeco_lengths")
 
 
 def test_the_pipeline_runs_in_the_tets(tmp_path):
@@ -123,7 +127,7 @@ def test_the_pipeline_runs_in_the_tets(tmp_path):
         len(result.tets.vertices),
         4,
     )
-    assert record["energy"] == of.dirichlet_energy(of.tet_sampling(result.tets), result.tet_frames)
+    assert record["energy"] == of.volume.dirichlet_energy(of.volume.tet_sampling(result.tets), result.tet_frames)
     assert record["alignment_deg"]["max"] < 25 and record["singular_edges"] > 0
     assert sum(record["singular_edges_by_turns"].values()) == record["singular_edges"]
     assert result.integrability is None and result.meshability.non_meshable_vertices == record["non_meshable_vertices"]
@@ -132,7 +136,9 @@ def test_the_pipeline_runs_in_the_tets(tmp_path):
     write_field_result(result, tmp_path)
     grid = pyvista.read(tmp_path / "field.vtu")
     np.testing.assert_allclose(grid.cell_data["quaternion"], result.tet_frames, atol=1e-15)
-    np.testing.assert_allclose(grid.cell_data["frame_w"], of.rotation_matrices(result.tet_frames)[:, :, 2], atol=1e-12)
+    np.testing.assert_allclose(
+        grid.cell_data["frame_w"], of.frames.rotation_matrices(result.tet_frames)[:, :, 2], atol=1e-12
+    )
 
 
 def test_the_command_line_writes_tets_and_lengths(tmp_path):
@@ -148,20 +154,20 @@ def test_the_command_line_writes_tets_and_lengths(tmp_path):
 
 
 def test_a_sampling_of_ones_own_matrix_is_used_by_every_solver(box):
-    made = of.tet_sampling(box)
-    own = of.Sampling(made.stiffness.tocsr(), made.mass, made.body_radius, made.edge_length, made.size, "tets")
+    made = of.volume.tet_sampling(box)
+    own = of.volume.Sampling(made.stiffness.tocsr(), made.mass, made.body_radius, made.edge_length, made.size, "tets")
     assert repr(own) == repr(made) and (own.stiffness != made.stiffness).nnz == 0
-    start = of.random_rotations(len(own))
-    held = of.BoundaryConstraints(
+    start = of.frames.random_rotations(len(own))
+    held = of.volume.BoundaryConstraints(
         np.zeros(len(own), int),
         np.zeros((len(own), 3)),
         np.tile([1.0, 0, 0, 0], (len(own), 1)),
         np.zeros(len(own), int),
     )
-    for call in (lambda s: of.diffuse(s, held, start, max_steps=3).frames, lambda s: of.smooth(s, held, start, max_iterations=3).frames,
-                 lambda s: of.smooth(s, held, start, representation="geodesic", max_iterations=2).frames):  # fmt: skip
+    for call in (lambda s: of.volume.diffuse(s, held, start, max_steps=3).frames, lambda s: of.volume.smooth(s, held, start, max_iterations=3).frames,
+                 lambda s: of.volume.smooth(s, held, start, representation="geodesic", max_iterations=2).frames):  # fmt: skip
         np.testing.assert_array_equal(call(own), call(made))
-    assert of.dirichlet_energy(own, start) == of.dirichlet_energy(made, start)
+    assert of.volume.dirichlet_energy(own, start) == of.volume.dirichlet_energy(made, start)
 
 
 @pytest.mark.parametrize(
@@ -179,13 +185,13 @@ def test_a_sampling_of_ones_own_matrix_is_used_by_every_solver(box):
 )
 def test_matrices_that_couple_nothing_sensible_are_refused(matrix, mass, kind):
     with pytest.raises(of.InvalidInput) as caught:
-        of.Sampling(scipy.sparse.csc_array(np.array(matrix, float)), mass, 1, 1, 1)
+        of.volume.Sampling(scipy.sparse.csc_array(np.array(matrix, float)), mass, 1, 1, 1)
     assert caught.value.kind == kind
 
 
 def test_lengths_of_a_sampling_must_be_positive_and_its_sites_known():
     matrix = scipy.sparse.csc_array([[1.0, -1], [-1, 1]])
     with pytest.raises(of.InvalidInput, match="must be positive"):
-        of.Sampling(matrix, [1, 1], 0, 1, 1)
+        of.volume.Sampling(matrix, [1, 1], 0, 1, 1)
     with pytest.raises(of.InvalidInput, match="sites"):
-        of.Sampling(matrix, [1, 1], 1, 1, 1, "edges")
+        of.volume.Sampling(matrix, [1, 1], 1, 1, 1, "edges")

@@ -10,20 +10,20 @@ from surface_fixtures import NONE, at_angle, square
 def flat():
     """The unit square, its field of axes and the four corners."""
     mesh = square(6)
-    field = of.direction_field(mesh, NONE)
-    return mesh, NONE, field, of.surface_singularities(mesh, field)
+    field = of.surface.direction_field(mesh, NONE)
+    return mesh, NONE, field, of.surface.surface_singularities(mesh, field)
 
 
 @pytest.fixture(scope="module")
 def on_sphere(sphere):
-    field = of.direction_field(sphere, NONE)
-    return sphere, NONE, field, of.surface_singularities(sphere, field)
+    field = of.surface.direction_field(sphere, NONE)
+    return sphere, NONE, field, of.surface.surface_singularities(sphere, field)
 
 
 def test_streamlines_of_a_constant_field_are_straight_and_cross_the_square(flat):
     mesh = flat[0]
     triangles = [12, 30, 59]
-    lines = of.streamlines(*flat, triangles, [at_angle(0.2), at_angle(np.pi / 2), [-3.0, 0, 0]])
+    lines = of.surface.streamlines(*flat, triangles, [at_angle(0.2), at_angle(np.pi / 2), [-3.0, 0, 0]])
     centres = mesh.vertices[mesh.triangles[triangles]].mean(axis=1)
     for line, centre, axis in zip(lines, centres, (0, 1, 0), strict=True):
         assert line.points.dtype == np.float64 and len(line.triangles) == len(line.points) - 1
@@ -35,28 +35,31 @@ def test_streamlines_of_a_constant_field_are_straight_and_cross_the_square(flat)
 def test_streamlines_start_at_the_weights_and_end_where_asked(flat):
     mesh = flat[0]
     start = mesh.vertices[mesh.triangles[20]].T @ [0.2, 0.3, 0.5]
-    (line,) = of.streamlines(*flat, [20], [at_angle(0)], [[0.2, 0.3, 0.5]], both_ways=False, max_length=0.1)
+    (line,) = of.surface.streamlines(*flat, [20], [at_angle(0)], [[0.2, 0.3, 0.5]], both_ways=False, max_length=0.1)
     np.testing.assert_allclose(line.points[0], start, atol=1e-6)
     np.testing.assert_allclose(line.points[-1], start + [0.1, 0, 0], atol=1e-6)
     assert (line.first_end, line.last_end, line.first_singularity) == ("seed", "length", -1)
-    assert of.streamlines(*flat, [], []) == []
+    assert of.surface.streamlines(*flat, [], []) == []
 
 
 def test_streamlines_stop_at_features_unless_told_not_to(flat):
     mesh, _, field, found = flat
     middle = np.flatnonzero(np.isclose(mesh.vertices[:, 0], 0.5))
-    features = of.feature_graph(mesh, np.column_stack([middle[:-1], middle[1:]]))
-    (stopped,) = of.streamlines(mesh, features, field, found, [12], [at_angle(0)])
-    (through,) = of.streamlines(mesh, features, field, found, [12], [at_angle(0)], stop_at_features=False)
+    features = of.surface.feature_graph(mesh, np.column_stack([middle[:-1], middle[1:]]))
+    (stopped,) = of.surface.streamlines(mesh, features, field, found, [12], [at_angle(0)])
+    (through,) = of.surface.streamlines(mesh, features, field, found, [12], [at_angle(0)], stop_at_features=False)
     assert stopped.last_end == "feature" and stopped.length == pytest.approx(0.5)
     assert through.last_end == "boundary" and through.length == pytest.approx(1)
 
 
 @pytest.mark.parametrize("symmetry", [2, 4, 6])
 def test_every_singular_point_has_its_separatrices(sphere, symmetry):
-    field = of.direction_field(sphere, NONE, symmetry=symmetry, method="mbo")
-    found = of.surface_singularities(sphere, field)
-    lines, edge = of.separatrices(sphere, NONE, field, found, max_length=1.0), of.mean_edge_length(sphere)
+    field = of.surface.direction_field(sphere, NONE, symmetry=symmetry, method="mbo")
+    found = of.surface.surface_singularities(sphere, field)
+    lines, edge = (
+        of.surface.separatrices(sphere, NONE, field, found, max_length=1.0),
+        of.surface.mean_edge_length(sphere),
+    )
     assert len(found.points) >= 2 * symmetry - 2
     for place, point in enumerate(found.points):
         from_here = [line for line in lines if line.first_singularity == place]
@@ -72,26 +75,26 @@ def test_every_singular_point_has_its_separatrices(sphere, symmetry):
 
 
 def test_the_separatrices_of_a_cube_are_its_edges(box_surface, box_features):
-    field = of.direction_field(box_surface, box_features)
-    found = of.surface_singularities(box_surface, field)
-    assert of.separatrices(box_surface, box_features, field, found) == []
-    traced = of.separatrices(box_surface, NONE, field, found)  # the same field, its edges no features
+    field = of.surface.direction_field(box_surface, box_features)
+    found = of.surface.surface_singularities(box_surface, field)
+    assert of.surface.separatrices(box_surface, box_features, field, found) == []
+    traced = of.surface.separatrices(box_surface, NONE, field, found)  # the same field, its edges no features
     assert len(traced) == 24 and all(line.length == pytest.approx(1, abs=0.15) for line in traced)
 
 
 def test_even_streamlines_cover_the_square(flat):
-    lines = of.even_streamlines(*flat, spacing=0.1)
+    lines = of.surface.even_streamlines(*flat, spacing=0.1)
     along = [np.abs(line.points[-1] - line.points[0]).argmax() for line in lines]
     assert set(along) == {0, 1}
     for family in (0, 1):
         total = sum(line.length for line, axis in zip(lines, along) if axis == family)
         assert 5 < total < 20  # the area over the spacing is 10; neighbours are between half of it and twice it
-    assert len(of.even_streamlines(*flat, spacing=0.05)) > len(lines)
-    assert all(line.length >= 0.9 for line in of.even_streamlines(*flat, spacing=0.1, min_length=0.9))
+    assert len(of.surface.even_streamlines(*flat, spacing=0.05)) > len(lines)
+    assert all(line.length >= 0.9 for line in of.surface.even_streamlines(*flat, spacing=0.1, min_length=0.9))
 
 
 def test_a_stopped_trace_is_cancelled(on_sphere):
-    for call in (of.separatrices, of.even_streamlines):
+    for call in (of.surface.separatrices, of.surface.even_streamlines):
         phases = []
         call(*on_sphere, progress=lambda *report: phases.append(report[0]))
         assert phases and all(isinstance(phase, str) for phase in phases)
@@ -107,11 +110,11 @@ def test_seeds_that_do_not_fit_are_named(flat):
         ([0, 1], [x, x], [[1, 0, 0], [2, -1, 0]], "bad_seed"), ([0, 1], [x, [np.nan, 0, 0]], None, "non_finite"),
     ):  # fmt: skip
         with pytest.raises(of.InvalidInput) as caught:
-            of.streamlines(*flat, triangles, directions, weights)
+            of.surface.streamlines(*flat, triangles, directions, weights)
         assert caught.value.kind == kind and caught.value.elements == [1]
     for triangles, directions, weights in (([0], [x, x], None), ([0, 1], [x, x], [[1, 0, 0]]), ([0.5], [x], None)):
         with pytest.raises(of.InvalidInput, match="directions|weights|triangles"):
-            of.streamlines(*flat, triangles, directions, weights)
+            of.surface.streamlines(*flat, triangles, directions, weights)
 
 
 def test_options_and_points_that_do_not_fit_are_refused(flat, on_sphere):
@@ -119,17 +122,17 @@ def test_options_and_points_that_do_not_fit_are_refused(flat, on_sphere):
     for options in ({"spacing": -1.0}, {"spacing": np.nan}, {"spacing": 1e-9}, {"stop_ratio": 0.0}, {"stop_ratio": 2.0},
                     {"min_length": -1.0}, {"max_length": -1.0}, {"singular_radius": np.inf}):  # fmt: skip
         with pytest.raises(of.InvalidInput, match=next(iter(options))):
-            of.even_streamlines(*flat, **options)
-    nowhere = [of.SurfaceSingularity([0, 0, 0], 1, 0.25, triangle, vertex) for triangle, vertex in
+            of.surface.even_streamlines(*flat, **options)
+    nowhere = [of.surface.SurfaceSingularity([0, 0, 0], 1, 0.25, triangle, vertex) for triangle, vertex in
                ((72, -1), (-1, 49), (-1, -1), (0, -2))]  # fmt: skip
-    lost = of.SurfaceSingularity([np.nan, 0, 0], 1, 0.25, 0, -1)
-    endless = of.SurfaceSingularity([0, 0, 0], -(2**31), 0.25, 0, -1)
+    lost = of.surface.SurfaceSingularity([np.nan, 0, 0], 1, 0.25, 0, -1)
+    endless = of.surface.SurfaceSingularity([0, 0, 0], -(2**31), 0.25, 0, -1)
     for point in (*nowhere, lost, endless):
         with pytest.raises(of.InvalidInput, match="singularities.points") as caught:
-            of.separatrices(mesh, features, field, of.SurfaceSingularities([point]))
+            of.surface.separatrices(mesh, features, field, of.surface.SurfaceSingularities([point]))
         assert caught.value.elements == [0]
     with pytest.raises(of.InvalidInput, match="another mesh"):
-        of.separatrices(mesh, features, on_sphere[2], found)
+        of.surface.separatrices(mesh, features, on_sphere[2], found)
 
 
 def test_energies_of_points_are_their_formulas():
@@ -137,42 +140,44 @@ def test_energies_of_points_are_their_formulas():
     a = 0.9 * np.sqrt(rng.random(5)) * np.exp(2j * np.pi * rng.random(5))
     pairs = np.abs(a[:, None] - a) + np.eye(5)
     expected = -np.pi * np.log(pairs).sum() - np.pi * np.log(np.abs(1 - a[:, None] * a.conj())).sum()
-    assert of.disk_renormalised_energy(a) == pytest.approx(expected)
+    assert of.surface.disk_renormalised_energy(a) == pytest.approx(expected)
     radii = np.linspace(0.5, 0.99, 2001)
-    energies = [of.disk_polygon_energy(4, r) for r in radii]
+    energies = [of.surface.disk_polygon_energy(4, r) for r in radii]
     polygon = 0.7 * np.exp(0.5j * np.pi * np.arange(4))
-    assert of.disk_polygon_energy(4, 0.7) == pytest.approx(of.disk_renormalised_energy(polygon))
-    assert of.disk_polygon_radius(4) == pytest.approx(radii[np.argmin(energies)], abs=3e-4)
+    assert of.surface.disk_polygon_energy(4, 0.7) == pytest.approx(of.surface.disk_renormalised_energy(polygon))
+    assert of.surface.disk_polygon_radius(4) == pytest.approx(radii[np.argmin(energies)], abs=3e-4)
     x = rng.standard_normal((8, 3))
     x /= np.linalg.norm(x, axis=1, keepdims=True)
     logs = -np.log(np.linalg.norm(x[:, None] - x, axis=2) + np.eye(8)).sum() / 2
-    assert of.logarithmic_energy(x) == pytest.approx(logs)
-    assert of.sphere_renormalised_energy(x) == pytest.approx(2 * np.pi * logs + 64 * np.pi * (np.log(2) - 0.5))
-    assert of.asymptotic_energy(8, 3.0, 0.1) == pytest.approx(8 * np.pi * np.log(10) + 3 + 8 * of.core_energy)
+    assert of.surface.logarithmic_energy(x) == pytest.approx(logs)
+    assert of.surface.sphere_renormalised_energy(x) == pytest.approx(2 * np.pi * logs + 64 * np.pi * (np.log(2) - 0.5))
+    assert of.surface.asymptotic_energy(8, 3.0, 0.1) == pytest.approx(
+        8 * np.pi * np.log(10) + 3 + 8 * of.surface.core_energy
+    )
 
 
 def test_the_field_of_the_sphere_finds_nearly_the_least_energy(on_sphere):
     points = np.array([p.position / np.linalg.norm(p.position) for p in on_sphere[3].points])
     assert len(points) == 8
-    assert of.logarithmic_energy(points) == pytest.approx(-10.428018, abs=0.05)  # of the square antiprism
+    assert of.surface.logarithmic_energy(points) == pytest.approx(-10.428018, abs=0.05)  # of the square antiprism
 
 
 @pytest.mark.parametrize(
     "call",
     [
-        lambda: of.disk_renormalised_energy([0.5, 1.5]),
-        lambda: of.disk_renormalised_energy([0.5, 0.5]),
-        lambda: of.disk_renormalised_energy([np.nan]),
-        lambda: of.disk_polygon_energy(0, 0.5),
-        lambda: of.disk_polygon_energy(4, 1.0),
-        lambda: of.disk_polygon_radius(0),
-        lambda: of.logarithmic_energy(np.ones((2, 3))),
-        lambda: of.logarithmic_energy([[np.inf, 0, 0]]),
-        lambda: of.sphere_renormalised_energy([[0, 0, 1.0]]),
-        lambda: of.sphere_renormalised_energy([[0, 0, 2.0], [0, 0, -1]]),
-        lambda: of.asymptotic_energy(-1, 0.0, 0.1),
-        lambda: of.asymptotic_energy(8, np.nan, 0.1),
-        lambda: of.asymptotic_energy(8, 0.0, 2.0),
+        lambda: of.surface.disk_renormalised_energy([0.5, 1.5]),
+        lambda: of.surface.disk_renormalised_energy([0.5, 0.5]),
+        lambda: of.surface.disk_renormalised_energy([np.nan]),
+        lambda: of.surface.disk_polygon_energy(0, 0.5),
+        lambda: of.surface.disk_polygon_energy(4, 1.0),
+        lambda: of.surface.disk_polygon_radius(0),
+        lambda: of.surface.logarithmic_energy(np.ones((2, 3))),
+        lambda: of.surface.logarithmic_energy([[np.inf, 0, 0]]),
+        lambda: of.surface.sphere_renormalised_energy([[0, 0, 1.0]]),
+        lambda: of.surface.sphere_renormalised_energy([[0, 0, 2.0], [0, 0, -1]]),
+        lambda: of.surface.asymptotic_energy(-1, 0.0, 0.1),
+        lambda: of.surface.asymptotic_energy(8, np.nan, 0.1),
+        lambda: of.surface.asymptotic_energy(8, 0.0, 2.0),
     ],
 )
 def test_points_without_an_energy_are_refused(call):

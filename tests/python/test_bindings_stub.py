@@ -31,6 +31,7 @@ def public(namespace):
 FUNCTIONS = sorted(
     name for name in public(vars(_core)) if callable(getattr(_core, name)) and not inspect.isclass(getattr(_core, name))
 )
+NAMESPACES = octafield.frames, octafield.surface, octafield.volume
 CLASSES = sorted(name for name in public(vars(_core)) if inspect.isclass(getattr(_core, name)))
 
 
@@ -64,7 +65,8 @@ def test_stub_and_function_take_the_same_arguments(name):
 def test_every_public_name_has_a_docstring_and_is_exported(name):
     text = getattr(_core, name).__doc__.split(" -> ", 1)[-1]
     assert len(text.split()) > 4
-    assert name in octafield.__all__ and getattr(octafield, name) is getattr(_core, name)
+    found = [space for space in NAMESPACES if name in space.__all__]
+    assert found and all(getattr(space, name) is getattr(_core, name) for space in found)
 
 
 @pytest.mark.parametrize("name", CLASSES)
@@ -76,7 +78,8 @@ def test_every_field_has_a_docstring(name):
 def test_all_names_exist_and_the_version_is_the_packages():
     from importlib.metadata import version
 
-    assert all(hasattr(octafield, name) for name in octafield.__all__)
+    for space in (octafield, *NAMESPACES):
+        assert all(hasattr(space, name) for name in space.__all__)
     assert octafield.__version__ == version("octafield")
 
 
@@ -90,18 +93,18 @@ mesh.vertices = [[1, 2, 3]]
 points: NDArray[np.float64] = mesh.vertices
 def report(phase: str, fraction: float, merit: float) -> bool | None:
     return fraction < 1
-features = octafield.detect_features(mesh, angle=0.5)
-field: octafield.DirectionField = octafield.direction_field(mesh, features, method="eigen", progress=report)
-guided = octafield.direction_field(
-    mesh, features, edge_epsilon=np.ones(3), constraints=octafield.DirectionConstraints([[0, 1]], [[1, 0, 0]]),
-    guide=octafield.DirectionGuide(octafield.principal_directions(mesh, features).directions), boundary_alignment="weak")
-found: octafield.SurfaceSingularities = octafield.surface_singularities(mesh, field)
-lines: list[octafield.Streamline] = octafield.separatrices(mesh, features, field, found, progress=report)
-length: float = sum(line.length for line in lines) + octafield.core_energy
-tets = octafield.tetrahedralize(mesh)
+features = octafield.surface.detect_features(mesh, angle=0.5)
+field: octafield.surface.DirectionField = octafield.surface.direction_field(mesh, features, method="eigen", progress=report)
+guided = octafield.surface.direction_field(
+    mesh, features, edge_epsilon=np.ones(3), constraints=octafield.surface.DirectionConstraints([[0, 1]], [[1, 0, 0]]),
+    guide=octafield.surface.DirectionGuide(octafield.surface.principal_directions(mesh, features).directions), boundary_alignment="weak")
+found: octafield.surface.SurfaceSingularities = octafield.surface.surface_singularities(mesh, field)
+lines: list[octafield.surface.Streamline] = octafield.surface.separatrices(mesh, features, field, found, progress=report)
+length: float = sum(line.length for line in lines) + octafield.surface.core_energy
+tets = octafield.volume.tetrahedralize(mesh)
 octafield.require_valid(tets)
 octafield.require_valid(mesh, closed=False)
-frames, distances = octafield.sh4_project(octafield.sh4_embed(octafield.random_rotations(3)))
+frames, distances = octafield.frames.sh4_project(octafield.frames.sh4_embed(octafield.frames.random_rotations(3)))
 try:
     octafield.read_surface("part.stl")
 except octafield.IoError as error:

@@ -12,20 +12,20 @@ def edges_of(mesh):
 
 @pytest.fixture(scope="module")
 def box_field(box_surface, box_features):
-    return of.direction_field(box_surface, box_features)
+    return of.surface.direction_field(box_surface, box_features)
 
 
 def test_the_cube_has_its_volume_area_and_characteristic(box_surface):
-    assert of.signed_volume(box_surface) == pytest.approx(1)
-    assert of.triangle_areas(box_surface).sum() == pytest.approx(6)
-    assert of.euler_characteristic(box_surface) == 2
-    assert of.bounding_box_diagonal(box_surface.vertices) == pytest.approx(3**0.5)
+    assert of.surface.signed_volume(box_surface) == pytest.approx(1)
+    assert of.surface.triangle_areas(box_surface).sum() == pytest.approx(6)
+    assert of.surface.euler_characteristic(box_surface) == 2
+    assert of.surface.bounding_box_diagonal(box_surface.vertices) == pytest.approx(3**0.5)
 
 
 def test_edges_are_those_found_with_numpy(box_surface):
-    topology = of.edge_topology(box_surface)
+    topology = of.surface.edge_topology(box_surface)
     np.testing.assert_array_equal(topology.edges, edges_of(box_surface))
-    assert of.mean_edge_length(box_surface) == pytest.approx(
+    assert of.surface.mean_edge_length(box_surface) == pytest.approx(
         np.linalg.norm(np.diff(box_surface.vertices[topology.edges], axis=1), axis=2).mean()
     )
     for k in range(3):
@@ -35,9 +35,9 @@ def test_edges_are_those_found_with_numpy(box_surface):
 
 
 def test_normals_of_the_sphere_point_outward(sphere):
-    assert (np.sum(of.vertex_normals(sphere) * sphere.vertices, axis=1) > 0.99).all()
+    assert (np.sum(of.surface.vertex_normals(sphere) * sphere.vertices, axis=1) > 0.99).all()
     centroids = sphere.vertices[sphere.triangles].mean(axis=1)
-    normals = of.triangle_normals(sphere)
+    normals = of.surface.triangle_normals(sphere)
     np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1)
     assert (np.sum(normals * centroids, axis=1) > 0.9).all()
 
@@ -49,14 +49,16 @@ def test_files_give_back_what_was_written(box_surface, tmp_path, suffix):
     for spelling in (path, str(path)):
         again = of.read_surface(spelling)
         assert len(again.triangles) == len(box_surface.triangles)
-        assert of.signed_volume(again) == pytest.approx(1, rel=1e-6)
+        assert of.surface.signed_volume(again) == pytest.approx(1, rel=1e-6)
     if suffix != ".stl":
         np.testing.assert_array_equal(again.triangles, box_surface.triangles)
 
 
 def test_shared_surfaces_are_read(shared_data):
     mesh = of.read_surface(shared_data / "surfaces" / "s01_surface.stl")
-    assert repr(mesh).startswith("TriangleMesh(208 vertices, 412 triangles, box ") and of.find_defects(mesh) == []
+    assert (
+        repr(mesh).startswith("TriangleMesh(208 vertices, 412 triangles, box ") and of.surface.find_defects(mesh) == []
+    )
 
 
 def test_a_missing_file_is_an_os_error(tmp_path, box_surface):
@@ -69,52 +71,56 @@ def test_a_missing_file_is_an_os_error(tmp_path, box_surface):
 
 def test_a_hole_is_found_and_filled(box_surface):
     open_mesh = of.TriangleMesh(box_surface.vertices, box_surface.triangles[1:])
-    defects = of.find_defects(open_mesh)
+    defects = of.surface.find_defects(open_mesh)
     assert [d.kind for d in defects] == ["not_closed"] and defects[0].element == "edge"
     assert set(defects[0].elements) == set(box_surface.triangles[0]) and defects[0].elements.dtype == np.int32
-    assert of.find_defects(open_mesh, closed=False) == []
+    assert of.surface.find_defects(open_mesh, closed=False) == []
     with pytest.raises(of.GeometryError) as caught:
         of.require_valid(open_mesh)
     assert caught.value.kind == "not_closed" and caught.value.elements == list(defects[0].elements)
     of.require_valid(open_mesh, closed=False)
-    result = of.repair(open_mesh)
-    assert of.find_defects(result.mesh) == [] and len(result.actions) == 1
-    assert of.signed_volume(result.mesh) == pytest.approx(1)
-    assert of.find_defects(of.repair(open_mesh, closed=False).mesh) != []
+    result = of.surface.repair(open_mesh)
+    assert of.surface.find_defects(result.mesh) == [] and len(result.actions) == 1
+    assert of.surface.signed_volume(result.mesh) == pytest.approx(1)
+    assert of.surface.find_defects(of.surface.repair(open_mesh, closed=False).mesh) != []
 
 
 def test_broken_arrays_are_named_as_defects_and_nothing_crashes():
-    assert [d.kind for d in of.find_defects(of.TriangleMesh())] == ["empty"]
+    assert [d.kind for d in of.surface.find_defects(of.TriangleMesh())] == ["empty"]
     wild = of.TriangleMesh(np.eye(3), [[0, 1, 10**9], [0, 1, 2]])
-    assert of.find_defects(wild)[0].kind == "index_out_of_range" and list(of.find_defects(wild)[0].elements) == [0]
+    assert of.surface.find_defects(wild)[0].kind == "index_out_of_range" and list(
+        of.surface.find_defects(wild)[0].elements
+    ) == [0]
     lost = of.TriangleMesh([[0, 0, np.nan], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
-    assert of.find_defects(lost)[0].kind == "non_finite_vertex"
+    assert of.surface.find_defects(lost)[0].kind == "non_finite_vertex"
 
 
 def test_features_of_the_cube_are_its_edges(box_surface, box_features):
-    detected = of.detect_features(box_surface)
+    detected = of.surface.detect_features(box_surface)
     np.testing.assert_array_equal(detected.edges, box_features.edges)
     np.testing.assert_array_equal(detected.corners, box_features.corners)
-    assert len(of.detect_features(box_surface, angle=np.radians(100)).edges) == 0
-    given = of.feature_graph(box_surface, box_features.edges[::-1, ::-1])
+    assert len(of.surface.detect_features(box_surface, angle=np.radians(100)).edges) == 0
+    given = of.surface.feature_graph(box_surface, box_features.edges[::-1, ::-1])
     np.testing.assert_array_equal(given.edges, box_features.edges)
     np.testing.assert_array_equal(given.corners, box_features.corners)
 
 
 def test_remeshing_keeps_shape_and_corners(box_surface, box_features):
     phases = []
-    result = of.remesh(box_surface, box_features, edge_length=0.3, progress=lambda *report: phases.append(report))
-    assert of.find_defects(result.mesh) == [] and of.signed_volume(result.mesh) == pytest.approx(1)
+    result = of.surface.remesh(
+        box_surface, box_features, edge_length=0.3, progress=lambda *report: phases.append(report)
+    )
+    assert of.surface.find_defects(result.mesh) == [] and of.surface.signed_volume(result.mesh) == pytest.approx(1)
     corners = result.mesh.vertices[result.features.corners]
     assert sorted(map(tuple, corners)) == sorted(map(tuple, box_surface.vertices[box_features.corners]))
-    assert of.mean_edge_length(result.mesh) == pytest.approx(0.3, rel=0.3)
+    assert of.surface.mean_edge_length(result.mesh) == pytest.approx(0.3, rel=0.3)
     assert phases and all(isinstance(p, str) and f <= 1 for p, f, _ in phases)
 
 
 def test_cross_field_of_the_cube_has_eight_corners(box_surface, box_features, box_field):
     assert box_field.symmetry == 4 and box_field.converged and box_field.values.dtype == np.complex128
     np.testing.assert_array_equal(box_field.topology.edges, edges_of(box_surface))
-    found = of.surface_singularities(box_surface, box_field)
+    found = of.surface.surface_singularities(box_surface, box_field)
     assert found.index_sum == pytest.approx(2) and found.euler_characteristic == 2 and found.agree
     assert [p.index_times_symmetry for p in found.points] == [1] * 8 and found.boundary_deviation == 0
     features = {tuple(e) for e in box_features.edges.tolist()}
@@ -123,22 +129,22 @@ def test_cross_field_of_the_cube_has_eight_corners(box_surface, box_features, bo
 
 
 def test_directions_are_unit_tangents(box_surface, box_features, box_field):
-    per_triangle = of.triangle_directions(box_surface, box_field)
+    per_triangle = of.surface.triangle_directions(box_surface, box_field)
     np.testing.assert_allclose(np.linalg.norm(per_triangle, axis=1), 1)
-    np.testing.assert_allclose(np.sum(per_triangle * of.triangle_normals(box_surface), axis=1), 0, atol=1e-12)
-    per_vertex = of.vertex_directions(box_surface, box_features, box_field)
+    np.testing.assert_allclose(np.sum(per_triangle * of.surface.triangle_normals(box_surface), axis=1), 0, atol=1e-12)
+    per_vertex = of.surface.vertex_directions(box_surface, box_features, box_field)
     np.testing.assert_allclose(np.linalg.norm(per_vertex, axis=1), 1)
-    np.testing.assert_allclose(np.sum(per_vertex * of.vertex_normals(box_surface), axis=1), 0, atol=1e-12)
+    np.testing.assert_allclose(np.sum(per_vertex * of.surface.vertex_normals(box_surface), axis=1), 0, atol=1e-12)
 
 
 @pytest.mark.parametrize(
     "symmetry, method", [(4, "eigen"), (6, "eigen"), (4, "gl"), (6, "mbo"), (1, "mbo")]
 )
 def test_indices_on_the_sphere_add_up_to_two(sphere, symmetry, method):
-    field = of.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
-    found = of.surface_singularities(sphere, field)
+    field = of.surface.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
+    found = of.surface.surface_singularities(sphere, field)
     assert sum(p.index for p in found.points) == pytest.approx(2) and found.agree
-    again = of.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
+    again = of.surface.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
     assert again.values.tobytes() == field.values.tobytes()
 
 
@@ -146,11 +152,11 @@ def test_features_may_be_given_in_any_order(box_surface, box_features, box_field
     shuffled = of.FeatureGraph(
         np.concatenate([box_features.edges[::-1, ::-1], box_features.edges[:3]]), box_features.corners[::-1]
     )
-    assert of.direction_field(box_surface, shuffled).values.tobytes() == box_field.values.tobytes()
+    assert of.surface.direction_field(box_surface, shuffled).values.tobytes() == box_field.values.tobytes()
 
 
 def test_stopping_a_field_keeps_the_best_state(sphere):
-    field = of.direction_field(sphere, of.FeatureGraph(), progress=lambda phase, fraction, merit: False)
+    field = of.surface.direction_field(sphere, of.FeatureGraph(), progress=lambda phase, fraction, merit: False)
     assert not field.converged and np.isfinite(field.values).all()
 
 
@@ -158,28 +164,28 @@ WILD = of.TriangleMesh(np.eye(3), [[0, 1, 10**9]])
 LOST = of.TriangleMesh([[0, 0, np.inf], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
 NONE = of.FeatureGraph()
 ON_MESH = [
-    of.edge_topology,
-    of.signed_volume,
-    of.triangle_areas,
-    of.triangle_normals,
-    of.vertex_normals,
-    of.mean_edge_length,
-    of.euler_characteristic,
-    of.repair,
-    of.detect_features,
-    of.tetrahedralize,
-    lambda m: of.feature_graph(m, []),
-    lambda m: of.remesh(m, NONE),
-    lambda m: of.direction_field(m, NONE),
-    lambda m: of.vertex_directions(m, NONE, of.DirectionField()),
-    lambda m: of.triangle_directions(m, of.DirectionField()),
-    lambda m: of.surface_singularities(m, of.DirectionField()),
+    of.surface.edge_topology,
+    of.surface.signed_volume,
+    of.surface.triangle_areas,
+    of.surface.triangle_normals,
+    of.surface.vertex_normals,
+    of.surface.mean_edge_length,
+    of.surface.euler_characteristic,
+    of.surface.repair,
+    of.surface.detect_features,
+    of.volume.tetrahedralize,
+    lambda m: of.surface.feature_graph(m, []),
+    lambda m: of.surface.remesh(m, NONE),
+    lambda m: of.surface.direction_field(m, NONE),
+    lambda m: of.surface.vertex_directions(m, NONE, of.surface.DirectionField()),
+    lambda m: of.surface.triangle_directions(m, of.surface.DirectionField()),
+    lambda m: of.surface.surface_singularities(m, of.surface.DirectionField()),
     lambda m: of.write_surface(m, "never.off"),
-    of.principal_directions,
-    lambda m: of.separatrices(m, NONE, of.DirectionField(), of.SurfaceSingularities()),
-    lambda m: of.even_streamlines(m, NONE, of.DirectionField(), of.SurfaceSingularities()),
-    lambda m: of.streamlines(m, NONE, of.DirectionField(), of.SurfaceSingularities(), [], []),
-    lambda m: of.write_surface_field("never.vtp", m, np.eye(3)),
+    of.surface.principal_directions,
+    lambda m: of.surface.separatrices(m, NONE, of.surface.DirectionField(), of.surface.SurfaceSingularities()),
+    lambda m: of.surface.even_streamlines(m, NONE, of.surface.DirectionField(), of.surface.SurfaceSingularities()),
+    lambda m: of.surface.streamlines(m, NONE, of.surface.DirectionField(), of.surface.SurfaceSingularities(), [], []),
+    lambda m: of.volume.write_surface_field("never.vtp", m, np.eye(3)),
 ]
 
 
@@ -200,12 +206,12 @@ def test_coordinates_that_are_not_finite_are_refused_everywhere(call):
 @pytest.mark.parametrize(
     "call",
     [
-        of.mean_edge_length,
-        of.detect_features,
-        of.tetrahedralize,
-        of.principal_directions,
-        lambda m: of.remesh(m, NONE),
-        lambda m: of.direction_field(m, NONE),
+        of.surface.mean_edge_length,
+        of.surface.detect_features,
+        of.volume.tetrahedralize,
+        of.surface.principal_directions,
+        lambda m: of.surface.remesh(m, NONE),
+        lambda m: of.surface.direction_field(m, NONE),
     ],
 )
 def test_an_empty_mesh_is_refused_where_nothing_can_be_said(call):
@@ -222,30 +228,34 @@ def test_features_that_are_not_of_the_mesh_are_refused(box, box_surface, box_fie
         (of.FeatureGraph([[3, 3]], []), "not_an_edge"),
     ):
         for call in (
-            lambda f: of.direction_field(box_surface, f),
-            lambda f: of.remesh(box_surface, f),
-            lambda f: of.vertex_directions(box_surface, f, box_field),
+            lambda f: of.surface.direction_field(box_surface, f),
+            lambda f: of.surface.remesh(box_surface, f),
+            lambda f: of.surface.vertex_directions(box_surface, f, box_field),
             lambda f: of.TetDomain(box, features=f),
         ):
             with pytest.raises(of.InvalidInput, match="features") as caught:
                 call(bad)
             assert caught.value.kind == kind and caught.value.elements == [0]
     with pytest.raises(of.InvalidInput, match="not an edge"):
-        of.feature_graph(box_surface, [far])
+        of.surface.feature_graph(box_surface, [far])
 
 
 def test_a_field_of_another_mesh_is_refused(box_surface, box_features, sphere, box_field):
-    wrong_values = of.DirectionField(4, box_field.topology, box_field.values[:-1])
-    lost_values = of.DirectionField(4, box_field.topology, box_field.values * np.nan)
-    no_symmetry = of.DirectionField(0, box_field.topology, box_field.values)
+    wrong_values = of.surface.DirectionField(4, box_field.topology, box_field.values[:-1])
+    lost_values = of.surface.DirectionField(4, box_field.topology, box_field.values * np.nan)
+    no_symmetry = of.surface.DirectionField(0, box_field.topology, box_field.values)
     for mesh, field in (
         (sphere, box_field),
         (box_surface, wrong_values),
         (box_surface, lost_values),
         (box_surface, no_symmetry),
-        (box_surface, of.DirectionField()),
+        (box_surface, of.surface.DirectionField()),
     ):
-        for call in (of.triangle_directions, of.surface_singularities, lambda m, f: of.vertex_directions(m, NONE, f)):
+        for call in (
+            of.surface.triangle_directions,
+            of.surface.surface_singularities,
+            lambda m, f: of.surface.vertex_directions(m, NONE, f),
+        ):
             with pytest.raises(of.InvalidInput, match="field"):
                 call(mesh, field)
 
@@ -259,18 +269,18 @@ def test_options_out_of_range_are_refused(box_surface, box_features):
         {"max_iterations": -1},
     ):
         with pytest.raises(of.InvalidInput):
-            of.direction_field(box_surface, box_features, **options)
+            of.surface.direction_field(box_surface, box_features, **options)
     with pytest.raises(of.InvalidInput, match="gl, mbo, eigen") as caught:
-        of.direction_field(box_surface, box_features, method="gl")
+        of.surface.direction_field(box_surface, box_features, method="gl")
     assert caught.value.kind == "unknown_word"
     for options in ({"edge_length": -1.0}, {"edge_length": np.nan}, {"iterations": 0}):
         with pytest.raises(of.InvalidInput):
-            of.remesh(box_surface, box_features, **options)
+            of.surface.remesh(box_surface, box_features, **options)
     for options in ({"angle": 0.0}, {"angle": 4.0}, {"corner_angle": np.nan}):
         with pytest.raises(of.InvalidInput):
-            of.detect_features(box_surface, **options)
+            of.surface.detect_features(box_surface, **options)
     for points in ([], [[1, 2]], [[np.nan, 0, 0]]):
         with pytest.raises(of.InvalidInput):
-            of.bounding_box_diagonal(points)
+            of.surface.bounding_box_diagonal(points)
     with pytest.raises(TypeError):
-        of.remesh(box_surface, box_features, 0.3)
+        of.surface.remesh(box_surface, box_features, 0.3)

@@ -11,27 +11,27 @@ import pytest
 POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
 CLASSES = [
     of.TriangleMesh,
-    of.EdgeTopology,
+    of.surface.EdgeTopology,
     of.FeatureGraph,
-    of.Defect,
-    of.RepairResult,
-    of.RemeshResult,
-    of.DirectionField,
-    of.DirectionConstraints,
-    of.DirectionGuide,
-    of.SurfaceSingularity,
-    of.SurfaceSingularities,
-    of.Streamline,
-    of.PrincipalDirections,
+    of.surface.Defect,
+    of.surface.RepairResult,
+    of.surface.RemeshResult,
+    of.surface.DirectionField,
+    of.surface.DirectionConstraints,
+    of.surface.DirectionGuide,
+    of.surface.SurfaceSingularity,
+    of.surface.SurfaceSingularities,
+    of.surface.Streamline,
+    of.surface.PrincipalDirections,
     of.TetMesh,
-    of.BoundarySurface,
-    of.BoundaryConstraints,
-    of.SectorNormals,
-    of.SmoothResult,
-    of.SingularTriangle,
+    of.volume.BoundarySurface,
+    of.volume.BoundaryConstraints,
+    of.volume.SectorNormals,
+    of.volume.SmoothResult,
+    of.volume.SingularTriangle,
     of.SingularGraph,
-    of.SingularEdge,
-    of.SingularEdges,
+    of.volume.SingularEdge,
+    of.volume.SingularEdges,
 ]
 
 
@@ -44,12 +44,12 @@ def test_array_properties_are_views_of_the_same_memory():
     assert mesh.vertices.dtype == np.float64 and mesh.triangles.dtype == np.int32 and mesh.triangles.flags.c_contiguous
     mesh.vertices[3, 2] = 5
     assert mesh.vertices[3, 2] == 5 and np.shares_memory(mesh.vertices, mesh.vertices)
-    assert of.bounding_box_diagonal(mesh.vertices) == pytest.approx(27**0.5)
+    assert of.surface.bounding_box_diagonal(mesh.vertices) == pytest.approx(27**0.5)
 
 
 def test_views_outlive_their_owner():
     vertices = of.TriangleMesh(POINTS, [[0, 2, 1]]).vertices
-    mesh = of.BoundarySurface(of.TriangleMesh(POINTS, []), [0, 1, 2, 3]).mesh
+    mesh = of.volume.BoundarySurface(of.TriangleMesh(POINTS, []), [0, 1, 2, 3]).mesh
     inner = mesh.vertices
     del mesh
     gc.collect()
@@ -77,7 +77,7 @@ def test_an_array_can_be_assigned_to_itself():
 
 
 def test_the_nested_mesh_is_the_same_memory():
-    boundary = of.BoundarySurface(of.TriangleMesh(POINTS, [[0, 2, 1]]), [0, 1, 2, 3])
+    boundary = of.volume.BoundarySurface(of.TriangleMesh(POINTS, [[0, 2, 1]]), [0, 1, 2, 3])
     boundary.mesh.vertices[0] = 7
     boundary.mesh.triangles = [[0, 1, 3], [1, 2, 3]]
     assert (boundary.mesh.vertices[0] == 7).all() and len(boundary.mesh.triangles) == 2
@@ -109,7 +109,7 @@ def test_fields_by_position_and_by_name():
     with pytest.raises(TypeError, match="at most 2"):
         of.FeatureGraph([], [], [])
     with pytest.raises(TypeError, match="energy"):
-        of.SmoothResult(energy="much")
+        of.volume.SmoothResult(energy="much")
 
 
 @pytest.mark.parametrize("cls", CLASSES)
@@ -122,7 +122,7 @@ def test_every_class_is_built_empty_shown_copied_and_pickled(cls):
 
 
 def test_pickles_hold_every_field():
-    triangle = of.SingularTriangle(1, 2, 3, holonomy=4, quarter_turns=-1, boundary=True, point=[1, 2, 3])
+    triangle = of.volume.SingularTriangle(1, 2, 3, holonomy=4, quarter_turns=-1, boundary=True, point=[1, 2, 3])
     graph = of.SingularGraph([triangle], [[0, 0, 1], [0, 0, 2]], [[0, 1], [1, 0, 1]], [1, -1], [1], 2.5, 3)
     again = pickle.loads(pickle.dumps(graph))
     assert (
@@ -138,7 +138,7 @@ def test_pickles_hold_every_field():
 
 
 def test_enumerations_are_words():
-    line = of.Streamline([[0, 0, 0], [1, 0, 0]], [5], 1.0, "singularity", "boundary", 3)
+    line = of.surface.Streamline([[0, 0, 0], [1, 0, 0]], [5], 1.0, "singularity", "boundary", 3)
     assert repr(line) == "Streamline(2 points, length 1, singularity to boundary)" and line.last_singularity == -1
     again = pickle.loads(pickle.dumps(line))
     assert (again.first_end, again.last_end, again.first_singularity) == ("singularity", "boundary", 3)
@@ -152,8 +152,8 @@ def test_enumerations_are_words():
 
 
 def test_singular_points_are_kept_with_their_sums():
-    point = of.SurfaceSingularity([1, 2, 3], 1, 0.25, 7, -1, False)
-    found = pickle.loads(pickle.dumps(of.SurfaceSingularities([point, point], 0.5, 2, False, 0.1)))
+    point = of.surface.SurfaceSingularity([1, 2, 3], 1, 0.25, 7, -1, False)
+    found = pickle.loads(pickle.dumps(of.surface.SurfaceSingularities([point, point], 0.5, 2, False, 0.1)))
     assert [list(p.position) for p in found.points] == [[1, 2, 3]] * 2 and found.points[1].triangle == 7
     assert (found.index_sum, found.euler_characteristic, found.agree, found.boundary_deviation) == (0.5, 2, False, 0.1)
     assert repr(found) == "SurfaceSingularities(2 points, index sum 0.5, Euler characteristic 2)"
@@ -166,7 +166,7 @@ def test_reprs_count():
     )
     assert repr(of.TetMesh(POINTS, [[0, 1, 2, 3]])) == "TetMesh(4 vertices, 1 tet, box [0, 1] x [0, 1] x [0, 1])"
     assert repr(of.FeatureGraph([[0, 1]], [0, 1])) == "FeatureGraph(1 edge, 2 corners)"
-    assert repr(of.BoundaryConstraints(kind=[0, 1, 1, 2])) == "BoundaryConstraints(1 free, 2 axis, 1 fixed)"
+    assert repr(of.volume.BoundaryConstraints(kind=[0, 1, 1, 2])) == "BoundaryConstraints(1 free, 2 axis, 1 fixed)"
 
 
 @pytest.mark.parametrize(
@@ -184,13 +184,13 @@ def test_reprs_count():
         lambda: of.TetMesh(POINTS, [[0, 1, 2]]),
         lambda: of.FeatureGraph([0, 1], []),
         lambda: of.FeatureGraph([], [[0]]),
-        lambda: of.BoundaryConstraints(kind=[300]),
-        lambda: of.SurfaceSingularity([1, 2]),
-        lambda: of.DirectionConstraints(edges=[[0, 1, 2]]),
-        lambda: of.PrincipalDirections(curvatures=[[0, 0, 1]]),
-        lambda: of.DirectionGuide(np.eye(2)),
-        lambda: of.Streamline(triangles=[[0]]),
-        lambda: of.DirectionField(values=["a"]),
+        lambda: of.volume.BoundaryConstraints(kind=[300]),
+        lambda: of.surface.SurfaceSingularity([1, 2]),
+        lambda: of.surface.DirectionConstraints(edges=[[0, 1, 2]]),
+        lambda: of.surface.PrincipalDirections(curvatures=[[0, 0, 1]]),
+        lambda: of.surface.DirectionGuide(np.eye(2)),
+        lambda: of.surface.Streamline(triangles=[[0]]),
+        lambda: of.surface.DirectionField(values=["a"]),
         lambda: of.SingularGraph(curves=[[0.5]]),
     ],
 )

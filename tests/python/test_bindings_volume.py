@@ -9,56 +9,60 @@ import pytest
 def harmonic_turn(points, turns=0.25):
     """Frames turned about z by `turns` of the polar angle round the cube's axis: one singular line of index `turns`."""
     angle = turns * np.arctan2(points[:, 1] - 0.5, points[:, 0] - 0.5)
-    return of.quaternion_exp(np.column_stack([0 * angle, 0 * angle, angle]))
+    return of.frames.quaternion_exp(np.column_stack([0 * angle, 0 * angle, angle]))
 
 
 @pytest.fixture(scope="module")
 def random_field(box):
-    return of.random_rotations(len(box.vertices), 5)
+    return of.frames.random_rotations(len(box.vertices), 5)
 
 
 def test_tets_of_the_cube_fill_it(box):
     of.require_valid(box)
-    np.testing.assert_allclose(of.tet_volumes(box), 1 / (6 * 5**3))
+    np.testing.assert_allclose(of.volume.tet_volumes(box), 1 / (6 * 5**3))
 
 
 def test_its_boundary_is_the_surface_found_with_numpy(box, box_surface):
-    boundary = of.boundary_surface(box)
+    boundary = of.volume.boundary_surface(box)
     assert boundary.vertex_map.dtype == np.int32
     np.testing.assert_array_equal(boundary.mesh.vertices, box.vertices[boundary.vertex_map])
     same = lambda m: sorted(map(tuple, np.sort(m.triangles, axis=1).tolist()))
-    assert same(boundary.mesh) == same(box_surface) and of.signed_volume(boundary.mesh) == pytest.approx(1)
+    assert same(boundary.mesh) == same(box_surface) and of.surface.signed_volume(boundary.mesh) == pytest.approx(1)
 
 
 def test_operators_are_exact_for_linear_functions(box):
-    stiffness, mass = of.stiffness(box), of.mass(box)
+    stiffness, mass = of.volume.stiffness(box), of.volume.mass(box)
     x = box.vertices @ [1.0, 2.0, 3.0]
     assert x @ stiffness @ x == pytest.approx(14)  # |gradient|^2 times the volume
     assert abs(stiffness @ np.ones(len(x))).max() < 1e-12 and abs(stiffness - stiffness.T).max() < 1e-15
     assert mass.sum() == pytest.approx(1) and x @ mass @ x == pytest.approx(
         14 * (1 / 12) + 9
     )  # variance plus mean squared
-    np.testing.assert_allclose(of.lumped_mass(box), np.asarray(mass.sum(axis=1)).ravel())
+    np.testing.assert_allclose(of.volume.lumped_mass(box), np.asarray(mass.sum(axis=1)).ravel())
 
 
 def test_dirichlet_energy_is_that_of_the_sh4_vectors(box, random_field):
-    a = of.sh4_embed(random_field)
-    expected = 0.5 * np.sum(a * (of.stiffness(box) @ a))
-    assert of.dirichlet_energy(box, random_field) == pytest.approx(expected, rel=1e-12)
-    assert of.unit_speed_factor == 3 / 20
-    assert of.dirichlet_energy(box, random_field, threads=1) == of.dirichlet_energy(box, random_field, threads=5)
+    a = of.frames.sh4_embed(random_field)
+    expected = 0.5 * np.sum(a * (of.volume.stiffness(box) @ a))
+    assert of.volume.dirichlet_energy(box, random_field) == pytest.approx(expected, rel=1e-12)
+    assert of.volume.unit_speed_factor == 3 / 20
+    assert of.volume.dirichlet_energy(box, random_field, threads=1) == of.volume.dirichlet_energy(
+        box, random_field, threads=5
+    )
 
 
 def test_tetrahedralize_keeps_the_surface(box_surface):
-    mesh = of.tetrahedralize(box_surface, radius_edge_ratio=1.4, edge_length=0.2)
+    mesh = of.volume.tetrahedralize(box_surface, radius_edge_ratio=1.4, edge_length=0.2)
     of.require_valid(mesh)
-    boundary = of.boundary_surface(mesh)
+    boundary = of.volume.boundary_surface(mesh)
     np.testing.assert_array_equal(mesh.vertices[: len(box_surface.vertices)], box_surface.vertices)
-    assert of.tet_volumes(mesh).sum() == pytest.approx(1) and len(boundary.mesh.triangles) == len(box_surface.triangles)
+    assert of.volume.tet_volumes(mesh).sum() == pytest.approx(1) and len(boundary.mesh.triangles) == len(
+        box_surface.triangles
+    )
 
 
 def test_sector_normals_of_the_cube_are_its_axes(box, box_surface, box_features):
-    sectors = of.sector_normals(of.TetDomain(box, features=box_features))
+    sectors = of.volume.sector_normals(of.TetDomain(box, features=box_features))
     assert sectors.vertex.dtype == np.int32 and (np.diff(sectors.vertex) >= 0).all()
     np.testing.assert_allclose(
         np.sort(np.abs(sectors.normal), axis=1), np.tile([0, 0, 1], (len(sectors.vertex), 1)), atol=1e-14
@@ -70,7 +74,7 @@ def test_sector_normals_of_the_cube_are_its_axes(box, box_surface, box_features)
 @pytest.mark.parametrize("mode, face_kind", [("aligned", 1), ("fixed", 2), ("none", 0)])
 def test_constraints_follow_the_mode(box, box_features, box_problem, mode, face_kind):
     boundary, directions, _, _ = box_problem
-    constraints = of.boundary_constraints(of.TetDomain(box, features=box_features), directions, mode=mode)
+    constraints = of.volume.boundary_constraints(of.TetDomain(box, features=box_features), directions, mode=mode)
     on_surface = np.zeros(len(box.vertices), dtype=np.uint8)
     on_surface[boundary.vertex_map] = 1
     np.testing.assert_array_equal(constraints.on_boundary, on_surface)
@@ -83,11 +87,11 @@ def test_constraints_follow_the_mode(box, box_features, box_problem, mode, face_
 def test_smoothing_the_cube_finds_the_constant_field(box, box_features, box_problem):
     boundary, _, constraints, start = box_problem
     reports = []
-    result = of.smooth(box, constraints, start, progress=lambda *report: reports.append(report))
-    assert result.energy == pytest.approx(of.dirichlet_energy(box, result.frames), rel=1e-12, abs=1e-20)
+    result = of.volume.smooth(box, constraints, start, progress=lambda *report: reports.append(report))
+    assert result.energy == pytest.approx(of.volume.dirichlet_energy(box, result.frames), rel=1e-12, abs=1e-20)
     assert result.energy <= result.energy_history[0] * (1 + 1e-12) and result.message
-    assert of.distance(result.frames, [1, 0, 0, 0]).max() < 1e-3
-    assert np.degrees(of.alignment_angles(of.TetDomain(box, features=box_features), result.frames)).max() < 0.1
+    assert of.frames.distance(result.frames, [1, 0, 0, 0]).max() < 1e-3
+    assert np.degrees(of.volume.alignment_angles(of.TetDomain(box, features=box_features), result.frames)).max() < 0.1
     assert all(isinstance(p, str) and isinstance(f, float) and isinstance(m, float) for p, f, m in reports)
 
 
@@ -95,36 +99,36 @@ def test_smoothing_holds_fixed_frames_and_lowers_the_energy(box, random_field):
     n = len(box.vertices)
     kind = np.zeros(n, dtype=np.uint8)
     kind[::7] = 2
-    constraints = of.BoundaryConstraints(kind, np.zeros((n, 3)), random_field, kind > 0, [])
+    constraints = of.volume.BoundaryConstraints(kind, np.zeros((n, 3)), random_field, kind > 0, [])
     results = [
-        of.smooth(box, constraints, random_field, max_iterations=5, linear_solver=s, threads=t)
+        of.volume.smooth(box, constraints, random_field, max_iterations=5, linear_solver=s, threads=t)
         for s, t in (("cholesky", 1), ("cholesky", 4), ("conjugate_gradients", 2))
     ]
     for result in results:
-        assert of.distance(result.frames[::7], random_field[::7]).max() < 1e-7
-        assert result.energy < of.dirichlet_energy(box, random_field)
+        assert of.frames.distance(result.frames[::7], random_field[::7]).max() < 1e-7
+        assert result.energy < of.volume.dirichlet_energy(box, random_field)
     assert results[0].frames.tobytes() == results[1].frames.tobytes()
 
 
 def test_initial_frames_keep_what_is_fixed(box, box_problem):
     _, _, constraints, start = box_problem
     held = constraints.kind == 2
-    assert held.any() and of.distance(start[held], constraints.frames[held]).max() < 1e-7
+    assert held.any() and of.frames.distance(start[held], constraints.frames[held]).max() < 1e-7
     assert (
-        of.initial_frames(box, constraints, threads=1).tobytes()
-        == of.initial_frames(box, constraints, threads=3).tobytes()
+        of.volume.initial_frames(box, constraints, threads=1).tobytes()
+        == of.volume.initial_frames(box, constraints, threads=3).tobytes()
     )
 
 
 def test_stopped_smoothing_keeps_the_best_state(box, random_field):
     n = len(box.vertices)
-    constraints = of.BoundaryConstraints([0] * n, np.zeros((n, 3)), random_field, [0] * n, [])
-    result = of.smooth(box, constraints, random_field, progress=lambda *report: False)
+    constraints = of.volume.BoundaryConstraints([0] * n, np.zeros((n, 3)), random_field, [0] * n, [])
+    result = of.volume.smooth(box, constraints, random_field, progress=lambda *report: False)
     assert not result.converged and result.frames.shape == (n, 4)
 
 
 def test_constant_fields_have_no_singularity(box):
-    graph = of.singular_graph(box, np.tile(of.octahedral_group()[9], (len(box.vertices), 1)))
+    graph = of.volume.singular_graph(box, np.tile(of.frames.octahedral_group()[9], (len(box.vertices), 1)))
     assert graph.triangles == [] and graph.curves == [] and graph.length == 0
 
 
@@ -134,7 +138,7 @@ def test_a_quarter_turn_round_the_axis_is_one_singular_line(turns, quarter_turns
 
     box = box_tets(4)
     box.vertices[:] += [0.013, 0.007, 0]  # the axis x = y = 1/2 then misses all vertices and edges
-    graph = of.singular_graph(box, harmonic_turn(box.vertices, turns))
+    graph = of.volume.singular_graph(box, harmonic_turn(box.vertices, turns))
     assert graph.complex_triangles == 0 and len(graph.nodes) == 0 and list(graph.curve_quarter_turns) == [quarter_turns]
     assert {t.quarter_turns for t in graph.triangles} == {quarter_turns} and {t.holonomy for t in graph.triangles} <= {
         8,
@@ -146,52 +150,57 @@ def test_a_quarter_turn_round_the_axis_is_one_singular_line(turns, quarter_turns
 
 
 def test_singular_graphs_do_not_depend_on_threads(box, random_field):
-    one, many = of.singular_graph(box, random_field, threads=1), of.singular_graph(box, random_field, threads=6)
+    one, many = (
+        of.volume.singular_graph(box, random_field, threads=1),
+        of.volume.singular_graph(box, random_field, threads=6),
+    )
     assert one.points.tobytes() == many.points.tobytes() and one.length == many.length and len(one.triangles) > 100
     assert all((a == b).all() for a, b in zip(one.curves, many.curves, strict=True))
 
 
 def test_written_fields_are_read_by_others(box, box_surface, random_field, tmp_path):
-    of.write_field(tmp_path / "field.vtu", box, random_field, {"seed": "5"})
+    of.volume.write_field(tmp_path / "field.vtu", box, random_field, {"seed": "5"})
     data = meshio.read(tmp_path / "field.vtu")
     np.testing.assert_array_equal(data.points, box.vertices)
     np.testing.assert_array_equal(data.cells_dict["tetra"], box.tets)
     np.testing.assert_allclose(data.point_data["quaternion"], random_field, atol=1e-15)
-    np.testing.assert_allclose(data.point_data["sh4"], of.sh4_embed(random_field), atol=1e-14)
+    np.testing.assert_allclose(data.point_data["sh4"], of.frames.sh4_embed(random_field), atol=1e-14)
     np.testing.assert_allclose(
-        np.stack([data.point_data["frame_" + k] for k in "uvw"], axis=2), of.rotation_matrices(random_field), atol=1e-14
+        np.stack([data.point_data["frame_" + k] for k in "uvw"], axis=2),
+        of.frames.rotation_matrices(random_field),
+        atol=1e-14,
     )
 
     import pyvista
 
-    graph = of.singular_graph(box, random_field)
-    of.write_singular_graph(tmp_path / "singular.vtp", graph, {"seed": "5"})
+    graph = of.volume.singular_graph(box, random_field)
+    of.volume.write_singular_graph(tmp_path / "singular.vtp", graph, {"seed": "5"})
     lines = pyvista.read(tmp_path / "singular.vtp")
     assert lines.n_lines == len(graph.curves) and lines.length == pytest.approx(3**0.5, rel=0.2)
-    of.write_surface_field(
+    of.volume.write_surface_field(
         tmp_path / "cross.vtp", box_surface, np.tile([0.0, 0.0, 1.0], (len(box_surface.vertices), 1))
     )
     cross = pyvista.read(tmp_path / "cross.vtp")
     assert cross.n_points == len(box_surface.vertices) and (cross.point_data["direction"] == [0, 0, 1]).all()
     with pytest.raises(of.IoError):
-        of.write_field(tmp_path / "no_such_folder" / "field.vtu", box, random_field)
+        of.volume.write_field(tmp_path / "no_such_folder" / "field.vtu", box, random_field)
 
 
 WILD = of.TetMesh(np.eye(4)[:, :3], [[0, 1, 2, 10**9]])
 LOST = of.TetMesh(np.eye(4)[:, :3] * np.nan, [[0, 1, 2, 3]])
 FRAMES = np.tile([1.0, 0, 0, 0], (4, 1))
-FREE = of.BoundaryConstraints([0] * 4, np.zeros((4, 3)), FRAMES, [0] * 4, [])
+FREE = of.volume.BoundaryConstraints([0] * 4, np.zeros((4, 3)), FRAMES, [0] * 4, [])
 ON_TETS = [
-    of.tet_volumes,
-    of.boundary_surface,
-    of.stiffness,
-    of.mass,
-    of.lumped_mass,
-    lambda m: of.dirichlet_energy(m, FRAMES),
-    lambda m: of.initial_frames(m, FREE),
-    lambda m: of.smooth(m, FREE, FRAMES),
-    lambda m: of.singular_graph(m, FRAMES),
-    lambda m: of.write_field("never.vtu", m, FRAMES),
+    of.volume.tet_volumes,
+    of.volume.boundary_surface,
+    of.volume.stiffness,
+    of.volume.mass,
+    of.volume.lumped_mass,
+    lambda m: of.volume.dirichlet_energy(m, FRAMES),
+    lambda m: of.volume.initial_frames(m, FREE),
+    lambda m: of.volume.smooth(m, FREE, FRAMES),
+    lambda m: of.volume.singular_graph(m, FRAMES),
+    lambda m: of.volume.write_field("never.vtu", m, FRAMES),
 ]
 
 
@@ -218,13 +227,15 @@ def test_require_valid_names_tets_as_geometry_errors(box):
 @pytest.mark.parametrize("frames", [FRAMES, np.ones((5, 3)), "frames", [[2.0, 0, 0, 0]] * 216, [[np.nan] * 4] * 216])
 def test_frames_that_do_not_fit_the_mesh_are_refused(box, frames):
     assert len(box.vertices) == 216
-    constraints = of.BoundaryConstraints([0] * 216, np.zeros((216, 3)), np.tile(FRAMES[0], (216, 1)), [0] * 216, [])
+    constraints = of.volume.BoundaryConstraints(
+        [0] * 216, np.zeros((216, 3)), np.tile(FRAMES[0], (216, 1)), [0] * 216, []
+    )
     for call in (
-        of.dirichlet_energy,
-        of.singular_graph,
-        lambda m, f: of.smooth(m, constraints, f),
-        lambda m, f: of.write_field("never.vtu", m, f),
-        of.alignment_angles,
+        of.volume.dirichlet_energy,
+        of.volume.singular_graph,
+        lambda m, f: of.volume.smooth(m, constraints, f),
+        lambda m, f: of.volume.write_field("never.vtu", m, f),
+        of.volume.alignment_angles,
     ):
         with pytest.raises(of.InvalidInput, match="frames|start"):
             call(box, frames)
@@ -245,17 +256,21 @@ def test_frames_that_do_not_fit_the_mesh_are_refused(box, frames):
     ],
 )
 def test_constraints_that_do_not_fit_the_mesh_are_refused(box, field, value):
-    constraints = of.BoundaryConstraints([0] * 216, np.zeros((216, 3)), np.tile(FRAMES[0], (216, 1)), [0] * 216, [])
+    constraints = of.volume.BoundaryConstraints(
+        [0] * 216, np.zeros((216, 3)), np.tile(FRAMES[0], (216, 1)), [0] * 216, []
+    )
     setattr(constraints, field, value)
-    for call in (of.initial_frames, lambda m, c: of.smooth(m, c, np.tile(FRAMES[0], (216, 1)))):
+    for call in (of.volume.initial_frames, lambda m, c: of.volume.smooth(m, c, np.tile(FRAMES[0], (216, 1)))):
         with pytest.raises(of.InvalidInput, match=field):
             call(box, constraints)
 
 
 def test_an_axis_that_is_not_unit_is_refused(box):
-    constraints = of.BoundaryConstraints([1] * 216, np.full((216, 3), 2.0), np.tile(FRAMES[0], (216, 1)), [1] * 216, [])
+    constraints = of.volume.BoundaryConstraints(
+        [1] * 216, np.full((216, 3), 2.0), np.tile(FRAMES[0], (216, 1)), [1] * 216, []
+    )
     with pytest.raises(of.InvalidInput, match="constraints.axis"):
-        of.initial_frames(box, constraints)
+        of.volume.initial_frames(box, constraints)
 
 
 def test_directions_that_do_not_fit_the_surface_are_refused(box, box_features, box_problem):
@@ -263,11 +278,11 @@ def test_directions_that_do_not_fit_the_surface_are_refused(box, box_features, b
     domain = of.TetDomain(box, features=box_features)
     for wrong in (directions[:-1], directions[:, :2], directions * np.nan):
         with pytest.raises(of.InvalidInput, match="directions"):
-            of.boundary_constraints(domain, wrong)
+            of.volume.boundary_constraints(domain, wrong)
         with pytest.raises(of.InvalidInput, match="directions"):
-            of.write_surface_field("never.vtp", boundary.mesh, wrong)
+            of.volume.write_surface_field("never.vtp", boundary.mesh, wrong)
     with pytest.raises(of.InvalidInput, match="aligned, fixed, none"):
-        of.boundary_constraints(domain, directions, mode="loose")
+        of.volume.boundary_constraints(domain, directions, mode="loose")
 
 
 WILD_SURFACE = of.TriangleMesh(np.eye(3), [[0, 1, 10**9]])
@@ -279,13 +294,13 @@ WILD_SURFACE = of.TriangleMesh(np.eye(3), [[0, 1, 10**9]])
         of.SingularGraph(points=np.eye(3), curves=[[0, 3]], curve_quarter_turns=[1]),
         of.SingularGraph(points=np.eye(3), nodes=[-1]),
         of.SingularGraph(points=np.eye(3), curves=[[0, 1]]),
-        of.SingularGraph(triangles=[of.SingularTriangle()]),
+        of.SingularGraph(triangles=[of.volume.SingularTriangle()]),
         of.SingularGraph(points=np.full((2, 3), np.nan)),
     ],
 )
 def test_unsound_graphs_are_not_written(graph, tmp_path):
     with pytest.raises(of.InvalidInput, match="graph"):
-        of.write_singular_graph(tmp_path / "never.vtp", graph)
+        of.volume.write_singular_graph(tmp_path / "never.vtp", graph)
 
 
 def test_options_out_of_range_are_refused(box, box_surface, box_problem):
@@ -298,7 +313,7 @@ def test_options_out_of_range_are_refused(box, box_surface, box_problem):
         {"linear_solver": "magic"},
     ):
         with pytest.raises(of.InvalidInput):
-            of.smooth(box, constraints, start, **options)
+            of.volume.smooth(box, constraints, start, **options)
     for options in (
         {"radius_edge_ratio": 0.5},
         {"radius_edge_ratio": np.nan},
@@ -306,4 +321,4 @@ def test_options_out_of_range_are_refused(box, box_surface, box_problem):
         {"edge_length": -1.0},
     ):
         with pytest.raises(of.InvalidInput):
-            of.tetrahedralize(box_surface, **options)
+            of.volume.tetrahedralize(box_surface, **options)

@@ -10,17 +10,17 @@ import importlib, sys
 for name in sys.argv[1].split(","):
     importlib.import_module(name)
 import numpy as np
-from octafield import _core as of
+import octafield as of
 import pyvista
 from vtkmodules.vtkCommonCore import vtkVersion
 mesh = of.TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
 for round in range(3):
-    of.write_field("field.vtu", mesh, of.random_rotations(4, round))
+    of.volume.write_field("field.vtu", mesh, of.frames.random_rotations(4, round))
     grid = pyvista.read("field.vtu")
     assert grid.n_cells == 1 and abs(grid.volume - 1 / 6) < 1e-12
-    assert np.allclose(grid.point_data["quaternion"], of.random_rotations(4, round))
+    assert np.allclose(grid.point_data["quaternion"], of.frames.random_rotations(4, round))
     pyvista.Sphere().triangulate().save("sphere.stl")
-    assert of.euler_characteristic(of.read_surface("sphere.stl")) == 2
+    assert of.surface.euler_characteristic(of.read_surface("sphere.stl")) == 2
 print(vtkVersion.GetVTKVersion())
 """
 

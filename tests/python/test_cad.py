@@ -60,7 +60,7 @@ def test_a_model_becomes_a_closed_surface_with_its_curves_as_features(part, tmp_
     found = read_input(path, edge_length=0.1)
     of.require_valid(found.surface)
     assert found.kind == "surface" and found.lines_are_features()
-    assert of.signed_volume(found.surface) == pytest.approx(2 - np.pi * 0.09, rel=0.01)
+    assert of.surface.signed_volume(found.surface) == pytest.approx(2 - np.pi * 0.09, rel=0.01)
     ends = np.asarray(found.surface.vertices)[found.lines]
     lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
     assert lengths.sum() == pytest.approx(
@@ -196,8 +196,8 @@ worker.main()
 """
 READER = """import sys
 from pathlib import Path
-from octafield import inputs
-from octafield.meshes import cad
+from octafield.domain import inputs
+from octafield.meshes.gmsh import cad
 cad._WORKER = Path("sleeper.py")
 inputs.read_input(sys.argv[1])
 """
@@ -344,7 +344,7 @@ def test_solids_that_touch_become_tets_with_a_region_each(models, name):
     assert set(found.regions) == set(volumes)
     triangles = np.sort(np.asarray(found.surface.triangles), axis=1)
     assert len(np.unique(triangles, axis=0)) == len(triangles)
-    shared = np.asarray(of.triangle_areas(found.surface))[len(triangles) - found.interface_triangles :].sum()
+    shared = np.asarray(of.surface.triangle_areas(found.surface))[len(triangles) - found.interface_triangles :].sum()
     assert shared == pytest.approx(interface, rel=0.15 if curved else 1e-5)
     assert (
         any("solids touch" in note for note in found.notes) and found.lines_are_features() and found.ignored_lines == 0
@@ -376,7 +376,9 @@ APART = {  # volume, what is noted
 def test_solids_that_do_not_touch_become_triangles(models, name):
     found = read_input(models / name, edge_length=0.2)
     of.require_valid(found.surface)
-    assert found.kind == "surface" and of.signed_volume(found.surface) == pytest.approx(APART[name][0], rel=0.05)
+    assert found.kind == "surface" and of.surface.signed_volume(found.surface) == pytest.approx(
+        APART[name][0], rel=0.05
+    )
     assert APART[name][1] in " ".join(found.notes)
 
 
@@ -411,7 +413,7 @@ def test_open_faces_of_a_model_are_told_what_to_export(models):
 @pytest.mark.parametrize("name, volume", [("ball.step", 4 / 3 * np.pi), ("tube.step", 2 * np.pi**2 * 0.2**2)])
 def test_triangles_follow_what_bends_in_a_model(models, name, volume):
     found = read_input(models / name)
-    assert of.signed_volume(found.surface) == pytest.approx(volume, rel=0.008)
+    assert of.surface.signed_volume(found.surface) == pytest.approx(volume, rel=0.008)
     assert not any("of its volume" in note for note in found.notes)
 
 
@@ -425,7 +427,7 @@ def test_a_mesh_that_loses_volume_of_the_model_says_how_much(models):
 @pytest.mark.parametrize("suffix", [".step", ".brep"])
 def test_faces_beside_solids_are_left_out_and_told(models, suffix):
     found = read_input(models / f"sheet{suffix}", edge_length=0.5)
-    assert of.signed_volume(found.surface) == pytest.approx(1) and np.asarray(found.surface.vertices)[
+    assert of.surface.signed_volume(found.surface) == pytest.approx(1) and np.asarray(found.surface.vertices)[
         :, 0
     ].max() == pytest.approx(1)
     assert any("bound no solid were left out: 1" in note for note in found.notes)
@@ -436,7 +438,9 @@ def test_loose_faces_of_iges_are_sewn(models):
     of.require_valid(found.surface)
     points, lines = np.asarray(found.surface.vertices), np.asarray(found.lines)
     lengths = np.linalg.norm(points[lines[:, 1]] - points[lines[:, 0]], axis=1)
-    assert of.signed_volume(found.surface) == pytest.approx(6) and lengths.sum() == pytest.approx(4 * (1 + 2 + 3))
+    assert of.surface.signed_volume(found.surface) == pytest.approx(6) and lengths.sum() == pytest.approx(
+        4 * (1 + 2 + 3)
+    )
 
 
 def test_a_field_is_computed_in_an_assembly(models):

@@ -19,8 +19,8 @@ def test_every_way_meshes_a_sound_model(way, part):  # noqa: F811
     assert fault is None and cad._fault(grid) is None
     used, triangles = np.unique(grid.cells["triangle"], return_inverse=True)
     surface = of.TriangleMesh(grid.points[used], triangles.reshape(-1, 3))
-    assert of.find_defects(surface) == []
-    assert of.signed_volume(surface) == pytest.approx(2 - np.pi * 0.09, rel=0.05)
+    assert of.surface.find_defects(surface) == []
+    assert of.surface.signed_volume(surface) == pytest.approx(2 - np.pi * 0.09, rel=0.05)
 
 
 def test_the_way_that_helped_is_told(part, monkeypatch):  # noqa: F811
@@ -103,7 +103,7 @@ def test_needles_thin_walls_and_touching_cavities_are_filled_or_refused_in_words
     for scale in ((1, 1, 1e-4), (1, 1e-5, 1e-3), (1e3, 1, 1)):
         thin = of.TriangleMesh(points * scale, generate("box").triangles)
         try:
-            tets = of.tetrahedralize(thin, edge_length=float(of.bounding_box_diagonal(thin.vertices)))
-            assert of.tet_volumes(tets).sum() == pytest.approx(np.prod(scale))
+            tets = of.volume.tetrahedralize(thin, edge_length=float(of.surface.bounding_box_diagonal(thin.vertices)))
+            assert of.volume.tet_volumes(tets).sum() == pytest.approx(np.prod(scale))
         except of.GeometryError as error:
             assert error.kind == "tetgen_failed" and "/" not in str(error)

@@ -65,7 +65,7 @@ def test_npz_holds_all_of_it_for_numpy_alone(tmp_path, cylinder, expected):
     )
     assert (parts["singular_quarter_turns"] == 1).all() and len(parts["singular_edges"]) > 8
     assert ((parts["singular_holonomy"] >= 4) & (parts["singular_holonomy"] <= 9)).all()
-    original = matrices(of.tet_frames(cylinder.tets, cylinder.frames))
+    original = matrices(of.volume.tet_frames(cylinder.tets, cylinder.frames))
     assert np.allclose(q, original @ GROUP[parts["element"]])
     back = of.read_frames(tmp_path / "a.npz")
     assert back.notes == [] and np.array_equal(back.frames, parts["frames"])
@@ -77,7 +77,7 @@ def test_npz_holds_all_of_it_for_numpy_alone(tmp_path, cylinder, expected):
 
 def test_holonomies_are_those_of_the_combed_frames(expected):
     parts = expected.arrays()
-    recorded = {(e.a, e.b): e.holonomy for e in of.singular_edges(expected.mesh, expected.combed.frames).edges}
+    recorded = {(e.a, e.b): e.holonomy for e in of.volume.singular_edges(expected.mesh, expected.combed.frames).edges}
     assert recorded == {
         tuple(edge): h
         for edge, h in zip(parts["singular_edges"].tolist(), parts["singular_holonomy"].tolist(), strict=True)

@@ -9,19 +9,19 @@ from conftest import box_tets, icosphere
 
 BALL, BOX, NONE = icosphere(3), box_tets(8), of.FeatureGraph()
 N = len(BOX.vertices)
-FRAMES = of.random_rotations(N, 1)
-FREE = of.BoundaryConstraints([0] * N, np.zeros((N, 3)), FRAMES, [0] * N, [])
+FRAMES = of.frames.random_rotations(N, 1)
+FREE = of.volume.BoundaryConstraints([0] * N, np.zeros((N, 3)), FRAMES, [0] * N, [])
 
 
 def metric_field():
-    return of.smooth(
+    return of.volume.smooth(
         BOX, FREE, FRAMES, representation="su2_midpoint", solver="levenberg_marquardt", max_iterations=20
     ).frames
 
 
 CALLS = {
-    "gl": lambda: of.direction_field(BALL, NONE).values,
-    "mbo": lambda: of.direction_field(BALL, NONE, method="mbo").values,
+    "gl": lambda: of.surface.direction_field(BALL, NONE).values,
+    "mbo": lambda: of.surface.direction_field(BALL, NONE, method="mbo").values,
     "ceres": metric_field,
 }
 

@@ -28,7 +28,7 @@ def halved(tmp_path_factory):
     """A cube in two regions with its twelve edges as features, and six CAD faces."""
     tets = box_tets(4)
     points = np.asarray(tets.vertices)
-    boundary = of.boundary_surface(tets)
+    boundary = of.volume.boundary_surface(tets)
     triangles = np.asarray(boundary.vertex_map)[boundary.mesh.triangles]
     at = points[triangles]
     faces = sum((1 + 2 * k + side) * (at[:, :, k] == side).all(axis=1) for k in range(3) for side in (0, 1))
@@ -68,7 +68,7 @@ def test_tets_keep_points_regions_features_and_cad_faces_in_every_format_that_ho
 def test_surfaces_keep_their_points_and_say_what_is_lost(halved, tmp_path, suffix):
     done = convert_file(halved, tmp_path / f"a{suffix}")
     after = read_input(tmp_path / f"a{suffix}").surface
-    expected = of.boundary_surface(read_input(halved).tets).mesh
+    expected = of.volume.boundary_surface(read_input(halved).tets).mesh
     assert done.kind == "surface" and any("hold triangles" in note for note in done.notes)
     if suffix != ".vtp":  # which has the interface, too
         assert np.array_equal(after.vertices, expected.vertices) and np.array_equal(after.triangles, expected.triangles)
@@ -184,7 +184,7 @@ def test_fields_go_through_a_chain_of_formats(tmp_path):
     for name in chain:
         convert_file(source, tmp_path / name, mesh=tmp_path / "box.mesh")
         source = tmp_path / name
-    assert np.max(of.distance(readers.qtn(_unpacked(source)), q)) < 1e-14
+    assert np.max(of.frames.distance(readers.qtn(_unpacked(source)), q)) < 1e-14
 
 
 def _unpacked(path):
@@ -242,7 +242,7 @@ def test_what_cannot_be_converted_is_told_in_one_line(tmp_path, arguments, messa
     mesh = box_tets(1)
     of.write_frames(tmp_path / "a.frame", mesh, frames_at(mesh, "tets"), "tets")
     meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)]).write(tmp_path / "a.mesh")
-    of.write_surface(of.boundary_surface(mesh).mesh, tmp_path / "a.off")
+    of.write_surface(of.volume.boundary_surface(mesh).mesh, tmp_path / "a.off")
     words = [str(tmp_path / word) if "." in word else word for word in arguments]
     done = octafield("convert", *words, check=2)
     assert message in done.stderr and len(done.stderr.splitlines()) == 1
@@ -331,7 +331,7 @@ def test_what_gmsh_writes_comes_back_with_groups_lines_and_views_by_their_ids(tm
         gmsh.finalize()
     found, plain = of.read_frames(tmp_path / "a.msh"), read_input(tmp_path / "mesh.msh")
     assert found.where == "tets" and np.array_equal(found.lengths[:, 0], 1 + np.arange(len(tags)))
-    assert np.max(of.distance(found.frames, np.tile([1.0, 0, 0, 0], (len(tags), 1)))) < 1e-14
+    assert np.max(of.frames.distance(found.frames, np.tile([1.0, 0, 0, 0], (len(tags), 1)))) < 1e-14
     left = plain.tets.vertices[plain.tets.tets].mean(axis=1)[:, 0] < 1
     groups = (11, 7) if version == 4.1 else (1, 2)  # saving all, Gmsh writes no groups in version 2
     assert set(groups) == set(plain.regions) and len({*plain.regions[left]}) == len({*plain.regions[~left]}) == 1

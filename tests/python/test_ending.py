@@ -26,8 +26,8 @@ def start(call):
 ball, box = icosphere(4), box_tets(12)
 none = of.FeatureGraph()
 n = len(box.vertices)
-frames = of.random_rotations(n, 1)
-free = of.BoundaryConstraints([0] * n, np.zeros((n, 3)), frames, [0] * n, [])
+frames = of.frames.random_rotations(n, 1)
+free = of.volume.BoundaryConstraints([0] * n, np.zeros((n, 3)), frames, [0] * n, [])
 vectors = np.random.default_rng(1).normal(size=(20_000, 6))
 some = vectors[:300]  # short enough to be computed in the calling thread
 thread = start(lambda: {call})
@@ -35,17 +35,17 @@ print("ready", flush=True)
 """
 
 CALLS = {
-    "direction_field": "of.direction_field(ball, none)",
-    "direction_field_calls_back": "of.direction_field(ball, none, progress=lambda *_: True)",
-    "smooth": "of.smooth(box, free, frames, tolerance=0, max_iterations=1000)",
-    "smooth_calls_back": "of.smooth(box, free, frames, tolerance=0, max_iterations=1000, progress=lambda *_: True)",
+    "direction_field": "of.surface.direction_field(ball, none)",
+    "direction_field_calls_back": "of.surface.direction_field(ball, none, progress=lambda *_: True)",
+    "smooth": "of.volume.smooth(box, free, frames, tolerance=0, max_iterations=1000)",
+    "smooth_calls_back": "of.volume.smooth(box, free, frames, tolerance=0, max_iterations=1000, progress=lambda *_: True)",
     "smooth_sleeps_in_its_callback": (
-        "of.smooth(box, free, frames, max_iterations=1000, progress=lambda *_: time.sleep(5))"
+        "of.volume.smooth(box, free, frames, max_iterations=1000, progress=lambda *_: time.sleep(5))"
     ),
-    "tetrahedralize": "of.tetrahedralize(ball, edge_length=0.05)",
-    "remesh": "of.remesh(ball, none, edge_length=0.05)",
-    "rows": "of.su2_project(vectors)",
-    "few_rows": "of.su2_project(some)",
+    "tetrahedralize": "of.volume.tetrahedralize(ball, edge_length=0.05)",
+    "remesh": "of.surface.remesh(ball, none, edge_length=0.05)",
+    "rows": "of.frames.su2_project(vectors)",
+    "few_rows": "of.frames.su2_project(some)",
 }
 ENDS = ("", "sys.exit(7)", "raise SystemExit(7)")
 

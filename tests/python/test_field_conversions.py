@@ -150,19 +150,19 @@ def test_a_word_for_the_edge_of_cells_is_bad_usage(run, tmp_path):
 
 def test_splitting_between_singular_vertices_keeps_frames_singular_edges_and_features(tmp_path):
     mesh = box_tets(3)
-    frames = np.asarray(of.random_rotations(len(mesh.tets), 5))
-    features = np.asarray(of.boundary_surface(mesh).vertex_map)[
-        of.detect_features(of.boundary_surface(mesh).mesh).edges
+    frames = np.asarray(of.frames.random_rotations(len(mesh.tets), 5))
+    features = np.asarray(of.volume.boundary_surface(mesh).vertex_map)[
+        of.surface.detect_features(of.volume.boundary_surface(mesh).mesh).edges
     ]
     of.write_frames(tmp_path / "a.vtu", mesh, frames, "tets", features=features, regions=np.arange(len(frames)) % 1)
     done = convert_file(tmp_path / "a.vtu", tmp_path / "b.vtu", split_singular=True)
     found = of.read_frames(tmp_path / "b.vtu")
-    split = of.split_between_singular(mesh, frames)
+    split = of.volume.split_between_singular(mesh, frames)
     assert len(split.edges) > 5 and len(split.left) == 0 and done.cells == len(split.mesh.tets) > len(mesh.tets)
     assert np.array_equal(found.mesh.tets, split.mesh.tets) and np.allclose(
-        of.distance(found.frames, frames[split.parent]), 0, atol=1e-7
+        of.frames.distance(found.frames, frames[split.parent]), 0, atol=1e-7
     )
-    before, after = of.singular_edges(mesh, frames), of.singular_edges(found.mesh, found.frames)
+    before, after = of.volume.singular_edges(mesh, frames), of.volume.singular_edges(found.mesh, found.frames)
     assert [(e.a, e.b, e.quarter_turns) for e in after.edges] == [(e.a, e.b, e.quarter_turns) for e in before.edges]
     assert edges_of(found.features) == edges_of(features)
     assert any(f"{len(split.edges)} edges inside between singular vertices were split" in note for note in done.notes)
@@ -195,12 +195,12 @@ def test_field_splits_between_singular_vertices_on_request(tmp_path, interfaces)
     mesh = box_tets(3)
     regions = (np.asarray(mesh.vertices)[np.asarray(mesh.tets)].mean(axis=1)[:, 0] > 0.5).astype(np.int32)
     domain = of.TetDomain(mesh, regions=regions)
-    of.write_field(tmp_path / "in.vtu", domain, np.tile([1.0, 0, 0, 0], (len(mesh.vertices), 1)))
+    of.volume.write_field(tmp_path / "in.vtu", domain, np.tile([1.0, 0, 0, 0], (len(mesh.vertices), 1)))
     options = of.FieldOptions(
         sampling="tets", boundary="none", interfaces=interfaces, max_iterations=0, rounds=0, streamlines=0
     )
     meshed = of.prepare_mesh(tmp_path / "in.vtu", options)
-    random = np.asarray(of.random_rotations(len(mesh.tets), 5))
+    random = np.asarray(of.frames.random_rotations(len(mesh.tets), 5))
     plain, split = (of.compute_field(meshed, replace(options, split_singular=on), start=random) for on in (False, True))
     counts = split.record["split_singular"]
     assert counts["edges"] > 5 and counts["left"] == 0 and "split_singular" not in plain.record
@@ -209,7 +209,9 @@ def test_field_splits_between_singular_vertices_on_request(tmp_path, interfaces)
         and len(split.tets.vertices) == len(plain.tets.vertices) + counts["added_vertices"]
     )
     assert np.array_equal(split.tet_frames, plain.tet_frames[split.parent]) and plain.parent is None
-    ends = lambda result: [(e.a, e.b, e.quarter_turns) for e in of.singular_edges(result.tets, result.tet_frames).edges]
+    ends = lambda result: [
+        (e.a, e.b, e.quarter_turns) for e in of.volume.singular_edges(result.tets, result.tet_frames).edges
+    ]
     assert ends(split) == ends(plain) and split.record["singular_edges"] == plain.record["singular_edges"] > 0
     assert np.array_equal(split.surface.triangles, plain.surface.triangles) and edges_of(
         split.feature_edges
@@ -222,7 +224,7 @@ def test_field_splits_between_singular_vertices_on_request(tmp_path, interfaces)
         split.record["mesh_sha256"] != plain.record["mesh_sha256"]
         and split.record["energy_history"] == plain.record["energy_history"]
     )
-    assert len(of.split_between_singular(split.tets, split.tet_frames).edges) == 0
+    assert len(of.volume.split_between_singular(split.tets, split.tet_frames).edges) == 0
 
 
 def test_field_and_convert_split_alike(tmp_path):
@@ -244,7 +246,7 @@ def test_field_and_convert_split_alike(tmp_path):
     field, converted = of.read_frames(tmp_path / "split" / "field.vtu"), of.read_frames(tmp_path / "converted.vtu")
     assert len(field.mesh.tets) > len(of.read_frames(tmp_path / "plain" / "field.vtu").mesh.tets)
     assert np.array_equal(field.mesh.tets, converted.mesh.tets) and np.allclose(
-        of.distance(field.frames, converted.frames), 0, atol=1e-7
+        of.frames.distance(field.frames, converted.frames), 0, atol=1e-7
     )
     result = CliRunner().invoke(app, [*common[:2], "-o", str(tmp_path / "none"), "--split-singular"])
     assert result.exit_code == 2 and "--sampling tets" in result.output + result.stderr

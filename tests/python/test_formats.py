@@ -60,7 +60,7 @@ def test_own_round_trips_keep_the_frames_and_the_bits_where_promised(mesh, tmp_p
         assert (
             np.array_equal(found.frames, frames)
             if form.exact
-            else np.max(octafield.distance(found.frames, frames)) < 2e-15
+            else np.max(octafield.frames.distance(found.frames, frames)) < 2e-15
         )
         assert np.array_equal(np.sort(found.mesh.tets, axis=1), np.sort(mesh.tets, axis=1))
         assert np.array_equal(found.mesh.vertices, mesh.vertices)
@@ -127,7 +127,7 @@ def test_openvolumemesh_files_have_half_faces_into_their_cells_and_features_as_a
     found = readers.ovm_text(path) if suffix == ".ovm" else readers.ovm_binary(path)
     cells, volumes = readers.ovm_tets(found)
     assert np.array_equal(cells, np.sort(mesh.tets, axis=1))
-    assert np.allclose(volumes, octafield.tet_volumes(mesh))
+    assert np.allclose(volumes, octafield.volume.tet_volumes(mesh))
     marked = found["Edges"][found["EProp", "AlgoHex::FeatureEdges"].ravel() > 0]
     assert np.array_equal(np.unique(np.sort(marked, axis=1), axis=0), cube_edges(mesh))
     corners = np.flatnonzero(found["VProp", "AlgoHex::FeatureVertices"])
@@ -149,7 +149,7 @@ def test_faces_of_a_cell_are_found_for_every_vertex_order_in_an_ovm_file(tmp_pat
     for turn in range(4):
         turned = half_faces[turn:] + half_faces[:turn]
         (tmp_path / "b.ovm").write_text(text.replace(row, "4 " + " ".join(turned)))
-        assert octafield.tet_volumes(read_frames(tmp_path / "b.ovm").mesh) == pytest.approx([1 / 6])
+        assert octafield.volume.tet_volumes(read_frames(tmp_path / "b.ovm").mesh) == pytest.approx([1 / 6])
     (tmp_path / "c.ovm").write_text(
         text.replace(row, f"4 {half_faces[0]} {half_faces[0]} {half_faces[1]} {half_faces[2]}")
     )
@@ -167,11 +167,15 @@ def test_lengths_handedness_and_skew_of_axes_are_told(mesh, tmp_path):
     given[left, :, 1] *= -1
     np.savetxt(tmp_path / "a.txt", given.transpose(0, 2, 1).reshape(-1, 9), fmt="%.17g")
     found = read_frames(tmp_path / "a.txt", mesh)
-    assert np.max(octafield.distance(found.frames, frames)) < 2e-15
+    assert np.max(octafield.frames.distance(found.frames, frames)) < 2e-15
     assert np.allclose(found.lengths, lengths, rtol=1e-14) and found.left_handed == left.sum()
     assert any("left-handed" in note for note in found.notes) and any("lengths" in note for note in found.notes)
     write_frames(
-        tmp_path / "b.ff3", mesh, octafield.tet_frames(mesh, frames), "tets", lengths=np.full((len(mesh.tets), 3), 2.5)
+        tmp_path / "b.ff3",
+        mesh,
+        octafield.volume.tet_frames(mesh, frames),
+        "tets",
+        lengths=np.full((len(mesh.tets), 3), 2.5),
     )
     assert np.allclose(read_frames(tmp_path / "b.ff3", mesh).lengths, 2.5)
     skew = triads.copy()
@@ -220,14 +224,14 @@ def test_centres_find_their_tets_in_any_order(mesh, tmp_path):
     order = np.random.default_rng(1).permutation(len(lines))
     path.write_text("\n".join(lines[i] for i in order))
     found = read_frames(path, mesh)
-    assert np.max(octafield.distance(found.frames, q)) < 2e-15 and "nearest centre" in found.notes[-1]
+    assert np.max(octafield.frames.distance(found.frames, q)) < 2e-15 and "nearest centre" in found.notes[-1]
 
 
 def test_points_that_no_tet_uses_take_their_frames_with_them(mesh, tmp_path):
     import meshio
 
     points = np.vstack([[9.0, 9, 9], np.asarray(mesh.vertices), [8.0, 8, 8]])
-    q = np.asarray(octafield.random_rotations(len(points), 4))
+    q = np.asarray(octafield.frames.random_rotations(len(points), 4))
     cells = [("tetra", np.asarray(mesh.tets) + 1)]
     meshio.Mesh(points, cells).write(tmp_path / "a.mesh")
     np.save(tmp_path / "a.npy", q)
@@ -237,21 +241,25 @@ def test_points_that_no_tet_uses_take_their_frames_with_them(mesh, tmp_path):
 
 
 def test_frames_move_between_vertices_and_tets_by_the_mean(mesh, tmp_path):
-    free = octafield.BoundaryConstraints(
+    free = octafield.volume.BoundaryConstraints(
         np.zeros(64, np.uint8),
         np.zeros((64, 3)),
         np.tile([1.0, 0, 0, 0], (64, 1)),
         np.zeros(64, np.uint8),
         np.empty(0, np.int32),
     )
-    q = np.asarray(octafield.smooth(mesh, free, frames_at(mesh, "vertices"), max_iterations=3).frames)
+    q = np.asarray(octafield.volume.smooth(mesh, free, frames_at(mesh, "vertices"), max_iterations=3).frames)
     notes = write_frames(tmp_path / "a.frame", mesh, q)
     assert "nearest to the mean sh4 vector" in notes[0]
     found = read_frames(tmp_path / "a.frame", mesh)
-    assert np.max(octafield.distance(found.frames, octafield.tet_frames(mesh, q))) < 2e-15
+    assert np.max(octafield.frames.distance(found.frames, octafield.volume.tet_frames(mesh, q))) < 2e-15
     write_frames(tmp_path / "b.npy", mesh, found.frames, "tets", at="vertices")
     assert (
-        np.max(octafield.distance(read_frames(tmp_path / "b.npy").frames, octafield.vertex_frames(mesh, found.frames)))
+        np.max(
+            octafield.frames.distance(
+                read_frames(tmp_path / "b.npy").frames, octafield.volume.vertex_frames(mesh, found.frames)
+            )
+        )
         < 2e-15
     )
     with pytest.raises(octafield.InvalidInput, match="at tets only"):
@@ -262,10 +270,10 @@ def test_sh4_vectors_are_read_with_m_ascending(mesh, tmp_path):
     import meshio
 
     q = frames_at(mesh, "vertices")
-    meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], point_data={"sh4": 3 * octafield.sh4_embed(q)}).write(
+    meshio.Mesh(mesh.vertices, [("tetra", mesh.tets)], point_data={"sh4": 3 * octafield.frames.sh4_embed(q)}).write(
         tmp_path / "a.vtu"
     )
-    assert np.max(octafield.distance(read_frames(tmp_path / "a.vtu").frames, q)) < 1e-7
+    assert np.max(octafield.frames.distance(read_frames(tmp_path / "a.vtu").frames, q)) < 1e-7
 
 
 @given(
@@ -281,7 +289,7 @@ def test_any_rotation_goes_through_nine_numbers(tmp_path_factory, values):
     q /= np.linalg.norm(q, axis=1, keepdims=True)
     path = tmp_path_factory.mktemp("q") / "a.txt"
     write_frames(path, None, q)
-    assert np.max(octafield.distance(read_frames(path).frames, q)) < 2e-15
+    assert np.max(octafield.frames.distance(read_frames(path).frames, q)) < 2e-15
     write_frames(path.with_suffix(".qtn"), None, q, "tets")
     q = np.where(
         np.abs(np.linalg.norm(q, axis=1, keepdims=True) - 1) > 1e-15, read_frames(path.with_suffix(".qtn")).frames, q
@@ -293,7 +301,7 @@ def test_lines_are_written_and_read_without_a_call_each(tmp_path):
     """Of ours: numpy's own loop over lines is its affair."""
     import sys
 
-    q, calls = np.tile(octafield.random_rotations(1000, 1), (20, 1)), []
+    q, calls = np.tile(octafield.frames.random_rotations(1000, 1), (20, 1)), []
     sys.setprofile(
         lambda frame, event, argument: (
             event == "call"

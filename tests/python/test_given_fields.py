@@ -75,7 +75,7 @@ def test_arrays_are_taken_as_they_are(solved, tmp_path):
         tets, tmp_path / "out", representations=["sh4"], boundaries=["none"], fields={"mine": frames}, seeds=2
     )
     assert [row["energy"] for row in found.rows if row["label"] == "mine"] == pytest.approx(
-        [octafield.dirichlet_energy(tets, frames)] * 2
+        [octafield.volume.dirichlet_energy(tets, frames)] * 2
     )
 
 
@@ -121,12 +121,12 @@ def test_the_command_takes_named_files(files, tmp_path):
 @pytest.mark.parametrize("sampling", octafield.options.SAMPLINGS)
 def test_boundary_start_keeps_the_surface_of_the_start_and_smooths_inside(solved, sampling):
     tets, frames = solved
-    given = frames if sampling == "vertices" else np.asarray(octafield.tet_frames(tets, frames))
+    given = frames if sampling == "vertices" else np.asarray(octafield.volume.tet_frames(tets, frames))
     options = octafield.FieldOptions(sampling=sampling, boundary="start", streamlines=0)
     result = octafield.compute_field(tets, options, start=given)
     made = result.frames if sampling == "vertices" else result.tet_frames
     surface = np.asarray(result.constraints.on_boundary, bool)
-    moved = np.asarray(octafield.distance(made, given))
+    moved = np.asarray(octafield.frames.distance(made, given))
     assert 0 < surface.sum() < len(surface)
     assert moved[surface].max() < 1e-7
     assert moved[~surface].max() > 0.01

@@ -223,7 +223,7 @@ def test_slivers_are_warned_of_and_a_new_mesh_of_the_surface_has_none(tmp_path):
     finding = found(record, "tets are well shaped")
     assert (finding["state"], finding["kind"]) == ("warn", "slivers") and flat in finding["elements"]
     assert record["tet_quality"]["dihedral_min_deg"] < 0.5 and record["tet_quality"]["slivers"] >= 1
-    anew = of.tetrahedralize(of.boundary_surface(tets).mesh)
+    anew = of.volume.tetrahedralize(of.volume.boundary_surface(tets).mesh)
     assert states(examine(write(anew, tmp_path / "anew.vtu")))["tets are well shaped"] == "pass"
 
 
@@ -273,7 +273,7 @@ def test_memory_is_weighed_against_the_machine(tmp_path, monkeypatch):
 def test_regions_and_interfaces_are_told(tmp_path, box):
     half = (np.asarray(box.vertices)[np.asarray(box.tets)].mean(axis=1)[:, 0] > 0.4).astype(int) + 1
     path = tmp_path / "two.vtu"
-    of.write_field(path, of.TetDomain(box, regions=half), np.tile([1.0, 0, 0, 0], (len(box.vertices), 1)))
+    of.volume.write_field(path, of.TetDomain(box, regions=half), np.tile([1.0, 0, 0, 0], (len(box.vertices), 1)))
     record = examine(path)
     assert record["ok"] and record["regions"] == 2 and record["interface_triangles"] == 50
 

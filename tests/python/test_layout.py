@@ -1,12 +1,14 @@
 """The package is a house: rooms of a few modules each, imports that go one way, few names at the door."""
 
 import ast
+import re
 from collections import Counter
 from pathlib import Path
 
 import numpy as np
 import octafield
 import pytest
+from docs_blocks import ROOT
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
@@ -77,16 +79,28 @@ def test_imports_in_functions_and_by_full_names_count(tmp_path, back):
     assert circles(tmp_path) == [["one", "room.two"]]
 
 
-def test_rooms_do_not_import_each_other():
-    """Of two rooms one knows the other."""
+def test_rooms_know_those_below_them_alone():
+    """In the order of bindings/README.md; modules outside of rooms are below all, but for the door itself."""
+    table = (ROOT / "bindings/README.md").read_text(encoding="utf-8")
+    rooms = re.findall(r"^\| `(\w+)/` \|", table, flags=re.MULTILINE)
+    assert set(rooms) == {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
     modules = modules_of(PACKAGE)
-    rooms = {
-        (a.partition(".")[0], b.partition(".")[0])
-        for a in modules
-        for b in imports_of(a, modules[a], modules)
-        if a and b
+    level = {
+        name: rooms.index(name.partition(".")[0]) if "." in name or name in rooms else len(rooms) for name in modules
     }
-    assert sorted((a, b) for a, b in rooms if a < b and (b, a) in rooms) == []
+    level |= dict.fromkeys(("", "__main__", "pickling"), -1)
+    up = [(a, b) for a in modules for b in imports_of(a, modules[a], modules) if level[b] < level[a]]
+    assert up == []
+
+
+def test_few_names_at_the_door():
+    assert len(octafield.__all__) <= MOST_NAMES
+    within = {name for space in (octafield.frames, octafield.surface, octafield.volume) for name in space.__all__}
+    again = set(octafield.__all__) & within
+    types = {"FeatureGraph", "SingularGraph", "TetDomain", "TetMesh", "TriangleMesh"}
+    assert again == types | {"read_surface", "require_valid", "write_surface"}
+    public = {name for name in vars(octafield._core) if not name.startswith("_")}
+    assert public == within
 
 
 def test_a_room_has_few_modules():

@@ -16,7 +16,7 @@ def multiplied(a, b):
 
 def group():
     """The 48 unit quaternions, their products and inverses by number."""
-    rotations = np.asarray(of.octahedral_group())
+    rotations = np.asarray(of.frames.octahedral_group())
     elements = np.concatenate([rotations, -rotations])
     number = lambda q: int(np.abs(elements - q).sum(axis=1).argmin())
     product = np.array([[number(multiplied(a, b)) for b in elements] for a in elements])
@@ -56,7 +56,7 @@ def classes(types, elements, product, inverse, one):
 
 @pytest.mark.parametrize("valence3, valence5", [(4, 0), (2, 2), (1, 3), (0, 4)])
 def test_all_holonomies_of_a_node_are_alike_but_those_about_one_axis(valence3, valence5):
-    assert of.hex_vertex_exists(valence3, valence5)
+    assert of.volume.hex_vertex_exists(valence3, valence5)
     found = classes((3,) * valence3 + (5,) * valence5, *group())
     several = [members for members, one_axis in found if not one_axis]
     assert len(several) == 1 and several[0] >= 96

@@ -17,8 +17,11 @@ from octafield import study
 from octafield.domain.generators import generate
 from octafield.view import notebook
 
-CLASSES = sorted({getattr(of, name) for name in of.__all__ if inspect.isclass(getattr(of, name))}
-                 | {getattr(study, name) for name in study.__all__ if inspect.isclass(getattr(study, name))}, key=lambda c: c.__name__)  # fmt: skip
+PLACES = (of, of.frames, of.surface, of.volume, study)
+CLASSES = sorted(
+    {kind for place in PLACES for kind in map(vars(place).get, place.__all__) if inspect.isclass(kind)},
+    key=lambda kind: kind.__name__,
+)
 
 
 @pytest.fixture(scope="module")
@@ -38,25 +41,25 @@ def objects(field, tmp_path_factory):
     in_tets = of.compute_field(tets, of.FieldOptions(sampling="tets", streamlines=0))
     meshed = of.prepare_mesh(generate("box"), of.MeshOptions(edge_length=0.4))
     described = study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}")
-    boundary = of.boundary_surface(tets)
-    combed = of.comb(tets, of.tet_frames(tets, frames))
+    boundary = of.volume.boundary_surface(tets)
+    combed = of.volume.comb(tets, of.volume.tet_frames(tets, frames))
     of.write_frames(folder / "field.npz", tets, frames)
     everything = [
         field, in_tets, meshed, of.prepare(meshed), of.compute_surface_field(generate("torus"), of.SurfaceFieldOptions(curvature=1)),
         of.compare(generate("box"), folder / "compared", representations=["sh4"], boundaries=["aligned"], options=of.FieldOptions(edge_length=0.5)),
         boundary, tets.mesh, of.TetDomain(tets.mesh, regions=two), of.TetDomain(tets.mesh, regions=two).sheets,
-        of.split_locking(tets), of.find_defects(open_box), of.repair(open_box), of.advise_repair(open_box), of.remesh(generate("box"), of.detect_features(generate("box"))), of.size_field(generate("box"), of.detect_features(generate("box"))),
-        of.edge_topology(surface), of.feature_tangents(tets), of.sector_normals(tets),
-        of.principal_directions(surface, field.features), of.locate_points(tets, [[0, 0, 0.5], [9, 9, 9]]), of.sample_frames(field, [[0, 0, 0.5]]), of.comb_vertices(tets, field.frames), of.smoothed_curves(field.singular_graph),
-        of.frame_field(tets, field.constraints, max_steps=2, max_iterations=2), of.vertex_sampling(tets), of.tet_sampling(tets),
-        of.Sampling(of.tet_sampling(tets).stiffness, of.tet_sampling(tets).mass, 1, 1, 2, "tets"),
-        of.singular_edges(tets, in_tets.tet_frames), of.split_between_singular(tets, in_tets.tet_frames), of.singular_graph(tets, of.random_rotations(len(frames))),
-        of.local_meshability(tets, of.random_rotations(len(frames)), of.singular_graph(tets, of.random_rotations(len(frames)))),
-        of.boundary_meshability(tets, of.random_rotations(len(frames))),
-        of.boundary_meshability(box.tets, of.random_rotations(len(box.tets.vertices))),
-        of.DirectionConstraints([[0, 1]], [[1, 0, 0]], [2.0]), of.DirectionGuide([[1, 0, 0]], [1], 3), of.VertexConstraints([3], [1], [[0, 0, 1]]),
-        of.MeshOptions(repair=True), of.FieldOptions(seed=3), of.SurfaceFieldOptions(symmetry=6), list(of.representations.values()), list(of.metrics.values()),
-        combed, of.alignment_tables(tets, combed), of.isotropic_scale(tets, frames), of.axis_scales(tets, frames),
+        of.volume.split_locking(tets), of.surface.find_defects(open_box), of.surface.repair(open_box), of.surface.advise_repair(open_box), of.surface.remesh(generate("box"), of.surface.detect_features(generate("box"))), of.surface.size_field(generate("box"), of.surface.detect_features(generate("box"))),
+        of.surface.edge_topology(surface), of.volume.feature_tangents(tets), of.volume.sector_normals(tets),
+        of.surface.principal_directions(surface, field.features), of.volume.locate_points(tets, [[0, 0, 0.5], [9, 9, 9]]), of.sample_frames(field, [[0, 0, 0.5]]), of.volume.comb_vertices(tets, field.frames), of.volume.smoothed_curves(field.singular_graph),
+        of.volume.frame_field(tets, field.constraints, max_steps=2, max_iterations=2), of.volume.vertex_sampling(tets), of.volume.tet_sampling(tets),
+        of.volume.Sampling(of.volume.tet_sampling(tets).stiffness, of.volume.tet_sampling(tets).mass, 1, 1, 2, "tets"),
+        of.volume.singular_edges(tets, in_tets.tet_frames), of.volume.split_between_singular(tets, in_tets.tet_frames), of.volume.singular_graph(tets, of.frames.random_rotations(len(frames))),
+        of.volume.local_meshability(tets, of.frames.random_rotations(len(frames)), of.volume.singular_graph(tets, of.frames.random_rotations(len(frames)))),
+        of.volume.boundary_meshability(tets, of.frames.random_rotations(len(frames))),
+        of.volume.boundary_meshability(box.tets, of.frames.random_rotations(len(box.tets.vertices))),
+        of.surface.DirectionConstraints([[0, 1]], [[1, 0, 0]], [2.0]), of.surface.DirectionGuide([[1, 0, 0]], [1], 3), of.volume.VertexConstraints([3], [1], [[0, 0, 1]]),
+        of.MeshOptions(repair=True), of.FieldOptions(seed=3), of.SurfaceFieldOptions(symmetry=6), list(of.frames.representations.values()), list(of.frames.metrics.values()),
+        combed, of.volume.alignment_tables(tets, combed), of.volume.isotropic_scale(tets, frames), of.volume.axis_scales(tets, frames),
         of.parameterization_input(tets, frames),
         of.read_frames(folder / "field.npz"), of.analyse(tets, frames), of.convert_file(folder / "field.npz", folder / "field.frame"),
         list(of.frame_formats.values()), described, study.plan(described), study.run(described, folder / "study"),
@@ -130,12 +133,12 @@ def test_pickles_and_copies_hold_every_bit(cls, objects):
 def test_reprs_are_one_short_line_with_the_class(cls, objects):
     for value in objects[cls]:
         text = repr(value)
-        if issubclass(cls, of.Error) or cls is of.Defect:
+        if issubclass(cls, of.Error) or cls is of.surface.Defect:
             assert text.startswith(cls.__name__)
             continue
         assert text.startswith(f"{cls.__name__}(") and text.endswith(")")
         assert "\n" not in text and len(text) < 320 and " object at 0x" not in text and "array(" not in text
-        assert any(c.isdigit() for c in text) or cls in (of.MeshOptions, of.FieldOptions, of.Metric)
+        assert any(c.isdigit() for c in text) or cls in (of.MeshOptions, of.FieldOptions, of.frames.Metric)
 
 
 def test_reprs_tell_counts_and_ranges(field, objects):
@@ -144,12 +147,12 @@ def test_reprs_tell_counts_and_ranges(field, objects):
     (comparison,) = objects[of.Comparison]
     assert repr(comparison).startswith("Comparison(1 run: 1 input, 1 representation, 1 boundary; E ")
     assert "complex" in repr(field.singular_graph) and "length" in repr(field.singular_graph)
-    assert repr(of.VertexConstraints([1, 2], [1, 2])) == "VertexConstraints(2 vertices: 0 free, 1 axis, 1 fixed)"
+    assert repr(of.volume.VertexConstraints([1, 2], [1, 2])) == "VertexConstraints(2 vertices: 0 free, 1 axis, 1 fixed)"
     assert (
         repr(study.parse("{name: two, inputs: [{generator: box}], runs: {boundary: [aligned, fixed]}, seeds: 3}"))
         == "Study(two: 1 input, boundary: aligned, fixed; 3 seeds)"
     )
-    assert repr(of.metrics["geodesic"]).startswith("Metric(geodesic: ")
+    assert repr(of.frames.metrics["geodesic"]).startswith("Metric(geodesic: ")
 
 
 def test_reprs_of_options_are_what_differs_from_the_defaults():

@@ -16,16 +16,20 @@ from octafield.options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from pipeline_fixtures import octafield, write_cube
 
 STRUCTS = {
-    "diffuse": [of.DiffuseOptions],
-    "smooth": [of.SmoothOptions],
-    "frame_field": [of.FrameFieldOptions, of.DiffuseOptions, of.SmoothOptions],
-    "boundary_constraints": [of.BoundaryOptions],
-    "tet_boundary_constraints": [of.BoundaryOptions],
-    "direction_field": [of.DirectionFieldOptions],
-    "detect_features": [of.FeatureOptions],
-    "remesh": [of.RemeshOptions],
-    "size_field": [of.SizeFieldOptions],
+    "diffuse": [of.volume.DiffuseOptions],
+    "smooth": [of.volume.SmoothOptions],
+    "frame_field": [of.volume.FrameFieldOptions, of.volume.DiffuseOptions, of.volume.SmoothOptions],
+    "boundary_constraints": [of.volume.BoundaryOptions],
+    "tet_boundary_constraints": [of.volume.BoundaryOptions],
+    "direction_field": [of.surface.DirectionFieldOptions],
+    "detect_features": [of.surface.FeatureOptions],
+    "remesh": [of.surface.RemeshOptions],
+    "size_field": [of.surface.SizeFieldOptions],
 }
+
+
+def function_of(name):
+    return getattr(of.volume, name, None) or getattr(of.surface, name)
 
 
 def options_of(struct):
@@ -34,7 +38,7 @@ def options_of(struct):
 
 @pytest.mark.parametrize("function", STRUCTS)
 def test_a_function_lists_the_fields_of_its_structs_with_their_defaults(function):
-    signature = getattr(of, function).__doc__.splitlines()[0]
+    signature = function_of(function).__doc__.splitlines()[0]
     for struct in STRUCTS[function]:
         for name in options_of(struct):
             value = getattr(struct(), name)
@@ -50,24 +54,24 @@ def test_a_function_refuses_what_is_no_option(function):
         "detect_features": [box], "remesh": [box, of.FeatureGraph()], "size_field": [box, of.FeatureGraph()],
         "direction_field": [box, of.FeatureGraph()],
     }  # fmt: skip
-    tets = of.tetrahedralize(box)
+    tets = of.volume.tetrahedralize(box)
     given = arguments.get(function) or (
         [tets, np.zeros((8, 3))]
         if "boundary" in function
-        else [tets, of.BoundaryConstraints(), np.zeros((0, 4))][: 2 if function == "frame_field" else 3]
+        else [tets, of.volume.BoundaryConstraints(), np.zeros((0, 4))][: 2 if function == "frame_field" else 3]
     )
     with pytest.raises(TypeError, match=rf"{function}\(\) got an unexpected keyword argument 'toleranse'"):
-        getattr(of, function)(*given, toleranse=1)
+        function_of(function)(*given, toleranse=1)
     name = options_of(STRUCTS[function][0])[0]
     with pytest.raises(TypeError, match=name):
-        getattr(of, function)(*given, **{name: object()})
+        function_of(function)(*given, **{name: object()})
 
 
 def test_words_are_those_of_the_command_line():
-    assert of.SmoothOptions.words["solver"] == ["default", "trust_region", "levenberg_marquardt", "lbfgs"]
-    assert of.DirectionFieldOptions.words["method"] == ["gl", "mbo", "eigen"]
+    assert of.volume.SmoothOptions.words["solver"] == ["default", "trust_region", "levenberg_marquardt", "lbfgs"]
+    assert of.surface.DirectionFieldOptions.words["method"] == ["gl", "mbo", "eigen"]
     with pytest.raises(of.InvalidInput, match="default, trust_region"):
-        of.SmoothOptions(solver="automatic")
+        of.volume.SmoothOptions(solver="automatic")
 
 
 @pytest.mark.parametrize("struct", sorted({s for structs in STRUCTS.values() for s in structs}, key=str))
@@ -82,9 +86,9 @@ def test_a_struct_is_made_changed_and_pickled_as_any_other(struct):
 
 @pytest.mark.parametrize("kind", [FieldOptions, SurfaceFieldOptions])
 def test_defaults_are_those_of_the_structs(kind):
-    recipe, surface = of.FrameFieldOptions(), of.DirectionFieldOptions()
+    recipe, surface = of.volume.FrameFieldOptions(), of.surface.DirectionFieldOptions()
     structs = {
-        FieldOptions: [recipe.smooth, recipe.diffuse, recipe, of.BoundaryOptions()],
+        FieldOptions: [recipe.smooth, recipe.diffuse, recipe, of.volume.BoundaryOptions()],
         SurfaceFieldOptions: [surface],
     }[kind]
     seen = 0

@@ -27,7 +27,7 @@ def mesh():
 
 
 def random_frames(count: int, seed: int = 0) -> np.ndarray:
-    return np.asarray(of.random_rotations(count, seed))
+    return np.asarray(of.frames.random_rotations(count, seed))
 
 
 # ---- factors ----
@@ -47,7 +47,7 @@ def test_energy_at_unit_speed_is_that_of_frames_that_move_by_one_per_radian(mesh
 
 def test_singular_edges_of_frames_in_tets_are_counted_by_turns_from_the_highest_on(mesh):
     frames = random_frames(len(mesh.tets))
-    turns = [edge.quarter_turns for edge in of.singular_edges(mesh, frames).edges]
+    turns = [edge.quarter_turns for edge in of.volume.singular_edges(mesh, frames).edges]
     record = of.analyse(mesh, frames, "tets").record
     assert len(set(turns)) > 2 and 0 in turns
     names = ["complex" if turn == 0 else f"+{turn}" if turn > 0 else str(turn) for turn in sorted(set(turns))[::-1]]
@@ -58,10 +58,10 @@ def test_singular_edges_of_frames_in_tets_are_counted_by_turns_from_the_highest_
 
 def test_size_ratio_is_the_largest_over_the_smallest_size(mesh):
     x, y, _ = np.asarray(mesh.vertices).T
-    frames = np.asarray(of.quaternion_exp(np.column_stack([0 * x, 0.3 * y, 1.5 * y])))
+    frames = np.asarray(of.frames.quaternion_exp(np.column_stack([0 * x, 0.3 * y, 1.5 * y])))
     for found, logs in (
-        (one := of.isotropic_scale(mesh, frames), one.log_scale),
-        (axes := of.axis_scales(mesh, frames), axes.values),
+        (one := of.volume.isotropic_scale(mesh, frames), one.log_scale),
+        (axes := of.volume.axis_scales(mesh, frames), axes.values),
     ):
         sizes = np.exp(np.asarray(logs))
         assert sizes.max() > 1.05 * sizes.min()
@@ -195,16 +195,16 @@ def test_centres_are_those_of_the_mesh_within_a_millionth_of_its_diagonal(mesh, 
 @pytest.mark.parametrize("part", [-1.1, -0.9, 0.9, 1.1])
 def test_unit_quaternions_are_of_length_one_within_a_millionth(mesh, part):
     frames = random_frames(len(mesh.vertices))
-    exact = of.singular_graph(mesh, frames)
+    exact = of.volume.singular_graph(mesh, frames)
     frames[5] *= 1 + part * EPS
-    for call in (of.singular_graph, of.isotropic_scale):
+    for call in (of.volume.singular_graph, of.volume.isotropic_scale):
         if abs(part) < 1:
             call(mesh, frames)
         else:
             with pytest.raises(InvalidInput, match="row 5 .*unit within 1e-6"):
                 call(mesh, frames)
     if abs(part) < 1:
-        np.testing.assert_allclose(of.singular_graph(mesh, frames).points, exact.points, atol=1e-12)
+        np.testing.assert_allclose(of.volume.singular_graph(mesh, frames).points, exact.points, atol=1e-12)
 
 
 @pytest.mark.parametrize("part", [0.9, 1.1])
@@ -228,12 +228,12 @@ def test_changes_of_more_than_a_millionth_are_noted(tmp_path, part):
 def tangled(mesh):
     """Of random frames: hundreds of triangles of every type."""
     frames = random_frames(len(mesh.vertices), 4)
-    return frames, of.singular_graph(mesh, frames)
+    return frames, of.volume.singular_graph(mesh, frames)
 
 
 def test_a_singular_triangle_is_where_the_linear_interpolant_is_shortest(mesh, tangled):
     frames, graph = tangled
-    points, vectors = np.asarray(mesh.vertices), np.asarray(of.sh4_embed(frames))
+    points, vectors = np.asarray(mesh.vertices), np.asarray(of.frames.sh4_embed(frames))
     steps = np.array([(i, j, 60 - i - j) for i in range(61) for j in range(61 - i)]) / 60
     inside = 0
     for number, triangle in enumerate(graph.triangles):

@@ -24,13 +24,13 @@ SMALL = ["s01c", "s02c", "s03c", "s04c", "s06c", "s07c", "s10c", "s11c", "s13c",
 def field_of(name):
     options = FieldOptions(threads=1, streamlines=0)
     meshed = prepare_mesh(shared(SHARED_DATA / "hexme" / f"{name}.vtk.gz"), options)
-    return meshed, meshed.tets, of.tet_frames(meshed.tets, compute_field(meshed, options).frames)
+    return meshed, meshed.tets, of.volume.tet_frames(meshed.tets, compute_field(meshed, options).frames)
 
 
 @pytest.fixture(scope="module", params=SMALL)
 def combed(request):
     meshed, mesh, of_tets = field_of(request.param)
-    return meshed, mesh, of_tets, of.face_matchings(mesh, of_tets), of.comb(mesh, of_tets)
+    return meshed, mesh, of_tets, of.volume.face_matchings(mesh, of_tets), of.volume.comb(mesh, of_tets)
 
 
 def carried(edge, tets, across):
@@ -69,7 +69,7 @@ def keyed(faces):
 
 def test_products_round_edges_are_the_identity_but_at_the_singular_edges(combed):
     _, mesh, of_tets, faces, field = combed
-    recorded = {(e.a, e.b): e.holonomy for e in of.singular_edges(mesh, of_tets).edges}
+    recorded = {(e.a, e.b): e.holonomy for e in of.volume.singular_edges(mesh, of_tets).edges}
     before, after = keyed(faces), keyed(field.faces)
     cut = {tuple(row) for row in np.asarray(field.faces.triangles)[np.asarray(field.cut) == 1].tolist()}
     found, touched = {}, set()
@@ -140,17 +140,19 @@ def test_the_complement_of_the_cut_is_simply_connected(combed):
 
 
 def boundary_of(mesh):
-    surface = of.boundary_surface(mesh)
+    surface = of.volume.boundary_surface(mesh)
     return np.asarray(surface.vertex_map)[surface.mesh.triangles]
 
 
 def test_tables_tell_the_axes_of_normals_and_feature_edges(combed):
     meshed, mesh, _, _, field = combed
     surface, features = meshed.tets.surface, meshed.tets.features
-    found = of.alignment_tables(meshed.tets, field)
+    found = of.volume.alignment_tables(meshed.tets, field)
     frames, points = matrices(field.frames), np.asarray(mesh.vertices)
     corners = points[np.asarray(surface.vertex_map)[surface.mesh.triangles]]
-    check_axes(frames, found.triangle_tet, found.triangle_axis, found.triangle_angle, of.triangle_normals(surface.mesh))
+    check_axes(
+        frames, found.triangle_tet, found.triangle_axis, found.triangle_angle, of.surface.triangle_normals(surface.mesh)
+    )
     assert (np.isin(np.asarray(mesh.tets)[found.triangle_tet], np.asarray(surface.vertex_map)).sum(axis=1) >= 3).all()
     assert np.degrees(np.median(found.triangle_angle)) < 10 and len(corners) == len(found.triangle_patch)
     a, b = np.asarray(found.feature_edges).T
@@ -187,26 +189,26 @@ def patches(triangles, features):
 
 def test_a_cylinder_has_one_axis_normal_to_each_of_its_patches_though_four_curves_cross_it(tmp_path):
     meshed, mesh, of_tets = field_of("s02c")
-    field = of.comb(mesh, of_tets)
+    field = of.volume.comb(mesh, of_tets)
     assert field.cut.any()
-    found = of.alignment_tables(meshed.tets, field)
+    found = of.volume.alignment_tables(meshed.tets, field)
     assert found.patch_one_axis.all()
 
 
 def test_records_are_pickled_and_other_meshes_refused(box):
-    field = of.comb(box, np.tile([1.0, 0, 0, 0], (len(box.tets), 1)))
+    field = of.volume.comb(box, np.tile([1.0, 0, 0, 0], (len(box.tets), 1)))
     assert not field.cut.any() and field.parts == 1 and not field.element.any()
     again = pickle.loads(pickle.dumps(field))
     np.testing.assert_array_equal(again.faces.matching, field.faces.matching)
     domain = of.TetDomain(box)
-    domain = domain.with_features(of.detect_features(domain.surface.mesh))
-    assert len(copy.deepcopy(of.alignment_tables(domain, again)).patch_one_axis) == 6
+    domain = domain.with_features(of.surface.detect_features(domain.surface.mesh))
+    assert len(copy.deepcopy(of.volume.alignment_tables(domain, again)).patch_one_axis) == 6
     with pytest.raises(of.InvalidInput):
-        of.alignment_tables(domain, of.CombedField())
+        of.volume.alignment_tables(domain, of.volume.CombedField())
     with pytest.raises(of.InvalidInput):
-        of.comb(box, field.frames[:5])
+        of.volume.comb(box, field.frames[:5])
     with pytest.raises(of.InvalidInput):
-        of.face_matchings(box, 2 * field.frames)
+        of.volume.face_matchings(box, 2 * field.frames)
 
 
 def test_the_study_writes_its_tables_and_picture(tmp_path):

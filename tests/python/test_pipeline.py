@@ -63,11 +63,11 @@ def test_the_field_of_a_cube_is_its_own_axes(cube):
     assert cube.record["singular_edges"] == 0
     assert cube.record["alignment_deg"]["max"] == pytest.approx(0, abs=1e-4)
     identity = np.array([1.0, 0, 0, 0])
-    assert max(octafield.distance(np.asarray(cube.frames), np.tile(identity, (len(cube.frames), 1)))) < 1e-6
+    assert max(octafield.frames.distance(np.asarray(cube.frames), np.tile(identity, (len(cube.frames), 1)))) < 1e-6
 
 
 def test_energy_is_that_of_the_frames_and_unit_speed_is_three_twentieths(cube):
-    assert cube.record["energy"] == octafield.dirichlet_energy(cube.tets, cube.frames)
+    assert cube.record["energy"] == octafield.volume.dirichlet_energy(cube.tets, cube.frames)
     assert cube.record["energy_unit_speed"] == pytest.approx(0.15 * cube.record["energy"])
 
 
@@ -119,7 +119,7 @@ def test_inverted_tets_are_turned_over_and_unused_points_left_out(tmp_path, cube
     points = np.vstack([np.asarray(cube.tets.vertices), [[9.0, 9, 9]]])
     found = read_input(write_tets(tmp_path / "inverted.vtk", tets, points))
     assert len(found.tets.vertices) == len(cube.tets.vertices)
-    assert (np.asarray(octafield.tet_volumes(found.tets)) > 0).all()
+    assert (np.asarray(octafield.volume.tet_volumes(found.tets)) > 0).all()
     assert len(found.notes) == 2
 
 
@@ -136,7 +136,7 @@ def test_lines_of_a_tet_mesh_become_its_features_by_default(tmp_path, cube):
 
 
 def test_lines_that_list_all_mesh_edges_are_no_features(tmp_path, cube):
-    topology = octafield.edge_topology(cube.surface)
+    topology = octafield.surface.edge_topology(cube.surface)
     path = write_tets(
         tmp_path / "all.vtk", np.asarray(cube.tets.tets), np.asarray(cube.tets.vertices), np.asarray(topology.edges)
     )
@@ -192,7 +192,7 @@ def test_repair_is_done_on_request_only_and_reported():
     with pytest.raises(octafield.GeometryError) as caught:
         load_surface(path)
     assert caught.value.kind == "inside_out"
-    assert octafield.signed_volume(load_surface(path, repair=True)) > 0
+    assert octafield.surface.signed_volume(load_surface(path, repair=True)) > 0
     assert any(
         note.startswith("repair: ") for note in prepare_mesh(path, FieldOptions(repair=True), volume=False).notes
     )
@@ -230,7 +230,7 @@ def test_quads_of_a_surface_become_two_triangles_each(tmp_path):
     meshio.Mesh(corners, [("quad", quads), ("triangle", triangles)]).write(path)
     surface = load_surface(path)
     assert len(surface.triangles) == 12
-    assert octafield.signed_volume(surface) == pytest.approx(1)
+    assert octafield.surface.signed_volume(surface) == pytest.approx(1)
 
 
 @pytest.mark.parametrize("face, kept", [(0, True), (-1, True), (7, False)])
@@ -268,7 +268,7 @@ def test_integers_of_numpy_are_taken_and_fractions_refused():
 def test_a_run_validates_its_mesh_once(tmp_path, kind, sampling):
     """Every crossing into C++ that is handed a TetMesh instead of the domain would validate it again."""
     options = FieldOptions(sampling=sampling, edge_length=0.4, sizes="axes", streamlines=2)
-    source = generate("box") if kind == "surface" else octafield.tetrahedralize(generate("box"), edge_length=0.4)
+    source = generate("box") if kind == "surface" else octafield.volume.tetrahedralize(generate("box"), edge_length=0.4)
     before = octafield.TetDomain.made()
     result = compute_field(source, options if kind == "surface" else replace(options, edge_length=0))
     write_field_result(result, tmp_path)

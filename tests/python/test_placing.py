@@ -16,7 +16,7 @@ def mesh():
 
 
 def file_of(count: int, where: str = "tets", **more) -> FrameFile:
-    frames = np.asarray(of.random_rotations(count, 3)) if count else np.empty((0, 4))
+    frames = np.asarray(of.frames.random_rotations(count, 3)) if count else np.empty((0, 4))
     return FrameFile("a.x", "npz", frames, where, **more)
 
 

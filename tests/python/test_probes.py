@@ -27,7 +27,7 @@ def kuhn_cube(n):
 def turning(points):
     """A smooth field that turns by more than a right angle across the cube, whose quaternions are known everywhere."""
     x, y, z = np.asarray(points).T
-    return octafield.quaternion_exp(np.column_stack([0.8 * np.sin(2 * y), 1.1 * x * z, 2.0 * x - 0.6 * z]))
+    return octafield.frames.quaternion_exp(np.column_stack([0.8 * np.sin(2 * y), 1.1 * x * z, 2.0 * x - 0.6 * z]))
 
 
 def multiplied(a, b):
@@ -45,7 +45,7 @@ def multiplied(a, b):
 
 def scrambled(frames, seed=1):
     """The same field, the axes of each frame named at random."""
-    group = octafield.binary_octahedral_group()
+    group = octafield.frames.binary_octahedral_group()
     return multiplied(frames, group[np.random.default_rng(seed).integers(len(group), size=len(frames))])
 
 
@@ -56,7 +56,7 @@ def ball():
 
 
 def degrees(a, b):
-    return np.degrees(np.asarray(octafield.distance(a, b)))
+    return np.degrees(np.asarray(octafield.frames.distance(a, b)))
 
 
 def test_samples_of_a_smooth_field_are_second_order_whatever_the_labels():
@@ -131,7 +131,7 @@ def test_confidence_falls_at_singular_curves(ball):
     ].mean(axis=1)
     there, anywhere = (
         np.asarray(octafield.sample_frames(ball, points).confidence)
-        for points in (centres, octafield.spread_points(ball.tets, 500))
+        for points in (centres, octafield.volume.spread_points(ball.tets, 500))
     )
     assert there.max() < 0.9 < np.median(anywhere)
 
@@ -144,7 +144,7 @@ def wrong_axes(cut):
 
 def _against_field(cut):
     axis = np.asarray(cut.point_data["frame_u"], float)
-    found = np.asarray(octafield.rotation_matrices(np.asarray(cut.point_data["true"])))
+    found = np.asarray(octafield.frames.rotation_matrices(np.asarray(cut.point_data["true"])))
     return np.einsum("ni,nij->nj", axis / np.linalg.norm(axis, axis=1)[:, None], found)
 
 
@@ -152,8 +152,8 @@ def cut_of(result, frames):
     """pyvista's slice of the axes of these representatives, with the sampled field beside it, and whether only tets
     whose axes agree are at a point."""
     grid = octafield.to_pyvista(result.tets)
-    grid.point_data["frame_u"] = np.asarray(octafield.rotation_matrices(frames))[:, :, 0]
-    grid.cell_data["axes_agree"] = np.asarray(octafield.axes_agree(result.tets, frames))
+    grid.point_data["frame_u"] = np.asarray(octafield.frames.rotation_matrices(frames))[:, :, 0]
+    grid.cell_data["axes_agree"] = np.asarray(octafield.volume.axes_agree(result.tets, frames))
     cut = grid.slice(normal=(0.3, 0.2, 1), origin=(0.03, 0.02, 0.01))
     cut.point_data["true"] = octafield.sample_frames(result, cut.points, tolerance=1e-3, outside="error").frames
     sound = cut.threshold(0.5, scalars="axes_agree")
@@ -164,7 +164,7 @@ def test_slices_of_axes_are_right_where_they_agree_and_combing_leaves_few_tets_w
     as_solved, sound = cut_of(ball, scrambled(ball.frames, 7))
     assert (wrong_axes(as_solved) > 5).mean() > 0.3  # what the warning is about
     combed, sound = cut_of(ball, ball.frames)
-    share = 1 - np.mean(octafield.axes_agree(ball.tets, ball.frames))
+    share = 1 - np.mean(octafield.volume.axes_agree(ball.tets, ball.frames))
     print(f"wrong by more than 5 degrees: named at random {np.mean(wrong_axes(as_solved) > 5):.3f}, combed {np.mean(wrong_axes(combed) > 5):.3f}, of these where axes agree "
           f"{np.mean(wrong_axes(sound) > 5):.4f} (largest {wrong_axes(sound).max():.2f}); tets that disagree {share:.3f}")  # fmt: skip
     assert share < 0.2
@@ -173,13 +173,13 @@ def test_slices_of_axes_are_right_where_they_agree_and_combing_leaves_few_tets_w
 
 def test_combing_changes_names_of_axes_only_and_is_done_once(ball):
     mixed = scrambled(ball.frames, 9)
-    found = octafield.comb_vertices(ball.tets, mixed)
+    found = octafield.volume.comb_vertices(ball.tets, mixed)
     assert degrees(found.frames, mixed).max() < 1e-4
-    again = octafield.comb_vertices(ball.tets, found.frames)
+    again = octafield.volume.comb_vertices(ball.tets, found.frames)
     np.testing.assert_array_equal(again.frames, found.frames)
-    np.testing.assert_array_equal(octafield.comb_vertices(ball.tets, mixed, threads=3).frames, found.frames)
+    np.testing.assert_array_equal(octafield.volume.comb_vertices(ball.tets, mixed, threads=3).frames, found.frames)
     smooth = kuhn_cube(4)
-    of_smooth = octafield.comb_vertices(smooth, scrambled(turning(smooth.vertices)))
+    of_smooth = octafield.volume.comb_vertices(smooth, scrambled(turning(smooth.vertices)))
     assert of_smooth.parts == 1 and np.asarray(of_smooth.agree).all()  # no singular curve, no cut
     edges = np.asarray(smooth.tets)[:, :2]
     quaternions = np.asarray(of_smooth.frames)
@@ -187,15 +187,17 @@ def test_combing_changes_names_of_axes_only_and_is_done_once(ball):
 
 
 def test_results_and_their_files_are_combed_and_say_where_axes_disagree(ball, tmp_path):
-    np.testing.assert_array_equal(octafield.comb_vertices(ball.tets, ball.frames).frames, ball.frames)
-    octafield.write_field(tmp_path / "field.vtu", ball.tets, ball.frames)
+    np.testing.assert_array_equal(octafield.volume.comb_vertices(ball.tets, ball.frames).frames, ball.frames)
+    octafield.volume.write_field(tmp_path / "field.vtu", ball.tets, ball.frames)
     read, made = pyvista.read(tmp_path / "field.vtu"), octafield.to_pyvista(ball)
     for grid in (read, made):
-        np.testing.assert_array_equal(grid.cell_data["axes_agree"], octafield.axes_agree(ball.tets, ball.frames))
+        np.testing.assert_array_equal(grid.cell_data["axes_agree"], octafield.volume.axes_agree(ball.tets, ball.frames))
         axes = np.stack([grid.point_data[name] for name in ("frame_u", "frame_v", "frame_w")], axis=2)
-        np.testing.assert_allclose(axes, octafield.rotation_matrices(grid.point_data["quaternion"]), atol=1e-14)
+        np.testing.assert_allclose(axes, octafield.frames.rotation_matrices(grid.point_data["quaternion"]), atol=1e-14)
         np.testing.assert_allclose(
-            grid.point_data["sh4"], octafield.representations["sh4"].embed(grid.point_data["quaternion"]), atol=1e-14
+            grid.point_data["sh4"],
+            octafield.frames.representations["sh4"].embed(grid.point_data["quaternion"]),
+            atol=1e-14,
         )
 
 
@@ -203,12 +205,12 @@ def test_lengths_of_axes_go_with_their_names():
     """Where lengths are unknowns too, file and result hold them in the order of the combed axes."""
     meshed = octafield.prepare_mesh(generate("ball"), octafield.MeshOptions(edge_length=0.35))
     result = octafield.compute_field(meshed, octafield.FieldOptions(representation="odeco_lengths", max_iterations=20))
-    axes = np.asarray(octafield.rotation_matrices(result.frames))
+    axes = np.asarray(octafield.frames.rotation_matrices(result.frames))
     tensors = np.einsum("nk,nik,njk->nij", np.asarray(result.lengths), axes, axes)
-    plain = octafield.frame_field(
+    plain = octafield.volume.frame_field(
         result.tets, result.constraints, representation="odeco_lengths", max_iterations=20
     ).smooth
-    other = np.asarray(octafield.rotation_matrices(plain.frames))
+    other = np.asarray(octafield.frames.rotation_matrices(plain.frames))
     np.testing.assert_allclose(
         tensors, np.einsum("nk,nik,njk->nij", np.asarray(plain.lengths), other, other), atol=1e-9
     )

@@ -19,7 +19,7 @@ SOUND = {"ball": ball, "box": lambda: generate("box"), "torus": lambda: generate
 
 
 def kinds(mesh, **tests):
-    return [defect.kind for defect in of.find_defects(mesh, **tests)]
+    return [defect.kind for defect in of.surface.find_defects(mesh, **tests)]
 
 
 @pytest.mark.parametrize("name", SOUND)
@@ -27,7 +27,7 @@ def kinds(mesh, **tests):
 def test_a_sound_surface_is_left_as_it_is_bit_by_bit(name, level):
     mesh = SOUND[name]()
     assert kinds(mesh) == []
-    done = of.repair(mesh, level=level)
+    done = of.surface.repair(mesh, level=level)
     assert done.actions == [] and done.largest_move == 0
     assert np.asarray(done.mesh.vertices).tobytes() == np.asarray(mesh.vertices).tobytes()
     np.testing.assert_array_equal(done.mesh.triangles, mesh.triangles)
@@ -37,15 +37,15 @@ def test_a_sound_surface_is_left_as_it_is_bit_by_bit(name, level):
 def test_the_level_that_is_recommended_mends_it_and_none_below_does(name):
     make, expected = ZOO[name]
     mesh = make()
-    advice = of.advise_repair(mesh)
-    left = {level: kinds(of.repair(mesh, level=level).mesh) for level in REPAIR_LEVELS}
+    advice = of.surface.advise_repair(mesh)
+    left = {level: kinds(of.surface.repair(mesh, level=level).mesh) for level in REPAIR_LEVELS}
     assert advice.level == (expected or "none"), left
     if expected is None:
         assert all(left.values()) and [defect.kind for defect in advice.left] == left["wrap"]
         return
     place = REPAIR_LEVELS.index(expected)
     assert left[expected] == [] and all(left[level] for level in REPAIR_LEVELS[:place])
-    done = of.repair(mesh, level=expected)
+    done = of.surface.repair(mesh, level=expected)
     assert done.actions == advice.actions != []
     assert all(left[level] == [] for level in REPAIR_LEVELS[place:])
 
@@ -53,31 +53,31 @@ def test_the_level_that_is_recommended_mends_it_and_none_below_does(name):
 @pytest.mark.parametrize("name", [name for name, (_, level) in ZOO.items() if level in ("merge", "safe", "fill")])
 def test_below_resolve_every_point_stays_but_for_merging_within_the_tolerance(name):
     mesh = ZOO[name][0]()
-    done = of.repair(mesh, level="fill")
+    done = of.surface.repair(mesh, level="fill")
     before = {tuple(point) for point in (np.asarray(mesh.vertices) + 0.0).tolist()}
     kept = [tuple(point) in before for point in (np.asarray(done.mesh.vertices) + 0.0).tolist()]
     first_new = kept.index(False) if False in kept else len(kept)
     assert not any(kept[first_new:])  # new points of patches come last
-    assert done.largest_move <= 2 * of.coordinate_precision(mesh.vertices)
+    assert done.largest_move <= 2 * of.surface.coordinate_precision(mesh.vertices)
 
 
 def test_precision_is_seen_in_the_numbers():
     points = np.random.default_rng(1).random((50, 3)) * 3
-    assert of.coordinate_precision(points.astype(np.float32)) == 2**-22  # spacing of float32 between 2 and 4
+    assert of.surface.coordinate_precision(points.astype(np.float32)) == 2**-22  # spacing of float32 between 2 and 4
     for digits in (6, 9, 14):
         rounded = [[float(f"{x:.{digits}g}") for x in point] for point in points]
-        assert of.coordinate_precision(rounded) == pytest.approx(10.0 ** (1 - digits))
-    assert of.coordinate_precision(points) == pytest.approx(8 * np.finfo(float).eps * points.max())
-    assert of.coordinate_precision(points * 1e-6) == pytest.approx(8e-6 * np.finfo(float).eps * points.max())
-    assert of.coordinate_precision(np.zeros((0, 3))) == 0
+        assert of.surface.coordinate_precision(rounded) == pytest.approx(10.0 ** (1 - digits))
+    assert of.surface.coordinate_precision(points) == pytest.approx(8 * np.finfo(float).eps * points.max())
+    assert of.surface.coordinate_precision(points * 1e-6) == pytest.approx(8e-6 * np.finfo(float).eps * points.max())
+    assert of.surface.coordinate_precision(np.zeros((0, 3))) == 0
 
 
 def test_points_farther_apart_than_the_tolerance_are_not_merged():
     apart = soup(ball(1))
     points = np.asarray(apart.vertices) + 1e-9 * np.random.default_rng(2).standard_normal((len(apart.vertices), 3))
     mesh = mesh_of(points, apart.triangles)
-    assert of.repair(mesh, level="merge", merge_tolerance=1e-10).actions == []
-    merged = of.repair(mesh, level="merge", merge_tolerance=2e-8)
+    assert of.surface.repair(mesh, level="merge", merge_tolerance=1e-10).actions == []
+    merged = of.surface.repair(mesh, level="merge", merge_tolerance=2e-8)
     assert kinds(merged.mesh) == [] and 0 < merged.largest_move <= 2e-8
     assert merged.actions[0].startswith(f"merged {len(points) - 42} points of open edges")
 
@@ -87,7 +87,7 @@ def test_counts_in_actions_are_those_of_the_defects():
     points, triangles = np.asarray(torn.vertices), np.array(torn.triangles)
     triangles[3:8] = triangles[3:8, ::-1]
     triangles = np.concatenate([np.delete(triangles, [40, 41], axis=0), triangles[:2]])
-    actions = of.repair(mesh_of([*points, [9, 9, 9], [8, 8, 8]], triangles)).actions
+    actions = of.surface.repair(mesh_of([*points, [9, 9, 9], [8, 8, 8]], triangles)).actions
     assert [action.partition(" ")[0] + " " + action.split()[1] for action in actions][:3] == [
         "removed 2",
         "removed 1",
@@ -101,41 +101,43 @@ def test_counts_in_actions_are_those_of_the_defects():
 
 
 def test_a_cylinder_gets_a_lid_and_a_ball_its_cap_again():
-    lid = of.repair(open_cylinder(), level="fill").mesh
-    assert of.signed_volume(lid) == pytest.approx(of.signed_volume(generate("cylinder")), rel=1e-12)
-    cap = of.repair(ZOO["ball without a cap"][0](), level="fill").mesh
-    whole = of.signed_volume(ball(4))
-    assert of.signed_volume(cap) == pytest.approx(whole, rel=0.01)
+    lid = of.surface.repair(open_cylinder(), level="fill").mesh
+    assert of.surface.signed_volume(lid) == pytest.approx(of.surface.signed_volume(generate("cylinder")), rel=1e-12)
+    cap = of.surface.repair(ZOO["ball without a cap"][0](), level="fill").mesh
+    whole = of.surface.signed_volume(ball(4))
+    assert of.surface.signed_volume(cap) == pytest.approx(whole, rel=0.01)
     assert (
-        of.signed_volume(of.repair(ZOO["ball without a cap"][0](), level="safe", small_hole_edges=1000).mesh)
+        of.surface.signed_volume(
+            of.surface.repair(ZOO["ball without a cap"][0](), level="safe", small_hole_edges=1000).mesh
+        )
         < 0.985 * whole
     )
 
 
 def test_the_bound_of_holes_is_kept_and_told():
     mesh = open_cylinder()
-    bounded = of.repair(mesh, level="fill", max_hole_edges=63)
+    bounded = of.surface.repair(mesh, level="fill", max_hole_edges=63)
     assert kinds(bounded.mesh) == ["not_closed"]
     assert any("63" in action and "64" in action and "--max-hole-edges" in action for action in bounded.actions)
-    assert kinds(of.repair(mesh, level="fill", max_hole_edges=64).mesh) == []
+    assert kinds(of.surface.repair(mesh, level="fill", max_hole_edges=64).mesh) == []
 
 
 def test_pieces_that_cross_become_their_union():
     one, other = generate("box"), moved(generate("box"), 0.5, 0.25, 0.125)
-    done = of.repair(joined(one, other), level="resolve")
+    done = of.surface.repair(joined(one, other), level="resolve")
     assert kinds(done.mesh) == [] and "united 1 piece" in done.actions[0]
-    assert of.signed_volume(done.mesh) == pytest.approx(2 - 0.5 * 0.75 * 0.875, rel=1e-12)
+    assert of.surface.signed_volume(done.mesh) == pytest.approx(2 - 0.5 * 0.75 * 0.875, rel=1e-12)
 
 
 def test_a_wrap_says_how_far_it_lies_and_lies_no_farther():
     mesh = joined(generate("box"), moved(generate("box"), 1, 1, 0))
-    mesh = of.repair(mesh, level="merge").mesh
-    done = of.repair(mesh, level="wrap", wrap_alpha=0.1, wrap_offset=0.01)
+    mesh = of.surface.repair(mesh, level="merge").mesh
+    done = of.surface.repair(mesh, level="wrap", wrap_alpha=0.1, wrap_offset=0.01)
     assert kinds(done.mesh) == [] and "alpha 0.1, offset 0.01" in done.actions[-1]
     points = np.asarray(done.mesh.vertices)
     assert 0.009 < -points.min() < 0.011
-    assert 2 < of.signed_volume(done.mesh) < 2 + 12 * done.largest_move
-    refused = of.repair(sheet(), level="wrap").actions
+    assert 2 < of.surface.signed_volume(done.mesh) < 2 + 12 * done.largest_move
+    refused = of.surface.repair(sheet(), level="wrap").actions
     assert any(action.startswith("not wrapped") for action in refused)
 
 
@@ -159,7 +161,7 @@ def test_lines_of_the_file_survive_repair_where_they_are_edges(tmp_path):
 
     box = generate("box")
     points, triangles = np.asarray(box.vertices), np.asarray(box.triangles)
-    lines = of.detect_features(box).edges
+    lines = of.surface.detect_features(box).edges
     path = tmp_path / "turned.vtk"
     meshio.Mesh(points, [("triangle", np.concatenate([triangles[:3], triangles[3:, ::-1]])), ("line", lines)]).write(
         path, binary=False
@@ -197,7 +199,7 @@ def test_the_command_recommends_what_works(name, level, tmp_path):
 @pytest.mark.parametrize("name, euler", [("cube_split_zero.stl", 2), ("part_split_points.stl", -16)])
 def test_split_points_of_stl_files_are_one_by_default(name, euler):
     surface = load_surface(shared(WILD / name))
-    assert kinds(surface) == [] and of.euler_characteristic(surface) == euler
+    assert kinds(surface) == [] and of.surface.euler_characteristic(surface) == euler
     with pytest.raises(of.GeometryError, match="--repair merge makes it sound"):
         load_surface(WILD / name, repair="none")
 
@@ -212,9 +214,9 @@ def test_a_large_hole_is_filled_on_request():
 def test_a_fold_of_rounded_coordinates_is_repaired_within_a_stated_tolerance():
     mesh = of.read_surface(shared(WILD / "fold_patch.stl"))
     assert "self_intersection" in kinds(mesh, closed=False)
-    done = of.repair(mesh, level="resolve", closed=False)
+    done = of.surface.repair(mesh, level="resolve", closed=False)
     assert kinds(done.mesh, closed=False) == [] and done.actions
-    assert 0 < done.largest_move < 1e-3 * of.bounding_box_diagonal(mesh.vertices)
+    assert 0 < done.largest_move < 1e-3 * of.surface.bounding_box_diagonal(mesh.vertices)
 
 
 @pytest.mark.parametrize("name, diagonal", [("o_unref.obj", 1.5), ("t_flap.off", None)])
@@ -269,7 +271,7 @@ def test_convert_repairs_up_to_the_level_and_says_what_is_left(tmp_path):
     assert kinds(of.read_surface(tmp_path / "safe.ply")) == [] and not any(
         "after --repair" in note for note in safe.notes
     )
-    assert np.isclose(of.signed_volume(of.read_surface(tmp_path / "safe.ply")), of.signed_volume(mesh))
+    assert np.isclose(of.surface.signed_volume(of.read_surface(tmp_path / "safe.ply")), of.surface.signed_volume(mesh))
     done = CliRunner().invoke(
         app, ["convert", str(tmp_path / "in.obj"), "-o", str(tmp_path / "b.off"), "--repair", "safe", "-q"]
     )
@@ -282,7 +284,7 @@ def test_convert_repairs_up_to_the_level_and_says_what_is_left(tmp_path):
 
 def test_convert_does_not_ignore_repair_of_tets_or_frames(tmp_path):
     tets = of.prepare_mesh(generate("box"), MeshOptions(edge_length=0.5)).tets
-    of.write_field(tmp_path / "a.vtu", tets, np.tile([1.0, 0, 0, 0], (len(tets.vertices), 1)))
+    of.volume.write_field(tmp_path / "a.vtu", tets, np.tile([1.0, 0, 0, 0], (len(tets.vertices), 1)))
     with pytest.raises(of.InvalidInput, match="surfaces only"):
         convert_file(tmp_path / "a.vtu", tmp_path / "b.ovmb", repair=MeshOptions(repair="safe"))
     convert_file(tmp_path / "a.vtu", tmp_path / "a.mesh")
@@ -310,18 +312,20 @@ def test_an_edge_that_is_rounding_is_collapsed_and_a_short_one_is_not(length, co
         triangles.remove(t)
         triangles += [[middle if v == start else v for v in t], [middle if v == end else v for v in t]]
     step = length * (points[end] - points[start]) / np.linalg.norm(points[end] - points[start])
-    done = of.repair(of.TriangleMesh(np.vstack([points, step]), np.array(triangles, np.int32)), level="safe")
+    done = of.surface.repair(of.TriangleMesh(np.vstack([points, step]), np.array(triangles, np.int32)), level="safe")
     assert (
         (len(done.mesh.triangles) == len(box.triangles))
         == collapsed
         == any("joined the ends of 1 edge" in a for a in done.actions)
     )
-    assert kinds(done.mesh) == [] and of.signed_volume(done.mesh) == pytest.approx(of.signed_volume(box))
+    assert kinds(done.mesh) == [] and of.surface.signed_volume(done.mesh) == pytest.approx(
+        of.surface.signed_volume(box)
+    )
 
 
 def test_a_far_point_that_no_triangle_uses_makes_nothing_small():
     box = generate("box")
     points = np.vstack([np.asarray(box.vertices), [1e15, 0, 0]])
-    done = of.repair(of.TriangleMesh(points, box.triangles), level="safe")
+    done = of.surface.repair(of.TriangleMesh(points, box.triangles), level="safe")
     assert done.actions == ["left out 1 point that no triangle uses"]
     assert len(done.mesh.triangles) == len(box.triangles) and len(done.mesh.vertices) == len(box.vertices)

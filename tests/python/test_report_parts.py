@@ -16,7 +16,7 @@ from octafield.report import Run
 from octafield.report.numbers.deviations import deviations
 from octafield.report.numbers.profiles import lines, performance_profiles
 from octafield.report.numbers.records import Results
-from octafield.report.page.html import figures, scenes
+from octafield.report.page import figures, scenes
 from octafield.runs.compare import compare
 from octafield.view import scene
 from PIL import Image

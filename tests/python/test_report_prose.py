@@ -79,7 +79,7 @@ def angles(comparison) -> list[float]:
     for a in METHODS:
         for b in METHODS:
             pairs = [
-                np.degrees(octafield.distance(frames[one["folder"]], frames[other["folder"]]))
+                np.degrees(octafield.frames.distance(frames[one["folder"]], frames[other["folder"]]))
                 for one, other in zip(
                     of(comparison.rows, representation=a), of(comparison.rows, representation=b), strict=True
                 )

@@ -12,7 +12,7 @@ from octahedral_fixtures import GROUP, closest, matrices
 
 def smooth_field(mesh):
     x, y, z = np.asarray(mesh.vertices).T
-    return of.quaternion_exp(np.column_stack([0.3 * np.sin(2 * y), 0.2 * x * z, 0.4 * x - 0.2 * z]))
+    return of.frames.quaternion_exp(np.column_stack([0.3 * np.sin(2 * y), 0.2 * x * z, 0.4 * x - 0.2 * z]))
 
 
 def gradient_rows(mesh):
@@ -29,10 +29,10 @@ def gradient_rows(mesh):
 def test_scales_are_those_of_least_squares_made_with_numpy(box):
     """The curl of all tets as one overdetermined system in H, solved by LSQR: no Poisson equation, no integration by
     parts."""
-    frames, volumes = smooth_field(box), of.tet_volumes(box)
+    frames, volumes = smooth_field(box), of.volume.tet_volumes(box)
     gradients = gradient_rows(box)
     axes = matrices(frames)  # continuous, and so near to one another that no tet needs another representative
-    centre = matrices(of.tet_frames(box, frames))
+    centre = matrices(of.volume.tet_frames(box, frames))
     middle = axes[np.asarray(box.tets)].mean(axis=1)
     order, _ = closest(centre, middle)
     centre = np.einsum("tij,tjk->tik", centre, GROUP[order])
@@ -54,7 +54,7 @@ def test_scales_are_those_of_least_squares_made_with_numpy(box):
     def solve(system, right):
         return scipy.sparse.linalg.lsqr(system, -right, atol=1e-14, btol=1e-14, iter_lim=20000)
 
-    one = of.isotropic_scale(box, frames)
+    one = of.volume.isotropic_scale(box, frames)
     x, *_, norm = solve(sparse.vstack(alone), np.concatenate(curls))[:4]
     np.testing.assert_allclose(one.log_scale - one.log_scale.mean(), x - x.mean(), atol=1e-6)
     assert one.after.curl_rms == pytest.approx(norm / np.sqrt(volumes.sum()), rel=1e-6)
@@ -62,7 +62,7 @@ def test_scales_are_those_of_least_squares_made_with_numpy(box):
         np.linalg.norm(np.concatenate(curls)) / np.sqrt(volumes.sum()), rel=1e-12
     )
 
-    three = of.axis_scales(box, frames, along=0.05)
+    three = of.volume.axis_scales(box, frames, along=0.05)
     corners = np.asarray(three.values)[np.asarray(three.unknowns).reshape(-1, 4, 3)]
     left = 0
     for i in range(3):
@@ -85,8 +85,8 @@ def test_scales_of_polar_coordinates_are_one_over_the_radius():
     x, y, z = np.asarray(grid.vertices).T
     r, angle = 1 + x, 1.5 * y
     mesh = of.TetMesh(np.column_stack([r * np.cos(angle), r * np.sin(angle), z]), grid.tets)
-    frames = of.quaternion_exp(np.column_stack([0 * r, 0 * r, angle]))
-    one, three = of.isotropic_scale(mesh, frames), of.axis_scales(mesh, frames)
+    frames = of.frames.quaternion_exp(np.column_stack([0 * r, 0 * r, angle]))
+    one, three = of.volume.isotropic_scale(mesh, frames), of.volume.axis_scales(mesh, frames)
     assert np.std(one.log_scale + np.log(r) / 2) < 0.01 and np.std(np.log(r)) > 0.15
     assert one.after.curl_rms / one.before.curl_rms == pytest.approx(0.5**0.5, rel=0.02)
     assert three.after.curl_rms < 0.13 * three.before.curl_rms
@@ -124,4 +124,4 @@ def test_the_derivation_of_the_scales():
 def test_weights_that_are_none_are_refused(box):
     for bad in (0, 2, float("nan")):
         with pytest.raises(of.InvalidInput):
-            of.axis_scales(box, np.tile([1.0, 0, 0, 0], (len(box.vertices), 1)), along=bad)
+            of.volume.axis_scales(box, np.tile([1.0, 0, 0, 0], (len(box.vertices), 1)), along=bad)

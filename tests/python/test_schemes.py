@@ -25,7 +25,7 @@ def table() -> str:
         "| name | minimised | what it is | consistent | solvers, the default first (kB per tet) | CPU s per million tets |",
         "|---|---|---|---|---|---|",
     ]
-    for name, scheme in of.schemes.items():
+    for name, scheme in of.volume.schemes.items():
         solvers = ", ".join(f"{solver} ({mb / 1000:g})" for solver, mb in scheme.bytes_per_tet.items())
         seconds = f"{scheme.seconds_per_million_tets:g}" if scheme.seconds_per_million_tets else ""
         consistent = "yes" if scheme.consistent else "no"
@@ -39,39 +39,39 @@ def test_the_page_has_the_table_as_it_is():
 
 
 def test_every_representation_of_a_frame_is_a_scheme_and_others_follow():
-    assert list(of.schemes)[: len(of.representations)] == list(of.representations)
-    sorts = [scheme.sort for scheme in of.schemes.values()]
-    assert sorts.count("embedding") == len(of.representations)
-    assert {"embedding_with_lengths", "metric"} == set(sorts[len(of.representations) :])
-    assert all(scheme.name == name for name, scheme in of.schemes.items())
+    assert list(of.volume.schemes)[: len(of.frames.representations)] == list(of.frames.representations)
+    sorts = [scheme.sort for scheme in of.volume.schemes.values()]
+    assert sorts.count("embedding") == len(of.frames.representations)
+    assert {"embedding_with_lengths", "metric"} == set(sorts[len(of.frames.representations) :])
+    assert all(scheme.name == name for name, scheme in of.volume.schemes.items())
 
 
-@pytest.mark.parametrize("name", of.schemes)
+@pytest.mark.parametrize("name", of.volume.schemes)
 def test_every_scheme_is_an_option_with_each_of_its_solvers(name):
-    scheme = of.schemes[name]
+    scheme = of.volume.schemes[name]
     assert name in REPRESENTATIONS and (name in COMPARED) == scheme.compared
     assert scheme.equation and scheme.meaning and "\n" not in scheme.equation
-    tets = of.tetrahedralize(generate("box"), max_volume=0.1)
-    frames = of.random_rotations(len(tets.vertices), seed=1)
-    boundary = of.boundary_surface(tets).vertex_map
-    free = of.BoundaryConstraints(
+    tets = of.volume.tetrahedralize(generate("box"), max_volume=0.1)
+    frames = of.frames.random_rotations(len(tets.vertices), seed=1)
+    boundary = of.volume.boundary_surface(tets).vertex_map
+    free = of.volume.BoundaryConstraints(
         np.zeros(len(frames), np.uint8), np.zeros((len(frames), 3)), frames, np.zeros(len(frames), np.uint8)
     )
-    held = of.with_constraints(
-        free, of.VertexConstraints(boundary, ["fixed"] * len(boundary), frames=frames[np.asarray(boundary)])
+    held = of.volume.with_constraints(
+        free, of.volume.VertexConstraints(boundary, ["fixed"] * len(boundary), frames=frames[np.asarray(boundary)])
     )
     for solver in scheme.bytes_per_tet:
         assert FieldOptions(representation=name, solver=solver).solver == solver and solver in SOLVERS
-        result = of.smooth(tets, held, frames, representation=name, solver=solver, max_iterations=3)
+        result = of.volume.smooth(tets, held, frames, representation=name, solver=solver, max_iterations=3)
         assert np.isfinite(result.objective)
     for solver in set(SOLVERS[1:]) - set(scheme.bytes_per_tet):
         with pytest.raises(of.InvalidInput, match=name):
-            of.smooth(tets, held, frames, representation=name, solver=solver)
+            of.volume.smooth(tets, held, frames, representation=name, solver=solver)
 
 
-@pytest.mark.parametrize("name", of.schemes)
+@pytest.mark.parametrize("name", of.volume.schemes)
 def test_studies_expect_its_time_and_memory(name):
-    scheme = of.schemes[name]
+    scheme = of.volume.schemes[name]
     first = next(iter(scheme.bytes_per_tet.values()))
 
     def mb(**options):
@@ -86,7 +86,7 @@ def test_studies_expect_its_time_and_memory(name):
 
 
 def test_colours_differ():
-    known = [scheme.colour for scheme in of.schemes.values() if scheme.colour]
+    known = [scheme.colour for scheme in of.volume.schemes.values() if scheme.colour]
     assert len(set(known)) == len(known) == len(COLOURS)
 
 

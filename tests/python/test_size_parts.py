@@ -9,6 +9,7 @@ from octafield.errors import InvalidInput
 from octafield.fields import sizes
 from octafield.frame_files.base import FrameFile
 from octafield.progress.phases import PhaseClock
+from octafield.runs import conversion
 from scipy.spatial.transform import Rotation
 
 
@@ -21,7 +22,7 @@ def mesh():
 def turned(mesh):
     """Frames that turn through the box, at its vertices."""
     x, y, z = np.asarray(mesh.vertices).T
-    return np.asarray(of.quaternion_exp(np.column_stack([0.3 * z, 0.4 * x, 0.5 * y])))
+    return np.asarray(of.frames.quaternion_exp(np.column_stack([0.3 * z, 0.4 * x, 0.5 * y])))
 
 
 @pytest.fixture(scope="module")
@@ -30,8 +31,8 @@ def found(mesh, turned):
 
 
 def test_kinds_are_the_functions_of_that_name(mesh, turned, found):
-    np.testing.assert_array_equal(found["isotropic"].log_scale, of.isotropic_scale(mesh, turned).log_scale)
-    np.testing.assert_array_equal(found["axes"].values, of.axis_scales(mesh, turned).values)
+    np.testing.assert_array_equal(found["isotropic"].log_scale, of.volume.isotropic_scale(mesh, turned).log_scale)
+    np.testing.assert_array_equal(found["axes"].values, of.volume.axis_scales(mesh, turned).values)
 
 
 @pytest.mark.parametrize("kind", ["isotropic", "axes"])
@@ -79,7 +80,7 @@ def test_arrays_of_files_are_logarithms_curl_and_scaled_axes(mesh, found):
 
 def test_sizes_go_with_their_axes_whatever_these_are_called(found):
     axes = found["axes"]
-    of_tets, group = np.asarray(axes.of_tets), np.asarray(of.octahedral_group())
+    of_tets, group = np.asarray(axes.of_tets), np.asarray(of.frames.octahedral_group())
     for number in range(24):
         renamed = Rotation.from_quat(of_tets, scalar_first=True) * Rotation.from_quat(group[number], scalar_first=True)
         logs = sizes.log_scales_of(axes, renamed.as_quat(scalar_first=True))
@@ -99,45 +100,45 @@ def file_of(mesh, frames, where, **more) -> FrameFile:
 
 def test_lengths_are_densities_of_isotropic_sizes_at_vertices_and_their_mean_in_tets(mesh, turned, found):
     logs = np.asarray(found["isotropic"].log_scale)
-    got, record = sizes.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["npz"], None, "isotropic")
+    got, record = conversion.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["npz"], None, "isotropic")
     np.testing.assert_allclose(got.lengths, np.repeat(np.exp(logs)[:, None], 3, axis=1), rtol=1e-12)
     assert (got.where, got.notes) == ("vertices", ["before"]) and record == sizes.sizes_record(found["isotropic"])
     np.testing.assert_array_equal(got.frames, turned)
     for name, sign in (("npz", 1), ("ff3", -1)):
-        moved, _ = sizes.with_sizes(file_of(mesh, turned, "vertices"), frame_formats[name], "tets", "isotropic")
+        moved, _ = conversion.with_sizes(file_of(mesh, turned, "vertices"), frame_formats[name], "tets", "isotropic")
         mean = logs[np.asarray(mesh.tets)].mean(axis=1)
         np.testing.assert_allclose(moved.lengths, np.repeat(np.exp(sign * mean)[:, None], 3, axis=1), rtol=1e-12)
         assert moved.where == "tets" and moved.notes == [
             "before",
             "the frames were taken to the tets: the nearest to the mean sh4 vector of those around",
         ]
-        np.testing.assert_array_equal(moved.frames, of.tet_frames(mesh, turned))
+        np.testing.assert_array_equal(moved.frames, of.volume.tet_frames(mesh, turned))
 
 
 def test_frames_in_tets_keep_theirs_and_go_where_the_format_has_its_own(mesh, turned):
-    of_tets = np.asarray(of.tet_frames(mesh, turned))
+    of_tets = np.asarray(of.volume.tet_frames(mesh, turned))
     ones = np.ones((len(of_tets), 3))
-    kept, _ = sizes.with_sizes(file_of(mesh, of_tets, "tets", lengths=ones), frame_formats["npz"], None, "axes")
-    at_vertices = np.asarray(of.vertex_frames(mesh, of_tets))
-    again = of.axis_scales(mesh, at_vertices)
+    kept, _ = conversion.with_sizes(file_of(mesh, of_tets, "tets", lengths=ones), frame_formats["npz"], None, "axes")
+    at_vertices = np.asarray(of.volume.vertex_frames(mesh, of_tets))
+    again = of.volume.axis_scales(mesh, at_vertices)
     np.testing.assert_array_equal(kept.frames, of_tets)
     np.testing.assert_allclose(kept.lengths, np.exp(sizes.log_scales_of(again, of_tets)), rtol=1e-12)
     assert kept.notes == ["before", "the lengths of the axes in the file were replaced by sizes"]
-    moved, _ = sizes.with_sizes(file_of(mesh, of_tets, "tets"), frame_formats["arff"], "vertices", "isotropic")
+    moved, _ = conversion.with_sizes(file_of(mesh, of_tets, "tets"), frame_formats["arff"], "vertices", "isotropic")
     assert moved.where == "vertices" and "taken to the vertices" in moved.notes[-1]
     np.testing.assert_array_equal(moved.frames, at_vertices)
-    usual, _ = sizes.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["ff3"], None, "axes")
+    usual, _ = conversion.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["ff3"], None, "axes")
     assert usual.where == frame_formats["ff3"].where[0] == "tets"
 
 
 def test_what_sizes_cannot_be_is_said(mesh, turned):
     with pytest.raises(InvalidInput, match="on the mesh of the frames") as error:
-        sizes.with_sizes(file_of(None, turned, "vertices"), frame_formats["npz"], None, "isotropic")
+        conversion.with_sizes(file_of(None, turned, "vertices"), frame_formats["npz"], None, "isotropic")
     assert error.value.kind == "no_mesh"
     with pytest.raises(InvalidInput, match="sizes per axis are those of frames in the tets") as error:
-        sizes.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["npz"], None, "axes")
+        conversion.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["npz"], None, "axes")
     assert error.value.kind == "wrong_sampling"
-    none, record = sizes.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["qtn"], None, "isotropic")
+    none, record = conversion.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["qtn"], None, "isotropic")
     assert (
         record == {} and none.lengths is None and none.notes[0] == "before" and "sizes were left out" in none.notes[1]
     )

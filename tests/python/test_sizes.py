@@ -32,7 +32,7 @@ def polar(tmp_path_factory):
     grid = box_tets(8)
     x, y, z = np.asarray(grid.vertices).T
     mesh = of.TetMesh(np.column_stack([(1 + x) * np.cos(1.5 * y), (1 + x) * np.sin(1.5 * y), z]), grid.tets)
-    frames = of.quaternion_exp(np.column_stack([0 * x, 0 * x, 1.5 * y]))
+    frames = of.frames.quaternion_exp(np.column_stack([0 * x, 0 * x, 1.5 * y]))
     path = tmp_path_factory.mktemp("polar") / "polar.npz"
     of.write_frames(path, mesh, frames)
     return path, mesh, frames
@@ -61,10 +61,10 @@ def test_isotropic_sizes_lower_the_curl_and_go_into_files(tmp_path):
     assert record["wall_seconds"]["sizes"] > 0 and record["options"]["sizes"] == "isotropic"
     grid = pyvista.read(tmp_path / "out" / "field.vtu")
     mesh = of.TetMesh(grid.points, grid.cells_dict[10])
-    again = of.isotropic_scale(mesh, grid.point_data["quaternion"])
+    again = of.volume.isotropic_scale(mesh, grid.point_data["quaternion"])
     np.testing.assert_allclose(grid.point_data["log_scale"], again.log_scale, atol=1e-9)
     np.testing.assert_allclose(grid.cell_data["curl"], again.after.curl, rtol=1e-6, atol=1e-9)
-    volumes = of.tet_volumes(mesh)
+    volumes = of.volume.tet_volumes(mesh)
     assert found["curl_rms_after"] == pytest.approx(
         np.sqrt(volumes @ grid.cell_data["curl"] ** 2 / volumes.sum()), rel=1e-9
     )
@@ -80,7 +80,7 @@ def test_isotropic_sizes_lower_the_curl_and_go_into_files(tmp_path):
 def test_sizes_per_axis_are_in_the_file_with_the_axes_they_belong_to(ball, tmp_path):
     from octafield.runs.run_folder import write_field_result
 
-    assert isinstance(ball.sizes, of.AxisScales) and ball.record["sizes"]["kind"] == "axes"
+    assert isinstance(ball.sizes, of.volume.AxisScales) and ball.record["sizes"]["kind"] == "axes"
     write_field_result(ball, tmp_path)
     cells = pyvista.read(tmp_path / "field.vtu").cell_data
     np.testing.assert_array_equal(cells["log_scales"], ball.sizes.log_scales)
@@ -109,7 +109,7 @@ def test_lengths_written_are_densities_but_edges_of_cells_in_ff3(polar, tmp_path
     path, mesh, frames = polar
     done = convert_file(path, tmp_path / name, at="tets", sizes="axes")
     assert done.sizes["curl_rms_after"] < 0.2 * done.sizes["curl_rms_before"]
-    expected = of.axis_scales(mesh, frames)
+    expected = of.volume.axis_scales(mesh, frames)
     back = of.read_frames(tmp_path / name, mesh)
     axes = np.swapaxes(matrices(back.frames) * np.asarray(back.lengths)[:, None, :], 1, 2)  # rows
     own = np.swapaxes(matrices(expected.of_tets) * np.exp(sign * np.asarray(expected.log_scales))[:, None, :], 1, 2)
@@ -132,13 +132,13 @@ def test_lengths_written_are_densities_but_edges_of_cells_in_ff3(polar, tmp_path
 
 def test_another_program_reads_the_lengths(polar, tmp_path):
     path, mesh, frames = polar
-    expected = of.axis_scales(mesh, frames)
+    expected = of.volume.axis_scales(mesh, frames)
     convert_file(path, tmp_path / "a.fra", at="tets", sizes="axes")
     axes = readers.fra(tmp_path / "a.fra")  # in columns
     np.testing.assert_allclose(np.linalg.norm(axes, axis=1), np.exp(expected.log_scales), rtol=1e-12)
     convert_file(path, tmp_path / "b.txt", sizes="isotropic")
     rows = np.loadtxt(tmp_path / "b.txt").reshape(-1, 3, 3)
-    one = np.exp(of.isotropic_scale(mesh, frames).log_scale)
+    one = np.exp(of.volume.isotropic_scale(mesh, frames).log_scale)
     np.testing.assert_allclose(np.linalg.norm(rows, axis=2), np.repeat(one[:, None], 3, axis=1), rtol=1e-12)
 
 
@@ -159,9 +159,9 @@ def test_what_cannot_be_done_is_said(polar, tmp_path):
     done = convert_file(path, tmp_path / "a.ovmb", sizes="isotropic")
     assert done.sizes == {} and any("sizes were left out" in note for note in done.notes)
     with pytest.raises(of.InvalidInput, match="give one per tet"):
-        of.write_field(tmp_path / "a.vtu", mesh, frames, cell_data={"few": [1.0]})
+        of.volume.write_field(tmp_path / "a.vtu", mesh, frames, cell_data={"few": [1.0]})
     with pytest.raises(of.InvalidInput, match="array of the field itself"):
-        of.write_field(tmp_path / "a.vtu", mesh, frames, point_data={"sh4": np.ones(len(frames))})
+        of.volume.write_field(tmp_path / "a.vtu", mesh, frames, point_data={"sh4": np.ones(len(frames))})
 
 
 def test_the_report_tells_curl_before_and_after(tmp_path):

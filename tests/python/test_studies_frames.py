@@ -138,7 +138,7 @@ def test_figure_4_8_points_lie_on_their_ellipses(thesis):
 
 
 def test_distortion_covers_every_metric_up_to_the_largest_angle(distortion):
-    assert list(distortion) == list(octafield.metrics)
+    assert list(distortion) == list(octafield.frames.metrics)
     for rows in distortion.values():
         assert max(rows) == pytest.approx(LARGEST, abs=1e-4)
         assert min(rows) == 0.5
@@ -187,4 +187,4 @@ def test_distortion_does_not_depend_on_threads(distortion_folder, tmp_path):
 def test_distortion_has_a_picture_and_tables(distortion_folder):
     assert (distortion_folder / "frames_distortion.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     tables = (distortion_folder / "distortion.md").read_text()
-    assert all(tables.count(f"| {name} |") == 2 for name in octafield.metrics)
+    assert all(tables.count(f"| {name} |") == 2 for name in octafield.frames.metrics)

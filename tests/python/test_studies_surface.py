@@ -40,7 +40,7 @@ def is_picture(path: Path) -> bool:
 
 
 def area(mesh) -> float:
-    return float(np.sum(octafield.triangle_areas(mesh)))
+    return float(np.sum(octafield.surface.triangle_areas(mesh)))
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def area(mesh) -> float:
 )
 def test_meshes_are_valid_and_have_the_area_of_their_surface(mesh, triangles, euler, expected):
     octafield.require_valid(mesh, closed=euler != 1)
-    assert octafield.euler_characteristic(mesh) == euler
+    assert octafield.surface.euler_characteristic(mesh) == euler
     assert triangles in (None, len(mesh.triangles))
     assert area(mesh) == pytest.approx(expected, rel=0.02)
 
@@ -68,9 +68,9 @@ def test_a_region_with_a_hole_keeps_its_corners_and_follows_the_size_asked_for()
     mesh = surface_meshes.region(
         [surface_meshes.resampled(sides, size), surface_meshes.resampled([circle], size)], size
     )
-    assert octafield.euler_characteristic(mesh) == 0
+    assert octafield.surface.euler_characteristic(mesh) == 0
     assert area(mesh) == pytest.approx(4 - np.pi / 16, rel=2e-3)
-    points, edges = np.array(mesh.vertices), np.array(octafield.edge_topology(mesh).edges)
+    points, edges = np.array(mesh.vertices), np.array(octafield.surface.edge_topology(mesh).edges)
     assert all(np.min(np.linalg.norm(points[:, :2] - corner, axis=1)) < 1e-12 for corner in corners)
     ratio = np.linalg.norm(points[edges[:, 1]] - points[edges[:, 0]], axis=1) / size(points[edges].mean(axis=1)[:, :2])
     assert 0.3 < ratio.min() and ratio.max() < 2.2 and 0.8 < np.median(ratio) < 1.2
@@ -92,9 +92,11 @@ def test_common_energy_is_the_dirichlet_integral_of_smooth_fields():
 def test_common_energy_does_not_know_which_of_the_four_directions_is_given():
     mesh = surface_meshes.torus(40, 20)
     directions = np.array(
-        octafield.triangle_directions(mesh, octafield.direction_field(mesh, octafield.FeatureGraph(), method="mbo"))
+        octafield.surface.triangle_directions(
+            mesh, octafield.surface.direction_field(mesh, octafield.FeatureGraph(), method="mbo")
+        )
     )
-    turned = np.cross(octafield.triangle_normals(mesh), directions)
+    turned = np.cross(octafield.surface.triangle_normals(mesh), directions)
     mixed = np.where(np.arange(len(turned))[:, None] % 2 == 0, directions, turned)
     energies = [surface_fields.common_energy(mesh, octafield.FeatureGraph(), d) for d in (directions, turned, mixed)]
     assert energies == pytest.approx([energies[0]] * 3, rel=1e-9)
@@ -104,8 +106,8 @@ def test_common_energy_does_not_know_which_of_the_four_directions_is_given():
 
 
 def with_values(mesh, symmetry: int, values: np.ndarray):
-    topology = octafield.edge_topology(mesh)
-    return octafield.DirectionField(symmetry=symmetry, topology=topology, values=values)
+    topology = octafield.surface.edge_topology(mesh)
+    return octafield.surface.DirectionField(symmetry=symmetry, topology=topology, values=values)
 
 
 def core(z: np.ndarray) -> np.ndarray:
@@ -115,7 +117,7 @@ def core(z: np.ndarray) -> np.ndarray:
 
 def test_a_zero_in_the_plane_is_found_far_below_the_mesh_width():
     mesh, zero = surface_meshes.even_disk(0.05), 0.312 + 0.147j
-    ends = np.array(mesh.vertices)[np.array(octafield.edge_topology(mesh).edges)]
+    ends = np.array(mesh.vertices)[np.array(octafield.surface.edge_topology(mesh).edges)]
     middle, along = ends.mean(axis=1), ends[:, 1] - ends[:, 0]
     f = core(middle[:, 0] + 1j * middle[:, 1] - zero)
     field = with_values(mesh, 4, f * np.exp(-4j * np.arctan2(along[:, 1], along[:, 0])))
@@ -128,7 +130,7 @@ def test_a_zero_on_the_sphere_is_found_far_below_the_mesh_width(symmetry):
     """The field with f = z, of index 1/N, round a point of the sphere, made by turning the azimuthal direction."""
     mesh, axis = surface_meshes.sphere(20), np.array([0.3, -0.5, 0.81])
     axis /= np.linalg.norm(axis)
-    ends = np.array(mesh.vertices)[np.array(octafield.edge_topology(mesh).edges)]
+    ends = np.array(mesh.vertices)[np.array(octafield.surface.edge_topology(mesh).edges)]
     middle, along = ends.mean(axis=1), ends[:, 1] - ends[:, 0]
     normal = middle / np.linalg.norm(middle, axis=1, keepdims=True)
     first = np.cross(axis, [1.0, 0, 0]) / np.linalg.norm(np.cross(axis, [1.0, 0, 0]))

@@ -151,7 +151,7 @@ def test_generated_surfaces_are_closed_and_oriented(name):
     octafield.require_valid(surface)
     expected = {"ball": 4.18879, "box": 1, "cylinder": 6.28319, "torus": 3.15827}.get(name)
     if expected:
-        assert octafield.signed_volume(surface) == pytest.approx(expected, rel=0.03)
+        assert octafield.surface.signed_volume(surface) == pytest.approx(expected, rel=0.03)
     for parameter in GENERATORS[name].parameters:
         larger = generate(name, **{parameter: 1.2 * GENERATORS[name].parameters[parameter]})
-        assert octafield.signed_volume(larger) > 1.1 * octafield.signed_volume(surface)
+        assert octafield.surface.signed_volume(larger) > 1.1 * octafield.surface.signed_volume(surface)

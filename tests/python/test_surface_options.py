@@ -31,7 +31,7 @@ def bumpy_cylinder():
 
 def degrees_off(mesh, field, wanted):
     """Per triangle, between the nearest of the four directions and the part of `wanted` in its plane."""
-    normals, found = of.triangle_normals(mesh), of.triangle_directions(mesh, field)
+    normals, found = of.surface.triangle_normals(mesh), of.surface.triangle_directions(mesh, field)
     along = np.abs((found * wanted).sum(axis=1))
     across = np.abs((found * np.cross(normals, wanted)).sum(axis=1))
     return np.degrees(np.arctan2(np.minimum(along, across), np.maximum(along, across)))
@@ -47,7 +47,9 @@ def test_curvature_makes_the_field_follow_the_lines_of_curvature(make):
     mesh = make()
     # The other methods try the lines of curvature by themselves.
     free, held = (
-        compute_surface_field(mesh, SurfaceFieldOptions(curvature=weight, method="eigen", boundary_alignment="none", **AS_IT_IS))
+        compute_surface_field(
+            mesh, SurfaceFieldOptions(curvature=weight, method="eigen", boundary_alignment="none", **AS_IT_IS)
+        )
         for weight in (0, 1)
     )
     assert degrees_off(mesh, free.direction_field, round_the_axis(mesh)).mean() > 10
@@ -57,7 +59,7 @@ def test_curvature_makes_the_field_follow_the_lines_of_curvature(make):
 
 def test_curvature_counts_by_its_weight_and_where_the_curvatures_differ(sphere):
     ellipsoid = of.TriangleMesh(sphere.vertices * [3, 2, 1], sphere.triangles)
-    lines = of.principal_directions(ellipsoid)
+    lines = of.surface.principal_directions(ellipsoid)
     clear = lines.anisotropy > 0.4
     means = []
     for weight in (0.0, 1.0, 100.0):
@@ -83,11 +85,11 @@ def test_constraints_and_guides_reach_the_field_of_a_prepared_surface():
     options = SurfaceFieldOptions(boundary_alignment="none", **AS_IT_IS)
     meshed = prepare_mesh(mesh, options, volume=False)
     direction = [np.cos(0.3), np.sin(0.3), 0]
-    asked = of.DirectionConstraints(vertices=[40], vertex_directions=[direction])
+    asked = of.surface.DirectionConstraints(vertices=[40], vertex_directions=[direction])
     result = compute_surface_field(meshed, options, constraints=asked)
     assert np.abs(result.directions @ direction).max() == pytest.approx(1, abs=1e-9)
     assert result.record["constraints"] == 1
-    guide = of.DirectionGuide(np.tile(direction, (len(mesh.triangles), 1)))
+    guide = of.surface.DirectionGuide(np.tile(direction, (len(mesh.triangles), 1)))
     guided = compute_surface_field(meshed, options, guide=guide)
     assert degrees_off(mesh, guided.direction_field, np.array(direction)).max() < 1e-6
     with pytest.raises(of.InvalidInput, match="prepare_mesh"):
@@ -118,8 +120,8 @@ def test_stopping_keeps_the_best_field_there_is(sphere):
 
 def test_answers_that_are_neither_true_nor_false_are_the_callers_error(sphere):
     with pytest.raises(ValueError, match="ambiguous"):
-        of.direction_field(sphere, NONE, progress=lambda *report: np.zeros(3))
-    assert not of.direction_field(sphere, NONE, progress=lambda *report: 0).converged
+        of.surface.direction_field(sphere, NONE, progress=lambda *report: np.zeros(3))
+    assert not of.surface.direction_field(sphere, NONE, progress=lambda *report: 0).converged
 
 
 def test_the_files_features_go_before_the_angle_and_seams_are_none():
@@ -144,9 +146,9 @@ def test_flat_feature_edges_are_followed_or_not_as_asked(tmp_path):
     mesh = square(8)
     middle = np.flatnonzero(np.isclose(mesh.vertices[:, 0], 0.5))
     diagonal = [[0, 10], [10, 20]]  # edges of the mesh, at 45 degrees to its sides
-    features = of.feature_graph(mesh, diagonal + np.column_stack([middle[:-1], middle[1:]]).tolist())
-    on = [tuple(edge) in {(0, 10), (10, 20)} for edge in of.edge_topology(mesh).edges.tolist()]
-    follows = lambda **more: np.abs(of.direction_field(mesh, features, **more).values[on] - 1)
+    features = of.surface.feature_graph(mesh, diagonal + np.column_stack([middle[:-1], middle[1:]]).tolist())
+    on = [tuple(edge) in {(0, 10), (10, 20)} for edge in of.surface.edge_topology(mesh).edges.tolist()]
+    follows = lambda **more: np.abs(of.surface.direction_field(mesh, features, **more).values[on] - 1)
     assert follows(boundary_alignment="none").min() < 1e-12
     assert follows(least_feature_angle=1e-6).min() > 1
 
@@ -157,39 +159,39 @@ def test_flat_feature_edges_are_followed_or_not_as_asked(tmp_path):
 @pytest.fixture(scope="module")
 def flat():
     mesh = square(5)
-    field = of.direction_field(mesh, NONE)
-    return mesh, NONE, field, of.surface_singularities(mesh, field)
+    field = of.surface.direction_field(mesh, NONE)
+    return mesh, NONE, field, of.surface.surface_singularities(mesh, field)
 
 
 def test_fields_of_any_size_are_traced_and_those_without_numbers_refused(flat):
     mesh, features, field, found = flat
-    usual = of.even_streamlines(*flat)
+    usual = of.surface.even_streamlines(*flat)
     for size in (1e300, 1e-300):
-        scaled = of.DirectionField(4, field.topology, field.values * size)
-        lines = of.even_streamlines(mesh, features, scaled, found)
+        scaled = of.surface.DirectionField(4, field.topology, field.values * size)
+        lines = of.surface.even_streamlines(mesh, features, scaled, found)
         assert sum(line.length for line in lines) == pytest.approx(sum(line.length for line in usual), rel=1e-3)
-        assert of.separatrices(mesh, features, scaled, found) == []
+        assert of.surface.separatrices(mesh, features, scaled, found) == []
     for values, symmetry in (
         (field.values * np.nan, 4),
         (field.values[:5], 4),
         (field.values, 0),
         (field.values, 1001),
     ):
-        wrong = of.DirectionField(symmetry, field.topology, values)
-        for call in (of.triangle_directions, of.surface_singularities):
+        wrong = of.surface.DirectionField(symmetry, field.topology, values)
+        for call in (of.surface.triangle_directions, of.surface.surface_singularities):
             with pytest.raises(of.InvalidInput, match="field"):
                 call(mesh, wrong)
     turned = of.TriangleMesh(mesh.vertices, mesh.triangles[:, [1, 2, 0]])
     with pytest.raises(of.InvalidInput, match="another mesh"):
-        of.separatrices(turned, features, field, found)
+        of.surface.separatrices(turned, features, field, found)
 
 
 def test_singular_points_away_from_their_triangle_are_refused(flat):
     mesh, features, field, _ = flat
     for position, triangle, vertex in (([1e300, 0, 0], 10, -1), ([0.9, 0.9, 0], 0, -1), ([0.5, 0.5, 0], -1, 0)):
-        points = of.SurfaceSingularities([of.SurfaceSingularity(position, 1, 0.25, triangle, vertex)])
+        points = of.surface.SurfaceSingularities([of.surface.SurfaceSingularity(position, 1, 0.25, triangle, vertex)])
         with pytest.raises(of.InvalidInput, match="not on the mesh") as caught:
-            of.separatrices(mesh, features, field, points)
+            of.surface.separatrices(mesh, features, field, points)
         assert caught.value.elements == [0]
 
 
@@ -199,7 +201,7 @@ def test_singular_points_away_from_their_triangle_are_refused(flat):
 def test_arrays_of_any_layout_are_the_same_mesh(flat, change):
     mesh, features, field, _ = flat
     other = of.TriangleMesh(change(np.array(mesh.vertices)), np.repeat(mesh.triangles, 2, axis=1)[:, ::2])
-    np.testing.assert_array_equal(of.direction_field(other, features).values, field.values)
+    np.testing.assert_array_equal(of.surface.direction_field(other, features).values, field.values)
 
 
 @pytest.mark.parametrize("change, kind", [
@@ -207,10 +209,10 @@ def test_arrays_of_any_layout_are_the_same_mesh(flat, change):
     (lambda x: x + 1j, "wrong_type"), (lambda x: x.astype(str), "wrong_type"), (lambda x: x * 1e300, "size_out_of_range")])  # fmt: skip
 def test_vertices_that_are_none_are_refused(flat, change, kind):
     with pytest.raises(of.Error) as caught:
-        of.direction_field(of.TriangleMesh(change(np.array(flat[0].vertices)), flat[0].triangles), NONE)
+        of.surface.direction_field(of.TriangleMesh(change(np.array(flat[0].vertices)), flat[0].triangles), NONE)
     assert caught.value.kind == kind
 
 
 def test_energies_of_many_points_do_not_overflow():
-    assert np.isfinite(of.disk_polygon_energy(2**31 - 1, 0.5))
-    assert of.disk_polygon_radius(2**31 - 1) == pytest.approx(1)
+    assert np.isfinite(of.surface.disk_polygon_energy(2**31 - 1, 0.5))
+    assert of.surface.disk_polygon_radius(2**31 - 1) == pytest.approx(1)

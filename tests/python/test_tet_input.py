@@ -113,7 +113,7 @@ def test_what_meshio_writes_comes_back_with_regions_and_lines(tmp_path, kind, pa
 def test_fields_that_octafield_writes_come_back_with_their_regions(tmp_path):
     tets = box_tets(2)
     frames = np.tile([1.0, 0, 0, 0], (len(tets.vertices), 1))
-    of.write_field(tmp_path / "a.vtu", of.TetDomain(tets, regions=halves(tets)), frames)
+    of.volume.write_field(tmp_path / "a.vtu", of.TetDomain(tets, regions=halves(tets)), frames)
     assert np.array_equal(read_input(tmp_path / "a.vtu").regions, halves(tets))
     assert np.array_equal(meshio.read(tmp_path / "a.vtu").cell_data["region"][0], halves(tets))
     with pytest.raises(of.InvalidInput, match="one per tet"):
@@ -193,7 +193,7 @@ def test_a_broken_tetgen_pair_gives_the_line(tmp_path, node, ele, words):
 def write_tetgen_boundary(stem, tets: of.TetMesh, base: int, extra: bool = False) -> np.ndarray:
     """.node, .ele, .face with a marker per side of the cube, .edge with marker 0 off the cube's edges. Returns the
     markers."""
-    points, boundary = np.asarray(tets.vertices), of.boundary_surface(tets)
+    points, boundary = np.asarray(tets.vertices), of.volume.boundary_surface(tets)
     triangles = np.asarray(boundary.vertex_map)[np.asarray(boundary.mesh.triangles)]
     corners = points[triangles]
     flat = np.array([[(corners[:, :, c] == side).all(axis=1) for side in (0.0, 1.0)] for c in range(3)])
@@ -280,7 +280,7 @@ def test_blocks_that_touch_have_the_constant_field(tmp_path, dimensions, words):
     )  # edges of contact are features all the same
     assert (without.record["feature_edges"] > 0) == (dimensions == 2)
     # The doctor says the same.
-    of.write_field(tmp_path / "a.vtu", tets, result.frames)
+    of.volume.write_field(tmp_path / "a.vtu", tets, result.frames)
     info = json.loads(octafield("info", tmp_path / "a.vtu", "--json", "-", check=0).stdout)
     assert info["ok"] and "touches itself" in " ".join(info["notes"])
 
@@ -331,7 +331,7 @@ def test_the_rim_of_an_interface_is_a_feature_whatever_their_source(two_regions,
     ends = points[np.asarray(meshed.tets.features.edges)]
     assert ((ends[:, :, 0] == 0.5).all(axis=1)).sum() == 16
     assert len(ends) == 16 + (0 if features == "none" else 12 * 4)
-    of.edge_topology(meshed.surface)  # raises unless the sheets are manifold
+    of.surface.edge_topology(meshed.surface)  # raises unless the sheets are manifold
     lifted = np.asarray(meshed.sheet_map)[np.asarray(meshed.features.edges)]
     pairs = {tuple(sorted(edge)) for edge in lifted.tolist()}
     assert pairs == {tuple(edge) for edge in np.asarray(meshed.tets.features.edges).tolist()}
@@ -346,18 +346,18 @@ def test_an_interface_that_is_oblique_turns_the_field_with_it():
     bent = of.TetMesh(points, np.asarray(tets.tets))
     domain = of.TetDomain(bent, regions=halves(tets))
     surface = domain.surface.mesh
-    features = of.detect_features(domain.boundary.mesh)
+    features = of.surface.detect_features(domain.boundary.mesh)
     assert len(features.edges) == 48
     sheets = domain.sheets
-    edges = np.asarray(sheets.vertex_map)[np.asarray(of.detect_features(sheets.mesh).edges)]
-    graph = of.feature_graph(surface, edges)
+    edges = np.asarray(sheets.vertex_map)[np.asarray(of.surface.detect_features(sheets.mesh).edges)]
+    graph = of.surface.feature_graph(surface, edges)
     directions = np.tile([0.3, 0.5, 0.8], (len(surface.vertices), 1))
-    held = of.boundary_constraints(domain.with_features(graph), directions)
-    frames = np.asarray(of.frame_field(domain, held).smooth.frames)
+    held = of.volume.boundary_constraints(domain.with_features(graph), directions)
+    frames = np.asarray(of.volume.frame_field(domain, held).smooth.frames)
     normals = np.asarray(held.axis)
     middle = np.flatnonzero((np.asarray(tets.vertices)[:, 0] == 0.5) & (np.asarray(held.kind) == 1))
     assert len(middle) >= 9
-    axes = np.asarray(of.rotation_matrices(frames[middle]))
+    axes = np.asarray(of.frames.rotation_matrices(frames[middle]))
     cosines = np.abs(np.einsum("nij,ni->nj", axes, normals[middle])).max(axis=1)
     assert np.degrees(np.arccos(np.minimum(cosines, 1))).max() < 0.01
     assert np.abs(normals[middle][:, 1]).max() > 0.1
@@ -385,44 +385,46 @@ def test_a_surface_is_filled_then_split(tmp_path):
     assert plain.locking["tets"] == split.locking["tets"] > 0
     assert len(split.tets.tets) == len(plain.tets.tets) + split.locking["added_tets"]
     assert np.array_equal(split.surface.vertices, plain.surface.vertices)
-    assert len(of.find_locking(split.tets).tets) == 0
+    assert len(of.volume.find_locking(split.tets).tets) == 0
 
 
 def test_constraints_of_the_user_hold_inside_and_are_counted():
     meshed = prepare_mesh(box_tets(4))
     centre = int(np.argmin(np.linalg.norm(np.asarray(meshed.tets.vertices) - 0.5, axis=1)))
-    turned = of.quaternion_exp([[0.0, 0.0, np.pi / 4]])
-    asked = of.VertexConstraints(vertices=[centre], kinds=[2], frames=turned)
+    turned = of.frames.quaternion_exp([[0.0, 0.0, np.pi / 4]])
+    asked = of.volume.VertexConstraints(vertices=[centre], kinds=[2], frames=turned)
     result = compute_field(meshed, FieldOptions(), constraints=asked)
-    assert of.distance(np.asarray(result.frames)[[centre]], turned)[0] < 1e-7
+    assert of.frames.distance(np.asarray(result.frames)[[centre]], turned)[0] < 1e-7
     assert result.record["constraints"]["given"] == 1
     assert result.record["energy"] > 0.1
     assert sum(result.record["constraints"][kind] for kind in ("free", "axis", "fixed")) == result.record["vertices"]
     with pytest.raises(of.InvalidInput, match="prepare_mesh"):
         compute_field(box_tets(2), FieldOptions(), constraints=asked)
     with pytest.raises(of.InvalidInput, match="cannot have at vertex 999"):
-        compute_field(meshed, FieldOptions(), constraints=of.VertexConstraints([999], [0]))
+        compute_field(meshed, FieldOptions(), constraints=of.volume.VertexConstraints([999], [0]))
     with pytest.raises(of.InvalidInput, match="a value above"):
-        compute_field(meshed, FieldOptions(), constraints=of.VertexConstraints([0], [len(of.constraint_kinds)]))
+        compute_field(
+            meshed, FieldOptions(), constraints=of.volume.VertexConstraints([0], [len(of.volume.constraint_kinds)])
+        )
 
 
 def test_kinds_of_constraints_are_given_by_name_or_by_number():
-    assert of.constraint_kinds[:3] == ("free", "axis", "fixed")
-    numbers = list(range(len(of.constraint_kinds)))
-    by_name = of.VertexConstraints(vertices=numbers, kinds=of.constraint_kinds)
+    assert of.volume.constraint_kinds[:3] == ("free", "axis", "fixed")
+    numbers = list(range(len(of.volume.constraint_kinds)))
+    by_name = of.volume.VertexConstraints(vertices=numbers, kinds=of.volume.constraint_kinds)
     assert np.asarray(by_name.kinds).tolist() == numbers
-    assert np.asarray(of.VertexConstraints(vertices=numbers, kinds=numbers).kinds).tolist() == numbers
-    held = of.BoundaryConstraints(["axis", "free"], [[0, 0, 1], [0, 0, 0]], [[1, 0, 0, 0]] * 2, [1, 0])
+    assert np.asarray(of.volume.VertexConstraints(vertices=numbers, kinds=numbers).kinds).tolist() == numbers
+    held = of.volume.BoundaryConstraints(["axis", "free"], [[0, 0, 1], [0, 0, 0]], [[1, 0, 0, 0]] * 2, [1, 0])
     assert np.asarray(held.kind).tolist() == [1, 0]
     held.kind = ["free", "fixed"]
     assert np.asarray(held.kind).tolist() == [0, 2]
     assert repr(held) == "BoundaryConstraints(1 free, 0 axis, 1 fixed)"
     with pytest.raises(of.InvalidInput, match="unknown kind 'axes' in row 1; there are 0 free, 1 axis, 2 fixed"):
-        of.VertexConstraints(vertices=[0, 1], kinds=["axis", "axes"])
+        of.volume.VertexConstraints(vertices=[0, 1], kinds=["axis", "axes"])
     with pytest.raises(of.InvalidInput, match="shape"):
-        of.VertexConstraints(vertices=[0], kinds=[["axis"]])
+        of.volume.VertexConstraints(vertices=[0], kinds=[["axis"]])
     with pytest.raises(of.InvalidInput, match="integers"):
-        of.VertexConstraints(vertices=[0], kinds=[1.5])
+        of.volume.VertexConstraints(vertices=[0], kinds=[1.5])
 
 
 def test_the_prism_reaches_the_published_energy_with_its_crease_vertices_free():
@@ -430,13 +432,16 @@ def test_the_prism_reaches_the_published_energy_with_its_crease_vertices_free():
     options = FieldOptions(features="none")
     meshed = prepare_mesh(shared(SHARED_ARFF / "prism.node.gz"), options)
     triangles = np.asarray(meshed.surface.triangles)
-    normals, faces = np.asarray(of.vertex_normals(meshed.surface)), np.asarray(of.triangle_normals(meshed.surface))
+    normals, faces = (
+        np.asarray(of.surface.vertex_normals(meshed.surface)),
+        np.asarray(of.surface.triangle_normals(meshed.surface)),
+    )
     least = np.ones(len(normals))
     for k in range(3):
         np.minimum.at(least, triangles[:, k], (faces * normals[triangles[:, k]]).sum(axis=1))
     creases = np.asarray(meshed.tets.surface.vertex_map)[least < 0]
     assert len(creases) == 18
-    free = of.VertexConstraints(vertices=creases, kinds=np.zeros(18, np.uint8))
+    free = of.volume.VertexConstraints(vertices=creases, kinds=np.zeros(18, np.uint8))
     assert compute_field(meshed, options, constraints=free).record["energy"] <= 38.3987 * 1.0005
 
 

@@ -10,7 +10,7 @@ from octafield.frame_files import text
 from octafield.frame_files.base import Field
 from scipy.spatial.transform import Rotation
 
-FRAMES = np.asarray(of.random_rotations(3, 5))
+FRAMES = np.asarray(of.frames.random_rotations(3, 5))
 AXES = Rotation.from_quat(FRAMES, scalar_first=True).as_matrix()
 ROWS = np.swapaxes(AXES, 1, 2).reshape(3, 9)  # first, second, third axis
 CENTRES = np.arange(9.0).reshape(3, 3)
@@ -89,7 +89,7 @@ def test_lengths_of_axes_are_written_where_the_layout_has_them(tmp_path, name, k
 def test_centres_are_written_before_their_axes(tmp_path):
     mesh = of.TetMesh(np.vstack([np.zeros(3), np.eye(3)]), np.array([[0, 1, 2, 3]], np.int32))
     for where, sites in (("tets", [[0.25, 0.25, 0.25]]), ("vertices", np.vstack([np.zeros(3), np.eye(3)]))):
-        frames = np.asarray(of.random_rotations(len(sites), 1))
+        frames = np.asarray(of.frames.random_rotations(len(sites), 1))
         text.write_geogram_centres(tmp_path / "a", Field(mesh, frames, where))
         found = text.read_geogram_centres(tmp_path / "a")
         np.testing.assert_array_equal(found.centres, sites)

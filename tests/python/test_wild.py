@@ -22,10 +22,10 @@ def field_of(name, folder, *options):
 def test_thin_walls_and_tight_bends_have_a_field_that_follows_them(name):
     path = shared(WILD / name)
     meshed = of.prepare_mesh(path)
-    assert of.signed_volume(meshed.surface) == pytest.approx(
-        of.signed_volume(of.repair(of.read_surface(path), level="merge").mesh), rel=0.01
+    assert of.surface.signed_volume(meshed.surface) == pytest.approx(
+        of.surface.signed_volume(of.surface.repair(of.read_surface(path), level="merge").mesh), rel=0.01
     )
-    assert not of.find_defects(meshed.surface)
+    assert not of.surface.find_defects(meshed.surface)
     assert of.compute_field(meshed, of.FieldOptions(streamlines=0)).record["alignment_deg"]["median"] < 1e-6
 
 

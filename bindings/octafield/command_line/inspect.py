@@ -53,8 +53,8 @@ def representations(json: Json = None, quiet: Quiet = False, verbose: Verbose = 
     """Names of representations and of metrics on frames. Options and functions take them."""
 
     def work() -> None:
-        from .. import metrics
-        from .. import representations as known
+        from ..frames import metrics
+        from ..frames import representations as known
 
         record = {
             "representations": [

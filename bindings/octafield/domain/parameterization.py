@@ -27,7 +27,7 @@ _TABLES = (
 class ParameterizationInput:
     """combed: frames of the tets whose axes correspond by number and sign across all triangles but the cut, with their
     matchings.
-    singular: the edges inside with a turn, as octafield.singular_edges has them of the frames before combing. surface:
+    singular: the edges inside with a turn, as octafield.volume.singular_edges has them of the frames before combing. surface:
         with interfaces between regions; features: its. tables: axes held at both."""
 
     tets: TetDomain

@@ -55,7 +55,7 @@ _OF_ANALYSIS = (
 @dataclass(repr=False, kw_only=True)
 class AnalysedField(ShownInNotebooks):
     """A frame field and what it is judged by. frames: (n, 4) unit quaternions w x y z, per tet vertex; their axes
-    are named so that neighbours agree but across a cut (octafield.comb_vertices). alignment: radians, per boundary
+    are named so that neighbours agree but across a cut (octafield.volume.comb_vertices). alignment: radians, per boundary
     vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: the JSON
     object of the command line. regions: (m,) ids of the tets where the mesh has several. lengths: (n, 3) of the frames'
     axes, where they have any. sizes: an IsotropicScale or AxisScales, as the option of that name asks.
@@ -205,7 +205,7 @@ def judged(
 def combed(
     tets: TetDomain, frames: np.ndarray, lengths: np.ndarray | None, threads: int
 ) -> tuple[np.ndarray, np.ndarray | None]:
-    """Frames at the vertices by octafield.comb_vertices, and the lengths of their axes in the new order."""
+    """Frames at the vertices by octafield.volume.comb_vertices, and the lengths of their axes in the new order."""
     found = _core.comb_vertices(tets, frames, threads=threads)
     return np.asarray(found.frames), (
         None if lengths is None else np.take_along_axis(lengths, axis_order(np.asarray(found.element)), axis=1)

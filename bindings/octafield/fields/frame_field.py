@@ -116,7 +116,7 @@ def compute_field(
         >>> import octafield
         >>> from octafield.domain.generators import generate
         >>> meshed = octafield.prepare_mesh(generate("ball"), octafield.MeshOptions(edge_length=0.3))  # or a path
-        >>> held = octafield.VertexConstraints(vertices=[300], kinds=["axis"], axes=[[0, 0, 1]])  # of meshed.tets
+        >>> held = octafield.volume.VertexConstraints(vertices=[300], kinds=["axis"], axes=[[0, 0, 1]])  # of meshed.tets
         >>> result = octafield.compute_field(meshed, constraints=held)
         >>> result.record["constraints"]["given"]
         1

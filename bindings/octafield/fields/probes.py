@@ -58,10 +58,10 @@ def sample_frames(
         InvalidInput, GeometryError.
 
         >>> import octafield
-        >>> tets = octafield.tetrahedralize(octafield.domain.generators.generate("box"))
-        >>> frames = octafield.random_rotations(1).repeat(len(tets.vertices), axis=0)
+        >>> tets = octafield.volume.tetrahedralize(octafield.domain.generators.generate("box"))
+        >>> frames = octafield.frames.random_rotations(1).repeat(len(tets.vertices), axis=0)
         >>> found = octafield.sample_frames(tets, [[0.5, 0.5, 0.5]], frames)
-        >>> bool(octafield.distance(found.frames, frames[:1])[0] < 1e-6), round(float(found.confidence[0]), 12)
+        >>> bool(octafield.frames.distance(found.frames, frames[:1])[0] < 1e-6), round(float(found.confidence[0]), 12)
         (True, 1.0)
     """
     require_one_of("outside", outside, OUTSIDE)

@@ -148,7 +148,7 @@ def _type(vertex: SingularVertex) -> str:
 
 def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolerance: float) -> np.ndarray:
     """(k,) true: at a vertex where smooth sectors meet and no frame fits all their normals and the tangents within the
-    tolerance, so that constraints do not hold the normals (octafield.boundary_constraints): the field may be off by up
+    tolerance, so that constraints do not hold the normals (octafield.volume.boundary_constraints): the field may be off by up
     to 45 degrees there, whatever the method."""
     tets = meshed.volume()
     boundary = tets.surface

@@ -1,6 +1,6 @@
 """Runs the command line's work in a child process, so that an interrupt ends it at once whatever it is doing.
 
-The parent only waits. On Ctrl-C it kills the child and removes the staging folders the child had open (output.py). It
+The parent only waits. On Ctrl-C it kills the child and removes the staging folders the child had open (writing.py). It
 also turns a crash of the child into one message and an exit code.
 """
 

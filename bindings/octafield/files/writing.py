@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _listeners: list[
     Callable[[Path, bool], object]
-] = []  # called with (path, alive) when a staging folder appears or goes, see supervise.py
+] = []  # called with (path, alive) when a staging folder appears or goes, see process.py
 
 
 def on_staging(listener: Callable[[Path, bool], object]) -> None:

@@ -105,7 +105,7 @@ def write_frames(
         where they shall be in the file; None: where they are, if the format has that; else they are taken there by
         vertex_frames or tet_frames. lengths: (n, 3) of the axes.
     features: (k, 2) feature edges, vertex ids. regions: (m,) of the tets. metadata: words for .vtu. combed: the frames
-        go to the tets and are combed (octafield.comb): axes correspond by number and sign across all triangles but a
+        go to the tets and are combed (octafield.volume.comb): axes correspond by number and sign across all triangles but a
         cut; .npz then holds all of octafield.parameterization_input, .ovmb and .ovm the cut, .perm its matchings. mesh:
         None where the format needs none; a result of compute_field or analyse gives its features and regions, too,
         where these are None. cell_edge: edge length of the cells that a mesher shall make, input unit, or "auto", the

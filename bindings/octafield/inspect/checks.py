@@ -237,7 +237,7 @@ def tet_shapes(seen: Examined) -> Finding:
                    f"{len(bad):,} of {len(low):,} tets have a dihedral angle below {_LEAST_DIHEDRAL:g} or above {180 - _LEAST_DIHEDRAL:g} degrees, "
                    f"the least {np.nanmin(low):.2g}, the largest {np.nanmax(high):.4g} ({_few(bad)})",
                    "another --edge-length" if seen.sized else
-                   "make the volume mesh anew from its surface (octafield.boundary_surface, octafield.tetrahedralize); energies near such tets mean little", tuple(bad.tolist()))  # fmt: skip
+                   "make the volume mesh anew from its surface (octafield.volume.boundary_surface, octafield.volume.tetrahedralize); energies near such tets mean little", tuple(bad.tolist()))  # fmt: skip
 
 
 def locking(seen: Examined) -> Finding:
@@ -248,7 +248,7 @@ def locking(seen: Examined) -> Finding:
         if not left:
             return Finding(text, PASS)
         return Finding(text, WARN, "locking_left", f"{left:,} tets with all vertices on the surface are too flat to split",
-                       "make the volume mesh anew from its surface (octafield.boundary_surface, octafield.tetrahedralize)")  # fmt: skip
+                       "make the volume mesh anew from its surface (octafield.volume.boundary_surface, octafield.volume.tetrahedralize)")  # fmt: skip
     if not counts:
         return Finding(text, PASS)
     listed = ", ".join(f"{count:,} {name if count > 1 else name[:-1]}" for name, count in counts.items())

@@ -28,7 +28,7 @@ __all__ = ["FAIL", "NOT_TESTED", "PASS", "WARN", "examine", "first_failure"]
 
 @dataclass(frozen=True)
 class Requirement:
-    """kinds: defects (octafield.find_defects) that break it. needs: kinds without which it can be tested."""
+    """kinds: defects (octafield.surface.find_defects) that break it. needs: kinds without which it can be tested."""
 
     text: str
     kinds: tuple[str, ...]

@@ -27,7 +27,7 @@ PAGE_FILE, RECORDS_FILE, TABLES, FIGURES = "report.html", "results.csv", "tables
 @dataclass
 class Report:
     """runs: in the order of the page; the first method is the one that others are measured against. pictures: of
-    octafield.view.pictures, per input. description: of the study, shown as it is. open_runs: not carried out yet. files:
+    octafield.view.picture, per input. description: of the study, shown as it is. open_runs: not carried out yet. files:
     others beside the page to link."""
 
     title: str

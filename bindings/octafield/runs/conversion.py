@@ -58,7 +58,7 @@ def convert_file(
     to_format: names of octafield.frame_formats, where the extensions do not tell. at: "vertices" or "tets", where the
     frames shall be. combed: as of write_frames. edge_length: of triangles on CAD models. sizes: "isotropic" or "axes"
     (see octafield.FieldOptions): lengths of the axes, where the file can hold them. cell_edge: as of write_frames.
-    split_singular: edges inside between singular vertices are split first (octafield.split_between_singular), and the
+    split_singular: edges inside between singular vertices are split first (octafield.volume.split_between_singular), and the
     frames are those of the tets. repair: its level and bounds are for a surface, as octafield.prepare_mesh takes them
     for one that is to be closed; what the level leaves unsound is noted."""
     require_one_of("sizes", sizes, SIZES)

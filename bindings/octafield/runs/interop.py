@@ -16,8 +16,8 @@
 
     octafield.to_pandas(result)  # one line per record; needs pandas
 
-Matrices (`octafield.stiffness`, `octafield.mass`, `Sampling.stiffness`) are scipy.sparse already, and
-`octafield.Sampling` takes one of your own; arrays of every object are numpy's.
+Matrices (`octafield.volume.stiffness`, `octafield.volume.mass`, `Sampling.stiffness`) are scipy.sparse already, and
+`octafield.volume.Sampling` takes one of your own; arrays of every object are numpy's.
 """
 
 from __future__ import annotations
@@ -202,7 +202,7 @@ def to_scipy(value: TriangleMesh | TetMesh | TetDomain | SingularGraph | Analyse
     """A graph as a scipy.sparse matrix, for scipy.sparse.csgraph. Meshes: (n, n) symmetric, the length (input unit) of
     the edge between two vertices. SingularGraph: the same between its points, along its curves. AnalysedField,
     FieldResult: int32 entry (a, b), a < b, of each edge of its tets: the element of octahedral_group() that brings the
-    frame of a closest to that of b (octafield.matching); the identity, 0, is stored too. Raises InvalidInput for
+    frame of a closest to that of b (octafield.frames.matching); the identity, 0, is stored too. Raises InvalidInput for
     anything else.
 
         >>> import octafield, scipy.sparse.csgraph

@@ -67,8 +67,8 @@ def solve(system, columns) -> int:
 def twist_circles(frames: np.ndarray, axes: np.ndarray) -> tuple:
     """Centres (k, 9) and orthonormal bases (k, 9, 2) of the planes of the circles that sh4 vectors describe as frames
     turn about an axis."""
-    start = octafield.sh4_embed(frames)
-    turned = lambda angle: octafield.sh4_rotate(octafield.quaternion_exp(angle * axes), start)
+    start = octafield.frames.sh4_embed(frames)
+    turned = lambda angle: octafield.frames.sh4_rotate(octafield.frames.quaternion_exp(angle * axes), start)
     centre = (start + turned(np.pi / 4)) / 2
     basis = np.stack([start - centre, turned(np.pi / 8) - centre], axis=2)
     return centre, basis / np.linalg.norm(basis, axis=1, keepdims=True)
@@ -78,13 +78,13 @@ def constrained_system(tets, constraints) -> tuple:
     """Matrix and right-hand side of the harmonic sh4 field under the constraints: with x = given + B u, B'(L x I)B u =
     -B'(L x I) given."""
     stiffness, kind, frames = (
-        octafield.stiffness(tets).tocsr(),
+        octafield.volume.stiffness(tets).tocsr(),
         np.array(constraints.kind),
         np.array(constraints.frames),
     )
     n, turning, fixed = len(kind), np.flatnonzero(kind == AXIS), np.flatnonzero(kind == FIXED)
     given = np.zeros((n, 9))
-    given[fixed] = octafield.sh4_embed(frames[fixed])
+    given[fixed] = octafield.frames.sh4_embed(frames[fixed])
     given[turning], planes = twist_circles(frames[turning], np.array(constraints.axis)[turning])
     unknowns = np.where(kind == AXIS, 2, np.where(kind == FIXED, 0, 9))
     first = np.cumsum(unknowns) - unknowns
@@ -107,7 +107,7 @@ def constrained_system(tets, constraints) -> tuple:
 
 def dirichlet_system(tets, boundary: np.ndarray, values: np.ndarray) -> tuple:
     """Matrix, and right-hand sides of the nine components, of the harmonic extension of `values` at the boundary."""
-    stiffness = octafield.stiffness(tets).tocsr()
+    stiffness = octafield.volume.stiffness(tets).tocsr()
     inside = np.setdiff1d(np.arange(len(tets.vertices)), boundary)
     return stiffness[inside][:, inside], -(stiffness[inside][:, boundary] @ values).T
 
@@ -116,18 +116,18 @@ def problem(path) -> tuple:
     """Mesh and constraints of the comparison."""
     meshed = prepare_mesh(path, MeshOptions(features="none"))
     directions = prepare(meshed).directions
-    return meshed.tets, octafield.boundary_constraints(meshed.tets, directions, mode="aligned")
+    return meshed.tets, octafield.volume.boundary_constraints(meshed.tets, directions, mode="aligned")
 
 
 def measure(path, seeds: int = 10, repeats: int = 3) -> tuple:
     """A row of header(seeds)."""
     tets, constraints = problem(path)
-    run = lambda **options: octafield.frame_field(tets, constraints, threads=1, **options)
+    run = lambda **options: octafield.volume.frame_field(tets, constraints, threads=1, **options)
     result, seconds = timed(run, repeats)
     system, right = constrained_system(tets, constraints)
     iterations, unit = timed(lambda: solve(system, [right]), repeats)
     boundary = np.flatnonzero(np.array(constraints.on_boundary))
-    system, right = dirichlet_system(tets, boundary, octafield.sh4_embed(np.array(constraints.frames)[boundary]))
+    system, right = dirichlet_system(tets, boundary, octafield.frames.sh4_embed(np.array(constraints.frames)[boundary]))
     fixed_iterations, fixed_unit = timed(lambda: solve(system, right), repeats)
     spread = [run(seed=seed).smooth.energy for seed in range(1, seeds + 1)]
     name = Path(path).name.split(".mesh")[0]

@@ -45,7 +45,7 @@ SINGULARITY_FREE = 1e-9  # energies below it are rounding
 
 def to_nearest_axis(frames: np.ndarray, directions: np.ndarray) -> np.ndarray:
     """Degrees between directions and the nearest axes of the frames."""
-    axes = np.asarray(octafield.rotation_matrices(frames))
+    axes = np.asarray(octafield.frames.rotation_matrices(frames))
     unit = directions / np.linalg.norm(directions, axis=1, keepdims=True)
     sines = np.linalg.norm(np.cross(axes.transpose(0, 2, 1), unit[:, None, :]), axis=2)
     return np.degrees(np.arcsin(np.minimum(sines.min(axis=1), 1)))
@@ -97,7 +97,7 @@ def representation_row(path: Path, meshed, result, reference) -> list:
     return [
         name_of(path), r["representation"], STARTS[r["options"]["rounds"] > 0], r["energy"], r["objective"],
         r["singular_edges"], r["complex_edges"], r["non_meshable_vertices"],
-        np.degrees(np.mean(octafield.distance(result.frames, reference.frames))), alignment_error(meshed, result),
+        np.degrees(np.mean(octafield.frames.distance(result.frames, reference.frames))), alignment_error(meshed, result),
         r["iterations"], r["converged"], r["cpu_seconds"]["smooth"],
     ]  # fmt: skip
 

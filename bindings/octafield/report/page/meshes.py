@@ -34,7 +34,7 @@ def mesh_section(
     results: Results, exhibits: Exhibits, anchors: dict[str, str], name: str, pictures: "Sequence[Picture]"
 ) -> str:
     """A page of its own where there are several inputs, with the runs on it. anchors: per input; pictures: of
-    octafield.view.pictures."""
+    octafield.view.picture."""
     runs, many = results.on(name), len(results.inputs) > 1
     fields = [run for run in runs if run.done]
     cases = [case for case in (results.first_on(name, setting) for setting in results.settings) if case is not None]
