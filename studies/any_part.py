@@ -31,7 +31,8 @@ from any_part_inputs import Case, collect, unpacked
 from any_part_judge import contact_sheet, judge, words_of
 from study_output import markdown_table, write_csv
 
-HEADER = ["input", "source", "triangles", "info", "default", "kind", "steps", "result", "wrong", "told", "tets", "energy", "singular", "volume %",
+HEADER = ["input", "source", "triangles", "info", "default", "kind", "steps", "result", "wrong", "told", "tets",
+          "energy", "singular", "volume %",
           "euler", "far %", "angle 95 %", "seconds", "message"]  # fmt: skip
 MOST_STEPS = 3
 LEVELS = "merge|safe|fill|resolve|wrap"
@@ -177,9 +178,12 @@ def _cell(value: Any) -> str:
 
 PAGE = """# Any part
 
-Surfaces through `octafield field`: thirty made by rule (thin walls, needles, high genus, noise, scans with holes), sound and spoilt files of the data
-folder, files that broke something once, the boundaries of all its tet meshes, and what pyvista ships. Where a field is refused by default, the options that the message names are added, without a look at the part.
-What counts as wrong, and how it is found: [studies/any_part.py](study_scripts.md), which writes this page. Seconds are on the clock, as the machine was; the limit of one command was {limit:.0f} s. The program was octafield {version}, commit {commit}.
+Surfaces through `octafield field`: thirty made by rule (thin walls, needles, high genus, noise, scans with holes),
+sound and spoilt files of the data folder, files that broke something once, the boundaries of all its tet meshes, and
+what pyvista ships. Where a field is refused by default, the options that the message names are added, without a look
+at the part. What counts as wrong, and how it is found: [studies/any_part.py](study_scripts.md), which writes this
+page. Seconds are on the clock, as the machine was; the limit of one command was {limit:.0f} s. The program was
+octafield {version}, commit {commit}.
 
 """
 

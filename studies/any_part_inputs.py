@@ -134,7 +134,8 @@ def _shared(data: Path) -> Iterator[Case]:
 
 def _boundaries(data: Path, folder: Path) -> Iterator[Case]:
     """Of all tet meshes of the data folder, as OBJ."""
-    for mesh in (*sorted((data / "hexme").glob("*.vtk.gz")), *sorted((data / "arff").glob("*.mesh.gz")), data / "arff/prism.node.gz",
+    for mesh in (*sorted((data / "hexme").glob("*.vtk.gz")), *sorted((data / "arff").glob("*.mesh.gz")),
+                 data / "arff/prism.node.gz",
                  *sorted((data / "mc3d").glob("*.hexex.gz"))):  # fmt: skip
         path = folder / f"{mesh.name.removesuffix('.gz').rpartition('.')[0]}_boundary.obj"
         if not path.exists():

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 import octafield
 import pyvista
-from octafield.fields.frame_field import prepare, prepare_mesh, run
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.frame_field import prepare_field, run_field
 from octafield.runs.field_pictures import singular_curves
 
 
@@ -82,13 +83,13 @@ def main() -> None:
     diagonal = octafield.surface.bounding_box_diagonal(surface.vertices)
 
     for fraction in map(float, arguments.edge_lengths.split(",")):
-        problem = prepare(prepare_mesh(surface, octafield.MeshOptions(edge_length=fraction * diagonal)))
+        problem = prepare_field(prepare_mesh(surface, octafield.MeshOptions(edge_length=fraction * diagonal)))
         print(
             f"edge length {fraction} of the diagonal, {len(problem.meshed.tets.vertices)} vertices, "
             f"{len(problem.singularities.points)} surface singular points"
         )
         for boundary in ("fixed", "aligned"):
-            result = run(problem, octafield.FieldOptions(boundary=boundary))
+            result = run_field(problem, octafield.FieldOptions(boundary=boundary))
             record, graph = result.record, result.singular_graph
             print(
                 f"  {boundary:8s} energy {record['energy']:.3f}  curves {len(graph.curves)}  length {graph.length:.2f} "

@@ -120,7 +120,7 @@ def work(folder: Path, found: dict[str, Path], seed: int, first: int, last: int,
     """In a process of its own: files first .. last - 1."""
     space = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
     resource.setrlimit(resource.RLIMIT_AS, (space + MEMORY, space + MEMORY))
-    faulthandler.enable(open(folder / "traceback", "w"))  # noqa: SIM115: open as long as the process
+    faulthandler.enable(open(folder / "traceback", "w"))  # open as long as the process
     signal.signal(signal.SIGALRM, signal.SIG_DFL)
     warnings.simplefilter("error", RuntimeWarning)
     names, mesh, contents = list(found), _cube(), {name: path.read_bytes() for name, path in found.items()}
@@ -151,7 +151,8 @@ def keep(faults: Path, number: int, name: str, path: Path, what: str) -> None:
 
 
 def fuzz(output: Path, files: int, seed: int, first: int = 0) -> int:
-    """Files first .. files - 1. How many did what they must not; they are in output/faults, with those of earlier runs."""
+    """Files first .. files - 1. How many did what they must not; they are in output/faults, with those of earlier
+    runs."""
     folder, faults = output / "scratch", output / "faults"
     folder.mkdir(parents=True, exist_ok=True)
     found = seeds(folder)

@@ -2,11 +2,11 @@
 
     python studies/metric_distortion.py -o DIR [--pairs 20000] [--seed 1] [--threads 0]
 
-For every entry of octafield.frames.metrics and a list of angles: pairs of frames exactly that far apart (a random frame, a
-random direction of rotation among those in which the angle is the shortest way), and over the pairs minimum, maximum
-and the 1 %, 50 % and 99 % quantiles of distance / (angle x speed). 1 is no distortion. A metric whose speed depends on
-frame and direction is divided by its median at the smallest angle instead. DIR gets distortion.csv, distortion.md and
-frames_distortion.png.
+For every entry of octafield.frames.metrics and a list of angles: pairs of frames exactly that far apart (a random
+frame, a random direction of rotation among those in which the angle is the shortest way), and over the pairs minimum,
+maximum and the 1 %, 50 % and 99 % quantiles of distance / (angle x speed). 1 is no distortion. A metric whose speed
+depends on frame and direction is divided by its median at the smallest angle instead. DIR gets distortion.csv,
+distortion.md and frames_distortion.png.
 """
 
 import argparse

@@ -3,9 +3,9 @@
     pip install mouette==1.2.8      # not a dependency of octafield
     python studies/mouette_fields.py -o out/mouette
 
-mouette has one frame per tet. E: Dirichlet energy of frames in tets (octafield.volume.tet_sampling), of mouette's field, of
-octafield's smoothing from there with one axis on the normal of the surface, and of octafield's own field. No features.
-DIR/BODY-report/report.html shows them side by side.
+mouette has one frame per tet. E: Dirichlet energy of frames in tets (octafield.volume.tet_sampling), of mouette's
+field, of octafield's smoothing from there with one axis on the normal of the surface, and of octafield's own field. No
+features. DIR/BODY-report/report.html shows them side by side.
 """
 
 import argparse
@@ -20,7 +20,8 @@ from octafield.domain.generators import generate
 from study_output import markdown_table
 
 BODIES = {"ball": 0.4, "cylinder": 0.4, "torus": 0.35}  # and the edge length
-HEAD = ["body", "tets", "mouette: s", "E", "singular edges", "complex", "polished: E", "singular edges", "complex", "octafield: E", "singular edges", "complex",
+HEAD = ["body", "tets", "mouette: s", "E", "singular edges", "complex", "polished: E", "singular edges", "complex",
+        "octafield: E", "singular edges", "complex",
         "median alignment, degrees: mouette", "polished"]  # fmt: skip
 OPTIONS = octafield.FieldOptions(sampling="tets", features="none")
 
@@ -71,7 +72,8 @@ def row(name: str, surface: octafield.TriangleMesh, length: float, folder: Path)
         fields={"mouette": path},
     )
     ours, polished, theirs = compared.rows
-    return [name, len(tets.tets), seconds, *(r[key] for r in (theirs, polished, ours) for key in ("energy", "singular_edges", "complex_edges")),
+    return [name, len(tets.tets), seconds, *(r[key] for r in (theirs, polished, ours)
+                for key in ("energy", "singular_edges", "complex_edges")),
             theirs["alignment_deg"]["median"], polished["alignment_deg"]["median"]]  # fmt: skip
 
 

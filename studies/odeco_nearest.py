@@ -4,7 +4,8 @@
 
 Inputs: odeco tensors with normally distributed lengths plus noise of 1 %, 10 % and 30 % of their norm, and random
     vectors of R^15. For each, octafield.frames.odeco_nearest is compared with the best of --starts local ascents
-    (octafield.frames.odeco_nearest_local) from random frames; farther by more than 1e-9 of the input's norm counts as a miss.
+    (octafield.frames.odeco_nearest_local) from random frames; farther by more than 1e-9 of the input's norm counts as a
+    miss.
 """
 
 import argparse

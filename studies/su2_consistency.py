@@ -303,7 +303,7 @@ def study_ball(folder: Path, paths: list[Path]) -> None:
         rows,
     )
     figure, panels = new_figure(12, 3.3, 1, len(drawn), subplot_kw={"projection": "3d"})
-    for axes, (name, problem, result, graph) in zip(panels, drawn):
+    for axes, (name, _, result, graph) in zip(panels, drawn):
         points = np.asarray(graph.points)
         for curve, turns in zip(graph.curves, graph.curve_quarter_turns):
             axes.plot(*points[curve].T, color=PALETTE[0] if turns > 0 else PALETTE[1], linewidth=1.4)

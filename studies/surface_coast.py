@@ -129,6 +129,7 @@ def main() -> None:
         field = octafield.surface.direction_field(mesh, features, **options)
         seconds = time.process_time() - start
         singular = octafield.surface.surface_singularities(mesh, field)
+        directions = np.array(octafield.surface.triangle_directions(mesh, field))
         inside = [s.index for s in singular.points if not s.boundary]
         drawn[name] = (field, singular)
         rows.append(
@@ -139,11 +140,7 @@ def main() -> None:
                 sum(i < 0 for i in inside),
                 len(singular.points) - len(inside),
                 f"{singular.index_sum:g}",
-                (
-                    "-"
-                    if field.symmetry != 4
-                    else f"{common_energy(mesh, features, np.array(octafield.surface.triangle_directions(mesh, field))):.1f}"
-                ),
+                ("-" if field.symmetry != 4 else f"{common_energy(mesh, features, directions):.1f}"),
                 f"{field.energy:.2f}",
                 field.iterations,
             )

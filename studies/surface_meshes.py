@@ -26,7 +26,8 @@ def disk(rings: int) -> octafield.TriangleMesh:
 
 
 def even_disk(edge: float) -> octafield.TriangleMesh:
-    """Unit disk of triangles as equilateral as its boundary allows, in no pattern that critical points could lock to."""
+    """Unit disk of triangles as equilateral as its boundary allows, in no pattern that critical points could lock
+    to."""
     angle = np.linspace(0, 2 * np.pi, 20_001)
     size = lambda points: np.full(len(points), edge)
     return region([resampled([np.column_stack([np.cos(angle), np.sin(angle)])], size)], size)

@@ -16,11 +16,12 @@ from pathlib import Path
 
 import octafield
 from octafield.domain.inputs import GRID_SUFFIXES, SURFACE_SUFFIXES
-from octafield.fields.frame_field import MeshOptions, prepare_mesh
-from octafield.options import METHODS
+from octafield.domain.meshing import prepare_mesh
+from octafield.options import METHODS, MeshOptions
 from study_output import markdown_table, write_csv
 
-HEADER = ["file", "triangles", "features", "feature edges", "N", "method", "points", "index sum", "chi", "agree", "converged",
+HEADER = ["file", "triangles", "features", "feature edges", "N", "method", "points", "index sum", "chi", "agree",
+          "converged",
           "CPU s"]  # fmt: skip
 
 

@@ -30,19 +30,12 @@ from ._core import (
     write_surface,
 )
 from .domain.meshed_input import MeshedInput
+from .domain.meshing import prepare_mesh
 from .domain.parameterization import ParameterizationInput, parameterization_input
 from .errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from .fields.analysed import AnalysedField, analyse
-from .fields.frame_field import (
-    FieldResult,
-    Problem,
-    SurfaceFieldResult,
-    compute_field,
-    compute_surface_field,
-    prepare,
-    prepare_mesh,
-    run,
-)
+from .fields.direction_field import SurfaceFieldResult, compute_surface_field
+from .fields.frame_field import FieldProblem, FieldResult, compute_field, prepare_field, run_field
 from .fields.probes import sample_frames, slice_frames
 from .frame_files import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
@@ -68,7 +61,7 @@ __all__ = [
     "MeshOptions",
     "MeshedInput",
     "ParameterizationInput",
-    "Problem",
+    "FieldProblem",
     "SingularGraph",
     "SolverError",
     "SurfaceFieldOptions",
@@ -88,12 +81,12 @@ __all__ = [
     "from_pandas",
     "from_pyvista",
     "parameterization_input",
-    "prepare",
+    "prepare_field",
     "prepare_mesh",
     "read_frames",
     "read_surface",
     "require_valid",
-    "run",
+    "run_field",
     "sample_frames",
     "slice_frames",
     "surface",

@@ -1,4 +1,5 @@
-"""What C++ has in octafield::frames: frames as rotations modulo the octahedral group, their representations, distances and means.
+"""What C++ has in octafield::frames: frames as rotations modulo the octahedral group, their representations, distances
+and means.
 
 Arrays hold one frame a row: (n, 4) unit quaternions w x y z.
 """

@@ -80,8 +80,8 @@ class MeshOptions:
     edge_length: target of surface remeshing, input unit; 0: lengths that fit the shape (see remesh, size_field).
     max_cells: without an edge length, triangles and tets that those lengths may ask for; 0: 200,000.
     remesh: False keeps the triangles of a surface. Tet meshes are always kept as they are.
-    repair: level of the repair of a surface before it is tested (octafield.surface.repair), each action recorded; "default":
-        "merge" for STL, "none" otherwise. True stands for "safe", False for "none".
+    repair: level of the repair of a surface before it is tested (octafield.surface.repair), each action recorded;
+        "default": "merge" for STL, "none" otherwise. True stands for "safe", False for "none".
     max_hole_edges: level "fill" leaves holes of more edges open; 0: no bound.
     wrap_alpha, wrap_offset: of level "wrap", input unit; 0: 1/50 of the bounding-box diagonal, and 1/20 of that.
     interfaces: triangles between tets of different regions of the file hold the field as the boundary does.
@@ -182,8 +182,8 @@ class SurfaceFieldOptions(MeshOptions):
 class FieldOptions(MeshOptions):
     """Of a frame field in a volume.
 
-    sampling: where the frames live, "vertices" or "tets" (octafield.volume.tet_sampling; constraints, energy, singular edges,
-        alignment and meshability are those of the tets then, and integrability is left out).
+    sampling: where the frames live, "vertices" or "tets" (octafield.volume.tet_sampling; constraints, energy, singular
+        edges, alignment and meshability are those of the tets then, and integrability is left out).
     boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none",
         or "start" (frames on the surface held at those of the start that compute_field is given).
     feature_tolerance: radians; a vertex on a feature keeps its whole frame when one frame fits all its normals and
@@ -191,14 +191,14 @@ class FieldOptions(MeshOptions):
     seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
     not depend on it. representation, solver: what the last smoothing minimises and how; rounds, max_iterations,
     tolerance, linear_solver, midpoint_limit, round_time, first_time, last_time, time_exponent, max_steps,
-    linear_tolerance: see octafield.volume.frame_field; a start that is given is smoothed only, so that those of rounds and
-    of the heat flow do nothing then. streamlines: so many seeds of curves along the three axes, spread over the
-    volume (octafield.volume.spread_points), go into streamlines.vtp; 0: none. sizes: lengths of the axes for which the field
-    is closest to the gradients of a map, "isotropic" (one for all three, octafield.volume.isotropic_scale) or "axes"
-    (octafield.volume.axis_scales); "none": not computed.
+    linear_tolerance: see octafield.volume.frame_field; a start that is given is smoothed only, so that those of rounds
+    and of the heat flow do nothing then. streamlines: so many seeds of curves along the three axes, spread over the
+    volume (octafield.volume.spread_points), go into streamlines.vtp; 0: none. sizes: lengths of the axes for which the
+    field is closest to the gradients of a map, "isotropic" (one for all three, octafield.volume.isotropic_scale) or
+    "axes" (octafield.volume.axis_scales); "none": not computed.
     split_singular: with sampling "tets"; edges inside that join singular vertices without being singular are split
-        after the field is found (octafield.volume.split_between_singular): tets are more than those it was computed on, each
-        with the frame of the tet it is part of.
+        after the field is found (octafield.volume.split_between_singular): tets are more than those it was computed on,
+        each with the frame of the tet it is part of.
 
     Raises InvalidInput.
 

@@ -1,4 +1,5 @@
-"""What C++ has in octafield::surface: triangle meshes, their repair, features and remeshing, and N-direction fields on them."""
+"""What C++ has in octafield::surface: triangle meshes, their repair, features and remeshing, and N-direction fields on
+them."""
 
 from ._core import (
     Defect,

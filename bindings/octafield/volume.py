@@ -1,4 +1,5 @@
-"""What C++ has in octafield::volume: tet meshes, frame fields on them, their constraints, solvers, singular curves and sizes."""
+"""What C++ has in octafield::volume: tet meshes, frame fields on them, their constraints, solvers, singular curves and
+sizes."""
 
 from ._core import (
     AlignmentTables,

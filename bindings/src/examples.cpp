@@ -225,7 +225,7 @@ constexpr Example of_volume_fields[] = {
     >>> octafield.volume.with_constraints(free, octafield.volume.VertexConstraints([1], ["axis"], [[0, 0, 1]]))
     BoundaryConstraints(1 free, 1 axis, 0 fixed))"},
     {"initial_frames", R"(
-    >>> problem = octafield.prepare(octafield.prepare_mesh(generate("box")))
+    >>> problem = octafield.prepare_field(octafield.prepare_mesh(generate("box")))
     >>> meshed = problem.meshed
     >>> held = octafield.volume.boundary_constraints(len(meshed.tets.vertices), meshed.boundary, meshed.features, problem.directions)
     >>> octafield.volume.initial_frames(meshed.tets, held).shape == (len(meshed.tets.vertices), 4)

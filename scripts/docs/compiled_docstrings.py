@@ -6,7 +6,6 @@ import textwrap
 from typing import Any
 
 import griffe
-
 from octafield import _core, options
 
 SIGNATURE = re.compile(r"^(\d+\. )?\w+\(.*( -> .*|\*\*kwargs\))$")
@@ -27,7 +26,9 @@ def fields_as_list(text: str, fields: list[str]) -> str:
         if fields and begin.search(paragraph):
             paragraph = re.sub(r"\n\s*", " ", begin.sub(r"\0\1\0", paragraph))
             before, *items = paragraph.split("\0")
-            paragraph = "\n".join([before, "", *(f"- `{n}`: {told.strip()}" for n, told in zip(items[::2], items[1::2], strict=True))])
+            paragraph = "\n".join(
+                [before, "", *(f"- `{n}`: {told.strip()}" for n, told in zip(items[::2], items[1::2], strict=True))]
+            )
         paragraphs.append(paragraph)
     return "\n\n".join(paragraphs)
 

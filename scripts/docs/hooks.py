@@ -1,4 +1,5 @@
-"""Pages of the documentation that are made from the repository: README files of the folders, and one page per public header."""
+"""Pages of the documentation that are made from the repository: README files of the folders, and one page per public
+header."""
 
 import posixpath
 import re

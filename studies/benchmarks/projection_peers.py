@@ -42,10 +42,10 @@ def main() -> None:
     )
     for name, v in (("random direction", directions), ("frame and noise", near)):
         theirs = []
-        peer = rate(lambda: theirs.extend(project_to_frame(Vec(row))[1] for row in v), len(v))
-        each = rate(lambda: [octafield.frames.sh4_project(row, threads=1) for row in v], len(v))
+        peer = rate(lambda v=v, theirs=theirs: theirs.extend(project_to_frame(Vec(row))[1] for row in v), len(v))
+        each = rate(lambda v=v: [octafield.frames.sh4_project(row, threads=1) for row in v], len(v))
         large = np.tile(v, (max(1, 100000 // len(v)), 1))
-        batch = rate(lambda: octafield.frames.sh4_project(large, threads=1), len(large))
+        batch = rate(lambda large=large: octafield.frames.sh4_project(large, threads=1), len(large))
         distances = octafield.frames.sh4_project(v, threads=1)[1]
         # mouette's vectors are of the same harmonics in the same order: its result is a frame of ours.
         off = octafield.frames.sh4_project(np.array(theirs), threads=1)[1].max()

@@ -36,7 +36,8 @@ from .pages import page, when
 REPRESENTATIONS = ("sh4", "sh469", "geodesic", "su2_midpoint")
 BY_CERES = ("geodesic", "su2_midpoint")
 HEADER = [
-    "mesh", "representation", "vertices", "tets", "reading, meshing MB", "cross field MB", "field, files MB", "process, all MB", "expected by studies MB",
+    "mesh", "representation", "vertices", "tets", "reading, meshing MB", "cross field MB", "field, files MB",
+    "process, all MB", "expected by studies MB",
     "preparing CPU s", "field, files CPU s",
 ]  # fmt: skip
 FULL_RUN = 300_000  # tets up to which those run to their end
@@ -158,7 +159,8 @@ def measure(body: str, tets: int, representation: str) -> Measured:
     start, cpu = a["peaks"]["start"], a["cpu"]
     over = lambda *names: max(a["peaks"][name] - start for name in names)
     run_s = cpu["smooth"] + cpu["analyse"] + cpu["write"] if a["whole"] else None
-    return Measured(body, representation, a["vertices"], a["tets"], start, over("mesh"), over("surface"), over("run", "write"),
+    return Measured(body, representation, a["vertices"], a["tets"], start, over("mesh"), over("surface"),
+                    over("run", "write"),
                     cpu["read"] + cpu["mesh"] + cpu["surface"], run_s, a["disk"])  # fmt: skip
 
 
@@ -317,7 +319,7 @@ def seconds_to_start(out: Path, planned) -> float:
     seconds = []
     for _ in range(3):
         ready, begin = threading.Event(), time.perf_counter()
-        child = Child(out, planned[:1], False, 1e9, lambda _, event: ready.set())
+        child = Child(out, planned[:1], False, 1e9, lambda _, event, ready=ready: ready.set())
         ready.wait(60)
         seconds.append(time.perf_counter() - begin)
         child.stop()

@@ -149,7 +149,8 @@ def gmsh_edge(held: list[int], points: np.ndarray) -> int:
 
 
 def in_our_order(view: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """One direction per triangle from rows of x, y, z of three corners and three vectors; the view has its own order."""
+    """One direction per triangle from rows of x, y, z of three corners and three vectors; the view has its own
+    order."""
     theirs, directions = view[:, :3].transpose(0, 2, 1), view[:, 3:].reshape(-1, 3, 3)
     scale = np.ptp(corners.reshape(-1, 3), axis=0).max()
     order = lambda c: np.lexsort(np.round(c.mean(axis=1) / scale, 9).T)

@@ -92,7 +92,7 @@ def common_energy(mesh: octafield.TriangleMesh, features: octafield.FeatureGraph
     x = along[np.array(topology.triangle_edges)[:, 0]]
     y = np.cross(normals, x)
     gradient = np.zeros((len(areas), 3), dtype=complex)
-    for k, e in enumerate(np.array(topology.triangle_edges).T):
+    for e in np.array(topology.triangle_edges).T:
         turn = np.arctan2(np.sum(along[e] * y, axis=1), np.sum(along[e] * x, axis=1))
         own = sides[e, 0] == np.arange(len(areas))
         value = np.where(own, both[0][e], both[1][e]) * np.exp(4j * turn)

@@ -115,7 +115,7 @@ def test_tensor4_is_the_fourth_power_sum_contracted_by_numpy():
 def test_odeco_coordinates_are_the_harmonic_coefficients_of_the_polynomial():
     """By quadrature of sum_k lambda_k (r_k . x)^4 against scipy's harmonics, in units of sh4's."""
     nodes, weights = sphere_rule(6)
-    basis = np.concatenate([scipy_harmonics(l, nodes) for l in (0, 2, 4)], axis=1)
+    basis = np.concatenate([scipy_harmonics(degree, nodes) for degree in (0, 2, 4)], axis=1)
     unit = SH4_FACTOR / (32 * np.pi / 315)
     q = octafield.frames.random_rotations(50, seed=6)
     lengths = np.random.default_rng(7).normal(size=(50, 3))

@@ -31,7 +31,8 @@ _COMPARE = {
     ast.In: ast.NotIn, ast.NotIn: ast.In, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
 }  # fmt: skip
 _ARITHMETIC = {
-    ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.FloorDiv: ast.Mult, ast.Mod: ast.Mult, ast.Pow: ast.Mult,
+    ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.FloorDiv: ast.Mult,
+    ast.Mod: ast.Mult, ast.Pow: ast.Mult,
     ast.BitOr: ast.BitAnd, ast.BitAnd: ast.BitOr,
 }  # fmt: skip
 
@@ -129,12 +130,17 @@ def _is_none(node: ast.AST) -> bool:
 _CODE = [
     (re.compile(p), replacement)
     for p, replacement in (
-        (r"(?<=[\w)\]] )<(?= [\w(-])", "<="), (r"<=(?!>)", "<"), (r"(?<=[\w)\]] )>(?= [\w(-])", ">="), (r"(?<=\s)>=(?=\s)", ">"),
+        (r"(?<=[\w)\]] )<(?= [\w(-])", "<="), (r"<=(?!>)", "<"), (r"(?<=[\w)\]] )>(?= [\w(-])", ">="),
+        (r"(?<=\s)>=(?=\s)", ">"),
         (r"==", "!="), (r"!=", "=="), (r"&&", "||"), (r"\|\|", "&&"),
-        (r"(?<=[\w)\]] )\+(?= )", "-"), (r"(?<=[\w)\]] )-(?= )", "+"), (r"(?<=[\w)\]] )\*(?= )", "/"), (r"(?<=[\w)\]] )/(?= )", "*"),
-        (r"\+=", "-="), (r"-=", "+="), (r"(?<![\w.])0(?![\w.])", "1"), (r"(?<![\w.])1(?![\w.])", "2"), (r"(?<![\w.])2(?![\w.])", "3"), (r"(?<![\w.])3(?![\w.])", "2"),
-        (r"(?<![\w.])(\d+\.\d+|\d+e-?\d+)(?![\w.])", r"2 * \1"), (r"(?<![\w.])(\d+e-?\d+)(?![\w.])", r"1e-3 * \1"), (r"std::min\b", "std::max"), (r"std::max\b", "std::min"),
-        (r"\btrue\b", "false"), (r"\bfalse\b", "true"), (r"(?<=\()!(?=[\w(])", ""), (r"\bcontinue;", ";"), (r"\? (.+?) : ([^;]+?)(?=[;,)])", r"? \2 : \1"),
+        (r"(?<=[\w)\]] )\+(?= )", "-"), (r"(?<=[\w)\]] )-(?= )", "+"), (r"(?<=[\w)\]] )\*(?= )", "/"),
+        (r"(?<=[\w)\]] )/(?= )", "*"),
+        (r"\+=", "-="), (r"-=", "+="), (r"(?<![\w.])0(?![\w.])", "1"), (r"(?<![\w.])1(?![\w.])", "2"),
+        (r"(?<![\w.])2(?![\w.])", "3"), (r"(?<![\w.])3(?![\w.])", "2"),
+        (r"(?<![\w.])(\d+\.\d+|\d+e-?\d+)(?![\w.])", r"2 * \1"), (r"(?<![\w.])(\d+e-?\d+)(?![\w.])", r"1e-3 * \1"),
+        (r"std::min\b", "std::max"), (r"std::max\b", "std::min"),
+        (r"\btrue\b", "false"), (r"\bfalse\b", "true"), (r"(?<=\()!(?=[\w(])", ""), (r"\bcontinue;", ";"),
+        (r"\? (.+?) : ([^;]+?)(?=[;,)])", r"? \2 : \1"),
     )
 ]  # fmt: skip
 

@@ -75,12 +75,19 @@ def record(representation="sh4", boundary="aligned", energy=1.0, *, seed=0, stat
     if state != "done":
         return head
     figures = {
-        **dict.fromkeys(("singular_edges", "complex_edges", "non_meshable_vertices", "non_meshable_feature_edges", "non_meshable_corners"), 0),
-        "energy": energy, "energy_unit_speed": 0.15 * energy, "vertices": 10, "tets": 20, "boundary_triangles": 16, "edge_length": 0.5, "feature_edges": 12,
-        "feature_corners": 8, "feature_source": "angle", "mesh_sha256": "0123456789abcdef", "singular_length": 0.0, "singular_edges_by_turns": {},
-        "alignment_deg": {"median": 0.0, "max": 1.0, "held_max": 0.5}, "unserved_vertices": 0, "feature_alignment_deg": {"median": 0.0, "max": 0.0}, "integrability": {"jump_rms": 0.1},
-        "iterations": 2, "energy_history": [2 * energy, 1.5 * energy, energy], "objective": 3 * energy, "objective_history": [4.5 * energy, 3 * energy], "converged": True, "stop_reason": "", "notes": [], "peak_mb": 100.0,
-        "wall_seconds": dict.fromkeys(PHASES, 0.25), "cpu_seconds": dict.fromkeys(PHASES, 0.5), "surface_field": {"euler_characteristic": 2},
+        **dict.fromkeys(("singular_edges", "complex_edges", "non_meshable_vertices", "non_meshable_feature_edges",
+            "non_meshable_corners"), 0),
+        "energy": energy, "energy_unit_speed": 0.15 * energy, "vertices": 10, "tets": 20, "boundary_triangles": 16,
+        "edge_length": 0.5, "feature_edges": 12,
+        "feature_corners": 8, "feature_source": "angle", "mesh_sha256": "0123456789abcdef", "singular_length": 0.0,
+        "singular_edges_by_turns": {},
+        "alignment_deg": {"median": 0.0, "max": 1.0, "held_max": 0.5}, "unserved_vertices": 0,
+        "feature_alignment_deg": {"median": 0.0, "max": 0.0}, "integrability": {"jump_rms": 0.1},
+        "iterations": 2, "energy_history": [2 * energy, 1.5 * energy, energy], "objective": 3 * energy,
+        "objective_history": [4.5 * energy, 3 * energy], "converged": True, "stop_reason": "", "notes": [],
+        "peak_mb": 100.0,
+        "wall_seconds": dict.fromkeys(PHASES, 0.25), "cpu_seconds": dict.fromkeys(PHASES, 0.5),
+        "surface_field": {"euler_characteristic": 2},
         "version": "1.2.3", "versions": {"octafield": "1.2.3"},
     }  # fmt: skip
     return {**head, **figures, **{key: value for key, value in more.items() if key not in names}}

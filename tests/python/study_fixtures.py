@@ -14,8 +14,8 @@ runs: {representation: [sh4, sh469]}
 # Of processes of runs: sh469 takes a minute.
 STALLS = """import time
 import octafield.fields.frame_field as p
-run = p.run
-p.run = lambda problem, options, *a: time.sleep(60) if options.representation == 'sh469' else run(problem, options, *a)
+run = p.run_field
+p.run_field = lambda problem, options, *a: time.sleep(60) if options.representation == 'sh469' else run(problem, options, *a)
 """
 
 

@@ -11,7 +11,8 @@ def at_angle(angle: float) -> np.ndarray:
 
 
 def grid_triangles(rows: int, columns: int, closed: bool = False) -> np.ndarray:
-    """Two triangles per cell of a grid of rows x columns points, row by row; closed: the last column meets the first."""
+    """Two triangles per cell of a grid of rows x columns points, row by row; closed: the last column meets the
+    first."""
     cells = []
     for i in range(rows - 1):
         for j in range(columns if closed else columns - 1):

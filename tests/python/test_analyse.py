@@ -9,7 +9,8 @@ import pytest
 from octafield.domain.generators import generate
 from pipeline_fixtures import octafield
 
-SAME = ("energy", "singular_edges", "singular_length", "complex_edges", "alignment_deg", "feature_alignment_deg", "non_meshable_vertices",
+SAME = ("energy", "singular_edges", "singular_length", "complex_edges", "alignment_deg", "feature_alignment_deg",
+        "non_meshable_vertices",
         "integrability", "singular_edges_by_turns", "mesh_sha256", "feature_edges")  # fmt: skip
 
 
@@ -76,7 +77,8 @@ def test_a_start_at_the_minimum_stays_there_and_a_worse_one_is_polished(ball, tm
     before = of.analyse(ball.tets, rough, options=options).record["energy"]
     of.write_frames(tmp_path / "rough.txt", None, rough)
     meshio.Mesh(ball.tets.vertices, [("tetra", ball.tets.tets)]).write(tmp_path / "ball.mesh")
-    done = octafield("field", tmp_path / "ball.mesh", "-o", tmp_path / "out", "--start", tmp_path / "rough.txt", "--boundary", "fixed",
+    done = octafield("field", tmp_path / "ball.mesh", "-o", tmp_path / "out", "--start", tmp_path / "rough.txt",
+                     "--boundary", "fixed",
                      "--features", "none", "--json", "-", check=0)  # fmt: skip
     record = json.loads(done.stdout)
     assert record["energy"] < 0.8 * before and record["energy"] == pytest.approx(best.record["energy"], rel=0.05)

@@ -91,7 +91,8 @@ def test_no_frames_at_all_are_no_frames():
     (3, 2, np.inf, r"line 13: the axes of frame 3 \(from 0\) are not finite"),
     (3, slice(0, 1), 0, r"line 13: an axis of frame 3 \(from 0\) has length 0"),
     (3, slice(2, 3), 0, r"line 13: an axis of frame 3 \(from 0\) has length 0"),
-    (3, slice(0, 3), np.array([[1, 1, 0], [0, 1, 1], [0, 0, 0]]), r"line 13: the axes of frame 3 \(from 0\) lie in one plane"),
+    (3, slice(0, 3), np.array([[1, 1, 0], [0, 1, 1], [0, 0, 0]]),
+        r"line 13: the axes of frame 3 \(from 0\) lie in one plane"),
 ])  # fmt: skip
 def test_the_first_triad_that_is_no_frame_is_named(row, column, value, words):
     axes = random_rotations(6, 7)

@@ -164,8 +164,10 @@ def test_a_sampling_of_ones_own_matrix_is_used_by_every_solver(box):
         np.tile([1.0, 0, 0, 0], (len(own), 1)),
         np.zeros(len(own), int),
     )
-    for call in (lambda s: of.volume.diffuse(s, held, start, max_steps=3).frames, lambda s: of.volume.smooth(s, held, start, max_iterations=3).frames,
-                 lambda s: of.volume.smooth(s, held, start, representation="geodesic", max_iterations=2).frames):  # fmt: skip
+    for call in (lambda s: of.volume.diffuse(s, held, start, max_steps=3).frames,
+                 lambda s: of.volume.smooth(s, held, start, max_iterations=3).frames,
+                 lambda s: of.volume.smooth(s, held, start, representation="geodesic",
+                     max_iterations=2).frames):  # fmt: skip
         np.testing.assert_array_equal(call(own), call(made))
     assert of.volume.dirichlet_energy(own, start) == of.volume.dirichlet_energy(made, start)
 

@@ -95,9 +95,9 @@ def test_even_streamlines_cover_the_square(flat):
 
 def test_a_stopped_trace_is_cancelled(on_sphere):
     for call in (of.surface.separatrices, of.surface.even_streamlines):
-        phases = []
-        call(*on_sphere, progress=lambda *report: phases.append(report[0]))
-        assert phases and all(isinstance(phase, str) for phase in phases)
+        reports: list = []
+        call(*on_sphere, progress=lambda *report, reports=reports: reports.append(report[0]))
+        assert reports and all(isinstance(phase, str) for phase in reports)
         with pytest.raises(of.Cancelled):
             call(*on_sphere, progress=lambda phase, fraction, merit: False)
 

@@ -306,25 +306,34 @@ def pair_and_one(occ):
 def models(tmp_path_factory):
     both, all_three = (".step", ".brep"), (".step", ".brep", ".iges")
     drawn = {
-        "face": (two_boxes(1), all_three), "near": (two_boxes(1 + 1e-6), (".step",)), "edge": (two_boxes(1, 1), all_three), "vertex": (two_boxes(1, 1, 1), both),
-        "apart": (two_boxes(3), all_three), "partial": (box_on_larger, all_three), "overlap": (two_boxes(0.5, 0.5, 0.5), all_three), "same": (two_boxes(0), both),
-        "inside": (ball_in_box, all_three), "filled": (ball_in_hole(0.3), (".step",)), "loose": (ball_in_hole(0.15), all_three), "shells": (shells(1), all_three),
-        "shells_apart": (shells(2), both), "sheet": (box_and_sheet, all_three), "open": (open_box, both), "three": (pair_and_one, (".step",)),
-        "ball": (lambda occ: occ.addSphere(0, 0, 0, 1), all_three), "cone": (lambda occ: occ.addCone(0, 0, 0, 0, 0, 1, 0, 1), (".iges",)),
-        "curve": (lambda occ: occ.addCircle(0, 0, 0, 1), (".step",)), "slab": (lambda occ: occ.addBox(0, 0, 0, 1, 2, 3), (".iges",)),
-        "tube": (lambda occ: occ.addTorus(0, 0, 0, 1, 0.2), (".step",)), "drums": (two_drums, (".step",)), "square": (lambda occ: occ.addRectangle(0, 0, 0, 1, 1), (".step",)),
+        "face": (two_boxes(1), all_three), "near": (two_boxes(1 + 1e-6), (".step",)),
+        "edge": (two_boxes(1, 1), all_three), "vertex": (two_boxes(1, 1, 1), both),
+        "apart": (two_boxes(3), all_three), "partial": (box_on_larger, all_three),
+        "overlap": (two_boxes(0.5, 0.5, 0.5), all_three), "same": (two_boxes(0), both),
+        "inside": (ball_in_box, all_three), "filled": (ball_in_hole(0.3), (".step",)),
+        "loose": (ball_in_hole(0.15), all_three), "shells": (shells(1), all_three),
+        "shells_apart": (shells(2), both), "sheet": (box_and_sheet, all_three), "open": (open_box, both),
+        "three": (pair_and_one, (".step",)),
+        "ball": (lambda occ: occ.addSphere(0, 0, 0, 1), all_three),
+        "cone": (lambda occ: occ.addCone(0, 0, 0, 0, 0, 1, 0, 1), (".iges",)),
+        "curve": (lambda occ: occ.addCircle(0, 0, 0, 1), (".step",)),
+        "slab": (lambda occ: occ.addBox(0, 0, 0, 1, 2, 3), (".iges",)),
+        "tube": (lambda occ: occ.addTorus(0, 0, 0, 1, 0.2), (".step",)), "drums": (two_drums, (".step",)),
+        "square": (lambda occ: occ.addRectangle(0, 0, 0, 1, 1), (".step",)),
     }  # fmt: skip
     return write_models(tmp_path_factory.mktemp("models"), drawn)
 
 
 BALL = 4 / 3 * np.pi * 0.3**3
 TOUCHING = {  # volume by region, area of the interface
-    "face.step": ({1: 1, 2: 1}, 1), "face.brep": ({1: 1, 2: 1}, 1), "face.iges": ({1: 1, 2: 1}, 1), "near.step": ({1: 1, 2: 1}, 1),
+    "face.step": ({1: 1, 2: 1}, 1), "face.brep": ({1: 1, 2: 1}, 1), "face.iges": ({1: 1, 2: 1}, 1),
+    "near.step": ({1: 1, 2: 1}, 1),
     "shells.brep": ({1: 1, 2: 1}, 1), "shells.iges": ({1: 1, 2: 1}, 1),
     "partial.step": ({1: 4, 2: 1}, 1), "partial.brep": ({1: 4, 2: 1}, 1), "partial.iges": ({1: 4, 2: 1}, 1),
     "edge.step": ({1: 1, 2: 1}, 0), "edge.iges": ({1: 1, 2: 1}, 0), "vertex.step": ({1: 1, 2: 1}, 0),
     "overlap.step": ({1: 0.875, 2: 0.875, 3: 0.125}, 1.5), "overlap.iges": ({1: 0.875, 2: 0.875}, 0),
-    "inside.step": ({1: 1 - BALL, 2: BALL}, 4 * np.pi * 0.09), "filled.step": ({1: 1 - BALL, 2: BALL}, 4 * np.pi * 0.09),
+    "inside.step": ({1: 1 - BALL, 2: BALL}, 4 * np.pi * 0.09),
+    "filled.step": ({1: 1 - BALL, 2: BALL}, 4 * np.pi * 0.09),
     "three.step": ({1: 1, 2: 1, 3: 1}, 1),
 }  # fmt: skip
 

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 from octafield.command_line import fields as cli
-from octafield.command_line.completion import lists, words
+from octafield.command_line.shell_completion import lists, words
 from pipeline_fixtures import octafield, write_cube
 from typer.testing import CliRunner
 

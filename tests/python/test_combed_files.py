@@ -42,7 +42,8 @@ def test_npz_holds_all_of_it_for_numpy_alone(tmp_path, cylinder, expected):
     assert set(parts) == {
         "frames", "where", "vertices", "tets", "features", "element", "triangles", "triangle_tets", "matching", "cut",
         "singular_edges", "singular_holonomy", "singular_quarter_turns", "surface_triangles",
-        *(f"alignment_{name}" for name in ("triangle_tet", "triangle_axis", "triangle_angle", "triangle_patch", "patch_one_axis",
+        *(f"alignment_{name}" for name in ("triangle_tet", "triangle_axis", "triangle_angle", "triangle_patch",
+            "patch_one_axis",
                                            "feature_edges", "feature_tet", "feature_axis", "feature_angle")),
     }  # fmt: skip
     corresponding(parts)

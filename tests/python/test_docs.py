@@ -102,12 +102,17 @@ def test_examples_in_docstrings_of_the_compiled_module_run(name, tmp_path, monke
 
 
 def test_what_a_script_uses_first_has_an_example():
-    first = {"TriangleMesh", "TetMesh", "read_surface", "write_surface", "require_valid", "repair", "detect_features", "remesh",
-             "tetrahedralize", "boundary_surface", "direction_field", "surface_singularities", "boundary_constraints", "initial_frames",
-             "diffuse", "smooth", "frame_field", "singular_graph", "dirichlet_energy", "stiffness", "mass", "write_field", "random_rotations",
-             "distance", "matching", "slerp", "sh4_embed", "sh4_project", "frame_streamlines", "tet_sampling", "Sampling"}  # fmt: skip
+    first = {"TriangleMesh", "TetMesh", "read_surface", "write_surface", "require_valid", "repair", "detect_features",
+             "remesh",
+             "tetrahedralize", "boundary_surface", "direction_field", "surface_singularities", "boundary_constraints",
+             "initial_frames",
+             "diffuse", "smooth", "frame_field", "singular_graph", "dirichlet_energy", "stiffness", "mass",
+             "write_field", "random_rotations",
+             "distance", "matching", "slerp", "sh4_embed", "sh4_project", "frame_streamlines", "tet_sampling",
+             "Sampling"}  # fmt: skip
     assert first - set(_examples_of_the_compiled_module()) == set()
-    written_here = {"compute_field", "compute_surface_field", "compare", "prepare", "prepare_mesh", "run", "FieldOptions", "to_pyvista",
+    written_here = {"compute_field", "compute_surface_field", "compare", "prepare_field", "prepare_mesh", "run_field",
+                    "FieldOptions", "to_pyvista",
                     "from_pyvista", "to_meshio", "from_meshio", "to_scipy", "to_pandas", "from_pandas"}  # fmt: skip
     assert [name for name in written_here if ">>> " not in (getattr(octafield, name).__doc__ or "")] == []
     for name in ("load", "parse", "plan", "run", "status", "rows", "write_report"):
@@ -165,7 +170,10 @@ def site(tmp_path_factory):
 def test_the_site_builds_without_warnings_and_needs_no_network(site):
     pages = {page.relative_to(site).as_posix(): page.read_text() for page in site.rglob("*.html")}
     assert len(pages) > 70
-    loaded = r'<(?:script|img|iframe|source)\b[^>]*\bsrc="(https?:)?//|<link\b[^>]*\brel="(?:stylesheet|preconnect|preload)"[^>]*\bhref="(https?:)?//'
+    loaded = (
+        r'<(?:script|img|iframe|source)\b[^>]*\bsrc="(https?:)?//'
+        r'|<link\b[^>]*\brel="(?:stylesheet|preconnect|preload)"[^>]*\bhref="(https?:)?//'
+    )
     assert [name for name, text in pages.items() if re.search(loaded, text)] == []
     assert not re.search(r"url\((https?:)?//|@import", "".join(sheet.read_text() for sheet in site.rglob("*.css")))
 

@@ -38,7 +38,8 @@ CALLS = {
     "direction_field": "of.surface.direction_field(ball, none)",
     "direction_field_calls_back": "of.surface.direction_field(ball, none, progress=lambda *_: True)",
     "smooth": "of.volume.smooth(box, free, frames, tolerance=0, max_iterations=1000)",
-    "smooth_calls_back": "of.volume.smooth(box, free, frames, tolerance=0, max_iterations=1000, progress=lambda *_: True)",
+    "smooth_calls_back": "of.volume.smooth(box, free, frames, tolerance=0, max_iterations=1000, progress=lambda *_: "
+    "True)",
     "smooth_sleeps_in_its_callback": (
         "of.volume.smooth(box, free, frames, max_iterations=1000, progress=lambda *_: time.sleep(5))"
     ),

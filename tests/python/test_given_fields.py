@@ -57,7 +57,8 @@ def test_a_given_field_has_a_row_as_it_is_and_one_smoothed_per_boundary_treatmen
 
 def test_the_report_names_given_fields_and_gives_them_no_times(files, tmp_path):
     octafield.compare(
-        files / "mesh.mesh", tmp_path / "out", representations=["sh4"], boundaries=["aligned"], fields={"theirs": files / "theirs.vtu"},
+        files / "mesh.mesh", tmp_path / "out", representations=["sh4"], boundaries=["aligned"],
+        fields={"theirs": files / "theirs.vtu"},
         options=octafield.FieldOptions(streamlines=0),
     )  # fmt: skip
     text = re.sub(r"<[^>]+>", "", (tmp_path / "out" / "report.html").read_text())
@@ -103,7 +104,8 @@ def test_fields_need_one_tet_mesh(files, tmp_path):
 
 def test_the_command_takes_named_files(files, tmp_path):
     out = tmp_path / "out"
-    done = command("compare", files / "mesh.mesh", "-o", out, "-q", "--representations", "sh4", "--boundaries", "aligned", "--sampling", "tets",
+    done = command("compare", files / "mesh.mesh", "-o", out, "-q", "--representations", "sh4", "--boundaries",
+                   "aligned", "--sampling", "tets",
                    "--field", f"theirs={files / 'theirs.frame'}")  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert [row["label"] for row in json.loads((out / "results.json").read_text())] == [

@@ -32,12 +32,8 @@ def gmsh_files(tmp_path_factory):
                         for binary in (0, 1):
                             gmsh.option.setNumber("Mesh.MshFileVersion", version)
                             gmsh.option.setNumber("Mesh.Binary", binary)
-                            gmsh.write(
-                                str(
-                                    folder
-                                    / f"{'groups' if groups else 'none'}_{'_'.join(created) or 'plain'}_{parts}_{version}_{binary}.msh"
-                                )
-                            )
+                            kind = f"{'groups' if groups else 'none'}_{'_'.join(created) or 'plain'}"
+                            gmsh.write(str(folder / f"{kind}_{parts}_{version}_{binary}.msh"))
     return folder
 
 

@@ -5,7 +5,8 @@ import json
 import numpy as np
 import octafield
 import pytest
-from octafield.fields.frame_field import compute_field, compute_surface_field
+from octafield.fields.direction_field import compute_surface_field
+from octafield.fields.frame_field import compute_field
 from octafield.options import FieldOptions, SurfaceFieldOptions
 from pipeline_fixtures import SHARED_SURFACES, shared, write_sphere
 

@@ -1,4 +1,4 @@
-"""An option stands once, in its C++ struct: classes, functions, FieldOptions and the command line take it from there."""
+"""An option stands once, in its C++ struct: classes, functions, FieldOptions and the command line take it from it."""
 
 import dataclasses
 import inspect
@@ -131,9 +131,9 @@ def test_iterations_and_tolerance_are_told_on_the_command_line(tmp_path):
 
 def test_options_of_the_heat_flow_reach_it():
     meshed = of.prepare_mesh(generate("ball"), of.MeshOptions(edge_length=0.4))
-    problem = of.prepare(meshed)
-    steps = of.run(problem).record["diffusion_steps"]
-    assert of.run(problem, of.FieldOptions(edge_length=0.4, max_steps=2)).record["diffusion_steps"] == 4 < steps
+    problem = of.prepare_field(meshed)
+    steps = of.run_field(problem).record["diffusion_steps"]
+    assert of.run_field(problem, of.FieldOptions(edge_length=0.4, max_steps=2)).record["diffusion_steps"] == 4 < steps
     with pytest.raises(of.InvalidInput, match="first time must be positive"):
         of.FieldOptions(first_time=0)
     with pytest.raises(of.InvalidInput, match="linear_solver"):

@@ -104,9 +104,11 @@ def vtu(compressor, block=1 << 15, lie=0, count=4, kind="UnstructuredGrid"):
         f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{3 if name == "Points" else 1}" format="appended"'
         f' offset="{offsets[name]}"/>'
     )
-    head = f"""<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="{compressor}"><UnstructuredGrid>
+    order = 'byte_order="LittleEndian" header_type="UInt64"'
+    head = f"""<VTKFile type="{kind}" version="1.0" {order} compressor="{compressor}"><UnstructuredGrid>
 <Piece NumberOfPoints="{count}" NumberOfCells="1"><Points>{entry("Points", "Float64")}</Points><Cells>
-{"".join(entry(name, "Int64") for name in ("connectivity", "offsets", "types"))}</Cells></Piece></UnstructuredGrid><AppendedData encoding="raw">_"""
+{"".join(entry(name, "Int64") for name in ("connectivity", "offsets", "types"))}</Cells></Piece></UnstructuredGrid>
+<AppendedData encoding="raw">_"""
     return head.encode() + appended + b"</AppendedData></VTKFile>"
 
 

@@ -55,8 +55,8 @@ def edges_of(mesh):
     """{(a, b): {tet: (enter, leave)}}, a < b: right-handed round a -> b."""
     found = {}
     for t, corners in enumerate(np.asarray(mesh.tets).tolist()):
-        for i, j, k, l in ((0, 1, 2, 3), (0, 2, 3, 1), (0, 3, 1, 2), (1, 2, 0, 3), (1, 3, 2, 0), (2, 3, 0, 1)):
-            a, b, c, d = (corners[x] for x in (i, j, k, l))
+        for order in ((0, 1, 2, 3), (0, 2, 3, 1), (0, 3, 1, 2), (1, 2, 0, 3), (1, 3, 2, 0), (2, 3, 0, 1)):
+            a, b, c, d = (corners[x] for x in order)
             key, value = ((a, b), (c, d)) if a < b else ((b, a), (d, c))
             found.setdefault(key, {})[t] = value
     return found

@@ -10,8 +10,9 @@ import octafield
 import pytest
 from octafield.domain.generators import generate
 from octafield.domain.inputs import read_input
-from octafield.domain.meshing import prepare_mesh
-from octafield.fields.frame_field import compute_field, compute_surface_field, load_surface, prepare, run
+from octafield.domain.meshing import load_surface, prepare_mesh
+from octafield.fields.direction_field import compute_surface_field
+from octafield.fields.frame_field import compute_field, prepare_field, run_field
 from octafield.options import FieldOptions, SurfaceFieldOptions
 from octafield.progress.phases import PHASES
 from octafield.runs.run_folder import FIELD_FILES, write_field_result
@@ -24,7 +25,8 @@ NUMBER, TEXT = (int, float), str
 CONTRACT = {
     "input": TEXT, "version": TEXT, "vertices": int, "tets": int, "boundary_triangles": int, "representation": TEXT,
     "solver": TEXT, "boundary": TEXT, "seed": int, "threads": int, "energy": NUMBER, "energy_unit_speed": NUMBER,
-    "singular_edges": int, "singular_length": NUMBER, "complex_edges": int, "alignment_deg": dict, "iterations": int, "verdict": dict,
+    "singular_edges": int, "singular_length": NUMBER, "complex_edges": int, "alignment_deg": dict, "iterations": int,
+    "verdict": dict,
     "energy_history": list, "wall_seconds": dict, "cpu_seconds": dict, "peak_mb": NUMBER,
 }  # fmt: skip
 
@@ -37,7 +39,7 @@ def cube(tmp_path_factory):
 @pytest.fixture(scope="module")
 def sphere_problem(tmp_path_factory):
     path = write_sphere(tmp_path_factory.mktemp("sphere"))
-    return prepare(prepare_mesh(path, ROUND))
+    return prepare_field(prepare_mesh(path, ROUND))
 
 
 def write_tets(path, tets, points, lines=None):
@@ -72,13 +74,13 @@ def test_energy_is_that_of_the_frames_and_unit_speed_is_three_twentieths(cube):
 
 
 def test_a_sphere_has_cross_indices_of_sum_two(sphere_problem):
-    record = run(sphere_problem, ROUND).record["surface_field"]
+    record = run_field(sphere_problem, ROUND).record["surface_field"]
     assert record["euler_characteristic"] == 2
     assert record["index_sum"] == pytest.approx(2)
 
 
 def test_runs_share_the_mesh_and_free_twist_never_costs_energy(sphere_problem):
-    fixed, aligned = (run(sphere_problem, replace(ROUND, boundary=mode)) for mode in ("fixed", "aligned"))
+    fixed, aligned = (run_field(sphere_problem, replace(ROUND, boundary=mode)) for mode in ("fixed", "aligned"))
     assert fixed.tets is aligned.tets
     assert fixed.record["mesh_sha256"] == aligned.record["mesh_sha256"]
     assert fixed.record["wall_seconds"]["mesh"] == aligned.record["wall_seconds"]["mesh"]
@@ -86,7 +88,7 @@ def test_runs_share_the_mesh_and_free_twist_never_costs_energy(sphere_problem):
 
 
 def test_equal_options_give_equal_bits_at_any_thread_count(sphere_problem):
-    one, two = (run(sphere_problem, replace(ROUND, threads=threads)) for threads in (1, 2))
+    one, two = (run_field(sphere_problem, replace(ROUND, threads=threads)) for threads in (1, 2))
     assert np.array_equal(one.frames, two.frames)
     assert one.record["energy"] == two.record["energy"]
 
@@ -160,8 +162,10 @@ def test_a_file_that_is_no_mesh_names_the_file(tmp_path):
         read_input(tmp_path / "absent.vtk")
 
 
-@pytest.mark.parametrize("bad", [{"boundary": "loose"}, {"features": "some"}, {"feature_angle": 4.0}, {"edge_length": -1.0},
-                                 {"edge_length": math.nan}, {"seed": -1}, {"threads": -2}, {"representation": "none"}])  # fmt: skip
+@pytest.mark.parametrize("bad", [{"boundary": "loose"}, {"features": "some"}, {"feature_angle": 4.0},
+                                     {"edge_length": -1.0},
+                                 {"edge_length": math.nan}, {"seed": -1}, {"threads": -2},
+                                 {"representation": "none"}])  # fmt: skip
 def test_options_out_of_range_are_refused(bad):
     with pytest.raises(octafield.InvalidInput):
         FieldOptions(**bad)
@@ -246,7 +250,7 @@ def test_lines_within_one_cad_face_are_seams_only_where_the_face_is_known(tmp_pa
 def test_written_files_do_not_depend_on_the_thread_count(tmp_path, sphere_problem):
     for threads in (1, 2):
         (tmp_path / str(threads)).mkdir()
-        result = run(sphere_problem, replace(ROUND, threads=threads))
+        result = run_field(sphere_problem, replace(ROUND, threads=threads))
         write_field_result(result, tmp_path / str(threads))
         assert result.record["options"]["threads"] == threads
     for name in FIELD_FILES:

@@ -165,8 +165,10 @@ def test_slices_of_axes_are_right_where_they_agree_and_combing_leaves_few_tets_w
     assert (wrong_axes(as_solved) > 5).mean() > 0.3  # what the warning is about
     combed, sound = cut_of(ball, ball.frames)
     share = 1 - np.mean(octafield.volume.axes_agree(ball.tets, ball.frames))
-    print(f"wrong by more than 5 degrees: named at random {np.mean(wrong_axes(as_solved) > 5):.3f}, combed {np.mean(wrong_axes(combed) > 5):.3f}, of these where axes agree "
-          f"{np.mean(wrong_axes(sound) > 5):.4f} (largest {wrong_axes(sound).max():.2f}); tets that disagree {share:.3f}")  # fmt: skip
+    print(f"wrong by more than 5 degrees: named at random {np.mean(wrong_axes(as_solved) > 5):.3f}, combed "
+          f"{np.mean(wrong_axes(combed) > 5):.3f}, of these where axes agree "
+          f"{np.mean(wrong_axes(sound) > 5):.4f} (largest {wrong_axes(sound).max():.2f}); tets that disagree "
+          f"{share:.3f}")  # fmt: skip
     assert share < 0.2
     assert (wrong_axes(sound) > 5).mean() < 0.01 and sound.n_points > 0.7 * combed.n_points
 

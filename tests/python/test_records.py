@@ -16,8 +16,10 @@ from octafield.runs import run_folder as results
 MB = 1e6
 WRITTEN = {
     "field": lambda: (of.compute_field(generate("box"), of.FieldOptions(edge_length=0.5)), results.write_field_result),
-    "surface": lambda: (of.compute_surface_field(generate("box"), of.SurfaceFieldOptions(edge_length=0.5)), results.write_surface_result),
-    "analysis": lambda: (of.analyse(mesh := of.prepare_mesh(generate("box"), of.MeshOptions(edge_length=0.5)), [[1, 0, 0, 0]] * len(mesh.tets.vertices)),
+    "surface": lambda: (of.compute_surface_field(generate("box"), of.SurfaceFieldOptions(edge_length=0.5)),
+        results.write_surface_result),
+    "analysis": lambda: (of.analyse(mesh := of.prepare_mesh(generate("box"), of.MeshOptions(edge_length=0.5)),
+        [[1, 0, 0, 0]] * len(mesh.tets.vertices)),
                          results.write_analysis),
 }  # fmt: skip
 
@@ -56,5 +58,8 @@ def test_a_record_names_the_machine(kind, monkeypatch):
 
 def test_cores_are_those_the_process_may_use():
     one = min(os.sched_getaffinity(0))
-    script = f"import os; os.sched_setaffinity(0, {{{one}}}); from octafield.progress import phases; print(phases.machine()['cores'])"
+    script = (
+        f"import os; os.sched_setaffinity(0, {{{one}}}); from octafield.progress import phases; "
+        "print(phases.machine()['cores'])"
+    )
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout == "1\n"

@@ -15,7 +15,10 @@ from pipeline_fixtures import octafield, shared
 from typer.testing import CliRunner
 
 WILD = SHARED_DATA / "wild"
-SOUND = {"ball": ball, "box": lambda: generate("box"), "torus": lambda: generate("torus"), "cavity": lambda: joined(ball(), mesh_of(np.asarray(ball(2).vertices) / 2, np.asarray(ball(2).triangles)[:, ::-1])), "tiny beside large": lambda: joined(ball(), moved(mesh_of(np.asarray(ball(1).vertices) * 1e-5, ball(1).triangles), 2, 0, 0))}  # fmt: skip
+SOUND = {"ball": ball, "box": lambda: generate("box"), "torus": lambda: generate("torus"),
+    "cavity": lambda: joined(ball(), mesh_of(np.asarray(ball(2).vertices) / 2,
+        np.asarray(ball(2).triangles)[:, ::-1])), "tiny beside large": lambda: joined(ball(),
+        moved(mesh_of(np.asarray(ball(1).vertices) * 1e-5, ball(1).triangles), 2, 0, 0))}  # fmt: skip
 
 
 def kinds(mesh, **tests):
@@ -243,7 +246,8 @@ def test_a_word_that_is_no_number_is_shown():
     ("a.off", "OFF\n3 1 0\n0 0 0\n0 0 0x\n0 0 0\n3 0 1 2\n", '"0x"'),
     ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2.5\n", '"2.5"'),
     ("a.ply", "ply\nformat ascii 1.0\nelement vertex many\nend_header\n", '"many"'),
-    ("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 \x01z 0\n", '"?z"'),
+    ("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float "
+              "z\nend_header\n0 \x01z 0\n", '"?z"'),
 ])  # fmt: skip
 def test_every_text_reader_shows_the_word_it_cannot_use(name, content, shown, tmp_path):
     (tmp_path / name).write_text(content)

@@ -214,7 +214,8 @@ def test_convergence_ends_with_the_energy_of_the_tables_for_every_method(all_met
 
 def test_independent_starts_are_rows_of_their_own_without_a_step_in_sh4(tmp_path):
     options = FieldOptions(edge_length=0.4)
-    found = compare(write_sphere(tmp_path), tmp_path / "out", representations=("sh4", "su2"), boundaries=("aligned",), starts=("sh4", "independent"), options=options)  # fmt: skip
+    found = compare(write_sphere(tmp_path), tmp_path / "out", representations=("sh4", "su2"), boundaries=("aligned",),
+        starts=("sh4", "independent"), options=options)  # fmt: skip
     assert [(row["representation"], row["options"]["rounds"], row["diffusion_steps"] > 0) for row in found.rows] == [
         ("sh4", options.rounds, True), ("su2", options.rounds, True), ("sh4", 0, False), ("su2", 0, False)]  # fmt: skip
     assert [m.name for m in Results([Run(row, "s") for row in found.rows]).methods] == [

@@ -22,7 +22,7 @@ BEGIN, END = "<!-- table of schemes -->\n", "<!-- end of the table -->\n"
 
 def table() -> str:
     lines = [
-        "| name | minimised | what it is | consistent | solvers, the default first (kB per tet) | CPU s per million tets |",
+        "| name | minimised | what it is | consistent | solvers, default first (kB per tet) | CPU s per million tets |",
         "|---|---|---|---|---|---|",
     ]
     for name, scheme in of.volume.schemes.items():

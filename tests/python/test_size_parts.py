@@ -40,8 +40,10 @@ def test_the_record_tells_what_was_found(found, kind):
     one = found[kind]
     logs = np.asarray(one.log_scale if kind == "isotropic" else one.values)
     assert sizes.sizes_record(one) == {
-        "kind": kind, "curl_rms_before": one.before.curl_rms, "curl_rms_after": one.after.curl_rms, "jump_rms_before": one.before.jump_rms,
-        "jump_rms_after": one.after.jump_rms, "size_ratio": pytest.approx(np.exp(logs.max() - logs.min())), "iterations": one.iterations,
+        "kind": kind, "curl_rms_before": one.before.curl_rms, "curl_rms_after": one.after.curl_rms,
+        "jump_rms_before": one.before.jump_rms,
+        "jump_rms_after": one.after.jump_rms, "size_ratio": pytest.approx(np.exp(logs.max() - logs.min())),
+        "iterations": one.iterations,
     }  # fmt: skip
     assert one.before.curl_rms > one.after.curl_rms
 

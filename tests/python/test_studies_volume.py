@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 import meshio
-from octafield.fields.frame_field import prepare_mesh
+from octafield.domain.meshing import prepare_mesh
 from pipeline_fixtures import write_cube, write_sphere
 
 ROOT = Path(__file__).parents[2]

@@ -45,7 +45,7 @@ def test_a_preparation_past_the_limit_fails_all_its_runs_at_once(tmp_path, monke
     trap_workers(
         tmp_path,
         monkeypatch,
-        "import time\nimport octafield.fields.frame_field as p\np.prepare = lambda *a: time.sleep(60)\n",
+        "import time\nimport octafield.fields.frame_field as p\np.prepare_field = lambda *a: time.sleep(60)\n",
     )
     text = BODIES.replace("  - {generator: ball, mesh: {edge_length: 0.4}}\n", "")
     outcome = study.run(study.parse(text + "limit: 1\n"), tmp_path / "out")
@@ -160,7 +160,7 @@ def test_whatever_libraries_print_runs_go_on(sound, tmp_path, monkeypatch):
 
 
 def test_a_process_without_memory_is_recorded_as_crashed_with_the_reason(tmp_path, monkeypatch):
-    code = "import octafield.fields.frame_field as p\ndef none(*a): raise MemoryError('std::bad_alloc')\np.run = none\n"
+    code = "import octafield.fields.frame_field as p\ndef none(*a): raise MemoryError('std::bad_alloc')\np.run_field = none\n"
     trap_workers(tmp_path, monkeypatch, code)
     text = "{name: x, inputs: [{generator: box, mesh: {edge_length: 0.5}}]}"
     assert study.run(study.parse(text), tmp_path / "out").status.crashed == 1

@@ -16,8 +16,10 @@ PLAN = importlib.import_module("octafield.study.plan")  # the package has a func
 # What a key is the hash of: options as they were when studies began. A new option goes to plan._LATER with the value
 # that leaves old runs as they were.
 BEGAN = {
-    "boundary": "aligned", "edge_length": 0.0, "feature_angle": math.radians(40), "feature_tolerance": math.radians(20), "features": "default",
-    "interfaces": True, "max_iterations": 200, "remesh": True, "repair": False, "representation": "sh4", "rounds": 2, "sampling": "vertices", "seed": 0,
+    "boundary": "aligned", "edge_length": 0.0, "feature_angle": math.radians(40),
+    "feature_tolerance": math.radians(20), "features": "default",
+    "interfaces": True, "max_iterations": 200, "remesh": True, "repair": False, "representation": "sh4", "rounds": 2,
+    "sampling": "vertices", "seed": 0,
     "solver": "default", "split": False, "streamlines": 30, "tolerance": 1e-06,
 }  # fmt: skip
 KEYS = {

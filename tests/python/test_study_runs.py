@@ -82,7 +82,7 @@ def test_records_equal_those_of_a_field_computed_alone(undisturbed):
 def test_kills_at_random_moments_change_nothing(undisturbed, described, tmp_path):
     choose, folder = random.Random(7), tmp_path / "killed"
     seen = set()
-    for k in range(10):
+    for _ in range(10):
         process = subprocess.Popen([sys.executable, "-c", PROGRAM, described, folder], stderr=subprocess.DEVNULL)
         wanted = min(len(seen) + choose.randrange(0, 3), 12)  # let it get on, then strike while the next is in work
         stop = time.monotonic() + 60
@@ -133,7 +133,7 @@ def test_a_run_that_kills_its_process_twice_is_recorded_and_tried_on_resume(desc
     trap_workers(
         tmp_path,
         monkeypatch,
-        "import octafield.fields.frame_field as p\nrun = p.run\np.run = lambda problem, options, *a: os.abort() if"
+        "import octafield.fields.frame_field as p\nrun = p.run_field\np.run_field = lambda problem, options, *a: os.abort() if"
         " options.representation == 'su2' else run(problem, options, *a)\n",
     )
     outcome = study.run(study.parse(text), tmp_path / "out", jobs=1)

@@ -2,7 +2,8 @@
 
 import octafield as of
 import pytest
-from octafield.fields.frame_field import MeshOptions, prepare_mesh
+from octafield.domain.meshing import prepare_mesh
+from octafield.options import MeshOptions
 from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared
 
 LARGE = 400_000  # bytes, of a packed tet mesh: those take seconds
@@ -12,7 +13,8 @@ TETS = sorted(path for path in SHARED_TETS.glob("*.vtk.gz") if path.stat().st_si
     SHARED_TETS / "s01c.vtk.gz"
 ]
 # What makes them unfit for a field on a surface. A hole does not; equal points are merged on reading STL.
-BAD = {"degenerate_s17": "degenerate_triangle", "fin_s01": "non_manifold_edge", "flipped_s01": "inconsistent_orientation",
+BAD = {"degenerate_s17": "degenerate_triangle", "fin_s01": "non_manifold_edge",
+       "flipped_s01": "inconsistent_orientation",
        "insideout_s16": "inside_out", "selfcross_s15": "self_intersection", "soup_s04": "soup"}  # fmt: skip
 
 

@@ -6,7 +6,9 @@ import numpy as np
 import octafield as of
 import pytest
 from octafield.domain.inputs import read_input
-from octafield.fields.frame_field import SurfaceFieldOptions, compute_surface_field, prepare_mesh
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.direction_field import compute_surface_field
+from octafield.options import SurfaceFieldOptions
 from pipeline_fixtures import SHARED_TETS, octafield, shared, write_sphere
 from surface_fixtures import NONE, cylinder, grid_triangles, square
 
@@ -206,7 +208,8 @@ def test_arrays_of_any_layout_are_the_same_mesh(flat, change):
 
 @pytest.mark.parametrize("change, kind", [
     (lambda x: x * np.nan, "non_finite"), (lambda x: x[:0], "index_out_of_range"), (lambda x: x.ravel(), "wrong_shape"),
-    (lambda x: x + 1j, "wrong_type"), (lambda x: x.astype(str), "wrong_type"), (lambda x: x * 1e300, "size_out_of_range")])  # fmt: skip
+    (lambda x: x + 1j, "wrong_type"), (lambda x: x.astype(str), "wrong_type"),
+    (lambda x: x * 1e300, "size_out_of_range")])  # fmt: skip
 def test_vertices_that_are_none_are_refused(flat, change, kind):
     with pytest.raises(of.Error) as caught:
         of.surface.direction_field(of.TriangleMesh(change(np.array(flat[0].vertices)), flat[0].triangles), NONE)

@@ -12,7 +12,7 @@ import pytest
 from conftest import box_tets
 from octafield.domain.inputs import read_input
 from octafield.domain.meshing import prepare_mesh
-from octafield.fields.frame_field import compute_field, prepare, run
+from octafield.fields.frame_field import compute_field, prepare_field, run_field
 from octafield.options import FieldOptions
 from octafield.runs.run_folder import write_field_result
 from pipeline_fixtures import SHARED_TETS, octafield, shared
@@ -84,7 +84,8 @@ def write_by_meshio(path, tets: of.TetMesh, kind: str) -> None:
             grid_of(tets, ("CellEntityIds",)).write(path)
 
 
-KINDS = {"msh2": "a.msh", "msh2 binary": "a.msh", "msh4": "a.msh", "mesh": "a.mesh", "meshb": "a.meshb", "tetgen": "a.ele",
+KINDS = {"msh2": "a.msh", "msh2 binary": "a.msh", "msh4": "a.msh", "mesh": "a.mesh", "meshb": "a.meshb",
+         "tetgen": "a.ele",
          "vtk": "a.vtk", "vtu": "a.vtu"}  # fmt: skip
 
 
@@ -306,7 +307,7 @@ def two_regions(tmp_path_factory):
 
 def test_an_interface_holds_the_field_as_a_boundary_does(tmp_path, two_regions):
     meshed = prepare_mesh(two_regions)
-    result = run(prepare(meshed), FieldOptions())
+    result = run_field(prepare_field(meshed), FieldOptions())
     assert result.record["regions"] == 2 and result.record["interface_triangles"] == 32
     assert result.record["boundary_triangles"] == 6 * 2 * 4 * 4
     points, kind = np.asarray(result.tets.vertices), np.asarray(result.constraints.kind)
@@ -338,7 +339,8 @@ def test_the_rim_of_an_interface_is_a_feature_whatever_their_source(two_regions,
 
 
 def test_an_interface_that_is_oblique_turns_the_field_with_it():
-    """Two halves of a cube about a tilted plane are no grid, so the pipeline starts from tets with regions in memory."""
+    """Two halves of a cube about a tilted plane are no grid, so the pipeline starts from tets with regions in
+    memory."""
     tets = box_tets(4)
     points = np.asarray(tets.vertices).copy()
     bump = 0.15 * np.sin(np.pi * points[:, 1]) * np.sin(np.pi * points[:, 0])

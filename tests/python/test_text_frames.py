@@ -34,7 +34,8 @@ LAYOUTS = {
     "qtn": ("tets", lines(FRAMES)),
     "ff3": ("tets", "9 3\n" + lines(ROWS)),
 }
-READ = {"arff": text.read_arff, "mouette": text.read_mouette, "geogram": text.read_geogram, "geogram-centres": text.read_geogram_centres,
+READ = {"arff": text.read_arff, "mouette": text.read_mouette, "geogram": text.read_geogram,
+        "geogram-centres": text.read_geogram_centres,
         "qtn": text.read_qtn, "ff3": text.read_ff3}  # fmt: skip
 WRITE = {
     "arff": text.write_arff,

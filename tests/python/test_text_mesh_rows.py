@@ -15,10 +15,14 @@ FIRST = HEAD.count("\n") + 1  # line of what follows the head
 
 # Keyword: meshio's name of the cell and its vertices. Medit's manual of .mesh and libMeshb's keywords.
 SECTIONS = {
-    "Edges": ("line", 2), "Triangles": ("triangle", 3), "Quadrilaterals": ("quad", 4), "Tetrahedra": ("tetra", 4), "Prisms": ("wedge", 6),
-    "Pyramids": ("pyramid", 5), "Hexahedra": ("hexahedron", 8), "Hexaedra": ("hexahedron", 8), "EdgesP2": ("line3", 3), "TrianglesP2": ("triangle6", 6),
-    "QuadrilateralsQ2": ("quad9", 9), "TetrahedraP2": ("tetra10", 10), "PrismsP2": ("wedge18", 18), "PyramidsP2": ("pyramid14", 14),
-    "HexahedraQ2": ("hexahedron27", 27), "EdgesP3": ("line4", 4), "TrianglesP3": ("triangle10", 10), "TetrahedraP3": ("tetra20", 20),
+    "Edges": ("line", 2), "Triangles": ("triangle", 3), "Quadrilaterals": ("quad", 4), "Tetrahedra": ("tetra", 4),
+    "Prisms": ("wedge", 6),
+    "Pyramids": ("pyramid", 5), "Hexahedra": ("hexahedron", 8), "Hexaedra": ("hexahedron", 8), "EdgesP2": ("line3", 3),
+    "TrianglesP2": ("triangle6", 6),
+    "QuadrilateralsQ2": ("quad9", 9), "TetrahedraP2": ("tetra10", 10), "PrismsP2": ("wedge18", 18),
+    "PyramidsP2": ("pyramid14", 14),
+    "HexahedraQ2": ("hexahedron27", 27), "EdgesP3": ("line4", 4), "TrianglesP3": ("triangle10", 10),
+    "TetrahedraP3": ("tetra20", 20),
 }  # fmt: skip
 
 

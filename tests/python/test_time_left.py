@@ -14,8 +14,10 @@ from octafield.progress.costs import PREPARE, Costs, Forecast
 @pytest.mark.parametrize(
     ("seconds", "told"),
     [
-        (0, "a few seconds left"), (9, "a few seconds left"), (34, "about 30 s left"), (58, "about 1 min left"), (185, "about 3 min left"),
-        (23 * 60, "about 25 min left"), (100 * 60, "about 1.5 h left"), (7.4 * 3600, "about 7 h left"), (71 * 3600, "about 3 days left"),
+        (0, "a few seconds left"), (9, "a few seconds left"), (34, "about 30 s left"), (58, "about 1 min left"),
+        (185, "about 3 min left"),
+        (23 * 60, "about 25 min left"), (100 * 60, "about 1.5 h left"), (7.4 * 3600, "about 7 h left"),
+        (71 * 3600, "about 3 days left"),
     ],
 )  # fmt: skip
 def test_words_are_as_coarse_as_the_estimate(seconds, told):
@@ -25,7 +27,7 @@ def test_words_are_as_coarse_as_the_estimate(seconds, told):
 
 
 def test_a_steady_value_counts_down_and_moves_towards_estimates_without_jumps():
-    steady = time_left.Steady()
+    steady = time_left.SteadyTimeLeft()
     assert steady.follow(100, 0) == 100
     assert steady.follow(90, 10) == pytest.approx(90), "an estimate that comes true is followed exactly"
     before = steady.follow(90, 10)
@@ -137,7 +139,8 @@ def test_a_comparison_counts_its_runs_and_tells_what_is_left_of_all(tmp_path):
     told: list[tuple[str, float]] = []
     octafield.compare(
         generate("cylinder"), tmp_path / "out", representations=["sh4", "su2"], boundaries=["aligned"], seeds=2,
-        options=octafield.FieldOptions(edge_length=0.5), progress=lambda what, fraction, merit: told.append((what, fraction)),
+        options=octafield.FieldOptions(edge_length=0.5), progress=lambda what, fraction,
+        merit: told.append((what, fraction)),
     )  # fmt: skip
     counted = [(what, fraction) for what, fraction in told if " of 4" in what]
     assert [fraction for _, fraction in counted] == sorted(fraction for _, fraction in counted)

@@ -145,7 +145,8 @@ def test_tets_of_second_order_are_read_by_their_corners_from_every_format(tmp_pa
 
 
 @pytest.mark.parametrize(("suffix", "kind", "width", "name"), [
-    (".vtk", 11, 8, "voxel"), (".vtu", 11, 8, "voxel"), (".vtk", 12, 8, "hexahedron"), (".vtu", 13, 6, "wedge"), (".vtk", 200, 4, "VTK type 200"), (".vtu", 200, 4, "VTK type 200"),
+    (".vtk", 11, 8, "voxel"), (".vtu", 11, 8, "voxel"), (".vtk", 12, 8, "hexahedron"), (".vtu", 13, 6, "wedge"),
+    (".vtk", 200, 4, "VTK type 200"), (".vtu", 200, 4, "VTK type 200"),
 ])  # fmt: skip
 def test_cells_that_are_not_used_are_named(tmp_path, suffix, kind, width, name):
     ids = " ".join(map(str, range(width)))

@@ -8,9 +8,9 @@ import typer
 
 from ..options import BOUNDARIES, COMPARED, REPRESENTATIONS, FieldOptions, MeshOptions
 from . import console, tables
-from .completion import lists
 from .console import carry_out, log
 from .options import InputFiles, Json, Output, Quiet, Verbose, choices, named_files, with_options
+from .shell_completion import lists
 
 # The rest is told by other parameters, or the same for all.
 _OF_ALL = ("sampling", "sizes", "seed", "threads", *(option.name for option in fields(MeshOptions)))

@@ -175,7 +175,8 @@ def _drawn(whole: bool) -> Iterator[Callback]:
 
 
 class PlainLines:
-    """A progress callback for logs: lines without control codes, the first after some seconds, then ever more rarely."""
+    """A progress callback for logs: lines without control codes, the first after some seconds, then ever more
+    rarely."""
 
     FIRST, GROWTH, LARGEST = 10.0, 1.5, 300.0  # seconds between lines
 

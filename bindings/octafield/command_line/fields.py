@@ -69,7 +69,7 @@ def field(
     def work() -> None:
         from ..fields.frame_field import compute_field
         from ..files.writing import staged_folder
-        from ..runs.field_files import polish_file
+        from ..runs.frame_file_input import polish_file
         from ..runs.run_folder import RECORD_FILE, write_field_result
 
         chosen = options()
@@ -97,7 +97,7 @@ def surface_field(
     separatrices, result.json."""
 
     def work() -> None:
-        from ..fields.frame_field import compute_surface_field
+        from ..fields.direction_field import compute_surface_field
         from ..files.writing import staged_folder
         from ..runs.run_folder import RECORD_FILE, write_surface_result
 

@@ -10,7 +10,6 @@ import typer
 from ..errors import InvalidInput
 from ..options import REPAIRS, SAMPLINGS, SIZES, FieldOptions, MeshOptions
 from . import console, tables
-from .completion import words
 from .console import carry_out, log
 from .options import (
     EdgeLength,
@@ -24,6 +23,7 @@ from .options import (
     choices,
     with_options,
 )
+from .shell_completion import words
 
 _FIELD = FieldOptions()
 MeshFile = Annotated[
@@ -157,7 +157,7 @@ def analyse(
 
     def work() -> None:
         from ..files.writing import staged_folder
-        from ..runs.field_files import analyse_file
+        from ..runs.frame_file_input import analyse_file
         from ..runs.run_folder import RECORD_FILE, write_analysis
 
         chosen = options() if output else replace(options(), streamlines=0)

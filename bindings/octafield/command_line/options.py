@@ -24,7 +24,7 @@ from ..options import (
     SOLVERS,
     MeshOptions,
 )
-from .completion import words
+from .shell_completion import words
 
 _Options = TypeVar("_Options", bound=MeshOptions)
 

@@ -97,7 +97,8 @@ def status(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Ver
 
 @app.command()
 def report(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Verbose = False) -> None:
-    """Writes report.html and tables/ from the finished runs. With --json the document of status, and what was written."""
+    """Writes report.html and tables/ from the finished runs. With --json the document of status, and what was
+    written."""
 
     def work() -> None:
         from ..study import finished_runs as results

@@ -19,9 +19,9 @@ def add_features(
     faces: np.ndarray | None = None,
     with_frames: bool = False,
 ) -> None:
-    """tets: (m, 4) of the mesh. Edges as given, vertices where other than two of them meet, all faces of the boundary and between regions, by the
-    CAD faces of (t, 3) triangles where these are known, else 1. Where no edges are given AlgoHex finds features itself,
-    unless there are frames."""
+    """tets: (m, 4) of the mesh. Edges as given, vertices where other than two of them meet, all faces of the boundary
+    and between regions, by the CAD faces of (t, 3) triangles where these are known, else 1. Where no edges are given
+    AlgoHex finds features itself, unless there are frames."""
     if regions is not None:
         mesh.properties["cell", "region"] = np.asarray(regions).astype(np.int32)
     if features is not None:

@@ -24,9 +24,9 @@ class Input:
     """What a file held, before any test of its soundness.
 
     surface: the triangles, or the surface of the tets, with interfaces where there are several regions. tets: with no
-    features yet; None for surfaces. touches: the boundary of the tets touches itself at edges or vertices. lines: (n, 2)
-    feature edges given by the file, vertex ids of `surface`; None when it has no line cells. creases: the file tells
-    that they are. faces: CAD face of each triangle of `surface`, -1 where the file tells none.
+    features yet; None for surfaces. touches: the boundary of the tets touches itself at edges or vertices. lines:
+    (n, 2) feature edges given by the file, vertex ids of `surface`; None when it has no line cells. creases: the file
+    tells that they are. faces: CAD face of each triangle of `surface`, -1 where the file tells none.
     file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file; file_tets: (m,) of the tets
         among those of the file. of_cad: meshed here, at the edge length asked for. notes: what was changed in reading
         (tets turned over, unused points dropped), one sentence each.

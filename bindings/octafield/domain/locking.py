@@ -30,8 +30,8 @@ def split_on_request(domain: TetDomain, options: MeshOptions) -> tuple[TetDomain
 
 
 def split_domain(domain: TetDomain, mesh: TetMesh, parent: np.ndarray) -> TetDomain:
-    """The finer mesh with the regions and features of the domain. parent: (m,) old tet that each is part of. Vertices of
-    the surface have kept their ids."""
+    """The finer mesh with the regions and features of the domain. parent: (m,) old tet that each is part of. Vertices
+    of the surface have kept their ids."""
     regions = regions_of(domain)
     return domain_of(mesh, None if regions is None else regions[parent]).with_features(domain.features)
 

@@ -1,4 +1,5 @@
-"""All that a seamless map asks of a frame field in the tets, in one object; write_frames(..., combed=True) writes it."""
+"""All that a seamless map asks of a frame field in the tets, in one object; write_frames(..., combed=True) writes
+it."""
 
 from dataclasses import dataclass
 
@@ -27,8 +28,8 @@ _TABLES = (
 class ParameterizationInput:
     """combed: frames of the tets whose axes correspond by number and sign across all triangles but the cut, with their
     matchings.
-    singular: the edges inside with a turn, as octafield.volume.singular_edges has them of the frames before combing. surface:
-        with interfaces between regions; features: its. tables: axes held at both."""
+    singular: the edges inside with a turn, as octafield.volume.singular_edges has them of the frames before combing.
+        surface: with interfaces between regions; features: its. tables: axes held at both."""
 
     tets: TetDomain
     combed: CombedField

@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import _core
 from .._core import TetDomain, TetMesh
 from ..errors import InvalidInput
 from .rotations import unit_quaternions
@@ -21,3 +22,10 @@ def fitting_frames(tets: TetMesh | TetDomain, frames: ArrayLike, where: str) -> 
             "bad_count",
         )
     return unit_quaternions(values, lambda i: "frames")[0]
+
+
+def moved_frames(mesh: TetMesh, frames: np.ndarray, where: str) -> tuple[np.ndarray, str]:
+    """Frames of the other sites taken to the vertices or the tets, and the note that tells."""
+    move = _core.tet_frames if where == "tets" else _core.vertex_frames
+    note = f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around"
+    return np.asarray(move(mesh, frames)), note

@@ -55,10 +55,10 @@ _OF_ANALYSIS = (
 @dataclass(repr=False, kw_only=True)
 class AnalysedField(ShownInNotebooks):
     """A frame field and what it is judged by. frames: (n, 4) unit quaternions w x y z, per tet vertex; their axes
-    are named so that neighbours agree but across a cut (octafield.volume.comb_vertices). alignment: radians, per boundary
-    vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: the JSON
-    object of the command line. regions: (m,) ids of the tets where the mesh has several. lengths: (n, 3) of the frames'
-    axes, where they have any. sizes: an IsotropicScale or AxisScales, as the option of that name asks.
+    are named so that neighbours agree but across a cut (octafield.volume.comb_vertices). alignment: radians, per
+    boundary vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: the
+    JSON object of the command line. regions: (m,) ids of the tets where the mesh has several. lengths: (n, 3) of the
+    frames' axes, where they have any. sizes: an IsotropicScale or AxisScales, as the option of that name asks.
 
     A field that lives in the tets is tet_frames, (m, 4), and so are singular_graph (of singular_edges), alignment (per
     triangle and tet beside it) and lengths, meshability and boundary_meshability are those of the tets; frames is the
@@ -99,8 +99,8 @@ class AnalysedField(ShownInNotebooks):
         return facts_of_record(self.record, _SHOWN)
 
     def scene(self) -> pyvista.Plotter:
-        """A pyvista scene of the singular curves inside the translucent surface: .show() opens a window, or in Jupyter a
-        view to turn (with trame) or a picture. Without a display .screenshot(PNG) draws it all the same."""
+        """A pyvista scene of the singular curves inside the translucent surface: .show() opens a window, or in Jupyter
+        a view to turn (with trame) or a picture. Without a display .screenshot(PNG) draws it all the same."""
         from ..view.window import shown_where_possible
 
         return shown_where_possible(self._drawn())
@@ -136,12 +136,12 @@ def analyse(
     if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):
         raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
     values, options = fitting_frames(meshed.volume(), frames, where), replace(options, sampling=where)
-    found = judged(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
+    found = analysed_field(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
     found.record["options"] = asdict(options)
     return found
 
 
-def judged(
+def analysed_field(
     meshed: MeshedInput,
     frames: np.ndarray,
     options: FieldOptions,

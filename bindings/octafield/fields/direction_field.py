@@ -80,7 +80,8 @@ def compute_surface_field(
         >>> import octafield
         >>> from octafield.domain.generators import generate
         >>> meshed = octafield.prepare_mesh(generate("ball"), volume=False)  # or a path
-        >>> asked = octafield.surface.DirectionConstraints(vertices=[7], vertex_directions=[[1, 0, 0]])  # of meshed.surface
+        >>> held = {"vertices": [7], "vertex_directions": [[1, 0, 0]]}  # of meshed.surface
+        >>> asked = octafield.surface.DirectionConstraints(**held)
         >>> len(octafield.compute_surface_field(meshed, constraints=asked).singularities.points)
         8
 

@@ -4,10 +4,10 @@
     result.frames            # (n, 4) unit quaternions w x y z
     result.record["energy"]  # the figures that every table shows
 
-A comparison prepares a Problem once and runs it with several options:
+A comparison prepares a FieldProblem once and runs it with several options:
 
-    problem = prepare(prepare_mesh("part.stl"), seed=0)
-    results = [run(problem, FieldOptions(boundary=boundary)) for boundary in ("fixed", "aligned")]
+    problem = prepare_field(prepare_mesh("part.stl"), seed=0)
+    results = [run_field(problem, FieldOptions(boundary=boundary)) for boundary in ("fixed", "aligned")]
 """
 
 from collections.abc import Sequence
@@ -28,34 +28,18 @@ from .._core import (
 )
 from ..domain.locking import split_between_singular
 from ..domain.meshed_input import MeshedInput
-from ..domain.meshing import Source, load_surface, prepare_mesh
+from ..domain.meshing import Source, prepare_mesh
 from ..errors import InvalidInput
-from ..options import OF_A_START, FieldOptions, MeshOptions, SurfaceFieldOptions
+from ..options import OF_A_START, FieldOptions, MeshOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce, forward
-from .analysed import AnalysedField, judged
-from .direction_field import SurfaceFieldResult, compute_surface_field, index_summary, structure
+from .analysed import AnalysedField, analysed_field
+from .direction_field import index_summary, structure
 from .smoothing import held_at_start, smoothed_field
 from .vertex_analysis import constraint_counts, counts_by_index, spread
 
-__all__ = [
-    "FieldOptions",
-    "FieldResult",
-    "MeshOptions",
-    "MeshedInput",
-    "Problem",
-    "SurfaceFieldOptions",
-    "SurfaceFieldResult",
-    "compute_field",
-    "compute_surface_field",
-    "load_surface",
-    "prepare",
-    "prepare_mesh",
-    "run",
-]
-
 
 @dataclass(repr=False)
-class Problem:
+class FieldProblem:
     """What all runs on one input and seed share: the mesh and the surface cross field.
 
     meshed: the input. seed: of the cross field. direction_field: of the surface. directions: (B, 3), per vertex of the
@@ -72,7 +56,7 @@ class Problem:
 
     def __repr__(self) -> str:
         return (
-            f"Problem({self.meshed!r}, seed {self.seed}, "
+            f"FieldProblem({self.meshed!r}, seed {self.seed}, "
             f"{len(self.singularities.points):,} singular points on the surface)"
         )
 
@@ -116,7 +100,8 @@ def compute_field(
         >>> import octafield
         >>> from octafield.domain.generators import generate
         >>> meshed = octafield.prepare_mesh(generate("ball"), octafield.MeshOptions(edge_length=0.3))  # or a path
-        >>> held = octafield.volume.VertexConstraints(vertices=[300], kinds=["axis"], axes=[[0, 0, 1]])  # of meshed.tets
+        >>> Held = octafield.volume.VertexConstraints
+        >>> held = Held(vertices=[300], kinds=["axis"], axes=[[0, 0, 1]])  # of meshed.tets
         >>> result = octafield.compute_field(meshed, constraints=held)
         >>> result.record["constraints"]["given"]
         1
@@ -138,15 +123,17 @@ def compute_field(
             "not_meshed",
         )
     meshed = source if isinstance(source, MeshedInput) else prepare_mesh(source, options, progress=progress)
-    return run(prepare(meshed, options.seed, progress), options, progress, constraints=constraints, start=start)
+    return run_field(
+        prepare_field(meshed, options.seed, progress), options, progress, constraints=constraints, start=start
+    )
 
 
-def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None) -> Problem:
+def prepare_field(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None) -> FieldProblem:
     """Computes the cross field on the surface, the start of every boundary frame. Raises GeometryError, SolverError.
 
     >>> import octafield
     >>> from octafield.domain.generators import generate
-    >>> octafield.prepare(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3))).seed
+    >>> octafield.prepare_field(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3))).seed
     0
     """
     memory = PeakMemory()
@@ -158,11 +145,11 @@ def prepare(meshed: MeshedInput, seed: int = 0, progress: Progress | None = None
         )
         directions, singularities, separatrices = structure(meshed, field, progress)
     peak = max(meshed.peak_mb, memory.megabytes())
-    return Problem(meshed, seed, field, directions, singularities, separatrices, clock, peak)
+    return FieldProblem(meshed, seed, field, directions, singularities, separatrices, clock, peak)
 
 
-def run(
-    problem: Problem,
+def run_field(
+    problem: FieldProblem,
     options: FieldOptions = FieldOptions(),
     progress: Progress | None = None,
     *,
@@ -175,9 +162,10 @@ def run(
 
         >>> import octafield
         >>> from octafield.domain.generators import generate
-        >>> problem = octafield.prepare(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3)))
+        >>> problem = octafield.prepare_field(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3)))
         >>> for boundary in ("fixed", "aligned"):  # on one mesh, so that energies compare
-        ...     print(boundary, octafield.run(problem, octafield.FieldOptions(boundary=boundary)).record["singular_edges"])
+        ...     result = octafield.run_field(problem, octafield.FieldOptions(boundary=boundary))
+        ...     print(boundary, result.record["singular_edges"])
         fixed 0
         aligned 0
     """
@@ -207,7 +195,7 @@ def run(
         with clock.phase("analyse"):
             meshed, frames, lengths, parent, counts = split_between_singular(meshed, frames, lengths, options.threads)
         split = {"split_singular": counts}
-    found = judged(meshed, frames, options, clock, memory, progress, about, lengths)
+    found = analysed_field(meshed, frames, options, clock, memory, progress, about, lengths)
     found.record |= {
         **({} if lengths is None else {"lengths": spread(lengths)}),
         **split,
@@ -263,7 +251,7 @@ def _refuse_ignored(meshed: MeshedInput, options: FieldOptions) -> None:
         )
 
 
-def _boundary_constraints(problem: Problem, options: FieldOptions) -> BoundaryConstraints:
+def _boundary_constraints(problem: FieldProblem, options: FieldOptions) -> BoundaryConstraints:
     meshed = problem.meshed
     tets = meshed.volume()
     mode, tolerance = "none" if options.boundary == OF_A_START else options.boundary, options.feature_tolerance

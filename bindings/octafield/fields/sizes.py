@@ -1,5 +1,5 @@
-"""Sizes along the axes for which a field is closest to the gradients of a map (octafield.volume.isotropic_scale, axis_scales):
-in results, their files and conversions."""
+"""Sizes along the axes for which a field is closest to the gradients of a map (octafield.volume.isotropic_scale,
+axis_scales): in results, their files and conversions."""
 
 from typing import Any
 
@@ -48,8 +48,8 @@ def sizes_arrays(
     found: Sizes | None, tet_frames: np.ndarray | None
 ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Point and cell data of field.vtu: log_scale at the vertices; or log_scales in the tets, for the axes of
-    tet_frames (None: of octafield.volume.tet_frames), and scaled_frame, those axes times exp(log_scales), one after the other;
-    curl, what is left of it per tet."""
+    tet_frames (None: of octafield.volume.tet_frames), and scaled_frame, those axes times exp(log_scales), one after the
+    other; curl, what is left of it per tet."""
     if found is None:
         return {}, {}
     cells = {"curl": np.asarray(found.after.curl)}

@@ -148,8 +148,8 @@ def _type(vertex: SingularVertex) -> str:
 
 def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolerance: float) -> np.ndarray:
     """(k,) true: at a vertex where smooth sectors meet and no frame fits all their normals and the tangents within the
-    tolerance, so that constraints do not hold the normals (octafield.volume.boundary_constraints): the field may be off by up
-    to 45 degrees there, whatever the method."""
+    tolerance, so that constraints do not hold the normals (octafield.volume.boundary_constraints): the field may be off
+    by up to 45 degrees there, whatever the method."""
     tets = meshed.volume()
     boundary = tets.surface
     vertex, normal = np.asarray(sectors.vertex), np.asarray(sectors.normal)

@@ -9,7 +9,8 @@ from .writing import scratch_folder
 
 
 def through_file(path: Path, suffix: str, write: Callable[[Path], None]) -> None:
-    """For writers that take a path: writes to a scratch file, then to the place wanted, packed where its name says so."""
+    """For writers that take a path: writes to a scratch file, then to the place wanted, packed where its name says
+    so."""
     with scratch_folder() as folder:
         plain = folder / f"output{suffix}"
         try:

@@ -21,7 +21,7 @@ from .. import _core
 from .._core import TetDomain, TetMesh
 from ..domain.inputs import Input, from_mesh, read_input
 from ..domain.rotations import axes_of, unit_quaternions
-from ..domain.sites import SITES
+from ..domain.sites import SITES, moved_frames
 from ..errors import InvalidInput
 from ..files.reading import plain_name, reading
 from .base import Field, FrameFile, FrameFormat
@@ -105,13 +105,13 @@ def write_frames(
         where they shall be in the file; None: where they are, if the format has that; else they are taken there by
         vertex_frames or tet_frames. lengths: (n, 3) of the axes.
     features: (k, 2) feature edges, vertex ids. regions: (m,) of the tets. metadata: words for .vtu. combed: the frames
-        go to the tets and are combed (octafield.volume.comb): axes correspond by number and sign across all triangles but a
-        cut; .npz then holds all of octafield.parameterization_input, .ovmb and .ovm the cut, .perm its matchings. mesh:
-        None where the format needs none; a result of compute_field or analyse gives its features and regions, too,
-        where these are None. cell_edge: edge length of the cells that a mesher shall make, input unit, or "auto", the
-        mean edge of the tets: the axes are divided by it (.fra, .bfra: densities of cells) or multiplied (.ff3: edges
-        of cells), on top of their lengths. Returns notes on what was changed or left out. Raises InvalidInput and
-        IoError.
+        go to the tets and are combed (octafield.volume.comb): axes correspond by number and sign across all triangles
+        but a cut; .npz then holds all of octafield.parameterization_input, .ovmb and .ovm the cut, .perm its matchings.
+        mesh: None where the format needs none; a result of compute_field or analyse gives its features and regions,
+        too, where these are None. cell_edge: edge length of the cells that a mesher shall make, input unit, or "auto",
+        the mean edge of the tets: the axes are divided by it (.fra, .bfra: densities of cells) or multiplied
+        (.ff3: edges of cells), on top of their lengths. Returns notes on what was changed or left out. Raises
+        InvalidInput and IoError.
     """
     mesh = mesh.mesh if isinstance(mesh, TetDomain) else mesh
     if mesh is not None and not isinstance(mesh, TetMesh):
@@ -267,9 +267,8 @@ def _move(field: Field, writer: FrameFormat, at: str | None) -> list[str]:
         return []
     if field.mesh is None:
         raise InvalidInput(f"frames at {field.where} are taken to {target} with the mesh; give it", "no_mesh")
-    move = _core.tet_frames if target == "tets" else _core.vertex_frames
-    field.frames, field.where = np.asarray(move(field.mesh, field.frames)), target
-    notes = [f"the frames were taken to the {target}: the nearest to the mean sh4 vector of those around"]
+    field.frames, note = moved_frames(field.mesh, field.frames, target)
+    field.where, notes = target, [note]
     if field.lengths is not None:
         field.lengths = None
         notes.append("the lengths of the axes were left out: they stay where they were")

@@ -58,9 +58,9 @@ def _frames_in(path: Path, name: str, mesh: OvmMesh) -> FrameFile | None:
         key = _BINARY_NAME[where]
         if mesh.kinds.get((entity, key)) == "Quaternion":
             return from_quaternions(path, name, where, found[key][:, [3, 0, 1, 2]])
-        for key in ("quaternion", key):
-            if key in found and found[key].shape[1] == 4:
-                return from_quaternions(path, name, where, found[key])
+        for either in ("quaternion", key):
+            if either in found and found[either].shape[1] == 4:
+                return from_quaternions(path, name, where, found[either])
         if all(key in found and found[key].shape[1] == 3 for key in AXES):
             return from_axes(path, name, where, np.stack([found[key] for key in AXES], axis=2))
         if _COEFFICIENTS in found and found[_COEFFICIENTS].shape[1] == 9:

@@ -10,6 +10,7 @@ import numpy as np
 from .. import _core
 from .._core import TetMesh
 from ..domain.rotations import Place, frames_of_axes, unit_quaternions
+from ..domain.sites import moved_frames
 from ..errors import InvalidInput
 from ..files.reading import plain_name
 
@@ -88,9 +89,9 @@ def frames_at(found: FrameFile, where: str) -> np.ndarray:
     """The frames of a file with a mesh, taken to the vertices or the tets if they are not there; a note tells."""
     if found.where == where:
         return found.frames
-    move = _core.tet_frames if where == "tets" else _core.vertex_frames
-    found.notes.append(f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around")
-    return np.asarray(move(mesh_of(found), found.frames))
+    frames, note = moved_frames(mesh_of(found), found.frames, where)
+    found.notes.append(note)
+    return frames
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from ..domain.rotations import axes_in_rows, axes_of
 from ..errors import InvalidInput, IoError
 from ..files.reading import head_of, plain_name, read_bytes, read_text, rows_of, table_of, write_all, write_whole
 from .base import Field, FrameFile, from_axes
-from .text import _columns, _count, _require_count
+from .text import columns_of, count_in, require_count
 
 _BINARY_HEAD = struct.Struct("<6siii")  # "FRA 2" and a zero byte; rows: tets; columns: 9; vectors per tet
 
@@ -22,11 +22,11 @@ def read_fra(path: Path) -> FrameFile:
     words = counts.split()
     if len(words) != 3:
         raise IoError(f"{path}, line 2: the number of tets, of vectors per tet and a type are needed")
-    count, vectors, _ = (_count(word, f"{path}, line 2", "tets and vectors") for word in words)
+    count, vectors, _ = (count_in(word, f"{path}, line 2", "tets and vectors") for word in words)
     _require_three(vectors, f"{path}, line 2")
     rows, numbers = table_of(body, str(path), 3, first_line=first)
-    _require_count(len(rows), 3 * count, path, first + body.rstrip().count("\n"), "vectors")
-    return from_axes(path, "fra", "tets", _columns(rows.reshape(-1, 9)), numbers[::3])
+    require_count(len(rows), 3 * count, path, first + body.rstrip().count("\n"), "vectors")
+    return from_axes(path, "fra", "tets", columns_of(rows.reshape(-1, 9)), numbers[::3])
 
 
 def _require_three(vectors: int, place: str) -> None:
@@ -73,7 +73,7 @@ def read_bfra(path: Path) -> FrameFile:
     if rows < 0 or have != 8 * 9 * rows:
         raise IoError(f"{path}, byte {_BINARY_HEAD.size}: {have} bytes of numbers; {rows} rows of 9 take {72 * rows}")
     numbers = np.frombuffer(data, "<f8", offset=_BINARY_HEAD.size).reshape(9, rows).T  # column by column
-    return from_axes(path, "bfra", "tets", _columns(np.ascontiguousarray(numbers)))
+    return from_axes(path, "bfra", "tets", columns_of(np.ascontiguousarray(numbers)))
 
 
 def write_bfra(path: Path, field: Field) -> None:

@@ -10,14 +10,14 @@ from ..files.reading import head_of, numbers_of, read_text, rows_of, table_of, w
 from .base import Field, FrameFile, from_axes, from_quaternions
 
 
-def _columns(rows: np.ndarray) -> np.ndarray:
+def columns_of(rows: np.ndarray) -> np.ndarray:
     """(n, 3, 3) axes in columns of (n, 9) rows with one axis after the other."""
     return np.swapaxes(rows.reshape(-1, 3, 3), 1, 2)
 
 
 def read_arff(path: Path) -> FrameFile:
     rows, lines = table_of(read_text(path), str(path), 9)
-    return from_axes(path, "arff", "vertices", _columns(rows), lines)
+    return from_axes(path, "arff", "vertices", columns_of(rows), lines)
 
 
 def write_arff(path: Path, field: Field) -> None:
@@ -28,14 +28,14 @@ def read_mouette(path: Path) -> FrameFile:
     (head, number), body, first = head_of(read_text(path), 2)
     if head != "FRAME":
         raise IoError(f"{path}, line 1: FRAME is needed, not {head[:40]!r}")
-    count = _count(number, f"{path}, line 2", "frames")
+    count = count_in(number, f"{path}, line 2", "frames")
     ending = body.rstrip()
     closed = ending.endswith("END")
     if closed:
         body = ending[:-3]
     rows, lines = table_of(body, str(path), 9, first_line=first)
-    _require_count(len(rows), count, path, first + body.rstrip().count("\n"), "frames")
-    result = from_axes(path, "mouette", "tets", _columns(rows), lines)
+    require_count(len(rows), count, path, first + body.rstrip().count("\n"), "frames")
+    result = from_axes(path, "mouette", "tets", columns_of(rows), lines)
     if not closed:
         result.notes.append("the file does not end with END: its last number may be cut")
     return result
@@ -50,7 +50,7 @@ def read_geogram(path: Path) -> FrameFile:
     rows, lines = table_of(read_text(path), str(path), 3)
     if len(rows) % 3:
         raise IoError(f"{path}, line {lines[-1]}: ends after {len(rows)} axes; a frame has 3")
-    return from_axes(path, "geogram", "tets", _columns(rows.reshape(-1, 9)), lines[::3])
+    return from_axes(path, "geogram", "tets", columns_of(rows.reshape(-1, 9)), lines[::3])
 
 
 def write_geogram(path: Path, field: Field) -> None:
@@ -62,7 +62,7 @@ def read_geogram_centres(path: Path) -> FrameFile:
     bad = np.flatnonzero(~np.isfinite(rows[:, :3]).all(axis=1))
     if len(bad):
         raise IoError(f"{path}, line {lines[bad[0]]}: the centre is not finite")
-    result = from_axes(path, "geogram-centres", "tets", _columns(rows[:, 3:]), lines)
+    result = from_axes(path, "geogram-centres", "tets", columns_of(rows[:, 3:]), lines)
     result.centres = rows[:, :3]
     return result
 
@@ -94,10 +94,10 @@ def read_ff3(path: Path) -> FrameFile:
         raise IoError(
             f"{path}, line 1: '9 N' is needed (ASCII .ff3), not {head[:40]!r}; convert binary files with prog=mat_b2a"
         )
-    count = _count(words[1], f"{path}, line 1", "frames")
+    count = count_in(words[1], f"{path}, line 1", "frames")
     rows, lines = table_of(body, str(path), 9, first_line=first)
-    _require_count(len(rows), count, path, first + body.rstrip().count("\n"), "frames")
-    return from_axes(path, "ff3", "tets", _columns(rows), lines)
+    require_count(len(rows), count, path, first + body.rstrip().count("\n"), "frames")
+    return from_axes(path, "ff3", "tets", columns_of(rows), lines)
 
 
 def write_ff3(path: Path, field: Field) -> None:
@@ -105,7 +105,7 @@ def write_ff3(path: Path, field: Field) -> None:
     write_whole(path, [f"9 {len(rows)}\n".encode(), *rows_of(rows)])
 
 
-def _count(word: str, place: str, what: str) -> int:
+def count_in(word: str, place: str, what: str) -> int:
     try:
         count = int(word)
     except ValueError:
@@ -115,7 +115,7 @@ def _count(word: str, place: str, what: str) -> int:
     return count
 
 
-def _require_count(have: int, count: int, path: Path, line: int, what: str) -> None:
+def require_count(have: int, count: int, path: Path, line: int, what: str) -> None:
     if have != count:
         raise IoError(f"{path}, line {line}: holds {have} {what}, but its head says {count}")
 

@@ -101,7 +101,8 @@ def sizes(seen: Examined) -> Finding:
     if SIZES[0] <= seen.diagonal <= SIZES[1]:
         return Finding(text, PASS)
     factor = 10.0 ** -round(math.log10(seen.diagonal))
-    return Finding(text, WARN, "size", f"the bounding box's diagonal is {seen.diagonal:.3g}, beyond {SIZES[0]:g} .. {SIZES[1]:g}",
+    return Finding(text, WARN, "size", f"the bounding box's diagonal is {seen.diagonal:.3g}, beyond {SIZES[0]:g} .. "
+                                       f"{SIZES[1]:g}",
                    f"take another unit: multiply the coordinates by {factor:g}")  # fmt: skip
 
 
@@ -116,8 +117,10 @@ def digits(seen: Examined) -> Finding:
         return Finding(text, PASS)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
     return Finding(text, WARN, "far_from_origin",
-                   f"the shape lies so far from the origin that coordinates are exact to {step:.1g} only, with edges of {edge:.3g}",
-                   f"export it with more digits, or from a place nearer to the origin (its middle is {', '.join(f'{x:.6g}' for x in middle)})")  # fmt: skip
+                   f"the shape lies so far from the origin that coordinates are exact to {step:.1g} only, with edges "
+                   f"of {edge:.3g}",
+                   f"export it with more digits, or from a place nearer to the origin (its middle is "
+                   f"{', '.join(f'{x:.6g}' for x in middle)})")  # fmt: skip
 
 
 def lines_on_surface(seen: Examined) -> Finding:
@@ -125,7 +128,8 @@ def lines_on_surface(seen: Examined) -> Finding:
     if not seen.found.ignored_lines or seen.feature_source != "file":
         return Finding(text, PASS)
     return Finding(text, WARN, "lines_off_surface",
-                   f"{seen.found.ignored_lines:,} lines of the file are no edges of its surface, or repeat one, and are left out",
+                   f"{seen.found.ignored_lines:,} lines of the file are no edges of its surface, or repeat one, and "
+                   f"are left out",
                    "--features angle, or mark edges of the mesh")  # fmt: skip
 
 
@@ -136,8 +140,10 @@ def open_curves(seen: Examined) -> Finding:
     if not len(ends):
         return Finding(text, PASS)
     how = "a smaller --feature-angle may go on with them, --features none leaves them out"
-    return Finding(text, WARN, "open_features", f"feature curves end in the middle of a face at {len(ends):,} vertices ({_few(ends)})",
-                   how if seen.feature_source == "angle" else "--features angle, or mark whole curves", tuple(ends.tolist()))  # fmt: skip
+    return Finding(text, WARN, "open_features",
+                   f"feature curves end in the middle of a face at {len(ends):,} vertices ({_few(ends)})",
+                   how if seen.feature_source == "angle" else "--features angle, or mark whole curves",
+                   tuple(ends.tolist()))  # fmt: skip
 
 
 def feature_sizes(seen: Examined) -> Finding:
@@ -147,7 +153,8 @@ def feature_sizes(seen: Examined) -> Finding:
     if not len(short) or not seen.remade:
         return Finding(text, PASS)
     return Finding(text, WARN, "short_features",
-                   f"{len(short):,} feature curves are shorter than half an edge of {seen.length:.3g} (the shortest: {short.min():.3g})",
+                   f"{len(short):,} feature curves are shorter than half an edge of {seen.length:.3g} (the shortest: "
+                   f"{short.min():.3g})",
                    _shorter(seen, 2 * float(short.min())))  # fmt: skip
 
 
@@ -194,7 +201,8 @@ def walls(seen: Examined) -> Finding:
     if not len(thick) or float(thin.mean()) < _SHARE:
         return Finding(text, PASS)
     least = float(np.sort(thick)[int(_SHARE / 2 * len(thick))])
-    return Finding(text, WARN, "thin_walls", f"walls are thinner than half an edge behind {float(thin.mean()):.0%} of the surface, {least:.3g} and less",
+    return Finding(text, WARN, "thin_walls", f"walls are thinner than half an edge behind {float(thin.mean()):.0%} of "
+                                             f"the surface, {least:.3g} and less",
                    _shorter(seen, 2 * least))  # fmt: skip
 
 
@@ -221,8 +229,10 @@ def triangle_shapes(seen: Examined) -> Finding:
     if not len(thin):
         return Finding(text, PASS)
     return Finding(text, WARN, "thin_triangles",
-                   f"{len(thin):,} triangles have an angle below {_LEAST_ANGLE:g} degrees, the least {angles.min():.2g} ({_few(thin)})",
-                   "another --edge-length" if seen.sized else "leave out --no-remesh" if seen.found.tets is None else "mesh the volume anew from a better surface",
+                   f"{len(thin):,} triangles have an angle below {_LEAST_ANGLE:g} degrees, the least "
+                   f"{angles.min():.2g} ({_few(thin)})",
+                   "another --edge-length" if seen.sized else "leave out --no-remesh" if seen.found.tets is None
+                   else "mesh the volume anew from a better surface",
                    tuple(thin.tolist()))  # fmt: skip
 
 
@@ -234,10 +244,13 @@ def tet_shapes(seen: Examined) -> Finding:
     if not len(bad):
         return Finding(text, PASS)
     return Finding(text, WARN, "slivers",
-                   f"{len(bad):,} of {len(low):,} tets have a dihedral angle below {_LEAST_DIHEDRAL:g} or above {180 - _LEAST_DIHEDRAL:g} degrees, "
+                   f"{len(bad):,} of {len(low):,} tets have a dihedral angle below {_LEAST_DIHEDRAL:g} or above "
+                   f"{180 - _LEAST_DIHEDRAL:g} degrees, "
                    f"the least {np.nanmin(low):.2g}, the largest {np.nanmax(high):.4g} ({_few(bad)})",
                    "another --edge-length" if seen.sized else
-                   "make the volume mesh anew from its surface (octafield.volume.boundary_surface, octafield.volume.tetrahedralize); energies near such tets mean little", tuple(bad.tolist()))  # fmt: skip
+                   "make the volume mesh anew from its surface (octafield.volume.boundary_surface, "
+                   "octafield.volume.tetrahedralize); energies near such tets mean little",
+                   tuple(bad.tolist()))  # fmt: skip
 
 
 def locking(seen: Examined) -> Finding:
@@ -247,12 +260,15 @@ def locking(seen: Examined) -> Finding:
         left = seen.locking.get("left", 0)
         if not left:
             return Finding(text, PASS)
-        return Finding(text, WARN, "locking_left", f"{left:,} tets with all vertices on the surface are too flat to split",
-                       "make the volume mesh anew from its surface (octafield.volume.boundary_surface, octafield.volume.tetrahedralize)")  # fmt: skip
+        return Finding(text, WARN, "locking_left",
+                       f"{left:,} tets with all vertices on the surface are too flat to split",
+                       "make the volume mesh anew from its surface (octafield.volume.boundary_surface, "
+                       "octafield.volume.tetrahedralize)")  # fmt: skip
     if not counts:
         return Finding(text, PASS)
     listed = ", ".join(f"{count:,} {name if count > 1 else name[:-1]}" for name, count in counts.items())
-    return Finding(text, WARN, "locking", f"{listed} inside have all vertices on the surface, which holds the frames there from both sides",
+    return Finding(text, WARN, "locking", f"{listed} inside have all vertices on the surface, which holds the frames "
+                                          f"there from both sides",
                    "--split")  # fmt: skip
 
 

@@ -13,8 +13,8 @@ _TETS_PER_CUBE = 12.5  # in a cube of one edge length; measured on remeshed bodi
 
 
 def planned_sizes(surface: TriangleMesh, features: FeatureGraph, options: MeshOptions) -> SizeField:
-    """What remeshing starts from, and the cells to be expected: octafield.surface.size_field, or the one length that was asked
-    for."""
+    """What remeshing starts from, and the cells to be expected: octafield.surface.size_field, or the one length that
+    was asked for."""
     if options.edge_length == 0:
         return _core.size_field(surface, features, max_cells=options.cells)
     length = options.edge_length

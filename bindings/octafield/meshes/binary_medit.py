@@ -13,8 +13,10 @@ from ..errors import IoError
 from .text_meshes import TextMesh
 
 _DIMENSION, _VERTICES, _RIDGES, _END = 3, 4, 14, 54
-_CELLS = {5: ("line", 2), 6: ("triangle", 3), 7: ("quad", 4), 8: ("tetra", 4), 9: ("wedge", 6), 10: ("hexahedron", 8), 49: ("pyramid", 5),
-          24: ("triangle6", 6), 25: ("line3", 3), 27: ("quad9", 9), 30: ("tetra10", 10), 33: ("hexahedron27", 27)}  # fmt: skip
+_CELLS = {5: ("line", 2), 6: ("triangle", 3), 7: ("quad", 4), 8: ("tetra", 4), 9: ("wedge", 6), 10: ("hexahedron", 8),
+          49: ("pyramid", 5),
+          24: ("triangle6", 6), 25: ("line3", 3), 27: ("quad9", 9), 30: ("tetra10", 10),
+          33: ("hexahedron27", 27)}  # fmt: skip
 
 
 def read_binary_medit(data: bytes, name: str) -> TextMesh:
@@ -65,7 +67,8 @@ def read_binary_medit(data: bytes, name: str) -> TextMesh:
 
 
 def _keywords(data: bytes, name: str, word: str, place: str) -> Iterator[tuple[int, int, int]]:
-    """Code, first byte after the head and last byte of each part of the file; every part tells where the next begins."""
+    """Code, first byte after the head and last byte of each part of the file; every part tells where the next
+    begins."""
     at, head = 8, 4 + np.dtype(place).itemsize
     while True:
         if at + 4 > len(data):

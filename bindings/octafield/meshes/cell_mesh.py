@@ -9,7 +9,8 @@ Blocks = list[tuple[str, np.ndarray]]  # meshio's cell type and the connectivity
 _CORNERS = {"line": 2, "triangle": 3, "tetra": 4}
 # Names of meshio's, and of VTK's Lagrange and Bezier cells: corners come first in all of them.
 _HIGHER = {f"{kind}{count}": kind for kind, counts in {
-    "line": (3, 4, 5, 6, 7, 8, 9, 10, 11), "triangle": (6, 7, 9, 10, 12, 15, 18, 21, 28, 36, 45, 55, 66), "tetra": (10, 16, 20, 22, 35, 56, 84, 120, 165, 220, 286),
+    "line": (3, 4, 5, 6, 7, 8, 9, 10, 11), "triangle": (6, 7, 9, 10, 12, 15, 18, 21, 28, 36, 45, 55, 66),
+    "tetra": (10, 16, 20, 22, 35, 56, 84, 120, 165, 220, 286),
 }.items() for count in counts} | {f"VTK_{family}_{name}": kind for family in ("LAGRANGE", "BEZIER") for name, kind in (
     ("CURVE", "line"), ("TRIANGLE", "triangle"), ("TETRAHEDRON", "tetra"), ("TETRAHEDRA", "tetra"),
 )}  # fmt: skip

@@ -72,7 +72,8 @@ def _bytes(path: Path) -> bytes:
 
 
 def _tetgen_files(path: Path, suffix: str) -> dict[str, Path]:
-    """The .node and the .ele file, of which one was given, and .face and .edge where they lie beside it; packed or not."""
+    """The .node and the .ele file, of which one was given, and .face and .edge where they lie beside it; packed or
+    not."""
     stem = path.name[: path.name.lower().rindex(suffix)]
     files = {suffix: path}
     for other in (".node", ".ele", ".face", ".edge"):

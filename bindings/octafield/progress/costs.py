@@ -100,7 +100,8 @@ class Costs:
         return y - slope * x, slope
 
     def expected(self, method: str, mesh: Hashable) -> float:
-        """Seconds. The factor on the measured rate: of the method's own runs, and, as if it were one run more, of all."""
+        """Seconds. The factor on the measured rate: of the method's own runs, and, as if it were one run more, of
+        all."""
         seen, overall = self._methods.get(method, _Seen()), self._all
         general = overall.seconds / overall.expected if overall.expected > 0 else 1.0
         weight = seen.expected / seen.count if seen.count else 1.0

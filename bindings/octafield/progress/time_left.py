@@ -12,7 +12,7 @@ def words(seconds: float, most: bool = False) -> str:
     """As "about 3 min left"; most: an upper bound."""
     if seconds < 10:
         return "a few seconds left"
-    for size, unit, last in ((1, "s", 55), (60, "min", 90), (3600, "h", 36), (86400, "days", math.inf)):
+    for size, unit, last in ((1, "s", 55), (60, "min", 90), (3600, "h", 36), (86400, "days", math.inf)):  # noqa: B007
         number = seconds / size
         if number < last:
             break
@@ -20,7 +20,7 @@ def words(seconds: float, most: bool = False) -> str:
     return f"{'at most' if most else 'about'} {max(round(number / step), 1) * step:g} {unit} left"
 
 
-class Steady:
+class SteadyTimeLeft:
     """Follows estimates without jumps: between two it counts down, and it moves towards a new one by a share that grows
     with the time passed."""
 
@@ -42,12 +42,13 @@ class Steady:
 
 
 class PhaseTimeLeft:
-    """Of a phase that reports the fraction of its largest number of steps done: an upper bound, from its speed lately."""
+    """Of a phase that reports the fraction of its largest number of steps done: an upper bound, from its speed
+    lately."""
 
     def __init__(self) -> None:
         self._seen: deque[tuple[float, float]] = deque()
         self._begin = 0.0
-        self._steady = Steady()
+        self._steady = SteadyTimeLeft()
 
     def at(self, fraction: float, now: float) -> float | None:
         """None while too little is known."""

@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING, Any
 from ..domain.meshing import Source, prepare_mesh, read_sound
 from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField, analyse
-from ..fields.frame_field import FieldResult, Problem, prepare, run
+from ..fields.frame_field import FieldProblem, FieldResult, prepare_field, run_field
 from ..files.writing import staged_folder, write_json
 from ..options import BOUNDARIES, COMPARED, LARGEST_SEED, REPRESENTATIONS, FieldOptions, integer_in, require_one_of
 from ..progress.phases import Progress, announce
-from ..progress.whole_time import Whole
+from ..progress.several_runs import SeveralRuns
 from ..report import PAGE_FILE, Report, Run, write_report
 from ..report.numbers.records import INDEPENDENT
 from ..view.captions import counted
 from ..view.notebook import Facts, ShownInNotebooks
-from .given_fields import FieldSource, GivenField, given_fields
+from .fields_to_compare import FieldSource, GivenField, given_fields
 from .run_folder import write_analysis, write_field_result
 
 if TYPE_CHECKING:
@@ -136,7 +136,7 @@ def compare(
         sound = [read_sound(source, options, progress=report) for source, report in zip(inputs, reports, strict=True)]
         given = given_fields(sound, fields, options)
         steps = _steps(representations, boundaries, starts, given)
-        whole = Whole(progress, len(inputs) * seeds, [step.representation for step in steps])
+        whole = SeveralRuns(progress, len(inputs) * seeds, [step.representation for step in steps])
         for number, source in enumerate(inputs):
             name = _unique([s.name for s in sections], _short_name(source), " ")
             section = _Section(name, _unique([s.slug for s in sections], _slug(source)), folder, options, seeds > 1)
@@ -146,7 +146,7 @@ def compare(
             for seed in range(options.seed, options.seed + seeds):
                 if seed != options.seed:
                     whole.begins()
-                problem = prepare(meshed, seed, whole.labelled(name))
+                problem = prepare_field(meshed, seed, whole.labelled(name))
                 whole.prepared(meshed.volume().tet_count)
                 _run_all(problem, section, steps, whole)
                 _add_given(problem, section, boundaries, given)
@@ -190,14 +190,14 @@ def _steps(
     ]
 
 
-def _run_all(problem: Problem, section: _Section, steps: Sequence[_Step], whole: Whole) -> None:
+def _run_all(problem: FieldProblem, section: _Section, steps: Sequence[_Step], whole: SeveralRuns) -> None:
     first = problem.seed == section.options.seed
     if first:
         section.pictures["surface"] = _surface_pictures(problem)
     for step in steps:
         label = f"{step.method}, {step.boundary}" + (f", seed {problem.seed}" if section.several_seeds else "")
         report = whole.labelled(f"{section.name}, {label}")
-        result = run(
+        result = run_field(
             problem,
             step.options(section.options, problem.seed),
             report,
@@ -216,7 +216,9 @@ def _run_all(problem: Problem, section: _Section, steps: Sequence[_Step], whole:
         whole.finished()
 
 
-def _add_given(problem: Problem, section: _Section, boundaries: Sequence[str], given: Sequence[GivenField]) -> None:
+def _add_given(
+    problem: FieldProblem, section: _Section, boundaries: Sequence[str], given: Sequence[GivenField]
+) -> None:
     """A row per boundary treatment and seed, all of one analysis."""
     for one in given:
         if one.name not in section.given:
@@ -250,7 +252,7 @@ def _report(sections: list[_Section], folder: Path) -> Report:
     return Report(f"Frame fields on {names}", runs, pictures, files=(ROWS_FILE,))
 
 
-def _surface_pictures(problem: Problem) -> "list[Picture]":
+def _surface_pictures(problem: FieldProblem) -> "list[Picture]":
     from ..view import scene
     from . import field_pictures as pictures  # brings VTK, which nothing else in the package needs when it is imported
 

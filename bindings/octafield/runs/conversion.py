@@ -12,6 +12,7 @@ from ..domain.inputs import SURFACE_SUFFIXES, Input, domain_of, from_mesh, namin
 from ..domain.mesh_writers import MESH_SUFFIXES, write_mesh
 from ..domain.meshing import REPAIR_IGNORED
 from ..domain.repairing import level_of, repair_surface
+from ..domain.sites import moved_frames
 from ..errors import InvalidInput, IoError
 from ..fields.sizes import Sizes, find_sizes, log_scales_of, sizes_record
 from ..files.reading import plain_name
@@ -58,9 +59,9 @@ def convert_file(
     to_format: names of octafield.frame_formats, where the extensions do not tell. at: "vertices" or "tets", where the
     frames shall be. combed: as of write_frames. edge_length: of triangles on CAD models. sizes: "isotropic" or "axes"
     (see octafield.FieldOptions): lengths of the axes, where the file can hold them. cell_edge: as of write_frames.
-    split_singular: edges inside between singular vertices are split first (octafield.volume.split_between_singular), and the
-    frames are those of the tets. repair: its level and bounds are for a surface, as octafield.prepare_mesh takes them
-    for one that is to be closed; what the level leaves unsound is noted."""
+    split_singular: edges inside between singular vertices are split first (octafield.volume.split_between_singular),
+    and the frames are those of the tets. repair: its level and bounds are for a surface, as octafield.prepare_mesh
+    takes them for one that is to be closed; what the level leaves unsound is noted."""
     require_one_of("sizes", sizes, SIZES)
     source, target = Path(source), Path(target)
     frames = _frames(source, mesh, from_format)
@@ -80,7 +81,8 @@ def convert_file(
                 frames, find_format(target, to_format, to_write=True), "tets" if combed else at, sizes
             )
         notes = write_frames(
-            target, frames.mesh, frames.frames, frames.where, to_format, at=at, lengths=frames.lengths, features=frames.features, regions=frames.regions,
+            target, frames.mesh, frames.frames, frames.where, to_format, at=at, lengths=frames.lengths,
+            features=frames.features, regions=frames.regions,
             combed=combed, cell_edge=cell_edge,
         )  # fmt: skip
         written = "tets" if combed else at or _site_in_file(target, to_format, frames.where)
@@ -135,7 +137,8 @@ def _split(found: FrameFile, writer: FrameFormat, at: str | None) -> FrameFile:
     lengths = found.lengths if found.where == "tets" else None
     return replace(
         found, mesh=split.mesh, frames=frames[parent], where="tets", notes=notes, centres=None,
-        lengths=None if lengths is None else lengths[parent], regions=None if found.regions is None else np.asarray(found.regions)[parent],
+        lengths=None if lengths is None else lengths[parent],
+        regions=None if found.regions is None else np.asarray(found.regions)[parent],
     )  # fmt: skip
 
 
@@ -234,14 +237,13 @@ def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str)
             "sizes per axis are those of frames in the tets; add --at tets, or take --sizes isotropic", "wrong_sampling"
         )
     notes = list(found.notes)
-    if where != found.where:
-        notes.append(f"the frames were taken to the {where}: the nearest to the mean sh4 vector of those around")
     at_vertices = (
         found.frames if found.where == "vertices" else np.asarray(_core.vertex_frames(found.mesh, found.frames))
     )
     frames = found.frames
     if where != found.where:
-        frames = at_vertices if where == "vertices" else np.asarray(_core.tet_frames(found.mesh, at_vertices))
+        frames, note = moved_frames(found.mesh, found.frames, where)
+        notes.append(note)
     sizes = find_sizes(found.mesh, at_vertices, kind)
     lengths = np.exp((-1 if writer.holds_edges else 1) * _logs_at(sizes, found.mesh, frames, where))
     if found.lengths is not None:

@@ -6,7 +6,7 @@ import pyvista
 from .. import _core
 from .._core import DirectionField, TriangleMesh
 from ..fields.analysed import AnalysedField
-from ..fields.frame_field import Problem
+from ..fields.frame_field import FieldProblem
 from ..view import captions, scene
 from ..view.curves import TURNS, add_curves, bad_features, curves_by_kind, glass, kind_of, singular_scene, spheres
 from ..view.datasets import beginning, polylines
@@ -18,7 +18,7 @@ MOST_CUBES = 1500
 CUT = "#f6ecd6"
 
 
-def surface_cross_field(problem: Problem) -> Picture:
+def surface_cross_field(problem: FieldProblem) -> Picture:
     """Crosses in evenly spread triangles, feature curves, separatrices, and spheres at the singular points."""
     mesh, features = problem.meshed.surface, problem.meshed.features
     points = np.asarray(mesh.vertices)

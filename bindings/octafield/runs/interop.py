@@ -33,6 +33,7 @@ from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField
 from ..fields.direction_field import SurfaceFieldResult
 from ..fields.probes import put_frames
+from ..meshes.topology import unique_edges
 from ..view.datasets import polylines
 
 if TYPE_CHECKING:
@@ -214,7 +215,7 @@ def to_scipy(value: TriangleMesh | TetMesh | TetDomain | SingularGraph | Analyse
     import scipy.sparse
 
     if isinstance(value, AnalysedField):
-        edges = _edges_of(np.asarray(value.tets.tets))
+        edges = unique_edges(value.tets.tets)
         numbers = np.asarray(_core.matching(value.frames[edges[:, 0]], value.frames[edges[:, 1]]), np.int32)
         size = len(value.tets.vertices)
         return scipy.sparse.csr_array((numbers, (edges[:, 0], edges[:, 1])), shape=(size, size))
@@ -224,18 +225,12 @@ def to_scipy(value: TriangleMesh | TetMesh | TetDomain | SingularGraph | Analyse
         edges = np.unique(np.sort(np.concatenate([np.empty((0, 2), int), *pairs]), axis=1), axis=0)
     elif isinstance(value, (TriangleMesh, TetMesh, TetDomain)):
         points = np.asarray(value.vertices)
-        edges = _edges_of(np.asarray(value.triangles if isinstance(value, TriangleMesh) else value.tets))
+        edges = unique_edges(value.triangles if isinstance(value, TriangleMesh) else value.tets)
     else:
         raise InvalidInput(f"to_scipy takes meshes, fields and singular graphs, not {type(value).__name__}", "bad_type")
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
     both = np.concatenate([edges, edges[:, ::-1]])
     return scipy.sparse.csr_array((np.tile(lengths, 2), (both[:, 0], both[:, 1])), shape=(len(points), len(points)))
-
-
-def _edges_of(cells: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    """(e, 2) pairs of vertices, lower first, each once."""
-    pairs = [cells[:, [a, b]] for a in range(cells.shape[1]) for b in range(a)]
-    return np.unique(np.sort(np.concatenate(pairs), axis=1), axis=0)
 
 
 Record = Mapping[str, Any]

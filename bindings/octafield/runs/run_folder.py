@@ -12,7 +12,8 @@ import numpy as np
 from .. import _core
 from .._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetDomain
 from ..fields.analysed import AnalysedField
-from ..fields.frame_field import FieldResult, SurfaceFieldResult
+from ..fields.direction_field import SurfaceFieldResult
+from ..fields.frame_field import FieldResult
 from ..fields.sizes import sizes_arrays
 from ..files.writing import vtp_bytes, write_file, write_json
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
@@ -108,8 +109,8 @@ def write_streamlines(
     path: Path, lines: Sequence[Streamline] | Sequence[FrameStreamline], metadata: dict[str, str]
 ) -> None:
     """.vtp polylines with cell data length, first_end and last_end (words, see octafield.surface.Streamline and
-    octafield.volume.FrameStreamline); for curves on surfaces first_singularity and last_singularity (places in the file of
-    singular points, -1: none). Curves of a single point are left out, but for those on surfaces."""
+    octafield.volume.FrameStreamline); for curves on surfaces first_singularity and last_singularity (places in the file
+    of singular points, -1: none). Curves of a single point are left out, but for those on surfaces."""
     if lines and isinstance(lines[0], FrameStreamline):
         lines = [line for line in lines if isinstance(line, FrameStreamline) and len(line.points) > 1]
     poly = polylines([line.points for line in lines])
@@ -125,8 +126,8 @@ def write_streamlines(
 def write_features(path: Path, tets: TetDomain, found: BoundaryMeshability, metadata: dict[str, str]) -> None:
     """.vtp: corners as vertex cells, then feature edges (one line per wedge), then edges of the surface that a singular
     edge crosses. Cell data kind (0, 1, 2 in this order), meshable (0/1) and hexahedra (lines: the lower number of the
-    two ends; corners: what is left for edges inside; octafield.volume.no_number: none), angle (of the wedge, degrees; else 0),
-    vertex (of the tet mesh; lines: the first of their two)."""
+    two ends; corners: what is left for edges inside; octafield.volume.no_number: none), angle (of the wedge, degrees;
+    else 0), vertex (of the tet mesh; lines: the first of their two)."""
     import pyvista
 
     corners, wedges, crossings = found.corners, found.wedges, found.crossings

@@ -2,7 +2,8 @@
 however often it is interrupted, on one machine or many.
 
     >>> from octafield import study
-    >>> described = study.parse("{name: a box, inputs: [{generator: box}], runs: {boundary: [aligned, fixed]}}")  # or load("study.yaml")
+    >>> text = "{name: a box, inputs: [{generator: box}], runs: {boundary: [aligned, fixed]}}"
+    >>> described = study.parse(text)  # or load("study.yaml")
     >>> outcome = study.run(described, "out")  # begins, or goes on where an earlier run of the same folder stopped
     >>> outcome.status
     Status(done=2, failed=0, crashed=0, open=0)

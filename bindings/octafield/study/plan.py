@@ -119,7 +119,8 @@ def plan(study: Study, *, threads: int = 1, digests: Digests | None = None) -> l
     digests: of files, kept from earlier times.
 
         >>> from octafield import study
-        >>> described = study.parse("{name: two, inputs: [{generator: box}], runs: {representation: [sh4, su2]}, seeds: 3}")
+        >>> text = "{name: two, inputs: [{generator: box}], runs: {representation: [sh4, su2]}, seeds: 3}"
+    >>> described = study.parse(text)
         >>> [(run.name, run.options.representation, run.options.seed) for run in study.plan(described)][:2]
         [('box', 'sh4', 0), ('box', 'su2', 0)]
     """

@@ -118,6 +118,6 @@ def _display(value: Arrays) -> None:
 
 
 for _kind in (TriangleMesh, TetMesh, TetDomain, SingularGraph):
-    setattr(_kind, "_repr_html_", _html)
-    setattr(_kind, "_ipython_display_", _display)
-del _kind
+    for _name, _method in (("_repr_html_", _html), ("_ipython_display_", _display)):
+        setattr(_kind, _name, _method)
+del _kind, _name, _method

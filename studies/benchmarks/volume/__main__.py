@@ -3,7 +3,7 @@
     python -m studies.benchmarks.volume -o DIR [--data ../shared/data] [--balls 12,20,32,44] [--seeds 10] [--part
     energies] ...
 
-DIR gets benchmarks.md, representations.md (every file in every representation) and a folder per part. Without --part:
+DIR gets benchmarks.md, hexme.md (every file in every representation) and a folder per part. Without --part:
 all of energies, growth, parts, large, split; a part that was not run keeps the tables it left in DIR.
 """
 

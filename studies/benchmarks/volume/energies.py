@@ -20,7 +20,8 @@ import numpy as np
 import octafield
 import scipy.sparse as sparse
 import scipy.sparse.linalg
-from octafield.fields.frame_field import prepare, prepare_mesh
+from octafield.domain.meshing import prepare_mesh
+from octafield.fields.frame_field import prepare_field
 from octafield.options import MeshOptions
 from study_output import markdown_table
 
@@ -115,7 +116,7 @@ def dirichlet_system(tets, boundary: np.ndarray, values: np.ndarray) -> tuple:
 def problem(path) -> tuple:
     """Mesh and constraints of the comparison."""
     meshed = prepare_mesh(path, MeshOptions(features="none"))
-    directions = prepare(meshed).directions
+    directions = prepare_field(meshed).directions
     return meshed.tets, octafield.volume.boundary_constraints(meshed.tets, directions, mode="aligned")
 
 

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 import octafield
 from octafield.domain.meshing import prepare_mesh
-from octafield.fields.frame_field import prepare, run
+from octafield.fields.frame_field import prepare_field, run_field
 from octafield.options import COMPARED, FieldOptions
 from octafield.progress.phases import PHASES
 from octafield.runs.run_folder import write_field_result
@@ -97,7 +97,8 @@ def representation_row(path: Path, meshed, result, reference) -> list:
     return [
         name_of(path), r["representation"], STARTS[r["options"]["rounds"] > 0], r["energy"], r["objective"],
         r["singular_edges"], r["complex_edges"], r["non_meshable_vertices"],
-        np.degrees(np.mean(octafield.frames.distance(result.frames, reference.frames))), alignment_error(meshed, result),
+        np.degrees(np.mean(octafield.frames.distance(result.frames, reference.frames))),
+        alignment_error(meshed, result),
         r["iterations"], r["converged"], r["cpu_seconds"]["smooth"],
     ]  # fmt: skip
 
@@ -124,13 +125,13 @@ def measure(
 ) -> tuple[list, list[list]]:
     """The line of fields.md and those of representations.md."""
     meshed = prepare_mesh(path, options)
-    problem = prepare(meshed)
-    reference = run(problem, options)
+    problem = prepare_field(meshed)
+    reference = run_field(problem, options)
     lines = []
     for rounds in (options.rounds, 0) if alone else (options.rounds,):
         for name in representations:
             chosen = replace(options, representation=name, rounds=rounds)
-            lines.append(representation_row(path, meshed, run(problem, chosen), reference))
+            lines.append(representation_row(path, meshed, run_field(problem, chosen), reference))
     return row_of(path, meshed, reference), lines
 
 

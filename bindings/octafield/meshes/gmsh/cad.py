@@ -70,7 +70,8 @@ def read_cad(path: Path, suffix: str, edge_length: float, progress: Progress | N
 def _meshed(
     path: Path, suffix: str, edge_length: float, way: int, progress: Progress | None
 ) -> tuple[Grid | None, str | None]:
-    """The mesh, None where Gmsh gave none for the model it could read, and what is wrong with it. way: number in WAYS."""
+    """The mesh, None where Gmsh gave none for the model it could read, and what is wrong with it. way: number in
+    WAYS."""
     with _scratch(path) as folder:
         job = {
             "model": str(_plain(path, suffix, folder)),
@@ -138,7 +139,8 @@ def _run(path: Path, job: dict[str, object], folder: Path, progress: Progress | 
     """Exit code, negative after a signal. No process is left, however this ends."""
     if not sys.executable or getattr(sys, "frozen", False):
         raise IoError(
-            f"{path}: CAD models are read in a process of their own, and this program does not tell which Python to start (sys.executable); "
+            f"{path}: CAD models are read in a process of their own, and this program does not tell which Python to "
+            f"start (sys.executable); "
             "mesh it with Gmsh (gmsh -2 or -3) and give the .msh file", "no_python",
         )  # fmt: skip
     paths = os.pathsep.join(os.path.abspath(entry) for entry in sys.path)

@@ -327,7 +327,8 @@ def _depths(gmsh: Any, faces: set[int]) -> dict[int, int]:
 
 
 def _heal(model: Model) -> None:
-    """May number faces and solids anew; where the solids do not come through, the model stays as it was meshed before."""
+    """May number faces and solids anew; where the solids do not come through, the model stays as it was meshed
+    before."""
     gmsh, count = model.gmsh, len(model.region)
     gmsh.model.occ.healShapes(
         tolerance=_CLOSE * model.diagonal,

@@ -21,10 +21,13 @@ _SPAN = struct.Struct("<QI")  # first element, number of elements
 _TOPOLOGY = struct.Struct("<BBBBQ")  # entity, valence (0: varies), encoding of valences and of ids, offset of ids
 _INTEGERS = {1: "<u1", 2: "<u2", 4: "<u4"}
 _NUMBERS = {
-    "b": ("bits", 1), "u8": ("<u1", 1), "u16": ("<u2", 1), "u32": ("<u4", 1), "u64": ("<u8", 1), "i8": ("<i1", 1), "i16": ("<i2", 1),
-    "i32": ("<i4", 1), "i64": ("<i8", 1), "f": ("<f4", 1), "d": ("<f8", 1), "Quaternion": ("<f8", 4), "SPHCoeffs": ("<f8", 9),
+    "b": ("bits", 1), "u8": ("<u1", 1), "u16": ("<u2", 1), "u32": ("<u4", 1), "u64": ("<u8", 1), "i8": ("<i1", 1),
+    "i16": ("<i2", 1),
+    "i32": ("<i4", 1), "i64": ("<i8", 1), "f": ("<f4", 1), "d": ("<f8", 1), "Quaternion": ("<f8", 4),
+    "SPHCoeffs": ("<f8", 9),
     "3x3d": ("<f8", 9),
-} | {f"{n}{kind}": (dtype, n) for n in (2, 3, 4, 9) for kind, dtype in (("d", "<f8"), ("f", "<f4"), ("i32", "<i4"))}  # fmt: skip
+} | {f"{n}{kind}": (dtype, n) for n in (2, 3, 4, 9) for kind,
+dtype in (("d", "<f8"), ("f", "<f4"), ("i32", "<i4"))}  # fmt: skip
 _TYPE_OF = {("i", 1): "i32", ("f", 1): "d", ("f", 2): "2d", ("f", 3): "3d", ("f", 4): "4d", ("f", 9): "9d"}
 
 

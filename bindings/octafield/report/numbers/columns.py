@@ -34,7 +34,8 @@ def held_alignment(record: dict[str, Any]) -> float:
 
 
 def record_column(head: str, form: str, meaning: str, group: str = "", key: str = "", **more: bool) -> RunColumn:
-    """A number of the record; key: "name" or "name.inner"; none where the run has no field or the field no such number."""
+    """A number of the record; key: "name" or "name.inner"; none where the run has no field or the field no such
+    number."""
 
     def value(_results: Results, run: Run) -> object:
         found: object = run.row if run.done else {}
@@ -47,7 +48,8 @@ def record_column(head: str, form: str, meaning: str, group: str = "", key: str 
 
 RUN_COLUMNS: tuple[RunColumn, ...] = (
     RunColumn("input", "", "the file or generated shape", value=lambda _, run: run.input),
-    RunColumn("method", "", "what the frames were smoothed as, and how where methods differ in that; or the name given to a field that was read", value=lambda results, run: results.method(run).name),
+    RunColumn("method", "", "what the frames were smoothed as, and how where methods differ in that; or the name "
+                            "given to a field that was read", value=lambda results, run: results.method(run).name),
     RunColumn(
         "boundary",
         "",
@@ -56,18 +58,25 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
     ),
     RunColumn("seed", "d", "of every random start", value=lambda _, run: run.seed),
     RunColumn("repeat", "d", "equal runs, for timings", value=lambda _, run: run.repeat, terminal=False),
-    RunColumn("state", "", "done; failed: the input or an option is at fault; crashed: the process died", value=lambda _, run: run.state, terminal=False),
+    RunColumn("state", "", "done; failed: the input or an option is at fault; crashed: the process died",
+        value=lambda _, run: run.state, terminal=False),
     record_column("vertices", ",d", "of the tetrahedral mesh", key="vertices", page=False),
     record_column("tets", ",d", "tetrahedra", key="tets", page=False),
-    record_column("E", ".6g", "Dirichlet energy of the final frames in sh4; compare on one mesh only", "energy", "energy"),
-    record_column("unit speed", ".6g", "3/20 of E: of an embedding in which a frame turning by 1 radian moves by 1", "energy", "energy_unit_speed"),
-    record_column("own", ".6g", "what the method itself minimised, for its last field; compare with the same method only", "energy", "objective", terminal=False),
-    record_column("edges", ",d", "triangles round which the frames turn: edges of the dual mesh on singular curves", "singular", "singular_edges"),
+    record_column("E", ".6g", "Dirichlet energy of the final frames in sh4; compare on one mesh only", "energy",
+        "energy"),
+    record_column("unit speed", ".6g", "3/20 of E: of an embedding in which a frame turning by 1 radian moves by 1",
+        "energy", "energy_unit_speed"),
+    record_column("own", ".6g", "what the method itself minimised, for its last field; compare with the same method "
+                                "only", "energy", "objective", terminal=False),
+    record_column("edges", ",d", "triangles round which the frames turn: edges of the dual mesh on singular curves",
+        "singular", "singular_edges"),
     record_column("length", ".4g", "of the singular curves, unit of the input", "singular", "singular_length"),
-    record_column("complex", ",d", "singular edges whose rotation keeps no axis of the frame; no hex mesh has them", "singular", "complex_edges"),
+    record_column("complex", ",d", "singular edges whose rotation keeps no axis of the frame; no hex mesh has them",
+        "singular", "complex_edges"),
     record_column(
         "non-meshable", ",d",
-        "places where singular curves meet, change or reach the surface in a way no hex mesh has (a necessary condition: the "
+        "places where singular curves meet, change or reach the surface in a way no hex mesh has (a necessary "
+        "condition: the "
         "others may still have none); nodes that complex edges join count one by one",
         "singular", "non_meshable_vertices",
     ),
@@ -76,33 +85,40 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
         "non-meshable features", "non_meshable_feature_edges", terminal=False,
     ),
     record_column(
-        "corners", ",d", "corners at which the numbers of hexahedra and quadrilaterals round them fit no hex mesh (a necessary condition)",
+        "corners", ",d", "corners at which the numbers of hexahedra and quadrilaterals round them fit no hex mesh (a "
+                         "necessary condition)",
         "non-meshable features", "non_meshable_corners", terminal=False,
     ),
-    record_column("median", ".2f", "angle between surface normal and nearest frame axis, over boundary vertices and their smooth sectors", _DEG, "alignment_deg.median"),
+    record_column("median", ".2f", "angle between surface normal and nearest frame axis, over boundary vertices and "
+                                   "their smooth sectors", _DEG, "alignment_deg.median"),
     RunColumn(
-        "held, max", ".2f", "its maximum, but for vertices where faces meet that no frame serves all (normals neither parallel nor at right angles)",
+        "held, max", ".2f", "its maximum, but for vertices where faces meet that no frame serves all (normals neither "
+                            "parallel nor at right angles)",
         _DEG, lambda _, run: held_alignment(run.row) if run.done else None,
     ),
-    record_column("unserved", ",d", "how many vertices such edges and corners have; one face is off by up to 45 degrees there, whatever the method", _DEG, "unserved_vertices", terminal=False),
+    record_column("unserved", ",d", "how many vertices such edges and corners have; one face is off by up to 45 "
+                                    "degrees there, whatever the method", _DEG, "unserved_vertices", terminal=False),
     record_column(
         "features", ".2f", "largest angle between a feature curve and the nearest frame axis, corners included",
         _DEG, "feature_alignment_deg.max", terminal=False,
     ),
     record_column(
         "axis jump", ".3g",
-        "jump of the axes along the face between two tets, root mean square: 0 for gradients of a map, of the order of the mesh "
+        "jump of the axes along the face between two tets, root mean square: 0 for gradients of a map, of the order "
+        "of the mesh "
         "width on smooth fields; compare on one mesh only",
         "", "integrability.jump_rms", terminal=False,
     ),
     record_column("iterations", "d", "diffusion steps and iterations of smoothing", key="iterations"),
-    record_column("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads", "seconds", "cpu_seconds.smooth", terminal=False),
+    record_column("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads",
+        "seconds", "cpu_seconds.smooth", terminal=False),
     record_column("smooth", ".3f", "the same by the clock", "seconds", "wall_seconds.smooth", terminal=False),
     RunColumn(
         "total", ".2f", "all phases by the clock, those that runs share included", "seconds",
         lambda _, run: sum(run.row["wall_seconds"].values()) if run.done else None,
     ),
-    record_column("peak MB", ",.0f", "largest resident memory of the process during the run, its libraries included", key="peak_mb"),
+    record_column("peak MB", ",.0f", "largest resident memory of the process during the run, its libraries included",
+        key="peak_mb"),
 )  # fmt: skip
 
 
@@ -131,11 +147,16 @@ def terminal_table(results: Results) -> Table:
 def input_table(results: Results, anchors: dict[str, str]) -> Table:
     """A line per input with any field on it; anchors: of its part of the page."""
     columns = (
-        Column("input", "", "leads to its part of this page"), Column("vertices", ",d", "of the tetrahedral mesh"), Column("tets", ",d", "tetrahedra"),
-        Column("boundary triangles", ",d", "of its surface"), Column("mean edge", ".4g", "of the surface, unit of the input"),
-        Column("feature edges", ",d", "edges of the surface that the field follows"), Column("corners", ",d", "where feature curves meet or turn"),
-        Column("Euler characteristic", "d", "of the surface; the sum of the indices of the singular points of its cross field"),
-        Column("preparation, s", ".3f", "reading, meshing and cross field on the surface, seconds by the clock, which runs share"),
+        Column("input", "", "leads to its part of this page"), Column("vertices", ",d", "of the tetrahedral mesh"),
+        Column("tets", ",d", "tetrahedra"),
+        Column("boundary triangles", ",d", "of its surface"),
+        Column("mean edge", ".4g", "of the surface, unit of the input"),
+        Column("feature edges", ",d", "edges of the surface that the field follows"),
+        Column("corners", ",d", "where feature curves meet or turn"),
+        Column("Euler characteristic", "d", "of the surface; the sum of the indices of the singular points of its "
+                                            "cross field"),
+        Column("preparation, s", ".3f", "reading, meshing and cross field on the surface, seconds by the clock, which "
+                                        "runs share"),
         Column("runs", "d", "all runs on it"), Column("mesh", "", "first digits of the SHA-256 of the mesh"),
     )  # fmt: skip
     keys = ("vertices", "tets", "boundary_triangles", "edge_length", "feature_edges", "feature_corners")
@@ -162,21 +183,33 @@ def summary_table(results: Results, lines: list[Line], found: Deviations) -> Tab
     """A line per setting and method."""
     first = results.methods[0].name if results.methods else ""
     columns = (
-        Column("boundary", "", "fixed: frames held at the surface cross field; aligned: one axis on the normal, twist free; none: free"),
-        Column("method", "", "what the frames were smoothed as, and how where methods differ in that; or the name given to a field that was read"),
-        Column("solved", "d", "problems (input and boundary) with a field for every seed"), Column("of", "d", "problems"),
-        Column("E", ".6g", "Dirichlet energy of the final frames in sh4, on the only problem with a field; mean over seeds", "energy"),
-        Column("seeds %", ".3g", "standard deviation of E over the seeds of a problem, per cent of its mean; mean over problems", "energy"),
-        Column("own", ".6g", "what the method itself minimised, for its last field; mean over seeds; compare with the same method only", "energy"),
-        Column("over lowest", ".4f", "to the lowest energy of all methods on the problem, geometric mean; problems without energy are left out", "energy"),
+        Column("boundary", "", "fixed: frames held at the surface cross field; aligned: one axis on the normal, twist "
+                               "free; none: free"),
+        Column("method", "", "what the frames were smoothed as, and how where methods differ in that; or the name "
+                             "given to a field that was read"),
+        Column("solved", "d", "problems (input and boundary) with a field for every seed"),
+        Column("of", "d", "problems"),
+        Column("E", ".6g", "Dirichlet energy of the final frames in sh4, on the only problem with a field; mean over "
+                           "seeds", "energy"),
+        Column("seeds %", ".3g", "standard deviation of E over the seeds of a problem, per cent of its mean; mean "
+                                 "over problems", "energy"),
+        Column("own", ".6g", "what the method itself minimised, for its last field; mean over seeds; compare with the "
+                             "same method only", "energy"),
+        Column("over lowest", ".4f", "to the lowest energy of all methods on the problem, geometric mean; problems "
+                                     "without energy are left out", "energy"),
         Column("at most", ".4f", "the largest of these ratios", "energy"),
-        Column("lowest on", "d", "problems on which no method has an energy lower by more than a hundredth of a per cent", "energy"),
+        Column("lowest on", "d", "problems on which no method has an energy lower by more than a hundredth of a per "
+                                 "cent", "energy"),
         Column("edges", ",d", "singular edges, sum over the problems solved (means over seeds)", "singular"),
         Column("complex", ",d", "singular edges that no hex mesh has", "singular"),
-        Column("non-meshable", ",d", "places of the singular graph that no hex mesh has (a necessary condition)", "singular"),
-        Column("mean", ".2f", "angle between the frames and those of the first method, mean over vertices and problems", f"deg to {first}"),
+        Column("non-meshable", ",d", "places of the singular graph that no hex mesh has (a necessary condition)",
+            "singular"),
+        Column(
+        "mean", ".2f", "angle between the frames and those of the first method, mean over vertices and problems",
+        f"deg to {first}"),
         Column("95 %", ".2f", "95th percentile over vertices, mean over problems", f"deg to {first}"),
-        Column("sum", ".3g", "processor seconds of constraints, start and smoothing, on the problems solved; means over seeds", "CPU seconds"),
+        Column("sum", ".3g", "processor seconds of constraints, start and smoothing, on the problems solved; means "
+                             "over seeds", "CPU seconds"),
         Column("over fastest", ".2f", "to the fastest method on the problem, geometric mean", "CPU seconds"),
     )  # fmt: skip
     rows = []
@@ -187,7 +220,8 @@ def summary_table(results: Results, lines: list[Line], found: Deviations) -> Tab
             else found.lines.get((line.setting, line.method), (None, None))
         )
         rows.append((
-            line.setting.name, line.method.name, line.solved, line.asked, line.energy, None if line.spread is None else 100 * line.spread, line.own, line.ratio, line.largest, line.lowest,
+            line.setting.name, line.method.name, line.solved, line.asked, line.energy,
+            None if line.spread is None else 100 * line.spread, line.own, line.ratio, line.largest, line.lowest,
             line.singular_edges, line.complex_edges, line.non_meshable, *angles, line.seconds, line.slowdown,
         ))  # fmt: skip
     alone = ("over lowest", "at most", "lowest on", "mean", "95 %", "over fastest") if len(results.methods) < 2 else ()

@@ -1,4 +1,5 @@
-"""Of runs with sizes along the axes: how far fields are from the gradients of a map, before and after; table and prose."""
+"""Of runs with sizes along the axes: how far fields are from the gradients of a map, before and after; table and
+prose."""
 
 from typing import Any
 
@@ -17,15 +18,19 @@ _KINDS = {"isotropic": "one size for all axes", "axes": "one size per axis"}
 
 COLUMNS = (
     *(column for column in RUN_COLUMNS if column.head in _WHO),
-    RunColumn("sizes", "", "one for all axes, or one per axis", "", lambda _, run: _KINDS.get(sizes_of(run).get("kind", ""))),
-    record_column("before", ".4g", "of the unit axes, in 1 over the unit of the input, root mean square over the volume; 0 for gradients of a map", _CURL, "sizes.curl_rms_before"),
+    RunColumn("sizes", "", "one for all axes, or one per axis", "", lambda _,
+        run: _KINDS.get(sizes_of(run).get("kind", ""))),
+    record_column("before", ".4g", "of the unit axes, in 1 over the unit of the input, root mean square over the "
+                                   "volume; 0 for gradients of a map", _CURL, "sizes.curl_rms_before"),
     record_column("after", ".4g", "of the axes with their sizes, over these", _CURL, "sizes.curl_rms_after"),
     RunColumn("left, %", ".1f", "the one over the other", _CURL, lambda _, run: _left(run)),
     record_column(
-        "before", ".4f", "jump of the axes along the face between two tets, root mean square; of the order of the mesh width",
+        "before", ".4f", "jump of the axes along the face between two tets, root mean square; of the order of the "
+                         "mesh width",
         _JUMP, "sizes.jump_rms_before",
     ),
-    record_column("after", ".4f", "with the sizes, over these; it rises where sizes vary", _JUMP, "sizes.jump_rms_after"),
+    record_column("after", ".4f", "with the sizes, over these; it rises where sizes vary", _JUMP,
+        "sizes.jump_rms_after"),
     record_column("size ratio", ".3g", "the largest size over the smallest", key="sizes.size_ratio"),
     record_column("CPU seconds", ".3f", "of finding the sizes and both figures", key="cpu_seconds.sizes"),
 )  # fmt: skip

@@ -49,7 +49,8 @@ def ratios_to_best(values: Mapping[Method, Values]) -> dict[Method, np.ndarray]:
 
 
 def energies(results: Results, problems: Sequence[Problem]) -> dict[Method, np.ndarray]:
-    """Of each method on each problem; 0 where it is rounding, as of fields without singularities in a straight solid."""
+    """Of each method on each problem; 0 where it is rounding, as of fields without singularities in a straight
+    solid."""
     return results.least(_energy, problems)
 
 
@@ -116,7 +117,8 @@ def lines(results: Results, problems: Sequence[Problem] | None = None) -> list[L
 
 def _line(
     results: Results, setting: Setting, method: Method, within: list[Problem],
-    energy: np.ndarray, best: np.ndarray, over: tuple[dict[Method, np.ndarray], dict[Method, np.ndarray]], seconds: np.ndarray,
+    energy: np.ndarray, best: np.ndarray, over: tuple[dict[Method, np.ndarray], dict[Method, np.ndarray]],
+    seconds: np.ndarray,
 ) -> Line:  # fmt: skip
     cases = {p: results.cases_of(p) for p in within}
     rows = {

@@ -59,7 +59,8 @@ def styles(methods: Sequence[Method]) -> dict[Method, Style]:
 
 
 def ratio_plot(results: Results, salt: str = "") -> str:
-    """A dot per method and problem: energy over the lowest, processor seconds over the fastest; a bar: geometric mean."""
+    """A dot per method and problem: energy over the lowest, processor seconds over the fastest; a bar: geometric
+    mean."""
     figure, both = new_figure(_WIDE, 1.3 + 0.27 * len(results.methods), 2, sharey=True)
     marks = {setting: _MARKS[k % len(_MARKS)] for k, setting in enumerate(results.settings)}
     style, places = styles(results.methods), range(len(results.methods))

@@ -1,4 +1,5 @@
-"""The part of a report's page that holds for all inputs: figures and tables that compare methods, and prose about them."""
+"""The part of a report's page that holds for all inputs: figures and tables that compare methods, and prose about
+them."""
 
 import html
 import re
@@ -15,7 +16,8 @@ from .html import Exhibits, paragraphs
 
 @dataclass
 class Front:
-    """Exhibits as HTML, empty where there is nothing to show; text() when the whole page's exhibits have their numbers."""
+    """Exhibits as HTML, empty where there is nothing to show; text() when the whole page's exhibits have their
+    numbers."""
 
     results: Results
     lines: list[Line]
@@ -39,13 +41,16 @@ class Front:
         if self.energy_profiles:
             energy.append(prose.profile(self.energy_profiles, cite("profiles")))
         graphs = [*prose.graphs(self.lines, cite("summary")), prose.convergence(results, cite("runs"))]
-        time = f"{prose.times(results, cite('summary'), cite('ratios'))} {prose.shared_time(results, cite('inputs'))}".strip()
+        times = prose.times(results, cite("summary"), cite("ratios"))
+        time = f"{times} {prose.shared_time(results, cite('inputs'))}".strip()
         distances = self.matrix + self.boxes
         if distances and len(results.methods) <= MANY:
             distances = f'<div class="figures">{distances}</div>'
         return (
             paragraphs(scope) + _headed("Energy", *energy) + self.summary + self.ratios + self.profiles
-            + _headed("Singular graphs", *graphs) + _headed("Integrability", *integrability(results, cite("integrability"))) + _headed("Distance between fields", prose.distances(self.found, matrix)) + distances
+            + _headed("Singular graphs", *graphs) + _headed("Integrability",
+                *integrability(results, cite("integrability")))
+                + _headed("Distance between fields", prose.distances(self.found, matrix)) + distances
             + _headed("Time", time)
         )  # fmt: skip
 
@@ -129,5 +134,6 @@ def _shaded(matrix: str) -> str:
     """Cells of the matrix with a ground the stronger the larger their number."""
     values = [float(v) for v in re.findall(r'<td data-value="([^"]+)"', matrix)]
     largest = max(values, default=0.0) or 1.0
-    shade = lambda match: f'<td style="--share:{min(1.0, float(match[1]) / largest):.3f}" data-value="{match[1]}"'  # noqa: E731
+    # noqa: E731
+    shade = lambda match: f'<td style="--share:{min(1.0, float(match[1]) / largest):.3f}" data-value="{match[1]}"'
     return re.sub(r'<td data-value="([^"]+)"', shade, matrix)

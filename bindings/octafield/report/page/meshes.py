@@ -57,8 +57,8 @@ def mesh_section(
         )
     return (
         '<section class="mesh"'
-        f' id="{anchors[name]}">{links}<h2>{html.escape(name)}</h2>{_facts(fields)}{paragraphs(*text)}{table}{failures}<div'
-        f' class="figures">{"".join(plots)}</div>{views}</section>'
+        f' id="{anchors[name]}">{links}<h2>{html.escape(name)}</h2>{_facts(fields)}{paragraphs(*text)}{table}{failures}'
+        f'<div class="figures">{"".join(plots)}</div>{views}</section>'
     )
 
 

@@ -96,7 +96,8 @@ class _Cluster:
                 self._on(self.events.get(timeout=1.0))
 
     def _look(self) -> list[Described]:
-        """Workers of the scheduler. Raises where it has been gone, or has had no worker for what is left, for too long."""
+        """Workers of the scheduler. Raises where it has been gone, or has had no worker for what is left, for too
+        long."""
         now = time.monotonic()
         workers = None
         if self.client.status == "running":
@@ -139,7 +140,8 @@ class _Cluster:
         names = ", ".join(dict.fromkeys(group.runs[0].name for group in too_large))
         need = max(self.groups[group.number][1] for group in too_large)
         raise IoError(
-            f"{self.scheduler}: no worker has the memory for {names}: up to {need:,.0f} MB, the largest declares {largest:,.0f}; "
+            f"{self.scheduler}: no worker has the memory for {names}: up to {need:,.0f} MB, the largest declares "
+            f"{largest:,.0f}; "
             f"start one (dask worker {self.scheduler} --resources \"{_RESOURCE}={need:.0f}\") and resume the study",
             "no_worker",
         )  # fmt: skip
@@ -165,8 +167,10 @@ class _Cluster:
         declared = _largest_mb(workers) < math.inf
         self.sent += 1
         content = {
-            "folder": str(self.leader.store.folder), "runs": [run.to_json() for run in group.runs], "keep_fields": self.leader.keep_fields,
-            "limit": self.leader.limit, "mb": mb if declared else math.inf, "topic": self.topic, "group": group.number, "version": octafield_version(),
+            "folder": str(self.leader.store.folder), "runs": [run.to_json() for run in group.runs],
+            "keep_fields": self.leader.keep_fields,
+            "limit": self.leader.limit, "mb": mb if declared else math.inf, "topic": self.topic, "group": group.number,
+            "version": octafield_version(),
         }  # fmt: skip
         future = self.client.submit(
             _carry_out, content, key=f"{self.topic}-{group.number}-{self.sent}", pure=False, retries=0,

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from ...errors import Cancelled, InvalidInput
 from ...progress.costs import Costs, Forecast
 from ...progress.phases import Progress
-from ...progress.time_left import Steady, words
+from ...progress.time_left import SteadyTimeLeft, words
 from ..description import Study
 from ..plan import Run, groups, mesh_of, method_of
 from ..store import LOG_FILE, Store, write_record
@@ -45,7 +45,7 @@ class Leader:
         self.computed: list[str] = []  # keys
         self.changed: list[str] = []  # messages about inputs
         self._attempts: dict[str, int] = {}  # by key
-        self._progress, self._steady = progress, Steady()
+        self._progress, self._steady = progress, SteadyTimeLeft()
         self._left: float | None = None
         self._forecast_at = -math.inf
         self.costs = Costs(self.limit)

@@ -47,8 +47,8 @@ def execute(
 ) -> None:
     """Runs of one group that are not finished yet. An error that the input or an option is at fault for is the run's
     result; InputChanged and IoError of the study's folder are raised."""
-    from ...fields.frame_field import prepare, prepare_mesh
-    from ...fields.frame_field import run as compute
+    from ...domain.meshing import prepare_mesh
+    from ...fields.frame_field import prepare_field, run_field
 
     runs = [run for run in runs if not store.is_finished(run.key)]
     if not runs:
@@ -57,7 +57,7 @@ def execute(
     error = None
     try:
         meshed = prepare_mesh(_surface(runs[0].source), runs[0].options, progress=progress)
-        problem = prepare(meshed, runs[0].options.seed, progress)
+        problem = prepare_field(meshed, runs[0].options.seed, progress)
     except Error as raised:
         error = raised
     if not has_promised_content(runs[0]):  # asked after the reading: what was read is what the key stands for
@@ -72,7 +72,7 @@ def execute(
         begin, clock = time.time(), time.perf_counter()
         result = None
         try:
-            result = compute(problem, run.options, progress)
+            result = run_field(problem, run.options, progress)
         except Error as raised:
             _write_failure(store, run, raised, begin)
         if result is not None:

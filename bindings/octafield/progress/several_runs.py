@@ -6,17 +6,17 @@ from collections.abc import Sequence
 
 from .costs import Costs, Forecast
 from .phases import Progress
-from .time_left import Steady, words
+from .time_left import SteadyTimeLeft, words
 
 _FORECAST_EVERY = 2.0  # seconds
 
 
-class Whole:
+class SeveralRuns:
     """Groups of runs on one mesh each, one after the other. methods: of the runs of a group, in their order; equal
     where they cost alike."""
 
     def __init__(self, progress: Progress | None, groups: int, methods: Sequence[str]):
-        self._progress, self._forecast, self._steady = progress, Forecast(Costs()), Steady()
+        self._progress, self._forecast, self._steady = progress, Forecast(Costs()), SteadyTimeLeft()
         self._left: float | None = None
         self._at = -math.inf
         self._began = time.monotonic()
