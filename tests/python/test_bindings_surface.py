@@ -138,7 +138,7 @@ def test_directions_are_unit_tangents(box_surface, box_features, box_field):
 
 
 @pytest.mark.parametrize(
-    "symmetry, method", [(4, "eigenvector"), (6, "eigenvector"), (4, "ginzburg_landau"), (6, "mbo"), (1, "mbo")]
+    "symmetry, method", [(4, "eigen"), (6, "eigen"), (4, "gl"), (6, "mbo"), (1, "mbo")]
 )
 def test_indices_on_the_sphere_add_up_to_two(sphere, symmetry, method):
     field = of.surface.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
@@ -270,7 +270,7 @@ def test_options_out_of_range_are_refused(box_surface, box_features):
     ):
         with pytest.raises(of.InvalidInput):
             of.surface.direction_field(box_surface, box_features, **options)
-    with pytest.raises(of.InvalidInput, match="ginzburg_landau, eigenvector, mbo") as caught:
+    with pytest.raises(of.InvalidInput, match="gl, mbo, eigen") as caught:
         of.surface.direction_field(box_surface, box_features, method="gl")
     assert caught.value.kind == "unknown_word"
     for options in ({"edge_length": -1.0}, {"edge_length": np.nan}, {"iterations": 0}):
