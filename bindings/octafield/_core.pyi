@@ -443,6 +443,7 @@ class SurfaceSingularities:
     def points(self) -> list[SurfaceSingularity]: ...
 
 class Streamline:
+    words: ClassVar[dict[str, list[str]]]
     length: float
     first_end: str
     last_end: str
@@ -1145,6 +1146,7 @@ def write_surface_field(
 ) -> None: ...
 
 class SingularVertex:
+    words: ClassVar[dict[str, list[str]]]
     point: int
     kind: str
     valence2: int
@@ -1575,6 +1577,7 @@ def axis_scales(
 # ---- volume: streamlines
 
 class FrameStreamline:
+    words: ClassVar[dict[str, list[str]]]
     length: float
     first_end: str
     last_end: str

@@ -73,23 +73,26 @@ void check(const SizeFieldOptions& options) {
 namespace {
 
 void bind_of_surfaces(py::module_& m) {
-    Record<FeatureOptions>(m, "FeatureOptions", "Of detect_features.")
+    Record<FeatureOptions>(m, "FeatureOptions",
+                           "Options of detect_features: its keyword arguments, with their defaults.")
         .field("angle", &FeatureOptions::angle, "Radians in (0, pi), between the normals at a feature edge.")
         .field("corner_angle", &FeatureOptions::corner_angle, "Radians: a turn of a feature curve that is a corner.")
         .finish([](const FeatureOptions& o) { return "angle=" + number(o.angle); });
-    Record<RemeshOptions>(m, "RemeshOptions", "Of remesh.")
+    Record<RemeshOptions>(m, "RemeshOptions", "Options of remesh: its keyword arguments, with their defaults.")
         .field("edge_length", &RemeshOptions::edge_length, "Input unit; 0: lengths that fit the shape.")
         .field("iterations", &RemeshOptions::iterations, "Rounds, at least 1.")
         .field("max_cells", &RemeshOptions::max_cells, "Without a length: triangles and tets to be expected.")
         .finish([](const RemeshOptions& o) { return "edge_length=" + number(o.edge_length); });
-    Record<SizeFieldOptions>(m, "SizeFieldOptions", "Of size_field.")
+    Record<SizeFieldOptions>(m, "SizeFieldOptions",
+                             "Options of size_field: its keyword arguments, with their defaults.")
         .field("longest", &SizeFieldOptions::longest, "Input unit; 0: default_edge_length.")
         .field("shortest", &SizeFieldOptions::shortest, "Input unit; 0: 1/16 of longest.")
         .field("angle", &SizeFieldOptions::angle, "Radians: turn of the surface along one edge.")
         .field("growth", &SizeFieldOptions::growth, "Largest change of length per distance.")
         .field("max_cells", &SizeFieldOptions::max_cells, "Triangles, and tets inside, to be expected.")
         .finish([](const SizeFieldOptions& o) { return "longest=" + number(o.longest); });
-    Record<DirectionFieldOptions>(m, "DirectionFieldOptions", "Of direction_field.")
+    Record<DirectionFieldOptions>(m, "DirectionFieldOptions",
+                                  "Options of direction_field: its keyword arguments, with their defaults.")
         .field("symmetry", &DirectionFieldOptions::symmetry, "N: 4 for crosses.")
         .field("method", &DirectionFieldOptions::method,
                "\"gl\" (Ginzburg-Landau), \"mbo\" (diffusion and projection) or \"eigen\" (the globally smoothest).")
@@ -119,13 +122,14 @@ void bind_of_surfaces(py::module_& m) {
 }
 
 void bind_of_volumes(py::module_& m) {
-    Record<BoundaryOptions>(m, "BoundaryOptions", "Of boundary_constraints and tet_boundary_constraints.")
+    Record<BoundaryOptions>(m, "BoundaryOptions",
+                            "Options of boundary_constraints and tet_boundary_constraints: their keyword arguments.")
         .field("mode", &BoundaryOptions::mode,
                "\"aligned\" (one axis on the normal, twist free), \"fixed\" (whole frame) or \"none\".")
         .field("feature_tolerance", &BoundaryOptions::feature_tolerance,
                "Radians: how well one frame must fit a feature vertex to be kept whole.")
         .finish([](const BoundaryOptions& o) { return "mode='" + to_word(o.mode) + "'"; });
-    Record<DiffuseOptions>(m, "DiffuseOptions", "Of diffuse.")
+    Record<DiffuseOptions>(m, "DiffuseOptions", "Options of diffuse: its keyword arguments, with their defaults.")
         .field("first_time", &DiffuseOptions::first_time, "Of the first step, over the squared size of the body.")
         .field("last_time", &DiffuseOptions::last_time, "Of the last, over the squared mean boundary edge.")
         .field("time_exponent", &DiffuseOptions::time_exponent, "Step k lasts 1/k^time_exponent of the first.")
@@ -134,7 +138,7 @@ void bind_of_volumes(py::module_& m) {
         .field("keep_best", &DiffuseOptions::keep_best, "The state of lowest energy met, or the last.")
         .field("threads", &DiffuseOptions::threads, "0: all; the result does not depend on it.")
         .finish([](const DiffuseOptions& o) { return "first_time=" + number(o.first_time); });
-    Record<SmoothOptions>(m, "SmoothOptions", "Of smooth.")
+    Record<SmoothOptions>(m, "SmoothOptions", "Options of smooth: its keyword arguments, with their defaults.")
         .field("representation", &SmoothOptions::representation, "What is minimised, a key of schemes.")
         .field("solver", &SmoothOptions::solver, "\"default\": the scheme's first.")
         .field("max_iterations", &SmoothOptions::max_iterations, "0 or more.")
@@ -148,7 +152,8 @@ void bind_of_volumes(py::module_& m) {
         .finish([](const SmoothOptions& o) {
             return "representation='" + o.representation + "', solver='" + to_word(o.solver) + "'";
         });
-    Record<FrameFieldOptions>(m, "FrameFieldOptions", "Of frame_field, with those of its parts.")
+    Record<FrameFieldOptions>(m, "FrameFieldOptions",
+                              "Options of frame_field, with those of its parts: its keyword arguments.")
         .field("start", &FrameFieldOptions::start, "\"constraints\" or \"cross_field\": see initial_frames.")
         .field("seed", &FrameFieldOptions::seed, "Other than 0: a random start, with five times first_time.")
         .field("rounds", &FrameFieldOptions::rounds, "Of diffusion and polish.")

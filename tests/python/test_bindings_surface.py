@@ -271,7 +271,7 @@ def test_options_out_of_range_are_refused(box_surface, box_features):
         with pytest.raises(of.InvalidInput):
             of.surface.direction_field(box_surface, box_features, **options)
     with pytest.raises(of.InvalidInput, match="gl, mbo, eigen") as caught:
-        of.surface.direction_field(box_surface, box_features, method="gl")
+        of.surface.direction_field(box_surface, box_features, method="ginzburg_landau")
     assert caught.value.kind == "unknown_word"
     for options in ({"edge_length": -1.0}, {"edge_length": np.nan}, {"iterations": 0}):
         with pytest.raises(of.InvalidInput):

@@ -13,7 +13,7 @@ from octafield.command_line import fields as cli
 from octafield.command_line.options import PARAMETERS
 from octafield.domain.generators import generate
 from octafield.options import FieldOptions, MeshOptions, SurfaceFieldOptions
-from pipeline_fixtures import octafield, write_cube
+from pipeline_fixtures import octafield
 
 STRUCTS = {
     "diffuse": [of.volume.DiffuseOptions],
@@ -117,16 +117,17 @@ def test_a_command_has_the_options_of_its_class(command, kind, absent):
 
 
 def test_iterations_and_tolerance_are_told_on_the_command_line(tmp_path):
-    cube = write_cube(tmp_path)
-    more = ("--edge-length", "0.5", "--solver", "lbfgs", "--rounds", "0", "--json", "-")
+    ball = tmp_path / "ball.stl"
+    of.write_surface(generate("ball"), ball)
+    more = ("--edge-length", "0.4", "--solver", "lbfgs", "--rounds", "0", "--json", "-")
     records = [
-        json.loads(octafield("field", cube, "-o", tmp_path / str(k), *more, *given, check=0).stdout)
+        json.loads(octafield("field", ball, "-o", tmp_path / str(k), *more, *given, check=0).stdout)
         for k, given in enumerate([(), ("--max-iterations", "1"), ("--tolerance", "1")])
     ]
     assert [record["options"]["max_iterations"] for record in records] == [200, 1, 200]
     assert records[1]["iterations"] == 1 and not records[1]["converged"]
     assert records[2]["iterations"] < records[0]["iterations"]
-    assert "tolerance" in octafield("field", cube, "-o", tmp_path / "no", "--tolerance", "-1", check=2).stderr
+    assert "tolerance" in octafield("field", ball, "-o", tmp_path / "no", "--tolerance", "-1", check=2).stderr
 
 
 def test_options_of_the_heat_flow_reach_it():
@@ -141,9 +142,9 @@ def test_options_of_the_heat_flow_reach_it():
 
 
 def test_feature_edges_inside_are_followed_as_asked():
-    box = generate("box")
+    cylinder = generate("cylinder")
     free, held = (
-        of.compute_surface_field(box, of.SurfaceFieldOptions(edge_length=0.3, feature_alignment=word)).record
+        of.compute_surface_field(cylinder, of.SurfaceFieldOptions(edge_length=0.4, feature_alignment=word)).record
         for word in ("none", "strong")
     )
     assert free["energy"] < held["energy"]

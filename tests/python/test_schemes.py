@@ -51,7 +51,7 @@ def test_every_scheme_is_an_option_with_each_of_its_solvers(name):
     scheme = of.volume.schemes[name]
     assert name in REPRESENTATIONS and (name in COMPARED) == scheme.compared
     assert scheme.equation and scheme.meaning and "\n" not in scheme.equation
-    tets = of.volume.tetrahedralize(generate("box"), max_volume=0.1)
+    tets = of.volume.tetrahedralize(generate("box"), edge_length=0.5)
     frames = of.frames.random_rotations(len(tets.vertices), seed=1)
     boundary = of.volume.boundary_surface(tets).vertex_map
     free = of.volume.BoundaryConstraints(
