@@ -15,7 +15,7 @@ runs: {representation: [sh4, sh469]}
 STALLS = """import time
 import octafield.fields.frame_field as p
 run = p.run_field
-p.run_field = lambda problem, options, *a: time.sleep(60) if options.representation == 'sh469' else run(problem, options, *a)
+p.run_field = lambda given, options, *a: time.sleep(60) if options.representation == 'sh469' else run(given, options, *a)
 """
 
 
