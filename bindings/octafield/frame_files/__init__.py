@@ -108,10 +108,10 @@ def write_frames(
         go to the tets and are combed (octafield.volume.comb): axes correspond by number and sign across all triangles
         but a cut; .npz then holds all of octafield.parameterization_input, .ovmb and .ovm the cut, .perm its matchings.
         mesh: None where the format needs none; a TetDomain, or a result of compute_field or analyse, gives its features
-        and regions, too, where these are None. cell_edge: edge length of the cells that a mesher shall make, input unit, or "auto",
-        the mean edge of the tets: the axes are divided by it (.fra, .bfra: densities of cells) or multiplied
-        (.ff3: edges of cells), on top of their lengths. Returns notes on what was changed or left out. Raises
-        InvalidInput and IoError.
+        and regions, too, where these are None. cell_edge: edge length of the cells that a mesher shall make, input
+        unit, or "auto", the mean edge of the tets: the axes are divided by it (.fra, .bfra: densities of cells) or
+        multiplied (.ff3: edges of cells), on top of their lengths. Returns notes on what was changed or left out.
+        Raises InvalidInput and IoError.
     """
     if isinstance(mesh, TetDomain):
         if features is None and len(mesh.features.edges):
