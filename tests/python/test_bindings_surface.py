@@ -137,9 +137,7 @@ def test_directions_are_unit_tangents(box_surface, box_features, box_field):
     np.testing.assert_allclose(np.sum(per_vertex * of.surface.vertex_normals(box_surface), axis=1), 0, atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    "symmetry, method", [(4, "eigen"), (6, "eigen"), (4, "gl"), (6, "mbo"), (1, "mbo")]
-)
+@pytest.mark.parametrize("symmetry, method", [(4, "eigen"), (6, "eigen"), (4, "gl"), (6, "mbo"), (1, "mbo")])
 def test_indices_on_the_sphere_add_up_to_two(sphere, symmetry, method):
     field = of.surface.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
     found = of.surface.surface_singularities(sphere, field)

@@ -18,6 +18,9 @@ from docs_blocks import ROOT, blocks, python_of, run_page
 from octafield import _core
 from octafield.domain.generators import generate
 
+sys.path.insert(0, str(ROOT / "scripts" / "docs"))
+from gallery import alike, shown  # noqa: E402
+
 DOCS = ROOT / "docs"
 PAGES = {str(page.relative_to(ROOT)): page for page in [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]}
 RUN = [
@@ -47,6 +50,18 @@ def test_the_pages_meant_to_run_do_have_blocks():
 def test_the_blocks_of_a_page_run_as_printed(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run_page(PAGES[name]) > 0
+    assert [p.name for p in shown(PAGES[name]) if not alike(p, tmp_path / p.name)] == []
+
+
+def test_the_gallery_shows_a_dozen_tasks_in_small_pictures():
+    pictures = shown(PAGES["docs/gallery.md"])
+    assert len(pictures) >= 12 and sum(p.stat().st_size for p in pictures) < 2e6
+    assert len([b for b in blocks(PAGES["docs/gallery.md"]) if b.language == "python" or b.is_command]) > len(pictures)
+
+
+def test_pictures_of_other_things_are_told_apart():
+    one, other = shown(PAGES["docs/gallery.md"])[:2]
+    assert alike(one, one) and not alike(one, other)
 
 
 def test_a_page_that_says_something_else_than_its_code_prints_is_found(tmp_path, monkeypatch):
@@ -154,6 +169,23 @@ def test_the_citation_names_this_version():
     assert citation["version"] == octafield.__version__
     assert citation["license"] in (ROOT / "pyproject.toml").read_text()
     assert f"version = {{{octafield.__version__}}}" in (DOCS / "cite.md").read_text()
+
+
+def test_numbers_of_the_paper_are_those_of_the_pages_that_studies_write():
+    paper = (DOCS / "paper" / "paper.md").read_text(encoding="utf-8")
+    sources = re.findall(r"<!-- (docs/[\w/]+\.md): (.+?) -->", paper)
+    told = re.sub(r"<!--.*?-->", "", paper, flags=re.DOTALL)
+    assert len(sources) > 4
+    for page, numbers in sources:
+        there = (ROOT / page).read_text(encoding="utf-8")
+        assert [n for n in numbers.split() if not re.search(rf"(?<![\d.]){re.escape(n)}(?![\d.]*\d)", told)] == []
+        assert [n for n in numbers.split() if not re.search(rf"(?<![\d.]){re.escape(n)}(?![\d.]*\d)", there)] == []
+
+
+def test_the_paper_cites_what_its_bibliography_has():
+    cited = set(re.findall(r"@(\w+)", (DOCS / "paper" / "paper.md").read_text(encoding="utf-8")))
+    entries = set(re.findall(r"^@\w+\{(\w+),", (DOCS / "paper" / "paper.bib").read_text(), flags=re.MULTILINE))
+    assert cited == entries
 
 
 @pytest.fixture(scope="module")

@@ -160,7 +160,10 @@ def test_whatever_libraries_print_runs_go_on(sound, tmp_path, monkeypatch):
 
 
 def test_a_process_without_memory_is_recorded_as_crashed_with_the_reason(tmp_path, monkeypatch):
-    code = "import octafield.fields.frame_field as p\ndef none(*a): raise MemoryError('std::bad_alloc')\np.run_field = none\n"
+    code = (
+        "import octafield.fields.frame_field as p\ndef none(*a): raise MemoryError('std::bad_alloc')\n"
+        "p.run_field = none\n"
+    )
     trap_workers(tmp_path, monkeypatch, code)
     text = "{name: x, inputs: [{generator: box, mesh: {edge_length: 0.5}}]}"
     assert study.run(study.parse(text), tmp_path / "out").status.crashed == 1

@@ -133,7 +133,8 @@ def test_a_run_that_kills_its_process_twice_is_recorded_and_tried_on_resume(desc
     trap_workers(
         tmp_path,
         monkeypatch,
-        "import octafield.fields.frame_field as p\nrun = p.run_field\np.run_field = lambda problem, options, *a: os.abort() if"
+        "import octafield.fields.frame_field as p\nrun = p.run_field\n"
+        "p.run_field = lambda problem, options, *a: os.abort() if"
         " options.representation == 'su2' else run(problem, options, *a)\n",
     )
     outcome = study.run(study.parse(text), tmp_path / "out", jobs=1)

@@ -162,7 +162,8 @@ def run_field(
 
         >>> import octafield
         >>> from octafield.domain.generators import generate
-        >>> problem = octafield.prepare_field(octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3)))
+        >>> meshed = octafield.prepare_mesh(generate("box"), octafield.MeshOptions(edge_length=0.3))
+        >>> problem = octafield.prepare_field(meshed)
         >>> for boundary in ("fixed", "aligned"):  # on one mesh, so that energies compare
         ...     result = octafield.run_field(problem, octafield.FieldOptions(boundary=boundary))
         ...     print(boundary, result.record["singular_edges"])

@@ -40,7 +40,7 @@ frame_formats: Mapping[str, FrameFormat] = MappingProxyType(FORMATS)
 @np.errstate(all="ignore")  # what is not finite is refused by name, without NumPy's warning before
 def read_frames(
     path: str | Path,
-    mesh: TetMesh | Input | str | Path | None = None,
+    mesh: TetMesh | TetDomain | Input | str | Path | None = None,
     format: str | None = None,
     *,
     where: str | None = None,
@@ -86,7 +86,7 @@ def read_frames(
 
 def write_frames(
     path: str | Path,
-    mesh: "TetMesh | AnalysedField | None",
+    mesh: "TetMesh | TetDomain | AnalysedField | None",
     frames: ArrayLike,
     where: str = "vertices",
     format: str | None = None,
