@@ -91,7 +91,7 @@ TEST(Features, AreFollowedStronglyWeaklyOrNotAtAll) {
     const FeatureGraph line = middle_line(mesh);
     ASSERT_EQ(line.edges.rows(), 8);
     const auto energy = [&](Alignment features, double flat) {
-        DirectionFieldOptions options{.symmetry = 6, .features = features, .least_feature_angle = flat};
+        DirectionFieldOptions options{.symmetry = 6, .feature_alignment = features, .least_feature_angle = flat};
         return direction_field(mesh, line, options).energy;
     };
     const double none = direction_field(mesh, {}, {.symmetry = 6}).energy;
