@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import octafield
 from any_part_shapes import SHAPES
+from octafield.domain.inputs import read_input
 
 ENDINGS = (".stl", ".obj", ".off", ".ply", ".vtp")
 DAMAGED = {"scan_holes": 6}  # so many holes of a ring of triangles are cut into it
@@ -139,7 +140,7 @@ def _boundaries(data: Path, folder: Path) -> Iterator[Case]:
                  *sorted((data / "mc3d").glob("*.hexex.gz"))):  # fmt: skip
         path = folder / f"{mesh.name.removesuffix('.gz').rpartition('.')[0]}_boundary.obj"
         if not path.exists():
-            tets = _hexex(mesh) if mesh.name.endswith(".hexex.gz") else octafield.domain.inputs.read_input(mesh).tets
+            tets = _hexex(mesh) if mesh.name.endswith(".hexex.gz") else read_input(mesh).tets
             boundary = octafield.volume.boundary_surface(tets).mesh
             _write(path, np.asarray(boundary.vertices), np.asarray(boundary.triangles), ascii_digits=None)
         yield _measured(Case(path.name, path, f"data/{mesh.parent.name}"))

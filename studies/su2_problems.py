@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import octafield
+from octafield.domain.inputs import read_input
 from scipy.interpolate import RegularGridInterpolator
 from study_output import with_grid
 
@@ -104,7 +105,7 @@ def bar(cells: int, ends: np.ndarray) -> Problem:
 
 def ball(path: Path) -> Problem:
     """A tet mesh of a ball, one axis on the area-weighted normal of every boundary vertex, twist free."""
-    read = octafield.domain.inputs.read_input(path)
+    read = read_input(path)
     mesh, vertices = read.tets, np.asarray(read.tets.surface.vertex_map)
     n, normals = len(mesh.vertices), np.asarray(octafield.surface.vertex_normals(read.tets.surface.mesh))
     kind, axis, frames = np.zeros(n, np.uint8), np.zeros((n, 3)), np.tile([1.0, 0, 0, 0], (n, 1))
@@ -118,7 +119,7 @@ def ball(path: Path) -> Problem:
         constraints,
         None,
         np.arange(n),
-        read.boundary,
+        read.tets.surface,
     )
 
 

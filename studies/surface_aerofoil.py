@@ -80,7 +80,11 @@ def solve(mesh, features, boundary: str, epsilon: float, length: float):
     edges, points = np.array(octafield.surface.edge_topology(mesh).edges), np.array(mesh.vertices)
     lengths = np.linalg.norm(points[edges[:, 1]] - points[edges[:, 0]], axis=1)
     field = octafield.surface.direction_field(
-        mesh, features, boundary=boundary, edge_epsilon=np.maximum(epsilon, 2 * lengths), alignment_length=length
+        mesh,
+        features,
+        boundary_alignment=boundary,
+        edge_epsilon=np.maximum(epsilon, 2 * lengths),
+        alignment_length=length,
     )
     return field, octafield.surface.surface_singularities(mesh, field)
 

@@ -66,22 +66,22 @@ def with_edges(curve: np.ndarray, edge: float) -> np.ndarray:
 def runs(mean_edge: float) -> dict[str, dict]:
     half = {"epsilon": mean_edge / 2}
     return {
-        "eigenvector (harmonic)": {"method": "eigenvector"},
+        "eigenvector (harmonic)": {"method": "eigen"},
         "mbo": {"method": "mbo"},
-        "ginzburg_landau, eps h/2": half,
-        "ginzburg_landau, eps 2 h": {},
-        "ginzburg_landau, eps 8 h": {"epsilon": 8 * mean_edge},
-        "ginzburg_landau, eps 2 h, N = 6": {"symmetry": 6},
-        "ginzburg_landau, eps 2 h, weak": {"boundary": "weak"},
-        "ginzburg_landau, eps 2 h, weak, L = eps / 10": {"boundary": "weak", "alignment_length": mean_edge / 5},
+        "gl, eps h/2": half,
+        "gl, eps 2 h": {},
+        "gl, eps 8 h": {"epsilon": 8 * mean_edge},
+        "gl, eps 2 h, N = 6": {"symmetry": 6},
+        "gl, eps 2 h, weak": {"boundary_alignment": "weak"},
+        "gl, eps 2 h, weak, L = eps / 10": {"boundary_alignment": "weak", "alignment_length": mean_edge / 5},
     }
 
 
 PANELS = {
     "eigenvector (harmonic)": "eigenvector (harmonic)",
-    "ginzburg_landau, eps 2 h": "Ginzburg-Landau, eps = 2 h",
-    "ginzburg_landau, eps 2 h, weak": "the same, weak",
-    "ginzburg_landau, eps 2 h, N = 6": "the same, strong, N = 6",
+    "gl, eps 2 h": "Ginzburg-Landau, eps = 2 h",
+    "gl, eps 2 h, weak": "the same, weak",
+    "gl, eps 2 h, N = 6": "the same, strong, N = 6",
 }
 
 

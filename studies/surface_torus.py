@@ -144,7 +144,7 @@ def states_table(around: int, epsilons: list[float], wanted: list[int]) -> tuple
 
 
 def free_table(around: int, epsilons: list[float]) -> str:
-    """Without constraints: each method as it is, and guided by the principal directions. mbo and eigenvector do not
+    """Without constraints: each method as it is, and guided by the principal directions. mbo and eigen do not
     depend on epsilon."""
     mesh, features, rows = torus(around, around // 2), octafield.FeatureGraph(), []
     principal = octafield.surface.principal_directions(mesh)
@@ -153,12 +153,12 @@ def free_table(around: int, epsilons: list[float]) -> str:
         (name, epsilon, {"epsilon": epsilon, **options})
         for epsilon in epsilons
         for name, options in (
-            ("ginzburg_landau", {}),
-            ("ginzburg_landau, no continuation", {"first_epsilon": epsilon}),
-            ("ginzburg_landau, guided by curvature", {"guide": guide}),
+            ("gl", {}),
+            ("gl, no continuation", {"first_epsilon": epsilon}),
+            ("gl, guided by curvature", {"guide": guide}),
         )
     ]
-    runs += [(name, None, {"method": name}) for name in ("mbo", "eigenvector")]
+    runs += [(name, None, {"method": name}) for name in ("mbo", "eigen")]
     for name, epsilon, options in runs:
         field = octafield.surface.direction_field(mesh, features, **options)
         found = counts(octafield.surface.surface_singularities(mesh, field))
@@ -182,7 +182,7 @@ def aligned(around: int) -> float:
     middle = points[edges].mean(axis=1)
     held = octafield.surface.DirectionConstraints(edges, azimuthal(middle))
     return octafield.surface.direction_field(
-        mesh, octafield.FeatureGraph(), method="eigenvector", constraints=held
+        mesh, octafield.FeatureGraph(), method="eigen", constraints=held
     ).dirichlet_energy
 
 

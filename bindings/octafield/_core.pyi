@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import Any, TypeAlias, overload
+from typing import Any, ClassVar, Literal, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -443,6 +443,7 @@ class SurfaceSingularities:
     def points(self) -> list[SurfaceSingularity]: ...
 
 class Streamline:
+    words: ClassVar[dict[str, list[str]]]
     length: float
     first_end: str
     last_end: str
@@ -542,7 +543,7 @@ def direction_field(
     tolerance: float = ...,
     energy_tolerance: float = ...,
     seed: int = ...,
-    boundary: str = ...,
+    boundary_alignment: str = ...,
     feature_alignment: str = ...,
     alignment_length: float = ...,
     least_feature_angle: float = ...,
@@ -908,7 +909,165 @@ def boundary_constraints(
 ) -> BoundaryConstraints: ...
 def alignment_angles(domain: TetDomain | TetMesh, frames: ArrayLike) -> Float64s: ...
 
-smooth_representations: tuple[str, ...]
+class FeatureOptions:
+    angle: float
+    corner_angle: float
+    def __init__(self, angle: float = ..., corner_angle: float = ...) -> None: ...
+
+class RemeshOptions:
+    edge_length: float
+    iterations: int
+    max_cells: float
+    def __init__(self, edge_length: float = ..., iterations: int = ..., max_cells: float = ...) -> None: ...
+
+class SizeFieldOptions:
+    longest: float
+    shortest: float
+    angle: float
+    growth: float
+    max_cells: float
+    def __init__(
+        self,
+        longest: float = ...,
+        shortest: float = ...,
+        angle: float = ...,
+        growth: float = ...,
+        max_cells: float = ...,
+    ) -> None: ...
+
+class DirectionFieldOptions:
+    words: ClassVar[dict[str, list[str]]]
+    symmetry: int
+    method: str
+    epsilon: float
+    first_epsilon: float
+    max_iterations: int
+    tolerance: float
+    energy_tolerance: float
+    seed: int
+    boundary_alignment: str
+    feature_alignment: str
+    alignment_length: float
+    least_feature_angle: float
+    corner_tolerance: float
+    def __init__(
+        self,
+        symmetry: int = ...,
+        method: str = ...,
+        epsilon: float = ...,
+        edge_epsilon: ArrayLike = ...,
+        first_epsilon: float = ...,
+        max_iterations: int = ...,
+        tolerance: float = ...,
+        energy_tolerance: float = ...,
+        seed: int = ...,
+        boundary_alignment: str = ...,
+        feature_alignment: str = ...,
+        alignment_length: float = ...,
+        least_feature_angle: float = ...,
+        corner_tolerance: float = ...,
+        constraints: DirectionConstraints = ...,
+        guide: DirectionGuide = ...,
+    ) -> None: ...
+    @property
+    def edge_epsilon(self) -> Float64s: ...
+    @edge_epsilon.setter
+    def edge_epsilon(self, value: ArrayLike) -> None: ...
+    @property
+    def constraints(self) -> DirectionConstraints: ...
+    @property
+    def guide(self) -> DirectionGuide: ...
+
+class BoundaryOptions:
+    words: ClassVar[dict[str, list[str]]]
+    mode: str
+    feature_tolerance: float
+    def __init__(self, mode: str = ..., feature_tolerance: float = ...) -> None: ...
+
+class DiffuseOptions:
+    first_time: float
+    last_time: float
+    time_exponent: float
+    max_steps: int
+    linear_tolerance: float
+    keep_best: bool
+    threads: int
+    def __init__(
+        self,
+        first_time: float = ...,
+        last_time: float = ...,
+        time_exponent: float = ...,
+        max_steps: int = ...,
+        linear_tolerance: float = ...,
+        keep_best: bool = ...,
+        threads: int = ...,
+    ) -> None: ...
+
+class SmoothOptions:
+    words: ClassVar[dict[str, list[str]]]
+    representation: str
+    solver: str
+    max_iterations: int
+    tolerance: float
+    linear_solver: str
+    midpoint_limit: float
+    threads: int
+    def __init__(
+        self,
+        representation: str = ...,
+        solver: str = ...,
+        max_iterations: int = ...,
+        tolerance: float = ...,
+        linear_solver: str = ...,
+        midpoint_limit: float = ...,
+        threads: int = ...,
+    ) -> None: ...
+
+class FrameFieldOptions:
+    words: ClassVar[dict[str, list[str]]]
+    start: str
+    seed: int
+    rounds: int
+    round_time: float
+    threads: int
+    def __init__(
+        self,
+        start: str = ...,
+        seed: int = ...,
+        rounds: int = ...,
+        round_time: float = ...,
+        diffuse: DiffuseOptions = ...,
+        smooth: SmoothOptions = ...,
+        threads: int = ...,
+    ) -> None: ...
+    @property
+    def diffuse(self) -> DiffuseOptions: ...
+    @property
+    def smooth(self) -> SmoothOptions: ...
+
+class Scheme:
+    @property
+    def name(self) -> str: ...
+    @property
+    def sort(self) -> Literal["embedding", "embedding_with_lengths", "metric"]: ...
+    @property
+    def equation(self) -> str: ...
+    @property
+    def meaning(self) -> str: ...
+    @property
+    def consistent(self) -> bool: ...
+    @property
+    def descends(self) -> bool: ...
+    @property
+    def bytes_per_tet(self) -> dict[str, float]: ...
+    @property
+    def seconds_per_million_tets(self) -> float: ...
+    @property
+    def colour(self) -> str: ...
+    @property
+    def compared(self) -> bool: ...
+
+schemes: dict[str, Scheme]
 constraint_kinds: tuple[str, ...]
 
 def initial_frames(
@@ -950,18 +1109,19 @@ def frame_field(
     seed: int = ...,
     rounds: int = ...,
     round_time: float = ...,
+    threads: int = ...,
     first_time: float = ...,
     last_time: float = ...,
     time_exponent: float = ...,
     max_steps: int = ...,
     linear_tolerance: float = ...,
+    keep_best: bool = ...,
     representation: str = ...,
     solver: str = ...,
     max_iterations: int = ...,
     tolerance: float = ...,
     linear_solver: str = ...,
     midpoint_limit: float = ...,
-    threads: int = ...,
     progress: Progress | None = None,
 ) -> FrameFieldResult: ...
 def singular_graph(domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0) -> SingularGraph: ...
@@ -986,6 +1146,7 @@ def write_surface_field(
 ) -> None: ...
 
 class SingularVertex:
+    words: ClassVar[dict[str, list[str]]]
     point: int
     kind: str
     valence2: int
@@ -1416,6 +1577,7 @@ def axis_scales(
 # ---- volume: streamlines
 
 class FrameStreamline:
+    words: ClassVar[dict[str, list[str]]]
     length: float
     first_end: str
     last_end: str

@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from .defaults import default_of
 from .errors import InvalidInput
 
-REPRESENTATIONS = _core.smooth_representations
-COMPARED = (*_core.representations, "geodesic", "su2_midpoint")  # what a comparison takes when not told
-SOLVERS = ("default", "trust_region", "levenberg_marquardt", "lbfgs")  # default: what goes with the representation
-BOUNDARIES = ("aligned", "fixed", "none")
+REPRESENTATIONS = tuple(_core.schemes)
+COMPARED = tuple(name for name, scheme in _core.schemes.items() if scheme.compared)  # when a comparison is not told
+# default: what goes with the representation.
+SOLVERS = ("default", *dict.fromkeys(solver for scheme in _core.schemes.values() for solver in scheme.bytes_per_tet))
+LINEAR_SOLVERS = tuple(_core.SmoothOptions.words["linear_solver"])
+BOUNDARIES = tuple(_core.BoundaryOptions.words["mode"])
 OF_A_START = "start"  # a treatment of the boundary that needs frames to start from
 SAMPLINGS = ("vertices", "tets")
 SIZES = ("none", "isotropic", "axes")
@@ -25,8 +26,11 @@ REPAIR_LEVELS = ("none", "merge", "safe", "fill", "resolve", "wrap")  # each doe
 REPAIRS = ("default", *REPAIR_LEVELS)
 LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
 LARGEST_SYMMETRY = 1000  # largest_symmetry of direction_field.hpp
-METHODS = {"gl": "ginzburg_landau", "mbo": "mbo", "eigen": "eigenvector"}
-ALIGNMENTS = ("strong", "weak", "none")
+METHODS = tuple(_core.DirectionFieldOptions.words["method"])
+ALIGNMENTS = tuple(_core.DirectionFieldOptions.words["boundary_alignment"])
+
+# The structs of the compiled module, whose defaults are those of the classes below.
+_BOUNDARY, _RECIPE, _SURFACE = _core.BoundaryOptions(), _core.FrameFieldOptions(), _core.DirectionFieldOptions()
 
 
 def require_one_of(name: str, value: str, allowed: Iterable[str]) -> None:
@@ -85,7 +89,7 @@ class MeshOptions:
     """
 
     features: str = "default"
-    feature_angle: float = default_of("detect_features", "angle")
+    feature_angle: float = _core.FeatureOptions().angle
     edge_length: float = 0.0
     remesh: bool = True
     repair: str = "default"
@@ -127,7 +131,7 @@ class MeshOptions:
     @property
     def cells(self) -> int:
         """max_cells, or what 0 stands for."""
-        return self.max_cells or int(default_of("remesh", "max_cells"))
+        return self.max_cells or int(_core.RemeshOptions().max_cells)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -135,26 +139,28 @@ class SurfaceFieldOptions(MeshOptions):
     """Of an N-direction field on a surface: symmetry is N, method "gl", "mbo" or "eigen",
     epsilon the coherence length (0: default).
 
-    boundary: how the field follows the rim of an open surface, "strong", "weak" (singular points may sit there),
-        "none".
+    boundary_alignment, feature_alignment: how the field follows the rim of an open surface, and feature edges inside:
+        "strong", "weak" (singular points may sit there), "none".
     least_feature_angle: radians; feature edges inside the surface that bend by less are not followed (0: all are).
     curvature: pull towards the lines of curvature, 0 (none) or more; symmetry must be even. 1 lets the field follow
         them over lengths of a tenth of octafield.surface.shape_size, 100 over a hundredth; where the two principal
         curvatures are alike it pulls less (weight = curvature * octafield.surface.principal_directions().anisotropy).
     """
 
-    symmetry: int = default_of("direction_field", "symmetry")
-    method: str = "gl"
-    epsilon: float = default_of("direction_field", "epsilon")
-    boundary: str = default_of("direction_field", "boundary")
-    least_feature_angle: float = default_of("direction_field", "least_feature_angle")
+    symmetry: int = _SURFACE.symmetry
+    method: str = _SURFACE.method
+    epsilon: float = _SURFACE.epsilon
+    boundary_alignment: str = _SURFACE.boundary_alignment
+    feature_alignment: str = _SURFACE.feature_alignment
+    least_feature_angle: float = _SURFACE.least_feature_angle
     curvature: float = 0.0
     seed: int = 0
 
     def __post_init__(self) -> None:
         super().__post_init__()
         require_one_of("method", self.method, METHODS)
-        require_one_of("boundary", self.boundary, ALIGNMENTS)
+        require_one_of("boundary_alignment", self.boundary_alignment, ALIGNMENTS)
+        require_one_of("feature_alignment", self.feature_alignment, ALIGNMENTS)
         _make_integer(self, "symmetry", 1, LARGEST_SYMMETRY)
         _require(math.isfinite(self.epsilon) and self.epsilon >= 0, "epsilon must be positive (0: default)")
         _require(
@@ -184,9 +190,11 @@ class FieldOptions(MeshOptions):
         tangents so well (octafield.volume.boundary_constraints).
     seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
     not depend on it. representation, solver: what the last smoothing minimises and how; rounds, max_iterations,
-    tolerance: see octafield.volume.frame_field. streamlines: so many seeds of curves along the three axes, spread over
-    the volume (octafield.volume.spread_points), go into streamlines.vtp; 0: none. sizes: lengths of the axes for which
-    the field is closest to the gradients of a map, "isotropic" (one for all three, octafield.volume.isotropic_scale) or
+    tolerance, linear_solver, midpoint_limit, round_time, first_time, last_time, time_exponent, max_steps,
+    linear_tolerance: see octafield.volume.frame_field; a start that is given is smoothed only, so that those of rounds
+    and of the heat flow do nothing then. streamlines: so many seeds of curves along the three axes, spread over the
+    volume (octafield.volume.spread_points), go into streamlines.vtp; 0: none. sizes: lengths of the axes for which the
+    field is closest to the gradients of a map, "isotropic" (one for all three, octafield.volume.isotropic_scale) or
     "axes" (octafield.volume.axis_scales); "none": not computed.
     split_singular: with sampling "tets"; edges inside that join singular vertices without being singular are split
         after the field is found (octafield.volume.split_between_singular): tets are more than those it was computed on,
@@ -204,15 +212,23 @@ class FieldOptions(MeshOptions):
     """
 
     sampling: str = "vertices"
-    representation: str = "sh4"
-    solver: str = "default"
-    boundary: str = "aligned"
-    feature_tolerance: float = default_of("boundary_constraints", "feature_tolerance")
+    representation: str = _RECIPE.smooth.representation
+    solver: str = _RECIPE.smooth.solver
+    boundary: str = _BOUNDARY.mode
+    feature_tolerance: float = _BOUNDARY.feature_tolerance
     seed: int = 0
     threads: int = 0
-    rounds: int = default_of("frame_field", "rounds")
-    max_iterations: int = default_of("smooth", "max_iterations")
-    tolerance: float = default_of("smooth", "tolerance")
+    rounds: int = _RECIPE.rounds
+    max_iterations: int = _RECIPE.smooth.max_iterations
+    tolerance: float = _RECIPE.smooth.tolerance
+    linear_solver: str = _RECIPE.smooth.linear_solver
+    midpoint_limit: float = _RECIPE.smooth.midpoint_limit
+    round_time: float = _RECIPE.round_time
+    first_time: float = _RECIPE.diffuse.first_time
+    last_time: float = _RECIPE.diffuse.last_time
+    time_exponent: float = _RECIPE.diffuse.time_exponent
+    max_steps: int = _RECIPE.diffuse.max_steps
+    linear_tolerance: float = _RECIPE.diffuse.linear_tolerance
     streamlines: int = 30
     sizes: str = "none"
     split_singular: bool = False
@@ -237,3 +253,9 @@ class FieldOptions(MeshOptions):
         _make_integer(self, "max_iterations", 0, LARGEST_INT)
         _make_integer(self, "streamlines", 0, LARGEST_INT)
         _require(math.isfinite(self.tolerance) and self.tolerance >= 0, "the tolerance must not be negative")
+        require_one_of("linear_solver", self.linear_solver, LINEAR_SOLVERS)
+        _require(self.midpoint_limit > 0, "the midpoint limit must be positive (infinity: none)")
+        _make_integer(self, "max_steps", 0, LARGEST_INT)
+        for name in ("round_time", "first_time", "last_time", "time_exponent", "linear_tolerance"):
+            value = getattr(self, name)
+            _require(math.isfinite(value) and value > 0, f"{name.replace('_', ' ')} must be positive, not {value!r}")

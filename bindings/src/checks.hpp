@@ -15,10 +15,33 @@
 #include "octafield/volume/tet_mesh.hpp"
 #include "octafield/volume/vertex_constraints.hpp"
 
+namespace octafield::surface {
+struct FeatureOptions;
+struct RemeshOptions;
+struct SizeFieldOptions;
+struct DirectionFieldOptions;
+}  // namespace octafield::surface
+namespace octafield::volume {
+struct BoundaryOptions;
+struct DiffuseOptions;
+struct SmoothOptions;
+struct FrameFieldOptions;
+}  // namespace octafield::volume
+
 namespace octafield::bindings {
 
 double finite(double value, std::string_view name);
 int threads_option(int threads);
+
+// Numbers of options are finite (but for those that may be infinite), threads 0 or more; functions check the rest.
+void check(const surface::FeatureOptions& options);
+void check(const surface::RemeshOptions& options);
+void check(const surface::SizeFieldOptions& options);
+void check(const surface::DirectionFieldOptions& options);
+void check(const volume::BoundaryOptions& options);
+void check(const volume::DiffuseOptions& options);
+void check(const volume::SmoothOptions& options);
+void check(const volume::FrameFieldOptions& options);
 
 // Coordinates finite, vertex ids in range. `require_elements`: at least one triangle or tet.
 void check(const surface::TriangleMesh& mesh, bool require_elements = true);

@@ -6,7 +6,7 @@
 #include "octafield/surface/directions.hpp"
 #include "octafield/surface/principal_directions.hpp"
 #include "octafield/surface/surface_singularities.hpp"
-#include "words.hpp"
+#include "options.hpp"
 
 namespace octafield::bindings {
 
@@ -29,59 +29,36 @@ DirectionField solve(const TriangleMesh& mesh, const FeatureGraph& features, Dir
 }
 
 void bind_direction_field(py::module_& m) {
-    const DirectionFieldOptions defaults;
     m.def(
         "direction_field",
-        [](const TriangleMesh& mesh, const FeatureGraph& features, int symmetry, const std::string& method,
-           double epsilon, const std::optional<ArrayLike>& edge_epsilon, double first_epsilon, int max_iterations,
-           double tolerance, double energy_tolerance, std::uint64_t seed, const std::string& boundary,
-           const std::string& feature_alignment, double alignment_length, double least_feature_angle,
-           double corner_tolerance, const std::optional<DirectionConstraints>& constraints,
-           const std::optional<DirectionGuide>& guide, const std::optional<ProgressCallable>& progress) {
-            DirectionFieldOptions options;
-            options.symmetry = symmetry;
-            options.method = from_word<DirectionFieldMethod>(method, "method");
-            options.epsilon = finite(epsilon, "epsilon");
-            if (edge_epsilon) options.edge_epsilon = from_python<Eigen::VectorXd>(*edge_epsilon, "edge_epsilon");
-            options.first_epsilon = finite(first_epsilon, "first_epsilon");
-            options.max_iterations = max_iterations;
-            options.tolerance = finite(tolerance, "tolerance");
-            options.energy_tolerance = finite(energy_tolerance, "energy_tolerance");
-            options.seed = seed;
-            options.boundary = from_word<Alignment>(boundary, "boundary");
-            options.features = from_word<Alignment>(feature_alignment, "feature_alignment");
-            options.alignment_length = finite(alignment_length, "alignment_length");
-            options.least_feature_angle = finite(least_feature_angle, "least_feature_angle");
-            options.corner_tolerance = finite(corner_tolerance, "corner_tolerance");
+        [](const TriangleMesh& mesh, const FeatureGraph& features,
+           const std::optional<DirectionConstraints>& constraints, const std::optional<DirectionGuide>& guide,
+           const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+            auto [options] = options_of<DirectionFieldOptions>("direction_field", given);
             if (constraints) options.constraints = *constraints;
             if (guide) options.guide = *guide;
             return solve(mesh, features, std::move(options), progress);
         },
-        "mesh"_a, "features"_a, py::kw_only(), "symmetry"_a = defaults.symmetry, "method"_a = to_word(defaults.method),
-        "epsilon"_a = defaults.epsilon, "edge_epsilon"_a = py::none(), "first_epsilon"_a = defaults.first_epsilon,
-        "max_iterations"_a = defaults.max_iterations, "tolerance"_a = defaults.tolerance,
-        "energy_tolerance"_a = defaults.energy_tolerance, "seed"_a = defaults.seed,
-        "boundary"_a = to_word(defaults.boundary), "feature_alignment"_a = to_word(defaults.features),
-        "alignment_length"_a = defaults.alignment_length, "least_feature_angle"_a = defaults.least_feature_angle,
-        "corner_tolerance"_a = defaults.corner_tolerance, "constraints"_a = py::none(), "guide"_a = py::none(),
+        "mesh"_a, "features"_a, py::kw_only(), "constraints"_a = py::none(), "guide"_a = py::none(),
         "progress"_a = py::none(),
         "N-direction field on Crouzeix-Raviart elements (Beaufort et al. 2017), aligned to the mesh's boundary and the "
         "feature edges, as a DirectionField.\n\n"
-        "symmetry: N, 4 for crosses. method: \"ginzburg_landau\", a local minimum of the Ginzburg-Landau functional; "
+        "symmetry: N, 4 for crosses. method: \"gl\", a local minimum of the Ginzburg-Landau functional; "
         "\"mbo\", diffusion and projection (Viertel and Osting 2019), close to it at a fraction of the time; "
-        "\"eigenvector\", the globally smoothest (Knoeppel et al. 2013), the start of both. epsilon: coherence length, "
+        "\"eigen\", the globally smoothest (Knoeppel et al. 2013), the start of both. epsilon: coherence length, "
         "input unit, 0 means 2 mean edge lengths, at most a tenth of octafield.surface.shape_size; edge_epsilon: (E,) "
         "one per edge instead, in the order of edge_topology; first_epsilon: where the continuation in epsilon starts, "
         "0 means a tenth of the size. max_iterations: of the descent, or of diffusion and projection; tolerance: "
         "on the residual; energy_tolerance: relative decrease of a round of steps at which to stop; seed: of the "
         "random start where nothing is aligned, and of mbo's disturbance.\n\n"
-        "boundary, feature_alignment: \"strong\", the field follows the edges; \"weak\", a penalty that singular "
+        "boundary_alignment, feature_alignment: \"strong\", the field follows the edges; \"weak\", a penalty that singular "
         "points may sit on; \"none\". alignment_length: of the weak penalty, input unit, 0 means epsilon; "
         "least_feature_angle: feature edges that bend by less (radians) are ignored; corner_tolerance: in [0, 1], two "
         "edges are followed weakly at a vertex where their directions differ by more than this part of pi / N. "
         "constraints: DirectionConstraints; guide: DirectionGuide.\n\n"
         "Cancelled by progress, the best state is returned with converged False. Raises InvalidInput, GeometryError, "
         "SolverError.");
+    list_options<DirectionFieldOptions>(m, "direction_field");
 }
 
 void bind_directions(py::module_& m) {

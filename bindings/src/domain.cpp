@@ -50,22 +50,30 @@ TetDomain made(const TetMesh& mesh, const ArrayLike& regions, const std::optiona
 }
 
 void bind_views(py::class_<TetDomain>& type) {
-    view_property(type, "vertices", [](const TetDomain& d) -> auto& { return d.mesh().vertices; },
-                  "(n, 3) float64 positions, the input's length unit; cannot be written to, as all arrays here.");
-    view_property(type, "tets", [](const TetDomain& d) -> auto& { return d.mesh().tets; },
-                  "(m, 4) int32 vertex ids, positively oriented.");
-    view_property(type, "regions", [](const TetDomain& d) -> auto& { return d.regions(); },
-                  "(m,) int32 an id per tet, or none where all are one region.");
-    view_property(type, "triangles", [](const TetDomain& d) -> auto& { return d.triangles().triangles; },
-                  "(t, 3) int32: every triangle once, ids ascending in each row, rows in lexicographic order.");
-    view_property(type, "triangle_sides", [](const TetDomain& d) -> auto& { return d.triangles().sides; },
-                  "(t, 2) int32: 4 tet + corner opposite, for the tets on both sides, lower first; -1 none.");
-    view_property(type, "tet_triangles", [](const TetDomain& d) -> auto& { return d.triangles().tet_triangles; },
-                  "(m, 4) int32, column k: the triangle opposite corner k.");
-    view_property(type, "sides", [](const TetDomain& d) -> auto& { return d.sides(); },
-                  "(F, 2) int32, per triangle of the surface: tet behind it, and tet ahead of it or -1.");
-    view_property(type, "surface_rows", [](const TetDomain& d) -> auto& { return d.surface_rows(); },
-                  "(F,) int32, per triangle of the surface: its row in triangles.");
+    view_property(
+        type, "vertices", [](const TetDomain& d) -> auto& { return d.mesh().vertices; },
+        "(n, 3) float64 positions, the input's length unit; cannot be written to, as all arrays here.");
+    view_property(
+        type, "tets", [](const TetDomain& d) -> auto& { return d.mesh().tets; },
+        "(m, 4) int32 vertex ids, positively oriented.");
+    view_property(
+        type, "regions", [](const TetDomain& d) -> auto& { return d.regions(); },
+        "(m,) int32 an id per tet, or none where all are one region.");
+    view_property(
+        type, "triangles", [](const TetDomain& d) -> auto& { return d.triangles().triangles; },
+        "(t, 3) int32: every triangle once, ids ascending in each row, rows in lexicographic order.");
+    view_property(
+        type, "triangle_sides", [](const TetDomain& d) -> auto& { return d.triangles().sides; },
+        "(t, 2) int32: 4 tet + corner opposite, for the tets on both sides, lower first; -1 none.");
+    view_property(
+        type, "tet_triangles", [](const TetDomain& d) -> auto& { return d.triangles().tet_triangles; },
+        "(m, 4) int32, column k: the triangle opposite corner k.");
+    view_property(
+        type, "sides", [](const TetDomain& d) -> auto& { return d.sides(); },
+        "(F, 2) int32, per triangle of the surface: tet behind it, and tet ahead of it or -1.");
+    view_property(
+        type, "surface_rows", [](const TetDomain& d) -> auto& { return d.surface_rows(); },
+        "(F,) int32, per triangle of the surface: its row in triangles.");
 }
 
 void bind_parts(py::class_<TetDomain>& type) {

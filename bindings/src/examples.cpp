@@ -226,9 +226,9 @@ constexpr Example of_volume_fields[] = {
     BoundaryConstraints(1 free, 1 axis, 0 fixed))"},
     {"initial_frames", R"(
     >>> problem = octafield.prepare_field(octafield.prepare_mesh(generate("box")))
-    >>> meshed = problem.meshed
-    >>> held = octafield.volume.boundary_constraints(len(meshed.tets.vertices), meshed.boundary, meshed.features, problem.directions)
-    >>> octafield.volume.initial_frames(meshed.tets, held).shape == (len(meshed.tets.vertices), 4)
+    >>> tets = problem.meshed.tets
+    >>> held = octafield.volume.boundary_constraints(tets, problem.directions)
+    >>> octafield.volume.initial_frames(tets, held).shape == (len(tets.vertices), 4)
     True)"},
     {"smooth", R"(
     >>> result = octafield.compute_field(generate("box"), octafield.FieldOptions(edge_length=0.3))

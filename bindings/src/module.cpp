@@ -51,6 +51,7 @@ PYBIND11_MODULE(_core, module) {
     py::register_local_exception_translator(translate);
     bind_frames(module);
     bind_surface_types(module);
+    bind_option_types(module);
     bind_surface(module);
     bind_volume_types(module);
     bind_field_analysis_types(module);
@@ -61,6 +62,7 @@ PYBIND11_MODULE(_core, module) {
     bind_domain(module);
     bind_volume(module);
     bind_sampling(module);
+    bind_schemes(module);
     bind_smoothing(module);
     bind_field_analysis(module);
     bind_parameterization(module);

@@ -19,7 +19,16 @@ namespace octafield::bindings {
 template <class T>
 class Record {
 public:
+    struct Field {
+        std::string name;
+        std::function<void(T&, const py::handle&)> set;
+        bool nested, array;  // another record: no option of a function (options.hpp); an array, which may be absent
+    };
+
     Record(py::module_& module, const char* name, const char* doc) : name_(name), class_(module, name, doc) {}
+
+    // Those of the class, once it is bound.
+    static const std::vector<Field>& fields() { return *all_fields(); }
 
     template <class Member>
     Record& field(const char* name, Member T::*member, const char* doc) {
@@ -31,8 +40,11 @@ public:
         } else {
             class_.def_property_readonly(name, get, doc);
         }
+        constexpr bool nested = std::is_class_v<Member> && !ArrayType<Member> && !std::is_same_v<Member, std::string>;
         fields_->push_back(
-            {name, [name, member](T& self, const py::handle& value) { assign(self, name, member, value); }});
+            {name, [name, member](T& self, const py::handle& value) { assign(self, name, member, value); }, nested,
+             ArrayType<Member>});
+        if constexpr (std::is_enum_v<Member>) words_[name] = py::cast(words_of<Member>());
         return *this;
     }
 
@@ -53,6 +65,7 @@ public:
                        }),
                        doc.c_str());
         }
+        if (!words_.empty()) class_.attr("words") = words_;  // by field: what an enumeration may be
         class_.def("__repr__", [repr, name](const T& self) { return name + "(" + repr(self) + ")"; });
         class_.def("__reduce__", [fields](const py::object& self) {
             py::tuple values(fields->size());
@@ -62,10 +75,10 @@ public:
     }
 
 private:
-    struct Field {
-        std::string name;
-        std::function<void(T&, const py::handle&)> set;
-    };
+    static std::shared_ptr<std::vector<Field>>& all_fields() {
+        static auto all = std::make_shared<std::vector<Field>>();
+        return all;
+    }
 
     template <class Member>
     py::cpp_function getter(Member T::*member) {
@@ -125,7 +138,8 @@ private:
 
     std::string name_;
     py::class_<T> class_;
-    std::shared_ptr<std::vector<Field>> fields_ = std::make_shared<std::vector<Field>>();
+    std::shared_ptr<std::vector<Field>> fields_ = all_fields();
+    py::dict words_;
 };
 
 inline std::string count(std::ptrdiff_t n, const std::string& one, const std::string& many) {

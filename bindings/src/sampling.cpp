@@ -6,6 +6,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "interruptible.hpp"
+#include "options.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/tet_singularities.hpp"
 #include "record.hpp"
@@ -94,25 +95,23 @@ void bind_samplings(py::module_& m) {
 }
 
 void bind_boundary(py::module_& m) {
-    const BoundaryOptions defaults;
     m.def(
         "tet_boundary_constraints",
-        [](const DomainOrMesh& mesh, const ArrayLike& directions, const std::string& mode,
-           double feature_tolerance) {
-            const BoundaryOptions options{.mode = from_word<BoundaryMode>(mode, "mode"),
-                                          .feature_tolerance = finite(feature_tolerance, "feature_tolerance")};
-            return run_interruptible([=, rows = from_python<Points>(directions, "directions")](Job&) mutable {
-                const TetDomain domain = domain_of(mesh);
-                check_vectors(rows, domain.surface().mesh.triangles.rows(), "directions", "triangle");
-                return tet_boundary_constraints(domain, rows, options);
-            });
+        [](const DomainOrMesh& mesh, const ArrayLike& directions, const py::kwargs& given) {
+            const auto [options] = options_of<BoundaryOptions>("tet_boundary_constraints", given);
+            return run_interruptible(
+                [mesh, options = options, rows = from_python<Points>(directions, "directions")](Job&) mutable {
+                    const TetDomain domain = domain_of(mesh);
+                    check_vectors(rows, domain.surface().mesh.triangles.rows(), "directions", "triangle");
+                    return tet_boundary_constraints(domain, rows, options);
+                });
         },
-        "domain"_a, "directions"_a, py::kw_only(), "mode"_a = to_word(defaults.mode),
-        "feature_tolerance"_a = defaults.feature_tolerance,
+        "domain"_a, "directions"_a,
         "Constraints of frames in the tets, as BoundaryConstraints with one row per tet. A tet with one triangle of "
         "the surface has an axis on its normal; with several, on their mean normal where feature_tolerance (radians) "
         "allows, else a whole frame that fits them so well, else it is released and listed. directions: (F, 3) "
         "tangents in its triangles (triangle_directions). mode: as of boundary_constraints.");
+    list_options<BoundaryOptions>(m, "tet_boundary_constraints");
     m.def(
         "tet_alignment_angles",
         [](const DomainOrMesh& mesh, const ArrayLike& frames) {

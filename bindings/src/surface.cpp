@@ -5,6 +5,7 @@
 #include "bind.hpp"
 #include "checks.hpp"
 #include "interruptible.hpp"
+#include "options.hpp"
 #include "octafield/surface/read_write.hpp"
 #include "octafield/surface/remesh.hpp"
 #include "octafield/surface/repair.hpp"
@@ -193,20 +194,20 @@ void bind_features(py::module_& m) {
     const FeatureOptions defaults;
     m.def(
         "detect_features",
-        [](const TriangleMesh& mesh, double angle, double corner_angle) {
-            const FeatureOptions options{.angle = finite(angle, "angle"),
-                                         .corner_angle = finite(corner_angle, "corner_angle")};
-            return run_interruptible([=](Job&) {
+        [](const TriangleMesh& mesh, const py::kwargs& given) {
+            const auto [options] = options_of<FeatureOptions>("detect_features", given);
+            return run_interruptible([mesh, options = options](Job&) {
                 check(mesh);
                 return detect_features(mesh, options);
             });
         },
-        "mesh"_a, py::kw_only(), "angle"_a = defaults.angle, "corner_angle"_a = defaults.corner_angle,
+        "mesh"_a,
         "Feature edges and corners as a FeatureGraph. angle (radians, in (0, pi)): an edge is a feature when the "
         "normals of its triangles differ "
         "by more; corner_angle (radians): a vertex with two feature edges is a corner when the curve turns by more. "
         "Boundary edges are "
         "always features.");
+    list_options<FeatureOptions>(m, "detect_features");
     m.def(
         "feature_graph",
         [](const TriangleMesh& mesh, const ArrayLike& edges, double corner_angle) {
@@ -224,52 +225,45 @@ void bind_features(py::module_& m) {
 }
 
 void bind_remesh(py::module_& m) {
-    const RemeshOptions defaults;
     m.def(
         "remesh",
-        [](const TriangleMesh& mesh, const FeatureGraph& features, double edge_length, int iterations,
-           double max_cells, const std::optional<ProgressCallable>& progress) {
-            const RemeshOptions options{.edge_length = finite(edge_length, "edge_length"),
-                                        .iterations = iterations,
-                                        .max_cells = finite(max_cells, "max_cells")};
+        [](const TriangleMesh& mesh, const FeatureGraph& features, const std::optional<ProgressCallable>& progress,
+           const py::kwargs& given) {
+            const auto [options] = options_of<RemeshOptions>("remesh", given);
             return run_interruptible(
-                [mesh = mesh, features = features, options](Job& job) mutable {
+                [mesh = mesh, features = features, options = options](Job& job) mutable {
                     check(mesh);
                     check(features, mesh);
                     return remesh(mesh, features, options, job.progress());
                 },
                 progress);
         },
-        "mesh"_a, "features"_a, py::kw_only(), "edge_length"_a = defaults.edge_length,
-        "iterations"_a = defaults.iterations, "max_cells"_a = defaults.max_cells, "progress"_a = py::none(),
+        "mesh"_a, "features"_a, py::kw_only(), "progress"_a = py::none(),
         "Isotropic remeshing, features kept (Botsch, Kobbelt 2004), as a RemeshResult. The input must be valid, and the "
         "result is, with the same topology. edge_length: input unit; 0 means lengths that fit the shape "
         "(octafield.surface.size_field, with max_cells), lowered where triangles would cross, or the new surface would leave "
         "the input's by more than 1/400 of octafield.surface.shape_size or change its volume by more than 1 %. A length that "
         "is given is shortened only where the surface would not be sound; the input's triangles are kept where none "
         "is. iterations: rounds, at least 1. max_cells: without a length, triangles (and tets inside) to be expected.");
-    const SizeFieldOptions sizes;
+    list_options<RemeshOptions>(m, "remesh");
     m.def(
         "size_field",
-        [](const TriangleMesh& mesh, const FeatureGraph& features, double longest, double shortest, double angle,
-           double growth, double max_cells) {
-            const SizeFieldOptions options{finite(longest, "longest"), finite(shortest, "shortest"),
-                                           finite(angle, "angle"), finite(growth, "growth"),
-                                           finite(max_cells, "max_cells")};
-            return run_interruptible([mesh = mesh, features = features, options](Job& job) mutable {
+        [](const TriangleMesh& mesh, const FeatureGraph& features, const py::kwargs& given) {
+            const auto [options] = options_of<SizeFieldOptions>("size_field", given);
+            return run_interruptible([mesh = mesh, features = features, options = options](Job& job) mutable {
                 check(mesh);
                 check(features, mesh);
                 return size_field(mesh, features, options, job.progress());
             });
         },
-        "mesh"_a, "features"_a, py::kw_only(), "longest"_a = sizes.longest, "shortest"_a = sizes.shortest,
-        "angle"_a = sizes.angle, "growth"_a = sizes.growth, "max_cells"_a = sizes.max_cells,
+        "mesh"_a, "features"_a,
         "Edge lengths that fit a surface, as a SizeField: what octafield.surface.remesh starts from where no length is given. "
         "At each vertex angle (radians, the turn along one edge) over the curvature, twice the width of walls, gaps "
         "and strips between feature curves, within shortest (0: 1/16 of longest) and longest (0: "
         "octafield.surface.default_edge_length), changing by at most growth per distance. Where more than max_cells triangles "
         "or tets would be needed, all lengths are multiplied by one number, and a note says so. The mesh must be "
         "valid. Raises InvalidInput, GeometryError.");
+    list_options<SizeFieldOptions>(m, "size_field");
 }
 
 }  // namespace

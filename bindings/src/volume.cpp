@@ -8,6 +8,7 @@
 #include "bind.hpp"
 #include "domain.hpp"
 #include "interruptible.hpp"
+#include "options.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/singularities.hpp"
 #include "octafield/volume/tetrahedralize.hpp"
@@ -139,24 +140,23 @@ void bind_boundary(py::module_& m) {
                          "One unit normal per vertex of the domain's surface and smooth sector, the triangles round it "
                          "between feature edges, weighted by area, as SectorNormals.");
 
-    const BoundaryOptions defaults;
     m.def(
         "boundary_constraints",
-        [](const DomainOrMesh& mesh, const ArrayLike& directions, const std::string& mode, double feature_tolerance) {
-            const BoundaryOptions options{.mode = from_word<BoundaryMode>(mode, "mode"),
-                                          .feature_tolerance = finite(feature_tolerance, "feature_tolerance")};
-            return run_interruptible([=, rows = from_python<Points>(directions, "directions")](Job&) {
-                const TetDomain domain = domain_of(mesh);
-                check_vectors(rows, domain.surface().mesh.vertices.rows(), "directions");
-                return boundary_constraints(domain, rows, options);
-            });
+        [](const DomainOrMesh& mesh, const ArrayLike& directions, const py::kwargs& given) {
+            const auto [options] = options_of<BoundaryOptions>("boundary_constraints", given);
+            return run_interruptible(
+                [mesh, options = options, rows = from_python<Points>(directions, "directions")](Job&) {
+                    const TetDomain domain = domain_of(mesh);
+                    check_vectors(rows, domain.surface().mesh.vertices.rows(), "directions");
+                    return boundary_constraints(domain, rows, options);
+                });
         },
-        "domain"_a, "directions"_a, py::kw_only(), "mode"_a = to_word(defaults.mode),
-        "feature_tolerance"_a = defaults.feature_tolerance,
+        "domain"_a, "directions"_a,
         "Frames and constraints on the surface of a TetDomain, as BoundaryConstraints with one row per vertex of its "
         "mesh. directions: (B, 3) unit tangents at the surface's vertices (vertex_directions). mode: \"aligned\" (one "
         "axis on the normal, twist free), \"fixed\" (whole frame) or \"none\"; feature_tolerance (radians): how well "
         "one frame must fit a feature vertex to be kept whole.");
+    list_options<BoundaryOptions>(m, "boundary_constraints");
     m.def(
         "alignment_angles",
         [](const DomainOrMesh& mesh, const ArrayLike& frames) {

@@ -6,12 +6,14 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "octafield/error.hpp"
 #include "octafield/surface/direction_field.hpp"
 #include "octafield/surface/streamlines.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/sampling.hpp"
+#include "octafield/volume/schemes.hpp"
 #include "octafield/volume/smooth.hpp"
 #include "octafield/volume/streamlines.hpp"
 
@@ -24,7 +26,7 @@ template <>
 struct Words<surface::DirectionFieldMethod> {
     using E = surface::DirectionFieldMethod;
     static constexpr std::array<std::pair<const char*, E>, 3> list{
-        {{"ginzburg_landau", E::ginzburg_landau}, {"eigenvector", E::eigenvector}, {"mbo", E::mbo}}};
+        {{"gl", E::gl}, {"mbo", E::mbo}, {"eigen", E::eigen}}};
 };
 
 template <>
@@ -81,17 +83,24 @@ struct Words<volume::Start> {
 template <>
 struct Words<volume::SmoothSolver> {
     using E = volume::SmoothSolver;
-    static constexpr std::array<std::pair<const char*, E>, 4> list{{{"automatic", E::automatic},
+    static constexpr std::array<std::pair<const char*, E>, 4> list{{{"default", E::default_},
                                                                     {"trust_region", E::trust_region},
                                                                     {"levenberg_marquardt", E::levenberg_marquardt},
                                                                     {"lbfgs", E::lbfgs}}};
 };
 
 template <>
+struct Words<volume::SchemeSort> {
+    using E = volume::SchemeSort;
+    static constexpr std::array<std::pair<const char*, E>, 3> list{
+        {{"embedding", E::embedding}, {"embedding_with_lengths", E::embedding_with_lengths}, {"metric", E::metric}}};
+};
+
+template <>
 struct Words<volume::LinearSolver> {
     using E = volume::LinearSolver;
     static constexpr std::array<std::pair<const char*, E>, 3> list{
-        {{"automatic", E::automatic}, {"cholesky", E::cholesky}, {"conjugate_gradients", E::conjugate_gradients}}};
+        {{"default", E::default_}, {"cholesky", E::cholesky}, {"conjugate_gradients", E::conjugate_gradients}}};
 };
 
 template <class Enum>
@@ -99,6 +108,13 @@ std::string to_word(Enum value) {
     for (const auto& [word, meaning] : Words<Enum>::list)
         if (meaning == value) return word;
     return {};
+}
+
+template <class Enum>
+std::vector<std::string> words_of() {
+    std::vector<std::string> words;
+    for (const auto& [word, meaning] : Words<Enum>::list) words.emplace_back(word);
+    return words;
 }
 
 template <class Enum>

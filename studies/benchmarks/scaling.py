@@ -70,8 +70,8 @@ def measured_run(body: str, tets: int, representation: str) -> dict:
     options = FieldOptions(edge_length=edge, representation=representation, threads=1, **steps)
     step("start", lambda: time.sleep(0.1))
     meshed = step("mesh", lambda: pipeline.prepare_mesh(generate(body), options))
-    problem = step("surface", lambda: pipeline.prepare(meshed))
-    result = step("run", lambda: pipeline.run(problem, options))
+    problem = step("surface", lambda: pipeline.prepare_field(meshed))
+    result = step("run", lambda: pipeline.run_field(problem, options))
     with tempfile.TemporaryDirectory() as folder:
         step("write", lambda: results.write_field_result(result, Path(folder)))
         sizes = {path.name: path.stat().st_size for path in Path(folder).iterdir()}

@@ -33,9 +33,9 @@ from study_output import markdown_table  # noqa: E402
 
 OURS = {
     "octafield mbo": "mbo",
-    "octafield ginzburg_landau": "ginzburg_landau",
-    "octafield ginzburg_landau, eps h/2": "ginzburg_landau fine",
-    "octafield eigenvector": "eigenvector",
+    "octafield gl": "gl",
+    "octafield gl, eps h/2": "gl fine",
+    "octafield eigen": "eigen",
 }
 HELD = "octafield mbo, one edge held"  # as Gmsh needs on closed surfaces without features
 PEERS = ("gmsh", "mouette")

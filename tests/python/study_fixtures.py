@@ -15,8 +15,12 @@ runs: {representation: [sh4, sh469]}
 STALLS = """import time
 import octafield.fields.frame_field as p
 run = p.run_field
+<<<<<<< HEAD
 slow = lambda options: options.representation == 'sh469'
 p.run_field = lambda problem, options, *a: time.sleep(60) if slow(options) else run(problem, options, *a)
+=======
+p.run_field = lambda problem, o, *a: time.sleep(60) if o.representation == 'sh469' else run(problem, o, *a)
+>>>>>>> main
 """
 
 
@@ -43,6 +47,6 @@ def trap_workers(folder: Path, monkeypatch, code: str) -> None:
     trap.mkdir()
     guarded = "".join(f"    {line}\n" for line in code.splitlines())
     (trap / "sitecustomize.py").write_text(
-        f"import os, sys\nif any('study.worker' in a for a in sys.orig_argv):\n{guarded}"
+        f"import os, sys\nif any('study.running.worker' in a for a in sys.orig_argv):\n{guarded}"
     )
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(trap), *filter(None, [os.environ.get("PYTHONPATH")])]))

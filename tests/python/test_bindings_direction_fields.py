@@ -21,9 +21,9 @@ def guide_at(mesh, angle, **more):
     return of.surface.DirectionGuide(np.tile(at_angle(angle), (len(mesh.triangles), 1)), **more)
 
 
-@pytest.mark.parametrize("method", ["ginzburg_landau", "mbo", "eigenvector"])
+@pytest.mark.parametrize("method", ["gl", "mbo", "eigen"])
 def test_a_constant_guide_is_the_field_where_nothing_else_is_asked(flat, method):
-    field = of.surface.direction_field(flat, NONE, method=method, boundary="none", guide=guide_at(flat, 0.3))
+    field = of.surface.direction_field(flat, NONE, method=method, boundary_alignment="none", guide=guide_at(flat, 0.3))
     np.testing.assert_allclose(angles_of(flat, field), 0.3, atol=1e-6)
     np.testing.assert_allclose(np.abs(field.values), 1, atol=1e-6)
     assert of.surface.surface_singularities(flat, field).boundary_deviation == pytest.approx(0.3, abs=1e-6)
@@ -44,7 +44,7 @@ def test_the_boundary_is_followed_as_strongly_as_asked(flat):
     deviation = {}
     for word in ("strong", "weak", "none"):
         field = of.surface.direction_field(
-            flat, NONE, boundary=word, alignment_length=0.05, guide=guide_at(flat, 0.3, length=0.1)
+            flat, NONE, boundary_alignment=word, alignment_length=0.05, guide=guide_at(flat, 0.3, length=0.1)
         )
         deviation[word] = of.surface.surface_singularities(flat, field).boundary_deviation
     assert deviation["strong"] == pytest.approx(0, abs=1e-12)
@@ -55,7 +55,7 @@ def test_features_are_followed_on_request_only(box_surface, box_features):
     features = {tuple(e) for e in box_features.edges.tolist()}
 
     def on_features(**options):
-        field = of.surface.direction_field(box_surface, box_features, method="eigenvector", seed=1, **options)
+        field = of.surface.direction_field(box_surface, box_features, method="eigen", seed=1, **options)
         return field.values[[tuple(e) in features for e in field.topology.edges.tolist()]]
 
     np.testing.assert_allclose(on_features(), 1)
@@ -102,7 +102,7 @@ def test_one_coherence_length_per_edge_overrides_the_common_one(sphere):
     assert graded.epsilon == 0.1 and graded.energy != common.energy
 
 
-@pytest.mark.parametrize("method", ["ginzburg_landau", "mbo", "eigenvector"])
+@pytest.mark.parametrize("method", ["gl", "mbo", "eigen"])
 def test_the_square_has_no_singular_point_and_its_corners_make_the_characteristic(flat, method):
     found = of.surface.surface_singularities(flat, of.surface.direction_field(flat, NONE, method=method))
     assert found.euler_characteristic == 1 and found.agree and found.index_sum == pytest.approx(1)
@@ -126,7 +126,7 @@ def test_principal_directions_of_a_cylinder_run_round_it():
     np.testing.assert_allclose(np.linalg.norm(found.directions, axis=1), 1)
     assert found.anisotropy.min() > 0.5
     guide = of.surface.DirectionGuide(found.directions, found.anisotropy, 0.1)
-    field = of.surface.direction_field(mesh, NONE, boundary="none", symmetry=2, guide=guide)
+    field = of.surface.direction_field(mesh, NONE, boundary_alignment="none", symmetry=2, guide=guide)
     np.testing.assert_allclose(of.surface.triangle_directions(mesh, field)[:, 2], 0, atol=0.02)
 
 
@@ -171,8 +171,9 @@ def test_constraints_and_guides_that_do_not_fit_are_refused(flat):
 
 
 @pytest.mark.parametrize("options", [
-    {"boundary": "firm"}, {"feature_alignment": "firm"}, {"alignment_length": -1.0}, {"alignment_length": np.nan},
-    {"least_feature_angle": -0.1}, {"corner_tolerance": 1.5}, {"first_epsilon": -1.0}, {"first_epsilon": np.inf},
+    {"boundary_alignment": "firm"}, {"feature_alignment": "firm"}, {"alignment_length": -1.0},
+    {"alignment_length": np.nan}, {"least_feature_angle": -0.1}, {"corner_tolerance": 1.5},
+    {"first_epsilon": -1.0}, {"first_epsilon": np.inf},
     {"edge_epsilon": [0.1]}, {"edge_epsilon": "wide"}])  # fmt: skip
 def test_options_out_of_range_are_refused(flat, options):
     with pytest.raises(of.InvalidInput, match=next(iter(options))):

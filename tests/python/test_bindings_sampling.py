@@ -104,7 +104,7 @@ def test_lengths_are_interpolated_between_two_faces(box):
     frames = np.tile([1.0, 0, 0, 0], (len(z), 1))
     lengths = np.where(z[:, None] == 1, [3, 1, 0.5], [1, 2, 1.5])
     constraints = of.volume.BoundaryConstraints(kind, np.zeros((len(z), 3)), frames, kind > 0, [], lengths)
-    assert "odeco_lengths" in of.volume.smooth_representations
+    assert of.volume.schemes["odeco_lengths"].sort == "embedding_with_lengths"
     result = of.volume.smooth(box, constraints, frames, representation="odeco_lengths", tolerance=1e-10)
     expected = (1 - z)[:, None] * [1, 2, 1.5] + z[:, None] * [3, 1, 0.5]
     assert abs(np.asarray(result.lengths) - expected).max() < 5e-3

@@ -95,11 +95,11 @@ def report(phase: str, fraction: float, merit: float) -> bool | None:
     return fraction < 1
 features = octafield.surface.detect_features(mesh, angle=0.5)
 field: octafield.surface.DirectionField = octafield.surface.direction_field(
-    mesh, features, method="eigenvector", progress=report)
+    mesh, features, method="eigen", progress=report)
 guided = octafield.surface.direction_field(
     mesh, features, edge_epsilon=np.ones(3), constraints=octafield.surface.DirectionConstraints([[0, 1]], [[1, 0, 0]]),
     guide=octafield.surface.DirectionGuide(octafield.surface.principal_directions(mesh, features).directions),
-    boundary="weak")
+    boundary_alignment="weak")
 found: octafield.surface.SurfaceSingularities = octafield.surface.surface_singularities(mesh, field)
 lines: list[octafield.surface.Streamline] = octafield.surface.separatrices(
     mesh, features, field, found, progress=report)

@@ -11,6 +11,7 @@ from octafield.meshes.gmsh import cad
 from octafield.meshes.gmsh.cad_worker import WAYS
 from octafield.meshes.grids import Grid
 from pipeline_fixtures import octafield, shared
+from test_cad import part  # noqa: F401 (a fixture)
 
 
 @pytest.mark.parametrize("way", range(len(WAYS)))

@@ -91,12 +91,12 @@ def test_the_rim_of_an_open_surface_is_followed_as_asked(tmp_path):
     pyvista.Disc(inner=0, r_res=8, c_res=32).triangulate().clean().save(disk)
     energies = {}
     for boundary in ("strong", "weak", "none"):
-        arguments = ("--boundary", boundary, "--no-remesh", "--json", "-")
+        arguments = ("--boundary-alignment", boundary, "--no-remesh", "--json", "-")
         record = json.loads(octafield("surface-field", disk, "-o", tmp_path / boundary, *arguments, check=0).stdout)
-        assert record["index_sum"] == pytest.approx(1) and record["options"]["boundary"] == boundary
+        assert record["index_sum"] == pytest.approx(1) and record["options"]["boundary_alignment"] == boundary
         energies[boundary] = record["energy"]
     assert energies["strong"] > energies["weak"] > energies["none"] == pytest.approx(0, abs=1e-6)
-    octafield("surface-field", disk, "-o", tmp_path / "firm", "--boundary", "firm", check=2)
+    octafield("surface-field", disk, "-o", tmp_path / "firm", "--boundary-alignment", "firm", check=2)
 
 
 def test_info_passes_a_sound_surface_and_names_the_failure_of_a_bad_one(tmp_path):

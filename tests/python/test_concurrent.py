@@ -20,7 +20,7 @@ def metric_field():
 
 
 CALLS = {
-    "ginzburg_landau": lambda: of.surface.direction_field(BALL, NONE).values,
+    "gl": lambda: of.surface.direction_field(BALL, NONE).values,
     "mbo": lambda: of.surface.direction_field(BALL, NONE, method="mbo").values,
     "ceres": metric_field,
 }

@@ -17,7 +17,7 @@ def part() -> of.TriangleMesh:
 
 def moved(mesh, turn=None, scale=1.0, shift=(0, 0, 0)):
     """The same mesh elsewhere."""
-    points = np.asarray(mesh.vertices)
+    points = np.array(mesh.vertices)  # a domain's own cannot be written, which SciPy asks for
     points = (points if turn is None else turn.apply(points)) * scale + np.asarray(shift)
     if isinstance(mesh, of.TriangleMesh):
         return of.TriangleMesh(points, mesh.triangles)

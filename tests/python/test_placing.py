@@ -91,7 +91,9 @@ def test_frames_for_all_points_of_the_file_lose_those_of_points_without_tets(tmp
     for asked in (None, "vertices"):
         frames = file_of(count, lengths=lengths)
         found = placing.place(frames, given, asked)
-        assert found.where == "vertices" and found.mesh is given.tets
+        assert found.where == "vertices"
+        np.testing.assert_array_equal(found.mesh.tets, given.tets.tets)
+        np.testing.assert_array_equal(found.mesh.vertices, given.tets.vertices)
         np.testing.assert_array_equal(found.frames, frames.frames[1:])
         np.testing.assert_array_equal(found.lengths, lengths[1:])
     assert placing.place(file_of(count), given, None).lengths is None

@@ -212,7 +212,7 @@ def test_index_sums_are_exact_on_a_jagged_coast(tmp_path):
     table = rows(tmp_path, 0)
     assert {row["index sum"] for row in table} == {"-2"}  # three islands
     inside = {row["method"]: int(row["points inside, +"]) + int(row["-"]) for row in table}
-    assert inside["ginzburg_landau, eps 2 h"] <= inside["eigenvector (harmonic)"]
+    assert inside["gl, eps 2 h"] <= inside["eigenvector (harmonic)"]
 
 
 def test_the_benchmark_tells_every_method_s_points_and_energy(tmp_path):

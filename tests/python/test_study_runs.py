@@ -134,8 +134,8 @@ def test_a_run_that_kills_its_process_twice_is_recorded_and_tried_on_resume(desc
         tmp_path,
         monkeypatch,
         "import octafield.fields.frame_field as p\nrun = p.run_field\n"
-        "p.run_field = lambda problem, options, *a:"
-        " os.abort() if options.representation == 'su2' else run(problem, options, *a)\n",
+        "p.run_field = lambda problem, options, *a: os.abort() if"
+        " options.representation == 'su2' else run(problem, options, *a)\n",
     )
     outcome = study.run(study.parse(text), tmp_path / "out", jobs=1)
     assert outcome.status == study.Status(done=2, failed=0, crashed=1, open=0)

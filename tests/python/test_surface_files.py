@@ -21,8 +21,8 @@ BAD = {"degenerate_s17": "degenerate_triangle", "fin_s01": "non_manifold_edge",
 @pytest.mark.parametrize("path", SOUND + TETS, ids=lambda path: path.name)
 def test_indices_add_up_to_the_euler_characteristic(path):
     meshed = prepare_mesh(shared(path), MeshOptions(remesh=False), volume=False)
-    for method in ("ginzburg_landau", "mbo", "eigenvector"):
-        for symmetry in (4,) if method == "ginzburg_landau" else (1, 2, 4, 6):
+    for method in ("gl", "mbo", "eigen"):
+        for symmetry in (4,) if method == "gl" else (1, 2, 4, 6):
             features = meshed.features if symmetry % 2 == 0 else of.FeatureGraph()
             field = of.surface.direction_field(meshed.surface, features, symmetry=symmetry, method=method)
             found = of.surface.surface_singularities(meshed.surface, field)

@@ -49,7 +49,9 @@ def test_curvature_makes_the_field_follow_the_lines_of_curvature(make):
     mesh = make()
     # The other methods try the lines of curvature by themselves.
     free, held = (
-        compute_surface_field(mesh, SurfaceFieldOptions(curvature=weight, method="eigen", boundary="none", **AS_IT_IS))
+        compute_surface_field(
+            mesh, SurfaceFieldOptions(curvature=weight, method="eigen", boundary_alignment="none", **AS_IT_IS)
+        )
         for weight in (0, 1)
     )
     assert degrees_off(mesh, free.direction_field, round_the_axis(mesh)).mean() > 10
@@ -82,7 +84,7 @@ def test_curvature_on_the_command_line(tmp_path):
 
 def test_constraints_and_guides_reach_the_field_of_a_prepared_surface():
     mesh = square(8)
-    options = SurfaceFieldOptions(boundary="none", **AS_IT_IS)
+    options = SurfaceFieldOptions(boundary_alignment="none", **AS_IT_IS)
     meshed = prepare_mesh(mesh, options, volume=False)
     direction = [np.cos(0.3), np.sin(0.3), 0]
     asked = of.surface.DirectionConstraints(vertices=[40], vertex_directions=[direction])
@@ -149,7 +151,7 @@ def test_flat_feature_edges_are_followed_or_not_as_asked(tmp_path):
     features = of.surface.feature_graph(mesh, diagonal + np.column_stack([middle[:-1], middle[1:]]).tolist())
     on = [tuple(edge) in {(0, 10), (10, 20)} for edge in of.surface.edge_topology(mesh).edges.tolist()]
     follows = lambda **more: np.abs(of.surface.direction_field(mesh, features, **more).values[on] - 1)
-    assert follows(boundary="none").min() < 1e-12
+    assert follows(boundary_alignment="none").min() < 1e-12
     assert follows(least_feature_angle=1e-6).min() > 1
 
 

@@ -23,7 +23,7 @@ TriangleMesh ellipse(int rings, double height) {
 TEST(WeakBoundary, TendsToTheStrongOneAsItsLengthGrows) {
     const TriangleMesh mesh = disk(16);
     const auto at = [&](Alignment boundary, double length) {
-        return direction_field(mesh, {}, {.epsilon = 0.1, .boundary = boundary, .alignment_length = length}).energy;
+        return direction_field(mesh, {}, {.epsilon = 0.1, .boundary_alignment = boundary, .alignment_length = length}).energy;
     };
     const double strong = at(Alignment::strong, 0);
     double before = 0;
@@ -41,7 +41,7 @@ TEST(WeakBoundary, LetsSingularPointsSitOnTheBoundary) {
     const TriangleMesh mesh = ellipse(24, 0.25);
     const auto on_boundary = [&](Alignment boundary, double length) {
         const auto found = surface_singularities(
-            mesh, direction_field(mesh, {}, {.epsilon = 0.1, .boundary = boundary, .alignment_length = length}));
+            mesh, direction_field(mesh, {}, {.epsilon = 0.1, .boundary_alignment = boundary, .alignment_length = length}));
         EXPECT_TRUE(found.agree);
         return std::count_if(found.points.begin(), found.points.end(), [](const auto& p) { return p.boundary; });
     };
@@ -54,7 +54,7 @@ TEST(WeakBoundary, OnASquareAndAnLTheFieldIsThatOfTheStrongOne) {
     // Parallel to the axes: both terms are 0.
     for (const TriangleMesh& mesh : {square(6), plate(8, [](double x, double y) { return x < 0.5 || y < 0.5; })}) {
         for (const auto boundary : {Alignment::strong, Alignment::weak}) {
-            const DirectionField field = direction_field(mesh, {}, {.boundary = boundary});
+            const DirectionField field = direction_field(mesh, {}, {.boundary_alignment = boundary});
             EXPECT_NEAR(field.energy, 0, 1e-9);
             EXPECT_EQ(surface_singularities(mesh, field).points.size(), mesh.vertices.rows() == 49 ? 4u : 6u);
         }
@@ -63,8 +63,8 @@ TEST(WeakBoundary, OnASquareAndAnLTheFieldIsThatOfTheStrongOne) {
 
 TEST(FreeBoundary, LeavesAPlaneFieldParallel) {
     const TriangleMesh mesh = disk(10);
-    for (const auto method : {DirectionFieldMethod::ginzburg_landau, mbo, DirectionFieldMethod::eigenvector}) {
-        const DirectionField field = direction_field(mesh, {}, {.method = method, .boundary = Alignment::none});
+    for (const auto method : {DirectionFieldMethod::gl, mbo, DirectionFieldMethod::eigen}) {
+        const DirectionField field = direction_field(mesh, {}, {.method = method, .boundary_alignment = Alignment::none});
         EXPECT_NEAR(field.energy, 0, 1e-6);
     }
 }
@@ -91,7 +91,7 @@ TEST(Features, AreFollowedStronglyWeaklyOrNotAtAll) {
     const FeatureGraph line = middle_line(mesh);
     ASSERT_EQ(line.edges.rows(), 8);
     const auto energy = [&](Alignment features, double flat) {
-        DirectionFieldOptions options{.symmetry = 6, .features = features, .least_feature_angle = flat};
+        DirectionFieldOptions options{.symmetry = 6, .feature_alignment = features, .least_feature_angle = flat};
         return direction_field(mesh, line, options).energy;
     };
     const double none = direction_field(mesh, {}, {.symmetry = 6}).energy;
@@ -104,7 +104,7 @@ TEST(Features, AreFollowedStronglyWeaklyOrNotAtAll) {
 TEST(Features, OfOddSymmetryAreTakenWhenTheyAreNotFollowed) {
     const TriangleMesh mesh = square(4);
     EXPECT_THROW(direction_field(mesh, middle_line(mesh), {.symmetry = 3}), InvalidInput);
-    EXPECT_NO_THROW(direction_field(mesh, middle_line(mesh), {.symmetry = 3, .features = Alignment::none}));
+    EXPECT_NO_THROW(direction_field(mesh, middle_line(mesh), {.symmetry = 3, .feature_alignment = Alignment::none}));
 }
 
 // ---- corners ----

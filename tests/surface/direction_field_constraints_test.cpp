@@ -23,8 +23,8 @@ TEST(Constraints, HardOnesHoldAtEdgesAndVerticesOfAnySymmetry) {
     const TriangleMesh mesh = square(8);
     const EdgeTopology topology = edge_topology(mesh);
     for (const int symmetry : {1, 2, 3, 4, 6})
-        for (const auto method : {DirectionFieldMethod::ginzburg_landau, mbo, DirectionFieldMethod::eigenvector}) {
-            DirectionFieldOptions options{.symmetry = symmetry, .method = method, .boundary = Alignment::none};
+        for (const auto method : {DirectionFieldMethod::gl, mbo, DirectionFieldMethod::eigen}) {
+            DirectionFieldOptions options{.symmetry = symmetry, .method = method, .boundary_alignment = Alignment::none};
             options.constraints.edges = topology.edges.row(17);
             options.constraints.edges.row(0).reverseInPlace();
             options.constraints.edge_directions.resize(1, 3);
@@ -70,7 +70,7 @@ TEST(Constraints, WeightedOnesBalanceTheTwistOfABar) {
         if (x < 1e-9) left.push_back(e);
         if (x > 1 - 1e-9) right.push_back(e);
     }
-    DirectionFieldOptions options{.epsilon = 0.01, .first_epsilon = 0.01, .boundary = Alignment::none};
+    DirectionFieldOptions options{.epsilon = 0.01, .first_epsilon = 0.01, .boundary_alignment = Alignment::none};
     DirectionConstraints& given = options.constraints;
     given.edges.resize(2 * n, 2);
     given.edge_directions.resize(2 * n, 3);
@@ -113,7 +113,7 @@ TEST(Constraints, OneDirectionPinsAClosedSurfaceAtNoCost) {
 TEST(Guide, IsFollowedClosely) {
     const TriangleMesh mesh = disk(10);
     const auto angle = [](double x, double y) { return 0.4 + 0.6 * x - 0.3 * y * y; };
-    DirectionFieldOptions options{.boundary = Alignment::none};
+    DirectionFieldOptions options{.boundary_alignment = Alignment::none};
     options.guide.directions.resize(mesh.triangles.rows(), 3);
     for (Index t = 0; t < mesh.triangles.rows(); ++t) {
         const Eigen::RowVector3d c = mesh.vertices(mesh.triangles.row(t), Eigen::all).colwise().mean();
@@ -130,7 +130,7 @@ TEST(Guide, IsFollowedClosely) {
         }
         return most;
     };
-    for (const auto method : {DirectionFieldMethod::ginzburg_landau, mbo, DirectionFieldMethod::eigenvector}) {
+    for (const auto method : {DirectionFieldMethod::gl, mbo, DirectionFieldMethod::eigen}) {
         EXPECT_LT(worst(0.01, method), 0.04);
         EXPECT_GT(worst(10, method), 0.2);  // smoothness wins: nearly parallel
     }
@@ -143,11 +143,11 @@ TEST(Guide, AlongTheCurvatureLinesOfATorusLeavesNoSingularPoint) {
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
         options.guide.directions.row(t) =
             azimuth(mesh.vertices(mesh.triangles.row(t), Eigen::all).colwise().mean().transpose());
-    for (const auto method : {DirectionFieldMethod::ginzburg_landau, mbo, DirectionFieldMethod::eigenvector}) {
+    for (const auto method : {DirectionFieldMethod::gl, mbo, DirectionFieldMethod::eigen}) {
         options.method = method;
         EXPECT_TRUE(surface_singularities(mesh, direction_field(mesh, {}, options)).points.empty());
     }
-    EXPECT_FALSE(surface_singularities(mesh, direction_field(mesh, {}, {.method = DirectionFieldMethod::eigenvector}))
+    EXPECT_FALSE(surface_singularities(mesh, direction_field(mesh, {}, {.method = DirectionFieldMethod::eigen}))
                      .points.empty());
 }
 

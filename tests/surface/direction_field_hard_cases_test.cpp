@@ -6,8 +6,8 @@
 namespace octafield::surface {
 namespace {
 
-const std::vector<DirectionFieldMethod> methods = {DirectionFieldMethod::ginzburg_landau, DirectionFieldMethod::mbo,
-                                                   DirectionFieldMethod::eigenvector};
+const std::vector<DirectionFieldMethod> methods = {DirectionFieldMethod::gl, DirectionFieldMethod::mbo,
+                                                   DirectionFieldMethod::eigen};
 
 // All methods, even symmetries and ways to follow the boundary give unit directions and the right sum of indices.
 void expect_sound_fields(const TriangleMesh& mesh, const FeatureGraph& features = {}) {
@@ -15,7 +15,7 @@ void expect_sound_fields(const TriangleMesh& mesh, const FeatureGraph& features 
         for (const int symmetry : {2, 4, 6})
             for (const Alignment boundary : {Alignment::strong, Alignment::weak, Alignment::none}) {
                 const DirectionField field =
-                    direction_field(mesh, features, {.symmetry = symmetry, .method = method, .boundary = boundary});
+                    direction_field(mesh, features, {.symmetry = symmetry, .method = method, .boundary_alignment = boundary});
                 const SurfaceSingularities found = surface_singularities(mesh, field);
                 EXPECT_TRUE(found.agree) << symmetry << ", sum " << found.index_sum;
                 EXPECT_EQ(found.euler_characteristic, euler_characteristic(mesh));
@@ -251,10 +251,10 @@ TEST(HardNumbers, WeightsTooSmallToCountAreNone) {
     const Eigen::VectorXd tiny = Eigen::VectorXd::Constant(mesh.triangles.rows(), 1e-300);
     for (const DirectionFieldMethod method : methods) {
         const DirectionField weak =
-            direction_field(mesh, {}, {.method = method, .boundary = Alignment::weak, .alignment_length = 1e-300});
+            direction_field(mesh, {}, {.method = method, .boundary_alignment = Alignment::weak, .alignment_length = 1e-300});
         const DirectionField guided =
-            direction_field(mesh, {}, {.method = method, .boundary = Alignment::none, .guide = {x, tiny}});
-        const DirectionField free = direction_field(mesh, {}, {.method = method, .boundary = Alignment::none});
+            direction_field(mesh, {}, {.method = method, .boundary_alignment = Alignment::none, .guide = {x, tiny}});
+        const DirectionField free = direction_field(mesh, {}, {.method = method, .boundary_alignment = Alignment::none});
         EXPECT_EQ(weak.values, free.values);
         EXPECT_EQ(guided.values, free.values);
         EXPECT_LT(free.energy, 1e-9);
@@ -309,7 +309,7 @@ TEST(HardNumbers, NoCurveIsLongerThanAsked) {
 TEST(VertexDirections, FollowTheBoundaryOnlyWhereTheFieldDoes) {
     const TriangleMesh mesh = plate(8, [](double, double) { return true; });
     const Eigen::RowVector3d tilted(std::cos(0.3), std::sin(0.3), 0);
-    DirectionFieldOptions options{.boundary = Alignment::none};
+    DirectionFieldOptions options{.boundary_alignment = Alignment::none};
     options.guide.directions = tilted.replicate(mesh.triangles.rows(), 1);
     const auto off = [&](const Points& directions) {  // largest angle to the guide, of the four
         double most = 0;
@@ -320,7 +320,7 @@ TEST(VertexDirections, FollowTheBoundaryOnlyWhereTheFieldDoes) {
         return most;
     };
     EXPECT_LT(off(vertex_directions(mesh, {}, direction_field(mesh, {}, options))), 1e-6);
-    options.boundary = Alignment::strong;
+    options.boundary_alignment = Alignment::strong;
     const FeatureGraph rim = detect_features(mesh);  // with the corners
     EXPECT_NEAR(off(vertex_directions(mesh, rim, direction_field(mesh, rim, options))), 0.3, 1e-6);
 }

@@ -5,7 +5,7 @@ namespace octafield::surface {
 namespace {
 
 constexpr auto mbo = DirectionFieldMethod::mbo;
-constexpr auto eigenvector = DirectionFieldMethod::eigenvector;
+constexpr auto eigenvector = DirectionFieldMethod::eigen;
 
 DirectionField computed(const TriangleMesh& mesh, DirectionFieldMethod method, int symmetry = 4) {
     return direction_field(mesh, {}, {.symmetry = symmetry, .method = method});
@@ -47,7 +47,7 @@ TEST(DiffusedField, OnTheDiskItsPointsAreNearThePublishedRadius) {
 TEST(DiffusedField, IsALocalMinimumAmongFieldsOfLengthOne) {
     for (const auto boundary : {Alignment::strong, Alignment::weak})
         for (const TriangleMesh& mesh : {icosphere(4), disk(24), torus(80, 40, 1, 0.5)}) {
-            const DirectionField field = direction_field(mesh, {}, {.method = mbo, .boundary = boundary});
+            const DirectionField field = direction_field(mesh, {}, {.method = mbo, .boundary_alignment = boundary});
             ASSERT_TRUE(field.converged);
             const auto links = detail::corner_links(mesh, field.topology, 4);
             const auto is_free = [&](Index e) { return field.topology.edge_triangles.row(e).minCoeff() >= 0; };
@@ -99,7 +99,7 @@ TEST(DiffusedField, AParallelFieldIsFound) {
     // On a flat square with free boundary, and on a tube whose rims are followed, along and round it.
     const TriangleMesh square = plate(8, [](double, double) { return true; }), open = tube(20, 6, 1.5);
     for (const auto method : {mbo, eigenvector}) {
-        EXPECT_NEAR(direction_field(square, {}, {.method = method, .boundary = Alignment::none}).dirichlet_energy, 0,
+        EXPECT_NEAR(direction_field(square, {}, {.method = method, .boundary_alignment = Alignment::none}).dirichlet_energy, 0,
                     1e-9);
         const DirectionField field = direction_field(open, {}, {.method = method});
         EXPECT_NEAR(field.dirichlet_energy, 0, 1e-9);
@@ -161,15 +161,15 @@ TEST(DiffusedField, CancellingKeepsAField) {
 
 TEST(EveryMethod, GivesTheSameBitsForTheSameInput) {
     const TriangleMesh mesh = icosphere(3);
-    for (const auto method : {mbo, eigenvector, DirectionFieldMethod::ginzburg_landau})
+    for (const auto method : {mbo, eigenvector, DirectionFieldMethod::gl})
         EXPECT_TRUE(computed(mesh, method).values == computed(mesh, method).values);
 }
 
 TEST(EveryMethod, DoesNotDependOnTheLengthUnit) {
     const TriangleMesh unit = disk(12);
-    for (const auto method : {mbo, eigenvector, DirectionFieldMethod::ginzburg_landau})
+    for (const auto method : {mbo, eigenvector, DirectionFieldMethod::gl})
         for (const auto boundary : {Alignment::strong, Alignment::weak}) {
-            const DirectionFieldOptions options{.method = method, .boundary = boundary};
+            const DirectionFieldOptions options{.method = method, .boundary_alignment = boundary};
             const double energy = direction_field(unit, {}, options).energy;
             for (const double scale : {1e-6, 1e6}) {
                 TriangleMesh mesh = unit;
@@ -193,7 +193,7 @@ TEST(EveryMethod, TakesStripsOneTriangleWideAndNeedles) {
     needles.vertices.col(1) *= 1e-4;
     TriangleMesh squashed = icosphere(3);
     squashed.vertices.col(2) *= 1e-3;
-    for (const auto method : {mbo, eigenvector, DirectionFieldMethod::ginzburg_landau})
+    for (const auto method : {mbo, eigenvector, DirectionFieldMethod::gl})
         for (const TriangleMesh& mesh : {strip, needles, squashed}) {
             const DirectionField field = computed(mesh, method);
             EXPECT_TRUE(field.values.array().isFinite().all());

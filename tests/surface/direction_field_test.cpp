@@ -234,7 +234,7 @@ TEST(DirectionField, IndicesSumToTheEulerCharacteristicForAnySymmetry) {
                                    plate(9, [](double x, double y) { return std::hypot(x - 0.5, y - 0.5) > 0.3; })};
     for (const int symmetry : {1, 2, 3, 4, 5, 6})
         for (const TriangleMesh& mesh : meshes)
-            for (const auto method : {DirectionFieldMethod::ginzburg_landau, DirectionFieldMethod::eigenvector,
+            for (const auto method : {DirectionFieldMethod::gl, DirectionFieldMethod::eigen,
                                       DirectionFieldMethod::mbo}) {
                 const DirectionField field = direction_field(mesh, {}, {.symmetry = symmetry, .method = method});
                 EXPECT_EQ(index_sum(surface_singularities(mesh, field).points), symmetry * euler_characteristic(mesh));

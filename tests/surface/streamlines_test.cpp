@@ -209,7 +209,7 @@ TEST(Streamlines, NoneIsStuckOnRealSurfaces) {
         const TriangleMesh mesh = read_surface(folder / (std::string(name) + "_surface.obj"));
         const FeatureGraph features = detect_features(mesh);
         DirectionFieldOptions options;
-        options.method = DirectionFieldMethod::eigenvector;
+        options.method = DirectionFieldMethod::eigen;
         const DirectionField field = direction_field(mesh, features, options);
         const SurfaceSingularities found = surface_singularities(mesh, field);
         EXPECT_TRUE(found.agree);

@@ -77,7 +77,8 @@ TEST(AlignmentTables, CarryTheNormalsAxisAcrossTheCut) {
             return Quaternion(frames::exp({0, 0, std::atan2(turned.y(), turned.x()) / 4}) * frames::exp(to_x));
         });
         const CombedField combed = comb(mesh, field);
-        const AlignmentTables found = alignment_tables(TetDomain(mesh, {}, surface::detect_features(surface.mesh)), combed);
+        const AlignmentTables found =
+            alignment_tables(TetDomain(mesh, {}, surface::detect_features(surface.mesh)), combed);
         ASSERT_EQ(found.patch_one_axis.size(), 6u);
         for (Index patch = 0; patch < 6; ++patch) {
             std::set<Index> axes;

@@ -21,8 +21,8 @@ constexpr double degree = std::numbers::pi / 180;
 
 BoundaryMeshability check_field(const TetMesh& mesh, const Quaternions& frames, double angle = 40 * degree) {
     const TetDomain domain(mesh);
-    return boundary_meshability(
-        domain.with_features(surface::detect_features(domain.surface().mesh, {.angle = angle})), frames);
+    return boundary_meshability(domain.with_features(surface::detect_features(domain.surface().mesh, {.angle = angle})),
+                                frames);
 }
 
 Quaternions constant(const TetMesh& mesh, const Quaternion& q = Quaternion::Identity()) {
@@ -221,8 +221,7 @@ TEST(BoundaryMeshability, AreTheSameForEquivalentFramesAndAnyThreadCount) {
     const BoundarySurface boundary = boundary_surface(mesh);
     const TetDomain domain(mesh, {}, surface::detect_features(boundary.mesh));
     const auto one = boundary_meshability(domain, field, 1);
-    for (const auto& other : {boundary_meshability(domain, field, 4),
-                              boundary_meshability(domain, equivalent)}) {
+    for (const auto& other : {boundary_meshability(domain, field, 4), boundary_meshability(domain, equivalent)}) {
         ASSERT_EQ(one.wedges.size(), other.wedges.size());
         for (std::size_t i = 0; i < one.wedges.size(); ++i) {
             EXPECT_EQ(one.wedges[i].hexahedra_a, other.wedges[i].hexahedra_a);

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "difference_laws.hpp"
 #include "field_fixtures.hpp"
 #include "frame_difference.hpp"
 #include "octafield/frames/geodesic.hpp"
 #include "octafield/frames/registry.hpp"
 #include "octafield/volume/frame_field.hpp"
 #include "octafield/volume/operators.hpp"
+#include "octafield/volume/schemes.hpp"
 #include "octafield/volume/singularities.hpp"
 
 namespace octafield::volume {
@@ -25,7 +27,6 @@ using testing::largest_distance;
 using testing::smooth_field;
 
 constexpr double degree = std::numbers::pi / 180;
-const std::vector<std::string> consistent = {"geodesic", "su2_geodesic", "su2_midpoint"};
 
 Quaternion row(const Quaternions& q, Eigen::Index v) {
     return frames::from_wxyz(frames::Vector4(q.row(v).transpose()));
@@ -80,45 +81,39 @@ double deviation(const std::string& representation, int n) {
     return mean_distance(result.frames, reference, constraints);
 }
 
-// Against differences of the values, for frames `angle` apart in random representatives.
-template <class Scheme>
-double jacobian_error(const Scheme& scheme, double angle, std::uint64_t seed) {
-    const Quaternions sample = frames::random_rotations(40, seed);
-    double worst = 0;
-    for (Eigen::Index i = 0; i + 1 < sample.rows(); ++i) {
-        const Quaternion p = row(sample, i);
-        const Vector3 w = angle * row(sample, i + 1).vec().normalized();
-        const Quaternion q = frames::frame_exp(p, w) * frames::binary_octahedral_group()[(7 * i) % 48];
-        const auto value = [&](const Quaternion& a, const Quaternion& b) {
-            return scheme.difference(0, Scheme::at(a, false), Scheme::at(b, false), false).value;
-        };
-        const auto exact = scheme.difference(0, Scheme::at(p, true), Scheme::at(q, true), true);
-        EXPECT_LT((exact.value - value(p, q)).norm(), 1e-15);
-        constexpr double h = 1e-5;
-        for (int k = 0; k < 3; ++k) {
-            const Vector3 e = h * Vector3::Unit(k);
-            const auto by_first =
-                ((value(frames::frame_exp(p, e), q) - value(frames::frame_exp(p, -e), q)) / (2 * h)).eval();
-            const auto by_second =
-                ((value(p, frames::frame_exp(q, e)) - value(p, frames::frame_exp(q, -e))) / (2 * h)).eval();
-            worst = std::max(worst, (by_first - exact.by_first.col(k)).norm());
-            worst = std::max(worst, (by_second - exact.by_second.col(k)).norm());
-        }
-    }
-    return worst;
-}
+INSTANTIATE_TYPED_TEST_SUITE_P(Geodesic, DifferenceLaws, GeodesicScheme);
+INSTANTIATE_TYPED_TEST_SUITE_P(Su2Geodesic, DifferenceLaws, Su2GeodesicScheme);
+INSTANTIATE_TYPED_TEST_SUITE_P(Midpoint, DifferenceLaws, MidpointScheme);
+INSTANTIATE_TYPED_TEST_SUITE_P(Symmetric, DifferenceLaws, SymmetricScheme);
+// Without a limit; the frozen scheme's metric has nothing to compare with.
+struct MidpointWithoutLimit : MidpointScheme {
+    static MidpointWithoutLimit made(const SmoothOptions&) { return {{std::numeric_limits<double>::infinity()}}; }
+};
+INSTANTIATE_TYPED_TEST_SUITE_P(MidpointWithoutLimit, DifferenceLaws, MidpointWithoutLimit);
 
-// The frozen metric has nothing to compare with: its derivative is exact at matrices that do not move.
-TEST(FrameDifference, JacobiansAgreeWithNumericOnesAtEveryAngle) {
-    const double never = std::numeric_limits<double>::infinity();
-    for (const double angle : {0.0, 1e-6, 1e-3, 0.02, 0.1, 0.25, 0.5}) {
-        EXPECT_LT(jacobian_error(GeodesicScheme{}, angle, 1), 1e-8) << angle;
-        EXPECT_LT(jacobian_error(Su2GeodesicScheme{}, angle, 2), 1e-8) << angle;
-        EXPECT_LT(jacobian_error(MidpointScheme{20 * degree}, angle, 3), 1e-6) << angle;
-        EXPECT_LT(jacobian_error(MidpointScheme{never}, angle, 4), 1e-5) << angle;
-        EXPECT_LT(jacobian_error(SymmetricScheme{}, angle, 5), 1e-5) << angle;
-    }
+// Names of the metrics in the table for which a property holds: a new row joins by itself.
+template <class Property>
+std::vector<std::string> metrics_that(const Property& property) {
+    std::vector<std::string> names;
+    for (const Scheme& each : schemes())
+        if (each.sort == SchemeSort::metric && property(each)) names.push_back(each.name);
+    return names;
 }
+std::string name_of(const ::testing::TestParamInfo<std::string>& info) { return info.param; }
+
+class EveryMetric : public ::testing::TestWithParam<std::string> {};
+class EveryConsistentMetric : public EveryMetric {
+protected:
+    // Of errors: one scheme has three times those of the others (docs/su2_smoothing.md).
+    const double allowed = GetParam() == "su2_symmetric" ? 3 : 1;
+};
+class EveryDescendingMetric : public EveryMetric {};
+INSTANTIATE_TEST_SUITE_P(Table, EveryMetric, ::testing::ValuesIn(metrics_that([](const Scheme&) { return true; })),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Table, EveryConsistentMetric,
+                         ::testing::ValuesIn(metrics_that([](const Scheme& s) { return s.consistent; })), name_of);
+INSTANTIATE_TEST_SUITE_P(Table, EveryDescendingMetric,
+                         ::testing::ValuesIn(metrics_that([](const Scheme& s) { return s.descends; })), name_of);
 
 // Oracle: the distances of frames/.
 TEST(FrameDifference, LengthsAreTheMetricsOfFrames) {
@@ -136,46 +131,45 @@ TEST(FrameDifference, LengthsAreTheMetricsOfFrames) {
     }
 }
 
-TEST(MetricSmoothing, ConsistentSchemesConvergeToTheMinimiserOfSh4AtSecondOrder) {
-    for (const std::string& name : consistent) {
-        const double coarse = deviation(name, 4), fine = deviation(name, 8);
-        EXPECT_LT(fine, 0.3 * coarse) << name;  // 0.25 at second order
-        EXPECT_LT(fine, 0.15 * degree) << name;
-    }
+TEST_P(EveryConsistentMetric, ConvergesToTheMinimiserOfSh4AtSecondOrder) {
+    const double coarse = deviation(GetParam(), 4), fine = deviation(GetParam(), 8);
+    EXPECT_LT(fine, 0.33 * coarse);  // 0.25 at second order
+    EXPECT_LT(fine, allowed * 0.15 * degree);
 }
 
-TEST(MetricSmoothing, NaiveAndFrozenSchemesDoNotConvergeToIt) {
-    for (const char* name : {"su2", "su2_frozen"}) {
-        const double coarse = deviation(name, 4), fine = deviation(name, 8);
-        EXPECT_GT(fine, 0.6 * coarse) << name;
-        EXPECT_GT(fine, 1 * degree) << name;
+// The naive embedding and the frozen metric, by the table.
+TEST(MetricSmoothing, InconsistentSchemesDoNotConvergeToIt) {
+    int tested = 0;
+    for (const Scheme& each : schemes()) {
+        if (each.consistent || each.sort == SchemeSort::embedding_with_lengths) continue;
+        const double coarse = deviation(each.name, 4), fine = deviation(each.name, 8);
+        EXPECT_GT(fine, 0.6 * coarse) << each.name;
+        EXPECT_GT(fine, 1 * degree) << each.name;
+        ++tested;
     }
+    EXPECT_GE(tested, 2);
 }
 
-TEST(MetricSmoothing, DoesNotDependOnTheRepresentativesOfTheStart) {
+TEST_P(EveryConsistentMetric, DoesNotDependOnTheRepresentativesOfTheStart) {
     const TetMesh mesh = jittered_cube(5, 0.2, 22);
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));
     const Quaternions start = initial_frames(mesh, constraints);
-    for (const std::string& name : consistent) {
-        const SmoothResult reference = smooth(mesh, constraints, start, with(name));
-        const SmoothResult other = smooth(mesh, constraints, in_random_representatives(start, 23), with(name));
-        EXPECT_LT(largest_distance(reference.frames, other.frames), 1e-5) << name;
-        EXPECT_NEAR(reference.objective, other.objective, 1e-9 * reference.objective) << name;
-    }
+    const SmoothResult reference = smooth(mesh, constraints, start, with(GetParam()));
+    const SmoothResult other = smooth(mesh, constraints, in_random_representatives(start, 23), with(GetParam()));
+    EXPECT_LT(largest_distance(reference.frames, other.frames), 1e-5);
+    EXPECT_NEAR(reference.objective, other.objective, 1e-9 * reference.objective);
 }
 
 // The jitter makes obtuse tets, which are kept whole. The start is rough for the metrics but not for sh4.
-TEST(MetricSmoothing, ReachesTheSameFieldOnObtuseMeshesFromANoisyStart) {
+TEST_P(EveryConsistentMetric, ReachesTheSameFieldOnObtuseMeshesFromANoisyStart) {
     const TetMesh mesh = jittered_cube(6, 0.2, 24);
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));
     const Quaternions reference = smooth(mesh, constraints, smooth_field(mesh), with("sh4")).frames;
     const Quaternions start = in_random_representatives(noisy(smooth_field(mesh), 0.05, 25), 26);
-    for (const std::string& name : consistent) {
-        const SmoothResult result = smooth(mesh, constraints, start, with(name));
-        EXPECT_TRUE(result.converged) << name;
-        EXPECT_LT(mean_distance(result.frames, reference, constraints), 0.3 * degree) << name;
-        EXPECT_NEAR(result.objective, 0.15 * result.energy, 0.04 * result.objective) << name;  // unit speed: 3/20
-    }
+    const SmoothResult result = smooth(mesh, constraints, start, with(GetParam()));
+    EXPECT_TRUE(result.converged);
+    EXPECT_LT(mean_distance(result.frames, reference, constraints), allowed * 0.3 * degree);
+    EXPECT_NEAR(result.objective, 0.15 * result.energy, allowed * 0.042 * result.objective);  // unit speed: 3/20
 }
 
 TEST(MetricSmoothing, Su2GeodesicIsTheGeodesicReadFromTheInvariants) {
@@ -188,28 +182,27 @@ TEST(MetricSmoothing, Su2GeodesicIsTheGeodesicReadFromTheInvariants) {
     EXPECT_NEAR(one.objective, other.objective, 1e-9 * one.objective);
 }
 
-TEST(MetricSmoothing, NeverRaisesItsObjectiveAndHoldsConstraintsExactly) {
+TEST_P(EveryDescendingMetric, NeverRaisesItsObjectiveAndHoldsConstraintsExactly) {
     const TetMesh mesh = jittered_cube(4, 0.2, 28);
     const Quaternions start = frames::random_rotations(mesh.vertices.rows(), 29);
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::axis, smooth_field(mesh));
-    for (const char* name : {"geodesic", "su2_geodesic", "su2_midpoint", "su2_symmetric"})
-        for (const SmoothSolver solver : {SmoothSolver::levenberg_marquardt, SmoothSolver::lbfgs}) {
-            SmoothOptions options = with(name);
-            options.solver = solver;
-            const SmoothResult result = smooth(mesh, constraints, start, options);
-            for (std::size_t i = 1; i < result.objective_history.size(); ++i)
-                EXPECT_LE(result.objective_history[i], result.objective_history[i - 1] * (1 + 1e-12)) << name;
-            options.max_iterations = 0;
-            EXPECT_NEAR(smooth(mesh, constraints, result.frames, options).objective, result.objective,
-                        1e-9 * result.objective);
-            EXPECT_NEAR(result.energy, dirichlet_energy(mesh, result.frames), 1e-12 * result.energy);
-            for (Eigen::Index v = 0; v < start.rows(); ++v) {
-                if (constraints.kind[v] != VertexConstraint::axis) continue;
-                const Vector3 in_frame =
-                    row(result.frames, v).conjugate() * Vector3(constraints.axis.row(v).transpose());
-                EXPECT_NEAR(in_frame.cwiseAbs().maxCoeff(), 1, 1e-13);
-            }
+    for (const SmoothSolver solver : {SmoothSolver::levenberg_marquardt, SmoothSolver::lbfgs}) {
+        SmoothOptions options = with(GetParam());
+        options.solver = solver;
+        const SmoothResult result = smooth(mesh, constraints, start, options);
+        for (std::size_t i = 1; i < result.objective_history.size(); ++i)
+            EXPECT_LE(result.objective_history[i], result.objective_history[i - 1] * (1 + 1e-12));
+        options.max_iterations = 0;
+        EXPECT_NEAR(smooth(mesh, constraints, result.frames, options).objective, result.objective,
+                    1e-9 * result.objective);
+        EXPECT_NEAR(result.energy, dirichlet_energy(mesh, result.frames), 1e-12 * result.energy);
+        for (Eigen::Index v = 0; v < start.rows(); ++v) {
+            if (constraints.kind[v] != VertexConstraint::axis) continue;
+            const Vector3 in_frame =
+                row(result.frames, v).conjugate() * Vector3(constraints.axis.row(v).transpose());
+            EXPECT_NEAR(in_frame.cwiseAbs().maxCoeff(), 1, 1e-13);
         }
+    }
 }
 
 // Frames turned by 40 degrees from one side to the other of one layer of tets: far beyond the midpoint metric.
@@ -227,24 +220,29 @@ TEST(MetricSmoothing, MidpointIsTheGeodesicWhereFramesDifferByMoreThanTheLimit) 
 }
 
 // A cube whose boundary frames hold the direction from its centre: singular curves as in a ball.
-TEST(MetricSmoothing, StaysNearTheFieldOfSh4RoundSingularCurvesWhereTheNaiveSchemeLeavesIt) {
+struct RoundACentre {
     const TetMesh mesh = kuhn_cube(8);
     const BoundaryConstraints constraints =
         constraints_on(mesh, VertexConstraint::axis, testing::sample(mesh, [](const Vector3& x) {
                            return frames::frame_from_axes({1, 0.3, 0.2}, x - Vector3::Constant(0.5));
                        }));
     const SmoothResult start = frame_field(mesh, constraints).smooth;
-    ASSERT_GT(singular_graph(mesh, start.frames).triangles.size(), 100u);
-    for (const std::string& name : consistent) {
-        SmoothOptions options = with(name);
-        options.tolerance = 1e-7;
-        const SmoothResult result = smooth(mesh, constraints, start.frames, options);
-        EXPECT_TRUE(result.converged) << name;
-        EXPECT_LT(result.energy, 1.06 * start.energy) << name;
-        EXPECT_LT(mean_distance(result.frames, start.frames, constraints), 4 * degree) << name;
-    }
-    const SmoothResult naive = smooth(mesh, constraints, start.frames, with("su2"));
-    EXPECT_GT(naive.energy, 1.3 * start.energy);
+};
+
+TEST_P(EveryConsistentMetric, StaysNearTheFieldOfSh4RoundSingularCurves) {
+    const RoundACentre part;
+    ASSERT_GT(singular_graph(part.mesh, part.start.frames).triangles.size(), 100u);
+    SmoothOptions options = with(GetParam());
+    options.tolerance = 1e-7;
+    const SmoothResult result = smooth(part.mesh, part.constraints, part.start.frames, options);
+    EXPECT_TRUE(result.converged);
+    EXPECT_LT(result.energy, (allowed == 1 ? 1.06 : 1.22) * part.start.energy);
+    EXPECT_LT(mean_distance(result.frames, part.start.frames, part.constraints), allowed * 4 * degree);
+}
+
+TEST(MetricSmoothing, TheNaiveSchemeLeavesTheFieldOfSh4RoundSingularCurves) {
+    const RoundACentre part;
+    EXPECT_GT(smooth(part.mesh, part.constraints, part.start.frames, with("su2")).energy, 1.3 * part.start.energy);
 }
 
 TEST(MetricSmoothing, EndsTheRecipe) {
@@ -259,64 +257,62 @@ TEST(MetricSmoothing, EndsTheRecipe) {
     EXPECT_LT(largest_distance(result.frames, direct.frames), 1e-4);
 }
 
-TEST(MetricSmoothing, DoesNotDependOnTheInputsUnit) {
+TEST_P(EveryMetric, DoesNotDependOnTheInputsUnit) {
     const TetMesh mesh = jittered_cube(4, 0.2, 30);
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));
     const Quaternions start = initial_frames(mesh, constraints);
-    for (const char* name : {"geodesic", "su2_midpoint", "su2_frozen"}) {
-        const SmoothResult reference = smooth(mesh, constraints, start, with(name));
-        for (const double unit : {1e-6, 1e6}) {
-            TetMesh scaled = mesh;
-            scaled.vertices *= unit;
-            const SmoothResult result = smooth(scaled, constraints, start, with(name));
-            EXPECT_NEAR(result.objective / unit, reference.objective, 1e-8 * reference.objective) << name;
-            EXPECT_LT(largest_distance(result.frames, reference.frames), 1e-4) << name;
-        }
+    const SmoothResult reference = smooth(mesh, constraints, start, with(GetParam()));
+    for (const double unit : {1e-6, 1e6}) {
+        TetMesh scaled = mesh;
+        scaled.vertices *= unit;
+        const SmoothResult result = smooth(scaled, constraints, start, with(GetParam()));
+        EXPECT_NEAR(result.objective / unit, reference.objective, 1e-8 * reference.objective);
+        EXPECT_LT(largest_distance(result.frames, reference.frames), 1e-4);
     }
 }
 
-TEST(MetricSmoothing, GivesTheSameBitsAtAnyThreadCount) {
+TEST_P(EveryMetric, GivesTheSameBitsAtAnyThreadCount) {
     const TetMesh mesh = jittered_cube(9, 0.2, 31);
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::axis, smooth_field(mesh));
     const Quaternions start = initial_frames(mesh, constraints, Start::constraints, 1);
-    for (const char* name : {"geodesic", "su2_geodesic", "su2_midpoint", "su2_symmetric", "su2_frozen"}) {
-        SmoothOptions options = with(name);
-        options.max_iterations = 3;
-        options.threads = 1;
-        const SmoothResult one = smooth(mesh, constraints, start, options);
-        options.threads = 3;
-        const SmoothResult three = smooth(mesh, constraints, start, options);
-        EXPECT_EQ(one.frames, three.frames) << name;
-        EXPECT_EQ(one.energy_history, three.energy_history) << name;
-        EXPECT_EQ(one.objective_history, three.objective_history) << name;
-    }
+    SmoothOptions options = with(GetParam());
+    options.max_iterations = 3;
+    options.threads = 1;
+    const SmoothResult one = smooth(mesh, constraints, start, options);
+    options.threads = 3;
+    const SmoothResult three = smooth(mesh, constraints, start, options);
+    EXPECT_EQ(one.frames, three.frames);
+    EXPECT_EQ(one.energy_history, three.energy_history);
+    EXPECT_EQ(one.objective_history, three.objective_history);
 }
 
-TEST(MetricSmoothing, CancellingKeepsTheBestState) {
+TEST_P(EveryMetric, CancellingKeepsTheBestState) {
     const TetMesh mesh = jittered_cube(4, 0.2, 32);
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));
-    for (const char* name : {"geodesic", "su2_frozen"}) {
-        int calls = 0;
-        const SmoothResult result = smooth(mesh, constraints, frames::random_rotations(mesh.vertices.rows(), 33),
-                                           with(name), [&](std::string_view, double, double) { return ++calls < 3; });
-        EXPECT_EQ(calls, 3);
-        EXPECT_EQ(result.message, "cancelled");
-        EXPECT_FALSE(result.converged);
-    }
+    int calls = 0;
+    const SmoothResult result = smooth(mesh, constraints, frames::random_rotations(mesh.vertices.rows(), 33),
+                                       with(GetParam()), [&](std::string_view, double, double) { return ++calls < 3; });
+    EXPECT_EQ(calls, 3);
+    EXPECT_EQ(result.message, "cancelled");
+    EXPECT_FALSE(result.converged);
+}
+
+TEST_P(EveryMetric, RefusesTheTrustRegionBeforeAnyWork) {
+    const TetMesh mesh = kuhn_cube(2);
+    const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));
+    FrameFieldOptions recipe;
+    recipe.smooth = with(GetParam());
+    recipe.smooth.solver = SmoothSolver::trust_region;
+    EXPECT_THROW(smooth(mesh, constraints, smooth_field(mesh), recipe.smooth), InvalidInput);
+    EXPECT_THROW(frame_field(mesh, constraints, recipe, [](std::string_view, double, double) { return false; }),
+                 InvalidInput);
 }
 
 TEST(MetricSmoothing, SaysWhatItCannotDo) {
     const TetMesh mesh = kuhn_cube(2);
     const Quaternions field = smooth_field(mesh);
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, field);
-    SmoothOptions options = with("geodesic");
-    options.solver = SmoothSolver::trust_region;
-    EXPECT_THROW(smooth(mesh, constraints, field, options), InvalidInput);
-    FrameFieldOptions recipe;
-    recipe.smooth = options;
-    EXPECT_THROW(frame_field(mesh, constraints, recipe, [](std::string_view, double, double) { return false; }),
-                 InvalidInput);  // before any work
-    options = with("su2_midpoint");
+    SmoothOptions options = with("su2_midpoint");
     options.midpoint_limit = 0;
     EXPECT_THROW(smooth(mesh, constraints, field, options), InvalidInput);
     options.midpoint_limit = std::numeric_limits<double>::quiet_NaN();
@@ -327,8 +323,8 @@ TEST(MetricSmoothing, SaysWhatItCannotDo) {
         smooth(mesh, constraints, field, options);
         FAIL();
     } catch (const InvalidInput& error) {
-        for (const std::string& name : smooth_representations())
-            EXPECT_NE(std::string(error.what()).find(name), std::string::npos);
+        for (const Scheme& each : schemes())
+            EXPECT_NE(std::string(error.what()).find(each.name), std::string::npos);
     }
 }
 

@@ -193,7 +193,7 @@ TEST(OdecoLengths, LowerTheObjectiveOfUnitOdecoAndReportTheEnergyOfSh4) {
     EXPECT_NEAR(free.energy, dirichlet_energy(mesh, free.frames), 1e-12 * free.energy);
     options.smooth = with_lengths(SmoothSolver::lbfgs);
     EXPECT_NEAR(frame_field(mesh, constraints, options).smooth.objective, free.objective, 1e-4 * free.objective);
-    for (const SmoothSolver solver : {SmoothSolver::automatic}) {
+    for (const SmoothSolver solver : {SmoothSolver::default_}) {
         options.smooth = with_lengths(solver);
         options.threads = 3;
         const SmoothResult three = frame_field(mesh, constraints, options).smooth;

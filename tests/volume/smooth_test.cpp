@@ -11,6 +11,7 @@
 #include "octafield/frames/octahedral_group.hpp"
 #include "octafield/volume/diffuse.hpp"
 #include "octafield/volume/operators.hpp"
+#include "octafield/volume/schemes.hpp"
 #include "tet_fixtures.hpp"
 
 namespace octafield::volume {
@@ -103,9 +104,10 @@ TEST(Smooth, HistoriesBeginAtTheStartAndEndWithWhatIsReturned) {
     const TetMesh mesh = jittered_cube(4, 0.2, 7);
     const BoundaryConstraints constraints = constraints_on(mesh, VertexConstraint::fixed, smooth_field(mesh));
     const Quaternions start = initial_frames(mesh, constraints);
-    for (const std::string& name : smooth_representations())
-        for (const SmoothSolver solver :
-             {SmoothSolver::automatic, SmoothSolver::levenberg_marquardt, SmoothSolver::lbfgs}) {
+    for (const Scheme& each : schemes())
+        for (const SchemeSolver& by : each.solvers) {
+            const std::string& name = each.name;
+            const SmoothSolver solver = by.solver;
             SmoothOptions options;
             options.representation = name;
             options.solver = solver;

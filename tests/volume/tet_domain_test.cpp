@@ -103,7 +103,8 @@ TEST(BoundaryConstraints, WhereAnInterfaceMeetsTheBoundaryFitBoth) {
     Edges edges = surface::detect_features(sheets.mesh).edges;  // the cube's and the rims
     for (Index& v : edges.reshaped()) v = sheets.vertex_map[v];
     const auto features = surface::feature_graph(halves.found.surface().mesh, edges);
-    const Points directions = Eigen::RowVector3d(0.3, 0.5, 0.8).replicate(halves.found.surface().mesh.vertices.rows(), 1);
+    const Points directions =
+        Eigen::RowVector3d(0.3, 0.5, 0.8).replicate(halves.found.surface().mesh.vertices.rows(), 1);
     const auto c = boundary_constraints(halves.found.with_features(features), directions);
     for (const auto edge : sheets.cuts.rowwise())
         for (const Index b : edge) {

@@ -1,50 +1,30 @@
 """The command that compares: octafield compare."""
 
+from collections.abc import Callable
+from dataclasses import fields
 from typing import Annotated
 
 import typer
 
-from ..options import BOUNDARIES, COMPARED, REPRESENTATIONS, FieldOptions
+from ..options import BOUNDARIES, COMPARED, REPRESENTATIONS, FieldOptions, MeshOptions
 from . import console, tables
 from .console import carry_out, log
-from .options import (
-    ANGLE,
-    EdgeLength,
-    FeatureAngle,
-    Features,
-    InputFiles,
-    Interfaces,
-    Json,
-    MaxCells,
-    MaxHoleEdges,
-    Output,
-    Quiet,
-    Remesh,
-    Repair,
-    Sampling,
-    Seed,
-    Sizes,
-    Split,
-    Threads,
-    Verbose,
-    WrapAlpha,
-    WrapOffset,
-    choices,
-    mesh_options,
-    named_files,
-)
+from .options import InputFiles, Json, Output, Quiet, Verbose, choices, named_files, with_options
 from .shell_completion import lists
 
-_FIELD = FieldOptions()
+# The rest is told by other parameters, or the same for all.
+_OF_ALL = ("sampling", "sizes", "seed", "threads", *(option.name for option in fields(MeshOptions)))
 
 
 def register(app: typer.Typer) -> None:
     app.command()(compare)
 
 
+@with_options(FieldOptions, only=_OF_ALL)
 def compare(
     inputs: InputFiles = None,
     output: Output = ...,  # type: ignore[assignment]
+    options: Callable[[], FieldOptions] = FieldOptions,
     representations: Annotated[
         str,
         typer.Option(
@@ -56,7 +36,7 @@ def compare(
     boundaries: Annotated[
         str, typer.Option(metavar="A,B", autocompletion=lists(BOUNDARIES), help=f"Of: {choices(BOUNDARIES)}.")
     ] = "fixed,aligned",
-    fields: Annotated[
+    given: Annotated[
         list[str] | None,
         typer.Option(
             "--field",
@@ -67,7 +47,6 @@ def compare(
             ),
         ),
     ] = None,
-    sampling: Sampling = _FIELD.sampling,
     seeds: Annotated[int, typer.Option(metavar="K", help="Seeds per run: --seed and the K - 1 numbers after it.")] = 1,
     starts: Annotated[
         str,
@@ -80,20 +59,6 @@ def compare(
             ),
         ),
     ] = "sh4",
-    features: Features = _FIELD.features,
-    feature_angle: FeatureAngle = ANGLE,
-    edge_length: EdgeLength = _FIELD.edge_length,
-    max_cells: MaxCells = _FIELD.max_cells,
-    remesh: Remesh = _FIELD.remesh,
-    repair: Repair = _FIELD.repair,
-    max_hole_edges: MaxHoleEdges = _FIELD.max_hole_edges,
-    wrap_alpha: WrapAlpha = _FIELD.wrap_alpha,
-    wrap_offset: WrapOffset = _FIELD.wrap_offset,
-    interfaces: Interfaces = _FIELD.interfaces,
-    split: Split = _FIELD.split,
-    sizes: Sizes = _FIELD.sizes,
-    seed: Seed = _FIELD.seed,
-    threads: Threads = _FIELD.threads,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -104,25 +69,6 @@ def compare(
         from ..runs.compare import compare as run_comparison
         from ..runs.compare import default_input
 
-        options = FieldOptions(
-            sampling=sampling,
-            sizes=sizes,
-            seed=seed,
-            threads=threads,
-            **mesh_options(
-                features,
-                feature_angle,
-                edge_length,
-                remesh,
-                repair,
-                interfaces=interfaces,
-                split=split,
-                max_hole_edges=max_hole_edges,
-                wrap_alpha=wrap_alpha,
-                wrap_offset=wrap_offset,
-                max_cells=max_cells,
-            ),  # fmt: skip
-        )
         chosen = COMPARED if representations == "all" else _listed(representations)
         with console.progress_bar(quiet, whole=True) as progress:
             comparison = run_comparison(
@@ -132,8 +78,8 @@ def compare(
                 boundaries=_listed(boundaries),
                 seeds=seeds,
                 starts=_listed(starts),
-                options=options,
-                fields=named_files(fields or []),
+                options=options(),
+                fields=named_files(given or []),
                 progress=progress,
             )
         for record in {row["input"]: row for row in comparison.rows}.values():

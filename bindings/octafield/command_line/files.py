@@ -1,7 +1,7 @@
 """The commands on files of other programs: octafield convert, octafield analyse."""
 
-import math
-from dataclasses import asdict
+from collections.abc import Callable
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -11,21 +11,17 @@ from ..errors import InvalidInput
 from ..options import REPAIRS, SAMPLINGS, SIZES, FieldOptions, MeshOptions
 from . import console, tables
 from .console import carry_out, log
-from .options import (  # fmt: skip
+from .options import (
     EdgeLength,
-    FeatureAngle,
-    Features,
-    Interfaces,
     Json,
     MaxHoleEdges,
     Quiet,
-    Sizes,
     SplitSingular,
-    Threads,
     Verbose,
     WrapAlpha,
     WrapOffset,
     choices,
+    with_options,
 )
 from .shell_completion import words
 
@@ -141,23 +137,17 @@ def _cell_edge(text: str | None) -> float | str | None:
         raise InvalidInput(f"--cell-edge {text!r} is neither a length nor 'auto'", "option_out_of_range") from None
 
 
+@with_options(FieldOptions, only=("features", "feature_angle", "interfaces", "streamlines", "sizes", "threads"))
 def analyse(
     field: Annotated[
         Path, typer.Argument(metavar="FIELD", help="A file of frames, also .gz; docs/formats.md lists the kinds.")
     ],
+    options: Callable[[], FieldOptions],
     mesh: MeshFile = None,
     format: Format = None,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="DIR", help="Folder for the results; complete or absent.")
     ] = None,
-    features: Features = _FIELD.features,
-    feature_angle: FeatureAngle = round(math.degrees(_FIELD.feature_angle), 6),
-    interfaces: Interfaces = _FIELD.interfaces,
-    streamlines: Annotated[
-        int, typer.Option(metavar="N", help="Seeds of streamlines.vtp, three curves each; 0: none.")
-    ] = _FIELD.streamlines,
-    sizes: Sizes = _FIELD.sizes,
-    threads: Threads = 0,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -170,16 +160,9 @@ def analyse(
         from ..runs.frame_file_input import analyse_file
         from ..runs.run_folder import RECORD_FILE, write_analysis
 
-        options = FieldOptions(
-            features=features,
-            feature_angle=math.radians(feature_angle),
-            interfaces=interfaces,
-            streamlines=streamlines if output else 0,
-            sizes=sizes,
-            threads=threads,
-        )
+        chosen = options() if output else replace(options(), streamlines=0)
         with console.progress_bar(quiet) as progress:
-            result = analyse_file(field, mesh, format, options, progress)
+            result = analyse_file(field, mesh, format, chosen, progress)
             if output:
                 with staged_folder(output, RECORD_FILE) as folder:
                     write_analysis(result, folder, progress)

@@ -1,6 +1,6 @@
 """Commands that look and tell: info, representations, doctor, view."""
 
-import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -10,44 +10,16 @@ from ..errors import InvalidInput
 from ..options import MeshOptions
 from . import console, tables
 from .console import carry_out, log
-from .options import (  # fmt: skip
-    EdgeLength,
-    FeatureAngle,
-    Features,
-    InputFile,
-    Interfaces,
-    Json,
-    MaxCells,
-    MaxHoleEdges,
-    Quiet,
-    Remesh,
-    Repair,
-    Split,
-    Verbose,
-    WrapAlpha,
-    WrapOffset,
-)
+from .options import InputFile, Json, Quiet, Verbose, with_options
 
 app = typer.Typer()
 
-_MESH = MeshOptions()
-_ANGLE = round(math.degrees(_MESH.feature_angle), 6)
-
 
 @app.command()
+@with_options(MeshOptions)
 def info(
     input: InputFile,
-    features: Features = _MESH.features,
-    feature_angle: FeatureAngle = _ANGLE,
-    edge_length: EdgeLength = _MESH.edge_length,
-    max_cells: MaxCells = _MESH.max_cells,
-    remesh: Remesh = _MESH.remesh,
-    repair: Repair = _MESH.repair,
-    max_hole_edges: MaxHoleEdges = _MESH.max_hole_edges,
-    wrap_alpha: WrapAlpha = _MESH.wrap_alpha,
-    wrap_offset: WrapOffset = _MESH.wrap_offset,
-    interfaces: Interfaces = _MESH.interfaces,
-    split: Split = _MESH.split,
+    options: Callable[[], MeshOptions],
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -58,27 +30,15 @@ def info(
     def work() -> None:
         from ..inspect.info import PASS, examine, first_failure
 
-        options = MeshOptions(
-            features=features,
-            feature_angle=math.radians(feature_angle),
-            edge_length=edge_length,
-            remesh=remesh,
-            repair=repair,
-            interfaces=interfaces,
-            split=split,
-            max_hole_edges=max_hole_edges,
-            wrap_alpha=wrap_alpha,
-            wrap_offset=wrap_offset,
-            max_cells=max_cells,
-        )
-        record = examine(input, options)
+        chosen = options()
+        record = examine(input, chosen)
         if json:
             console.put_json(json, record)
         unread = record["requirements"][0]["state"] != PASS
         if json != "-" and not quiet and not unread:
             tables.show_info(record)
         failure = first_failure(record)
-        if not failure or repair not in ("default", "none"):  # an error is one line; the document has the notes
+        if not failure or chosen.repair not in ("default", "none"):  # an error is one line; the document has the notes
             for note in record["notes"]:
                 log.info("%s: %s", record["input"], note)
         if failure:

@@ -1,17 +1,32 @@
 """The options that several commands share: name, placeholder and help."""
 
+import functools
+import inspect
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import MISSING, Field, fields
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 import typer
 
 from ..errors import InvalidInput
-from ..options import FEATURES, REPAIRS, SAMPLINGS, SIZES, MeshOptions
+from ..options import (
+    ALIGNMENTS,
+    BOUNDARIES,
+    FEATURES,
+    METHODS,
+    OF_A_START,
+    REPAIRS,
+    REPRESENTATIONS,
+    SAMPLINGS,
+    SIZES,
+    SOLVERS,
+    MeshOptions,
+)
 from .shell_completion import words
 
-ANGLE = round(math.degrees(MeshOptions().feature_angle), 6)
+_Options = TypeVar("_Options", bound=MeshOptions)
 
 
 def choices(values: Iterable[str]) -> str:
@@ -29,19 +44,6 @@ def named_files(words: Iterable[str]) -> dict[str, Path]:
             raise InvalidInput(f"--field {word}: the name {name} is there already", "repeated_value")
         found[name] = Path(file)
     return found
-
-
-def mesh_options(
-    features: str, feature_angle: float, edge_length: float, remesh: bool, repair: str, **others: Any
-) -> dict[str, Any]:
-    return {
-        **others,
-        "features": features,
-        "feature_angle": math.radians(feature_angle),
-        "edge_length": edge_length,
-        "remesh": remesh,
-        "repair": repair,
-    }
 
 
 InputFile = Annotated[
@@ -117,3 +119,154 @@ Seed = Annotated[int, typer.Option(metavar="N", help="Seed of every random start
 Threads = Annotated[int, typer.Option(metavar="N", help="Threads; 0: all. Results do not depend on it.")]
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Nothing but errors.")]
 Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="More log lines; traceback for defects.")]
+
+Representation = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME",
+        autocompletion=words(REPRESENTATIONS),
+        help=(
+            f"What is smoothed: {', '.join(REPRESENTATIONS)}. odeco: fourth-order tensors whose axes have length 1;"
+            " odeco_lengths: their lengths are "
+            "unknown, too (docs/frame_fields.md)."
+        ),
+    ),
+]
+Solver = Annotated[
+    str,
+    typer.Option(
+        metavar="|".join(SOLVERS),
+        autocompletion=words(SOLVERS),
+        help="Of the smoothing; default: what goes with the representation.",
+    ),
+]
+Boundary = Annotated[
+    str,
+    typer.Option(
+        metavar=choices((*BOUNDARIES, OF_A_START)),
+        autocompletion=words((*BOUNDARIES, OF_A_START)),
+        help="aligned: twist free; fixed: whole frame held at the cross field; start: at --start.",
+    ),
+]
+FeatureTolerance = Annotated[
+    float, typer.Option(metavar="DEG", help="How well one frame must fit a feature vertex to be held, degrees.")
+]
+Rounds = Annotated[int, typer.Option(metavar="K", help="Rounds of diffusion and polish.")]
+MaxIterations = Annotated[int, typer.Option(metavar="N", help="Steps of one smoothing at most.")]
+Tolerance = Annotated[
+    float, typer.Option(metavar="T", help="Smoothing ends when a step lowers the energy by less than this part of it.")
+]
+Streamlines = Annotated[int, typer.Option(metavar="N", help="Seeds of streamlines.vtp, three curves each; 0: none.")]
+Symmetry = Annotated[int, typer.Option(metavar="N", help="N of the N-direction field; 4: crosses.")]
+Method = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(METHODS),
+        autocompletion=words(METHODS),
+        help="gl: Ginzburg-Landau; mbo: diffusion, faster; eigen: smoothest eigenvector.",
+    ),
+]
+Epsilon = Annotated[float, typer.Option(metavar="E", help="Coherence length, input unit; 0: from the edge length.")]
+BoundaryAlignment = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(ALIGNMENTS),
+        autocompletion=words(ALIGNMENTS),
+        help="How the field follows the rim of an open surface.",
+    ),
+]
+FeatureAlignment = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(ALIGNMENTS),
+        autocompletion=words(ALIGNMENTS),
+        help="How the field follows feature edges inside the surface.",
+    ),
+]
+Curvature = Annotated[
+    float, typer.Option(metavar="WEIGHT", help="Pull towards the lines of curvature, 1 is usual; 0: none.")
+]
+LeastFeatureAngle = Annotated[
+    float, typer.Option(metavar="DEG", help="Feature edges that bend by less are not followed, degrees.")
+]
+
+# By the name of the field in the classes of options; a field that is not here is none of the command line.
+PARAMETERS: dict[str, Any] = {
+    "sampling": Sampling,
+    "representation": Representation,
+    "solver": Solver,
+    "boundary": Boundary,
+    "feature_tolerance": FeatureTolerance,
+    "symmetry": Symmetry,
+    "method": Method,
+    "epsilon": Epsilon,
+    "boundary_alignment": BoundaryAlignment,
+    "feature_alignment": FeatureAlignment,
+    "curvature": Curvature,
+    "features": Features,
+    "feature_angle": FeatureAngle,
+    "least_feature_angle": LeastFeatureAngle,
+    "edge_length": EdgeLength,
+    "max_cells": MaxCells,
+    "remesh": Remesh,
+    "repair": Repair,
+    "max_hole_edges": MaxHoleEdges,
+    "wrap_alpha": WrapAlpha,
+    "wrap_offset": WrapOffset,
+    "interfaces": Interfaces,
+    "split": Split,
+    "split_singular": SplitSingular,
+    "rounds": Rounds,
+    "max_iterations": MaxIterations,
+    "tolerance": Tolerance,
+    "streamlines": Streamlines,
+    "sizes": Sizes,
+    "seed": Seed,
+    "threads": Threads,
+}
+_IN_DEGREES = ("feature_angle", "feature_tolerance", "least_feature_angle")
+
+
+def _default(option: Field[Any]) -> Any:
+    assert option.default is not MISSING
+    return round(math.degrees(option.default), 6) if option.name in _IN_DEGREES else option.default
+
+
+def with_options(
+    kind: type[_Options], *, only: Collection[str] = (), without: Collection[str] = ()
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Gives a command the options of a class as parameters, with their defaults, in place of its parameter `options`:
+    that is called to make them, and raises InvalidInput then."""
+    known = {option.name: option for option in fields(kind)}
+    names = [name for name in PARAMETERS if name in known and name in (only or known) and name not in without]
+
+    def decorated(command: Callable[..., None]) -> Callable[..., None]:
+        @functools.wraps(command)
+        def called(**given: Any) -> None:
+            values = {name: given.pop(name) for name in names}
+
+            def made() -> _Options:
+                angles = {name: math.radians(values[name]) for name in names if name in _IN_DEGREES}
+                return kind(**(values | angles))
+
+            command(options=made, **given)
+
+        parameters = []
+        for parameter in inspect.signature(command, eval_str=True).parameters.values():
+            if parameter.name != "options":
+                parameters.append(parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY))
+                continue
+            for name in names:
+                parameters.append(
+                    inspect.Parameter(
+                        name,
+                        inspect.Parameter.KEYWORD_ONLY,
+                        default=_default(known[name]),
+                        annotation=PARAMETERS[name],
+                    )
+                )
+        called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        called.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+        return called
+
+    return decorated

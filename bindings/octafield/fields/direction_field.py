@@ -24,7 +24,7 @@ from ..domain.inputs import naming
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source, prepare_mesh
 from ..errors import Cancelled, InvalidInput
-from ..options import METHODS, SurfaceFieldOptions
+from ..options import SurfaceFieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, StopNote, forward, machine, octafield_version, versions
 from ..view.notebook import Facts, ShownInNotebooks, facts_of_record
 
@@ -108,9 +108,10 @@ def compute_surface_field(
             meshed.surface,
             meshed.features,
             symmetry=options.symmetry,
-            method=METHODS[options.method],
+            method=options.method,
             epsilon=options.epsilon,
-            boundary=options.boundary,
+            boundary_alignment=options.boundary_alignment,
+            feature_alignment=options.feature_alignment,
             least_feature_angle=options.least_feature_angle,
             constraints=constraints,
             guide=guide,

@@ -1,6 +1,6 @@
 """The field of a run: by the whole recipe, or smoothed from frames that are given."""
 
-from typing import NotRequired, TypedDict
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,14 +12,16 @@ from ..errors import InvalidInput
 from ..options import OF_A_START, FieldOptions
 from ..progress.phases import Progress, forward
 
-
-class _How(TypedDict):
-    representation: str
-    max_iterations: int
-    tolerance: float
-    threads: int
-    progress: Progress | None
-    solver: NotRequired[str]
+_OF_SMOOTHING = (
+    "representation",
+    "solver",
+    "max_iterations",
+    "tolerance",
+    "linear_solver",
+    "midpoint_limit",
+    "threads",
+)
+_OF_ROUNDS = ("rounds", "round_time", "first_time", "last_time", "time_exponent", "max_steps", "linear_tolerance")
 
 
 def smoothed_field(
@@ -32,19 +34,13 @@ def smoothed_field(
     progress: Progress | None,
 ) -> tuple[SmoothResult, int]:
     """The field and how many steps of the heat flow came before. where: what the frames are smoothed on."""
-    how: _How = {
-        "representation": options.representation,
-        "max_iterations": options.max_iterations,
-        "tolerance": options.tolerance,
-        "threads": options.threads,
-        "progress": forward(progress, "smooth", 0.0, 1.0),
-    }
-    if options.solver != "default":
-        how["solver"] = options.solver
+    how: dict[str, Any] = {name: getattr(options, name) for name in _OF_SMOOTHING}
+    how["progress"] = forward(progress, "smooth", 0.0, 1.0)
     if start is not None:
         return _core.smooth(where, held, fitting_frames(tets, start, options.sampling), **how), 0
+    how |= {name: getattr(options, name) for name in _OF_ROUNDS}
     begin = "cross_field" if options.boundary == "none" else "constraints"
-    found = _core.frame_field(where, held, start=begin, seed=seed, rounds=options.rounds, **how)
+    found = _core.frame_field(where, held, start=begin, seed=seed, **how)
     return found.smooth, found.diffusion_steps
 
 

@@ -23,7 +23,6 @@ from .._core import (
     SurfaceSingularities,
     VertexConstraints,
 )
-from ..defaults import default_of
 from ..domain.meshed_input import MeshedInput
 from . import verdict
 
@@ -50,7 +49,7 @@ def analyse(
     frames: np.ndarray,
     threads: int = 0,
     streamlines: int = 0,
-    feature_tolerance: float = default_of("boundary_constraints", "feature_tolerance"),
+    feature_tolerance: float = _core.BoundaryOptions().feature_tolerance,
 ) -> FieldAnalysis:
     """streamlines: number of seeds, three curves each. feature_tolerance: radians, of the constraints."""
     tets = meshed.volume()

@@ -10,23 +10,26 @@ import math
 from collections.abc import Hashable
 from dataclasses import dataclass, field
 
+from .. import _core
+
 PREPARE = "prepare"  # the method of reading, meshing and the cross field
 # Seconds on a million tets, one thread; they matter until runs of the method are finished.
-_SECONDS_PER_MILLION = {
-    PREPARE: 10.0, "sh4": 30.0, "tensor4": 33.0, "odeco": 33.0, "sh469": 70.0, "su2": 70.0, "geodesic": 160.0,
-    "su2_midpoint": 250.0, "odeco_lengths": 1000.0,
-}  # fmt: skip
+_PREPARING = 10.0
 _UNKNOWN_METHOD = 100.0
 _LEAST = 0.2  # seconds of a run on any mesh
 _TYPICAL_TETS = 50_000.0  # of an input before any is known
 
 
+def _seconds_per_million(method: str) -> float:
+    if method == PREPARE:
+        return _PREPARING
+    scheme = _core.schemes.get(method)
+    return scheme.seconds_per_million_tets or _UNKNOWN_METHOD if scheme else _UNKNOWN_METHOD
+
+
 def field_seconds(representation: str, tets: float) -> float:
     """Of one field from file to analysis, one thread, where nothing else is known."""
-    return (
-        _LEAST
-        + (_SECONDS_PER_MILLION[PREPARE] + _SECONDS_PER_MILLION.get(representation, _UNKNOWN_METHOD)) * tets / 1e6
-    )
+    return _LEAST + (_PREPARING + _seconds_per_million(representation)) * tets / 1e6
 
 
 @dataclass
@@ -107,7 +110,7 @@ class Costs:
 
     @staticmethod
     def _measured(method: str, tets: float) -> float:
-        return _LEAST + _SECONDS_PER_MILLION.get(method.split("/")[0], _UNKNOWN_METHOD) * tets / 1e6
+        return _LEAST + _seconds_per_million(method.split("/")[0]) * tets / 1e6
 
 
 @dataclass

@@ -6,6 +6,7 @@ import glob
 import hashlib
 import itertools
 import json
+import math
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -99,6 +100,14 @@ _LATER = (
     ("wrap_offset", 0.0),
     ("max_cells", 0),
     ("split_singular", False),
+    ("linear_solver", "default"),
+    ("midpoint_limit", math.radians(20)),
+    ("round_time", 0.2),
+    ("first_time", 20.0),
+    ("last_time", 0.25),
+    ("time_exponent", 2.0),
+    ("max_steps", 60),
+    ("linear_tolerance", 0.1),
 )
 _RENAMED = {("repair", "default"): False, ("repair", "safe"): True}  # values that had other words
 _SHARED = ("seed", *(f.name for f in dataclasses.fields(FieldOptions.__mro__[1])))

@@ -28,7 +28,7 @@ std::vector<Alignment> wanted(const EdgeTopology& topology, const FeatureGraph& 
             unknown.insert(unknown.end(), {low, high});
             continue;
         }
-        if (on_boundary(topology, e) || options.features == Alignment::none) continue;
+        if (on_boundary(topology, e) || options.feature_alignment == Alignment::none) continue;
         const Eigen::Vector3d left = normals.row(topology.edge_triangles(e, 0)),
                               right = normals.row(topology.edge_triangles(e, 1));
         if (std::atan2(left.cross(right).norm(), left.dot(right)) < options.least_feature_angle) continue;
@@ -38,14 +38,14 @@ std::vector<Alignment> wanted(const EdgeTopology& topology, const FeatureGraph& 
                                    " is a feature inside the surface: it has no sense to run in, so the symmetry must "
                                    "be even, or alignment with features none",
                                "odd_symmetry", {low, high});
-        result[e] = options.features;
+        result[e] = options.feature_alignment;
     }
     if (!unknown.empty())
         throw InvalidInput(std::to_string(unknown.size() / 2) + " feature edges are no edges of the mesh (vertices " +
                                first_few(unknown) + ")",
                            "unknown_edge", unknown);
     for (Index e = 0; e < topology.edges.rows(); ++e)
-        if (on_boundary(topology, e)) result[e] = options.boundary;
+        if (on_boundary(topology, e)) result[e] = options.boundary_alignment;
     return result;
 }
 

@@ -56,11 +56,11 @@ double smallest_free_size(const Components& components) {
 }
 
 void require_not_below_edges(const DirectionFieldOptions& options, double epsilon, double mean) {
-    if (options.method != DirectionFieldMethod::ginzburg_landau || epsilon >= mean / 100) return;
+    if (options.method != DirectionFieldMethod::gl || epsilon >= mean / 100) return;
     throw InvalidInput(
         "an epsilon of " + short_number(epsilon) + " is below 1/100 of the mean edge length, " + short_number(mean) +
             ": singular points would stay where they start; choose 1/100 or more, 2 mean edge lengths are usual, "
-            "or the methods mbo and eigenvector, which need no epsilon",
+            "or the methods mbo and eigen, which need no epsilon",
         "epsilon_too_small");
 }
 
@@ -219,7 +219,7 @@ void Solver::run() {
     field_.converged = true;
     if (system_.size() > 0) {
         start();
-        if (options_.method == DirectionFieldMethod::ginzburg_landau)
+        if (options_.method == DirectionFieldMethod::gl)
             descend(continuation(epsilon_, options_.first_epsilon, components_));
     }
     tell();
@@ -229,7 +229,7 @@ void Solver::run_from(const Eigen::VectorXcd& values) {
     field_.values = values;
     field_.converged = true;
     order_ = system_.elimination_order();
-    if (options_.method == DirectionFieldMethod::ginzburg_landau)
+    if (options_.method == DirectionFieldMethod::gl)
         descend({epsilon_});
     else
         settle(problem());
@@ -318,7 +318,7 @@ std::optional<Eigen::VectorXcd> along_curvature(const TriangleMesh& mesh, const 
     const Eigen::VectorXd areas = triangle_areas(mesh);
     if (!(areas.dot(curvature.anisotropy) > least_anisotropy * areas.sum())) return {};
     DirectionFieldOptions guided = options;
-    guided.method = DirectionFieldMethod::eigenvector;
+    guided.method = DirectionFieldMethod::eigen;
     guided.guide = {.directions = curvature.directions, .weights = curvature.anisotropy};
     DirectionField field;
     field.symmetry = options.symmetry;
@@ -365,7 +365,7 @@ DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& fea
             free = solver.has_free_component();
             solver.run();
         }
-        if (free && field.converged && options.symmetry % 2 == 0 && options.method != DirectionFieldMethod::eigenvector)
+        if (free && field.converged && options.symmetry % 2 == 0 && options.method != DirectionFieldMethod::eigen)
             improve_from_curvature(mesh, features, options, field, progress);
     });
     return field;

@@ -27,8 +27,8 @@ constexpr std::size_t most_triangles = 200;
 
 }  // namespace
 
-std::vector<PatchValue> values_round(const ChartedField& field, const std::function<bool(Index)>& is_barrier,
-                                     Index t, Complex centre, double inner, double outer) {
+std::vector<PatchValue> values_round(const ChartedField& field, const std::function<bool(Index)>& is_barrier, Index t,
+                                     Complex centre, double inner, double outer) {
     std::vector<PatchValue> ring, middle;
     std::vector<Unfolded> queue = {{t, 1, 0}};
     std::set<Index> seen = {t};

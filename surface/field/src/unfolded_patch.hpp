@@ -15,8 +15,9 @@ struct PatchValue {
 };
 
 // At edge midpoints between the two radii round `centre`, which lies in triangle t. The boundary and edges for which
-// `is_barrier` holds are not crossed. Midpoints appear once for each of their triangles. If there are none, those of triangle t.
-std::vector<PatchValue> values_round(const ChartedField& field, const std::function<bool(Index)>& is_barrier,
-                                     Index t, Complex centre, double inner, double outer);
+// `is_barrier` holds are not crossed. Midpoints appear once for each of their triangles. If there are none, those of
+// triangle t.
+std::vector<PatchValue> values_round(const ChartedField& field, const std::function<bool(Index)>& is_barrier, Index t,
+                                     Complex centre, double inner, double outer);
 
 }  // namespace octafield::surface::detail

@@ -78,7 +78,7 @@ std::vector<double> fitted_round(const std::vector<Sample>& samples, int count) 
 
 // From `place` straight ahead for `length`, less where a feature or the boundary is in the way. Moves the place, and
 // adds the end of each segment and its triangle.
-void walk_straight(const ChartedField& field, const FieldTracer& tracer, double length, Place& place,
+void walk_straight(const ChartedField& field, const DirectionTracer& tracer, double length, Place& place,
                    std::vector<Eigen::Vector3d>& points, std::vector<Index>& triangles) {
     int entry = -1;
     const auto go = [&](Complex to) {
@@ -109,7 +109,7 @@ void walk_straight(const ChartedField& field, const FieldTracer& tracer, double 
 // edge midpoints at about an edge length from it, as the values in the triangle itself depend on how the point lies in
 // it. Away from the point N phi = k phi + c.
 std::vector<SeparatrixStart> starts_in_triangle(const ChartedField& field, const SurfaceSingularity& point,
-                                                const FieldTracer& tracer) {
+                                                const DirectionTracer& tracer) {
     const int symmetry = field.symmetry(), count = symmetry - point.index_times_symmetry;
     if (count <= 0) return {};
     const Index t = point.triangle;
@@ -131,7 +131,7 @@ std::vector<SeparatrixStart> starts_in_triangle(const ChartedField& field, const
 
 std::vector<SeparatrixStart> starts_at_vertex(const ChartedField& field, const std::vector<CornerLink>& links,
                                               const Eigen::VectorXcd& values, const VertexFans& fans,
-                                              const VertexFans::Fan& fan, const FieldTracer& tracer) {
+                                              const VertexFans::Fan& fan, const DirectionTracer& tracer) {
     const int symmetry = field.symmetry();
     const CornerLink& first = links[fans.corners[fan.first]];
     std::vector<Sample> samples = {{0, std::arg(first.first_sign * values[first.first])}};

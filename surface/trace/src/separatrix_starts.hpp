@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "field_tracer.hpp"
+#include "direction_tracer.hpp"
 #include "vertex_fans.hpp"
 
 namespace octafield::surface::detail {
@@ -18,11 +18,11 @@ struct SeparatrixStart {
 
 // Of a point inside a triangle, counter-clockwise; none if its index_times_symmetry is N or more.
 std::vector<SeparatrixStart> starts_in_triangle(const ChartedField& field, const SurfaceSingularity& point,
-                                                const FieldTracer& tracer);
+                                                const DirectionTracer& tracer);
 
 // The same at a vertex with one fan round it; without the directions along features and boundary edges.
 std::vector<SeparatrixStart> starts_at_vertex(const ChartedField& field, const std::vector<CornerLink>& links,
                                               const Eigen::VectorXcd& values, const VertexFans& fans,
-                                              const VertexFans::Fan& fan, const FieldTracer& tracer);
+                                              const VertexFans::Fan& fan, const DirectionTracer& tracer);
 
 }  // namespace octafield::surface::detail

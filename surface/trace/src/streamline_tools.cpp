@@ -41,7 +41,7 @@ DirectionField half_turned(const DirectionField& field) {
 
 }  // namespace
 
-Streamline joined(const FieldTracer::Curve& back, const FieldTracer::Curve& ahead) {
+Streamline joined(const TracedCurve& back, const TracedCurve& ahead) {
     Streamline line;
     const std::size_t skipped = back.points.empty() ? 0 : back.points.size() - 1;  // the seed is in both
     line.points.resize(static_cast<Eigen::Index>(skipped + ahead.points.size()), 3);
@@ -70,16 +70,15 @@ TwoWayTracer::TwoWayTracer(const TriangleMesh& mesh, const FeatureGraph& feature
     backward_.emplace(*opposite_field_, features, singularities, options);
 }
 
-Streamline TwoWayTracer::trace(const Place& place, const FieldTracer::Admit& ahead,
-                               const FieldTracer::Admit& back) const {
-    const FieldTracer::Curve curve = forward_.trace(place, -1, ahead);
+Streamline TwoWayTracer::trace(const Place& place, const Admit& ahead, const Admit& back) const {
+    const TracedCurve curve = forward_.trace(place, -1, ahead);
     if (curve.end == StreamlineEnd::closed) {
         Streamline line = joined({}, curve);
         line.first_end = StreamlineEnd::closed;
         return line;
     }
     if (!both_ways_) return joined({}, curve);
-    const FieldTracer& tracer = backward_ ? *backward_ : forward_;
+    const DirectionTracer& tracer = backward_ ? *backward_ : forward_;
     return joined(tracer.trace({place.triangle, place.at, -place.heading}, -1, back), curve);
 }
 

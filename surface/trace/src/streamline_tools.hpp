@@ -3,12 +3,12 @@
 
 #include <optional>
 
-#include "field_tracer.hpp"
+#include "direction_tracer.hpp"
 
 namespace octafield::surface::detail {
 
 // One polyline of two curves from the same place, `back` against the direction.
-Streamline joined(const FieldTracer::Curve& back, const FieldTracer::Curve& ahead);
+Streamline joined(const TracedCurve& back, const TracedCurve& ahead);
 
 class TwoWayTracer {
 public:
@@ -17,18 +17,17 @@ public:
                  const SurfaceSingularities& singularities, const StreamlineOptions& options);
 
     const ChartedField& field() const { return field_; }
-    const FieldTracer& forward() const { return forward_; }
-    Streamline trace(const Place& place, const FieldTracer::Admit& ahead = {},
-                     const FieldTracer::Admit& back = {}) const;
+    const DirectionTracer& forward() const { return forward_; }
+    Streamline trace(const Place& place, const Admit& ahead = {}, const Admit& back = {}) const;
 
 private:
     bool both_ways_;
     ChartedField field_;
-    FieldTracer forward_;
+    DirectionTracer forward_;
     // With odd N the opposite of a direction is none of the N: the field turned by half a turn.
     std::optional<DirectionField> opposite_values_;
     std::optional<ChartedField> opposite_field_;
-    std::optional<FieldTracer> backward_;
+    std::optional<DirectionTracer> backward_;
 };
 
 }  // namespace octafield::surface::detail

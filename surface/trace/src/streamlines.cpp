@@ -11,8 +11,8 @@ namespace octafield::surface {
 namespace {
 
 using detail::Complex;
-using detail::FieldTracer;
 using detail::Place;
+using detail::TracedCurve;
 
 std::vector<Place> seed_places(const detail::ChartedField& field, const std::vector<StreamlineSeed>& seeds) {
     const Eigen::Index count = field.mesh().triangles.rows();
@@ -50,7 +50,7 @@ const detail::VertexFans::Fan* only_fan(const detail::VertexFans& fans, Index ve
     return &*found;
 }
 
-void prepend(FieldTracer::Curve& curve, const detail::SeparatrixStart& start) {
+void prepend(TracedCurve& curve, const detail::SeparatrixStart& start) {
     for (std::size_t i = 0; i + 1 < start.points.size(); ++i)
         curve.length += (start.points[i + 1] - start.points[i]).norm();
     curve.points.insert(curve.points.begin(), start.points.begin(), start.points.end() - 1);
@@ -58,7 +58,7 @@ void prepend(FieldTracer::Curve& curve, const detail::SeparatrixStart& start) {
 }
 
 // No longer than `most`.
-void cut(FieldTracer::Curve& curve, double most) {
+void cut(TracedCurve& curve, double most) {
     if (curve.length <= most) return;
     double length = 0;
     std::size_t last = 0;  // the point reached
@@ -108,7 +108,7 @@ std::vector<Streamline> separatrices(const TriangleMesh& mesh, const FeatureGrap
             starts = detail::starts_at_vertex(tracer.field(), links, unit_values, fans, *fan, tracer.forward());
         }
         for (const auto& start : starts) {
-            FieldTracer::Curve curve = tracer.forward().trace(start.place, static_cast<Index>(i));
+            TracedCurve curve = tracer.forward().trace(start.place, static_cast<Index>(i));
             prepend(curve, start);
             cut(curve, tracer.forward().max_length());
             Streamline line = detail::joined({}, curve);

@@ -146,8 +146,7 @@ std::vector<SurfaceCrossing> find_crossings(const BoundarySurface& surface, cons
 
 std::vector<SurfaceCorner> find_corners(const BoundarySurface& surface, const BoundaryStars& stars,
                                         const surface::FeatureGraph& features, const std::vector<EdgeKey>& keys,
-                                        const CountQuadrilaterals& counter,
-                                        const std::vector<FeatureWedge>& wedges) {
+                                        const CountQuadrilaterals& counter, const std::vector<FeatureWedge>& wedges) {
     std::vector<std::uint8_t> is_corner(stars.vertex_count(), 0);
     for (const Index v : features.corners) is_corner[v] = 1;
     const CornerJudge judge(surface, counter, wedges, keys, is_corner);
@@ -172,8 +171,7 @@ std::vector<EdgeKey> surface_keys(const BoundarySurface& surface) {
     std::vector<EdgeKey> keys;
     for (const auto triangle : surface.mesh.triangles.rowwise())
         for (int k = 0; k < 3; ++k)
-            keys.push_back(
-                std::minmax({surface.vertex_map[triangle[k]], surface.vertex_map[triangle[(k + 1) % 3]]}));
+            keys.push_back(std::minmax({surface.vertex_map[triangle[k]], surface.vertex_map[triangle[(k + 1) % 3]]}));
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     return keys;
@@ -181,8 +179,7 @@ std::vector<EdgeKey> surface_keys(const BoundarySurface& surface) {
 
 }  // namespace
 
-BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaternions& frames,
-                                         int threads) {
+BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaternions& frames, int threads) {
     const TetMesh& mesh = domain.mesh();
     const BoundarySurface& surface = domain.surface();
     const surface::FeatureGraph& features = domain.features();
@@ -203,8 +200,7 @@ BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaterni
     return result;
 }
 
-BoundaryMeshability tet_boundary_meshability(const TetDomain& domain, const Quaternions& of_tets,
-                                             int threads) {
+BoundaryMeshability tet_boundary_meshability(const TetDomain& domain, const Quaternions& of_tets, int threads) {
     const TetMesh& mesh = domain.mesh();
     const BoundarySurface& surface = domain.surface();
     const surface::FeatureGraph& features = domain.features();

@@ -5,9 +5,9 @@
 #include "octafield/frames/sh4.hpp"
 #include "octafield/frames/sh4_projection.hpp"
 #include "octafield/parallel.hpp"
+#include "octafield/volume/triangle_table.hpp"
 #include "require_frames.hpp"
 #include "tet_axes.hpp"
-#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {

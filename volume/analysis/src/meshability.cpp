@@ -148,8 +148,8 @@ Meshability local_meshability(const TetDomain& domain, const Quaternions& frames
     require_fitting(mesh, graph);
     Meshability result = singular_vertices(graph, boundary_points(graph));
     for (SingularVertex& v : result.vertices)
-        v.about_normal = v.kind == SingularVertexKind::boundary_end &&
-                         turns_about_normal(mesh, frames, graph.triangles[v.point]);
+        v.about_normal =
+            v.kind == SingularVertexKind::boundary_end && turns_about_normal(mesh, frames, graph.triangles[v.point]);
     find_curve_ends(frames, graph, result);
     find_junctions(graph, result);
     add_totals(graph, result);

@@ -17,8 +17,8 @@
 #include "octafield/frames/sh4_projection.hpp"
 #include "octafield/parallel.hpp"
 #include "octafield/volume/locate_points.hpp"
-#include "require_frames.hpp"
 #include "octafield/volume/triangle_table.hpp"
+#include "require_frames.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -114,47 +114,48 @@ SampledFrames sample_frames(const TetDomain& domain, const Quaternions& frames, 
     const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
     if (std::isnan(options.tolerance)) throw InvalidInput("tolerance is not a number", "option_out_of_range");
-    const double tolerance = options.tolerance >= 0
-                                 ? options.tolerance
-                                 : default_tolerance * surface::bounding_box_diagonal(mesh.vertices);
+    const double tolerance =
+        options.tolerance >= 0 ? options.tolerance : default_tolerance * surface::bounding_box_diagonal(mesh.vertices);
     LocatedPoints located = locate_points(domain, points, options.threads);
     const auto count = static_cast<std::int64_t>(points.rows());
     SampledFrames result{Quaternions::Constant(count, 4, std::numeric_limits<double>::quiet_NaN()),
-                         std::vector<double>(count, 0), {}, std::vector<double>(count, 0)};
+                         std::vector<double>(count, 0),
+                         {},
+                         std::vector<double>(count, 0)};
     bring_to_mesh(domain, points, tolerance, options.threads, located, result.distance);
 
-    parallel_for(
-        (count + together - 1) / together, options.threads,
-        [&](std::int64_t block) {
-            std::vector<std::int64_t> inside;
-            for (std::int64_t i = block * together; i < std::min((block + 1) * together, count); ++i)
-                if (located.tet[i] >= 0)
-                    inside.push_back(i);
-                else
-                    result.distance[i] = infinity;
-            const auto rows = static_cast<Eigen::Index>(inside.size());
-            Rows<double, Sh4::dimension> wanted = Rows<double, Sh4::dimension>::Zero(rows, Sh4::dimension);
-            Quaternions guess(rows, 4), nearest(rows, 4);
-            Eigen::VectorXd distances(rows);
-            for (Eigen::Index k = 0; k < rows; ++k) {
-                const auto weights = located.weights.row(inside[k]);
-                const auto corners = mesh.tets.row(located.tet[inside[k]]);
-                Eigen::Index largest;
-                weights.maxCoeff(&largest);
-                guess.row(k) = frames.row(corners[largest]);
-                for (int c = 0; c < 4; ++c)
-                    if (weights[c] > 0)
-                        wanted.row(k) += weights[c] * Sh4::embed(frames::from_wxyz(frames.row(corners[c]))).transpose();
-                result.confidence[inside[k]] = wanted.row(k).norm();
-            }
-            frames::sh4_project(wanted.data(), guess.data(), rows, nearest.data(), distances.data());
-            for (Eigen::Index k = 0; k < rows; ++k)
-                result.frames.row(inside[k]) =
-                    frames::to_wxyz(frames::closest_representative(frames::from_wxyz(nearest.row(k)),
-                                                                   frames::from_wxyz(guess.row(k))))
-                        .transpose();
-        },
-        1);
+    parallel_for((count + together - 1) / together, options.threads,
+                 [&](std::int64_t block) {
+                     std::vector<std::int64_t> inside;
+                     for (std::int64_t i = block * together; i < std::min((block + 1) * together, count); ++i)
+                         if (located.tet[i] >= 0)
+                             inside.push_back(i);
+                         else
+                             result.distance[i] = infinity;
+                     const auto rows = static_cast<Eigen::Index>(inside.size());
+                     Rows<double, Sh4::dimension> wanted = Rows<double, Sh4::dimension>::Zero(rows, Sh4::dimension);
+                     Quaternions guess(rows, 4), nearest(rows, 4);
+                     Eigen::VectorXd distances(rows);
+                     for (Eigen::Index k = 0; k < rows; ++k) {
+                         const auto weights = located.weights.row(inside[k]);
+                         const auto corners = mesh.tets.row(located.tet[inside[k]]);
+                         Eigen::Index largest;
+                         weights.maxCoeff(&largest);
+                         guess.row(k) = frames.row(corners[largest]);
+                         for (int c = 0; c < 4; ++c)
+                             if (weights[c] > 0)
+                                 wanted.row(k) +=
+                                     weights[c] * Sh4::embed(frames::from_wxyz(frames.row(corners[c]))).transpose();
+                         result.confidence[inside[k]] = wanted.row(k).norm();
+                     }
+                     frames::sh4_project(wanted.data(), guess.data(), rows, nearest.data(), distances.data());
+                     for (Eigen::Index k = 0; k < rows; ++k)
+                         result.frames.row(inside[k]) =
+                             frames::to_wxyz(frames::closest_representative(frames::from_wxyz(nearest.row(k)),
+                                                                            frames::from_wxyz(guess.row(k))))
+                                 .transpose();
+                 },
+                 1);
     result.tet = std::move(located.tet);
     return result;
 }

@@ -14,14 +14,22 @@ namespace {
 template <class Counted>
 int& count_of(Counted& at, int quarter_turns) {
     switch (quarter_turns) {
-        case 3: return at.valence1;
-        case 2: return at.valence2;
-        case 1: return at.valence3;
-        case -1: return at.valence5;
-        case -2: return at.valence6;
-        case -3: return at.valence7;
-        case -4: return at.valence8;
-        default: return at.complex;
+        case 3:
+            return at.valence1;
+        case 2:
+            return at.valence2;
+        case 1:
+            return at.valence3;
+        case -1:
+            return at.valence5;
+        case -2:
+            return at.valence6;
+        case -3:
+            return at.valence7;
+        case -4:
+            return at.valence8;
+        default:
+            return at.complex;
     }
 }
 

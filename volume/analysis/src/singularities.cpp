@@ -8,10 +8,10 @@
 #include "octafield/frames/octahedral_lift.hpp"
 #include "octafield/frames/sh4.hpp"
 #include "octafield/parallel.hpp"
+#include "octafield/volume/triangle_table.hpp"
 #include "quarter_turns.hpp"
 #include "require_frames.hpp"
 #include "singular_curves.hpp"
-#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -25,7 +25,8 @@ using frames::Sh4;
 // tie, and the holonomies of a tet's four faces multiply to the identity, so no tet has exactly one singular face.
 // Lifted: three smallest steps are less than a whole turn in all, so 0 means no turn. tie: at one of the edges.
 frames::LiftedMatching holonomy(const Quaternion& a, const Quaternion& b, const Quaternion& c) {
-    const auto ab = frames::lifted_matching(a, b), bc = frames::lifted_matching(b, c), ac = frames::lifted_matching(a, c);
+    const auto ab = frames::lifted_matching(a, b), bc = frames::lifted_matching(b, c),
+               ac = frames::lifted_matching(a, c);
     const int round_trip =
         frames::lifted_product(frames::lifted_product(ab.element, bc.element), frames::lifted_inverse(ac.element));
     return {frames::lifted_inverse(round_trip), ab.tie || bc.tie || ac.tie};
@@ -127,8 +128,8 @@ DualGraph join_in_tets(const TetMesh& mesh, const TriangleTable& table, const st
 void set_quarter_turns(const TetMesh& mesh, const Quaternions& frames, const DualGraph& dual,
                        const std::vector<Eigen::Vector3d>& points, const std::vector<std::uint8_t>& lifts,
                        SingularGraph& graph) {
-    // From the point before the triangle to the point after it, along its positive normal: steadier than the normal, which a zigzag of
-    // triangles tosses about.
+    // From the point before the triangle to the point after it, along its positive normal: steadier than the normal,
+    // which a zigzag of triangles tosses about.
     std::vector<Eigen::Vector3d> along(graph.triangles.size(), Eigen::Vector3d::Zero());
     for (const Branch& b : dual.branches)
         along[b.singular] += (b.positive ? 1 : -1) * (points[b.point] - points[b.singular]);

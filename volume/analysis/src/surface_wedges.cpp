@@ -70,8 +70,8 @@ private:
 
 }  // namespace
 
-std::vector<Wedge> surface_wedges(const TetDomain& domain,
-                                  const std::vector<std::pair<Index, Index>>& edges, int threads) {
+std::vector<Wedge> surface_wedges(const TetDomain& domain, const std::vector<std::pair<Index, Index>>& edges,
+                                  int threads) {
     const TriangleTable& table = domain.triangles();
     const std::vector<Index>& rows = domain.surface_rows();
     std::vector<std::uint8_t> on_surface(table.triangles.rows(), 0);

@@ -132,8 +132,7 @@ SurfaceVertices surface_vertices(const TetDomain& domain) {
 
 }  // namespace
 
-Meshability tet_meshability(const TetDomain& domain,
-                            const Quaternions& of_tets, const SingularEdges& singular) {
+Meshability tet_meshability(const TetDomain& domain, const Quaternions& of_tets, const SingularEdges& singular) {
     const TetMesh& mesh = domain.mesh();
     require_frames(of_tets, mesh.tets.rows());
     const SingularGraph& graph = singular.graph;
@@ -173,8 +172,8 @@ Meshability tet_meshability(const TetDomain& domain,
     for (std::size_t i = 0; i < result.vertices.size(); ++i) {
         SingularVertex& v = result.vertices[i];
         const Index id = singular.vertices[v.point];
-        const bool all_have_axes = std::all_of(leaving[i].begin(), leaving[i].end(),
-                                               [](const Leaving& l) { return l.axis >= 0; });
+        const bool all_have_axes =
+            std::all_of(leaving[i].begin(), leaving[i].end(), [](const Leaving& l) { return l.axis >= 0; });
         v.meshable = all_curves_meshable(v);
         if (v.kind == SingularVertexKind::boundary_end) {
             const Leaving& l = leaving[i].front();

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "edge_loops.hpp"
+#include "octafield/volume/triangle_table.hpp"
 #include "quarter_turns.hpp"
 #include "require_frames.hpp"
 #include "singular_curves.hpp"
-#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {

@@ -61,7 +61,9 @@ int nearest_of_residue(int residue, double measured) {
 }
 
 double wedge_angle(const TetMesh& mesh, const Wedge& wedge) {
-    const auto from_a = [&](Index v) -> Vector3 { return (mesh.vertices.row(v) - mesh.vertices.row(wedge.a)).transpose(); };
+    const auto from_a = [&](Index v) -> Vector3 {
+        return (mesh.vertices.row(v) - mesh.vertices.row(wedge.a)).transpose();
+    };
     double sum = 0;
     for (std::size_t i = 0; i + 1 < wedge.link.size(); ++i)
         sum += std::abs(angle_about(from_a(wedge.b), from_a(wedge.link[i]), from_a(wedge.link[i + 1])));
@@ -70,7 +72,9 @@ double wedge_angle(const TetMesh& mesh, const Wedge& wedge) {
 
 // Normals of the first and last triangle, out of the wedge.
 std::pair<Vector3, Vector3> outward_normals(const TetMesh& mesh, const Wedge& wedge) {
-    const auto from_a = [&](Index v) -> Vector3 { return (mesh.vertices.row(v) - mesh.vertices.row(wedge.a)).transpose(); };
+    const auto from_a = [&](Index v) -> Vector3 {
+        return (mesh.vertices.row(v) - mesh.vertices.row(wedge.a)).transpose();
+    };
     const Vector3 edge = from_a(wedge.b);
     return {from_a(wedge.link.front()).cross(edge), edge.cross(from_a(wedge.link.back()))};
 }
@@ -204,8 +208,8 @@ std::optional<int> TetTurnCounter::quadrilaterals(Index v, const std::vector<Ind
         tet = way.back();
     }
     if (carried.about != axes_.nearest(tet, sector.normals.back())) return std::nullopt;
-    const auto turns = quarter_turns(carried.about, carried.across,
-                                     nearest_across(axes_, tet, p(link.back()) - p(v), carried.about));
+    const auto turns =
+        quarter_turns(carried.about, carried.across, nearest_across(axes_, tet, p(link.back()) - p(v), carried.about));
     if (!turns) return std::nullopt;
     return nearest_of_residue(*turns, (sector.angle - carried.turn) / quarter);
 }

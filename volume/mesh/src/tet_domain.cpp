@@ -34,7 +34,8 @@ void require_fitting(const surface::FeatureGraph& features, const surface::Trian
         throw InvalidInput("feature edges " + first_few(bad) + " are no edges of the surface", "not_an_edge", bad);
     for (const Index v : features.corners)
         if (v < 0 || v >= count)
-            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the surface", "index_out_of_range", {v});
+            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the surface", "index_out_of_range",
+                               {v});
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Splitting edges, triangles and tets of a tet mesh that join its surface to itself, or singular vertices to one another.
+// Splitting edges, triangles and tets of a tet mesh that join its surface to itself, or singular vertices to one
+// another.
 #pragma once
 
 #include <algorithm>

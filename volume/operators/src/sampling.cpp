@@ -7,9 +7,9 @@
 
 #include "block_laplacian.hpp"
 #include "octafield/frames/sh4_projection.hpp"
+#include "octafield/volume/triangle_table.hpp"
 #include "require_frames.hpp"
 #include "sh4_field.hpp"
-#include "octafield/volume/triangle_table.hpp"
 
 namespace octafield::volume {
 namespace {

@@ -107,8 +107,8 @@ private:
     std::vector<std::uint8_t> matching_, on_surface_;
 };
 
-void tell_triangles(const TetDomain& domain, const std::vector<Edge>& features,
-                    const CombedField& combed, AlignmentTables& result) {
+void tell_triangles(const TetDomain& domain, const std::vector<Edge>& features, const CombedField& combed,
+                    AlignmentTables& result) {
     const TetMesh& mesh = domain.mesh();
     const BoundarySurface& surface = domain.surface();
     const TriangleTable& table = domain.triangles();

@@ -57,9 +57,9 @@ SpanningTree spanning_tree(const TriangleTable& table, const std::vector<std::ui
             const int step = forward ? octahedral_inverse(matching[triangle]) : matching[triangle];
             const int element = octahedral_product(step, tree.element[tet]);
             if (element != 0)  // else all bits stay
-                tree.frames.row(child) = frames::to_wxyz(frames::from_wxyz(of_tets.row(child)) *
-                                                         frames::octahedral_group()[element])
-                                             .transpose();
+                tree.frames.row(child) =
+                    frames::to_wxyz(frames::from_wxyz(of_tets.row(child)) * frames::octahedral_group()[element])
+                        .transpose();
             if (tree.frames.row(child).dot(tree.frames.row(tet)) < 0) tree.frames.row(child) *= -1;
             tree.element[child] = static_cast<std::uint8_t>(element);
             queue.push_back(child);

@@ -104,8 +104,8 @@ CombedVertices comb_vertices(const TetDomain& domain, const Quaternions& of_vert
     result.parts = breadth_first(
         near, [](Index, Index, std::size_t) { return true; },
         [&](Index parent, Index child, std::size_t k) {
-            element[child] = static_cast<std::uint8_t>(
-                octahedral_product(octahedral_inverse(near.matching[k]), element[parent]));
+            element[child] =
+                static_cast<std::uint8_t>(octahedral_product(octahedral_inverse(near.matching[k]), element[parent]));
         });
     shorten_cut(near, element);
     for (Eigen::Index v = 0; v < of_vertices.rows(); ++v)

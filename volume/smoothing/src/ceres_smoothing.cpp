@@ -63,7 +63,7 @@ ceres::Solver::Options solver_options(const SmoothOptions& options, Index vertex
     o.logging_type = ceres::SILENT;
     if (options.solver == SmoothSolver::lbfgs) o.minimizer_type = ceres::LINE_SEARCH;  // LBFGS is its default
     const bool cholesky = options.linear_solver == LinearSolver::cholesky ||
-                          (options.linear_solver == LinearSolver::automatic && vertex_count <= cholesky_limit);
+                          (options.linear_solver == LinearSolver::default_ && vertex_count <= cholesky_limit);
     o.linear_solver_type = cholesky ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::CGNR;
     o.preconditioner_type = ceres::JACOBI;
     return o;

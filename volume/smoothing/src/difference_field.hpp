@@ -12,7 +12,7 @@
 
 namespace octafield::volume {
 
-template <class Scheme>
+template <DifferenceScheme Scheme>
 class DifferenceField final : public ceres::EvaluationCallback {
 public:
     static constexpr int dimension = Scheme::dimension;
@@ -77,7 +77,7 @@ private:
 // Rows of coefficients times the differences from one vertex to others: an edge (one row, one pair) or a tet (its
 // gradient, from its first vertex). Parameters: the first vertex, then the others. Residuals: Scheme::dimension per
 // row.
-template <class Scheme>
+template <DifferenceScheme Scheme>
 class DifferenceCost final : public ceres::CostFunction {
 public:
     using Field = DifferenceField<Scheme>;

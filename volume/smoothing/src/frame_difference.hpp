@@ -5,9 +5,11 @@
 // fourth component, first, for what part of (du, dv) changes the norm of the quaternion.
 #pragma once
 
+#include <concepts>
 #include <vector>
 
 #include "octafield/frames/su2.hpp"
+#include "octafield/volume/smooth.hpp"
 
 namespace octafield::volume {
 
@@ -17,9 +19,24 @@ struct Difference {
     Eigen::Matrix<double, Dimension, 3> by_first, by_second;  // set only if asked for
 };
 
+// Laws (tests/volume/difference_laws.hpp):
+// - made(options): the scheme with what it takes of the options;
+// - at(q, derivatives): what is computed once per site, for all its pairs;
+// - difference(pair, p, q, derivatives): of the pair of that number; the rotation vector from p to q to first order in
+//   it (its norm, where it has more than three components), whichever quaternions stand for the frames.
+template <class Scheme>
+concept DifferenceScheme = requires(const Scheme& scheme, const SmoothOptions& options, const frames::Quaternion& q,
+                                    const typename Scheme::Vertex& vertex) {
+    { Scheme::dimension } -> std::convertible_to<int>;
+    { Scheme::made(options) } -> std::same_as<Scheme>;
+    { Scheme::at(q, true) } -> std::same_as<typename Scheme::Vertex>;
+    { scheme.difference(std::size_t{0}, vertex, vertex, true) } -> std::same_as<Difference<Scheme::dimension>>;
+};
+
 // log(q (p o)^-1), o the matching.
 struct GeodesicScheme {
     static constexpr int dimension = 3;
+    static GeodesicScheme made(const SmoothOptions&) { return {}; }
     using Vertex = frames::Quaternion;
     static Vertex at(const frames::Quaternion& q, bool) { return q; }
     Difference<3> difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const;
@@ -28,6 +45,7 @@ struct GeodesicScheme {
 // The same of quaternions that are read from the invariants of p and q.
 struct Su2GeodesicScheme {
     static constexpr int dimension = 3;
+    static Su2GeodesicScheme made(const SmoothOptions&) { return {}; }
     using Vertex = frames::Quaternion;
     static Vertex at(const frames::Quaternion& q, bool);
     Difference<3> difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const {
@@ -47,6 +65,7 @@ Su2Vertex su2_vertex(const frames::Quaternion& q, bool derivatives);
 // to limit.
 struct MidpointScheme {
     static constexpr int dimension = 4;
+    static MidpointScheme made(const SmoothOptions& options) { return {options.midpoint_limit}; }
     using Vertex = Su2Vertex;
     double limit;  // radians
     static Vertex at(const frames::Quaternion& q, bool derivatives) { return su2_vertex(q, derivatives); }
@@ -56,6 +75,7 @@ struct MidpointScheme {
 // Over sqrt(2), 2 J^+(m) (h(q) - h(p)) m^-1 for m = p o and for m = q.
 struct SymmetricScheme {
     static constexpr int dimension = 8;
+    static SymmetricScheme made(const SmoothOptions&) { return {}; }
     using Vertex = Su2Vertex;
     static Vertex at(const frames::Quaternion& q, bool derivatives) { return su2_vertex(q, derivatives); }
     Difference<8> difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const;
@@ -64,6 +84,7 @@ struct SymmetricScheme {
 // As MidpointScheme without a limit, at midpoints of another field that do not move with p and q.
 struct FrozenScheme {
     static constexpr int dimension = 4;
+    static FrozenScheme made(const SmoothOptions&) { return {}; }
     using Vertex = Su2Vertex;
     using Metric = Eigen::Matrix<double, 4, 6>;  // takes (re, im of h0, h1, h2) to the difference
     std::vector<Metric> metrics;                 // per pair

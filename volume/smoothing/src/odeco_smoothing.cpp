@@ -75,9 +75,6 @@ void require_held(const BoundaryConstraints& constraints) {
 SmoothResult smooth_odeco_lengths(const Sampling& sampling, const BoundaryConstraints& constraints,
                                   const Quaternions& start, const SmoothOptions& options, const Progress& progress) {
     require_held(constraints);
-    SmoothOptions chosen = options;
-    // Gauss-Newton steps are dear with six unknowns a site, and no better where singular curves still move.
-    if (options.solver == SmoothSolver::automatic) chosen.solver = SmoothSolver::lbfgs;
     OdecoField field(start, start_lengths(constraints, start).array().log(), options.threads);
     Manifolds manifolds;
     LengthManifolds length_manifolds;
@@ -85,7 +82,7 @@ SmoothResult smooth_odeco_lengths(const Sampling& sampling, const BoundaryConstr
     add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / sampling.size);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
     hold_lengths(problem, field, constraints, length_manifolds);
-    SmoothResult result = solve_with_ceres(problem, field.quaternions(), sampling, chosen, progress);
+    SmoothResult result = solve_with_ceres(problem, field.quaternions(), sampling, options, progress);
     result.lengths = field.lengths();
     return result;
 }

@@ -210,20 +210,13 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
 
 }  // namespace
 
-template <frames::Representation R>
 SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                           const SmoothOptions& options, const Progress& progress) {
-    return Solver<R>(sampling, constraints, options, progress).run(start);
+    SmoothResult result;
+    frames::with_representation(options.representation, [&]<frames::Representation R>() {
+        result = Solver<R>(sampling, constraints, options, progress).run(start);
+    });
+    return result;
 }
-
-#define OCTAFIELD_INSTANTIATE(R)                                                                                   \
-    template SmoothResult trust_region<frames::R>(const Sampling&, const BoundaryConstraints&, const Quaternions&, \
-                                                  const SmoothOptions&, const Progress&);
-OCTAFIELD_INSTANTIATE(Sh4)
-OCTAFIELD_INSTANTIATE(Tensor4)
-OCTAFIELD_INSTANTIATE(Su2)
-OCTAFIELD_INSTANTIATE(Odeco)
-OCTAFIELD_INSTANTIATE(Sh469)
-#undef OCTAFIELD_INSTANTIATE
 
 }  // namespace octafield::volume

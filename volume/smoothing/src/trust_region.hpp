@@ -2,13 +2,11 @@
 // section 5): Newton steps with the exact Hessian, solved by truncated conjugate gradients (Steihaug 1983).
 #pragma once
 
-#include "octafield/frames/representation.hpp"
 #include "octafield/volume/smooth.hpp"
 
 namespace octafield::volume {
 
-// `start` is on the constraints. Instantiated for the representations of frames/registry.hpp.
-template <frames::Representation R>
+// Of options.representation, one of frames/registry.hpp. `start` is on the constraints.
 SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                           const SmoothOptions& options, const Progress& progress);
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ... import _core
 from ...progress.phases import PHASES
 from ...view.plots import PALETTE, TEXT, new_figure, to_svg
 from ..numbers.profiles import Profile, energies, geometric_mean, ratios_to_best, smoothing_seconds
@@ -17,13 +18,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-# Okabe and Ito's colours, told apart with any colour vision, and two of Tol's; TEXT is black or white with the page.
+# TEXT is black or white with the page.
 COLOURS = {
-    "sh4": "#0072B2", "tensor4": "#56B4E9", "su2": "#D55E00", "odeco": "#009E73", "sh469": "#E69F00",
-    "geodesic": "#CC79A7",
-    "su2_midpoint": TEXT, "odeco_lengths": "#882255", "su2_geodesic": "#AA3355", "su2_symmetric": "#7b8794",
-    "su2_frozen": "#A58A1F",
-}  # fmt: skip
+    name: TEXT if scheme.colour == "text" else scheme.colour for name, scheme in _core.schemes.items() if scheme.colour
+}
 _OF_OTHERS = ("#AA4499", "#44AA99", "#999933", "#6699CC")  # fields that were read
 _DASHES, _MARKS = ("-", "--", ":", "-."), ("o", "s", "^", "D", "v", "P")
 _WIDE, _HALF = 12.4, 6.4  # inches: the whole width of the page, half of it

@@ -27,10 +27,10 @@ namespace octafield::surface {
 
 enum class DirectionFieldMethod {
     // Descent on E to a local minimum, from the eigenvector field, with continuation in epsilon.
-    ginzburg_landau,
+    gl,
     // |f| = 1: globally smoothest (Knoeppel et al. 2013) on components that nothing aligns, the harmonic extension of
     // what is aligned on the others, scaled to length 1. The start of the other two methods.
-    eigenvector,
+    eigen,
     // |f| = 1: implicit diffusion and projection in turn, with a falling time step (Merriman, Bence, Osher 1992;
     // Viertel
     // and Osting 2019), then descent on 1/2 int |grad f|^2 and the second line of E by the angles of f to a local
@@ -50,12 +50,12 @@ inline constexpr int largest_symmetry = 1000;
 
 struct DirectionFieldOptions {
     int symmetry = 4;  // N, 1 to largest_symmetry
-    DirectionFieldMethod method = DirectionFieldMethod::ginzburg_landau;
+    DirectionFieldMethod method = DirectionFieldMethod::gl;
     // Coherence length, eps in the thesis, input unit; 0: 2 mean edge lengths, at most 1/10 of the size
     // (shape_size), also of each connected part that nothing aligns as long as that is at least 1/4 of the mean edge
     // length. Below 1/100 of the mean edge length it is refused: the singular points would stay where they start. Where
     // it is large against a connected part of the surface, f = 0 is the minimum there. Without weak edges the methods
-    // mbo and eigenvector do not depend on it.
+    // mbo and eigen do not depend on it.
     double epsilon = 0;
     // Coherence length per edge, (E) in the order of edge_topology, input unit, all > 0; overrides `epsilon`. (0):
     // none.
@@ -74,8 +74,8 @@ struct DirectionFieldOptions {
     double energy_tolerance = 1e-6;
     std::uint64_t seed = 0;  // of the eigenvector's random start where nothing is aligned, and of disturbances
 
-    Alignment boundary = Alignment::strong;  // edges with one triangle
-    Alignment features = Alignment::strong;  // feature edges with two
+    Alignment boundary_alignment = Alignment::strong;  // edges with one triangle
+    Alignment feature_alignment = Alignment::strong;   // feature edges with two
     // L of weak alignment, input unit; 0: eps, which puts the field off by about eps times its slope across the edge.
     // A singular point sits on the boundary rather than inside when L is below some eps^2 / (edge length).
     double alignment_length = 0;
@@ -105,7 +105,7 @@ struct DirectionField {
 
 // Edges of the mesh boundary and of `features` have g = 1: one direction along the edge. With odd N the direction
 // follows the boundary, surface on its left, and features inside the surface are refused: they have no sense to run in.
-// Where nothing aligns a component, the methods ginzburg_landau and mbo also descend from the principal directions
+// Where nothing aligns a component, the methods gl and mbo also descend from the principal directions
 // (even N) and give the field of lower E. Requires an edge-manifold, consistently oriented mesh without degenerate
 // triangles, closed or not, any number of components. Cancelling through progress keeps the best state (converged =
 // false). Throws InvalidInput; GeometryError, where the surface cannot be oriented with kind "not_orientable";

@@ -61,7 +61,6 @@ struct BoundaryMeshability {
 
 // surface: of the mesh, boundary_surface or that of region_surface; features of it. frames: (n, 4) unit quaternions
 // w x y z. Near linear; the same result at any thread count. Throws InvalidInput, GeometryError (unsound mesh).
-BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaternions& frames,
-                                         int threads = 0);
+BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaternions& frames, int threads = 0);
 
 }  // namespace octafield::volume

@@ -48,7 +48,7 @@ struct SingularVertex {
     // node: hex_vertex_exists(valence3, valence5, valence6); with one_axis: as many curves of each type along the axis
     // as against it. change: false. boundary_end: about_normal.
     bool meshable;
-    Index junction;  // into Meshability::junctions
+    Index junction;                                // into Meshability::junctions
     int valence1 = 0, valence7 = 0, valence8 = 0;  // as above; of frames in tets only
 };
 

@@ -1,5 +1,5 @@
-// Edges inside a tet mesh that join two singular vertices without being singular: a seamless map of a field in the tets has
-// no freedom at them, and meshers get flipped tets there.
+// Edges inside a tet mesh that join two singular vertices without being singular: a seamless map of a field in the tets
+// has no freedom at them, and meshers get flipped tets there.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,6 @@ struct SingularSplit {
 // Splits edges at their midpoints that are no edges of the surface, not singular, and join two vertices of singular
 // edges. With the frames of the parents, the singular edges are those of the old mesh, none split, and the new vertices
 // are on none of them. of_tets: (m, 4) unit quaternions w x y z. Near linear. Throws InvalidInput, GeometryError.
-SingularSplit split_between_singular(const TetDomain& domain, const Quaternions& of_tets,
-                                     int threads = 0);
+SingularSplit split_between_singular(const TetDomain& domain, const Quaternions& of_tets, int threads = 0);
 
 }  // namespace octafield::volume

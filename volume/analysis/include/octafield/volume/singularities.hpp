@@ -16,9 +16,9 @@ struct SingularTriangle {
     int holonomy;
     // Quarter turns of the frames about the curve, in the sense of going round it: +1 valence 3 (index +1/4), -1
     // valence 5, +2 valence 2, -2 valence 6. The sign is that of (axis of the turn) . (direction of the curve, from the
-    // point before to the point after). Turns are counted modulo 8 quarters, along the steps from vertex to vertex, each
-    // the smallest possible (frames/octahedral_lift.hpp): +2 and -2 are told apart, as are +1 and -3 (valence 7), but
-    // three steps of at most 62.8 degrees never make three quarters. 0: not a rotation about one of its own axes (a
+    // point before to the point after). Turns are counted modulo 8 quarters, along the steps from vertex to vertex,
+    // each the smallest possible (frames/octahedral_lift.hpp): +2 and -2 are told apart, as are +1 and -3 (valence 7),
+    // but three steps of at most 62.8 degrees never make three quarters. 0: not a rotation about one of its own axes (a
     // complex singularity: third turn or half turn about a face diagonal), which no hex mesh has.
     int quarter_turns;
     bool boundary;          // lies on the boundary of the mesh

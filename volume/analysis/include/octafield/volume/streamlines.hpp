@@ -4,9 +4,9 @@
 // singular_graph, are interpolated linearly; across a face this interpolant is continuous. Where the matchings of a
 // tet do not agree on the axis, a singular curve that turns this axis runs through it, and the curve ends at the face
 // before: within a tet of the singular curve. So the labels of the axes at the vertices (write_vtk.hpp) do not matter,
-// which the stream tracers of VTK and ParaView depend on. Axes along a singular curve are not turned, and are followed in its tets.
-// Inside a tet the interpolant's curve is taken exactly up to the fourth order of its turn there; as a whole, curves
-// are second order in the mesh width.
+// which the stream tracers of VTK and ParaView depend on. Axes along a singular curve are not turned, and are followed
+// in its tets. Inside a tet the interpolant's curve is taken exactly up to the fourth order of its turn there; as a
+// whole, curves are second order in the mesh width.
 #pragma once
 
 #include <vector>
@@ -57,6 +57,7 @@ std::vector<FrameStreamline> frame_streamlines(const TetDomain& domain, const Qu
 std::vector<FrameStreamlineSeed> seeds_at(const TetDomain& domain, const Points& points, const Points& directions);
 
 // Three seeds per point, along the axes of the frame of the nearest vertex of its tet (largest weight), in its order.
-std::vector<FrameStreamlineSeed> axis_seeds_at(const TetDomain& domain, const Quaternions& frames, const Points& points);
+std::vector<FrameStreamlineSeed> axis_seeds_at(const TetDomain& domain, const Quaternions& frames,
+                                               const Points& points);
 
 }  // namespace octafield::volume

@@ -8,8 +8,8 @@
 
 namespace octafield::volume {
 
-// singular: singular_edges(mesh, of_tets). surface: of the mesh, boundary_surface or that of region_surface; features of
-// it. Vertices where curves end, as points of singular.graph: on the boundary away from features one curve alone may
+// singular: singular_edges(mesh, of_tets). surface: of the mesh, boundary_surface or that of region_surface; features
+// of it. Vertices where curves end, as points of singular.graph: on the boundary away from features one curve alone may
 // end, about the normal; what may end on features, boundary_meshability counts, here they must only be of a valence
 // that hex meshes have. Throws InvalidInput where sizes do not fit together, GeometryError (unsound mesh).
 Meshability tet_meshability(const TetDomain& domain, const Quaternions& of_tets, const SingularEdges& singular);

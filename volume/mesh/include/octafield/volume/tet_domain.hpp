@@ -16,12 +16,12 @@ namespace octafield::volume {
 class TetDomain {
 public:
     // regions: (m) an id per tet (materials, CAD volumes); empty: all are one region. features: of surface(); none: no
-    // vertex or edge of the surface is one. Near linear. Throws InvalidInput (kind "wrong_size": number of ids; and what
-    // with_features throws), and GeometryError naming tets as require_valid and triangle_table do.
+    // vertex or edge of the surface is one. Near linear. Throws InvalidInput (kind "wrong_size": number of ids; and
+    // what with_features throws), and GeometryError naming tets as require_valid and triangle_table do.
     TetDomain(TetMesh mesh, std::vector<Index> regions = {}, surface::FeatureGraph features = {});
 
-    // The same mesh with other feature edges. Throws InvalidInput naming edges and corners that surface() does not have:
-    // kinds "index_out_of_range", "not_an_edge".
+    // The same mesh with other feature edges. Throws InvalidInput naming edges and corners that surface() does not
+    // have: kinds "index_out_of_range", "not_an_edge".
     TetDomain with_features(surface::FeatureGraph features) const;
 
     const TetMesh& mesh() const { return topology_->mesh; }
@@ -31,9 +31,9 @@ public:
     const std::vector<Index>& regions() const { return topology_->regions; }  // (m), or none
     const TriangleTable& triangles() const { return topology_->triangles; }
 
-    // The surface that a field follows: the triangles of one tet, outward, as in boundary_surface and in its order; then
-    // the interfaces, those between tets of different regions, out of the region of the lower id. Edges may have three
-    // triangles or more.
+    // The surface that a field follows: the triangles of one tet, outward, as in boundary_surface and in its order;
+    // then the interfaces, those between tets of different regions, out of the region of the lower id. Edges may have
+    // three triangles or more.
     const BoundarySurface& surface() const { return topology_->surface; }
     Index interface_triangles() const { return topology_->interface_triangles; }  // the last so many
     const Edges& sides() const { return topology_->sides; }  // (F, 2) tet behind each triangle, tet ahead of it or -1

@@ -21,8 +21,8 @@ struct BoundarySurface {
 Eigen::VectorXd tet_volumes(const TetMesh& mesh);  // (m), signed
 
 // Triangles that belong to one tet only. Throws GeometryError (kind "non_manifold_face") where three tets share a
-// triangle, (kind "folded_tet") where tets lie on the same side of a triangle they share: so they overlap. Whatever looks
-// at the triangles of a mesh throws these.
+// triangle, (kind "folded_tet") where tets lie on the same side of a triangle they share: so they overlap. Whatever
+// looks at the triangles of a mesh throws these.
 BoundarySurface boundary_surface(const TetMesh& mesh);
 
 // Throws GeometryError naming tets: kinds "empty", "index_out_of_range", "non_finite_vertex", "inverted_tet" (volume

@@ -10,19 +10,19 @@ namespace octafield::volume {
 
 enum class Sites { vertices, tets };
 
-// One frame per site. Made by vertex_sampling or tet_sampling; where a function takes a Sampling, a domain stands for the
-// one at its vertices.
+// One frame per site. Made by vertex_sampling or tet_sampling; where a function takes a Sampling, a domain stands for
+// the one at its vertices.
 struct Sampling {
     Sampling() = default;
     Sampling(const TetDomain& domain);
     Sampling(const TetMesh& mesh) : Sampling(TetDomain(mesh)) {}
 
     Sites sites = Sites::vertices;
-    SparseMatrix stiffness;   // L (n, n), symmetric, rows sum to 0: E = 1/2 sum_c a_c^T L a_c; row 0: of no tet
-    Eigen::VectorXd mass;     // (n) lumped, cubed input unit
-    double body_radius = 0;   // 3 volume / boundary area: the radius, for a ball
-    double edge_length = 0;   // mean, of the boundary
-    double size = 0;          // of the boundary: surface::shape_size
+    SparseMatrix stiffness;  // L (n, n), symmetric, rows sum to 0: E = 1/2 sum_c a_c^T L a_c; row 0: of no tet
+    Eigen::VectorXd mass;    // (n) lumped, cubed input unit
+    double body_radius = 0;  // 3 volume / boundary area: the radius, for a ball
+    double edge_length = 0;  // mean, of the boundary
+    double size = 0;         // of the boundary: surface::shape_size
     // The mesh whose linear elements L is of. None: L is a sum over pairs of sites alone, no entry off its diagonal is
     // positive.
     std::shared_ptr<const TetMesh> elements;

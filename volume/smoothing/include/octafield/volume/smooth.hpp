@@ -14,7 +14,7 @@
 namespace octafield::volume {
 
 enum class SmoothSolver {
-    automatic,  // trust_region for embeddings, levenberg_marquardt for metrics, lbfgs for odeco_lengths
+    default_,  // the scheme's first: trust_region for embeddings, levenberg_marquardt for metrics, lbfgs with lengths
     // Newton steps with the exact Hessian in a trust region (Palmer, Bommes, Solomon 2020): follows negative curvature,
     // so that it does not stop at saddles.
     trust_region,
@@ -23,36 +23,27 @@ enum class SmoothSolver {
 };
 
 // Of levenberg_marquardt.
-enum class LinearSolver { automatic, cholesky, conjugate_gradients };
+enum class LinearSolver { default_, cholesky, conjugate_gradients };
 
 struct SmoothOptions {
-    // What is minimised: the Dirichlet energy of an embedding (sh4, tensor4, odeco, sh469, and su2, which is the naive
-    // scheme); or of odeco tensors with axis lengths as further unknowns, odeco_lengths (Palmer, Bommes, Solomon 2020):
-    // a fixed axis has length 1, a fixed frame lengths 1, unless BoundaryConstraints::lengths gives others; the
+    // What is minimised, the name of a row of schemes.hpp. An embedding: the Dirichlet energy of vectors (su2 is the
+    // naive scheme). odeco_lengths: of odeco tensors with axis lengths as further unknowns (Palmer, Bommes, Solomon
+    // 2020): a fixed axis has length 1, a fixed frame lengths 1, unless BoundaryConstraints::lengths gives others; the
     // unknowns are logarithms, so that lengths stay positive. Held ones keep the rest from shrinking, but near singular
-    // curves the two across them nearly vanish, which is how such a field is continuous there. Or of a metric on
-    // frames, whose edges ij have differences d_ij (world axes, radians) in place of a_j - a_i (docs/su2_smoothing.md):
-    // - geodesic: the rotation vector of the smallest rotation from q_i to q_j, matched anew at every evaluation
-    // - su2_geodesic: the same, read from the invariants (h0, h1, h2) through their inverse map
-    // - su2_midpoint: 2 J^+ (h_j - h_i) with the pseudo-inverse J^+ of dh/d(u, v) half-way, differentiated by both
-    //   ends
-    // - su2_symmetric: the same with J^+ at either end, root mean square
-    // - su2_frozen: su2_midpoint with J^+ held during each step: inconsistent, kept to show how it fails
+    // curves the two across them nearly vanish, which is how such a field is continuous there. A metric on frames:
+    // edges ij have differences d_ij (world axes, radians) in place of a_j - a_i (docs/su2_smoothing.md).
     std::string representation = "sh4";
-    SmoothSolver solver = SmoothSolver::automatic;  // trust_region: embeddings of frames only
+    SmoothSolver solver = SmoothSolver::default_;  // trust_region: embeddings of frames only
     int max_iterations = 200;
     // Stop when an iteration lowers the energy by less than this fraction of it; of trust_region also when five that
     // lower it do on average.
     double tolerance = 1e-6;
-    LinearSolver linear_solver = LinearSolver::automatic;  // automatic: sparse Cholesky up to 10,000 vertices
+    LinearSolver linear_solver = LinearSolver::default_;  // default_: sparse Cholesky up to 10,000 vertices
     int threads = 0;                                       // 0: all; the result does not depend on it
     // Of su2_midpoint, radians: edges whose frames differ by more are measured by the geodesic, with a smooth
     // transition from half of it. Infinity: never.
     double midpoint_limit = 20 * std::numbers::pi / 180;
 };
-
-// The embeddings of frames/registry.hpp, odeco_lengths, then the metrics above.
-std::vector<std::string> smooth_representations();
 
 struct SmoothResult {
     Quaternions frames;  // (n, 4) unit quaternions w x y z
