@@ -15,12 +15,7 @@ runs: {representation: [sh4, sh469]}
 STALLS = """import time
 import octafield.fields.frame_field as p
 run = p.run_field
-<<<<<<< HEAD
-slow = lambda options: options.representation == 'sh469'
-p.run_field = lambda problem, options, *a: time.sleep(60) if slow(options) else run(problem, options, *a)
-=======
 p.run_field = lambda problem, o, *a: time.sleep(60) if o.representation == 'sh469' else run(problem, o, *a)
->>>>>>> main
 """
 
 
