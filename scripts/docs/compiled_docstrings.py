@@ -9,6 +9,7 @@ import griffe
 from octafield import _core, options
 
 SIGNATURE = re.compile(r"^(\d+\. )?\w+\(.*( -> .*|\*\*kwargs\))$")
+_OF_CPP = re.compile(r"_[A-Z]+\.")  # a default of an option struct of C++, in options.py
 
 
 def without_signatures(text: str) -> str:
@@ -90,10 +91,10 @@ class CompiledDocstrings(griffe.Extension):
     def _state_defaults(self, member: griffe.Class, thing: type) -> None:
         """Numbers in place of the expressions that read them from C++."""
         for parameter in member.members["__init__"].parameters if "__init__" in member.members else ():
-            if str(parameter.default).startswith("default_of("):
+            if _OF_CPP.match(str(parameter.default)):
                 parameter.default = repr(getattr(thing, parameter.name))
         for name, attribute in member.members.items():
-            if attribute.is_attribute and str(attribute.value).startswith("default_of("):
+            if attribute.is_attribute and _OF_CPP.match(str(attribute.value)):
                 attribute.value = repr(getattr(thing, name))
 
     def _lists(self, module: griffe.Module) -> None:

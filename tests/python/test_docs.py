@@ -87,7 +87,6 @@ def test_the_python_of_the_pages_passes_mypy_strict(tmp_path):
         "mypy",
         "--strict",
         "--follow-imports=silent",
-        "--disable-error-code=import-untyped",  # gmsh
         f"--cache-dir={ROOT / '.mypy_cache'}",
         ".",
     ]
