@@ -171,8 +171,9 @@ def test_constraints_and_guides_that_do_not_fit_are_refused(flat):
 
 
 @pytest.mark.parametrize("options", [
-    {"boundary_alignment": "firm"}, {"feature_alignment": "firm"}, {"alignment_length": -1.0}, {"alignment_length": np.nan},
-    {"least_feature_angle": -0.1}, {"corner_tolerance": 1.5}, {"first_epsilon": -1.0}, {"first_epsilon": np.inf},
+    {"boundary_alignment": "firm"}, {"feature_alignment": "firm"}, {"alignment_length": -1.0},
+    {"alignment_length": np.nan}, {"least_feature_angle": -0.1}, {"corner_tolerance": 1.5},
+    {"first_epsilon": -1.0}, {"first_epsilon": np.inf},
     {"edge_epsilon": [0.1]}, {"edge_epsilon": "wide"}])  # fmt: skip
 def test_options_out_of_range_are_refused(flat, options):
     with pytest.raises(of.InvalidInput, match=next(iter(options))):

@@ -250,3 +250,16 @@ def test_field_and_convert_split_alike(tmp_path):
     )
     result = CliRunner().invoke(app, [*common[:2], "-o", str(tmp_path / "none"), "--split-singular"])
     assert result.exit_code == 2 and "--sampling tets" in result.output + result.stderr
+
+
+@pytest.mark.parametrize("name", ["a.vtu", "a.npz"])
+def test_features_and_regions_of_a_domain_go_with_its_frames(tmp_path, name):
+    mesh = box_tets(3)
+    regions = (np.asarray(mesh.vertices)[np.asarray(mesh.tets)].mean(axis=1)[:, 0] > 0.5).astype(np.int32)
+    domain = of.TetDomain(mesh, regions=regions)
+    domain = domain.with_features(of.surface.feature_graph(domain.surface.mesh, domain.sheets.cuts))
+    of.write_frames(tmp_path / name, domain, of.frames.random_rotations(len(mesh.tets)), "tets")
+    found = of.read_frames(tmp_path / name)
+    assert np.array_equal(found.regions, regions)
+    expected = np.asarray(domain.surface.vertex_map)[np.asarray(domain.features.edges)]
+    assert np.array_equal(found.features, expected) and len(expected) == 12

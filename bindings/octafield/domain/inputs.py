@@ -251,6 +251,12 @@ def regions_of(domain: TetDomain) -> np.ndarray | None:
     return regions if len(regions) else None
 
 
+def feature_edges(domain: TetDomain) -> np.ndarray:
+    """(k, 2) int32 vertex ids of the tets: the feature edges of its surface."""
+    edges: np.ndarray = np.asarray(domain.surface.vertex_map)[np.asarray(domain.features.edges)]
+    return edges.astype(np.int32).reshape(-1, 2)
+
+
 def to_surface_ids(domain: TetDomain) -> np.ndarray:
     """(n,) vertex of the surface that each vertex of the tets is; -1: none."""
     vertex_map = np.asarray(domain.surface.vertex_map)

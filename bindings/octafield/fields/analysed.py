@@ -21,7 +21,7 @@ from .._core import (
     TetDomain,
     TriangleMesh,
 )
-from ..domain.inputs import regions_of
+from ..domain.inputs import feature_edges, regions_of
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source, prepare_mesh
 from ..domain.sites import SITES, fitting_frames
@@ -189,7 +189,6 @@ def analysed_field(
         **sizes_entry,
         "verdict": verdict.of_field(meshed, off, figures),
     }
-    feature_edges = np.asarray(tets.surface.vertex_map)[np.asarray(tets.features.edges)].astype(np.int32).reshape(-1, 2)
     return AnalysedField(
         surface=meshed.surface,
         features=meshed.features,
@@ -197,7 +196,7 @@ def analysed_field(
         lengths=lengths,
         sizes=sizes,
         record=record,
-        feature_edges=feature_edges,
+        feature_edges=feature_edges(tets),
         **parts,
     )
 

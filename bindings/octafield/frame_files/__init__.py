@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from .._core import TetDomain, TetMesh
-from ..domain.inputs import Input, from_mesh, read_input
+from ..domain.inputs import Input, feature_edges, from_mesh, read_input, regions_of
 from ..domain.rotations import axes_of, unit_quaternions
 from ..domain.sites import SITES, moved_frames
 from ..errors import InvalidInput
@@ -107,13 +107,17 @@ def write_frames(
     features: (k, 2) feature edges, vertex ids. regions: (m,) of the tets. metadata: words for .vtu. combed: the frames
         go to the tets and are combed (octafield.volume.comb): axes correspond by number and sign across all triangles
         but a cut; .npz then holds all of octafield.parameterization_input, .ovmb and .ovm the cut, .perm its matchings.
-        mesh: None where the format needs none; a result of compute_field or analyse gives its features and regions,
-        too, where these are None. cell_edge: edge length of the cells that a mesher shall make, input unit, or "auto",
-        the mean edge of the tets: the axes are divided by it (.fra, .bfra: densities of cells) or multiplied
-        (.ff3: edges of cells), on top of their lengths. Returns notes on what was changed or left out. Raises
-        InvalidInput and IoError.
+        mesh: None where the format needs none; a TetDomain, or a result of compute_field or analyse, gives its features
+        and regions, too, where these are None. cell_edge: edge length of the cells that a mesher shall make, input
+        unit, or "auto", the mean edge of the tets: the axes are divided by it (.fra, .bfra: densities of cells) or
+        multiplied (.ff3: edges of cells), on top of their lengths. Returns notes on what was changed or left out.
+        Raises InvalidInput and IoError.
     """
-    mesh = mesh.mesh if isinstance(mesh, TetDomain) else mesh
+    if isinstance(mesh, TetDomain):
+        if features is None and len(mesh.features.edges):
+            features = feature_edges(mesh)
+        regions = regions_of(mesh) if regions is None else regions
+        mesh = mesh.mesh
     if mesh is not None and not isinstance(mesh, TetMesh):
         if not hasattr(mesh, "feature_edges"):
             raise InvalidInput(f"a TetMesh or a result that has one is needed, not {type(mesh).__name__}", "bad_type")
