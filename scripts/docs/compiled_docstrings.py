@@ -8,8 +8,8 @@ from typing import Any
 import griffe
 from octafield import _core, options
 
+FROM_CPP = re.compile(r"_(core|BOUNDARY|RECIPE|SURFACE)\.")  # as options.py writes defaults
 SIGNATURE = re.compile(r"^(\d+\. )?\w+\(.*( -> .*|\*\*kwargs\))$")
-_OF_CPP = re.compile(r"_[A-Z]+\.")  # a default of an option struct of C++, in options.py
 
 
 def without_signatures(text: str) -> str:
@@ -89,12 +89,12 @@ class CompiledDocstrings(griffe.Extension):
         member.docstring = griffe.Docstring(f"{inspect.getdoc(thing)}\n\n{table}", parent=member)
 
     def _state_defaults(self, member: griffe.Class, thing: type) -> None:
-        """Numbers in place of the expressions that read them from C++."""
+        """Values in place of the expressions that read them from the structs of C++."""
         for parameter in member.members["__init__"].parameters if "__init__" in member.members else ():
-            if _OF_CPP.match(str(parameter.default)):
+            if FROM_CPP.match(str(parameter.default)):
                 parameter.default = repr(getattr(thing, parameter.name))
         for name, attribute in member.members.items():
-            if attribute.is_attribute and _OF_CPP.match(str(attribute.value)):
+            if attribute.is_attribute and FROM_CPP.match(str(attribute.value)):
                 attribute.value = repr(getattr(thing, name))
 
     def _lists(self, module: griffe.Module) -> None:

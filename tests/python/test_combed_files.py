@@ -78,7 +78,7 @@ def test_npz_holds_all_of_it_for_numpy_alone(tmp_path, cylinder, expected):
 
 def test_holonomies_are_those_of_the_combed_frames(expected):
     parts = expected.arrays()
-    recorded = {(e.a, e.b): e.holonomy for e in of.volume.singular_edges(expected.mesh, expected.combed.frames).edges}
+    recorded = {(e.a, e.b): e.holonomy for e in of.volume.singular_edges(expected.tets, expected.combed.frames).edges}
     assert recorded == {
         tuple(edge): h
         for edge, h in zip(parts["singular_edges"].tolist(), parts["singular_holonomy"].tolist(), strict=True)
