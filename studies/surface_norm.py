@@ -75,7 +75,10 @@ def ell_rows(edge: float, epsilon: float) -> list[tuple]:
     mesh = region([resampled([np.linspace(a, b, 50) for a, b in zip(ELL, np.roll(ELL, -1, axis=0))], size)], size)
     features = octafield.surface.detect_features(mesh)
     rows = []
-    for name, options in (("strong", {}), ("weak, L = eps", {"boundary": "weak", "alignment_length": epsilon})):
+    for name, options in (
+        ("strong", {}),
+        ("weak, L = eps", {"boundary_alignment": "weak", "alignment_length": epsilon}),
+    ):
         field = octafield.surface.direction_field(mesh, features, epsilon=epsilon, **options)
         singular = octafield.surface.surface_singularities(mesh, field)
         signs = [s.index > 0 for s in singular.points]

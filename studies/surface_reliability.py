@@ -39,7 +39,7 @@ def row(path: Path, meshed, symmetry: int, method: str) -> list:
     """With odd N there is no sense in which feature edges inside the surface could be followed: none are."""
     features = meshed.features if symmetry % 2 == 0 else octafield.FeatureGraph()
     begin = time.process_time()
-    field = octafield.surface.direction_field(meshed.surface, features, symmetry=symmetry, method=METHODS[method])
+    field = octafield.surface.direction_field(meshed.surface, features, symmetry=symmetry, method=method)
     found = octafield.surface.surface_singularities(meshed.surface, field)
     octafield.surface.vertex_directions(meshed.surface, features, field)
     seconds = time.process_time() - begin

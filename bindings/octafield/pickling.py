@@ -3,7 +3,7 @@
 import copyreg
 
 from . import _core
-from ._core import Metric, Representation
+from ._core import Metric, Representation, Scheme
 from .frame_files import FrameFormat, frame_formats
 
 
@@ -15,10 +15,15 @@ def _metric(name: str) -> Metric:
     return _core.metrics[name]
 
 
+def _scheme(name: str) -> Scheme:
+    return _core.schemes[name]
+
+
 def _frame_format(name: str) -> FrameFormat:
     return frame_formats[name]
 
 
 copyreg.pickle(Representation, lambda entry: (_representation, (entry.name,)))
 copyreg.pickle(Metric, lambda entry: (_metric, (entry.name,)))
+copyreg.pickle(Scheme, lambda entry: (_scheme, (entry.name,)))
 copyreg.pickle(FrameFormat, lambda entry: (_frame_format, (entry.name,)))

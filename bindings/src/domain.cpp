@@ -43,7 +43,6 @@ FeatureGraph checked(std::optional<FeatureGraph> features, const surface::Triang
 TetDomain made(const TetMesh& mesh, const ArrayLike& regions, const std::optional<FeatureGraph>& features) {
     return run_interruptible(
         [mesh = mesh, ids = from_python<std::vector<Index>>(regions, "regions"), features](Job&) mutable {
-            check(mesh, false);
             const TetDomain domain(std::move(mesh), std::move(ids));
             return features ? domain.with_features(checked(std::move(features), domain.surface().mesh)) : domain;
         });

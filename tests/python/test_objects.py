@@ -69,6 +69,11 @@ def objects(field, tmp_path_factory):
         of.volume.boundary_meshability(box.tets, of.frames.random_rotations(len(box.tets.vertices))),
         of.surface.DirectionConstraints([[0, 1]], [[1, 0, 0]], [2.0]), of.surface.DirectionGuide([[1, 0, 0]], [1], 3),
         of.volume.VertexConstraints([3], [1], [[0, 0, 1]]),
+        of.volume.SmoothOptions(tolerance=1e-5), of.volume.DiffuseOptions(max_steps=3),
+        of.volume.FrameFieldOptions(rounds=1), of.volume.BoundaryOptions(feature_tolerance=0.2),
+        of.surface.DirectionFieldOptions(symmetry=6), of.surface.FeatureOptions(angle=0.5),
+        of.surface.RemeshOptions(edge_length=0.3), of.surface.SizeFieldOptions(max_cells=1000),
+        *of.volume.schemes.values(),
         of.MeshOptions(repair=True), of.FieldOptions(seed=3), of.SurfaceFieldOptions(symmetry=6),
         list(of.frames.representations.values()), list(of.frames.metrics.values()),
         combed, of.volume.alignment_tables(tets, combed), of.volume.isotropic_scale(tets, frames),
@@ -153,7 +158,12 @@ def test_reprs_are_one_short_line_with_the_class(cls, objects):
             continue
         assert text.startswith(f"{cls.__name__}(") and text.endswith(")")
         assert "\n" not in text and len(text) < 320 and " object at 0x" not in text and "array(" not in text
-        assert any(c.isdigit() for c in text) or cls in (of.MeshOptions, of.FieldOptions, of.frames.Metric)
+        assert any(c.isdigit() for c in text) or cls in (
+            of.MeshOptions,
+            of.FieldOptions,
+            of.frames.Metric,
+            of.volume.BoundaryOptions,
+        )
 
 
 def test_reprs_tell_counts_and_ranges(field, objects):
