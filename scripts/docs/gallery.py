@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Makes the pictures of pages from their code: gallery.py [PAGE...] runs the blocks of docs/gallery.md and README.md
 (or of the pages given) in a scratch folder, and puts each PNG that they write and the page shows into docs/pictures, in
-few colours. gallery.py --report draws the head of a comparison's report with chromium: docs/pictures/report.png."""
+few colours. gallery.py --report draws the head of a comparison's report by a browser (chromium):
+docs/pictures/report.png."""
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -64,7 +66,10 @@ def draw_report() -> None:
         compare = ["-m", "octafield", "compare", str(examples.nutfile), "-o", str(out), "--edge-length", "4", "-q"]
         subprocess.run([sys.executable, *compare], check=True)
         window = ["--window-size=1000,1000", "--hide-scrollbars", f"--screenshot={drawn}", f"file://{out}/report.html"]
-        subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", *window], check=True)
+        browser = next(filter(None, map(shutil.which, ("chromium", "google-chrome"))), None)
+        if browser is None:
+            raise SystemExit("the report is drawn by a browser; install the Debian package chromium")
+        subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", *window], check=True)
         small(drawn).save(ROOT / "docs" / "pictures" / "report.png", optimize=True)
 
 

@@ -81,6 +81,15 @@ double deviation(const std::string& representation, int n) {
     return mean_distance(result.frames, reference, constraints);
 }
 
+}  // namespace
+template <>
+inline constexpr double derivative_error<GeodesicScheme> = 1e-8;
+template <>
+inline constexpr double derivative_error<Su2GeodesicScheme> = 1e-8;
+template <>
+inline constexpr double derivative_error<MidpointScheme> = 1e-6;
+namespace {
+
 INSTANTIATE_TYPED_TEST_SUITE_P(Geodesic, DifferenceLaws, GeodesicScheme);
 INSTANTIATE_TYPED_TEST_SUITE_P(Su2Geodesic, DifferenceLaws, Su2GeodesicScheme);
 INSTANTIATE_TYPED_TEST_SUITE_P(Midpoint, DifferenceLaws, MidpointScheme);
@@ -133,7 +142,7 @@ TEST(FrameDifference, LengthsAreTheMetricsOfFrames) {
 
 TEST_P(EveryConsistentMetric, ConvergesToTheMinimiserOfSh4AtSecondOrder) {
     const double coarse = deviation(GetParam(), 4), fine = deviation(GetParam(), 8);
-    EXPECT_LT(fine, 0.33 * coarse);  // 0.25 at second order
+    EXPECT_LT(fine, (allowed == 1 ? 0.3 : 0.33) * coarse);  // 0.25 at second order
     EXPECT_LT(fine, allowed * 0.15 * degree);
 }
 
@@ -169,7 +178,7 @@ TEST_P(EveryConsistentMetric, ReachesTheSameFieldOnObtuseMeshesFromANoisyStart) 
     const SmoothResult result = smooth(mesh, constraints, start, with(GetParam()));
     EXPECT_TRUE(result.converged);
     EXPECT_LT(mean_distance(result.frames, reference, constraints), allowed * 0.3 * degree);
-    EXPECT_NEAR(result.objective, 0.15 * result.energy, allowed * 0.042 * result.objective);  // unit speed: 3/20
+    EXPECT_NEAR(result.objective, 0.15 * result.energy, allowed * 0.04 * result.objective);  // unit speed: 3/20
 }
 
 TEST(MetricSmoothing, Su2GeodesicIsTheGeodesicReadFromTheInvariants) {

@@ -1,4 +1,4 @@
-"""The options that several commands share: name, placeholder and help."""
+"""The options that several commands share: name, metavar and help."""
 
 import functools
 import inspect

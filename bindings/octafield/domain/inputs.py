@@ -19,8 +19,24 @@ SURFACE_SUFFIXES = (".stl", ".obj", ".off", ".ply")
 _VOLUMES = ("tetra", "hexahedron", "wedge", "pyramid", "penta", "voxel", "polyhedron")  # meshio's names begin so
 
 
+class OnTets:
+    """What is read off the tets, of an object that may have some."""
+
+    tets: TetDomain | None
+
+    @property
+    def interface_triangles(self) -> int:
+        """The last so many of the surface."""
+        return 0 if self.tets is None else self.tets.interface_triangles
+
+    @property
+    def regions(self) -> np.ndarray | None:
+        """(m,) region of each tet, where there are several."""
+        return None if self.tets is None else regions_of(self.tets)
+
+
 @dataclass
-class Input:
+class Input(OnTets):
     """What a file held, before any test of its soundness.
 
     surface: the triangles, or the surface of the tets, with interfaces where there are several regions. tets: with no
@@ -49,16 +65,6 @@ class Input:
     @property
     def kind(self) -> str:
         return "surface" if self.tets is None else "tets"
-
-    @property
-    def interface_triangles(self) -> int:
-        """The last so many of the surface."""
-        return 0 if self.tets is None else self.tets.interface_triangles
-
-    @property
-    def regions(self) -> np.ndarray | None:
-        """(m,) region of each tet, where there are several."""
-        return None if self.tets is None else regions_of(self.tets)
 
     def volume(self) -> TetDomain:
         """The tets. Raises InvalidInput where the input is a surface."""

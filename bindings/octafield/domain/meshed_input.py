@@ -10,11 +10,11 @@ from .._core import FeatureGraph, TetDomain, TriangleMesh
 from ..errors import InvalidInput
 from ..options import MeshOptions
 from ..progress.phases import PhaseClock
-from .inputs import regions_of
+from .inputs import OnTets
 
 
 @dataclass(repr=False)
-class MeshedInput:
+class MeshedInput(OnTets):
     """A sound input, ready for fields: `surface` is that of `tets` (None where only a surface was wanted).
 
     Where a tet mesh has several regions, or its boundary touches itself, `surface` is cut into sheets: manifold, each
@@ -44,16 +44,6 @@ class MeshedInput:
             f"MeshedInput({self.name}: {len(self.surface.triangles):,} triangles{tets}{regions}; "
             f"{len(self.features.edges):,} feature edges by {self.feature_source})"
         )
-
-    @property
-    def interface_triangles(self) -> int:
-        """The last so many of the surface."""
-        return 0 if self.tets is None else self.tets.interface_triangles
-
-    @property
-    def regions(self) -> np.ndarray | None:
-        """(m,) region of each tet, where there are several."""
-        return None if self.tets is None else regions_of(self.tets)
 
     def volume(self) -> TetDomain:
         """The tets and what goes with them. Raises InvalidInput where only a surface was prepared."""

@@ -8,6 +8,7 @@ notebooks.
 
 from __future__ import annotations
 
+import abc
 import base64
 import html
 import importlib.util
@@ -27,11 +28,12 @@ Facts = tuple[str, Mapping[str, Any] | Sequence[Mapping[str, Any]]]
 Draw = Callable[[], "pyvista.Plotter | None"]
 
 
-class ShownInNotebooks:
+class ShownInNotebooks(abc.ABC):
     """What IPython asks of an object that is more than a line of text."""
 
+    @abc.abstractmethod
     def _facts(self) -> Facts:
-        raise NotImplementedError
+        """The title and the main figures."""
 
     def _drawn(self) -> pyvista.Plotter | None:
         """None where there is nothing to draw. Raises IoError without OpenGL."""
