@@ -38,6 +38,23 @@ TEST(FrameManifold, ObeysCeresManifoldInvariants) {
     }
 }
 
+TEST(FixedAxisManifold, ObeysCeresManifoldInvariantsAndKeepsTheAxis) {
+    using namespace ceres;  // the macro names its helpers unqualified
+    const Quaternions q = frames::random_rotations(40, 2);
+    for (Eigen::Index i = 0; i < q.rows(); ++i) {
+        const Eigen::VectorXd x = q.row(i).transpose();
+        const Quaternion frame = frames::from_wxyz(frames::Vector4(x));
+        const Vector3 axis = frame * Vector3::UnitY();
+        const ConstraintManifold<FixedAxis> manifold(FixedAxis({axis, frames::Vector4(x)}));
+        const Eigen::VectorXd delta = Eigen::VectorXd::Constant(1, 0.7),
+                              y = frames::to_wxyz(frames::exp(0.4 * axis) * frame);
+        EXPECT_THAT_MANIFOLD_INVARIANTS_HOLD(manifold, x, delta, y, 1e-8);
+        Eigen::Vector4d moved;
+        manifold.Plus(x.data(), delta.data(), moved.data());
+        EXPECT_LT((frames::from_wxyz(moved) * Vector3::UnitY() - axis).norm(), 1e-14);
+    }
+}
+
 // Against an independent assembly: the stiffness matrix of operators.hpp.
 TEST(DirichletBlocks, SumOfSquaresIsTheStiffnessFormOnObtuseMeshesToo) {
     for (const double amount : {0.0, 0.2}) {
