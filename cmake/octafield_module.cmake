@@ -7,11 +7,26 @@ if(OCTAFIELD_SANITIZE)
   add_link_options(-fsanitize=${OCTAFIELD_SANITIZE})
 endif()
 
-# octafield_precompile(TARGET HEADERS...): system headers that most of the target's sources include, parsed once. Headers of this
-# project stay out, so that an edit compiles what includes it and no more.
-function(octafield_precompile target)
+# octafield_headers(NAME HEADERS ... LINKS ... [OPTIONS ...]): system headers that the sources of several targets include, parsed once for
+# all of them. Headers of this project stay out, so that an edit compiles what includes it and no more. LINKS and OPTIONS: what
+# changes how the compiler reads them; targets that differ in it read the headers anew.
+function(octafield_headers name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINKS;OPTIONS" ${ARGN})
+  if(NOT OCTAFIELD_PCH)
+    return()
+  endif()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/octafield_headers_${name}.cpp)
+  file(GENERATE OUTPUT ${source} CONTENT "")
+  add_library(octafield_headers_${name} OBJECT EXCLUDE_FROM_ALL ${source})
+  target_link_libraries(octafield_headers_${name} PRIVATE octafield_warnings Threads::Threads ${ARG_LINKS})
+  target_compile_options(octafield_headers_${name} PRIVATE ${ARG_OPTIONS})
+  target_precompile_headers(octafield_headers_${name} PRIVATE ${ARG_HEADERS})
+endfunction()
+
+# octafield_use_headers(TARGET NAME): the target's sources read the headers of octafield_headers(NAME ...) as precompiled there.
+function(octafield_use_headers target name)
   if(OCTAFIELD_PCH)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
+    target_precompile_headers(${target} REUSE_FROM octafield_headers_${name})
   endif()
 endfunction()
 
