@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csc_matrix
 
+from .schemes import OwnScheme
+
 Complex128s: TypeAlias = NDArray[np.complex128]
 Float64s: TypeAlias = NDArray[np.float64]
 Int32s: TypeAlias = NDArray[np.int32]
@@ -1005,7 +1007,7 @@ class DiffuseOptions:
 
 class SmoothOptions:
     words: ClassVar[dict[str, list[str]]]
-    representation: str
+    representation: str | OwnScheme
     solver: str
     max_iterations: int
     tolerance: float
@@ -1014,7 +1016,7 @@ class SmoothOptions:
     threads: int
     def __init__(
         self,
-        representation: str = ...,
+        representation: str | OwnScheme = ...,
         solver: str = ...,
         max_iterations: int = ...,
         tolerance: float = ...,
@@ -1070,6 +1072,9 @@ class Scheme:
 schemes: dict[str, Scheme]
 constraint_kinds: tuple[str, ...]
 
+def scheme_energy(
+    scheme: OwnScheme, domain: TetDomain | TetMesh | Sampling, frames: ArrayLike, *, threads: int = 0
+) -> float: ...
 def initial_frames(
     domain: TetDomain | TetMesh | Sampling, constraints: BoundaryConstraints, *, start: str = ..., threads: int = ...
 ) -> Float64s: ...
@@ -1092,7 +1097,7 @@ def smooth(
     constraints: BoundaryConstraints,
     start: ArrayLike,
     *,
-    representation: str = ...,
+    representation: str | OwnScheme = ...,
     solver: str = ...,
     max_iterations: int = ...,
     tolerance: float = ...,
@@ -1116,7 +1121,7 @@ def frame_field(
     max_steps: int = ...,
     linear_tolerance: float = ...,
     keep_best: bool = ...,
-    representation: str = ...,
+    representation: str | OwnScheme = ...,
     solver: str = ...,
     max_iterations: int = ...,
     tolerance: float = ...,

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _core
 from .errors import InvalidInput
+from .schemes import OwnScheme, is_in_file, minimised, name_of
 
 REPRESENTATIONS = tuple(_core.schemes)
 COMPARED = tuple(name for name, scheme in _core.schemes.items() if scheme.compared)  # when a comparison is not told
@@ -40,6 +41,14 @@ def require_one_of(name: str, value: str, allowed: Iterable[str]) -> None:
             f"{name} {value!r} is not one of: {', '.join(allowed)}{did_you_mean(value, allowed)}",
             "unknown_option_value",
         )
+
+
+def require_scheme(representation: str | OwnScheme) -> None:
+    """Reads the file where it is FILE.py:NAME. Raises InvalidInput, IoError."""
+    if is_in_file(representation):
+        minimised(representation)
+    elif not isinstance(representation, OwnScheme):
+        require_one_of("representation", representation, REPRESENTATIONS)
 
 
 def did_you_mean(value: str, known: Iterable[str]) -> str:
@@ -128,6 +137,10 @@ class MeshOptions:
             "an edge length decides the number of cells: leave it or max_cells out",
         )
 
+    def recorded(self) -> dict[str, Any]:
+        """As records have them, by name."""
+        return dict(vars(self))
+
     @property
     def cells(self) -> int:
         """max_cells, or what 0 stands for."""
@@ -189,7 +202,8 @@ class FieldOptions(MeshOptions):
     feature_tolerance: radians; a vertex on a feature keeps its whole frame when one frame fits all its normals and
         tangents so well (octafield.volume.boundary_constraints).
     seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
-    not depend on it. representation, solver: what the last smoothing minimises and how; rounds, max_iterations,
+    not depend on it. representation, solver: what the last smoothing minimises and how: a key of
+    octafield.volume.schemes, an EmbeddingScheme or EdgeScheme, or "FILE.py:NAME" of one; rounds, max_iterations,
     tolerance, linear_solver, midpoint_limit, round_time, first_time, last_time, time_exponent, max_steps,
     linear_tolerance: see octafield.volume.frame_field; a start that is given is smoothed only, so that those of rounds
     and of the heat flow do nothing then. streamlines: so many seeds of curves along the three axes, spread over the
@@ -212,7 +226,7 @@ class FieldOptions(MeshOptions):
     """
 
     sampling: str = "vertices"
-    representation: str = _RECIPE.smooth.representation
+    representation: str | OwnScheme = _RECIPE.smooth.representation
     solver: str = _RECIPE.smooth.solver
     boundary: str = _BOUNDARY.mode
     feature_tolerance: float = _BOUNDARY.feature_tolerance
@@ -242,7 +256,7 @@ class FieldOptions(MeshOptions):
             "singular edges are split by frames in the tets: split_singular (--split-singular) needs sampling 'tets'"
             " (--sampling tets)",
         )
-        require_one_of("representation", self.representation, REPRESENTATIONS)
+        require_scheme(self.representation)
         require_one_of("solver", self.solver, SOLVERS)
         require_one_of("boundary", self.boundary, (*BOUNDARIES, OF_A_START))
         require_one_of("sizes", self.sizes, SIZES)
@@ -259,3 +273,12 @@ class FieldOptions(MeshOptions):
         for name in ("round_time", "first_time", "last_time", "time_exponent", "linear_tolerance"):
             value = getattr(self, name)
             _require(math.isfinite(value) and value > 0, f"{name.replace('_', ' ')} must be positive, not {value!r}")
+
+    def recorded(self) -> dict[str, Any]:
+        given = self.representation
+        return {**vars(self), "representation": given if isinstance(given, str) else given.name}
+
+    @property
+    def scheme_name(self) -> str:
+        """Of what is minimised, as records and reports have it."""
+        return name_of(self.representation)

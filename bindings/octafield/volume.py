@@ -76,6 +76,7 @@ from ._core import (
     mass,
     no_number,
     require_valid,
+    scheme_energy,
     schemes,
     sector_normals,
     singular_edges,
@@ -102,6 +103,7 @@ from ._core import (
     write_singular_graph,
     write_surface_field,
 )
+from .schemes import EdgeScheme, EmbeddingScheme
 
 __all__ = [
     "AlignmentTables",
@@ -113,6 +115,8 @@ __all__ = [
     "CombedField",
     "CombedVertices",
     "DiffuseOptions",
+    "EdgeScheme",
+    "EmbeddingScheme",
     "FaceMatchings",
     "FeatureTangents",
     "FeatureWedge",
@@ -178,6 +182,7 @@ __all__ = [
     "mass",
     "no_number",
     "require_valid",
+    "scheme_energy",
     "schemes",
     "sector_normals",
     "singular_edges",

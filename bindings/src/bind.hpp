@@ -24,6 +24,7 @@ void bind_sampling_types(pybind11::module_& module);
 void bind_sampling(pybind11::module_& module);
 void bind_option_types(pybind11::module_& module);
 void bind_schemes(pybind11::module_& module);
+void bind_array_schemes(pybind11::module_& module);
 void bind_smoothing(pybind11::module_& module);
 void bind_field_analysis_types(pybind11::module_& module);
 void bind_field_analysis(pybind11::module_& module);

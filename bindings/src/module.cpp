@@ -63,6 +63,7 @@ PYBIND11_MODULE(_core, module) {
     bind_volume(module);
     bind_sampling(module);
     bind_schemes(module);
+    bind_array_schemes(module);
     bind_smoothing(module);
     bind_field_analysis(module);
     bind_parameterization(module);

@@ -1,7 +1,8 @@
-// Option structs as Python classes; options.hpp makes keyword arguments of them. Meaning, units and ranges of each field
-// are told where its struct is declared and, for the user, here.
+// Option structs as Python classes; options.hpp makes keyword arguments of them. Meaning, units and ranges of each
+// field are told where its struct is declared and, for the user, here.
 #include <cmath>
 
+#include "array_schemes.hpp"
 #include "bind.hpp"
 #include "octafield/surface/direction_field.hpp"
 #include "octafield/surface/features.hpp"
@@ -121,6 +122,20 @@ void bind_of_surfaces(py::module_& m) {
         });
 }
 
+py::object minimised(const SmoothOptions& options) {
+    return options.own_scheme ? python_scheme(*options.own_scheme) : py::str(options.representation);
+}
+
+void set_minimised(SmoothOptions& options, const py::handle& value) {
+    options.own_scheme = is_array_scheme(value) ? array_scheme(value) : nullptr;
+    if (options.own_scheme) return;
+    if (!py::isinstance<py::str>(value))
+        throw py::type_error(
+            std::string("representation: a value of type ") + Py_TYPE(value.ptr())->tp_name +
+            " does not fit; give a key of octafield.volume.schemes, an EmbeddingScheme or an EdgeScheme");
+    options.representation = value.cast<std::string>();
+}
+
 void bind_of_volumes(py::module_& m) {
     Record<BoundaryOptions>(m, "BoundaryOptions",
                             "Options of boundary_constraints and tet_boundary_constraints: their keyword arguments.")
@@ -139,7 +154,8 @@ void bind_of_volumes(py::module_& m) {
         .field("threads", &DiffuseOptions::threads, "0: all; the result does not depend on it.")
         .finish([](const DiffuseOptions& o) { return "first_time=" + number(o.first_time); });
     Record<SmoothOptions>(m, "SmoothOptions", "Options of smooth: its keyword arguments, with their defaults.")
-        .field("representation", &SmoothOptions::representation, "What is minimised, a key of schemes.")
+        .field("representation", minimised, set_minimised,
+               "What is minimised: a key of schemes, or an EmbeddingScheme or EdgeScheme of one's own.")
         .field("solver", &SmoothOptions::solver, "\"default\": the scheme's first.")
         .field("max_iterations", &SmoothOptions::max_iterations, "0 or more.")
         .field("tolerance", &SmoothOptions::tolerance, "Relative energy decrease at which to stop.")
@@ -150,7 +166,8 @@ void bind_of_volumes(py::module_& m) {
                "Of su2_midpoint, radians: beyond it edges are measured by the geodesic.")
         .field("threads", &SmoothOptions::threads, "0: all; the result does not depend on it.")
         .finish([](const SmoothOptions& o) {
-            return "representation='" + o.representation + "', solver='" + to_word(o.solver) + "'";
+            return "representation=" + py::repr(minimised(o)).cast<std::string>() + ", solver='" + to_word(o.solver) +
+                   "'";
         });
     Record<FrameFieldOptions>(m, "FrameFieldOptions",
                               "Options of frame_field, with those of its parts: its keyword arguments.")

@@ -41,10 +41,19 @@ public:
             class_.def_property_readonly(name, get, doc);
         }
         constexpr bool nested = std::is_class_v<Member> && !ArrayType<Member> && !std::is_same_v<Member, std::string>;
-        fields_->push_back(
-            {name, [name, member](T& self, const py::handle& value) { assign(self, name, member, value); }, nested,
-             ArrayType<Member>});
+        fields_->push_back({name,
+                            [name, member](T& self, const py::handle& value) { assign(self, name, member, value); },
+                            nested, ArrayType<Member>});
         if constexpr (std::is_enum_v<Member>) words_[name] = py::cast(words_of<Member>());
+        return *this;
+    }
+
+    // A field that is no member as Python has it: get(const T&), set(T&, value).
+    template <class Get, class Set>
+    Record& field(const char* name, Get get, Set set, const char* doc) {
+        class_.def_property(
+            name, get, [set](T& self, const py::object& value) { set(self, value); }, doc);
+        fields_->push_back({name, set, false, false});
         return *this;
     }
 

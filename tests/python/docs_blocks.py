@@ -11,6 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 _FENCE = re.compile(r'^```(\w+)(?: title="([^"]*)")?\n(.*?)^```$', flags=re.DOTALL | re.MULTILINE)
+_SNIPPET = re.compile(r'^--8<-- "([^":]+):(\w+)"$', flags=re.MULTILINE)
 OUTPUT = "output"  # the title of a block that shows what the one before prints
 
 
@@ -27,7 +28,17 @@ class Block:
 
     @property
     def is_file(self) -> bool:
-        return self.language == "yaml" and bool(self.title)
+        return self.title.endswith((".yaml", ".py"))
+
+    @property
+    def content(self) -> str:
+        """The text, a snippet in place of its name."""
+        return _SNIPPET.sub(lambda match: _snippet(ROOT / match[1], match[2]), self.text)
+
+
+def _snippet(path: Path, section: str) -> str:
+    text = path.read_text(encoding="utf-8")
+    return text.partition(f"[start:{section}]\n")[2].partition(f"# --8<-- [end:{section}]")[0]
 
 
 def blocks(page: Path) -> list[Block]:
@@ -36,18 +47,19 @@ def blocks(page: Path) -> list[Block]:
 
 
 def python_of(page: Path) -> str:
-    return "\n".join(block.text for block in blocks(page) if block.language == "python")
+    return "\n".join(block.text for block in blocks(page) if block.language == "python" and not block.is_file)
 
 
 def run_page(page: Path) -> int:
     """Runs the Python and octafield commands of a page in the current folder, in order and in one namespace; files it
-    shows are written there. Returns how many blocks ran. AssertionError: a command fails or prints something else than
-    the page says."""
+    shows are written there, one after another into one of the same name. Returns how many blocks ran. AssertionError: a
+    command fails or prints something else than the page says."""
     namespace: dict = {"__name__": "__main__"}
     printed, ran = "", 0
     for block in blocks(page):
         if block.is_file:
-            Path(block.title).write_text(block.text, encoding="utf-8")
+            with Path(Path(block.title).name).open("a", encoding="utf-8") as file:
+                file.write(block.content)
         elif block.language == "python":
             with contextlib.redirect_stdout(io.StringIO()) as stdout:
                 exec(compile("\n" * (block.line - 1) + block.text, str(page), "exec"), namespace)

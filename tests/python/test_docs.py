@@ -49,6 +49,7 @@ def test_the_pages_meant_to_run_do_have_blocks():
 @pytest.mark.parametrize("name", RUN)  # README.md: test_readme.py
 def test_the_blocks_of_a_page_run_as_printed(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(tmp_path)  # for files that a page shows and imports
     assert run_page(PAGES[name]) > 0
     assert [p.name for p in shown(PAGES[name]) if not alike(p, tmp_path / p.name)] == []
 
@@ -90,7 +91,8 @@ def test_the_python_of_the_pages_passes_mypy_strict(tmp_path):
         f"--cache-dir={ROOT / '.mypy_cache'}",
         ".",
     ]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    environment = {**os.environ, "MYPYPATH": str(ROOT / "studies" / "examples" / "own_scheme")}
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, env=environment)
     assert done.returncode == 0, done.stdout
 
 

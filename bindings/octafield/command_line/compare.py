@@ -30,7 +30,9 @@ def compare(
         typer.Option(
             metavar="all|A,B",
             autocompletion=lists(REPRESENTATIONS, "all"),
-            help=f"Of: {', '.join(REPRESENTATIONS)}; all: {', '.join(COMPARED)}.",
+            help=(
+                f"Of: {', '.join(REPRESENTATIONS)}, or FILE.py:NAME, a scheme of your own; all: {', '.join(COMPARED)}."
+            ),
         ),
     ] = "all",
     boundaries: Annotated[
@@ -45,6 +47,14 @@ def compare(
                 "A field of another program (docs/formats.md) beside the others, as it is and smoothed; may be"
                 " repeated."
             ),
+        ),
+    ] = None,
+    energies: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--energy",
+            metavar="FILE.py:NAME",
+            help="An energy of your own that judges all fields: a scheme or a function; may be repeated.",
         ),
     ] = None,
     seeds: Annotated[int, typer.Option(metavar="K", help="Seeds per run: --seed and the K - 1 numbers after it.")] = 1,
@@ -80,6 +90,7 @@ def compare(
                 starts=_listed(starts),
                 options=options(),
                 fields=named_files(given or []),
+                energies=energies or [],
                 progress=progress,
             )
         for record in {row["input"]: row for row in comparison.rows}.values():

@@ -128,7 +128,7 @@ Representation = Annotated[
         help=(
             f"What is smoothed: {', '.join(REPRESENTATIONS)}. odeco: fourth-order tensors whose axes have length 1;"
             " odeco_lengths: their lengths are "
-            "unknown, too (docs/frame_fields.md)."
+            "unknown, too (docs/frame_fields.md). Or FILE.py:NAME, a scheme of your own (docs/own_schemes.md)."
         ),
     ),
 ]

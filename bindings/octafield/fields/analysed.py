@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -137,7 +137,7 @@ def analyse(
         raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
     values, options = fitting_frames(meshed.volume(), frames, where), replace(options, sampling=where)
     found = analysed_field(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
-    found.record["options"] = asdict(options)
+    found.record["options"] = options.recorded()
     return found
 
 

@@ -11,7 +11,7 @@ A comparison prepares a FieldProblem once and runs it with several options:
 """
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -188,7 +188,8 @@ def run_field(
     about = {
         "interface_triangles": meshed.interface_triangles,
         "locking": meshed.locking,
-        **{name: getattr(options, name) for name in ("representation", "solver", "boundary")},
+        "representation": options.scheme_name,
+        **{name: getattr(options, name) for name in ("solver", "boundary")},
         "seed": problem.seed,
     }
     frames, parent, split = np.asarray(smoothed.frames), None, {}
@@ -219,7 +220,7 @@ def run_field(
         "constraints": constraint_counts(held, constraints),
         "released_corners": len(held.released_corners),
         "released_corner_vertices": np.asarray(held.released_corners).tolist(),
-        "options": asdict(replace(options, seed=problem.seed)),
+        "options": replace(options, seed=problem.seed).recorded(),
     }
     return FieldResult(
         **vars(found),

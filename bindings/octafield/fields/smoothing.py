@@ -11,6 +11,7 @@ from ..domain.sites import fitting_frames
 from ..errors import InvalidInput
 from ..options import OF_A_START, FieldOptions
 from ..progress.phases import Progress, forward
+from ..schemes import minimised
 
 _OF_SMOOTHING = (
     "representation",
@@ -35,6 +36,7 @@ def smoothed_field(
 ) -> tuple[SmoothResult, int]:
     """The field and how many steps of the heat flow came before. where: what the frames are smoothed on."""
     how: dict[str, Any] = {name: getattr(options, name) for name in _OF_SMOOTHING}
+    how["representation"] = minimised(options.representation)
     how["progress"] = forward(progress, "smooth", 0.0, 1.0)
     if start is not None:
         return _core.smooth(where, held, fitting_frames(tets, start, options.sampling), **how), 0

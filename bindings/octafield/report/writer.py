@@ -12,6 +12,7 @@ from ..view.plots import standalone
 from .numbers.columns import deviation_table, input_table, run_table, summary_table
 from .numbers.deviations import deviations
 from .numbers.integrability import integrability_table
+from .numbers.own_energies import own_energy_table
 from .numbers.profiles import lines
 from .numbers.records import Results, Run
 from .numbers.tables import Table, write_records
@@ -52,7 +53,7 @@ def write_report(report: Report, folder: Path) -> list[str]:
         run_table(results, results.runs),
     ]  # fmt: skip
     sizes = integrability_table(results)
-    tables += [sizes] if sizes.rows else []
+    tables += [table for table in (sizes, own_energy_table(results)) if table.rows]
     (folder / TABLES).mkdir(exist_ok=True)
     names = []
     for table in tables:

@@ -15,14 +15,24 @@ from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField, analyse
 from ..fields.frame_field import FieldProblem, FieldResult, prepare_field, run_field
 from ..files.writing import staged_folder, write_json
-from ..options import BOUNDARIES, COMPARED, LARGEST_SEED, REPRESENTATIONS, FieldOptions, integer_in, require_one_of
+from ..options import (
+    BOUNDARIES,
+    COMPARED,
+    LARGEST_SEED,
+    FieldOptions,
+    integer_in,
+    require_one_of,
+    require_scheme,
+)
 from ..progress.phases import Progress, announce
 from ..progress.several_runs import SeveralRuns
 from ..report import PAGE_FILE, Report, Run, write_report
 from ..report.numbers.records import INDEPENDENT
+from ..schemes import OwnScheme, name_of
 from ..view.captions import counted
 from ..view.notebook import Facts, ShownInNotebooks
 from .fields_to_compare import FieldSource, GivenField, given_fields
+from .own_energies import Energy, energies_of, named_energies
 from .run_folder import write_analysis, write_field_result
 
 if TYPE_CHECKING:
@@ -38,13 +48,14 @@ _MOST_CURVES = 3  # pictures of singular curves per boundary treatment
 class _Section:
     """One input: its runs, and pictures: of the surface, then per boundary treatment. folder: of the comparison, with a
     folder per run. drawn: per boundary treatment, the singular graphs that have a picture. given: rows of the fields
-    that were read, by name."""
+    that were read, by name. energies: of the user's own, by name."""
 
     name: str
     slug: str
     folder: Path
     options: FieldOptions
     several_seeds: bool
+    energies: dict[str, Energy]
     rows: list[dict[str, Any]] = field(default_factory=list)
     pictures: "dict[str, list[Picture]]" = field(default_factory=dict)
     drawn: dict[str, set[tuple[str, ...]]] = field(default_factory=dict)
@@ -99,15 +110,18 @@ def compare(
     inputs: Sequence[Source] | Source,
     output: str | Path,
     *,
-    representations: Sequence[str] = COMPARED,
+    representations: Sequence[str | OwnScheme] = COMPARED,
     boundaries: Sequence[str] = ("fixed", "aligned"),
     seeds: int = 1,
     starts: Sequence[str] = STARTS[:1],
     options: FieldOptions = FieldOptions(),
     fields: Mapping[str, FieldSource] = MappingProxyType({}),
+    energies: Sequence[Energy] = (),
     progress: Progress | None = None,
 ) -> Comparison:
     """Every representation with every boundary treatment and `seeds` seeds (options.seed and following) on each input.
+
+    representations: keys of octafield.volume.schemes, an EmbeddingScheme or EdgeScheme, or "FILE.py:NAME" of one.
 
     starts: "sh4" (from the minimum of sh4's energy, options.rounds of it) or "independent" (no step in sh4: each
         minimises its own objective from one linear solve, or for seeds other than 0 from a random field; rounds 0), or
@@ -115,8 +129,12 @@ def compare(
 
     Each input is read and meshed once. `options` gives everything else. fields: by name, files of frames (read_frames)
     or (n, 4) arrays on the vertices (sampling "tets": the tets) of the only input, a tet mesh; each stands beside the
-    others as it is and as the first representation makes it by one smoothing. The output folder is complete or absent;
-    an earlier comparison in it is replaced, a folder with anything else is refused (InvalidInput).
+    others as it is and as the first representation makes it by one smoothing. The output
+    folder is complete or absent; an earlier comparison in it is replaced, a folder with anything else is refused
+    (InvalidInput).
+
+    energies: of one's own, by which all fields are judged, too: schemes, functions of a FieldResult that give a number,
+    or "FILE.py:NAME" of either. Records have them in `energies`, the report a table with methods ranked by the first.
 
         >>> import octafield
         >>> from octafield.domain.generators import generate
@@ -127,6 +145,7 @@ def compare(
     """
     inputs = [inputs] if isinstance(inputs, Source) else list(inputs)
     _check(inputs, representations, boundaries, starts)
+    judges = named_energies(energies)
     seeds = integer_in("seeds", seeds, 1, LARGEST_SEED - options.seed + 1)
     with staged_folder(output, ROWS_FILE) as folder:
         rows: list[dict[str, Any]] = []
@@ -136,10 +155,12 @@ def compare(
         sound = [read_sound(source, options, progress=report) for source, report in zip(inputs, reports, strict=True)]
         given = given_fields(sound, fields, options)
         steps = _steps(representations, boundaries, starts, given)
-        whole = SeveralRuns(progress, len(inputs) * seeds, [step.representation for step in steps])
+        whole = SeveralRuns(progress, len(inputs) * seeds, [step.scheme for step in steps])
         for number, source in enumerate(inputs):
             name = _unique([s.name for s in sections], _short_name(source), " ")
-            section = _Section(name, _unique([s.slug for s in sections], _slug(source)), folder, options, seeds > 1)
+            section = _Section(
+                name, _unique([s.slug for s in sections], _slug(source)), folder, options, seeds > 1, judges
+            )
             whole.begins()
             meshed = prepare_mesh(sound[number], options, progress=whole.labelled(name))
             meshed.notes += [note for one in given for note in one.notes]
@@ -162,16 +183,20 @@ def compare(
 class _Step:
     """A field to compute. start: the given field it is smoothed from. independent: without rounds in sh4 before."""
 
-    representation: str
+    representation: str | OwnScheme
     boundary: str
     start: GivenField | None = None
     independent: bool = False
 
     @property
+    def scheme(self) -> str:
+        return name_of(self.representation)
+
+    @property
     def method(self) -> str:
         if self.start is not None:
-            return f"{self.representation} from {self.start.name}"
-        return f"{self.representation} {INDEPENDENT}" if self.independent else self.representation
+            return f"{self.scheme} from {self.start.name}"
+        return f"{self.scheme} {INDEPENDENT}" if self.independent else self.scheme
 
     def options(self, common: FieldOptions, seed: int) -> FieldOptions:
         rounds = 0 if self.independent else common.rounds
@@ -179,9 +204,12 @@ class _Step:
 
 
 def _steps(
-    representations: Sequence[str], boundaries: Sequence[str], starts: Sequence[str], given: Sequence[GivenField]
+    representations: Sequence[str | OwnScheme],
+    boundaries: Sequence[str],
+    starts: Sequence[str],
+    given: Sequence[GivenField],
 ) -> list[_Step]:
-    methods: list[tuple[str, GivenField | None, bool]] = [
+    methods: list[tuple[str | OwnScheme, GivenField | None, bool]] = [
         (name, None, start == STARTS[1]) for start in starts for name in representations
     ]
     methods += [(representations[0], one, False) for one in given]
@@ -204,6 +232,7 @@ def _run_all(problem: FieldProblem, section: _Section, steps: Sequence[_Step], w
             start=None if step.start is None else step.start.frames,
         )
         result.record["label"] = label
+        _judge(result, section)
         if step.start is not None:
             result.record["start"] = step.start.name
         name = section.new_folder(
@@ -214,6 +243,11 @@ def _run_all(problem: FieldProblem, section: _Section, steps: Sequence[_Step], w
         if first:
             section.pictures.setdefault(step.boundary, []).extend(_volume_pictures(section, result, label))
         whole.finished()
+
+
+def _judge(result: AnalysedField, section: _Section) -> None:
+    if section.energies:
+        result.record["energies"] = energies_of(result, section.energies, section.options.threads)
 
 
 def _add_given(
@@ -228,6 +262,7 @@ def _add_given(
                 "representation": one.name,
                 "wall_seconds": {**problem.clock.wall, **result.record["wall_seconds"]},
             }
+            _judge(result, section)
             name = section.new_folder(one.name)
             write_analysis(result, section.folder / name)
             section.given[one.name] = _row(result.record, name)
@@ -298,7 +333,10 @@ def _pictures_of_given(name: str, result: AnalysedField) -> "list[Picture]":
 
 
 def _check(
-    inputs: Sequence[Source], representations: Sequence[str], boundaries: Sequence[str], starts: Sequence[str]
+    inputs: Sequence[Source],
+    representations: Sequence[str | OwnScheme],
+    boundaries: Sequence[str],
+    starts: Sequence[str],
 ) -> None:
     if not inputs or not representations or not boundaries or not starts:
         raise InvalidInput(
@@ -307,10 +345,14 @@ def _check(
     for start in starts:
         require_one_of("start", start, STARTS)
     for representation in representations:
-        require_one_of("representation", representation, REPRESENTATIONS)
+        require_scheme(representation)
     for boundary in boundaries:
         require_one_of("boundary", boundary, BOUNDARIES)
-    for what, values in (("representations", representations), ("boundaries", boundaries), ("starts", starts)):
+    for what, values in (
+        ("representations", [name_of(r) for r in representations]),
+        ("boundaries", boundaries),
+        ("starts", starts),
+    ):
         if len(set(values)) < len(values):
             raise InvalidInput(f"{what}: each may be named once only", "repeated_value")
 

@@ -23,6 +23,7 @@ from pydantic import (
 from ..domain.generators import GENERATORS
 from ..errors import Error, InvalidInput, IoError
 from ..options import FieldOptions, MeshOptions, did_you_mean
+from ..schemes import in_folder
 from ..view.captions import counted
 
 if TYPE_CHECKING:
@@ -161,8 +162,20 @@ def parse(text: str, *, folder: str | Path = ".", name: str = "study") -> Study:
     except ValidationError as error:
         first = error.errors()[0]
         raise InvalidInput(f"{name}:{_line(tree, first['loc'])}: {_told(first)}", "bad_study") from error
+    study = _with_schemes_in(study)
     _check_options(study, tree, name)
     return study
+
+
+def _with_schemes_in(study: Study) -> Study:
+    """FILE.py:NAME, like other files, is relative to the folder of the study."""
+
+    def placed(key: str, value: Scalar) -> Scalar:
+        return in_folder(value, study.folder) if key == "representation" else value  # type: ignore[no-any-return]
+
+    runs = {key: [placed(key, value) for value in values] for key, values in study.runs.items()}
+    skip = [{key: placed(key, value) for key, value in rule.items()} for rule in study.skip]
+    return study.model_copy(update={"runs": runs, "skip": skip})
 
 
 def place(study: Study, loc: Loc) -> str:

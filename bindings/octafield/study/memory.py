@@ -6,6 +6,7 @@ from ..options import FieldOptions
 from .plan import Run
 
 _PROCESS_MB = 270.0  # Python, its libraries, small arrays
+_BYTES_OF_OWN_SCHEMES = 4000  # arrays over edges, of residuals in nine dimensions (docs/own_schemes.md)
 _TET_SAMPLING = 3.5  # over frames at vertices: there are five to six times as many tets, but fewer neighbours
 
 
@@ -15,7 +16,8 @@ def needed_mb(tets: float, runs: list[Run]) -> float:
 
 
 def _mb_per_tet(options: FieldOptions) -> float:
-    by_solver = _core.schemes[options.representation].bytes_per_tet
+    scheme = _core.schemes.get(options.scheme_name)
+    by_solver = scheme.bytes_per_tet if scheme else {"trust_region": _BYTES_OF_OWN_SCHEMES}
     solver = next(iter(by_solver)) if options.solver == "default" else options.solver
     # A solver that does not go with it is refused by the run itself.
     mb = by_solver.get(solver, max(by_solver.values())) / 1e6

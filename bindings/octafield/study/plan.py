@@ -15,6 +15,8 @@ from typing import Any
 from ..errors import InvalidInput, IoError
 from ..options import FieldOptions
 from ..progress.phases import octafield_version
+from ..schemes import digest_of as scheme_digest
+from ..schemes import is_in_file
 from .description import FromFile, Generated, Study, field_options, mesh_options, place
 from .digests import Digests, digest_of
 
@@ -59,7 +61,7 @@ def method_of(run: Run) -> str:
         map(
             str,
             (
-                o.representation,
+                o.scheme_name,
                 o.solver,
                 o.sampling,
                 o.boundary,
@@ -184,7 +186,10 @@ def _runs_on(
 
 
 def _key(digest: str, options: FieldOptions, repeat: int) -> str:
-    content = {k: _RENAMED.get((k, v), v) for k, v in vars(options).items() if k != "threads" and (k, v) not in _LATER}
+    given = options.recorded()
+    if is_in_file(options.representation):  # what is in the file counts, not where it lies
+        given["representation"] = f"{options.scheme_name} {scheme_digest(options.representation)}"
+    content = {k: _RENAMED.get((k, v), v) for k, v in given.items() if k != "threads" and (k, v) not in _LATER}
     text = json.dumps([digest, content, repeat, octafield_version()], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:20]
 

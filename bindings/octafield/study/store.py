@@ -12,7 +12,6 @@ import shutil
 import sqlite3
 import tempfile
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -233,7 +232,7 @@ class Store:
 def write_record(folder: Path, run: Run, record: dict[str, Any], state: str, message: str = "") -> None:
     """result.json: the record of `octafield field`, or the options alone, with what makes it this run."""
     identity = {"key": run.key, "input": run.name, "repeat": run.repeat, "state": state, "message": message}
-    write_json(folder / RECORD_FILE, {"options": asdict(run.options), **record, **identity})
+    write_json(folder / RECORD_FILE, {"options": run.options.recorded(), **record, **identity})
 
 
 def _to_disk(folder: Path) -> None:

@@ -2,25 +2,22 @@
 // Hessian and its preconditioner are in single precision: they tell directions, energy and gradient tell where to stop.
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <type_traits>
 #include <vector>
 
+#include "block_inverse.hpp"
 #include "block_laplacian.hpp"
-#include "constraint_turns.hpp"
 #include "octafield/frames/harmonics.hpp"
 #include "octafield/frames/representation.hpp"
 #include "octafield/frames/sh4.hpp"
 
 namespace octafield::volume {
 
-// Rotation vectors that the constraints allow.
-using Tangent = Eigen::Vector3f;
-using Tangents = Rows<float, 3>;
-
 template <frames::Representation R>
 class FieldModel {
 public:
+    static constexpr bool is_sh4 = std::is_same_v<R, frames::Sh4>;
+
     FieldModel(const BlockLaplacian& laplacian, const BoundaryConstraints& constraints, int threads)
         : laplacian_(laplacian), turns_(constraints), threads_(threads) {
         const Index n = laplacian.rows();
@@ -46,7 +43,8 @@ public:
             const typename R::Vector image = images_.row(v).transpose();
             const auto [differential, curvature] = derivatives(frame(frames, v), values_.row(v).transpose(), image);
             gradient_.row(v) = turns_.allowed<double>(v, differential.transpose() * image).transpose();
-            inverses_[v] = inverse_of_block(v, differential, curvature).template cast<float>();
+            const frames::Matrix3 stiff = laplacian_.diagonal()[v] * differential.transpose().lazyProduct(differential);
+            inverses_[v] = inverse_of_block(turns_, v, stiff, curvature).template cast<float>();
             differentials_[v] = differential.template cast<float>();
             curvatures_[v] = curvature.template cast<float>();
         });
@@ -59,7 +57,8 @@ public:
     double hessian_times(const Tangents& w, Tangents& y) const {
         return laplacian_.for_rows_of_product(turned_, threads_, [&](Index v, const auto& product) {
             const Tangent own = w.row(v).transpose();
-            const Tangent image = turns_.allowed<float>(v, differentials_[v].transpose() * product + curvatures_[v] * own);
+            const Tangent image =
+                turns_.allowed<float>(v, differentials_[v].transpose() * product + curvatures_[v] * own);
             y.row(v) = image.transpose();
             return image.dot(own);
         });
@@ -68,10 +67,17 @@ public:
 
     const ConstraintTurns& turns() const { return turns_; }  // at the field last linearised
 
+    // Length of a step that turns every frame by a radian, about, and what rounding leaves of the gradient of a field
+    // without energy.
+    double radian() const { return std::sqrt(laplacian_.diagonal().sum() * squared_differential() / 3); }
+    double no_gradient() const { return 1e-14 * laplacian_.diagonal().norm() * squared_differential(); }
+
 private:
     static frames::Quaternion frame(const Quaternions& frames, std::int64_t v) {
         return frames::from_wxyz(frames::Vector4(frames.row(v).transpose()));
     }
+
+    static double squared_differential() { return R::differential(frames::Quaternion::Identity()).squaredNorm(); }
 
     struct Derivatives {
         typename R::Differential differential;
@@ -79,7 +85,7 @@ private:
     };
     static Derivatives derivatives(const frames::Quaternion& q, const typename R::Vector& value,
                                    const typename R::Vector& image) {
-        if constexpr (std::is_same_v<R, frames::Sh4>) {
+        if constexpr (is_sh4) {
             // What Sh4 would compute from the embedding once more.
             const typename R::Differential d = frames::Harmonics<4>::derivatives(value);
             const frames::Matrix3 products = frames::Harmonics<4>::derivatives(image).transpose().lazyProduct(d);
@@ -87,38 +93,6 @@ private:
         } else {
             return {R::differential(q), R::hessian(q, image)};
         }
-    }
-
-    // Of the diagonal block, its eigenvalues made positive and kept from 0, within what is allowed.
-    frames::Matrix3 inverse_of_block(std::int64_t v, const typename R::Differential& differential,
-                                     const frames::Matrix3& curvature) const {
-        constexpr double least = 1e-3;  // of the stiffness part
-        const frames::Matrix3 stiff = laplacian_.diagonal()[v] * differential.transpose().lazyProduct(differential);
-        const double floor = least * stiff.trace() / 3;
-        const int unknowns = turns_.unknowns(v);
-        if (!(floor > 0) || unknowns == 0) return frames::Matrix3::Zero();
-        const frames::Matrix3 block = stiff + curvature;
-        if (unknowns == 1) {
-            const frames::Vector3 axis = turns_.basis(v).col(0);
-            return axis * axis.transpose() / std::max(std::abs(axis.dot(block * axis)), floor);
-        }
-        if (unknowns == 2) {
-            const TangentBasis<2>& plane = turns_.basis(v);
-            return plane * positive_inverse<2>(plane.transpose() * block * plane, floor) * plane.transpose();
-        }
-        const frames::Matrix3 above = block - floor * frames::Matrix3::Identity();
-        if (above(0, 0) > 0 && above.topLeftCorner<2, 2>().determinant() > 0 && above.determinant() > 0)
-            return block.inverse();
-        return positive_inverse<3>(block, floor);
-    }
-
-    template <int Size>
-    static Eigen::Matrix<double, Size, Size> positive_inverse(const Eigen::Matrix<double, Size, Size>& block,
-                                                              double floor) {
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Size, Size>> solver;
-        solver.computeDirect(block);
-        const Eigen::Matrix<double, Size, 1> values = solver.eigenvalues().cwiseAbs().cwiseMax(floor);
-        return solver.eigenvectors() * values.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
     }
 
     const BlockLaplacian& laplacian_;

@@ -34,7 +34,7 @@ Progress part(const Progress& progress, double begin, double end) {
 }
 
 bool minimises_sh4_to_second_order(const SmoothOptions& options) {
-    return options.representation == frames::Sh4::name &&
+    return !options.own_scheme && options.representation == frames::Sh4::name &&
            (options.solver == SmoothSolver::default_ || options.solver == SmoothSolver::trust_region);
 }
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
+#include <concepts>
 #include <vector>
 
+#include "array_model.hpp"
 #include "field_model.hpp"
 #include "octafield/frames/registry.hpp"
 #include "octafield/volume/operators.hpp"
@@ -30,20 +31,29 @@ struct Step {
     bool cancelled = false;
 };
 
-template <frames::Representation R>
+// What a model is for the solver: the energy and, at the field last linearised, its gradient (world rotation vectors,
+// one per site), Hessian and preconditioner within what the constraints allow (field_model.hpp, array_model.hpp).
+template <class M>
+concept Model = requires(M& model, const M& at, const Quaternions& frames, Tangents& y, const Tangents& w, Index v,
+                         const Tangent& turn) {
+    { model.evaluate(frames) } -> std::same_as<double>;
+    model.linearise(frames);
+    { at.gradient() } -> std::same_as<const Rows<double, 3>&>;
+    { at.precondition(v, turn) } -> std::same_as<Tangent>;
+    model.turn(v, turn);  // of w, before hessian_times
+    { at.hessian_times(w, y) } -> std::same_as<double>;
+    { at.turns() } -> std::same_as<const ConstraintTurns&>;
+    { at.radian() } -> std::same_as<double>;
+    { at.no_gradient() } -> std::same_as<double>;
+    { M::is_sh4 } -> std::convertible_to<bool>;
+};
+
+template <Model M>
 class Solver {
 public:
-    Solver(const Sampling& sampling, const BoundaryConstraints& constraints, const SmoothOptions& options,
-           const Progress& progress)
-        : sampling_(sampling),
-          laplacian_(sampling),
-          model_(laplacian_, constraints, options.threads),
-          options_(options),
-          progress_(progress),
-          root_(std::sqrt(laplacian_.diagonal().sum() * R::differential(frames::Quaternion::Identity()).squaredNorm() /
-                          3)) {
-        const Index n = laplacian_.rows();
-        for (Tangents* w : {&step_, &residual_, &direction_, &image_}) w->setZero(n, 3);
+    Solver(const Sampling& sampling, M& model, const SmoothOptions& options, const Progress& progress)
+        : sampling_(sampling), model_(model), options_(options), progress_(progress) {
+        for (Tangents* w : {&step_, &residual_, &direction_, &image_}) w->setZero(sampling.count(), 3);
     }
 
     SmoothResult run(const Quaternions& start);
@@ -63,7 +73,7 @@ private:
     }
     template <class Body>
     double sum(const Body& body) const {
-        return block_sum(laplacian_.rows(), options_.threads, [&](std::int64_t first, std::int64_t last) {
+        return block_sum(sampling_.count(), options_.threads, [&](std::int64_t first, std::int64_t last) {
             double total = 0;
             for (std::int64_t v = first; v < last; ++v) total += body(static_cast<Index>(v));
             return total;
@@ -72,15 +82,13 @@ private:
 
     // Of sh4, as every history has it.
     double sh4_energy(const Quaternions& frames) const {
-        return std::is_same_v<R, frames::Sh4> ? energy_ : dirichlet_energy(sampling_, frames, options_.threads);
+        return M::is_sh4 ? energy_ : dirichlet_energy(sampling_, frames, options_.threads);
     }
 
     const Sampling& sampling_;
-    BlockLaplacian laplacian_;
-    FieldModel<R> model_;
+    M& model_;
     const SmoothOptions& options_;
     const Progress& progress_;
-    const double root_;  // length of a step that turns every frame by a radian, about
     double energy_ = 0, fraction_ = 0;
     Tangents step_, residual_, direction_, image_;
 };
@@ -88,8 +96,8 @@ private:
 // Minimises the model within `radius` until the preconditioned residual falls to `forcing` of its start. The first
 // direction of negative curvature is followed to the edge. Lengths are those of the preconditioner's metric, which its
 // recurrences give (Conn, Gould, Toint 2000, section 7.5.1).
-template <frames::Representation R>
-Step Solver<R>::conjugate_gradients(double radius, double forcing) {
+template <Model M>
+Step Solver<M>::conjugate_gradients(double radius, double forcing) {
     double squared = sum([&](Index v) {
         const Tangent r = -model_.gradient().row(v).transpose().template cast<float>(), z = model_.precondition(v, r);
         step_.row(v).setZero();
@@ -138,8 +146,8 @@ Step Solver<R>::conjugate_gradients(double radius, double forcing) {
     return result;
 }
 
-template <frames::Representation R>
-Quaternions Solver<R>::turned(const Quaternions& frames) const {
+template <Model M>
+Quaternions Solver<M>::turned(const Quaternions& frames) const {
     Quaternions result(frames.rows(), 4);
     parallel_for(frames.rows(), options_.threads, [&](std::int64_t v) {
         const frames::Quaternion q = frames::from_wxyz(Vector4(frames.row(v).transpose()));
@@ -150,8 +158,8 @@ Quaternions Solver<R>::turned(const Quaternions& frames) const {
     return result;
 }
 
-template <frames::Representation R>
-SmoothResult Solver<R>::run(const Quaternions& start) {
+template <Model M>
+SmoothResult Solver<M>::run(const Quaternions& start) {
     SmoothResult result;
     result.frames = start;
     energy_ = model_.evaluate(result.frames);
@@ -160,11 +168,8 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
     result.energy_history.push_back(sh4_energy(result.frames));
     result.message = "max_iterations reached";
 
-    const double first_gradient = gradient_norm();
-    // What rounding leaves of the gradient of a field without energy.
-    const double no_gradient =
-        1e-14 * laplacian_.diagonal().norm() * R::differential(frames::Quaternion::Identity()).squaredNorm();
-    double radius = first_radius * root_;
+    const double first_gradient = gradient_norm(), no_gradient = model_.no_gradient(), radian = model_.radian();
+    double radius = first_radius * radian;
     std::vector<double> accepted{energy_};
     const auto are_slow = [&](const std::vector<double>& energies) {
         if (energies.size() <= slow_steps) return false;
@@ -176,7 +181,7 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
         fraction_ = double(result.iterations) / options_.max_iterations;
         cancelled = !go_on();
         const double gradient = gradient_norm();
-        at_minimum = gradient <= no_gradient || radius < least_radius * root_;
+        at_minimum = gradient <= no_gradient || radius < least_radius * radian;
         if (at_minimum || cancelled) break;
         // Superlinear convergence (Dembo, Eisenstat, Steihaug 1982).
         const Step step = conjugate_gradients(radius, std::min(0.1, std::sqrt(gradient / first_gradient)));
@@ -187,7 +192,7 @@ SmoothResult Solver<R>::run(const Quaternions& start) {
         const double energy = model_.evaluate(next);
         const double ratio = (energy_ - energy) / step.decrease;
         if (ratio < 0.25) radius = step.length * std::clamp(lowest_along_step(energy - energy_), least_cut, 0.25);
-        if (ratio > 0.75 && step.at_edge) radius = std::min(2 * radius, largest_radius * root_);
+        if (ratio > 0.75 && step.at_edge) radius = std::min(2 * radius, largest_radius * radian);
         const bool small = !step.at_edge && step.decrease < options_.tolerance * energy_;
         const bool better = energy < energy_ && ratio > 0.05;
         if (better) {
@@ -214,9 +219,21 @@ SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& c
                           const SmoothOptions& options, const Progress& progress) {
     SmoothResult result;
     frames::with_representation(options.representation, [&]<frames::Representation R>() {
-        result = Solver<R>(sampling, constraints, options, progress).run(start);
+        const BlockLaplacian laplacian(sampling);
+        FieldModel<R> model(laplacian, constraints, options.threads);
+        result = Solver(sampling, model, options, progress).run(start);
     });
     return result;
+}
+
+SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
+                          const ArrayScheme& scheme, const SmoothOptions& options, const Progress& progress) {
+    if (scheme.embed) {
+        ArrayEmbeddingModel model(scheme, sampling, constraints, options.threads);
+        return Solver(sampling, model, options, progress).run(start);
+    }
+    ArrayResidualModel model(scheme, sampling, constraints, options.threads);
+    return Solver(sampling, model, options, progress).run(start);
 }
 
 }  // namespace octafield::volume

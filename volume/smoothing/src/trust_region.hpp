@@ -10,4 +10,8 @@ namespace octafield::volume {
 SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                           const SmoothOptions& options, const Progress& progress);
 
+// Of a scheme of the user's. Throws InvalidInput (what its functions give), and what they throw.
+SmoothResult trust_region(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
+                          const ArrayScheme& scheme, const SmoothOptions& options, const Progress& progress);
+
 }  // namespace octafield::volume

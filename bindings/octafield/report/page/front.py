@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ..numbers.columns import deviation_table, summary_table
 from ..numbers.deviations import Deviations
 from ..numbers.integrability import integrability
+from ..numbers.own_energies import own_energy_table
 from ..numbers.profiles import Line, Profile, energies, performance_profiles, smoothing_seconds
 from ..numbers.records import Method, Results
 from . import figures, prose
@@ -23,6 +24,7 @@ class Front:
     lines: list[Line]
     found: Deviations
     summary: str = ""
+    own_energies: str = ""
     ratios: str = ""
     profiles: str = ""
     matrix: str = ""
@@ -47,7 +49,8 @@ class Front:
         if distances and len(results.methods) <= MANY:
             distances = f'<div class="figures">{distances}</div>'
         return (
-            paragraphs(scope) + _headed("Energy", *energy) + self.summary + self.ratios + self.profiles
+            paragraphs(scope) + _headed("Energy", *energy) + self.summary + self.own_energies + self.ratios
+            + self.profiles
             + _headed("Singular graphs", *graphs) + _headed("Integrability",
                 *integrability(results, cite("integrability")))
                 + _headed("Distance between fields", prose.distances(self.found, matrix)) + distances
@@ -68,6 +71,14 @@ def make_front(results: Results, lines: list[Line], found: Deviations, exhibits:
     if found.pairs():
         caption += f" Angles are to the fields of {html.escape(results.methods[0].name)}."
     front.summary = exhibits.table("summary", summary_table(results, lines, found), "Methods", caption)
+    own = own_energy_table(results)
+    if own.rows:
+        front.own_energies = exhibits.table(
+            "energies",
+            own,
+            "Energies of one's own",
+            "As given to the comparison, of the same fields; methods in the order of the first.",
+        )
     if len(results.methods) > 1:
         plot = figures.ratio_plot(results, exhibits.salt)
         front.ratios = exhibits.figure(

@@ -33,7 +33,7 @@ class Group:
     @property
     def label(self) -> str:
         """Of the run in work."""
-        return f"{self.name}, {self.runs[0].options.representation}" if self.runs else self.name
+        return f"{self.name}, {self.runs[0].options.scheme_name}" if self.runs else self.name
 
 
 class Leader:

@@ -2,12 +2,14 @@
 // unless another is given), in an embedding or in a metric on frames.
 #pragma once
 
+#include <memory>
 #include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "octafield/progress.hpp"
+#include "octafield/volume/array_scheme.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/sampling.hpp"
 
@@ -39,10 +41,12 @@ struct SmoothOptions {
     // lower it do on average.
     double tolerance = 1e-6;
     LinearSolver linear_solver = LinearSolver::default_;  // default_: sparse Cholesky up to 10,000 vertices
-    int threads = 0;                                       // 0: all; the result does not depend on it
+    int threads = 0;                                      // 0: all; the result does not depend on it
     // Of su2_midpoint, radians: edges whose frames differ by more are measured by the geodesic, with a smooth
     // transition from half of it. Infinity: never.
     double midpoint_limit = 20 * std::numbers::pi / 180;
+    // The user's own, minimised by the trust region in place of `representation`.
+    std::shared_ptr<const ArrayScheme> own_scheme = nullptr;
 };
 
 struct SmoothResult {
@@ -54,7 +58,7 @@ struct SmoothResult {
     double objective = 0;
     int iterations = 0;
     bool converged = false;
-    std::string message;                 // why the solver stopped
+    std::string message;  // why the solver stopped
     // At the start and after each accepted or rejected step: the energy above, of sh4 whatever was minimised, and the
     // objective. Both end with those of `frames`.
     std::vector<double> energy_history, objective_history;
