@@ -171,6 +171,13 @@ def test_a_process_without_memory_is_recorded_as_crashed_with_the_reason(tmp_pat
     assert "memory ran out, twice" in row["message"]
 
 
+def test_files_beside_the_caller_named_as_modules_are_no_modules_of_runs(tmp_path, monkeypatch):
+    for name in ("json", "queue", "numpy"):
+        (tmp_path / f"{name}.py").write_text("raise SystemExit(1)\n")
+    monkeypatch.chdir(tmp_path)
+    assert study.run(study.parse(BODIES), tmp_path / "out").status.done == 4
+
+
 def test_a_worker_that_cannot_start_is_recorded(tmp_path, monkeypatch):
     trap_workers(tmp_path, monkeypatch, "os._exit(3)")
     text = "{name: x, inputs: [{generator: box}]}"

@@ -108,9 +108,6 @@ def _write_failure(store: Store, run: Run, error: Error, begin: float) -> None:
 
 
 def main() -> None:
-    from ...files.process import die_with_parent
-
-    die_with_parent()
     logging.disable()
     out = os.fdopen(int(sys.argv[1]), "w", buffering=1)
     job = json.loads(sys.stdin.readline())
