@@ -10,8 +10,8 @@ import numpy as np
 import octafield as of
 import pytest
 from octafield.domain.generators import generate
+from octafield.inspect.estimates import field_seconds
 from octafield.options import COMPARED, REPRESENTATIONS, SOLVERS, FieldOptions
-from octafield.progress.costs import field_seconds
 from octafield.report.page.figures import COLOURS
 from octafield.study.memory import needed_mb
 from octafield.study.plan import Run

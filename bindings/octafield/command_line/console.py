@@ -9,17 +9,17 @@ import sys
 import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
+from datetime import timedelta
 from pathlib import Path
 from typing import Any
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, Progress, SpinnerColumn, Task, TextColumn, TimeElapsedColumn
 
 from ..errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from ..files.writing import write_json
 from ..progress.phases import Progress as Callback
-from ..progress.time_left import PhaseTimeLeft, words
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 # kinds of SolverError that another option or another mesh avoids
@@ -129,8 +129,8 @@ def report_notes(record: dict[str, Any]) -> None:
 @contextlib.contextmanager
 def progress_bar(quiet: bool, whole: bool = False) -> Iterator[Callback | None]:
     """Yields a progress callback; None when quiet. Draws on stderr when that is a terminal, else writes a plain line
-    there now and then. whole: what is reported is one piece of work, whose text tells the time left itself; else
-    phases, one after the other."""
+    there now and then. whole: what is reported is one piece of work; else phases, one after the other, whose fractions
+    are of the most steps."""
     if quiet:
         yield None
     elif sys.stderr.isatty():
@@ -150,28 +150,37 @@ def _drawn(whole: bool) -> Iterator[Callback]:
         TimeElapsedColumn(),
         TextColumn("{task.fields[left]}"),
     )
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Progress(*columns, console=Console(stderr=True), transient=True, speed_estimate_period=_period(whole)) as bar:
         task = bar.add_task("", total=None, merit="", left="")
-        shown, left = "", PhaseTimeLeft()
+        shown = ""
 
         def report(phase: str, fraction: float, merit: float) -> bool:
-            nonlocal shown, left
+            nonlocal shown
             if phase != shown and not whole:
                 bar.reset(task, merit="", left="")
-                left = PhaseTimeLeft()
             shown = phase
-            seconds = None if whole else left.at(fraction, time.monotonic())
             bar.update(
                 task,
                 description=phase,
                 total=1.0 if fraction >= 0 else None,
-                completed=max(fraction, 0.0),
+                completed=fraction if fraction >= 0 else None,
                 merit="" if math.isnan(merit) else f"{merit:.6g}",
-                left="" if seconds is None else words(seconds, most=True),
             )
+            bar.update(task, left=_left(bar.tasks[0], whole))
             return True
 
         yield report
+
+
+def _period(whole: bool) -> float:
+    """Seconds of the past that tell the speed: runs take long, and phases change their pace."""
+    return math.inf if whole else 30.0
+
+
+def _left(task: Task, whole: bool) -> str:
+    """Empty while it is not known, and at the end."""
+    seconds = task.time_remaining
+    return "" if not seconds else f"{'about' if whole else 'at most'} {timedelta(seconds=seconds)} left"
 
 
 class PlainLines:
@@ -182,17 +191,19 @@ class PlainLines:
 
     def __init__(self, say: Callable[[str], None], whole: bool, clock: Callable[[], float] = time.monotonic):
         self._say, self._whole, self._clock = say, whole, clock
-        self._wait, self._last = self.FIRST, clock()
-        self._phase, self._left = "", PhaseTimeLeft()
+        self._wait, self._last, self._phase = self.FIRST, clock(), ""
+        self._bar = Progress(disable=True, get_time=clock, speed_estimate_period=_period(whole))
+        self._task = self._bar.add_task("", total=1.0)
 
     def __call__(self, phase: str, fraction: float, merit: float) -> bool:
         now = self._clock()
-        if phase != self._phase:
-            self._phase, self._left = phase, PhaseTimeLeft()
-        seconds = None if self._whole else self._left.at(fraction, now)
+        if phase != self._phase and not self._whole:
+            self._bar.reset(self._task)
+        self._phase = phase
+        self._bar.update(self._task, completed=fraction if fraction >= 0 else None)
         if now - self._last >= self._wait:
-            share = "" if self._whole or fraction < 0 else f", {fraction:.0%} of the most steps"
-            self._say(phase + share + ("" if seconds is None else f", {words(seconds, most=True)}"))
+            share = "" if self._whole or fraction < 0 else f"{fraction:.0%} of the most steps"
+            self._say(", ".join(filter(None, [phase, share, _left(self._bar.tasks[0], self._whole)])))
             self._last, self._wait = now, min(self._wait * self.GROWTH, self.LARGEST)
         return True
 

@@ -1,18 +1,22 @@
-"""Runs the command line's work in a child process, so that an interrupt ends it at once whatever it is doing.
+"""Work in processes of their own, which may crash, hang or be ended at any moment without harm to this one.
 
-The parent only waits. On Ctrl-C it kills the child and removes the staging folders the child had open (writing.py). It
-also turns a crash of the child into one message and an exit code.
+run_supervised: the command line's. The parent only waits; on Ctrl-C it kills the child and removes the staging folders
+the child had open (writing.py). start_isolated: programs that are started, as readers of CAD models and runs of
+studies.
 """
 
-import ctypes
 import os
 import shutil
 import signal
+import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import FrameType
+from typing import Any
 
+from ..errors import IoError
+from . import isolated
 from .writing import on_staging
 
 INTERRUPTED = 130
@@ -27,12 +31,12 @@ def run_supervised(work: Callable[[], int]) -> int:
     sys.stdout.flush()
     sys.stderr.flush()
     reading, writing = os.pipe()
-    child = 0
+    parent, child = os.getpid(), 0
     try:
         previous = {number: signal.signal(number, _raise_interrupt) for number in _ENDINGS}
         child = os.fork()
         if child == 0:
-            _be_the_child(work, reading, writing)
+            _be_the_child(work, parent, reading, writing)
         os.close(writing)
         _, status = os.waitpid(child, 0)
         for number, handler in previous.items():
@@ -45,26 +49,59 @@ def run_supervised(work: Callable[[], int]) -> int:
             _remove_staging(reading)
         print("octafield: interrupted", file=sys.stderr, flush=True)
         return INTERRUPTED
-    if os.WIFEXITED(status):
-        return os.WEXITSTATUS(status)
+    code = os.waitstatus_to_exitcode(status)
+    if code >= 0:
+        return code
     _remove_staging(reading)
-    fatal = signal.Signals(os.WTERMSIG(status))
-    hint = (
-        "most likely memory ran out" if fatal == signal.SIGKILL else "a defect of octafield: please report this input"
-    )
-    print(f"octafield: stopped by signal {fatal.name}; {hint}", file=sys.stderr, flush=True)
+    print(f"octafield: stopped by signal {reason(code)}", file=sys.stderr, flush=True)
     return DEFECT
+
+
+def start_isolated(
+    program: str | Path,
+    arguments: Sequence[str],
+    place: str,
+    remedy: str,
+    environment: Mapping[str, str] | None = None,
+    **streams: Any,
+) -> "subprocess.Popen[str]":
+    """A Python program that imports what this one can, ends with this one and leaves Ctrl-C to it.
+
+    program: a file, or the name of a module. place, remedy: head and end of the errors. environment: in addition to
+    this process's. streams: of subprocess.Popen. Raises IoError (kinds no_python, cannot_start).
+    """
+    if not sys.executable or getattr(sys, "frozen", False):
+        raise IoError(
+            f"{place}: needs a process of its own, and this program does not tell which Python to start"
+            f" (sys.executable); {remedy}",
+            "no_python",
+        )
+    given = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    paths = os.pathsep.join(os.path.abspath(entry) for entry in [*filter(None, given), *sys.path])
+    command = [sys.executable, "-P", isolated.__file__, str(os.getpid()), str(program), *arguments]
+    try:
+        return subprocess.Popen(
+            command, env={**os.environ, **(environment or {}), "PYTHONPATH": paths}, text=True, **streams
+        )
+    except OSError as error:
+        raise IoError(f"{place}: cannot start {sys.executable} ({error.strerror}); {remedy}", "cannot_start") from error
+
+
+def reason(code: int) -> str:
+    """The signal that ended a process, and what that most likely means. code: as of subprocess, negative."""
+    name = signal.Signals(-code).name
+    why = "most likely memory ran out" if name == "SIGKILL" else "a defect of octafield: please report this input"
+    return f"{name}; {why}"
 
 
 def _raise_interrupt(_number: int, _frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 
-def _be_the_child(work: Callable[[], int], reading: int, writing: int) -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal sends Ctrl-C to both; the parent decides
+def _be_the_child(work: Callable[[], int], parent: int, reading: int, writing: int) -> None:
     for number in _ENDINGS:
         signal.signal(number, signal.SIG_DFL)
-    die_with_parent()
+    isolated.become_a_part_of(parent)
     os.close(reading)
     on_staging(lambda path, alive: os.write(writing, os.fsencode(f"{'+' if alive else '-'}{path}\0")))
     code = DEFECT
@@ -74,13 +111,6 @@ def _be_the_child(work: Callable[[], int], reading: int, writing: int) -> None:
         sys.stdout.flush()
         sys.stderr.flush()
         os._exit(code)
-
-
-def die_with_parent() -> None:
-    try:
-        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
-    except (OSError, AttributeError):
-        pass  # not Linux
 
 
 def _stop(child: int) -> None:

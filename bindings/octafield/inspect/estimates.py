@@ -7,8 +7,11 @@ import numpy as np
 from .. import _core
 from .._core import FeatureGraph, SizeField, TriangleMesh
 from ..options import FieldOptions, MeshOptions
-from ..progress.costs import field_seconds
 
+_PREPARING, _UNKNOWN_METHOD = (
+    10.0,
+    100.0,
+)  # seconds on a million tets: up to the cross field; fields that were not measured
 _TETS_PER_CUBE = 12.5  # in a cube of one edge length; measured on remeshed bodies of 2,000 to 100,000 tets: 11 to 16
 
 
@@ -43,6 +46,13 @@ def memory_mb(tets: int) -> float:
 def seconds(tets: int) -> float:
     """From file to field by default options."""
     return 1.0 + field_seconds(FieldOptions().representation, tets)
+
+
+def field_seconds(representation: str, tets: float) -> float:
+    """Of one field from file to analysis, one thread."""
+    scheme = _core.schemes.get(representation)
+    smoothing = (scheme.seconds_per_million_tets if scheme else 0) or _UNKNOWN_METHOD
+    return 0.2 + (_PREPARING + smoothing) * tets / 1e6
 
 
 def machine_mb() -> float:

@@ -1,1 +1,1 @@
-"""What a run tells of itself: its phases, their seconds and memory, and the time left."""
+"""What a run tells of itself: its phases, their seconds and memory; several runs as one."""

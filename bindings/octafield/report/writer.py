@@ -1,12 +1,9 @@
 """From runs to the files of a report."""
 
-import html
 import os
 import tempfile
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..view.plots import standalone
 from .numbers.columns import deviation_table, input_table, run_table, summary_table
@@ -14,29 +11,12 @@ from .numbers.deviations import deviations
 from .numbers.integrability import integrability_table
 from .numbers.own_energies import own_energy_table
 from .numbers.profiles import lines
-from .numbers.records import Results, Run
+from .numbers.records import Results
 from .numbers.tables import Table, write_records
-from .page.html import Exhibits
-from .page.render import Content, render
-
-if TYPE_CHECKING:
-    from ..view.picture import Picture
+from .page.exhibits import Exhibits
+from .page.render import Report, anchors_of, render
 
 PAGE_FILE, RECORDS_FILE, TABLES, FIGURES = "report.html", "results.csv", "tables", "figures"
-
-
-@dataclass
-class Report:
-    """runs: in the order of the page; the first method is the one that others are measured against. pictures: of
-    octafield.view.picture, per input. description: of the study, shown as it is. open_runs: not carried out yet. files:
-    others beside the page to link."""
-
-    title: str
-    runs: Sequence[Run]
-    pictures: "dict[str, list[Picture]]" = field(default_factory=dict)
-    description: str = ""
-    open_runs: int = 0
-    files: Sequence[str] = ()
 
 
 def write_report(report: Report, folder: Path) -> list[str]:
@@ -45,22 +25,18 @@ def write_report(report: Report, folder: Path) -> list[str]:
     folder, each replaced at once; their names."""
     results = Results(report.runs)
     found = deviations(results)
-    content = Content(
-        results, lines(results), found, report.pictures, report.title, report.description, report.open_runs, ""
-    )
+    methods, sizes = lines(results), integrability_table(results)
     tables = [
-        summary_table(results, content.lines, found), deviation_table(found), input_table(results, content.anchors),
-        run_table(results, results.runs),
+        summary_table(results, methods, found), deviation_table(found), input_table(results, anchors_of(results)),
+        run_table(results, results.runs), *(table for table in (sizes, own_energy_table(results)) if table.rows),
     ]  # fmt: skip
-    sizes = integrability_table(results)
-    tables += [table for table in (sizes, own_energy_table(results)) if table.rows]
     (folder / TABLES).mkdir(exist_ok=True)
     names = []
     for table in tables:
         names += _write_table(folder, table)
     _replace(folder / RECORDS_FILE, lambda path: write_records(path, [run.row for run in report.runs]))
-    content.links = _links([*report.files, RECORDS_FILE], names)
-    text, exhibits = render(content)
+    stems = [table.stem for table in tables]
+    text, exhibits = render(report, results, methods, found, [*report.files, RECORDS_FILE], stems)
     _replace_text(folder / PAGE_FILE, text)
     return [PAGE_FILE, RECORDS_FILE, *names, *_write_figures(folder, exhibits)]
 
@@ -83,19 +59,6 @@ def _write_table(folder: Path, table: Table) -> list[str]:
     _replace(folder / names[0], table.write_csv)
     _replace(folder / names[1], table.write_latex)
     return names
-
-
-def _links(files: Sequence[str], tables: Sequence[str]) -> str:
-    records = ", ".join(_link(name, name) for name in files)
-    stems = [table.removesuffix(".csv") for table in tables if table.endswith(".csv")]
-    parts = [
-        f"{stem.split('/')[-1]} ({_link(stem + '.csv', 'CSV')}, {_link(stem + '.tex', 'LaTeX')})" for stem in stems
-    ]
-    return f"Records: {records}. Tables: {', '.join(parts)}"
-
-
-def _link(name: str, text: str) -> str:
-    return f'<a href="{html.escape(name)}">{html.escape(text)}</a>'
 
 
 def _replace_text(path: Path, text: str) -> None:

@@ -155,20 +155,16 @@ def compare(
         sound = [read_sound(source, options, progress=report) for source, report in zip(inputs, reports, strict=True)]
         given = given_fields(sound, fields, options)
         steps = _steps(representations, boundaries, starts, given)
-        whole = SeveralRuns(progress, len(inputs) * seeds, [step.scheme for step in steps])
+        whole = SeveralRuns(progress, len(inputs) * seeds * len(steps))
         for number, source in enumerate(inputs):
             name = _unique([s.name for s in sections], _short_name(source), " ")
             section = _Section(
                 name, _unique([s.slug for s in sections], _slug(source)), folder, options, seeds > 1, judges
             )
-            whole.begins()
             meshed = prepare_mesh(sound[number], options, progress=whole.labelled(name))
             meshed.notes += [note for one in given for note in one.notes]
             for seed in range(options.seed, options.seed + seeds):
-                if seed != options.seed:
-                    whole.begins()
                 problem = prepare_field(meshed, seed, whole.labelled(name))
-                whole.prepared(meshed.volume().tet_count)
                 _run_all(problem, section, steps, whole)
                 _add_given(problem, section, boundaries, given)
             sections.append(section)

@@ -54,27 +54,6 @@ class Run:
         return cls(**{**content, "options": FieldOptions(**content["options"])})
 
 
-def method_of(run: Run) -> str:
-    """Runs of one method cost the same on the same mesh."""
-    o = run.options
-    return "/".join(
-        map(
-            str,
-            (
-                o.scheme_name,
-                o.solver,
-                o.sampling,
-                o.boundary,
-                o.rounds,
-                o.max_iterations,
-                o.tolerance,
-                o.streamlines,
-                o.sizes,
-            ),
-        )
-    )
-
-
 def mesh_of(run: Run) -> Hashable:
     """Equal for runs whose meshes have the same number of tets."""
     o = run.options

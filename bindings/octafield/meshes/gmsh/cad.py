@@ -6,11 +6,9 @@ Gmsh works in a process of its own (cad_worker.py): damaged models can crash it 
 
 import contextlib
 import json
-import os
 import re
 import signal
 import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,6 +16,7 @@ import numpy as np
 
 from ... import _core
 from ...errors import Cancelled, Error, InvalidInput, IoError
+from ...files.process import start_isolated
 from ...files.reading import read_bytes
 from ...files.writing import scratch_folder
 from ...progress.phases import Progress, announce
@@ -79,7 +78,7 @@ def _meshed(
             "edge_length": edge_length,
             "way": way,
         }
-        code = _run(path, job | {"folder": str(folder), "parent": os.getpid()}, folder, progress)
+        code = _run(path, job | {"folder": str(folder)}, folder, progress)
         try:
             answer = json.loads((folder / "answer.json").read_bytes()) if code == 0 else None
         except (OSError, ValueError):
@@ -137,23 +136,11 @@ def _plain(path: Path, suffix: str, folder: Path) -> Path:
 
 def _run(path: Path, job: dict[str, object], folder: Path, progress: Progress | None) -> int:
     """Exit code, negative after a signal. No process is left, however this ends."""
-    if not sys.executable or getattr(sys, "frozen", False):
-        raise IoError(
-            f"{path}: CAD models are read in a process of their own, and this program does not tell which Python to "
-            f"start (sys.executable); "
-            "mesh it with Gmsh (gmsh -2 or -3) and give the .msh file", "no_python",
-        )  # fmt: skip
-    paths = os.pathsep.join(os.path.abspath(entry) for entry in sys.path)
     with (folder / "printed").open("w+b") as printed:
-        try:
-            process = subprocess.Popen(
-                [sys.executable, "-P", str(_WORKER), json.dumps(job)],
-                stdin=subprocess.DEVNULL, stdout=printed, stderr=printed, env={**os.environ, "PYTHONPATH": paths},
-            )  # fmt: skip
-        except OSError as error:
-            raise IoError(
-                f"{path}: cannot start {sys.executable} to read it ({error.strerror})", "cannot_start"
-            ) from error
+        process = start_isolated(
+            _WORKER, [json.dumps(job)], str(path), "mesh it with Gmsh (gmsh -2 or -3) and give the .msh file",
+            stdin=subprocess.DEVNULL, stdout=printed, stderr=printed,
+        )  # fmt: skip
         try:
             while True:
                 with contextlib.suppress(subprocess.TimeoutExpired):

@@ -1,18 +1,15 @@
 """The part of cad.py that runs in a process of its own: Gmsh and Open CASCADE, which damaged models can crash or hang.
 
-A program, not a module of the package: it imports Gmsh and NumPy alone, which halves its start. Its one argument is a
-JSON object: model (path), format (Gmsh's name of it), edge_length (0: from the size), folder and parent (process id).
-In the folder it leaves answer.json ({"notes": [...]}, or {"error":
-kind, "message": ...}) and grid.npz with the arrays of a Grid; what Open CASCADE prints goes to the standard output, a
-    file that it also reads.
+A program (see files/isolated.py), not a module of the package: it imports Gmsh and NumPy alone, which halves its start.
+Its one argument is a JSON object: model (path), format (Gmsh's name of it), edge_length (0: from the size), way (number
+in WAYS) and folder. There it leaves answer.json ({"notes": [...]}, or {"error": kind, "message": ...}) and grid.npz
+with the arrays of a Grid; what Open CASCADE prints goes to the standard output, a file that it also reads.
 """
 
-import ctypes
 import json
 import os
 import re
 import resource
-import signal
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -76,7 +73,7 @@ class Model:
 
 def main() -> None:
     job = json.loads(sys.argv[1])
-    _become_a_part_of(job["parent"])
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))  # a crash leaves no core file
     try:
         answer = _answer(job)
     except Refused as error:
@@ -88,18 +85,6 @@ def main() -> None:
         }
     Path(job["folder"], "answer.json").write_text(json.dumps(answer))
     os._exit(0)  # libraries that end may crash too
-
-
-def _become_a_part_of(parent: int) -> None:
-    """Ends with the process that started it, which alone decides on Ctrl-C; a crash leaves no core file."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    try:
-        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
-    except (OSError, AttributeError):
-        pass  # not Linux
-    if os.getppid() != parent:
-        os._exit(1)
 
 
 def _answer(job: dict[str, Any]) -> dict[str, Any]:

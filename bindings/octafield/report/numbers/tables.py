@@ -1,7 +1,6 @@
-"""Tables of a report as HTML, CSV and LaTeX, from one list of rows."""
+"""Tables of a report as CSV, LaTeX and cells of a page, from one list of rows."""
 
 import csv
-import html
 import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -32,6 +31,10 @@ class Link:
 
     def __str__(self) -> str:
         return self.text
+
+    @property
+    def url(self) -> str:
+        return quote(self.href, safe="/#")
 
 
 @dataclass(frozen=True)
@@ -105,42 +108,25 @@ class Table:
         lines += [_latex_line(map(Column.show, self.columns, row)) for row in self.rows]
         path.write_text("\n".join([*lines, r"\bottomrule", r"\end{tabular}"]) + "\n", encoding="utf-8")
 
-    def html(self, kind: str = "main") -> str:
-        """A <table>; of class main its rows sort by a click on a head."""
-        heads = "".join(
-            f'<th scope="col"{_class(c)}><button type="button">{html.escape(c.head)}</button></th>'
-            for c in self.columns
-        )
-        body = "".join(f"<tr>{''.join(map(_cell, self.columns, row))}</tr>" for row in self.rows)
-        return (
-            '<div class="scroll"><table'
-            f' class="{kind}"><thead>{self._groups()}<tr>{heads}</tr></thead><tbody>{body}</tbody></table></div>'
-        )
+    def cells(self, shaded: bool = False) -> list[list["Cell"]]:
+        """Of a page, per row. shaded: with the shares of numbers in the largest."""
+        numbers = [abs(v) for row in self.rows for v in row if isinstance(v, float)] if shaded else []
+        largest = max(numbers, default=0.0) or 1.0
+        return [
+            [_cell(column, value, largest if shaded else None) for column, value in zip(self.columns, row, strict=True)]
+            for row in self.rows
+        ]
 
-    def notes(self) -> str:
-        """A list of what the columns mean."""
-        entries = "".join(f"<dt>{html.escape(c.name)}</dt><dd>{c.meaning}</dd>" for c in self.columns if c.meaning)
-        return f'<details><summary>What the columns mean</summary><dl class="columns">{entries}</dl></details>'
+    def groups(self) -> list[list[tuple[str, int]]]:
+        """The line above the heads, of groups with their widths; no line where there are none."""
+        return [list(self._grouped())] if any(column.group for column in self.columns) else []
 
     def _grouped(self) -> Iterator[tuple[str, int]]:
         for group, of in itertools.groupby(column.group for column in self.columns):
             yield group, len(list(of))
 
-    def _groups(self) -> str:
-        if not any(column.group for column in self.columns):
-            return ""
-        cells = (
-            (
-                f'<th class="group" colspan="{width}" scope="colgroup">{html.escape(group)}</th>'
-                if group
-                else f'<td class="none" colspan="{width}"></td>'
-            )
-            for group, width in self._grouped()
-        )
-        return f"<tr>{''.join(cells)}</tr>"
-
     def _latex_groups(self) -> list[str]:
-        if not any(column.group for column in self.columns):
+        if not self.groups():
             return []
         cells, rules, first = [], [], 1
         for group, width in self._grouped():
@@ -154,21 +140,24 @@ def _latex_line(cells: Iterable[object]) -> str:
     return " & ".join(str(cell).translate(_LATEX) for cell in cells) + r" \\"
 
 
-def _cell(column: Column, value: object) -> str:
-    """data-value: what the page sorts by, where that is not what is shown."""
-    shown = column.show(value)
-    text = html.escape(shown)
-    if isinstance(value, Link):
-        text = f'<a href="{quote(value.href, safe="/#")}">{text}</a>'
-    elif isinstance(value, (list, tuple)):
-        text = " ".join(f'<a href="{quote(link.href, safe="/#")}">{html.escape(link.text)}</a>' for link in value)
+@dataclass(frozen=True)
+class Cell:
+    """shown: in place of links, where there are none. key: what the page sorts by, where that is not what is shown.
+    share: of a number in the largest, where that is shown."""
+
+    shown: str
+    links: Sequence[Link]
+    key: str | None
+    is_text: bool
+    share: str | None = None
+
+
+def _cell(column: Column, value: object, largest: float | None) -> Cell:
+    shown, several = column.show(value), isinstance(value, (list, tuple))
+    links: Sequence[Link] = value if isinstance(value, (list, tuple)) else [value] if isinstance(value, Link) else []
     key = "" if value is None else str(value)
-    data = "" if key == shown or isinstance(value, (list, tuple)) else f' data-value="{html.escape(key)}"'
-    return f"<td{_class(column)}{data}>{text}</td>"
-
-
-def _class(column: Column) -> str:
-    return "" if column.form else ' class="text"'
+    share = f"{min(1.0, value / largest):.3f}" if largest and isinstance(value, float) else None
+    return Cell("" if several else shown, links, None if several or key == shown else key, not column.form, share)
 
 
 def write_records(path: Path, records: Sequence[dict[str, Any]]) -> None:

@@ -2,8 +2,6 @@
 them."""
 
 import html
-import re
-from dataclasses import dataclass
 
 from ..numbers.columns import deviation_table, summary_table
 from ..numbers.deviations import Deviations
@@ -12,96 +10,76 @@ from ..numbers.own_energies import own_energy_table
 from ..numbers.profiles import Line, Profile, energies, performance_profiles, smoothing_seconds
 from ..numbers.records import Method, Results
 from . import figures, prose
-from .html import Exhibits, paragraphs
-
-
-@dataclass
-class Front:
-    """Exhibits as HTML, empty where there is nothing to show; text() when the whole page's exhibits have their
-    numbers."""
-
-    results: Results
-    lines: list[Line]
-    found: Deviations
-    summary: str = ""
-    own_energies: str = ""
-    ratios: str = ""
-    profiles: str = ""
-    matrix: str = ""
-    boxes: str = ""
-    energy_profiles: dict[Method, Profile] | None = None
-
-    def text(self, exhibits: Exhibits, open_runs: int) -> str:
-        """The section: paragraphs, each with what it refers to."""
-        results, cite = self.results, exhibits.cite
-        scope = (
-            f"{prose.scope(results, open_runs, cite('runs'))} {prose.meshes(results, cite('inputs'))}"
-            f" {prose.starts(results, cite('summary', 'runs'))}".strip()
-        )
-        both, matrix = cite("summary", "ratios"), cite("matrix", "boxes")
-        energy = [*prose.energy(self.lines, both or cite("runs"))]
-        if self.energy_profiles:
-            energy.append(prose.profile(self.energy_profiles, cite("profiles")))
-        graphs = [*prose.graphs(self.lines, cite("summary")), prose.convergence(results, cite("runs"))]
-        times = prose.times(results, cite("summary"), cite("ratios"))
-        time = f"{times} {prose.shared_time(results, cite('inputs'))}".strip()
-        distances = self.matrix + self.boxes
-        if distances and len(results.methods) <= MANY:
-            distances = f'<div class="figures">{distances}</div>'
-        return (
-            paragraphs(scope) + _headed("Energy", *energy) + self.summary + self.own_energies + self.ratios
-            + self.profiles
-            + _headed("Singular graphs", *graphs) + _headed("Integrability",
-                *integrability(results, cite("integrability")))
-                + _headed("Distance between fields", prose.distances(self.found, matrix)) + distances
-            + _headed("Time", time)
-        )  # fmt: skip
-
+from .exhibits import Exhibit, Exhibits
 
 MANY = 8  # methods: a matrix of more takes the width of the page
 
 
-def make_front(results: Results, lines: list[Line], found: Deviations, exhibits: Exhibits) -> Front:
-    front = Front(results, lines, found)
+Block = tuple[str, list[str], list[Exhibit], bool]  # head, paragraphs, what they refer to, whether that is side by side
+
+
+def front_blocks(
+    results: Results,
+    lines: list[Line],
+    found: Deviations,
+    profiles: dict[Method, Profile],
+    exhibits: Exhibits,
+    open_runs: int,
+) -> list[Block]:
+    """When the whole page's exhibits have their numbers. profiles: of add_front()."""
+    cite, of = exhibits.cite, exhibits.of
+    scope = (
+        f"{prose.scope(results, open_runs, cite('runs'))} {prose.meshes(results, cite('inputs'))}"
+        f" {prose.starts(results, cite('summary', 'runs'))}".strip()
+    )
+    energy = [*prose.energy(lines, cite("summary", "ratios") or cite("runs"))]
+    if profiles:
+        energy.append(prose.profile(profiles, cite("profiles")))
+    graphs = [*prose.graphs(lines, cite("summary")), prose.convergence(results, cite("runs"))]
+    distances = [prose.distances(found, cite("matrix", "boxes"))]
+    times = prose.times(results, cite("summary"), cite("ratios"))
+    return [
+        ("", [scope], [], False),
+        ("Energy", energy, of("summary", "energies", "ratios", "profiles"), False),
+        ("Singular graphs", graphs, [], False),
+        ("Integrability", integrability(results, cite("integrability")), [], False),
+        ("Distance between fields", distances, of("matrix", "boxes"), len(results.methods) <= MANY),
+        ("Time", [f"{times} {prose.shared_time(results, cite('inputs'))}".strip()], [], False),
+    ]
+
+
+def add_front(results: Results, lines: list[Line], found: Deviations, exhibits: Exhibits) -> dict[Method, Profile]:
+    """Profiles of energy, where they are shown."""
+    profiles: dict[Method, Profile] = {}
     if not any(run.done for run in results.runs):
-        return front
+        return profiles
     caption = (
         "One line per boundary treatment and method, over all inputs; seeds of one input count once, by their mean."
     )
     if found.pairs():
         caption += f" Angles are to the fields of {html.escape(results.methods[0].name)}."
-    front.summary = exhibits.table("summary", summary_table(results, lines, found), "Methods", caption)
+    exhibits.add("summary", summary_table(results, lines, found), "Methods", caption)
     own = own_energy_table(results)
     if own.rows:
-        front.own_energies = exhibits.table(
-            "energies",
-            own,
-            "Energies of one's own",
-            "As given to the comparison, of the same fields; methods in the order of the first.",
-        )
+        caption = "As given to the comparison, of the same fields; methods in the order of the first."
+        exhibits.add("energies", own, "Energies of one's own", caption)
     if len(results.methods) > 1:
         plot = figures.ratio_plot(results, exhibits.salt)
-        front.ratios = exhibits.figure(
-            "ratios", plot, "Energy and time relative to the best method", _ratio_caption(results)
-        )
+        exhibits.add("ratios", plot, "Energy and time relative to the best method", _ratio_caption(results))
         if len(results.problems) > 1:
-            _add_profiles(front, exhibits)
+            profiles = _add_profiles(results, exhibits)
     if found.pairs():
         kind = "matrix many" if len(results.methods) > MANY else "matrix"
-        table = exhibits.table(
-            "matrix", deviation_table(found), "Angles between the fields of two methods", _matrix_caption(found), kind
-        )
-        front.matrix = _shaded(table)
+        title = "Angles between the fields of two methods"
+        exhibits.add("matrix", deviation_table(found), title, _matrix_caption(found), kind)
     if found.drawn:
         plot = figures.deviation_plot(found.drawn, found.methods[0], exhibits.salt)
-        front.boxes = exhibits.figure("boxes", plot, "Distance to the first method", _box_caption(found), "plot half")
-    return front
+        exhibits.add("boxes", plot, "Distance to the first method", _box_caption(found), "plot half")
+    return profiles
 
 
-def _add_profiles(front: Front, exhibits: Exhibits) -> None:
-    energy, seconds = (
-        performance_profiles(of(front.results, front.results.problems)) for of in (energies, smoothing_seconds)
-    )
+def _add_profiles(results: Results, exhibits: Exhibits) -> dict[Method, Profile]:
+    energy, seconds = (performance_profiles(of(results, results.problems)) for of in (energies, smoothing_seconds))
     plot = figures.profile_plot(
         [(energy, "energy over the lowest"), (seconds, "CPU seconds over the fastest")], exhibits.salt
     )
@@ -109,12 +87,8 @@ def _add_profiles(front: Front, exhibits: Exhibits) -> None:
         "Share of the problems on which a method's energy (left) or processor time of smoothing (right) is at most so"
         " many times the best of the problem; higher is better."
     )
-    front.profiles = exhibits.figure("profiles", plot, "Performance profiles", caption)
-    front.energy_profiles = energy
-
-
-def _headed(head: str, *texts: str) -> str:
-    return f"<h3>{head}</h3>{paragraphs(*texts)}" if any(texts) else ""
+    exhibits.add("profiles", plot, "Performance profiles", caption)
+    return energy
 
 
 def _ratio_caption(results: Results) -> str:
@@ -139,12 +113,3 @@ def _box_caption(found: Deviations) -> str:
         f"Angles between a field's frames and those of {first} on the same mesh, at the vertices of all problems, in"
         " degrees: median (bar), quartiles (box), 5th and 95th percentile (line)."
     )
-
-
-def _shaded(matrix: str) -> str:
-    """Cells of the matrix with a ground the stronger the larger their number."""
-    values = [float(v) for v in re.findall(r'<td data-value="([^"]+)"', matrix)]
-    largest = max(values, default=0.0) or 1.0
-    # noqa: E731
-    shade = lambda match: f'<td style="--share:{min(1.0, float(match[1]) / largest):.3f}" data-value="{match[1]}"'
-    return re.sub(r'<td data-value="([^"]+)"', shade, matrix)

@@ -1,5 +1,6 @@
 """The part of a report's page that shows one input."""
 
+import base64
 import html
 from collections.abc import Sequence
 from itertools import groupby
@@ -8,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 from ..numbers.columns import failure_table, run_table
 from ..numbers.profiles import lines
 from ..numbers.records import Case, Results, Run
+from ..numbers.tables import Link, Table
 from . import figures, prose, scenes
-from .html import Exhibits, paragraphs, picture
+from .exhibits import Exhibit, Exhibits
 
 if TYPE_CHECKING:
     from ...view.picture import Picture
@@ -32,59 +34,53 @@ TURN = (
 
 def mesh_section(
     results: Results, exhibits: Exhibits, anchors: dict[str, str], name: str, pictures: "Sequence[Picture]"
-) -> str:
-    """A page of its own where there are several inputs, with the runs on it. anchors: per input; pictures: of
-    octafield.view.picture."""
+) -> dict[str, Any]:
+    """What the page shows of it: a page of its own where there are several inputs, with the runs on it. anchors: per
+    input; pictures: of octafield.view.picture."""
     runs, many = results.on(name), len(results.inputs) > 1
     fields = [run for run in runs if run.done]
     cases = [case for case in (results.first_on(name, setting) for setting in results.settings) if case is not None]
-    table = failures = links = ""
     if many:
-        table = exhibits.table(
-            f"runs {name}",
-            run_table(results, runs, files=True),
-            "Runs on this input",
-            "One line per run, those on one problem together.",
-        )
-        failures, links = runs_without_field(results, runs), _links(anchors, name)
-    plots = [_picture(exhibits, one) for one in pictures] + _plots(results, exhibits, cases)
+        table = run_table(results, runs, files=True)
+        exhibits.add(f"runs {name}", table, "Runs on this input", "One line per run, those on one problem together.")
+    shown = [_picture(exhibits, one) for one in pictures] + _plots(results, exhibits, cases)
     views = _views(results, exhibits, cases, anchors[name])
-    text = ["" if fields else "No run on this input ended with a field."]
+    texts = [] if fields else ["No run on this input ended with a field."]
     if many and fields:
-        text = prose.energy(
+        texts = prose.energy(
             lines(results, [p for p in results.problems if p.input == name]),
             exhibits.cite(f"runs {name}", f"convergence {name}"),
         )
-    return (
-        '<section class="mesh"'
-        f' id="{anchors[name]}">{links}<h2>{html.escape(name)}</h2>{_facts(fields)}{paragraphs(*text)}{table}{failures}'
-        f'<div class="figures">{"".join(plots)}</div>{views}</section>'
-    )
+    row = fields[0].row if fields else {}
+    return {
+        "anchor": anchors[name],
+        "name": name,
+        "links": _links(anchors, name) if many else [],
+        "facts": _facts(row) if fields else "",
+        "sha256": row.get("mesh_sha256"),
+        "notes": [*row.get("notes", ()), *_unserved(row), *_verdicts(fields)],
+        "texts": texts,
+        "tables": exhibits.of(f"runs {name}"),
+        "failures": runs_without_field(results, runs) if many else None,
+        "figures": shown,
+        "views": views,
+    }
 
 
-def runs_without_field(results: Results, runs: Sequence[Run]) -> str:
-    """And why; empty where all have one."""
+def runs_without_field(results: Results, runs: Sequence[Run]) -> Table | None:
+    """And why; none where all have one."""
     bad = [run for run in runs if not run.done]
-    return f"<h3>Runs without a field</h3>{failure_table(results, bad).html('main words')}" if bad else ""
+    return failure_table(results, bad) if bad else None
 
 
-def _facts(fields: Sequence[Run]) -> str:
-    if not fields:
-        return ""
-    row = fields[0].row
+def _facts(row: dict[str, Any]) -> str:
     source = {"file": "the file's lines", "angle": "dihedral angle", "none": "request none"}.get(
         row["feature_source"], row["feature_source"]
     )
-    facts = (
+    return (
         f"{row['vertices']:,} vertices, {row['tets']:,} tetrahedra, {row['boundary_triangles']:,} boundary triangles"
         f" with a mean edge of {row['edge_length']:.4g}; {row['feature_edges']:,} feature edges and"
-        f" {row['feature_corners']:,} corners by {html.escape(source)}."
-    )
-    notes = "".join(
-        f"<li>{html.escape(note)}</li>" for note in [*row.get("notes", ()), *_unserved(row), *_verdicts(fields)]
-    )
-    return f'<p class="note">{facts} Mesh <code>{html.escape(row["mesh_sha256"])}</code>.</p>' + (
-        f"<ul>{notes}</ul>" if notes else ""
+        f" {row['feature_corners']:,} corners by {source}."
     )
 
 
@@ -106,20 +102,22 @@ def _unserved(row: dict[str, Any]) -> list[str]:
     ]
 
 
-def _links(anchors: dict[str, str], name: str) -> str:
+def _links(anchors: dict[str, str], name: str) -> list[Link]:
     """Back, and to the neighbours."""
     names = list(anchors)
     place = names.index(name)
-    found = ['<a href="#inputs">All inputs</a>']
-    for other, arrow in ((place - 1, "&larr;"), (place + 1, "&rarr;")):
+    found = [Link("All inputs", "#inputs")]
+    for other, arrow in ((place - 1, "\N{LEFTWARDS ARROW}"), (place + 1, "\N{RIGHTWARDS ARROW}")):
         if 0 <= other < len(names):
-            found.append(f'<a href="#{anchors[names[other]]}">{arrow} {html.escape(names[other])}</a>')
-    return f"<nav>{' '.join(found)}</nav>"
+            found.append(Link(f"{arrow} {names[other]}", f"#{anchors[names[other]]}"))
+    return found
 
 
-def _picture(exhibits: Exhibits, shown: "Picture") -> str:
-    image, legend = picture(shown.small, shown.title, shown.legend)
-    return exhibits.figure("", image, html.escape(shown.title), html.escape(shown.caption) + legend, "shot", shown.png)
+def _picture(exhibits: Exhibits, shown: "Picture") -> Exhibit:
+    data = base64.b64encode(shown.small).decode()
+    made = exhibits.add("", data, shown.title, html.escape(shown.caption), "shot", shown.legend)
+    exhibits.images[made.id] = shown.png
+    return made
 
 
 def _shown(results: Results, cases: Sequence[Case]) -> list[tuple[Case, str, Run]]:
@@ -129,42 +127,32 @@ def _shown(results: Results, cases: Sequence[Case]) -> list[tuple[Case, str, Run
     ]
 
 
-def _plots(results: Results, exhibits: Exhibits, cases: Sequence[Case]) -> list[str]:
+def _plots(results: Results, exhibits: Exhibits, cases: Sequence[Case]) -> list[Exhibit]:
     if not cases:
         return []
     name, shown = cases[0].input, _shown(results, cases)
     more = " Panels side by side are boundary treatments on common axes." if len(cases) > 1 else ""
     more += " First seed." if len({case.seed for case in results.cases if case.input == name}) > 1 else ""
     kind = "plot wide" if figures.is_wide(results, cases) else "plot"
-    convergence = exhibits.figure(
-        f"convergence {name}",
-        figures.convergence_plot(results, cases, exhibits.salt),
-        "Convergence",
-        CONVERGENCE + more,
-        kind,
-    )
+    curves = figures.convergence_plot(results, cases, exhibits.salt)
+    convergence = exhibits.add(f"convergence {name}", curves, "Convergence", CONVERGENCE + more, kind)
     labels = [method + (f" ({case.setting.name})" if len(cases) > 1 else "") for case, method, _ in shown]
     seconds = figures.seconds_plot(labels, [run for *_, run in shown], exhibits.salt)
-    return [convergence, exhibits.figure("", seconds, "Time", TIME)]
+    return [convergence, exhibits.add("", seconds, "Time", TIME)]
 
 
-def _views(results: Results, exhibits: Exhibits, cases: Sequence[Case], anchor: str) -> str:
+def _views(results: Results, exhibits: Exhibits, cases: Sequence[Case], anchor: str) -> list[Exhibit]:
     shown = _shown(results, cases)
     data, places = scenes.encode([run for *_, run in shown])
     if not data:
-        return ""
-    block, rows = f"data-{anchor}", ""
+        return []
+    rows = []
     for case, of in groupby(zip(shown, places, strict=True), lambda entry: entry[0][0]):
-        views = "".join(_view(block, place, method, run.row) for (_, method, run), place in of if place is not None)
-        head = f"<h4>{html.escape(case.setting.name)}</h4>" if len(cases) > 1 else ""
-        rows += f'{head}<div class="views">{views}</div>'
-    legend = "".join(f'<li><i style="background:{colour}"></i>{word}</li>' for colour, word in scenes.LEGEND)
-    content = f'{rows}<script type="text/plain" id="{block}">{data}</script>'
-    return exhibits.figure("", content, "Singular curves", f'{TURN}<ul class="legend">{legend}</ul>', "turned")
-
-
-def _view(block: str, place: int, label: str, row: dict[str, Any]) -> str:
-    label = html.escape(label)
-    what = f'tabindex="0" data-block="{block}" data-scene="{place}" role="img" aria-label="singular curves of {label}"'
-    words = f"<b>{label}</b> E {row['energy']:.6g}, {row['singular_edges']:,} edges"
-    return f'<div><canvas class="view" {what}></canvas><p>{words}</p></div>'
+        views = [
+            (place, method, f"E {run.row['energy']:.6g}, {run.row['singular_edges']:,} edges")
+            for (_, method, run), place in of
+            if place is not None
+        ]
+        rows.append((case.setting.name if len(cases) > 1 else "", views))
+    content = {"block": f"data-{anchor}", "rows": rows, "data": data}
+    return [exhibits.add("", content, "Singular curves", TURN, "turned", scenes.LEGEND)]

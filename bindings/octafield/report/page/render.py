@@ -1,123 +1,90 @@
 """A report's page from what was found: numbers its exhibits in the order of the page, then writes the prose that refers
 to them."""
 
-import html
 import json
 import re
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 from ..numbers.columns import input_table, run_table
 from ..numbers.deviations import Deviations
 from ..numbers.integrability import integrability_table
 from ..numbers.profiles import Line
-from ..numbers.records import Results
-from .front import make_front
-from .html import Exhibits, page, paragraphs, resource
+from ..numbers.records import Results, Run
+from .exhibits import Exhibits, filled
+from .front import add_front, front_blocks
 from .meshes import mesh_section, runs_without_field
 
 if TYPE_CHECKING:
     from ...view.picture import Picture
 
-_PARTS = ("results", "inputs", "runs", "methods", "reproduction")
-
 
 @dataclass
-class Content:
-    """What a page is made from. pictures: per input. links: HTML, to the files beside the page."""
+class Report:
+    """runs: in the order of the page; the first method is the one that others are measured against. pictures: of
+    octafield.view.picture, per input. description: of the study, shown as it is. open_runs: not carried out yet. files:
+    others beside the page to link."""
 
-    results: Results
-    lines: list[Line]
-    found: Deviations
-    pictures: "dict[str, list[Picture]]"
     title: str
-    description: str
-    open_runs: int
-    links: str
-
-    @property
-    def anchors(self) -> dict[str, str]:
-        """Of the parts of the page, per input."""
-        return {name: f"mesh-{k}-{_slug(name)}".rstrip("-") for k, name in enumerate(self.results.inputs, 1)}
+    runs: Sequence[Run]
+    pictures: "dict[str, list[Picture]]" = field(default_factory=dict)
+    description: str = ""
+    open_runs: int = 0
+    files: Sequence[str] = ()
 
 
-def render(content: Content) -> tuple[str, Exhibits]:
-    """The page, and its figures for files."""
-    results, exhibits, anchors = content.results, Exhibits(), content.anchors
-    many = len(results.inputs) > 1
-    front = make_front(results, content.lines, content.found, exhibits)
-    inputs = exhibits.table(
-        "inputs", input_table(results, anchors), "Inputs", "Every input, its mesh and its features."
-    )
-    meshes = "".join(
-        mesh_section(results, exhibits, anchors, name, content.pictures.get(name, ())) for name in results.inputs
-    )
-    runs = exhibits.table(
-        "runs",
-        run_table(results, results.runs, files=not many),
-        "Runs",
-        "One line per run, those on one problem together.",
-    )
-    sizes = integrability_table(results)
+def anchors_of(results: Results) -> dict[str, str]:
+    """Of the parts of the page, per input."""
+    return {name: f"mesh-{k}-{_slug(name)}".rstrip("-") for k, name in enumerate(results.inputs, 1)}
+
+
+def render(
+    report: Report,
+    results: Results,
+    methods: list[Line],
+    found: Deviations,
+    files: Sequence[str],
+    tables: Sequence[str],
+) -> tuple[str, Exhibits]:
+    """The page, and its figures for files. methods: lines of the summary. files, tables: to link beside the page; stems
+    of those in tables/."""
+    exhibits, anchors, many = Exhibits(), anchors_of(results), len(results.inputs) > 1
+    profiles = add_front(results, methods, found, exhibits)
+    exhibits.add("inputs", input_table(results, anchors), "Inputs", "Every input, its mesh and its features.")
+    meshes = [mesh_section(results, exhibits, anchors, name, report.pictures.get(name, ())) for name in results.inputs]
+    table = run_table(results, results.runs, files=not many)
+    exhibits.add("runs", table, "Runs", "One line per run, those on one problem together.")
+    sizes = integrability_table(results).without_dull("input", "seed")
     if sizes.rows:
-        runs += exhibits.table(
-            "integrability",
-            sizes.without_dull("input", "seed"),
-            "Integrability",
-            "One line per run with sizes: curl and jump of the axes before and after.",
-        )
-    body = (
-        f'<div class="front"><h2 id="results" class="first">Results</h2>{front.text(exhibits, content.open_runs)}<h2'
-        f' id="inputs">Inputs</h2>{inputs}</div>{meshes}<div class="front"><h2'
-        f' id="runs">Runs</h2>{runs}{runs_without_field(results, results.runs)}<h2 id="methods">Methods</h2><div'
-        f' class="prose">{resource("methods.html")}</div><h2'
-        f' id="reproduction">Reproduction</h2>{_reproduction(content, exhibits)}</div>'
+        caption = "One line per run with sizes: curl and jump of the axes before and after."
+        exhibits.add("integrability", sizes, "Integrability", caption)
+    page = filled(
+        "page.html",
+        report=report,
+        files=files,
+        tables=tables,
+        front=front_blocks(results, methods, found, profiles, exhibits, report.open_runs),
+        exhibits=exhibits,
+        meshes=meshes,
+        failures=runs_without_field(results, results.runs),
+        **_reproduction(results.runs),
     )
-    return (
-        page(content.title, _subtitle(content), body, f"<script>{resource('view.js')}</script>", paged=many),
-        exhibits,
-    )
+    return page, exhibits
 
 
-def _subtitle(content: Content) -> str:
-    version = next((run.row["version"] for run in content.results.runs if "version" in run.row), "")
-    links = " ".join(f'<a href="#{part}">{part.capitalize()}</a>' for part in _PARTS)
-    return f"octafield {html.escape(version)}. {content.links}.<nav>{links}</nav>"
-
-
-def _reproduction(content: Content, exhibits: Exhibits) -> str:
-    runs = content.results.runs
+def _reproduction(runs: Sequence[Run]) -> dict[str, Any]:
     options = [run.options for run in runs]
-    common = (
-        {name: value for name, value in options[0].items() if all(o.get(name) == value for o in options)}
-        if options
-        else {}
-    )
-    varying = list(dict.fromkeys(name for o in options for name in o if name not in common))
+    first = options[0] if options else {}
+    common = {name: value for name, value in first.items() if all(o.get(name) == value for o in options)}
     row = next((run.row for run in runs if "versions" in run.row), {})
-    software = ", ".join(f"{name} {value}" for name, value in row.get("versions", {}).items())
-    machine = row.get("machine")
-    where = (
-        f" on {html.escape(str(machine['cpu']))}, {machine['cores']} cores, load {machine['load']}" if machine else ""
-    )
-    differ = f" The runs differ in {html.escape(', '.join(varying).replace('_', ' '))}." if varying else ""
-    text = (
-        f"Computed with {html.escape(software)}{where}. Hashes of the meshes are in"
-        f" {exhibits.cite('inputs').strip('()')}; the options of a run are "
-        'in its record (<code>result.json</code>), and <code>octafield.FieldOptions(**record["options"])</code> makes'
-        f" them again.{differ} "
-        "The same version, input, options and seed give the same field at any number of threads."
-    )
-    shown = (
-        "<details><summary>Options that all runs"
-        f" share</summary><pre>{html.escape(json.dumps(common, indent=1))}</pre></details>"
-    )
-    if content.description:
-        shown += (
-            "<details open><summary>Description of the"
-            f" study</summary><pre>{html.escape(content.description)}</pre></details>"
-        )
-    return paragraphs(text) + shown
+    return {
+        "version": next((run.row["version"] for run in runs if "version" in run.row), ""),
+        "common": json.dumps(common, indent=1),
+        "varying": [name.replace("_", " ") for name in dict.fromkeys(n for o in options for n in o if n not in common)],
+        "versions": row.get("versions", {}),
+        "machine": row.get("machine"),
+    }
 
 
 def _slug(name: str) -> str:

@@ -4,9 +4,7 @@ import contextlib
 import json
 import math
 import os
-import signal
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable
@@ -15,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import IoError
+from ...files.process import reason, start_isolated
 from ..plan import Run
 
 WORKERS_LOG = "workers.log"
@@ -40,9 +39,7 @@ class Ending:
             return f"the process ended: {self.message}"
         if self.code >= 0:
             return f"the process ended with exit code {self.code}; {WORKERS_LOG} may tell why"
-        name = signal.Signals(-self.code).name
-        why = "most likely memory ran out" if name == "SIGKILL" else "a defect of octafield: please report this input"
-        return f"the process was stopped by signal {name}; {why}"
+        return f"the process was stopped by signal {reason(self.code)}"
 
 
 class Child:
@@ -56,19 +53,19 @@ class Child:
         self._limit, self._tell, self._message = limit, tell, ""
         self._late, self._prepared = "", False
         self._since: float | None = None  # the step in work began; None: it starts, or waits for leave
-        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
         reading, writing = os.pipe()  # not stdout, on which anything may print
         try:
             with (folder / WORKERS_LOG).open("a") as log:
-                self._process = subprocess.Popen(
-                    [sys.executable, "-m", "octafield.study.running.worker", str(writing)],
-                    stdin=subprocess.PIPE, stdout=log, stderr=log, text=True, env=environment, pass_fds=(writing,),
+                self._process = start_isolated(
+                    "octafield.study.running.worker", [str(writing)], str(folder), "its runs are open",
+                    {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"},
+                    stdin=subprocess.PIPE, stdout=log, stderr=log, pass_fds=(writing,),
                 )  # fmt: skip
         except OSError as error:
             os.close(reading)
-            raise IoError(
-                f"{folder}: cannot start a process for its runs ({error.strerror})", "cannot_start"
-            ) from error
+            if isinstance(error, IoError):
+                raise
+            raise IoError(f"{folder}: cannot write {WORKERS_LOG} there ({error.strerror})", "cannot_start") from error
         finally:
             os.close(writing)
         self._send(

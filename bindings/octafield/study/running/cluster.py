@@ -108,7 +108,6 @@ class _Cluster:
                 self._scheduler_gone()
             return []
         self.connected = now
-        self.leader.forecast.slots = sum(worker["nthreads"] for worker in workers) or 1
         largest = _largest_mb(workers)
         too_large = [group for group, need in self.groups.values() if need > largest]
         if not workers:
@@ -159,8 +158,8 @@ class _Cluster:
             _log.warning("%s", message)
 
     def _send(self, group: Group, workers: list[Described]) -> None:
-        tets = self.leader.costs.tets(mesh_of(group.runs[0]))
-        if self.leader.costs.knows(mesh_of(group.runs[0])):
+        tets = self.leader.sizes.tets(mesh_of(group.runs[0]))
+        if self.leader.sizes.knows(mesh_of(group.runs[0])):
             mb = needed_mb(tets, group.runs)
         else:
             mb = min(needed_mb(max(tets, _LEAST_TETS), group.runs), _largest_mb(workers))
@@ -189,13 +188,10 @@ class _Cluster:
         if kind == "returned":
             if event["future"] is self.futures[group.number]:
                 self._on_returned(group, event["future"])
-        elif kind == "begins":
-            self.leader.begins(group, anew=True)
         elif kind == "prepared":
-            self.leader.prepared(group, event["tets"], event["seconds"])
-            self.leader.begins(group)
+            self.leader.sizes.saw_tets(mesh_of(group.runs[0]), event["tets"])
         elif kind == "finished":
-            self.leader.finished(group, event["key"], event["seconds"], event["state"])
+            self.leader.finished(group, event["key"])
         if kind in ("progress", "finished"):
             self.leader.tell(
                 f"{group.label} on {event['host']}" + (f": {event['phase']}" if kind == "progress" else "")
@@ -228,8 +224,8 @@ class _Cluster:
     def _settle(self, group: Group, answer: dict[str, Any]) -> None:
         if answer["changed"]:
             self.leader.input_changed(group, answer["changed"])
-        elif answer["tets"]:  # come back for more memory; costs know how many now
-            self.leader.costs.saw_tets(mesh_of(group.runs[0]), answer["tets"])
+        elif answer["tets"]:  # come back for more memory; sizes know how many now
+            self.leader.sizes.saw_tets(mesh_of(group.runs[0]), answer["tets"])
         else:
             self.leader.ended(group, Ending(**answer["ending"]))
 
@@ -275,7 +271,6 @@ class _Task:
             self.content["limit"],
             lambda _, event: self.events.put(event),
         )
-        self._tell({"event": "begins"})
         try:
             while True:
                 child.stop_if_late()

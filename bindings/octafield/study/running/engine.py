@@ -51,7 +51,7 @@ def run(
     processes together may be expected to need (0: four fifths of the machine's). scheduler: address of a dask
     scheduler, whose workers see `folder` and the inputs under the same paths, in place of this machine; patience:
     seconds to wait for a worker that can take what is left. retry: runs that failed are tried again. progress: called
-    with what is done, the time left and what is in work, as one text, and the fraction of runs done. Raises
+    with what is done and what is in work, as one text, and the fraction of runs done. Raises
     InvalidInput (also for a folder of something else, and for inputs that changed meanwhile: their runs stay open),
     IoError, Cancelled.
     """
@@ -87,7 +87,6 @@ class _Job:
 class _Local:
     def __init__(self, leader: Leader, jobs: int, memory_mb: float):
         self.leader, self.slots, self.memory_mb = leader, jobs, memory_mb
-        self.leader.forecast.slots = jobs
         self.events: queue.SimpleQueue[tuple[Child, Event]] = queue.SimpleQueue()
         self.active: dict[Child, _Job] = {}
 
@@ -120,7 +119,6 @@ class _Local:
             if job.waits and (fits or all(other.waits for other in jobs)):
                 job.waits = False
                 job.child.go()
-                self.leader.begins(job.group)
 
     def _start(self, group: Group) -> None:
         leader = self.leader
@@ -134,17 +132,16 @@ class _Local:
         self.active[child] = _Job(group, child, needed_mb(0, group.runs))
 
     def _on_ready(self, job: _Job, _event: Event) -> None:
-        self.leader.begins(job.group)
+        pass  # the child's clock begins
 
     def _on_prepared(self, job: _Job, event: Event) -> None:
-        self.leader.prepared(job.group, event["tets"], event["seconds"])
         job.memory_mb, job.waits = needed_mb(event["tets"], job.group.runs), True
 
     def _on_progress(self, job: _Job, event: Event) -> None:
         self.leader.tell(f"{job.group.label}: {event['phase']}")
 
     def _on_finished(self, job: _Job, event: Event) -> None:
-        self.leader.finished(job.group, event["key"], event["seconds"], event["state"])
+        self.leader.finished(job.group, event["key"])
         self.leader.tell(job.group.label)
 
     def _on_changed(self, job: _Job, event: Event) -> None:

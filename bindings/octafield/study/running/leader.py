@@ -3,21 +3,18 @@
 import itertools
 import math
 import os
-import time
 from collections import deque
 from dataclasses import dataclass, field
 
 from ...errors import Cancelled, InvalidInput
-from ...progress.costs import Costs, Forecast
 from ...progress.phases import Progress
-from ...progress.time_left import SteadyTimeLeft, words
 from ..description import Study
-from ..plan import Run, groups, mesh_of, method_of
+from ..memory import MeshSizes
+from ..plan import Run, groups, mesh_of
 from ..store import LOG_FILE, Store, write_record
 from .child import Ending
 
 _ATTEMPTS = 2  # of a run whose process dies
-_FORECAST_EVERY = 2.0  # seconds
 
 
 @dataclass(eq=False)
@@ -45,11 +42,8 @@ class Leader:
         self.computed: list[str] = []  # keys
         self.changed: list[str] = []  # messages about inputs
         self._attempts: dict[str, int] = {}  # by key
-        self._progress, self._steady = progress, SteadyTimeLeft()
-        self._left: float | None = None
-        self._forecast_at = -math.inf
-        self.costs = Costs(self.limit)
-        self.forecast = Forecast(self.costs)
+        self._progress = progress
+        self.sizes = MeshSizes()
         entered = self._entered(plan, retry)
         self.done = len(entered)
         self.pending: deque[Group] = deque()
@@ -76,39 +70,22 @@ class Leader:
         return known & {run.key for run in plan}
 
     def _learn(self, plan: list[Run]) -> None:
-        """What finished runs and the files' sizes tell of the time that others take."""
-        known = self.store.times()
+        """What finished runs and the files' sizes tell of the tets that others have."""
+        known = self.store.tets()
         for run in plan:
             if isinstance(run.source, str) and os.path.exists(run.source):
-                self.costs.saw_file(mesh_of(run), os.path.getsize(run.source))
+                self.sizes.saw_file(mesh_of(run), os.path.getsize(run.source))
             if run.key in known:
-                self.costs.saw_tets(mesh_of(run), known[run.key][0])
-        for run in plan:
-            if run.key in known:
-                self.costs.finished(method_of(run), mesh_of(run), known[run.key][1])
+                self.sizes.saw_tets(mesh_of(run), known[run.key])
 
     def add(self, group: Group, first: bool = False) -> None:
         """A group to do, or to do again."""
-        self._forecast(group)
         if first:
             self.pending.appendleft(group)
         else:
             self.pending.append(group)
 
-    def _forecast(self, group: Group) -> None:
-        self.forecast.add(group.number, mesh_of(group.runs[0]), [method_of(run) for run in group.runs])
-
-    def begins(self, group: Group, anew: bool = False) -> None:
-        """anew: with the preparation, whatever was done before."""
-        if anew:
-            self._forecast(group)
-        self.forecast.begins(group.number, time.monotonic())
-
-    def prepared(self, group: Group, tets: int, seconds: float) -> None:
-        self.costs.saw_tets(mesh_of(group.runs[0]), tets)
-        self.forecast.step_done(group.number, seconds, time.monotonic())
-
-    def finished(self, group: Group, key: str, seconds: float = 0.0, state: str = "") -> None:
+    def finished(self, group: Group, key: str) -> None:
         """A run has its folder. Told twice it counts once; a folder that is not whole is removed, and its run stays in
         the group."""
         if all(run.key != key for run in group.runs) or not self.store.enter([key]):
@@ -116,9 +93,6 @@ class Leader:
         group.runs = [run for run in group.runs if run.key != key]
         self.computed.append(key)
         self.done += 1
-        self.forecast.step_done(group.number, seconds, time.monotonic(), counts=state == "done")
-        if not group.runs:
-            self.forecast.drop(group.number)
 
     def ended(self, group: Group, ending: Ending) -> bool:
         """The process that had the group has ended. Whether something is left of it."""
@@ -161,7 +135,6 @@ class Leader:
         if message not in self.changed:
             self.changed.append(message)
         group.runs = []
-        self.forecast.drop(group.number)
 
     def require_unchanged(self) -> None:
         """After everything else is done."""
@@ -174,12 +147,6 @@ class Leader:
     def tell(self, what: str) -> None:
         if self._progress is None:
             return
-        now = time.monotonic()
-        if self._left is None or now - self._forecast_at >= _FORECAST_EVERY:
-            self._left, self._forecast_at = self.forecast.left(now), now
-        left = (
-            "" if self._left is None or self.done == self.total else f", {words(self._steady.follow(self._left, now))}"
-        )
-        answer = self._progress(f"{self.done} of {self.total}{left}: {what}", self.done / self.total, math.nan)
+        answer = self._progress(f"{self.done} of {self.total}: {what}", self.done / self.total, math.nan)
         if answer is not None and not answer:
             raise Cancelled(f"cancelled after {self.done} of {self.total} runs")

@@ -1,11 +1,9 @@
 """Runs of one group, one after the other, in a process of their own.
 
 Speaks JSON lines: reads one job from standard input; writes to the file descriptor that its argument names {"event":
-"ready"}, {"event": "prepared", "tets": n,
-"seconds": s}, waits for a line (the leader's leave to use that much memory), then {"event": "finished", "key": ...,
-    "seconds": s,
-"state": ...} for each run and "progress" between. Before it ends without having finished all: "changed" (the input is
-    no longer what was planned), "unwritable" (the folder) or "broken", each with a "message".
+"ready"}, {"event": "prepared", "tets": n}, waits for a line (the leader's leave to use that much memory), then
+{"event": "finished", "key": ...} for each run and "progress" between. Before it ends without having finished all:
+"changed" (the input is no longer what was planned), "unwritable" (the folder) or "broken", each with a "message".
 """
 
 import contextlib
@@ -29,8 +27,8 @@ if TYPE_CHECKING:
     from ...fields.frame_field import FieldResult
 
 _QUIET = 0.5  # seconds between reports
-Prepared = Callable[[int, float], None]  # called with the number of tets and the seconds it took before the first field
-Finished = Callable[[str, float, str], None]  # called with each key that is finished, its seconds and state
+Prepared = Callable[[int], None]  # called with the number of tets before the first field
+Finished = Callable[[str], None]  # called with each key that is finished
 
 
 class InputChanged(InvalidInput):
@@ -53,8 +51,7 @@ def execute(
     runs = [run for run in runs if not store.is_finished(run.key)]
     if not runs:
         return
-    begin, clock = time.time(), time.perf_counter()
-    error = None
+    begin, error = time.time(), None
     try:
         meshed = prepare_mesh(_surface(runs[0].source), runs[0].options, progress=progress)
         problem = prepare_field(meshed, runs[0].options.seed, progress)
@@ -65,19 +62,18 @@ def execute(
     if error:
         for run in runs:
             _write_failure(store, run, error, begin)
-            finished(run.key, 0.0, "failed")
+            finished(run.key)
         return
-    prepared(meshed.volume().tet_count, time.perf_counter() - clock)
+    prepared(meshed.volume().tet_count)
     for run in runs:
-        begin, clock = time.time(), time.perf_counter()
-        result = None
+        begin, result = time.time(), None
         try:
             result = run_field(problem, run.options, progress)
         except Error as raised:
             _write_failure(store, run, raised, begin)
         if result is not None:
             _write_run(store, run, result, keep_fields, begin)
-        finished(run.key, time.perf_counter() - clock, "failed" if result is None else "done")
+        finished(run.key)
 
 
 def _surface(source: Source) -> str | TriangleMesh:
@@ -108,9 +104,6 @@ def _write_failure(store: Store, run: Run, error: Error, begin: float) -> None:
 
 
 def main() -> None:
-    from ...files.process import die_with_parent
-
-    die_with_parent()
     logging.disable()
     out = os.fdopen(int(sys.argv[1]), "w", buffering=1)
     job = json.loads(sys.stdin.readline())
@@ -122,8 +115,8 @@ def main() -> None:
     tell(event="ready")
     runs = [Run.from_json(content) for content in job["runs"]]
 
-    def prepared(tets: int, seconds: float) -> None:
-        tell(event="prepared", tets=tets, seconds=seconds)
+    def prepared(tets: int) -> None:
+        tell(event="prepared", tets=tets)
         if not sys.stdin.readline():
             sys.exit(1)  # the leader is gone
 
@@ -134,8 +127,8 @@ def main() -> None:
             reported = now
             tell(event="progress", phase=phase, fraction=fraction)
 
-    def finished(key: str, seconds: float, state: str) -> None:
-        tell(event="finished", key=key, seconds=seconds, state=state)
+    def finished(key: str) -> None:
+        tell(event="finished", key=key)
 
     with contextlib.suppress(BrokenPipeError):
         try:
