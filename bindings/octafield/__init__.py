@@ -5,7 +5,7 @@
     >>> surface = generate("box")                     # or octafield.read_surface("part.stl")
     >>> octafield.require_valid(surface)
     >>> result = octafield.compute_field(surface)     # the whole way, see octafield.fields.frame_field
-    >>> result.record["singular_edges"]
+    >>> result.record.singular_edges
     0
     >>> frames = octafield.frames.random_rotations(10)  # or one step at a time
     >>> octafield.frames.sh4_embed(frames).shape
@@ -39,6 +39,7 @@ from .fields.frame_field import FieldProblem, FieldResult, compute_field, prepar
 from .fields.probes import sample_frames, slice_frames
 from .frame_files import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
+from .records.record_file import read_record, read_surface_record
 from .runs.compare import Comparison, compare
 from .runs.conversion import Conversion, convert_file
 from .runs.interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
@@ -84,7 +85,9 @@ __all__ = [
     "prepare_field",
     "prepare_mesh",
     "read_frames",
+    "read_record",
     "read_surface",
+    "read_surface_record",
     "require_valid",
     "run_field",
     "sample_frames",

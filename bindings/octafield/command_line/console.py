@@ -10,7 +10,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.console import Console
@@ -20,6 +20,9 @@ from ..errors import Cancelled, Error, GeometryError, InvalidInput, IoError, Sol
 from ..files.writing import write_json
 from ..progress.phases import Progress as Callback
 from ..progress.time_left import PhaseTimeLeft, words
+
+if TYPE_CHECKING:
+    from ..records.field import InputRecord
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 # kinds of SolverError that another option or another mesh avoids
@@ -121,9 +124,9 @@ def _say(message: str) -> None:
     print("octafield: " + " ".join(message.split()), file=sys.stderr, flush=True)
 
 
-def report_notes(record: dict[str, Any]) -> None:
-    for note in record["notes"]:
-        log.info("%s: %s", record["input"], note)
+def report_notes(record: "InputRecord") -> None:
+    for note in record.notes:
+        log.info("%s: %s", record.input, note)
 
 
 @contextlib.contextmanager

@@ -12,6 +12,7 @@ from .options import Json, Quiet, Verbose
 
 if TYPE_CHECKING:
     from ..study import Status, Study
+    from ..study.store import RunRecord
 
 app = typer.Typer(no_args_is_help=True, help="Comparisons that a file describes. They go on after any interruption.")
 
@@ -140,8 +141,8 @@ def _run(
     log.info("wrote %s", page)
 
 
-def _document(status: "Status", rows: list[dict[str, Any]]) -> dict[str, Any]:
-    return {**dataclasses.asdict(status), "runs": rows}
+def _document(status: "Status", rows: "list[RunRecord]") -> dict[str, Any]:
+    return {**dataclasses.asdict(status), "runs": [row.to_dict() for row in rows]}
 
 
 def _tell(status: "Status", folder: Path, json: str | None, quiet: bool) -> None:
@@ -153,5 +154,5 @@ def _tell(status: "Status", folder: Path, json: str | None, quiet: bool) -> None
     if json != "-" and not quiet:
         typer.echo(f"{status.done} done, {status.failed} failed, {status.crashed} crashed, {status.open} open")
     for row in known:
-        if row["state"] != "done":
-            log.info("%s, %s: %s", row["input"], row["options"]["representation"], row["message"])
+        if row.state != "done":
+            log.info("%s, %s: %s", row.input, row.options["representation"], row.message)

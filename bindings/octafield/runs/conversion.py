@@ -14,7 +14,7 @@ from ..domain.meshing import REPAIR_IGNORED
 from ..domain.repairing import level_of, repair_surface
 from ..domain.sites import moved_frames
 from ..errors import InvalidInput, IoError
-from ..fields.sizes import Sizes, find_sizes, log_scales_of, sizes_record
+from ..fields.sizes import Sizes, find_sizes, log_scales_of
 from ..files.reading import plain_name
 from ..frame_files import FrameFile, read_frames, write_frames
 from ..frame_files.base import FrameFormat, frames_at, mesh_of
@@ -224,7 +224,9 @@ def _degrees(radians: float) -> float:
 
 def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str) -> tuple[FrameFile, dict[str, Any]]:
     """The frames where the file to write has them, with sizes as the lengths of their axes: densities exp(H), or
-    exp(-H) where the format holds edges of cells (FrameFormat.holds_edges). And what sizes_record tells."""
+    exp(-H) where the format holds edges of cells (FrameFormat.holds_edges). And the record of them."""
+    from ..fields import record
+
     if found.mesh is None:
         raise InvalidInput("sizes are found on the mesh of the frames; give it with --mesh", "no_mesh")
     if not writer.holds_lengths:
@@ -248,7 +250,7 @@ def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str)
     lengths = np.exp((-1 if writer.holds_edges else 1) * _logs_at(sizes, found.mesh, frames, where))
     if found.lengths is not None:
         notes.append("the lengths of the axes in the file were replaced by sizes")
-    return replace(found, frames=frames, where=where, lengths=lengths, notes=notes), sizes_record(sizes)
+    return replace(found, frames=frames, where=where, lengths=lengths, notes=notes), record.of_sizes(sizes).to_dict()
 
 
 def _logs_at(sizes: Sizes, tets: TetMesh | TetDomain, frames: np.ndarray, where: str) -> np.ndarray:

@@ -28,8 +28,12 @@ def analyse_file(
     meshed = prepare_mesh(found.mesh if source is None else source, options, progress=progress)
     result = analyse(meshed, found.frames, found.where, options, progress)
     result.lengths = found.lengths
-    result.record |= {"field": str(field), "field_format": found.format, "deviation_deg": math.degrees(found.deviation)}
-    result.record["notes"] += [note for note in found.notes if note not in result.record["notes"]]
+    result.record = result.record.changed(
+        field=str(field),
+        field_format=found.format,
+        deviation_deg=math.degrees(found.deviation),
+        notes=list(dict.fromkeys([*result.record.notes, *found.notes])),
+    )
     return result
 
 
@@ -42,6 +46,6 @@ def polish_file(source: str, start: Path, options: FieldOptions, progress: Progr
     found = read_frames(start, source)
     frames = frames_at(found, options.sampling)
     result = compute_field(prepare_mesh(source, options, progress=progress), options, progress, start=frames)
-    result.record["start"] = str(start)
-    result.record["notes"] += [note for note in found.notes if note not in result.record["notes"]]
+    notes = list(dict.fromkeys([*result.record.notes, *found.notes]))
+    result.record = result.record.changed(start=str(start), notes=notes)
     return result

@@ -1,9 +1,11 @@
 """The part of a report's page that shows one input."""
 
+from __future__ import annotations
+
 import html
 from collections.abc import Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..numbers.columns import failure_table, run_table
 from ..numbers.profiles import lines
@@ -12,6 +14,7 @@ from . import figures, prose, scenes
 from .html import Exhibits, paragraphs, picture
 
 if TYPE_CHECKING:
+    from ...records.field import FieldRecord
     from ...view.picture import Picture
 
 CONVERGENCE = (
@@ -71,32 +74,34 @@ def runs_without_field(results: Results, runs: Sequence[Run]) -> str:
 def _facts(fields: Sequence[Run]) -> str:
     if not fields:
         return ""
-    row = fields[0].row
+    record = fields[0].record
     source = {"file": "the file's lines", "angle": "dihedral angle", "none": "request none"}.get(
-        row["feature_source"], row["feature_source"]
+        record.feature_source, record.feature_source
     )
     facts = (
-        f"{row['vertices']:,} vertices, {row['tets']:,} tetrahedra, {row['boundary_triangles']:,} boundary triangles"
-        f" with a mean edge of {row['edge_length']:.4g}; {row['feature_edges']:,} feature edges and"
-        f" {row['feature_corners']:,} corners by {html.escape(source)}."
+        f"{record.vertices:,} vertices, {record.tets:,} tetrahedra, {record.boundary_triangles:,} boundary triangles"
+        f" with a mean edge of {record.edge_length:.4g}; {record.feature_edges:,} feature edges and"
+        f" {record.feature_corners:,} corners by {html.escape(source)}."
     )
-    notes = "".join(
-        f"<li>{html.escape(note)}</li>" for note in [*row.get("notes", ()), *_unserved(row), *_verdicts(fields)]
-    )
-    return f'<p class="note">{facts} Mesh <code>{html.escape(row["mesh_sha256"])}</code>.</p>' + (
+    notes = "".join(f"<li>{html.escape(note)}</li>" for note in [*record.notes, *_unserved(record), *_verdicts(fields)])
+    return f'<p class="note">{facts} Mesh <code>{html.escape(record.mesh_sha256)}</code>.</p>' + (
         f"<ul>{notes}</ul>" if notes else ""
     )
 
 
 def _verdicts(fields: Sequence[Run]) -> list[str]:
     """What runs on this mesh are told to be worth, each sentence once."""
-    told = [f"Verdict: {sentence}." for run in fields for sentence in run.row.get("verdict", {}).get("sentences", ())]
+    told = [f"Verdict: {sentence}." for run in fields for sentence in _sentences(run.record)]
     return list(dict.fromkeys(told))
 
 
-def _unserved(row: dict[str, Any]) -> list[str]:
+def _sentences(record: FieldRecord) -> list[str]:
+    return [] if record.verdict is None else record.verdict.sentences
+
+
+def _unserved(record: FieldRecord) -> list[str]:
     """Why an angle of up to 45 degrees at some edges is no fault of a method."""
-    count = row.get("unserved_vertices", 0)
+    count = record.unserved_vertices
     if not count:
         return []
     return [
@@ -155,7 +160,7 @@ def _views(results: Results, exhibits: Exhibits, cases: Sequence[Case], anchor: 
         return ""
     block, rows = f"data-{anchor}", ""
     for case, of in groupby(zip(shown, places, strict=True), lambda entry: entry[0][0]):
-        views = "".join(_view(block, place, method, run.row) for (_, method, run), place in of if place is not None)
+        views = "".join(_view(block, place, method, run.record) for (_, method, run), place in of if place is not None)
         head = f"<h4>{html.escape(case.setting.name)}</h4>" if len(cases) > 1 else ""
         rows += f'{head}<div class="views">{views}</div>'
     legend = "".join(f'<li><i style="background:{colour}"></i>{word}</li>' for colour, word in scenes.LEGEND)
@@ -163,8 +168,8 @@ def _views(results: Results, exhibits: Exhibits, cases: Sequence[Case], anchor: 
     return exhibits.figure("", content, "Singular curves", f'{TURN}<ul class="legend">{legend}</ul>', "turned")
 
 
-def _view(block: str, place: int, label: str, row: dict[str, Any]) -> str:
+def _view(block: str, place: int, label: str, record: FieldRecord) -> str:
     label = html.escape(label)
     what = f'tabindex="0" data-block="{block}" data-scene="{place}" role="img" aria-label="singular curves of {label}"'
-    words = f"<b>{label}</b> E {row['energy']:.6g}, {row['singular_edges']:,} edges"
+    words = f"<b>{label}</b> E {record.energy:.6g}, {record.singular_edges:,} edges"
     return f'<div><canvas class="view" {what}></canvas><p>{words}</p></div>'

@@ -80,7 +80,7 @@ def render(content: Content) -> tuple[str, Exhibits]:
 
 
 def _subtitle(content: Content) -> str:
-    version = next((run.row["version"] for run in content.results.runs if "version" in run.row), "")
+    version = next((run.record.version for run in content.results.runs if run.done), "")
     links = " ".join(f'<a href="#{part}">{part.capitalize()}</a>' for part in _PARTS)
     return f"octafield {html.escape(version)}. {content.links}.<nav>{links}</nav>"
 
@@ -94,12 +94,10 @@ def _reproduction(content: Content, exhibits: Exhibits) -> str:
         else {}
     )
     varying = list(dict.fromkeys(name for o in options for name in o if name not in common))
-    row = next((run.row for run in runs if "versions" in run.row), {})
-    software = ", ".join(f"{name} {value}" for name, value in row.get("versions", {}).items())
-    machine = row.get("machine")
-    where = (
-        f" on {html.escape(str(machine['cpu']))}, {machine['cores']} cores, load {machine['load']}" if machine else ""
-    )
+    record = next((run.record for run in runs if run.done), None)
+    software = ", ".join(f"{name} {value}" for name, value in (record.versions if record else {}).items())
+    machine = record and record.machine
+    where = f" on {html.escape(machine.cpu)}, {machine.cores} cores, load {machine.load}" if machine else ""
     differ = f" The runs differ in {html.escape(', '.join(varying).replace('_', ' '))}." if varying else ""
     text = (
         f"Computed with {html.escape(software)}{where}. Hashes of the meshes are in"
