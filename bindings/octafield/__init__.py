@@ -38,6 +38,8 @@ from .fields.direction_field import SurfaceFieldResult, compute_surface_field
 from .fields.frame_field import FieldProblem, FieldResult, compute_field, prepare_field, run_field
 from .fields.probes import sample_frames, slice_frames
 from .frame_files import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
+from .meshes.mesh_format import MeshFormat
+from .meshes.registry import mesh_formats, register_mesh_format
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .records.record_file import read_record, read_surface_record
 from .runs.compare import Comparison, compare
@@ -59,6 +61,7 @@ __all__ = [
     "GeometryError",
     "InvalidInput",
     "IoError",
+    "MeshFormat",
     "MeshOptions",
     "MeshedInput",
     "ParameterizationInput",
@@ -81,6 +84,7 @@ __all__ = [
     "from_meshio",
     "from_pandas",
     "from_pyvista",
+    "mesh_formats",
     "parameterization_input",
     "prepare_field",
     "prepare_mesh",
@@ -88,6 +92,7 @@ __all__ = [
     "read_record",
     "read_surface",
     "read_surface_record",
+    "register_mesh_format",
     "require_valid",
     "run_field",
     "sample_frames",

@@ -3,14 +3,13 @@
 import math
 from pathlib import Path
 
-from ..domain.mesh_writers import MESH_SUFFIXES
 from ..domain.meshing import prepare_mesh
 from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField, analyse
 from ..fields.frame_field import FieldResult, compute_field
-from ..files.reading import plain_name
 from ..frame_files import read_frames
 from ..frame_files.base import frames_at
+from ..meshes.registry import is_written
 from ..options import FieldOptions
 from ..progress.phases import Progress
 
@@ -19,9 +18,7 @@ def analyse_file(
     field: Path, mesh: Path | None, format: str | None, options: FieldOptions, progress: Progress | None = None
 ) -> AnalysedField:
     """The analysis of the frames in a file, on the mesh given or the file's own."""
-    source = (
-        mesh if mesh is not None else field if plain_name(field).endswith(MESH_SUFFIXES) and format is None else None
-    )
+    source = mesh if mesh is not None else field if is_written(field) and format is None else None
     found = read_frames(field, mesh, format)
     if found.mesh is None:
         raise InvalidInput(f"{field}: holds frames and no mesh; give it with --mesh", "no_mesh")
