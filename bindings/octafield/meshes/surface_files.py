@@ -22,7 +22,7 @@ def read_triangles(path: Path) -> TriangleMesh:
 
 def write_triangles(path: Path, parts: Parts) -> list[str]:
     """STL, OBJ, OFF, PLY, by the path's suffix."""
-    surface = TriangleMesh(parts.points, parts.triangles)
+    surface = TriangleMesh(parts.points, np.asarray(parts.triangles))
     through_file(path, Path(plain_name(path)).suffix, lambda plain: _core.write_surface(surface, plain))
     return []
 
