@@ -19,8 +19,10 @@ def read_tet(path: Path) -> Grid:
         raise IoError(f"{path}: begins with {heads[0][:40]!r}; lines 'N vertices' and 'M tets' are needed")
     count, tets = (int(word[0]) for word in words)
     lines = body.split("\n")
-    points, _ = table_of("\n".join(lines[:count]), str(path), 3, first)
-    rows, _ = table_of("\n".join(lines[count:]), str(path), 5, first + count)
+    filled = [k for k, line in enumerate(lines) if line.strip()]
+    cut = filled[count] if count < len(filled) else len(lines)
+    points, _ = table_of("\n".join(lines[:cut]), str(path), 3, first)
+    rows, _ = table_of("\n".join(lines[cut:]), str(path), 5, first + cut)
     if (len(points), len(rows)) != (count, tets) or (rows != np.rint(rows)).any() or (rows[:, 0] != 4).any():
         raise IoError(f"{path}: {count} lines of points and {tets} of '4 a b c d' are needed")
     return grid_of_blocks(points, [("tetra", rows[:, 1:].astype(np.int64))], None, None)
