@@ -92,8 +92,8 @@ def main() -> None:
             result = run_field(problem, octafield.FieldOptions(boundary=boundary))
             record, graph = result.record, result.singular_graph
             print(
-                f"  {boundary:8s} energy {record['energy']:.3f}  curves {len(graph.curves)}  length {graph.length:.2f} "
-                f" iterations {record['iterations']}\n    {describe(curve_ends(graph, np.asarray(surface.vertices)))}"
+                f"  {boundary:8s} energy {record.energy:.3f}  curves {len(graph.curves)}  length {graph.length:.2f} "
+                f" iterations {record.iterations}\n    {describe(curve_ends(graph, np.asarray(surface.vertices)))}"
             )
             if arguments.output:
                 arguments.output.mkdir(parents=True, exist_ok=True)

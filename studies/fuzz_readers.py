@@ -24,7 +24,7 @@ import numpy as np
 import octafield as of
 from octafield import frame_formats, read_frames, write_frames
 from octafield.domain.inputs import read_input
-from octafield.domain.mesh_writers import MESH_SUFFIXES
+from octafield.meshes.registry import written_suffixes
 from octafield.runs.conversion import convert_file
 
 MEMORY, SECONDS, CHUNK = 3 << 30, 20, 2000
@@ -55,7 +55,7 @@ def seeds(folder: Path) -> dict[str, Path]:
     write_frames(folder / "source.npz", mesh, np.tile([1.0, 0, 0, 0], (count["vertices"], 1)))
     found = {}
     write_frames(folder / "source.msh", mesh, np.tile([1.0, 0, 0, 0], (count["tets"], 1)), "tets")
-    for suffix in MESH_SUFFIXES:
+    for suffix in written_suffixes():
         found[suffix] = folder / f"mesh{suffix}"
         convert_file(folder / "source.msh", found[suffix])
     for name, form in frame_formats.items():

@@ -74,26 +74,26 @@ def field_rows(name: str, mesh) -> tuple[tuple, list[tuple]]:
     seconds, results = [], []
     for sampling in ("vertices", "tets"):
         results.append(compute_field(meshed, FieldOptions(features=features, sampling=sampling, threads=1)))
-        seconds.append(results[-1].record["cpu_seconds"]["smooth"])
+        seconds.append(results[-1].record.cpu_seconds.smooth)
     vertices, tets = results
     sampling = octafield.volume.tet_sampling(meshed.tets)
     a, b = vertices.record, tets.record
     other = octafield.volume.dirichlet_energy(sampling, octafield.volume.tet_frames(meshed.tets, vertices.frames))
     row = (
         name,
-        f"{a['vertices']:,}",
-        f"{a['tets']:,}",
-        f"{a['energy']:.5g}",
-        f"{b['energy']:.5g}",
-        f"{b['energy_at_vertices']:.5g}",
+        f"{a.vertices:,}",
+        f"{a.tets:,}",
+        f"{a.energy:.5g}",
+        f"{b.energy:.5g}",
+        f"{b.energy_at_vertices:.5g}",
         f"{other:.5g}",
-        a["singular_edges"],
-        b["singular_edges"],
-        f"{a['singular_length']:.4g}",
-        f"{b['singular_length']:.4g}",
-        a["complex_edges"],
-        b["complex_edges"],
-        b["released_corners"],
+        a.singular_edges,
+        b.singular_edges,
+        f"{a.singular_length:.4g}",
+        f"{b.singular_length:.4g}",
+        a.complex_edges,
+        b.complex_edges,
+        b.released_corners,
         f"{seconds[0]:.2f}",
         f"{seconds[1]:.2f}",
     )
@@ -111,11 +111,11 @@ def odeco_rows(name: str, meshed, field) -> list[tuple]:
     return [
         (
             name,
-            f"{field.record['energy']:.5g}",
+            f"{field.record.energy:.5g}",
             f"{found.objective:.5g}",
             f"{found.energy:.5g}",
             f"{lengths.min():.2f}, {np.median(lengths):.2f}, {lengths.max():.2f}",
-            field.record["singular_edges"],
+            field.record.singular_edges,
             len(graph.triangles),
             found.iterations,
             f"{seconds:.1f}",

@@ -46,16 +46,16 @@ def main() -> None:
         rows.append(
             (
                 name,
-                f"{r['vertices']:,}",
-                f"{r['energy']:.6g}",
-                r["singular_edges"],
-                f"{r['singular_length']:.4g} ({r['singular_length_smoothed']:.4g})",
-                r["singular_curves"],
-                r["singular_nodes"],
-                r["complex_edges"],
-                r["non_meshable_vertices"],
-                r["non_meshable_junctions"],
-                f"{r['non_meshable_feature_edges']}, {r['non_meshable_corners']}",
+                f"{r.vertices:,}",
+                f"{r.energy:.6g}",
+                r.singular_edges,
+                f"{r.singular_length:.4g} ({r.singular_length_smoothed:.4g})",
+                r.singular_curves,
+                r.singular_nodes,
+                r.complex_edges,
+                r.non_meshable_vertices,
+                r.non_meshable_junctions,
+                f"{r.non_meshable_feature_edges}, {r.non_meshable_corners}",
             )
         )
         print(*rows[-1], flush=True)

@@ -15,7 +15,6 @@ import time
 from pathlib import Path
 
 import octafield
-from octafield.domain.inputs import GRID_SUFFIXES, SURFACE_SUFFIXES
 from octafield.domain.meshing import prepare_mesh
 from octafield.options import METHODS, MeshOptions
 from study_output import markdown_table, write_csv
@@ -27,7 +26,8 @@ HEADER = ["file", "triangles", "features", "feature edges", "N", "method", "poin
 
 def surfaces(places: list[Path]) -> list[Path]:
     """The files named, and of folders those the package reads."""
-    endings = tuple(e + packed for e in SURFACE_SUFFIXES + GRID_SUFFIXES for packed in ("", ".gz"))
+    forms = [form for form in octafield.mesh_formats.values() if form.read is not None]
+    endings = tuple(suffix + packed for form in forms for suffix in form.suffixes for packed in ("", ".gz"))
     found = []
     for place in places:
         inside = sorted(place.rglob("*")) if place.is_dir() else [place]

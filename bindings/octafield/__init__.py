@@ -5,7 +5,7 @@
     >>> surface = generate("box")                     # or octafield.read_surface("part.stl")
     >>> octafield.require_valid(surface)
     >>> result = octafield.compute_field(surface)     # the whole way, see octafield.fields.frame_field
-    >>> result.record["singular_edges"]
+    >>> result.record.singular_edges
     0
     >>> frames = octafield.frames.random_rotations(10)  # or one step at a time
     >>> octafield.frames.sh4_embed(frames).shape
@@ -38,7 +38,10 @@ from .fields.direction_field import SurfaceFieldResult, compute_surface_field
 from .fields.frame_field import FieldProblem, FieldResult, compute_field, prepare_field, run_field
 from .fields.probes import sample_frames, slice_frames
 from .frame_files import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
+from .meshes.mesh_format import MeshFormat
+from .meshes.registry import mesh_formats, register_mesh_format
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
+from .records.record_file import read_record, read_surface_record
 from .runs.compare import Comparison, compare
 from .runs.conversion import Conversion, convert_file
 from .runs.interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
@@ -58,6 +61,7 @@ __all__ = [
     "GeometryError",
     "InvalidInput",
     "IoError",
+    "MeshFormat",
     "MeshOptions",
     "MeshedInput",
     "ParameterizationInput",
@@ -80,11 +84,15 @@ __all__ = [
     "from_meshio",
     "from_pandas",
     "from_pyvista",
+    "mesh_formats",
     "parameterization_input",
     "prepare_field",
     "prepare_mesh",
     "read_frames",
+    "read_record",
     "read_surface",
+    "read_surface_record",
+    "register_mesh_format",
     "require_valid",
     "run_field",
     "sample_frames",

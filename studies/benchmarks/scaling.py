@@ -78,9 +78,9 @@ def measured_run(body: str, tets: int, representation: str) -> dict:
     r = result.record
     return {
         "peaks": peaks,
-        "vertices": r["vertices"],
-        "tets": r["tets"],
-        "cpu": r["cpu_seconds"],
+        "vertices": r.vertices,
+        "tets": r.tets,
+        "cpu": r.cpu_seconds.to_dict(),
         "whole": not steps,
         "disk": sizes,
     }
@@ -295,7 +295,7 @@ def pretend_finished(described, planned, out: Path) -> None:
     from octafield.fields.frame_field import compute_field
     from octafield.study.store import LOG_FILE, RECORD_FILE, STUDY_FILE
 
-    record = compute_field(generate("ball"), FieldOptions(edge_length=0.3, threads=1)).record
+    record = compute_field(generate("ball"), FieldOptions(edge_length=0.3, threads=1)).record.to_dict()
     (out / "runs").mkdir(parents=True)
     (out / STUDY_FILE).write_text(json.dumps({"description": described.text, "folder": str(described.folder)}))
     now = time.time()

@@ -5,32 +5,33 @@ from collections.abc import Iterable
 import numpy as np
 import pandas
 from octafield.options import COMPARED
+from octafield.records.field import RunWithField, RunWithoutField
 
 NO_ENERGY = 1e-9  # below it a field is constant but for rounding
 START = {2: "recipe", 0: "linear start"}
 COUNTS = ("singular edges", "complex edges", "non-meshable vertices")
 
 
-def frame_of(rows: Iterable[dict]) -> pandas.DataFrame:
+def frame_of(rows: Iterable[RunWithField | RunWithoutField]) -> pandas.DataFrame:
     """One line per finished run. over best: energy over the lowest on the same input with the same boundary mode, any
     method; nan where the field is constant."""
     table = pandas.DataFrame(
         {
-            "input": r["input"],
-            "tets": r["tets"],
-            "representation": r["options"]["representation"],
-            "solver": r["options"]["solver"],
-            "start": START[r["options"]["rounds"]],
-            "boundary": r["options"]["boundary"],
-            "energy": r["energy"],
-            "singular edges": r["singular_edges"],
-            "complex edges": r["complex_edges"],
-            "non-meshable vertices": r["non_meshable_vertices"],
-            "converged": r["converged"],
-            "CPU s": r["cpu_seconds"]["smooth"],
+            "input": r.input,
+            "tets": r.tets,
+            "representation": r.options["representation"],
+            "solver": r.options["solver"],
+            "start": START[r.options["rounds"]],
+            "boundary": r.options["boundary"],
+            "energy": r.energy,
+            "singular edges": r.singular_edges,
+            "complex edges": r.complex_edges,
+            "non-meshable vertices": r.non_meshable_vertices,
+            "converged": r.converged,
+            "CPU s": r.cpu_seconds.smooth,
         }
         for r in rows
-        if r["state"] == "done"
+        if r.state == "done"
     )
     best = table.groupby(["input", "boundary"])["energy"].transform("min")
     table["over best"] = (table["energy"] / best).where(best > NO_ENERGY)

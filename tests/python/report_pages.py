@@ -9,6 +9,7 @@ from urllib.parse import unquote
 
 from octafield.options import FieldOptions
 from octafield.progress.phases import PHASES
+from octafield.records.record_file import record_of
 from octafield.report import Report, Run, write_report
 
 
@@ -65,15 +66,15 @@ def prose(page: str, references: bool = True) -> list[str]:
     return [html.unescape(re.sub(r"<.*?>", "", text)) for text in found]
 
 
-def record(representation="sh4", boundary="aligned", energy=1.0, *, seed=0, state="done", **more) -> dict:
-    """As in result.json, of a mesh with 10 vertices. more: options of the run, or figures of the record."""
+def record(representation="sh4", boundary="aligned", energy=1.0, *, seed=0, state="done", **more):
+    """As read from a result.json, of a mesh with 10 vertices. more: options of the run, or figures of the record."""
     names = FieldOptions.__dataclass_fields__
     options = FieldOptions(
         representation=representation, boundary=boundary, seed=seed, **{k: v for k, v in more.items() if k in names}
     )
-    head = {"options": asdict(options), "state": state, "message": more.get("message", "")}
+    head = {"options": asdict(options), "state": state, "message": more.get("message", ""), "key": "k", "input": "part"}
     if state != "done":
-        return head
+        return record_of(head, "a test")
     figures = {
         **dict.fromkeys(("singular_edges", "complex_edges", "non_meshable_vertices", "non_meshable_feature_edges",
             "non_meshable_corners"), 0),
@@ -88,9 +89,11 @@ def record(representation="sh4", boundary="aligned", energy=1.0, *, seed=0, stat
         "peak_mb": 100.0,
         "wall_seconds": dict.fromkeys(PHASES, 0.25), "cpu_seconds": dict.fromkeys(PHASES, 0.5),
         "surface_field": {"euler_characteristic": 2},
-        "version": "1.2.3", "versions": {"octafield": "1.2.3"},
+        "version": "1.2.3", "versions": {"octafield": "1.2.3"}, "input_kind": "surface", "regions": 1, "threads": 1,
+        "singular_curves": 0, "singular_nodes": 0,
     }  # fmt: skip
-    return {**head, **figures, **{key: value for key, value in more.items() if key not in names}}
+    told = {**head, **figures, **{key: value for key, value in more.items() if key not in names}}
+    return record_of(told, "a test")
 
 
 def page_of(folder: Path, records: list[tuple[str, dict]], **options) -> str:

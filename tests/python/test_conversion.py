@@ -19,8 +19,9 @@ from octafield.runs.conversion import convert_file
 from pipeline_fixtures import SHARED_TETS, octafield, shared
 from test_tet_input import cube_edges, halves
 
-VOLUMES = (".vtk", ".vtu", ".msh", ".mesh", ".meshb", ".ele", ".node", ".ovm", ".ovmb")
-SURFACES = (".obj", ".off", ".ply", ".vtp")
+WRITTEN = [form for form in of.mesh_formats.values() if form.write is not None]
+VOLUMES = [s for form in WRITTEN if {"tets", "features", "faces", "regions"} <= set(form.holds) for s in form.suffixes]
+SURFACES = [s for form in WRITTEN if "tets" not in form.holds and not form.soup for s in form.suffixes]
 
 
 @pytest.fixture(scope="module")

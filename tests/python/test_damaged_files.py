@@ -15,25 +15,11 @@ from conftest import box_tets
 from format_table import frames_at
 from octafield import frame_formats, read_frames, write_frames
 from octafield.domain.inputs import read_input
+from octafield.meshes.registry import written_suffixes
 from octafield.runs.conversion import convert_file
 from test_tet_input import cube_edges, halves, write_msh4, write_tetgen_boundary
 
-MESHES = (
-    ".stl",
-    ".obj",
-    ".off",
-    ".ply",
-    ".vtp",
-    ".vtk",
-    ".vtu",
-    ".msh",
-    ".mesh",
-    ".meshb",
-    ".ele",
-    ".node",
-    ".ovm",
-    ".ovmb",
-)
+MESHES = written_suffixes()
 DIALECTS = (
     "msh2 text",
     "msh4 text",

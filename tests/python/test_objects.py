@@ -206,7 +206,7 @@ def test_empty_objects_show_themselves_too(value):
 
 def test_names_from_files_are_no_markup(field):
     result = copy.copy(field)
-    result.record = {**field.record, "input": "<script>alert(1)</script>"}
+    result.record = field.record.changed(input="<script>alert(1)</script>")
     assert "<script>" not in result._repr_html_()
 
 

@@ -10,7 +10,7 @@ import octafield as of
 import pytest
 from conftest import box_tets
 from octafield.errors import InvalidInput, IoError
-from octafield.fields.sizes import sizes_record
+from octafield.fields.record import of_sizes
 from octafield.frame_files import placing
 from octafield.frame_files.base import FrameFile, from_axes, from_quaternions
 from octafield.meshes.text_meshes import read_medit, read_tetgen
@@ -65,7 +65,7 @@ def test_size_ratio_is_the_largest_over_the_smallest_size(mesh):
     ):
         sizes = np.exp(np.asarray(logs))
         assert sizes.max() > 1.05 * sizes.min()
-        assert sizes_record(found)["size_ratio"] == pytest.approx(sizes.max() / sizes.min(), rel=1e-12)
+        assert of_sizes(found).size_ratio == pytest.approx(sizes.max() / sizes.min(), rel=1e-12)
 
 
 def run_of(**options) -> Run:

@@ -292,9 +292,8 @@ def test_nothing_but_failures_is_a_report_too(tmp_path):
 
 
 def test_frames_in_tets_have_no_meshability_and_are_problems_of_their_own(tmp_path):
-    in_tets = record(energy=9.0, sampling="tets", singular_edges=3)
-    for key in ("non_meshable_vertices", "non_meshable_feature_edges", "non_meshable_corners", "integrability"):
-        del in_tets[key]
+    absent = ("non_meshable_vertices", "non_meshable_feature_edges", "non_meshable_corners", "integrability")
+    in_tets = record(energy=9.0, sampling="tets", singular_edges=3).changed(**dict.fromkeys(absent))
     page = page_of(tmp_path, [("a", record()), ("a", in_tets)])
     text = " ".join(prose(page, references=False))
     assert "(aligned, frames at vertices; aligned, frames in tets)" in text

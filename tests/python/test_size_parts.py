@@ -7,6 +7,7 @@ from conftest import box_tets
 from octafield import FieldOptions, frame_formats
 from octafield.errors import InvalidInput
 from octafield.fields import sizes
+from octafield.fields.record import of_sizes
 from octafield.frame_files.base import FrameFile
 from octafield.progress.phases import PhaseClock
 from octafield.runs import conversion
@@ -39,7 +40,7 @@ def test_kinds_are_the_functions_of_that_name(mesh, turned, found):
 def test_the_record_tells_what_was_found(found, kind):
     one = found[kind]
     logs = np.asarray(one.log_scale if kind == "isotropic" else one.values)
-    assert sizes.sizes_record(one) == {
+    assert of_sizes(one) == {
         "kind": kind, "curl_rms_before": one.before.curl_rms, "curl_rms_after": one.after.curl_rms,
         "jump_rms_before": one.before.jump_rms,
         "jump_rms_after": one.after.jump_rms, "size_ratio": pytest.approx(np.exp(logs.max() - logs.min())),
@@ -51,13 +52,13 @@ def test_the_record_tells_what_was_found(found, kind):
 def test_a_run_finds_sizes_where_they_are_asked_for_and_says_so(mesh, turned, found):
     told = []
     clock = PhaseClock()
-    assert sizes.sizes_of_run(mesh, turned, FieldOptions(), clock, None) == (None, {})
+    assert sizes.sizes_of_run(mesh, turned, FieldOptions(), clock, None) is None
     assert "sizes" not in clock.wall
     for kind in ("isotropic", "axes"):
-        one, record = sizes.sizes_of_run(
+        one = sizes.sizes_of_run(
             mesh, turned, FieldOptions(sizes=kind), clock, lambda phase, *_: told.append(phase) or True
         )
-        assert record == {"sizes": sizes.sizes_record(found[kind])} and type(one) is type(found[kind])
+        assert type(one) is type(found[kind]) and of_sizes(one) == of_sizes(found[kind])
     assert told == ["sizes", "sizes"] and "sizes" in clock.wall
 
 
@@ -104,7 +105,7 @@ def test_lengths_are_densities_of_isotropic_sizes_at_vertices_and_their_mean_in_
     logs = np.asarray(found["isotropic"].log_scale)
     got, record = conversion.with_sizes(file_of(mesh, turned, "vertices"), frame_formats["npz"], None, "isotropic")
     np.testing.assert_allclose(got.lengths, np.repeat(np.exp(logs)[:, None], 3, axis=1), rtol=1e-12)
-    assert (got.where, got.notes) == ("vertices", ["before"]) and record == sizes.sizes_record(found["isotropic"])
+    assert (got.where, got.notes) == ("vertices", ["before"]) and record == of_sizes(found["isotropic"])
     np.testing.assert_array_equal(got.frames, turned)
     for name, sign in (("npz", 1), ("ff3", -1)):
         moved, _ = conversion.with_sizes(file_of(mesh, turned, "vertices"), frame_formats[name], "tets", "isotropic")

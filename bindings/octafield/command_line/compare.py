@@ -93,10 +93,10 @@ def compare(
                 energies=energies or [],
                 progress=progress,
             )
-        for record in {row["input"]: row for row in comparison.rows}.values():
+        for record in {row.input: row for row in comparison.rows}.values():
             console.report_notes(record)
         if json:
-            console.put_json(json, comparison.rows)
+            console.put_json(json, [row.to_dict() for row in comparison.rows])
         if json != "-" and not quiet:
             tables.show_comparison(comparison.rows)
         log.info("wrote %s", output / "report.html")

@@ -11,7 +11,7 @@ import traceback
 from collections.abc import Callable, Iterator, Sequence
 from datetime import timedelta
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.console import Console
@@ -20,6 +20,9 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, Task, TextColumn, 
 from ..errors import Cancelled, Error, GeometryError, InvalidInput, IoError, SolverError
 from ..files.writing import write_json
 from ..progress.phases import Progress as Callback
+
+if TYPE_CHECKING:
+    from ..records.field import InputRecord
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 # kinds of SolverError that another option or another mesh avoids
@@ -121,9 +124,9 @@ def _say(message: str) -> None:
     print("octafield: " + " ".join(message.split()), file=sys.stderr, flush=True)
 
 
-def report_notes(record: dict[str, Any]) -> None:
-    for note in record["notes"]:
-        log.info("%s: %s", record["input"], note)
+def report_notes(record: "InputRecord") -> None:
+    for note in record.notes:
+        log.info("%s: %s", record.input, note)
 
 
 @contextlib.contextmanager

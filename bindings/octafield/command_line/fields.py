@@ -4,7 +4,7 @@ representations are elsewhere."""
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -17,6 +17,10 @@ from . import inspect as cli_inspect
 from .console import carry_out, log
 from .options import InputFile, Json, Output, Quiet, Verbose, with_options
 from .study import app as studies
+
+if TYPE_CHECKING:
+    from ..records.field import FieldRecord
+    from ..records.surface_field import SurfaceFieldRecord
 
 app = typer.Typer(
     name="octafield",
@@ -69,8 +73,9 @@ def field(
     def work() -> None:
         from ..fields.frame_field import compute_field
         from ..files.writing import staged_folder
+        from ..records.record_file import RECORD_FILE
         from ..runs.frame_file_input import polish_file
-        from ..runs.run_folder import RECORD_FILE, write_field_result
+        from ..runs.run_folder import write_field_result
 
         chosen = options()
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
@@ -99,7 +104,8 @@ def surface_field(
     def work() -> None:
         from ..fields.direction_field import compute_surface_field
         from ..files.writing import staged_folder
-        from ..runs.run_folder import RECORD_FILE, write_surface_result
+        from ..records.record_file import RECORD_FILE
+        from ..runs.run_folder import write_surface_result
 
         chosen = options()
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
@@ -110,10 +116,10 @@ def surface_field(
     carry_out(work, quiet, verbose, json)
 
 
-def _finish(record: dict[str, Any], json: str | None, quiet: bool, output: Path) -> None:
+def _finish(record: "FieldRecord | SurfaceFieldRecord", json: str | None, quiet: bool, output: Path) -> None:
     console.report_notes(record)
     if json:
-        console.put_json(json, record)
+        console.put_json(json, record.to_dict())
     if json != "-" and not quiet:
         tables.show_record(record)
     log.info("wrote %s", output)

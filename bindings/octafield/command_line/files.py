@@ -157,8 +157,9 @@ def analyse(
 
     def work() -> None:
         from ..files.writing import staged_folder
+        from ..records.record_file import RECORD_FILE
         from ..runs.frame_file_input import analyse_file
-        from ..runs.run_folder import RECORD_FILE, write_analysis
+        from ..runs.run_folder import write_analysis
 
         chosen = options() if output else replace(options(), streamlines=0)
         with console.progress_bar(quiet) as progress:
@@ -166,10 +167,10 @@ def analyse(
             if output:
                 with staged_folder(output, RECORD_FILE) as folder:
                     write_analysis(result, folder, progress)
-        for note in result.record["notes"]:
+        for note in result.record.notes:
             log.info("%s: %s", field, note)
         if json:
-            console.put_json(json, result.record)
+            console.put_json(json, result.record.to_dict())
         if json != "-" and not quiet:
             tables.show_record(result.record)
         if output:

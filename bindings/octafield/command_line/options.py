@@ -11,6 +11,7 @@ from typing import Annotated, Any, TypeVar
 import typer
 
 from ..errors import InvalidInput
+from ..meshes.registry import kinds_in_words
 from ..options import (
     ALIGNMENTS,
     BOUNDARIES,
@@ -50,10 +51,7 @@ InputFile = Annotated[
     str,
     typer.Argument(
         metavar="INPUT",
-        help=(
-            "Surface (.stl .obj .off .ply .vtp), CAD model (.step .brep) or tet mesh (.vtk .vtu .msh .mesh .ovm"
-            " .node/.ele), also .gz."
-        ),
+        help=f"A {kinds_in_words('surface', 'tet mesh', 'CAD model').replace(' and ', ' or ')}.",
     ),
 ]
 InputFiles = Annotated[

@@ -1,6 +1,9 @@
 """The command line of studies: octafield study run, resume, status, report."""
 
 import dataclasses
+import functools
+import inspect
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,6 +15,7 @@ from .options import Json, Quiet, Verbose
 
 if TYPE_CHECKING:
     from ..study import Status, Study
+    from ..study.store import RunRecord
 
 app = typer.Typer(no_args_is_help=True, help="Comparisons that a file describes. They go on after any interruption.")
 
@@ -34,53 +38,71 @@ Patience = Annotated[
 Retry = Annotated[bool, typer.Option("--retry", help="Try runs that failed again.")]
 
 
+def _running(described: Callable[..., "tuple[Study, Path]"]) -> Callable[..., None]:
+    """A command that carries a study out, made of a function that gives the study and its folder: its parameters, and
+    those of carrying out."""
+
+    def called(
+        *,
+        jobs: Jobs = 0,
+        threads: RunThreads = 1,
+        memory: Memory = 0,
+        scheduler: Scheduler = "",
+        patience: Patience = 300,
+        retry: Retry = False,
+        json: Json = None,
+        quiet: Quiet = False,
+        verbose: Verbose = False,
+        **given: Any,
+    ) -> None:
+        def work() -> None:
+            from ..study.report import write_report
+            from ..study.running.engine import run as run_study
+
+            study, folder = described(**given)
+            with console.progress_bar(quiet, whole=True) as progress:
+                outcome = run_study(
+                    study, folder, jobs=jobs, threads=threads, memory_mb=1000 * memory,
+                    scheduler=scheduler, patience=patience, retry=retry, progress=progress,
+                )  # fmt: skip
+                if progress:
+                    progress("report", -1.0, float("nan"))
+                page = write_report(folder)
+            log.info("%d runs now, %d before", len(outcome.computed), outcome.status.total - len(outcome.computed))
+            _tell(outcome.status, folder, json, quiet)
+            log.info("wrote %s", page)
+
+        carry_out(work, quiet, verbose, json)
+
+    own, common = (inspect.signature(function).parameters.values() for function in (described, called))
+    parameters = [one.replace(kind=one.KEYWORD_ONLY) for one in (*own, *common) if one.kind != one.VAR_KEYWORD]
+    functools.update_wrapper(called, described)
+    called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    called.__annotations__ = {one.name: one.annotation for one in parameters}
+    return called
+
+
 @app.command()
+@_running
 def run(
     description: Annotated[Path, typer.Argument(metavar="FILE", help="Description of the study (.yaml).")],
     output: Annotated[
         Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of the study; an earlier one is continued.")
     ],
-    jobs: Jobs = 0,
-    threads: RunThreads = 1,
-    memory: Memory = 0,
-    scheduler: Scheduler = "",
-    patience: Patience = 300,
-    retry: Retry = False,
-    json: Json = None,
-    quiet: Quiet = False,
-    verbose: Verbose = False,
-) -> None:
+) -> "tuple[Study, Path]":
     """Carries out what DIR does not hold yet. Then writes report.html there."""
+    from ..study.description import load
 
-    def work() -> None:
-        from ..study.description import load
-
-        _run(load(description), output, jobs, threads, memory, scheduler, patience, retry, json, quiet)
-
-    carry_out(work, quiet, verbose, json)
+    return load(description), output
 
 
 @app.command()
-def resume(
-    folder: Folder,
-    jobs: Jobs = 0,
-    threads: RunThreads = 1,
-    memory: Memory = 0,
-    scheduler: Scheduler = "",
-    patience: Patience = 300,
-    retry: Retry = False,
-    json: Json = None,
-    quiet: Quiet = False,
-    verbose: Verbose = False,
-) -> None:
+@_running
+def resume(folder: Folder) -> "tuple[Study, Path]":
     """As run, with the description kept in DIR."""
+    from ..study.store import Store
 
-    def work() -> None:
-        from ..study.store import Store
-
-        _run(Store(folder).study(), folder, jobs, threads, memory, scheduler, patience, retry, json, quiet)
-
-    carry_out(work, quiet, verbose, json)
+    return Store(folder).study(), folder
 
 
 @app.command()
@@ -112,36 +134,8 @@ def report(folder: Folder, json: Json = None, quiet: Quiet = False, verbose: Ver
     carry_out(work, quiet, verbose, json)
 
 
-def _run(
-    study: "Study",
-    folder: Path,
-    jobs: int,
-    threads: int,
-    memory: float,
-    scheduler: str,
-    patience: float,
-    retry: bool,
-    json: str | None,
-    quiet: bool,
-) -> None:
-    from ..study.report import write_report
-    from ..study.running.engine import run as run_study
-
-    with console.progress_bar(quiet, whole=True) as progress:
-        outcome = run_study(
-            study, folder, jobs=jobs, threads=threads, memory_mb=1000 * memory,
-            scheduler=scheduler, patience=patience, retry=retry, progress=progress,
-        )  # fmt: skip
-        if progress:
-            progress("report", -1.0, float("nan"))
-        page = write_report(folder)
-    log.info("%d runs now, %d before", len(outcome.computed), outcome.status.total - len(outcome.computed))
-    _tell(outcome.status, folder, json, quiet)
-    log.info("wrote %s", page)
-
-
-def _document(status: "Status", rows: list[dict[str, Any]]) -> dict[str, Any]:
-    return {**dataclasses.asdict(status), "runs": rows}
+def _document(status: "Status", rows: "list[RunRecord]") -> dict[str, Any]:
+    return {**dataclasses.asdict(status), "runs": [row.to_dict() for row in rows]}
 
 
 def _tell(status: "Status", folder: Path, json: str | None, quiet: bool) -> None:
@@ -153,5 +147,5 @@ def _tell(status: "Status", folder: Path, json: str | None, quiet: bool) -> None
     if json != "-" and not quiet:
         typer.echo(f"{status.done} done, {status.failed} failed, {status.crashed} crashed, {status.open} open")
     for row in known:
-        if row["state"] != "done":
-            log.info("%s, %s: %s", row["input"], row["options"]["representation"], row["message"])
+        if row.state != "done":
+            log.info("%s, %s: %s", row.input, row.options["representation"], row.message)

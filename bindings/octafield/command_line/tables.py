@@ -1,8 +1,11 @@
 """Tables on stdout for people."""
 
+from __future__ import annotations
+
 import sys
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.table import Table
@@ -11,8 +14,12 @@ from rich.text import Text
 from ..report.numbers.columns import terminal_table
 from ..report.numbers.records import Results, Run
 
+if TYPE_CHECKING:
+    from ..records.field import FieldRecord
+    from ..records.surface_field import SurfaceFieldRecord
 
-def show_record(record: dict[str, Any]) -> None:
+
+def show_record(record: FieldRecord | SurfaceFieldRecord) -> None:
     facts = []
     for name, value in record.items():
         if name in ("alignment_deg", "feature_alignment_deg", "integrability", "lengths", "wall_seconds"):
@@ -28,12 +35,13 @@ def show_record(record: dict[str, Any]) -> None:
             )
         elif isinstance(value, (str, int, float)) and name != "input":
             facts.append((name, f"{value:.8g}" if isinstance(value, float) else str(value)))
-    _facts(record["input"], facts)
-    show_verdict(record)
+    _facts(record.input, facts)
+    verdict = getattr(record, "verdict", None)
+    _show_verdict(verdict.sentences if verdict else ())
 
 
-def show_comparison(rows: list[dict[str, Any]]) -> None:
-    table = terminal_table(Results([Run(row, Path(row["input"]).name) for row in rows]))
+def show_comparison(rows: list[FieldRecord]) -> None:
+    table = terminal_table(Results([Run(row, Path(row.input).name) for row in rows]))
     cells = [[column.show(value) for column, value in zip(table.columns, line, strict=True)] for line in table.rows]
     _table([column.name for column in table.columns], cells, left=3)
 
@@ -55,11 +63,11 @@ def show_info(record: dict[str, Any]) -> None:
         [[r["state"], r["requirement"], _fact(r), r["remedy"]] for r in record["requirements"]],
         left=4,
     )
-    show_verdict(record)
+    _show_verdict(record["verdict"]["sentences"] if "verdict" in record else ())
 
 
-def show_verdict(record: dict[str, Any]) -> None:
-    for sentence in record["verdict"]["sentences"] if "verdict" in record else ():
+def _show_verdict(sentences: Sequence[str]) -> None:
+    for sentence in sentences:
         _stdout().print(Text(f"verdict: {sentence}"), soft_wrap=True)
 
 

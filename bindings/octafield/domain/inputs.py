@@ -7,15 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import _core
 from .._core import TetDomain, TetMesh, TriangleMesh
 from ..errors import GeometryError, InvalidInput, IoError, SolverError
 from ..files.writing import require_utf8
-from ..meshes.gmsh.cad import CAD_SUFFIXES, read_cad
-from ..meshes.grids import GRID_SUFFIXES, LOWER, Grid, read_grid
+from ..meshes.grids import LOWER, Grid
+from ..meshes.registry import find_mesh_format, read_mesh_file
 from ..progress.phases import Progress
 
-SURFACE_SUFFIXES = (".stl", ".obj", ".off", ".ply")
 _VOLUMES = ("tetra", "hexahedron", "wedge", "pyramid", "penta", "voxel", "polyhedron")  # meshio's names begin so
 
 
@@ -92,10 +90,9 @@ class Input(OnTets):
 def read_input(
     path: str | Path, *, interfaces: bool = True, edge_length: float = 0.0, progress: Progress | None = None
 ) -> Input:
-    """Reads a surface (STL, OBJ, OFF, PLY, .vtp; STEP, BREP and IGES by Gmsh where it is installed) or a tet mesh
-    (.vtk, .vtu, Gmsh .msh, Medit .mesh and .meshb, OpenVolumeMesh .ovm and .ovmb, TetGen .node or .ele with the other
-    beside it, and .face and .edge where there; triangles alone are a surface), each also as .gz. Raises IoError naming
-    the file, and the line in text, InvalidInput where it holds neither tets nor triangles. interfaces: see MeshOptions.
+    """Reads a surface, tet mesh (of triangles alone: a surface) or, where Gmsh is installed, a CAD model, of the kinds
+    in octafield.mesh_formats, each also as .gz. Raises IoError naming the file, and the line in text, InvalidInput
+    where it holds neither tets nor triangles. interfaces: see MeshOptions.
     edge_length: of the triangles on a CAD model, or tets in it (0: from its size). progress: asked while Gmsh reads
     one; may cancel."""
     path = Path(path)
@@ -120,21 +117,13 @@ def naming(name: str) -> Iterator[None]:
 
 
 def _read(path: Path, interfaces: bool, edge_length: float, progress: Progress | None) -> Input:
-    suffix = _suffix(path)
-    if suffix in SURFACE_SUFFIXES:
-        return Input(str(path), _core.read_surface(path))
-    if suffix not in (*GRID_SUFFIXES, *CAD_SUFFIXES):
-        surfaces, tets, cad = (" ".join(known) for known in (SURFACE_SUFFIXES, GRID_SUFFIXES, CAD_SUFFIXES))
-        raise IoError(
-            f"{path}: unknown kind of file; known are surfaces ({surfaces}), tet meshes ({tets}) and CAD models"
-            f" ({cad}), also .gz"
-        )
-    of_cad = suffix in CAD_SUFFIXES
-    grid = read_cad(path, suffix, edge_length, progress) if of_cad else read_grid(path, suffix)
+    grid = read_mesh_file(path, edge_length, progress)
+    if isinstance(grid, TriangleMesh):
+        return Input(str(path), grid)
     if not interfaces:
         grid.regions = None
     found = input_of_grid(str(path), grid)
-    found.of_cad = of_cad
+    found.of_cad = find_mesh_format(path).mesh is not None
     return found
 
 
@@ -182,11 +171,6 @@ def from_mesh(mesh: TriangleMesh | TetMesh | TetDomain) -> Input:
     if isinstance(mesh, TetMesh):
         return _tet_input("mesh in memory", Grid(np.asarray(mesh.vertices), {"tetra": np.asarray(mesh.tets)}))
     raise InvalidInput(f"a path, TriangleMesh, TetMesh or TetDomain is needed, not {type(mesh).__name__}")
-
-
-def _suffix(path: Path) -> str:
-    name = path.name.lower()
-    return Path(name.removesuffix(".gz")).suffix
 
 
 def _require_points(cells: dict[str, np.ndarray], count: int) -> None:

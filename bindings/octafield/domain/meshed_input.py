@@ -1,8 +1,10 @@
 """What every field is computed on: a sound mesh with its features and regions."""
 
+from __future__ import annotations
+
 import hashlib
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +13,9 @@ from ..errors import InvalidInput
 from ..options import MeshOptions
 from ..progress.phases import PhaseClock
 from .inputs import OnTets
+
+if TYPE_CHECKING:
+    from ..records.parts import LockingCounts
 
 
 @dataclass(repr=False)
@@ -33,7 +38,7 @@ class MeshedInput(OnTets):
     clock: PhaseClock = field(default_factory=PhaseClock)
     peak_mb: float = 0.0
     sheet_map: np.ndarray | None = None
-    locking: dict[str, Any] = field(default_factory=dict)
+    locking: LockingCounts | None = None
     options: MeshOptions | None = None
     inner_length: float = 0.0
 

@@ -1,8 +1,10 @@
 """From an input to the surface, its features and the tets inside: the part that all runs of a comparison share."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +17,9 @@ from .inputs import Input, from_mesh, naming, read_input
 from .locking import split_on_request
 from .meshed_input import MeshedInput
 from .repairing import message_with_remedy, repair_surface
+
+if TYPE_CHECKING:
+    from ..records.parts import LockingCounts
 
 Array = np.ndarray[Any, Any]
 Source = str | Path | TriangleMesh | TetMesh | TetDomain
@@ -39,7 +44,7 @@ class SoundInput:
     clock: PhaseClock
     peak_mb: float
     sheets: Sheets | None
-    locking: dict[str, Any]
+    locking: LockingCounts | None
 
 
 def read_sound(
@@ -65,7 +70,7 @@ def read_sound(
         with naming(found.name):
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):
-        locking: dict[str, Any] = {}
+        locking = None
         if found.tets is not None:
             locking = split_input(found, options)
         sheets = sheets_of(found)
@@ -76,7 +81,7 @@ def read_sound(
     return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), sheets, locking)
 
 
-def split_input(found: Input, options: MeshOptions) -> dict[str, Any]:
+def split_input(found: Input, options: MeshOptions) -> LockingCounts:
     """Counts what joins the surface of the tets to itself, and splits it where the options say so."""
     found.tets, locking = split_on_request(found.volume(), options)
     if options.split:

@@ -6,6 +6,7 @@ import numpy as np
 
 from .. import _core
 from .._core import RepairAdvice, TriangleMesh
+from ..meshes.registry import MESH_FORMATS
 from ..options import REPAIR_LEVELS, MeshOptions
 from .inputs import Input
 
@@ -14,10 +15,10 @@ _BEYOND_REPAIR = ("empty", "index_out_of_range", "non_finite_vertex")
 
 
 def level_of(found: Input, options: MeshOptions) -> str:
-    """merge for STL, which has no shared points, and none otherwise, where the options do not say."""
+    """merge for files without shared points (STL), and none otherwise, where the options do not say."""
     if options.repair != "default":
         return options.repair
-    return "merge" if found.name.lower().removesuffix(".gz").endswith(".stl") else "none"
+    return "merge" if any(form.soup and form.owns(found.name) for form in MESH_FORMATS.values()) else "none"
 
 
 def repair_surface(found: Input, options: MeshOptions, closed: bool = True) -> None:

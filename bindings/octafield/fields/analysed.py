@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -30,13 +29,14 @@ from ..options import FieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks, facts_of_record
 from . import verdict
-from .direction_field import common_record
 from .sizes import Sizes, axis_order, sizes_of_run
 from .tet_analysis import analyse_tets
 from .vertex_analysis import analyse as analyse_frames
 
 if TYPE_CHECKING:
     import pyvista
+
+    from ..records.field import FieldRecord
 
 __all__ = ["AnalysedField", "analyse"]
 
@@ -56,9 +56,10 @@ _OF_ANALYSIS = (
 class AnalysedField(ShownInNotebooks):
     """A frame field and what it is judged by. frames: (n, 4) unit quaternions w x y z, per tet vertex; their axes
     are named so that neighbours agree but across a cut (octafield.volume.comb_vertices). alignment: radians, per
-    boundary vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: the
-    JSON object of the command line. regions: (m,) ids of the tets where the mesh has several. lengths: (n, 3) of the
-    frames' axes, where they have any. sizes: an IsotropicScale or AxisScales, as the option of that name asks.
+    boundary vertex and smooth sector, interfaces included. feature_alignment: radians, per feature tangent. record: all
+    figures, the JSON object of the command line. regions: (m,) ids of the tets where the mesh has several. lengths:
+    (n, 3) of the frames' axes, where they have any. sizes: an IsotropicScale or AxisScales, as the option of that name
+    asks.
 
     A field that lives in the tets is tet_frames, (m, 4), and so are singular_graph (of singular_edges), alignment (per
     triangle and tet beside it) and lengths, meshability and boundary_meshability are those of the tets; frames is the
@@ -76,7 +77,7 @@ class AnalysedField(ShownInNotebooks):
     boundary_meshability: BoundaryMeshability | None = None
     integrability: Integrability | None = None
     streamlines: Sequence[FrameStreamline] = ()
-    record: dict[str, Any]
+    record: FieldRecord
     tet_frames: np.ndarray | None = None
     lengths: np.ndarray | None = None
     sizes: Sizes | None = None
@@ -90,8 +91,8 @@ class AnalysedField(ShownInNotebooks):
     def __repr__(self) -> str:
         r = self.record
         return (
-            f"AnalysedField({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; E {r['energy']:.6g},"
-            f" {r['singular_edges']:,} singular edges)"
+            f"AnalysedField({r.input}: {r.vertices:,} vertices, {r.tets:,} tets; E {r.energy:.6g},"
+            f" {r.singular_edges:,} singular edges)"
         )
 
     def _facts(self) -> Facts:
@@ -123,8 +124,8 @@ def analyse(
     """Analyses (n, 4) frames at the vertices or in the tets of a tet mesh (or its file; features as octafield field
     finds them).
 
-    Of the options, those of features, interfaces, streamlines, sizes and threads count. record has the keys of
-    octafield.compute_field's that do not come from solving. Raises InvalidInput where the frames do not fit the mesh.
+    Of the options, those of features, interfaces, streamlines, sizes and threads count. In the record, what
+    octafield.compute_field tells of solving is None. Raises InvalidInput where the frames do not fit the mesh.
     """
     if where not in SITES:
         raise InvalidInput(f"where must be one of: {', '.join(SITES)}; not {where!r}", "unknown_option_value")
@@ -136,9 +137,7 @@ def analyse(
     if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):
         raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
     values, options = fitting_frames(meshed.volume(), frames, where), replace(options, sampling=where)
-    found = analysed_field(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
-    found.record["options"] = options.recorded()
-    return found
+    return analysed_field(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
 
 
 def analysed_field(
@@ -148,11 +147,13 @@ def analysed_field(
     clock: PhaseClock,
     memory: PeakMemory,
     progress: Progress | None,
-    about: Mapping[str, Any] = MappingProxyType({}),
     lengths: np.ndarray | None = None,
 ) -> AnalysedField:
     """frames, lengths: where options.sampling has them; the axes of those at vertices are named anew, so that
-    neighbours agree but across a cut. about: what the record tells of how the field was made."""
+    neighbours agree but across a cut. The record tells nothing of how the field was made."""
+    from ..records.field import FieldRecord
+    from . import record
+
     tets = meshed.volume()
     parts: dict[str, Any]
     with clock.phase("analyse"):
@@ -161,7 +162,7 @@ def analysed_field(
             frames, lengths = combed(tets, frames, lengths, options.threads)
         if options.sampling == "tets":
             of_tets = analyse_tets(meshed, _core.tet_sampling(tets), frames, options.threads)
-            figures, off = of_tets.record, of_tets.off_vertices
+            figures, off = of_tets.figures, of_tets.off_vertices
             parts = {
                 "frames": combed(tets, of_tets.frames, None, options.threads)[0],
                 "tet_frames": frames,
@@ -173,29 +174,26 @@ def analysed_field(
             }
         else:
             found = analyse_frames(meshed, frames, options.threads, options.streamlines, options.feature_tolerance)
-            figures, off = found.record, found.off_vertices
+            figures, off = found.figures, found.off_vertices
             parts = {"frames": frames, **{name: getattr(found, name) for name in _OF_ANALYSIS}}
-    sizes, sizes_entry = sizes_of_run(tets, parts["frames"], options, clock, progress)
-    record = {
-        **common_record(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
-        "vertices": len(tets.vertices),
-        "tets": len(tets.tets),
-        "boundary_triangles": len(meshed.surface.triangles) - meshed.interface_triangles,
-        "regions": 1 if meshed.regions is None else len(np.unique(meshed.regions)),
-        "sampling": options.sampling,
-        **about,
-        "threads": options.threads,
+    sizes = sizes_of_run(tets, parts["frames"], options, clock, progress)
+    told = FieldRecord(
+        **record.of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
+        **record.of_mesh(meshed),
+        sampling=options.sampling,
+        threads=options.threads,
         **figures,
-        **sizes_entry,
-        "verdict": verdict.of_field(meshed, off, figures),
-    }
+        sizes=None if sizes is None else record.of_sizes(sizes),
+        verdict=verdict.of_field(meshed, off, figures),
+        options=options.recorded(),
+    )
     return AnalysedField(
         surface=meshed.surface,
         features=meshed.features,
         tets=tets,
         lengths=lengths,
         sizes=sizes,
-        record=record,
+        record=told,
         feature_edges=feature_edges(tets),
         **parts,
     )

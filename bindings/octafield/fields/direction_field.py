@@ -4,9 +4,11 @@ result = compute_surface_field("part.stl", SurfaceFieldOptions(symmetry=4, curva
 result.directions  # (V, 3), one of the N directions per vertex of result.surface
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,18 +27,21 @@ from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source, prepare_mesh
 from ..errors import Cancelled, InvalidInput
 from ..options import SurfaceFieldOptions
-from ..progress.phases import PeakMemory, PhaseClock, Progress, StopNote, forward, machine, octafield_version, versions
+from ..progress.phases import PeakMemory, PhaseClock, Progress, StopNote, forward
 from ..view.notebook import Facts, ShownInNotebooks, facts_of_record
 
 if TYPE_CHECKING:
     import pyvista
+
+    from ..records.surface_field import SurfaceFieldRecord
 
 _SHOWN = ("triangles", "energy", "epsilon", "euler_characteristic", "index_sum", "converged")
 
 
 @dataclass(repr=False)
 class SurfaceFieldResult(ShownInNotebooks):
-    """An N-direction field on a surface. directions: (V, 3), one representative per vertex. record: the JSON object."""
+    """An N-direction field on a surface. directions: (V, 3), one representative per vertex. record: all
+    figures, the JSON object of the command line."""
 
     surface: TriangleMesh
     features: FeatureGraph
@@ -44,12 +49,12 @@ class SurfaceFieldResult(ShownInNotebooks):
     directions: np.ndarray
     singularities: SurfaceSingularities
     separatrices: Sequence[Streamline]
-    record: dict[str, Any]
+    record: SurfaceFieldRecord
 
     def __repr__(self) -> str:
         r = self.record
         return (
-            f"SurfaceFieldResult({r['input']}: {r['triangles']:,} triangles; symmetry {self.direction_field.symmetry}; "
+            f"SurfaceFieldResult({r.input}: {r.triangles:,} triangles; symmetry {self.direction_field.symmetry}; "
             f"{len(self.singularities.points):,} singular points, index sum {self.singularities.index_sum:g})"
         )
 
@@ -57,7 +62,7 @@ class SurfaceFieldResult(ShownInNotebooks):
         """For notebooks."""
         return facts_of_record(self.record, _SHOWN)
 
-    def _drawn(self) -> "pyvista.Plotter":
+    def _drawn(self) -> pyvista.Plotter:
         """Singular points and separatrices on the surface."""
         from ..view.surface_field import surface_field_scene
 
@@ -86,9 +91,11 @@ def compute_surface_field(
         8
 
     When progress returns False while the field is computed or after, the best field so far is returned, with
-    record["stopped"] true, converged False where the solver was stopped, and no separatrices; before that, Cancelled is
+    record.stopped true, converged False where the solver was stopped, and no separatrices; before that, Cancelled is
     raised.
     """
+    from . import record
+
     memory = PeakMemory()
     if (constraints is not None or guide is not None) and not isinstance(source, MeshedInput):
         raise InvalidInput(
@@ -119,31 +126,11 @@ def compute_surface_field(
             progress=forward(stop.progress, "surface", 0.0, 0.9),
         )
         directions, singularities, separatrices = structure(meshed, field, stop.progress, stop)
-    points = [
-        {"position": [float(x) for x in s.position], "index": float(s.index), "boundary": bool(s.boundary)}
-        for s in singularities.points
-    ]
-    record = {
-        **common_record(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
-        "vertices": len(meshed.surface.vertices),
-        "triangles": len(meshed.surface.triangles),
-        "symmetry": options.symmetry,
-        "method": options.method,
-        "seed": options.seed,
-        **index_summary(singularities),
-        "singularities": points,
-        "energy": field.energy,
-        "dirichlet_energy": field.dirichlet_energy,
-        "energy_history": [float(e) for e in field.energy_history],
-        "epsilon": field.epsilon,
-        "iterations": field.iterations,
-        "converged": bool(field.converged),
-        "stopped": stop.stopped,
-        "residual": field.residual,
-        "constraints": 0 if constraints is None else len(constraints.edges) + len(constraints.vertices),
-        "options": asdict(options),
-    }
-    return SurfaceFieldResult(meshed.surface, meshed.features, field, directions, singularities, separatrices, record)
+    peak_mb = max(meshed.peak_mb, memory.megabytes())
+    told = record.of_surface_field(
+        meshed, clock, peak_mb, field, singularities, options, constraints, stopped=stop.stopped
+    )
+    return SurfaceFieldResult(meshed.surface, meshed.features, field, directions, singularities, separatrices, told)
 
 
 def _lines_of_curvature(
@@ -174,29 +161,3 @@ def structure(
             raise
         separatrices = []
     return directions, singularities, separatrices
-
-
-def common_record(meshed: MeshedInput, clock: PhaseClock, peak_mb: float) -> dict[str, Any]:
-    return {
-        "input": meshed.name,
-        "version": octafield_version(),
-        "input_kind": meshed.kind,
-        "mesh_sha256": meshed.digest(),
-        "edge_length": float(_core.mean_edge_length(meshed.surface)),
-        "feature_source": meshed.feature_source,
-        "feature_edges": len(meshed.features.edges),
-        "feature_corners": len(meshed.features.corners),
-        "notes": list(meshed.notes),
-        "wall_seconds": clock.wall,
-        "cpu_seconds": clock.cpu,
-        "peak_mb": round(peak_mb, 1),
-        "versions": versions(),
-        "machine": machine(),
-    }
-
-
-def index_summary(singularities: SurfaceSingularities) -> dict[str, Any]:
-    return {
-        "euler_characteristic": singularities.euler_characteristic,
-        "index_sum": singularities.index_sum,
-    }

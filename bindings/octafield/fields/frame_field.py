@@ -2,7 +2,7 @@
 
     result = compute_field("part.stl", FieldOptions(boundary="fixed"))
     result.frames            # (n, 4) unit quaternions w x y z
-    result.record["energy"]  # the figures that every table shows
+    result.record.energy     # the figures that every table shows
 
 A comparison prepares a FieldProblem once and runs it with several options:
 
@@ -33,9 +33,8 @@ from ..errors import InvalidInput
 from ..options import OF_A_START, FieldOptions, MeshOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce, forward
 from .analysed import AnalysedField, analysed_field
-from .direction_field import index_summary, structure
+from .direction_field import structure
 from .smoothing import held_at_start, smoothed_field
-from .vertex_analysis import constraint_counts, counts_by_index, spread
 
 
 @dataclass(repr=False)
@@ -79,8 +78,8 @@ class FieldResult(AnalysedField):
     def __repr__(self) -> str:
         r = self.record
         return (
-            f"FieldResult({r['input']}: {r['vertices']:,} vertices, {r['tets']:,} tets; {r['representation']},"
-            f" {r['boundary']}; E {r['energy']:.6g}, {r['singular_edges']:,} singular edges)"
+            f"FieldResult({r.input}: {r.vertices:,} vertices, {r.tets:,} tets; {r.representation},"
+            f" {r.boundary}; E {r.energy:.6g}, {r.singular_edges:,} singular edges)"
         )
 
 
@@ -103,7 +102,7 @@ def compute_field(
         >>> Held = octafield.volume.VertexConstraints
         >>> held = Held(vertices=[300], kinds=["axis"], axes=[[0, 0, 1]])  # of meshed.tets
         >>> result = octafield.compute_field(meshed, constraints=held)
-        >>> result.record["constraints"]["given"]
+        >>> result.record.constraints["given"]
         1
 
     start: (n, 4) frames to smooth from, on that mesh's vertices (sampling "tets": tets), such as octafield.read_frames
@@ -166,10 +165,12 @@ def run_field(
         >>> problem = octafield.prepare_field(meshed)
         >>> for boundary in ("fixed", "aligned"):  # on one mesh, so that energies compare
         ...     result = octafield.run_field(problem, octafield.FieldOptions(boundary=boundary))
-        ...     print(boundary, result.record["singular_edges"])
+        ...     print(boundary, result.record.singular_edges)
         fixed 0
         aligned 0
     """
+    from . import record
+
     memory = PeakMemory()
     meshed, clock = problem.meshed, PhaseClock(problem.clock)
     _refuse_ignored(meshed, options)
@@ -185,43 +186,33 @@ def run_field(
         where = tets if in_tets is None else in_tets
         smoothed, diffusion_steps = smoothed_field(tets, options, where, held, start, problem.seed, progress)
     lengths = np.asarray(smoothed.lengths) if len(smoothed.lengths) else None
-    about = {
-        "interface_triangles": meshed.interface_triangles,
-        "locking": meshed.locking,
-        "representation": options.scheme_name,
-        **{name: getattr(options, name) for name in ("solver", "boundary")},
-        "seed": problem.seed,
-    }
-    frames, parent, split = np.asarray(smoothed.frames), None, {}
+    frames, parent, split = np.asarray(smoothed.frames), None, None
     if options.split_singular:
         with clock.phase("analyse"):
-            meshed, frames, lengths, parent, counts = split_between_singular(meshed, frames, lengths, options.threads)
-        split = {"split_singular": counts}
-    found = analysed_field(meshed, frames, options, clock, memory, progress, about, lengths)
-    found.record |= {
-        **({} if lengths is None else {"lengths": spread(lengths)}),
-        **split,
-        "peak_mb": max(found.record["peak_mb"], round(problem.peak_mb, 1)),
-        "objective": float(smoothed.objective),
-        "iterations": smoothed.iterations,
-        "diffusion_steps": diffusion_steps,
-        "start": "default" if start is None else "given",
-        "converged": bool(smoothed.converged),
-        "stop_reason": smoothed.message,
-        "energy_history": [float(e) for e in smoothed.energy_history],
-        "objective_history": [float(e) for e in smoothed.objective_history],
-        "surface_field": {
-            "singular_points": counts_by_index(problem.singularities),
-            "epsilon": problem.direction_field.epsilon,
-            "iterations": problem.direction_field.iterations,
-            "converged": bool(problem.direction_field.converged),
-            **index_summary(problem.singularities),
-        },
-        "constraints": constraint_counts(held, constraints),
-        "released_corners": len(held.released_corners),
-        "released_corner_vertices": np.asarray(held.released_corners).tolist(),
-        "options": replace(options, seed=problem.seed).recorded(),
-    }
+            meshed, frames, lengths, parent, split = split_between_singular(meshed, frames, lengths, options.threads)
+    found = analysed_field(meshed, frames, options, clock, memory, progress, lengths)
+    found.record = found.record.changed(
+        interface_triangles=meshed.interface_triangles,
+        locking=meshed.locking,
+        representation=options.scheme_name,
+        solver=options.solver,
+        boundary=options.boundary,
+        seed=problem.seed,
+        lengths=record.of_lengths(lengths),
+        split_singular=split,
+        peak_mb=max(found.record.peak_mb, round(problem.peak_mb, 1)),
+        objective=float(smoothed.objective),
+        iterations=smoothed.iterations,
+        diffusion_steps=diffusion_steps,
+        start="default" if start is None else "given",
+        converged=bool(smoothed.converged),
+        stop_reason=smoothed.message,
+        energy_history=[float(e) for e in smoothed.energy_history],
+        objective_history=[float(e) for e in smoothed.objective_history],
+        surface_field=record.of_cross_field(problem.direction_field, problem.singularities),
+        **record.of_constraints(held, constraints),
+        options=replace(options, seed=problem.seed).recorded(),
+    )
     return FieldResult(
         **vars(found),
         direction_field=problem.direction_field,

@@ -1,8 +1,6 @@
 """Sizes along the axes for which a field is closest to the gradients of a map (octafield.volume.isotropic_scale,
 axis_scales): in results, their files and conversions."""
 
-from typing import Any
-
 import numpy as np
 
 from .. import _core
@@ -22,26 +20,13 @@ def find_sizes(tets: TetMesh | TetDomain, frames: np.ndarray, kind: str, threads
 
 def sizes_of_run(
     tets: TetDomain, frames: np.ndarray, options: FieldOptions, clock: PhaseClock, progress: Progress | None
-) -> tuple[Sizes | None, dict[str, Any]]:
-    """What options.sizes asks for, and the record's entry."""
+) -> Sizes | None:
+    """What options.sizes asks for."""
     if options.sizes == "none":
-        return None, {}
+        return None
     with clock.phase("sizes"):
         announce(progress, "sizes")
-        found = find_sizes(tets, frames, options.sizes, options.threads)
-    return found, {"sizes": sizes_record(found)}
-
-
-def sizes_record(found: Sizes) -> dict[str, Any]:
-    """size_ratio: the largest size over the smallest."""
-    values = np.asarray(found.values if isinstance(found, AxisScales) else found.log_scale)
-    both = {"before": found.before, "after": found.after}
-    return {
-        "kind": "axes" if isinstance(found, AxisScales) else "isotropic",
-        **{f"{name}_{when}": getattr(part, name) for name in ("curl_rms", "jump_rms") for when, part in both.items()},
-        "size_ratio": float(np.exp(np.ptp(values))),
-        "iterations": found.iterations,
-    }
+        return find_sizes(tets, frames, options.sizes, options.threads)
 
 
 def sizes_arrays(

@@ -1,8 +1,10 @@
 """What a field whose frames live in the tets is judged by. Integrability is defined for frames at vertices and left
 out."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,14 +12,16 @@ from .. import _core
 from .._core import BoundaryMeshability, Meshability, Sampling, SingularEdges
 from ..domain.meshed_input import MeshedInput
 from . import verdict
-from .vertex_analysis import boundary_record, degrees, meshability_record
+
+if TYPE_CHECKING:
+    from ..records.field import FieldFigures
 
 
 @dataclass
 class TetFieldAnalysis:
     """frames: (n, 4), those of the tets taken to the vertices. alignment: radians, per triangle of the surface and tet
     beside it. feature_alignment: of `frames`. off_vertices: of the boundary, beside triangles that are too far off.
-    record: for the JSON object."""
+    figures: for the record."""
 
     frames: np.ndarray
     singular: SingularEdges
@@ -26,10 +30,13 @@ class TetFieldAnalysis:
     meshability: Meshability
     boundary_meshability: BoundaryMeshability
     off_vertices: np.ndarray
-    record: dict[str, Any]
+    figures: FieldFigures
 
 
 def analyse_tets(meshed: MeshedInput, sampling: Sampling, of_tets: np.ndarray, threads: int = 0) -> TetFieldAnalysis:
+    """What the record and the files of a field in tets need."""
+    from . import record
+
     tets = meshed.volume()
     boundary = tets.surface
     frames = np.asarray(_core.vertex_frames(tets, of_tets, threads=threads))
@@ -43,24 +50,13 @@ def analyse_tets(meshed: MeshedInput, sampling: Sampling, of_tets: np.ndarray, t
     energy = float(_core.dirichlet_energy(sampling, of_tets, threads=threads))
     meshability = _core.tet_meshability(tets, of_tets, found)
     at_boundary = _core.tet_boundary_meshability(tets, of_tets, threads=threads)
-    turns = [int(edge.quarter_turns) for edge in found.edges]
-    record = {
-        "energy": energy,
-        "energy_unit_speed": _core.unit_speed_factor * energy,
-        "energy_at_vertices": float(_core.dirichlet_energy(tets, frames, threads=threads)),
-        "singular_edges": len(turns),
-        "singular_length": float(found.graph.length),
-        "singular_curves": len(found.graph.curves),
-        "singular_nodes": len(found.graph.nodes),
-        "complex_edges": int(found.complex_edges),
-        "undecided_edges": int(found.undecided_edges),
-        "tied_triangles": int(found.tied_triangles),
-        "singular_edges_by_turns": {
-            f"{t:+d}" if t else "complex": turns.count(t) for t in sorted(set(turns), reverse=True)
-        },
-        **meshability_record(meshability),
-        **boundary_record(at_boundary),
-        "alignment_deg": degrees(alignment),
-        "feature_alignment_deg": degrees(feature_alignment),
-    }
-    return TetFieldAnalysis(frames, found, alignment, feature_alignment, meshability, at_boundary, off, record)
+    figures = record.of_field_in_tets(
+        energy,
+        float(_core.dirichlet_energy(tets, frames, threads=threads)),
+        found,
+        meshability,
+        at_boundary,
+        alignment,
+        feature_alignment,
+    )
+    return TetFieldAnalysis(frames, found, alignment, feature_alignment, meshability, at_boundary, off, figures)

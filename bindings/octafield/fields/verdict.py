@@ -1,34 +1,31 @@
 """Whether a field can be trusted: fine, too coarse for its shape, or with places that no hex mesh has. Said at the end
 of `field` and `info`, in records and in reports."""
 
+from __future__ import annotations
+
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .. import _core
 from ..domain.meshed_input import MeshedInput
 
+if TYPE_CHECKING:
+    from ..records.field import FieldFigures
+    from ..records.parts import Verdict
+
 FINE, COARSE, NOT_MESHABLE, NO_FIELD = "fine", "coarse", "not meshable", "no field"
 WARN = "warn"  # the state of a requirement that a field can do without
 OFF = 20.0  # degrees between a normal and the nearest axis of its frame
 BENT = 30.0  # degrees between triangles at an edge that is no feature
 SHARE_OFF, SHARE_COARSE = 0.02, 0.1  # of the area that may be off, and off or bent, before it is worth a word
-_PLACES = {
-    "non_meshable_vertices": "singular vertices",
-    "non_meshable_feature_edges": "feature edges",
-    "non_meshable_corners": "corners",
-    "non_meshable_crossings": "points where singular curves reach the surface",
-}
 _LISTED = 100  # vertices in a record
 
 
-def of_field(meshed: MeshedInput, off: np.ndarray, figures: dict[str, Any]) -> dict[str, Any]:
+def of_field(meshed: MeshedInput, off: np.ndarray, figures: FieldFigures) -> Verdict:
     """off: (k,) ids of vertices of the boundary whose frames are more than OFF degrees from normals that can be served.
-    figures: of the analysis.
-
-    Record entry: state, sentences, vertices (ids of the tet mesh, the first 100), suggested_edge_length (input unit, or
-    None)."""
+    figures: of the analysis."""
     domain = meshed.volume()
     boundary, features = domain.surface, domain.features
     points, triangles = np.asarray(boundary.mesh.vertices), np.asarray(boundary.mesh.triangles)
@@ -47,7 +44,13 @@ def of_field(meshed: MeshedInput, off: np.ndarray, figures: dict[str, Any]) -> d
             f" than {OFF:g} degrees from their normals, and smooth faces turn by more than {BENT:g} degrees at"
             f" {len(bent):,} edges; edges of about {suggested:.2g} would turn half as much (not tried)"
         )
-    places = {words: figures.get(key, 0) for key, words in _PLACES.items() if figures.get(key, 0)}
+    counts = {
+        "singular vertices": figures.non_meshable_vertices,
+        "feature edges": figures.non_meshable_feature_edges,
+        "corners": figures.non_meshable_corners,
+        "points where singular curves reach the surface": figures.non_meshable_crossings,
+    }
+    places = {words: count for words, count in counts.items() if count}
     if places:
         sentences.append(
             f"places no hex mesh has: {sum(places.values()):,}"
@@ -58,7 +61,7 @@ def of_field(meshed: MeshedInput, off: np.ndarray, figures: dict[str, Any]) -> d
     return _entry(state, sentences, ids.tolist(), suggested)
 
 
-def of_input(requirements: list[dict[str, Any]]) -> dict[str, Any]:
+def of_input(requirements: list[dict[str, Any]]) -> Verdict:
     """What the checks of `info` let expect."""
     failed = next((r for r in requirements if r["state"] not in ("pass", WARN)), None)
     if failed is not None:
@@ -101,8 +104,10 @@ def _length_for(points: np.ndarray, edges: np.ndarray, turns: np.ndarray, vertic
     return float(rounded_down(ratio * float(np.median(length[there]))))
 
 
-def _entry(state: str, sentences: list[str], vertices: list[int], length: float | None) -> dict[str, Any]:
-    return {"state": state, "sentences": sentences or [FINE], "vertices": vertices, "suggested_edge_length": length}
+def _entry(state: str, sentences: list[str], vertices: list[int], length: float | None) -> Verdict:
+    from ..records.parts import Verdict
+
+    return Verdict(state=state, sentences=sentences or [FINE], vertices=vertices, suggested_edge_length=length)
 
 
 def off_vertices(angles: np.ndarray, vertices: np.ndarray) -> np.ndarray:

@@ -1,7 +1,7 @@
 """Files of frames: what other programs write comes in, what they read goes out.
 
     found = octafield.read_frames("field.frame", mesh="part.mesh")  # a FrameFile
-    octafield.analyse(found.mesh, found.frames, where=found.where).record["singular_edges"]
+    octafield.analyse(found.mesh, found.frames, where=found.where).record.singular_edges
     octafield.write_frames("field.ovmb", found.mesh, found.frames, found.where)
 
 Formats and their layouts: docs/formats.md, octafield.frame_formats.

@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 
 from .. import _core
-from ..domain.algohex_features import add_features
 from ..domain.inputs import input_of_grid, naming
 from ..domain.rotations import axes_of
 from ..errors import InvalidInput
 from ..meshes.grids import grid_of_ovm
+from ..meshes.openvolumemesh.features import add_features
 from ..meshes.openvolumemesh.mesh import OvmMesh, ovm_of_tets
 from ..meshes.openvolumemesh.text import read_ovm, write_ovm
 from .algohex_transitions import CUT, TRANSITIONS, VALENCES, far_transitions, inner_faces, transitions_of, valences_of

@@ -30,7 +30,7 @@ CONVENTION = (
 
 def read_arrays(path: Path, name: str) -> FrameFile:
     """The frames of a mesh file's cell data, or of its point data where the cells have none."""
-    found = read_cells(path, f".{name}")
+    found = read_cells(path, name)
     blocks = [block.type for block in found.cells]
     if "tetra" not in blocks:
         raise InvalidInput(f"{path}: holds no tetrahedra", "not_tets")
@@ -135,7 +135,8 @@ def write_msh(path: Path, field: Field) -> list[str]:
     other)."""
     import meshio
 
-    from ..domain.mesh_writers import Parts, msh_of
+    from ..meshes.parts import Parts
+    from ..meshes.writers import msh_of
 
     axes = np.swapaxes(axes_of(field.frames), 1, 2)
     data = {name: np.ascontiguousarray(axes[:, k]) for k, name in enumerate(AXES)}

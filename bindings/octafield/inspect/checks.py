@@ -1,10 +1,12 @@
 """What the doctor for inputs asks of a sound input: each check is a function of what was examined that returns a
 Finding."""
 
+from __future__ import annotations
+
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,6 +18,9 @@ from ..fields.verdict import WARN, rounded_down
 from ..options import MeshOptions
 from . import estimates
 from .measures import curve_lengths, dihedral_angles, wall_samples
+
+if TYPE_CHECKING:
+    from ..records.parts import LockingCounts
 
 PASS, FAIL, NOT_TESTED = "pass", "fail", "not tested"
 
@@ -52,7 +57,7 @@ class Examined:
     features: FeatureGraph
     feature_source: str
     length: float
-    locking: dict[str, int] = field(default_factory=dict)
+    locking: LockingCounts | None = None
     lengths: np.ndarray[Any, Any] | None = None
 
     def at_triangles(self) -> np.ndarray[Any, Any]:
@@ -255,9 +260,16 @@ def tet_shapes(seen: Examined) -> Finding:
 
 def locking(seen: Examined) -> Finding:
     text = "nothing inside joins the surface to itself"
-    counts = {name: seen.locking[name] for name in ("tets", "edges", "triangles") if seen.locking.get(name)}
+    found = seen.locking
+    if found is None:
+        return Finding(text, PASS)
+    counts = {
+        name: count
+        for name, count in (("tets", found.tets), ("edges", found.edges), ("triangles", found.triangles))
+        if count
+    }
     if seen.options.split:
-        left = seen.locking.get("left", 0)
+        left = found.left
         if not left:
             return Finding(text, PASS)
         return Finding(text, WARN, "locking_left",

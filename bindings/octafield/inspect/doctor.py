@@ -92,9 +92,9 @@ def _field(solver: str) -> Callable[[], str]:
 
         options = FieldOptions(edge_length=0.3, solver=solver)
         record = compute_field(_cube(), options).record
-        if not (record["energy"] < 1e-9 and record["singular_edges"] == 0):
+        if not (record.energy < 1e-9 and record.singular_edges == 0):
             raise ArithmeticError(
-                f"the field of a cube has energy {record['energy']:g}, {record['singular_edges']} singular edges"
+                f"the field of a cube has energy {record.energy:g}, {record.singular_edges} singular edges"
             )
         return "the field of a cube is constant"
 

@@ -95,7 +95,7 @@ def examine(path: str | Path, options: MeshOptions = MeshOptions()) -> dict[str,
         "notes": found.notes,
         "requirements": [f.to_json() for f in findings],
         **facts,
-        "verdict": verdict.of_input([f.to_json() for f in findings]),
+        "verdict": verdict.of_input([f.to_json() for f in findings]).to_dict(),
     }
 
 
@@ -117,7 +117,7 @@ def _unread(name: str, error: Error) -> dict[str, Any]:
     findings = [Finding("file can be read", PASS), what] if flat else [what]
     record = {"input": name, "version": octafield_version(), "ok": False, "notes": []}
     requirements = [f.to_json() for f in findings]
-    return record | {"requirements": requirements, "verdict": verdict.of_input(requirements)}
+    return record | {"requirements": requirements, "verdict": verdict.of_input(requirements).to_dict()}
 
 
 def _defects(found: Input, options: MeshOptions) -> list[Finding]:
@@ -149,7 +149,7 @@ def _defects(found: Input, options: MeshOptions) -> list[Finding]:
 def _beyond_defects(found: Input, options: MeshOptions) -> tuple[list[Finding], dict[str, Any]]:
     """Of a sound input: what makes fields poor, slow or impossible to compute."""
     facts: dict[str, Any] = {}
-    locking = {} if found.tets is None else split_input(found, options)
+    locking = None if found.tets is None else split_input(found, options)
     sheets = sheets_of(found)
     try:
         features, source = find_features(found, options, sheets)

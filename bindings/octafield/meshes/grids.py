@@ -1,27 +1,27 @@
 """Files of cells: what they hold as arrays, by our own readers (of .vtp VTK's), before any meaning is given to it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import InvalidInput, IoError
-from ..files.reading import read_bytes, read_text, reading
+from ..files.reading import plain_name, read_bytes, read_text, reading
 from .binary_medit import read_binary_medit
 from .cell_mesh import Block, Blocks, CellMesh, first_of_equal, linear
 from .gmsh.mesh_file import read_gmsh
+from .openvolumemesh.mesh import OvmMesh, tets_of_ovm
+from .openvolumemesh.text import read_ovm
 from .text_meshes import TextMesh, read_medit, read_tetgen
 from .vtk.legacy import read_legacy_vtk
-from .vtk.vtp import read_vtp
 from .vtk.vtu import read_vtu
 
-if TYPE_CHECKING:
-    from .openvolumemesh.mesh import OvmMesh
-
-GRID_SUFFIXES = (".vtk", ".vtu", ".vtp", ".msh", ".mesh", ".meshb", ".node", ".ele", ".ovm", ".ovmb")
-_READERS = {".vtk": read_legacy_vtk, ".msh": read_gmsh}
-CELL_SUFFIXES = (*_READERS, ".vtu")  # whose readers give a CellMesh
+_CELL_READERS: dict[str, Callable[[Path], CellMesh]] = {  # which give data of points and cells, too
+    "vtk": lambda path: read_legacy_vtk(read_bytes(path), str(path)),
+    "vtu": lambda path: read_vtu(read_bytes(path), str(path), path.stat().st_size),
+    "msh": lambda path: read_gmsh(read_bytes(path), str(path)),
+}
 _SIDES = {"triangle": [[0, 1, 2]], "quad": [[0, 1, 2], [0, 2, 3]], "pixel": [[0, 1, 3], [0, 3, 2]]}  # as triangles
 LOWER = ("vertex", "line", "triangle")
 
@@ -41,34 +41,37 @@ class Grid:
     notes: list[str] = field(default_factory=list)
 
 
-def read_grid(path: Path, suffix: str) -> Grid:
-    """Whatever a reader stumbles over becomes an IoError."""
-    with reading(path, suffix):
-        if suffix == ".vtp":
-            found = read_vtp(_bytes(path), str(path), path.stat().st_size)
-            if not len(found.points):
-                raise IoError(f"{path}: holds no points")
-            return _grid(found.points, [(block.type, block.data) for block in found.cells], None, None)
-        if suffix in CELL_SUFFIXES:
-            return grid_of_cells(read_cells(path, suffix))
-        if suffix == ".meshb":
-            return _grid_of_text(read_binary_medit(_bytes(path), str(path)))
-        if suffix == ".mesh":
-            return _grid_of_text(read_medit(_text(path), str(path)))
-        if suffix in (".node", ".ele"):
-            files = _tetgen_files(path, suffix)
-            return _grid_of_text(read_tetgen({kind: (_text(file), str(file)) for kind, file in files.items()}))
-        from .openvolumemesh.text import read_ovm
-
-        return grid_of_ovm(read_ovm(path, binary=suffix == ".ovmb"), path)
+def read_cells(path: Path, name: str) -> CellMesh:
+    """name: of a format in _CELL_READERS. Whatever the reader stumbles over becomes an IoError."""
+    with reading(path, f".{name}"):
+        found = _CELL_READERS[name](path)
+        blocks, found.notes = linear([(block.type, block.data) for block in found.cells])
+        found.cells = [Block(kind, data) for kind, data in blocks]
+        return found
 
 
-def _text(path: Path) -> str:
-    return read_text(path)
+def read_cell_grid(name: str) -> Callable[[Path], Grid]:
+    """The reader of a format in _CELL_READERS."""
+    return lambda path: grid_of_cells(read_cells(path, name))
 
 
-def _bytes(path: Path) -> bytes:
-    return read_bytes(path)
+def read_medit_text(path: Path) -> Grid:
+    return _grid_of_text(read_medit(read_text(path), str(path)))
+
+
+def read_medit_binary(path: Path) -> Grid:
+    return _grid_of_text(read_binary_medit(read_bytes(path), str(path)))
+
+
+def read_tetgen_files(path: Path) -> Grid:
+    """path: of the .node or the .ele file."""
+    files = _tetgen_files(path, Path(plain_name(path)).suffix)
+    return _grid_of_text(read_tetgen({kind: (read_text(file), str(file)) for kind, file in files.items()}))
+
+
+def read_openvolumemesh(path: Path) -> Grid:
+    """.ovm or, binary, .ovmb."""
+    return grid_of_ovm(read_ovm(path, binary=plain_name(path).endswith(".ovmb")), path)
 
 
 def _tetgen_files(path: Path, suffix: str) -> dict[str, Path]:
@@ -87,22 +90,9 @@ def _tetgen_files(path: Path, suffix: str) -> dict[str, Path]:
 
 
 def _grid_of_text(mesh: TextMesh) -> Grid:
-    grid = _grid(mesh.points, mesh.cells, mesh.references, mesh.references, mesh.ridges)
+    grid = grid_of_blocks(mesh.points, mesh.cells, mesh.references, mesh.references, mesh.ridges)
     grid.notes += mesh.notes
     return grid
-
-
-def read_cells(path: Path, suffix: str) -> CellMesh:
-    """Whatever the reader stumbles over becomes an IoError."""
-    with reading(path, suffix):
-        found = (
-            read_vtu(_bytes(path), str(path), path.stat().st_size)
-            if suffix == ".vtu"
-            else _READERS[suffix](_bytes(path), str(path))
-        )
-        blocks, found.notes = linear([(block.type, block.data) for block in found.cells])
-        found.cells = [Block(kind, data) for kind, data in blocks]
-        return found
 
 
 def grid_of_cells(found: CellMesh) -> Grid:
@@ -117,15 +107,13 @@ def grid_of_cells(found: CellMesh) -> Grid:
         entities, regions = (
             [*ids, np.zeros(len(found.features), np.int64)] if ids is not None else None for ids in (entities, regions)
         )
-    grid = _grid(found.points, blocks, entities, regions, creases)
+    grid = grid_of_blocks(found.points, blocks, entities, regions, creases)
     grid.notes += found.notes
     return grid
 
 
-def grid_of_ovm(mesh: "OvmMesh", path: Path) -> Grid:
+def grid_of_ovm(mesh: OvmMesh, path: Path) -> Grid:
     """Feature edges and faces are those that AlgoHex marks; regions: cell property region."""
-    from .openvolumemesh.mesh import tets_of_ovm
-
     blocks, faces = [("tetra", tets_of_ovm(mesh, str(path)))], [np.zeros(len(mesh.cells), np.int64)]
     for entity, name, kind, of in (
         ("edge", "AlgoHex::FeatureEdges", "line", mesh.edges),
@@ -142,7 +130,7 @@ def grid_of_ovm(mesh: "OvmMesh", path: Path) -> Grid:
     ids = None if regions is None or regions.ndim != 1 else [regions.astype(np.int64), *faces[1:]]
     if not len(mesh.cells):
         raise InvalidInput(f"{path}: holds no tetrahedra")
-    return _grid(mesh.vertices, blocks, faces, ids)
+    return grid_of_blocks(mesh.vertices, blocks, faces, ids)
 
 
 def _regions_of(found: CellMesh, entities: list[np.ndarray] | None) -> list[np.ndarray] | None:
@@ -170,14 +158,18 @@ def _entity_ids(found: CellMesh, names: tuple[str, ...]) -> list[np.ndarray] | N
     return None
 
 
-def _grid(
+def grid_of_blocks(
     points: np.ndarray,
     blocks: Blocks,
     entities: list[np.ndarray] | None,
     regions: list[np.ndarray] | None,
     creases: np.ndarray | None = None,
 ) -> Grid:
-    """Blocks of one type joined. An entity 0 or below, as in Gmsh files without geometry, is no CAD face."""
+    """The cells of a file: blocks of one type joined, each cell once.
+
+    entities: per block the CAD face of each cell; an entity 0 or below, as in Gmsh files without geometry, is no CAD
+    face. regions: per block the region of each tet. creases: (l,) bool, of the lines. None where the file does not
+    tell."""
     blocks, notes = linear(blocks)
     in_space = np.zeros((len(points), 3))
     in_space[:, : points.shape[1]] = points

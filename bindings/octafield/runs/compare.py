@@ -1,20 +1,22 @@
 """Representations and boundary treatments side by side, on one mesh per input.
 
 comparison = compare(["part.stl"], "out")   # out/report.html, results.json, results.csv, tables/, one folder per run
-comparison.rows[0]["energy"]
+comparison.rows[0].energy
 """
+
+from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..domain.meshing import Source, prepare_mesh, read_sound
 from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField, analyse
 from ..fields.frame_field import FieldProblem, FieldResult, prepare_field, run_field
-from ..files.writing import staged_folder, write_json
+from ..files.writing import staged_folder
 from ..options import (
     BOUNDARIES,
     COMPARED,
@@ -26,6 +28,7 @@ from ..options import (
 )
 from ..progress.phases import Progress, announce
 from ..progress.several_runs import SeveralRuns
+from ..records.record_file import write_record
 from ..report import PAGE_FILE, Report, Run, write_report
 from ..report.numbers.records import INDEPENDENT
 from ..schemes import OwnScheme, name_of
@@ -36,6 +39,7 @@ from .own_energies import Energy, energies_of, named_energies
 from .run_folder import write_analysis, write_field_result
 
 if TYPE_CHECKING:
+    from ..records.field import FieldRecord
     from ..view.picture import Picture
 
 ROWS_FILE = "results.json"
@@ -56,10 +60,10 @@ class _Section:
     options: FieldOptions
     several_seeds: bool
     energies: dict[str, Energy]
-    rows: list[dict[str, Any]] = field(default_factory=list)
-    pictures: "dict[str, list[Picture]]" = field(default_factory=dict)
+    rows: list[FieldRecord] = field(default_factory=list)
+    pictures: dict[str, list[Picture]] = field(default_factory=dict)
     drawn: dict[str, set[tuple[str, ...]]] = field(default_factory=dict)
-    given: dict[str, dict[str, Any]] = field(default_factory=dict)
+    given: dict[str, FieldRecord] = field(default_factory=dict)
 
     def new_folder(self, run: str) -> str:
         """Makes it; its name."""
@@ -72,12 +76,12 @@ class _Section:
 class Comparison(ShownInNotebooks):
     """rows: one record per run, in the order of the report. folder: where everything was written."""
 
-    rows: list[dict[str, Any]]
+    rows: list[FieldRecord]
     folder: Path
 
     def __repr__(self) -> str:
         """inputs, how many runs of what, the range of energies, and where."""
-        energies = [row["energy"] for row in self.rows if "energy" in row]
+        energies = [row.energy for row in self.rows]
 
         def count(name: str, plural: str = "") -> str:
             return counted(len({row[name] for row in self.rows if name in row}), name, plural)
@@ -140,7 +144,7 @@ def compare(
         >>> from octafield.domain.generators import generate
         >>> options = octafield.FieldOptions(edge_length=0.4)
         >>> found = octafield.compare(generate("box"), "out", representations=["sh4"], options=options)
-        >>> [(row["boundary"], row["singular_edges"]) for row in found.rows]
+        >>> [(row.boundary, row.singular_edges) for row in found.rows]
         [('fixed', 0), ('aligned', 0)]
     """
     inputs = [inputs] if isinstance(inputs, Source) else list(inputs)
@@ -148,7 +152,7 @@ def compare(
     judges = named_energies(energies)
     seeds = integer_in("seeds", seeds, 1, LARGEST_SEED - options.seed + 1)
     with staged_folder(output, ROWS_FILE) as folder:
-        rows: list[dict[str, Any]] = []
+        rows: list[FieldRecord] = []
         sections: list[_Section] = []
         # All are read before the first run: an unfit one should not cost the time of those before it.
         reports = [_labelled(progress, _short_name(source)) for source in inputs]
@@ -170,8 +174,9 @@ def compare(
             sections.append(section)
             rows += section.rows
         announce(progress, "report")
-        rows[0]["files"] += write_report(_report(sections, folder), folder)
-        write_json(folder / ROWS_FILE, rows)
+        files = [*(rows[0].files or ()), *write_report(_report(sections, folder), folder)]
+        rows[0] = rows[0].changed(files=files)
+        write_record(folder / ROWS_FILE, rows)
     return Comparison(rows, Path(output).resolve())
 
 
@@ -227,10 +232,9 @@ def _run_all(problem: FieldProblem, section: _Section, steps: Sequence[_Step], w
             report,
             start=None if step.start is None else step.start.frames,
         )
-        result.record["label"] = label
+        start = result.record.start if step.start is None else step.start.name
+        result.record = result.record.changed(label=label, start=start)
         _judge(result, section)
-        if step.start is not None:
-            result.record["start"] = step.start.name
         name = section.new_folder(
             f"{step.method}-{step.boundary}" + (f"-seed{problem.seed}" if section.several_seeds else "")
         )
@@ -243,38 +247,39 @@ def _run_all(problem: FieldProblem, section: _Section, steps: Sequence[_Step], w
 
 def _judge(result: AnalysedField, section: _Section) -> None:
     if section.energies:
-        result.record["energies"] = energies_of(result, section.energies, section.options.threads)
+        found = energies_of(result, section.energies, section.options.threads)
+        result.record = result.record.changed(energies=found)
 
 
 def _add_given(
     problem: FieldProblem, section: _Section, boundaries: Sequence[str], given: Sequence[GivenField]
 ) -> None:
     """A row per boundary treatment and seed, all of one analysis."""
+    from ..records.field import GivenFieldRecord
+
     for one in given:
         if one.name not in section.given:
             result = analyse(problem.meshed, one.frames, section.options.sampling, section.options)
-            result.record |= {
-                "label": one.name,
-                "representation": one.name,
-                "wall_seconds": {**problem.clock.wall, **result.record["wall_seconds"]},
-            }
+            result.record = GivenFieldRecord(**result.record).changed(label=one.name, representation=one.name)
             _judge(result, section)
             name = section.new_folder(one.name)
             write_analysis(result, section.folder / name)
             section.given[one.name] = _row(result.record, name)
             section.pictures.setdefault("given", []).extend(_pictures_of_given(one.name, result))
         row = section.given[one.name]
-        chosen = [{**row["options"], "boundary": boundary, "seed": problem.seed} for boundary in boundaries]
-        section.rows += [{**row, "boundary": options["boundary"], "options": options} for options in chosen]
+        chosen = [{**row.options, "boundary": boundary, "seed": problem.seed} for boundary in boundaries]
+        section.rows += [row.changed(boundary=options["boundary"], options=options) for options in chosen]
 
 
-def _row(record: dict[str, Any], folder: str) -> dict[str, Any]:
-    return {**record, "folder": folder, "files": [f"{folder}/{file}" for file in record["files"]]}
+def _row(record: FieldRecord, folder: str) -> FieldRecord:
+    return record.changed(folder=folder, files=[f"{folder}/{file}" for file in record.files or ()])
 
 
 def _report(sections: list[_Section], folder: Path) -> Report:
     runs = [
-        Run(row, section.name, folder / row["folder"], row["folder"]) for section in sections for row in section.rows
+        Run(row, section.name, folder / str(row.folder), str(row.folder))
+        for section in sections
+        for row in section.rows
     ]
     names = ", ".join(section.name for section in sections[:3]) + (
         f" and {len(sections) - 3} more" if len(sections) > 3 else ""
@@ -283,7 +288,7 @@ def _report(sections: list[_Section], folder: Path) -> Report:
     return Report(f"Frame fields on {names}", runs, pictures, files=(ROWS_FILE,))
 
 
-def _surface_pictures(problem: FieldProblem) -> "list[Picture]":
+def _surface_pictures(problem: FieldProblem) -> list[Picture]:
     from ..view import scene
     from . import field_pictures as pictures  # brings VTK, which nothing else in the package needs when it is imported
 
@@ -293,7 +298,7 @@ def _surface_pictures(problem: FieldProblem) -> "list[Picture]":
     return [pictures.surface_cross_field(problem)]
 
 
-def _volume_pictures(section: _Section, result: FieldResult, label: str) -> "list[Picture]":
+def _volume_pictures(section: _Section, result: FieldResult, label: str) -> list[Picture]:
     """Of the first method with a boundary treatment: singular curves, frames on a cut, and streamlines once per input,
     since they differ little. Of another: singular curves where they differ in kind."""
     from ..view import scene
@@ -301,14 +306,13 @@ def _volume_pictures(section: _Section, result: FieldResult, label: str) -> "lis
 
     if not scene.can_draw():
         return []
-    begun, first = not section.drawn, result.record["boundary"] not in section.drawn
-    drawn = section.drawn.setdefault(result.record["boundary"], set())
-    kind = tuple(
-        str(result.record.get(key))
-        for key in ("singular_edges_by_turns", "singular_curves", "singular_nodes", "singular_boundary_ends")
-    )
+    record = result.record
+    begun, first = not section.drawn, record.boundary not in section.drawn
+    drawn = section.drawn.setdefault(str(record.boundary), set())
+    counts = record.singular_curves, record.singular_nodes, record.singular_boundary_ends
+    kind = tuple(map(str, (record.singular_edges_by_turns, *counts)))
     chosen = []
-    if result.record["singular_edges"] and kind not in drawn and len(drawn) < _MOST_CURVES:
+    if record.singular_edges and kind not in drawn and len(drawn) < _MOST_CURVES:
         chosen.append(pictures.singular_curves(result))
         drawn.add(kind)
     if first:
@@ -318,11 +322,11 @@ def _volume_pictures(section: _Section, result: FieldResult, label: str) -> "lis
     return [replace(picture, title=f"{picture.title} ({label})") for picture in chosen]
 
 
-def _pictures_of_given(name: str, result: AnalysedField) -> "list[Picture]":
+def _pictures_of_given(name: str, result: AnalysedField) -> list[Picture]:
     from ..view import scene
     from . import field_pictures as pictures
 
-    if not scene.can_draw() or not result.record["singular_edges"]:
+    if not scene.can_draw() or not result.record.singular_edges:
         return []
     picture = pictures.singular_curves(result)
     return [replace(picture, title=f"{picture.title} ({name})")]

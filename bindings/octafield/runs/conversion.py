@@ -8,17 +8,18 @@ import numpy as np
 
 from .. import _core
 from .._core import AxisScales, TetDomain, TetMesh
-from ..domain.inputs import SURFACE_SUFFIXES, Input, domain_of, from_mesh, naming, read_input
-from ..domain.mesh_writers import MESH_SUFFIXES, write_mesh
+from ..domain.inputs import Input, domain_of, from_mesh, naming, read_input
+from ..domain.mesh_writers import write_mesh
 from ..domain.meshing import REPAIR_IGNORED
 from ..domain.repairing import level_of, repair_surface
 from ..domain.sites import moved_frames
 from ..errors import InvalidInput, IoError
-from ..fields.sizes import Sizes, find_sizes, log_scales_of, sizes_record
+from ..fields.sizes import Sizes, find_sizes, log_scales_of
 from ..files.reading import plain_name
 from ..frame_files import FrameFile, read_frames, write_frames
 from ..frame_files.base import FrameFormat, frames_at, mesh_of
 from ..frame_files.registry import FORMATS, READERS, WRITERS, find_format
+from ..meshes.registry import find_mesh_format, is_written, written_suffixes
 from ..options import SIZES, MeshOptions, require_one_of
 
 
@@ -65,8 +66,8 @@ def convert_file(
     require_one_of("sizes", sizes, SIZES)
     source, target = Path(source), Path(target)
     frames = _frames(source, mesh, from_format)
-    if to_format is None and not _writes_frames(target) and not _is_mesh(target):
-        kinds = " ".join(sorted({*MESH_SUFFIXES, *(e for name in WRITERS for e in FORMATS[name].extensions)}))
+    if to_format is None and not _writes_frames(target) and not is_written(target):
+        kinds = " ".join(sorted({*written_suffixes(), *(e for name in WRITERS for e in FORMATS[name].extensions)}))
         raise IoError(f"{target}: unknown kind of file; known are {kinds}, also .gz")
     if frames is not None and (to_format is not None or _writes_frames(target)):
         if repair.repair != "none":
@@ -101,7 +102,7 @@ def convert_file(
             sizes=curls,
         )
     if (
-        not _is_mesh(target)
+        not is_written(target)
         or to_format is not None
         or (frames is None and at is not None)
         or combed
@@ -159,7 +160,7 @@ def _convert_mesh(
         notes.append("the file's lines list mesh edges in general: they were left out")
     if frames is not None:
         notes.append(f"the frames were left out: {Path(plain_name(target)).suffix} files hold a mesh alone")
-    if found.tets is None or plain_name(target).endswith((*SURFACE_SUFFIXES, ".vtp")):
+    if found.tets is None or "tets" not in find_mesh_format(target).holds:
         return Conversion(
             str(source), str(target), "surface", len(found.surface.vertices), len(found.surface.triangles), notes=notes
         )
@@ -184,7 +185,7 @@ def _mesh_of(source: Path, frames: FrameFile | None, mesh: str | Path | None, ed
         return read_input(source, edge_length=edge_length)
     if mesh is not None:
         return read_input(mesh)
-    if _is_mesh(source):
+    if is_written(source):
         return read_input(source)
     if frames.mesh is None:
         raise InvalidInput(f"{source}: holds frames and no mesh; give it with --mesh", "no_mesh")
@@ -195,7 +196,7 @@ def _frames(source: Path, mesh: str | Path | None, name: str | None) -> FrameFil
     """None where the file is one of a mesh alone."""
     if name is None and not any(FORMATS[known].owns(source) for known in READERS):
         return None
-    if name is not None or not find_format(source, None).holds_mesh or not _is_mesh(source):
+    if name is not None or not find_format(source, None).holds_mesh or not is_written(source):
         return read_frames(source, mesh, name)
     try:
         return read_frames(source, mesh)
@@ -203,10 +204,6 @@ def _frames(source: Path, mesh: str | Path | None, name: str | None) -> FrameFil
         if error.kind in ("no_frames", "not_tets"):
             return None
         raise
-
-
-def _is_mesh(path: Path) -> bool:
-    return plain_name(path).endswith(MESH_SUFFIXES)
 
 
 def _writes_frames(path: Path) -> bool:
@@ -224,7 +221,9 @@ def _degrees(radians: float) -> float:
 
 def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str) -> tuple[FrameFile, dict[str, Any]]:
     """The frames where the file to write has them, with sizes as the lengths of their axes: densities exp(H), or
-    exp(-H) where the format holds edges of cells (FrameFormat.holds_edges). And what sizes_record tells."""
+    exp(-H) where the format holds edges of cells (FrameFormat.holds_edges). And the record of them."""
+    from ..fields import record
+
     if found.mesh is None:
         raise InvalidInput("sizes are found on the mesh of the frames; give it with --mesh", "no_mesh")
     if not writer.holds_lengths:
@@ -248,7 +247,7 @@ def with_sizes(found: FrameFile, writer: FrameFormat, at: str | None, kind: str)
     lengths = np.exp((-1 if writer.holds_edges else 1) * _logs_at(sizes, found.mesh, frames, where))
     if found.lengths is not None:
         notes.append("the lengths of the axes in the file were replaced by sizes")
-    return replace(found, frames=frames, where=where, lengths=lengths, notes=notes), sizes_record(sizes)
+    return replace(found, frames=frames, where=where, lengths=lengths, notes=notes), record.of_sizes(sizes).to_dict()
 
 
 def _logs_at(sizes: Sizes, tets: TetMesh | TetDomain, frames: np.ndarray, where: str) -> np.ndarray:

@@ -73,7 +73,10 @@ def streamlines(result: AnalysedField) -> Picture:
     three_quarter_view(shape, points)
     kinds = {kind_of(int(turns)) for turns in result.singular_graph.curve_quarter_turns}
     legend = [(scene.SKY, "streamline"), *(TURNS[kind] for kind in TURNS if kind in kinds)]
-    return Picture("Streamlines", captions.of_streamlines(result.record["streamlines"]), scene.render(shape), legend)
+    counts = result.record.streamlines
+    return Picture(
+        "Streamlines", "" if counts is None else captions.of_streamlines(counts), scene.render(shape), legend
+    )
 
 
 def frames_on_cut(result: AnalysedField) -> Picture:

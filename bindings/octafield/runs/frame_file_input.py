@@ -3,14 +3,13 @@
 import math
 from pathlib import Path
 
-from ..domain.mesh_writers import MESH_SUFFIXES
 from ..domain.meshing import prepare_mesh
 from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField, analyse
 from ..fields.frame_field import FieldResult, compute_field
-from ..files.reading import plain_name
 from ..frame_files import read_frames
 from ..frame_files.base import frames_at
+from ..meshes.registry import is_written
 from ..options import FieldOptions
 from ..progress.phases import Progress
 
@@ -19,17 +18,19 @@ def analyse_file(
     field: Path, mesh: Path | None, format: str | None, options: FieldOptions, progress: Progress | None = None
 ) -> AnalysedField:
     """The analysis of the frames in a file, on the mesh given or the file's own."""
-    source = (
-        mesh if mesh is not None else field if plain_name(field).endswith(MESH_SUFFIXES) and format is None else None
-    )
+    source = mesh if mesh is not None else field if is_written(field) and format is None else None
     found = read_frames(field, mesh, format)
     if found.mesh is None:
         raise InvalidInput(f"{field}: holds frames and no mesh; give it with --mesh", "no_mesh")
     meshed = prepare_mesh(found.mesh if source is None else source, options, progress=progress)
     result = analyse(meshed, found.frames, found.where, options, progress)
     result.lengths = found.lengths
-    result.record |= {"field": str(field), "field_format": found.format, "deviation_deg": math.degrees(found.deviation)}
-    result.record["notes"] += [note for note in found.notes if note not in result.record["notes"]]
+    result.record = result.record.changed(
+        field=str(field),
+        field_format=found.format,
+        deviation_deg=math.degrees(found.deviation),
+        notes=list(dict.fromkeys([*result.record.notes, *found.notes])),
+    )
     return result
 
 
@@ -42,6 +43,6 @@ def polish_file(source: str, start: Path, options: FieldOptions, progress: Progr
     found = read_frames(start, source)
     frames = frames_at(found, options.sampling)
     result = compute_field(prepare_mesh(source, options, progress=progress), options, progress, start=frames)
-    result.record["start"] = str(start)
-    result.record["notes"] += [note for note in found.notes if note not in result.record["notes"]]
+    notes = list(dict.fromkeys([*result.record.notes, *found.notes]))
+    result.record = result.record.changed(start=str(start), notes=notes)
     return result

@@ -1,6 +1,8 @@
 """The files of one run: field, singular curves, features and corners, streamlines, surface field, its singular points
 and separatrices, record."""
 
+from __future__ import annotations
+
 import contextlib
 import json
 from collections.abc import Iterator, Sequence
@@ -15,28 +17,28 @@ from ..fields.analysed import AnalysedField
 from ..fields.direction_field import SurfaceFieldResult
 from ..fields.frame_field import FieldResult
 from ..fields.sizes import sizes_arrays
-from ..files.writing import vtp_bytes, write_file, write_json
+from ..files.writing import vtp_bytes, write_file
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
+from ..records.record_file import RECORD_FILE, write_record
 from ..view.datasets import polylines
 
 if TYPE_CHECKING:
     import pyvista
 
+    from ..records.field import FieldRecord
+    from ..records.surface_field import SurfaceFieldRecord
+
 SURFACE_FILES = ("surface.vtp", "surface_singularities.vtp", "surface_separatrices.vtp")
 FIELD_FILES = ("field.vtu", "singular.vtp", "features.vtp", "streamlines.vtp", *SURFACE_FILES)
-RECORD_FILE = "result.json"
 
 
 def write_field_result(result: FieldResult, folder: Path, progress: Progress | None = None) -> None:
     """Writes the files of a run, and the record with their names and the time it took."""
     announce(progress, "write")
     metadata = _metadata(result.record)
-    clock = _clock(result.record)
-    with clock.phase("write"), _peak(result.record):
+    with _telling(result, folder, FIELD_FILES):
         _write_volume_files(result, folder, metadata)
         _write_surface_files(result, folder, metadata)
-    result.record["files"] = [*(name for name in FIELD_FILES if (folder / name).exists()), RECORD_FILE]
-    write_json(folder / RECORD_FILE, result.record)
 
 
 def write_analysis(result: AnalysedField, folder: Path, progress: Progress | None = None) -> None:
@@ -45,14 +47,12 @@ def write_analysis(result: AnalysedField, folder: Path, progress: Progress | Non
 
     announce(progress, "write")
     metadata = _metadata(result.record)
-    with _clock(result.record).phase("write"), _peak(result.record):
+    with _telling(result, folder, FIELD_FILES):
         _write_volume_files(result, folder, metadata)
         surface = pyvista.PolyData.from_regular_faces(
             np.array(result.surface.vertices), np.array(result.surface.triangles, int)
         )
         _save(surface, folder / SURFACE_FILES[0], metadata)
-    result.record["files"] = [*(name for name in FIELD_FILES if (folder / name).exists()), RECORD_FILE]
-    write_json(folder / RECORD_FILE, result.record)
 
 
 def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str, str]) -> None:
@@ -75,12 +75,11 @@ def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str,
 
 
 def write_surface_result(result: SurfaceFieldResult, folder: Path, progress: Progress | None = None) -> None:
+    """The files of a surface field, and the record."""
     announce(progress, "write")
     metadata = _metadata(result.record)
-    with _clock(result.record).phase("write"), _peak(result.record):
+    with _telling(result, folder, SURFACE_FILES):
         _write_surface_files(result, folder, metadata)
-    result.record["files"] = [*SURFACE_FILES, RECORD_FILE]
-    write_json(folder / RECORD_FILE, result.record)
 
 
 def _write_surface_files(result: FieldResult | SurfaceFieldResult, folder: Path, metadata: dict[str, str]) -> None:
@@ -157,7 +156,7 @@ def write_features(path: Path, tets: TetDomain, found: BoundaryMeshability, meta
     _save(poly, path, metadata)
 
 
-def _save(poly: "pyvista.PolyData", path: Path, metadata: dict[str, str]) -> None:
+def _save(poly: pyvista.PolyData, path: Path, metadata: dict[str, str]) -> None:
     for name, text in metadata.items():
         poly.GetFieldData().AddArray(_text_array(name, [text]))
     write_file(path, vtp_bytes(poly))
@@ -174,16 +173,16 @@ def _text_array(name: str, texts: Sequence[str]) -> Any:
     return array
 
 
-def _metadata(record: dict[str, Any]) -> dict[str, str]:
+def _metadata(record: FieldRecord | SurfaceFieldRecord) -> dict[str, str]:
     """What makes a file understandable by itself; no times, so that equal runs write equal files, and no
     thread count, on which results do not depend."""
-    options = {name: value for name, value in record["options"].items() if name != "threads"}
+    options = {name: value for name, value in record.options.items() if name != "threads"}
     return {
-        "program": f"octafield {record['version']}",
-        "input": record["input"],
-        "mesh_sha256": record["mesh_sha256"],
+        "program": f"octafield {record.version}",
+        "input": record.input,
+        "mesh_sha256": record.mesh_sha256,
         "options": json.dumps(options),
-        "energy": repr(record["energy"]),
+        "energy": repr(record.energy),
         "convention": (
             "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per"
             " vertex: interpolate sh4, or axes only in cells with axes_agree 1"
@@ -192,15 +191,17 @@ def _metadata(record: dict[str, Any]) -> dict[str, str]:
 
 
 @contextlib.contextmanager
-def _peak(record: dict[str, Any]) -> Iterator[None]:
-    """The record's peak memory, that of writing included."""
-    memory = PeakMemory()
-    yield
-    record["peak_mb"] = max(record["peak_mb"], round(memory.megabytes(), 1))
-
-
-def _clock(record: dict[str, Any]) -> PhaseClock:
-    """A clock that adds to the record's own times."""
-    clock = PhaseClock()
-    clock.wall, clock.cpu = record["wall_seconds"], record["cpu_seconds"]
-    return clock
+def _telling(result: AnalysedField | SurfaceFieldResult, folder: Path, names: Sequence[str]) -> Iterator[None]:
+    """Files are written in the block; then the record, with what that took and which of `names` are there."""
+    memory, clock = PeakMemory(), PhaseClock()
+    clock.wall, clock.cpu = dict(result.record.wall_seconds), dict(result.record.cpu_seconds)
+    with clock.phase("write"):
+        yield
+    told = {
+        "wall_seconds": clock.wall,
+        "cpu_seconds": clock.cpu,
+        "peak_mb": max(result.record.peak_mb, round(memory.megabytes(), 1)),
+        "files": [*(name for name in names if (folder / name).exists()), RECORD_FILE],
+    }
+    result.record = result.record.changed(**told)
+    write_record(folder / RECORD_FILE, result.record)

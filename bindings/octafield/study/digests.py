@@ -1,9 +1,12 @@
 """SHA-256 of input files, of those unchanged since the last time without reading them again."""
 
 import hashlib
+import itertools
 import os
 import time
 from pathlib import Path
+
+from ..meshes.registry import MESH_FORMATS
 
 # A file changed so shortly before it was read could be changed again within one tick of the file system's clock.
 _TICKS_NS = 2 * 10**9
@@ -39,7 +42,11 @@ def digest_of(path: Path) -> str:
 
 def _twins(path: Path) -> list[Path]:
     names = [
-        path.name.replace(one, other) for one, other in ((".node", ".ele"), (".ele", ".node")) if one in path.suffixes
+        path.name.replace(one, other)
+        for form in MESH_FORMATS.values()
+        if form.together
+        for one, other in itertools.permutations(form.suffixes, 2)
+        if one in path.suffixes
     ]
     return [twin for name in names if (twin := path.with_name(name)).is_file()]
 

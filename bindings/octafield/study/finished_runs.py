@@ -3,10 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from .plan import Run, plan
-from .store import Store
+from .store import RunRecord, Store
 
 
 @dataclass(frozen=True)
@@ -24,14 +23,14 @@ class Status:
         return self.done + self.failed + self.crashed + self.open
 
 
-def rows(folder: str | Path) -> list[dict[str, Any]]:
+def rows(folder: str | Path) -> list[RunRecord]:
     """Records of the finished runs of the study, in the order of its description; state: done, failed or crashed.
     Raises InvalidInput where `folder` is not that of a study.
 
         >>> from octafield import study
         >>> described = study.parse("{name: one, inputs: [{generator: box}], mesh: {edge_length: 0.4}}")
         >>> outcome = study.run(described, "folder")
-        >>> [row["singular_edges"] for row in study.rows("folder")]
+        >>> [row.singular_edges for row in study.rows("folder")]
         [0]
     """
     store = Store(folder)

@@ -14,7 +14,7 @@ def write_report(folder: str | Path) -> Path:
     of the page) into the folder of a study from the runs finished so far; the page's path."""
     store = Store(folder)
     study = store.study()
-    runs = [report.Run(row, row["input"], store.run_folder(row["key"]), f"{RUNS}/{row['key']}") for row in rows(folder)]
+    runs = [report.Run(row, row.input, store.run_folder(row.key), f"{RUNS}/{row.key}") for row in rows(folder)]
     report.write_report(
         report.Report(study.name, runs, description=study.text, open_runs=status(folder).open), store.folder
     )

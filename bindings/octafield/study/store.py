@@ -17,13 +17,16 @@ from typing import Any
 
 from ..errors import InvalidInput, IoError
 from ..files.writing import require_utf8, write_json
+from ..records.field import FieldRecord, RunWithField, RunWithoutField
+from ..records.record_file import RECORD_FILE, any_record, record_of, write_record
 from .description import Study, parse
 from .digests import Digests
 from .plan import Run
 
-STUDY_FILE, TABLE_FILE, RUNS, RECORD_FILE, LOG_FILE = "study.json", "runs.sqlite", "runs", "result.json", "log.txt"
+STUDY_FILE, TABLE_FILE, RUNS, LOG_FILE = "study.json", "runs.sqlite", "runs", "log.txt"
 LOCK_FILE = "lock"  # not the table: on network file systems closing that would give the lock up
 _PARTIAL, _REMOVED = ".partial-", ".removed-"
+RunRecord = RunWithField | RunWithoutField
 _SCHEMA = (
     """CREATE TABLE IF NOT EXISTS runs (
     key TEXT PRIMARY KEY, input TEXT NOT NULL, state TEXT NOT NULL, message TEXT NOT NULL, record TEXT NOT NULL)""",
@@ -71,13 +74,13 @@ class Store:
     def run_folder(self, key: str) -> Path:
         return self.folder / RUNS / key
 
-    def record(self, key: str) -> dict[str, Any] | None:
+    def record(self, key: str) -> RunRecord | None:
         """Of a finished run; None where it is not there or not whole."""
         try:
-            record = json.loads((self.run_folder(key) / RECORD_FILE).read_text(encoding="utf-8"))
-            return record if record["key"] == key and record["state"] else None
-        except (OSError, ValueError, KeyError, TypeError):
+            record = any_record(self.run_folder(key) / RECORD_FILE)
+        except IoError:
             return None
+        return record if isinstance(record, RunWithField | RunWithoutField) and record.key == key else None
 
     def is_finished(self, key: str) -> bool:
         return self.record(key) is not None
@@ -105,7 +108,7 @@ class Store:
         """Puts finished runs into the table, in one transaction. Returns their keys without those whose record is not
         whole: their folders are removed."""
         records = [(key, self.record(key)) for key in keys]
-        lines = [(key, r["input"], r["state"], r["message"], json.dumps(r)) for key, r in records if r]
+        lines = [(key, r.input, r.state, r.message, json.dumps(r.to_dict())) for key, r in records if r is not None]
         with self._table() as table:
             table.executemany("INSERT OR REPLACE INTO runs VALUES (?, ?, ?, ?, ?)", lines)
         for key, record in records:
@@ -120,9 +123,12 @@ class Store:
         for key in keys:
             shutil.rmtree(self.run_folder(key), ignore_errors=True)
 
-    def entered(self) -> dict[str, dict[str, Any]]:
+    def entered(self) -> dict[str, RunRecord]:
         """Records in the table by key."""
-        return {key: json.loads(text) for key, text in self._rows("SELECT key, record FROM runs")}
+        name = f"{self.folder / TABLE_FILE}, run"
+        found = self._rows("SELECT key, record FROM runs")
+        records = {key: record_of(json.loads(text), f"{name} {key}") for key, text in found}
+        return {key: r for key, r in records.items() if isinstance(r, RunWithField | RunWithoutField)}
 
     def states(self) -> dict[str, str]:
         """done, failed or crashed, by key."""
@@ -228,10 +234,19 @@ class Store:
             ) from error
 
 
-def write_record(folder: Path, run: Run, record: dict[str, Any], state: str, message: str = "") -> None:
-    """result.json: the record of `octafield field`, or the options alone, with what makes it this run."""
-    identity = {"key": run.key, "input": run.name, "repeat": run.repeat, "state": state, "message": message}
-    write_json(folder / RECORD_FILE, {"options": run.options.recorded(), **record, **identity})
+def write_field(folder: Path, run: Run, field: FieldRecord, **about: object) -> None:
+    """result.json of a run that is done: the record of its field, with what makes it this run."""
+    write_record(folder / RECORD_FILE, RunWithField(**{**field, **about, **_identity(run, "done")}))
+
+
+def write_failure(folder: Path, run: Run, state: str, message: str, **about: object) -> None:
+    """result.json of a run that failed or crashed."""
+    told = {"options": run.options.recorded(), **about, **_identity(run, state, message)}
+    write_record(folder / RECORD_FILE, RunWithoutField(**told))
+
+
+def _identity(run: Run, state: str, message: str = "") -> dict[str, Any]:
+    return {"key": run.key, "input": run.name, "repeat": run.repeat, "state": state, "message": message}
 
 
 def _to_disk(folder: Path) -> None:

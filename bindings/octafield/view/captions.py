@@ -1,9 +1,15 @@
 """Captions of pictures: facts from the data, as sentences."""
 
+from __future__ import annotations
+
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING
 
 from .._core import SurfaceSingularities
+
+if TYPE_CHECKING:
+    from ..records.field import FieldRecord
+    from ..records.parts import StreamlineCounts
 
 
 def counted(count: int, singular: str, plural: str = "") -> str:
@@ -22,39 +28,39 @@ def of_surface(found: SurfaceSingularities) -> str:
     return f"The cross field has {points}; {sums}." + (" Points on the far side are hidden." if indices else "")
 
 
-def of_curves(record: dict[str, Any]) -> str:
+def of_curves(record: FieldRecord) -> str:
     """What the singular graph consists of."""
-    kinds = record["singular_edges_by_turns"]
+    kinds = record.singular_edges_by_turns
     names = {f"{turns:+d}": f"valence {4 - turns}" for turns in range(-4, 4)} | {"complex": "complex"}
     parts = ", ".join(f"{count} {names.get(kind, f'{kind} quarter turns')}" for kind, count in kinds.items())
     if not parts:
         return "The field has no singular edges."
-    what = f"{counted(record['singular_edges'], 'singular edge')} ({parts})"
-    curves = f"{counted(record['singular_curves'], 'curve')} of total length {record['singular_length']:.4g}"
-    ends = counted(record["singular_nodes"], "node")
-    if "singular_boundary_ends" in record:  # not of older records of frames in tets
-        ends += f" and {counted(record['singular_boundary_ends'], 'end')} on the surface"
+    what = f"{counted(record.singular_edges, 'singular edge')} ({parts})"
+    curves = f"{counted(record.singular_curves, 'curve')} of total length {record.singular_length:.4g}"
+    ends = counted(record.singular_nodes, "node")
+    if record.singular_boundary_ends is not None:  # not of older records of frames in tets
+        ends += f" and {counted(record.singular_boundary_ends, 'end')} on the surface"
     bad = _not_meshable(record)
     return f"The field has {what} in {curves}, with {ends}." + (f" At {bad} it is unlike any hex mesh." if bad else "")
 
 
-def _not_meshable(record: dict[str, Any]) -> str:
+def _not_meshable(record: FieldRecord) -> str:
     counts = (
-        ("non_meshable_vertices", "place"),
-        ("non_meshable_feature_edges", "feature edge"),
-        ("non_meshable_corners", "corner"),
+        (record.non_meshable_vertices, "place"),
+        (record.non_meshable_feature_edges, "feature edge"),
+        (record.non_meshable_corners, "corner"),
     )
-    parts = [counted(record[key], word) for key, word in counts if record.get(key)]
+    parts = [counted(count, word) for count, word in counts if count]
     return " and ".join(filter(None, [", ".join(parts[:-1]), *parts[-1:]]))
 
 
-def of_streamlines(record: dict[str, Any]) -> str:
+def of_streamlines(found: StreamlineCounts) -> str:
     """Where streamlines end."""
     names = {"singular": "at singular curves", "boundary": "on the surface", "closed": "of closed curves",
              "length": "at the greatest length", "stuck": "stuck", "seed": "at seeds"}  # fmt: skip
-    ends = ", ".join(f"{count:,} {names[name]}" for name, count in record["ends"].items())
+    ends = ", ".join(f"{count:,} {names[name]}" for name, count in found.ends.items())
     return (
-        f"The picture shows {counted(record['curves'], 'curve')} along the axes from evenly spread seeds; of their ends"
+        f"The picture shows {counted(found.curves, 'curve')} along the axes from evenly spread seeds; of their ends"
         f" there are {ends}."
     )
 

@@ -83,11 +83,11 @@ def row_of(path: Path, meshed, result) -> list:
     held, vertex_map = result.constraints, np.asarray(meshed.tets.surface.vertex_map)
     on_features = vertex_map[np.unique(np.asarray(meshed.tets.features.edges))]
     return [
-        name_of(path), r["vertices"], r["tets"], r["regions"], r["interface_triangles"], r["energy"],
-        r["singular_edges"], r["complex_edges"], alignment_error(meshed, result), r["alignment_deg"]["max"],
-        r["released_corners"], int((np.asarray(held.kind)[on_features] == 1).sum()), r["locking"]["tets"],
-        r["locking"]["edges"], *(r["cpu_seconds"][phase] for phase in PHASES),
-        sum(r["cpu_seconds"].values()), r["peak_mb"],
+        name_of(path), r.vertices, r.tets, r.regions, r.interface_triangles, r.energy,
+        r.singular_edges, r.complex_edges, alignment_error(meshed, result), r.alignment_deg.max,
+        r.released_corners, int((np.asarray(held.kind)[on_features] == 1).sum()), r.locking.tets,
+        r.locking.edges, *(r.cpu_seconds[phase] for phase in PHASES),
+        sum(r.cpu_seconds.values()), r.peak_mb,
     ]  # fmt: skip
 
 
@@ -95,11 +95,11 @@ def representation_row(path: Path, meshed, result, reference) -> list:
     """`reference`: the default recipe's result, to which the mean angle between frames is measured."""
     r = result.record
     return [
-        name_of(path), r["representation"], STARTS[r["options"]["rounds"] > 0], r["energy"], r["objective"],
-        r["singular_edges"], r["complex_edges"], r["non_meshable_vertices"],
+        name_of(path), r.representation, STARTS[r.options["rounds"] > 0], r.energy, r.objective,
+        r.singular_edges, r.complex_edges, r.non_meshable_vertices,
         np.degrees(np.mean(octafield.frames.distance(result.frames, reference.frames))),
         alignment_error(meshed, result),
-        r["iterations"], r["converged"], r["cpu_seconds"]["smooth"],
+        r.iterations, r.converged, r.cpu_seconds.smooth,
     ]  # fmt: skip
 
 

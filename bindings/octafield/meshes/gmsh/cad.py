@@ -17,14 +17,13 @@ import numpy as np
 from ... import _core
 from ...errors import Cancelled, Error, InvalidInput, IoError
 from ...files.process import start_isolated
-from ...files.reading import read_bytes
+from ...files.reading import plain_name, read_bytes
 from ...files.writing import scratch_folder
 from ...progress.phases import Progress, announce
 from ..grids import Grid
 from .cad_worker import WAYS
 
 _FORMATS = {".step": "step", ".stp": "step", ".brep": "brep", ".iges": "iges", ".igs": "iges"}
-CAD_SUFFIXES = tuple(_FORMATS)
 _WORKER = Path(__file__).with_name("cad_worker.py")
 _OF_MESHING = (
     "degenerate_triangle",
@@ -35,7 +34,7 @@ _PAUSE = 0.1  # seconds between questions to the callback
 _NO_NUMBER = re.compile(rb"(?i)[(,\s]\s*([-+]?(?:nan|inf|infinity))\s*[,)\s]")  # on which Open CASCADE does not end
 
 
-def read_cad(path: Path, suffix: str, edge_length: float, progress: Progress | None = None) -> Grid:
+def read_cad(path: Path, edge_length: float, progress: Progress | None = None) -> Grid:
     """Cells with their CAD face and lines along the curves between faces: triangles of the boundary of solids, where
     there are any, else of all faces; where solids touch, tets with the number of their solid as region. progress:
     called with phase "read" while Gmsh works; may cancel."""
@@ -46,6 +45,7 @@ def read_cad(path: Path, suffix: str, edge_length: float, progress: Progress | N
             f"{path}: the edge length must be positive, or 0 for one from the size of the model; not {edge_length}",
             "invalid_option",
         )
+    suffix = Path(plain_name(path)).suffix
     grid, fault = _meshed(path, suffix, edge_length, 0, progress)
     if fault is None:
         assert grid is not None

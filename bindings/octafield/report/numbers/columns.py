@@ -1,13 +1,18 @@
 """The tables of a report and of the terminal: head, number format, meaning and value of each column in one place."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 from .deviations import Deviations
 from .profiles import Line
 from .records import Results, Run
 from .tables import Column, Link, Table
+
+if TYPE_CHECKING:
+    from ...records.field import FieldRecord
 
 _DEG = "alignment, deg"
 
@@ -21,29 +26,23 @@ class RunColumn(Column):
     page: bool = True
 
 
-def preparation_seconds(record: dict[str, Any]) -> float:
+def preparation_seconds(record: FieldRecord) -> float:
     """By the clock, of what the runs on an input share."""
-    seconds: float = sum(record["wall_seconds"][phase] for phase in ("read", "mesh", "surface"))
-    return seconds
+    seconds = record.wall_seconds
+    return seconds.read + seconds.mesh + seconds.surface
 
 
-def held_alignment(record: dict[str, Any]) -> float:
+def held_alignment(record: FieldRecord) -> float:
     """The largest angle where a frame can serve all faces; of older records, anywhere."""
-    angles: dict[str, float] = record["alignment_deg"]
-    return angles.get("held_max", angles["max"])
+    angles = record.alignment_deg
+    return angles.max if angles.held_max is None else angles.held_max
 
 
-def record_column(head: str, form: str, meaning: str, group: str = "", key: str = "", **more: bool) -> RunColumn:
-    """A number of the record; key: "name" or "name.inner"; none where the run has no field or the field no such
-    number."""
-
-    def value(_results: Results, run: Run) -> object:
-        found: object = run.row if run.done else {}
-        for part in key.split("."):
-            found = found.get(part) if isinstance(found, dict) else None
-        return found
-
-    return RunColumn(head, form, meaning, group, value, **more)
+def field_column(
+    head: str, form: str, meaning: str, group: str, value: Callable[[FieldRecord], object], **more: bool
+) -> RunColumn:
+    """A number of the record; none where the run has no field."""
+    return RunColumn(head, form, meaning, group, lambda _, run: value(run.record) if run.done else None, **more)
 
 
 RUN_COLUMNS: tuple[RunColumn, ...] = (
@@ -60,65 +59,66 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
     RunColumn("repeat", "d", "equal runs, for timings", value=lambda _, run: run.repeat, terminal=False),
     RunColumn("state", "", "done; failed: the input or an option is at fault; crashed: the process died",
         value=lambda _, run: run.state, terminal=False),
-    record_column("vertices", ",d", "of the tetrahedral mesh", key="vertices", page=False),
-    record_column("tets", ",d", "tetrahedra", key="tets", page=False),
-    record_column("E", ".6g", "Dirichlet energy of the final frames in sh4; compare on one mesh only", "energy",
-        "energy"),
-    record_column("unit speed", ".6g", "3/20 of E: of an embedding in which a frame turning by 1 radian moves by 1",
-        "energy", "energy_unit_speed"),
-    record_column("own", ".6g", "what the method itself minimised, for its last field; compare with the same method "
-                                "only", "energy", "objective", terminal=False),
-    record_column("edges", ",d", "triangles round which the frames turn: edges of the dual mesh on singular curves",
-        "singular", "singular_edges"),
-    record_column("length", ".4g", "of the singular curves, unit of the input", "singular", "singular_length"),
-    record_column("complex", ",d", "singular edges whose rotation keeps no axis of the frame; no hex mesh has them",
-        "singular", "complex_edges"),
-    record_column(
+    field_column("vertices", ",d", "of the tetrahedral mesh", "", lambda r: r.vertices, page=False),
+    field_column("tets", ",d", "tetrahedra", "", lambda r: r.tets, page=False),
+    field_column("E", ".6g", "Dirichlet energy of the final frames in sh4; compare on one mesh only", "energy",
+        lambda r: r.energy),
+    field_column("unit speed", ".6g", "3/20 of E: of an embedding in which a frame turning by 1 radian moves by 1",
+        "energy", lambda r: r.energy_unit_speed),
+    field_column("own", ".6g", "what the method itself minimised, for its last field; compare with the same method "
+                                "only", "energy", lambda r: r.objective, terminal=False),
+    field_column("edges", ",d", "triangles round which the frames turn: edges of the dual mesh on singular curves",
+        "singular", lambda r: r.singular_edges),
+    field_column("length", ".4g", "of the singular curves, unit of the input", "singular", lambda r: r.singular_length),
+    field_column("complex", ",d", "singular edges whose rotation keeps no axis of the frame; no hex mesh has them",
+        "singular", lambda r: r.complex_edges),
+    field_column(
         "non-meshable", ",d",
         "places where singular curves meet, change or reach the surface in a way no hex mesh has (a necessary "
         "condition: the "
         "others may still have none); nodes that complex edges join count one by one",
-        "singular", "non_meshable_vertices",
+        "singular", lambda r: r.non_meshable_vertices,
     ),
-    record_column(
+    field_column(
         "edges", ",d", "feature edges at which the turn of the field leaves no hexahedron (a necessary condition)",
-        "non-meshable features", "non_meshable_feature_edges", terminal=False,
+        "non-meshable features", lambda r: r.non_meshable_feature_edges, terminal=False,
     ),
-    record_column(
+    field_column(
         "corners", ",d", "corners at which the numbers of hexahedra and quadrilaterals round them fit no hex mesh (a "
                          "necessary condition)",
-        "non-meshable features", "non_meshable_corners", terminal=False,
+        "non-meshable features", lambda r: r.non_meshable_corners, terminal=False,
     ),
-    record_column("median", ".2f", "angle between surface normal and nearest frame axis, over boundary vertices and "
-                                   "their smooth sectors", _DEG, "alignment_deg.median"),
-    RunColumn(
+    field_column("median", ".2f", "angle between surface normal and nearest frame axis, over boundary vertices and "
+                                   "their smooth sectors", _DEG, lambda r: r.alignment_deg.median),
+    field_column(
         "held, max", ".2f", "its maximum, but for vertices where faces meet that no frame serves all (normals neither "
                             "parallel nor at right angles)",
-        _DEG, lambda _, run: held_alignment(run.row) if run.done else None,
+        _DEG, held_alignment,
     ),
-    record_column("unserved", ",d", "how many vertices such edges and corners have; one face is off by up to 45 "
-                                    "degrees there, whatever the method", _DEG, "unserved_vertices", terminal=False),
-    record_column(
+    field_column("unserved", ",d", "how many vertices such edges and corners have; one face is off by up to 45 "
+                                    "degrees there, whatever the method", _DEG, lambda r: r.unserved_vertices,
+        terminal=False),
+    field_column(
         "features", ".2f", "largest angle between a feature curve and the nearest frame axis, corners included",
-        _DEG, "feature_alignment_deg.max", terminal=False,
+        _DEG, lambda r: r.feature_alignment_deg.max, terminal=False,
     ),
-    record_column(
+    field_column(
         "axis jump", ".3g",
         "jump of the axes along the face between two tets, root mean square: 0 for gradients of a map, of the order "
         "of the mesh "
         "width on smooth fields; compare on one mesh only",
-        "", "integrability.jump_rms", terminal=False,
+        "", lambda r: r.integrability and r.integrability.jump_rms, terminal=False,
     ),
-    record_column("iterations", "d", "diffusion steps and iterations of smoothing", key="iterations"),
-    record_column("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads",
-        "seconds", "cpu_seconds.smooth", terminal=False),
-    record_column("smooth", ".3f", "the same by the clock", "seconds", "wall_seconds.smooth", terminal=False),
-    RunColumn(
+    field_column("iterations", "d", "diffusion steps and iterations of smoothing", "", lambda r: r.iterations),
+    field_column("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads",
+        "seconds", lambda r: r.cpu_seconds.smooth, terminal=False),
+    field_column("smooth", ".3f", "the same by the clock", "seconds", lambda r: r.wall_seconds.smooth, terminal=False),
+    field_column(
         "total", ".2f", "all phases by the clock, those that runs share included", "seconds",
-        lambda _, run: sum(run.row["wall_seconds"].values()) if run.done else None,
+        lambda r: sum(r.wall_seconds.values()),
     ),
-    record_column("peak MB", ",.0f", "largest resident memory of the process during the run, its libraries included",
-        key="peak_mb"),
+    field_column("peak MB", ",.0f", "largest resident memory of the process during the run, its libraries included",
+        "", lambda r: r.peak_mb),
 )  # fmt: skip
 
 
@@ -159,24 +159,22 @@ def input_table(results: Results, anchors: dict[str, str]) -> Table:
                                         "runs share"),
         Column("runs", "d", "all runs on it"), Column("mesh", "", "first digits of the SHA-256 of the mesh"),
     )  # fmt: skip
-    keys = ("vertices", "tets", "boundary_triangles", "edge_length", "feature_edges", "feature_corners")
     rows = []
     for name, anchor in anchors.items():
         runs = results.on(name)
-        record = next((run.row for run in runs if run.done), {})
-        chi = record.get("surface_field", {}).get("euler_characteristic")
-        seconds = preparation_seconds(record) if record else None
-        rows.append(
-            [
-                Link(name, f"#{anchor}"),
-                *(record.get(key) for key in keys),
-                chi,
-                seconds,
-                len(runs),
-                record.get("mesh_sha256"),
-            ]
-        )
+        record = next((run.record for run in runs if run.done), None)
+        *facts, mesh = _facts(record) if record is not None else [None] * 9
+        rows.append([Link(name, f"#{anchor}"), *facts, len(runs), mesh])
     return Table("inputs", columns, rows)
+
+
+def _facts(r: FieldRecord) -> list[object]:
+    """Of an input, by one of its fields."""
+    euler_characteristic = r.surface_field and r.surface_field.euler_characteristic
+    return [
+        r.vertices, r.tets, r.boundary_triangles, r.edge_length, r.feature_edges, r.feature_corners,
+        euler_characteristic, preparation_seconds(r), r.mesh_sha256,
+    ]  # fmt: skip
 
 
 def summary_table(results: Results, lines: list[Line], found: Deviations) -> Table:
@@ -231,8 +229,7 @@ def summary_table(results: Results, lines: list[Line], found: Deviations) -> Tab
 def failure_table(results: Results, runs: Sequence[Run]) -> Table:
     columns = [Column(head) for head in ("input", "method", "boundary", "state", "message")]
     rows = [
-        [run.input, results.method(run).name, results.problem(run).setting.name, run.state, run.row.get("message", "")]
-        for run in runs
+        [run.input, results.method(run).name, results.problem(run).setting.name, run.state, run.message] for run in runs
     ]
     return Table("failures", columns, rows)
 

@@ -113,9 +113,9 @@ def _frames_on(results: Results, case: Case, most: int) -> tuple[dict[int, np.nd
     for place, method in enumerate(results.methods):
         run = results.field(method, case)
         frames = None if run is None else frames_of(run)
-        if run is None or frames is None or not len(frames) or mesh not in (None, run.row["mesh_sha256"]):
+        if run is None or frames is None or not len(frames) or mesh not in (None, run.record.mesh_sha256):
             continue
-        mesh = run.row["mesh_sha256"]
+        mesh = run.record.mesh_sha256
         step = -(-len(frames) // most)
         found[place] = frames[::step].copy()
     return found, step > 1

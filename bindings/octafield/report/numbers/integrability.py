@@ -1,15 +1,20 @@
 """Of runs with sizes along the axes: how far fields are from the gradients of a map, before and after; table and
 prose."""
 
-from typing import Any
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..page.words import counted, sentence, spread
-from .columns import RUN_COLUMNS, RunColumn, record_column
+from .columns import RUN_COLUMNS, RunColumn, field_column
 from .profiles import geometric_mean
 from .records import Method, Results, Run
 from .tables import Table
+
+if TYPE_CHECKING:
+    from ...records.parts import SizesFigures
 
 _NONE = 1e-9  # of curl times edge length: rounding
 _WHO = ("input", "method", "boundary", "seed", "repeat")
@@ -18,34 +23,35 @@ _KINDS = {"isotropic": "one size for all axes", "axes": "one size per axis"}
 
 COLUMNS = (
     *(column for column in RUN_COLUMNS if column.head in _WHO),
-    RunColumn("sizes", "", "one for all axes, or one per axis", "", lambda _,
-        run: _KINDS.get(sizes_of(run).get("kind", ""))),
-    record_column("before", ".4g", "of the unit axes, in 1 over the unit of the input, root mean square over the "
-                                   "volume; 0 for gradients of a map", _CURL, "sizes.curl_rms_before"),
-    record_column("after", ".4g", "of the axes with their sizes, over these", _CURL, "sizes.curl_rms_after"),
+    field_column("sizes", "", "one for all axes, or one per axis", "", lambda r: r.sizes and _KINDS.get(r.sizes.kind)),
+    field_column("before", ".4g", "of the unit axes, in 1 over the unit of the input, root mean square over the "
+                                  "volume; 0 for gradients of a map", _CURL,
+                 lambda r: r.sizes and r.sizes.curl_rms_before),
+    field_column("after", ".4g", "of the axes with their sizes, over these", _CURL,
+                 lambda r: r.sizes and r.sizes.curl_rms_after),
     RunColumn("left, %", ".1f", "the one over the other", _CURL, lambda _, run: _left(run)),
-    record_column(
-        "before", ".4f", "jump of the axes along the face between two tets, root mean square; of the order of the "
-                         "mesh width",
-        _JUMP, "sizes.jump_rms_before",
-    ),
-    record_column("after", ".4f", "with the sizes, over these; it rises where sizes vary", _JUMP,
-        "sizes.jump_rms_after"),
-    record_column("size ratio", ".3g", "the largest size over the smallest", key="sizes.size_ratio"),
-    record_column("CPU seconds", ".3f", "of finding the sizes and both figures", key="cpu_seconds.sizes"),
+    field_column("before", ".4f", "jump of the axes along the face between two tets, root mean square; of the order of "
+                                  "the mesh width", _JUMP, lambda r: r.sizes and r.sizes.jump_rms_before),
+    field_column("after", ".4f", "with the sizes, over these; it rises where sizes vary", _JUMP,
+                 lambda r: r.sizes and r.sizes.jump_rms_after),
+    field_column("size ratio", ".3g", "the largest size over the smallest", "",
+                 lambda r: r.sizes and r.sizes.size_ratio),
+    field_column("CPU seconds", ".3f", "of finding the sizes and both figures", "",
+                 lambda r: r.sizes and r.cpu_seconds.sizes),
 )  # fmt: skip
 
 
-def sizes_of(run: Run) -> dict[str, Any]:
-    return run.row.get("sizes") or {} if run.done else {}
+def sizes_of(run: Run) -> SizesFigures | None:
+    """None where they were not asked for."""
+    return run.record.sizes if run.done else None
 
 
 def _left(run: Run) -> float | None:
     """Per cent of the curl; None where there is none."""
     found = sizes_of(run)
-    if not found or found["curl_rms_before"] * run.row["edge_length"] < _NONE:
+    if found is None or found.curl_rms_before * run.record.edge_length < _NONE:
         return None
-    return float(100 * found["curl_rms_after"] / found["curl_rms_before"])
+    return 100 * found.curl_rms_after / found.curl_rms_before
 
 
 def integrability_table(results: Results) -> Table:
@@ -61,7 +67,7 @@ def integrability(results: Results, cite: str) -> list[str]:
 
 
 def _of_kind(results: Results, kind: str, cite: str) -> str:
-    runs = [run for run in results.runs if sizes_of(run).get("kind") == kind]
+    runs = [run for run in results.runs if (sizes := sizes_of(run)) is not None and sizes.kind == kind]
     if not runs:
         return ""
     curled = [run for run in runs if _left(run) is not None]
@@ -74,7 +80,7 @@ def _of_kind(results: Results, kind: str, cite: str) -> str:
         if mean is not None:
             left[method] = mean
     over = f" on geometric mean over {counted(len(curled), 'run')}" if len(curled) > len(left) else ""
-    ratios = sorted(sizes_of(run)["size_ratio"] for run in curled)
+    ratios = sorted(sizes.size_ratio for run in curled if (sizes := sizes_of(run)) is not None)
     ends = " to ".join(dict.fromkeys(f"{ratio:.3g}" for ratio in (ratios[0], ratios[-1])))
     text = [
         f"{_KINDS[kind]} leaves {spread(left, '.1f', unit=' %')} of the curl of unit axes{over}; the largest size is"

@@ -6,12 +6,10 @@ from .profiles import geometric_mean
 from .records import Results, Run
 from .tables import Column, Table
 
-KEY = "energies"  # of a record: {name: number}
-
 
 def names_of(results: Results) -> list[str]:
     """In the order given."""
-    return list(dict.fromkeys(name for run in results.runs if run.done for name in run.row.get(KEY, {})))
+    return list(dict.fromkeys(name for run in results.runs if run.done for name in run.record.energies or ()))
 
 
 def own_energy_table(results: Results) -> Table:
@@ -34,7 +32,7 @@ def own_energy_table(results: Results) -> Table:
                 for run in results.runs
                 if run.done and results.method(run) == method and results.problem(run).setting == setting
             ]
-            if not any(KEY in run.row for run in runs):
+            if not any(run.record.energies for run in runs):
                 continue
             cells: list[object] = []
             for name in names:
@@ -48,7 +46,7 @@ def own_energy_table(results: Results) -> Table:
 
 
 def _value(run: Run, name: str) -> float:
-    return float(run.row.get(KEY, {}).get(name, np.nan))
+    return float((run.record.energies or {}).get(name, np.nan))
 
 
 def _ratio(results: Results, run: Run, name: str) -> float | None:

@@ -1,13 +1,18 @@
 """Ratios to the best of each problem, performance profiles of them, and a line of figures per method and setting."""
 
+from __future__ import annotations
+
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .records import Method, Problem, Results, Setting
+
+if TYPE_CHECKING:
+    from ...records.field import FieldRecord
 
 EQUAL = 1e-4  # relative: energies closer than this are not ranked
 
@@ -56,14 +61,13 @@ def energies(results: Results, problems: Sequence[Problem]) -> dict[Method, np.n
 
 def smoothing_seconds(results: Results, problems: Sequence[Problem]) -> dict[Method, np.ndarray]:
     """Processor seconds of constraints, start and smoothing; infinite for fields that were read."""
-    return results.least(lambda row: row["cpu_seconds"]["smooth"] if "energy_history" in row else math.inf, problems)
+    return results.least(lambda record: record.cpu_seconds.smooth if record.computed else math.inf, problems)
 
 
-def _energy(row: dict[str, Any]) -> float:
+def _energy(record: FieldRecord) -> float:
     """Rounding is measured by that of frames, squared, and the size of the shape."""
-    size = row["edge_length"] * math.sqrt(row["boundary_triangles"])
-    energy = row["energy"]
-    return 0.0 if energy <= 1e-9 * size else float(energy)
+    size = record.edge_length * math.sqrt(record.boundary_triangles)
+    return 0.0 if record.energy <= 1e-9 * size else record.energy
 
 
 @dataclass(frozen=True)
@@ -121,49 +125,52 @@ def _line(
     seconds: np.ndarray,
 ) -> Line:  # fmt: skip
     cases = {p: results.cases_of(p) for p in within}
-    rows = {
-        p: [run.row for case in of if (run := results.field(method, case)) is not None] for p, of in cases.items() if of
+    records = {
+        p: [run.record for case in of if (run := results.field(method, case)) is not None]
+        for p, of in cases.items()
+        if of
     }
-    fields = [rows[p] for p in rows if len(rows[p]) == len(cases[p])]
-    alone = fields[0] if len(rows) == 1 and fields else []
+    fields = [records[p] for p in records if len(records[p]) == len(cases[p])]
+    alone = fields[0] if len(records) == 1 and fields else []
     ratio, slowdown = (part[method][np.isfinite(part[method])] for part in over)
     return Line(
         setting,
         method,
         asked=len(within),
-        problems=len(rows),
+        problems=len(records),
         solved=len(fields),
-        complete=0 < len(fields) == len(rows),
-        energy=_mean(alone, "energy"),
-        own=_mean(alone, "objective"),
+        complete=0 < len(fields) == len(records),
+        energy=_mean(alone, lambda record: record.energy),
+        own=_mean(alone, lambda record: record.objective),
         spread=_spread(fields),
         zero=int(np.sum(best == 0)),
         ratio=geometric_mean(ratio),
         largest=float(ratio.max()) if len(ratio) else None,
         lowest=int(np.sum(np.isfinite(energy) & (energy <= best * (1 + EQUAL)))),
-        singular_edges=_total(fields, "singular_edges"),
-        complex_edges=_total(fields, "complex_edges"),
-        non_meshable=_total(fields, "non_meshable_vertices"),
+        singular_edges=_total(fields, lambda record: record.singular_edges),
+        complex_edges=_total(fields, lambda record: record.complex_edges),
+        non_meshable=_total(fields, lambda record: record.non_meshable_vertices),
         seconds=float(seconds[np.isfinite(seconds)].sum()) if np.isfinite(seconds).any() else None,
         slowdown=geometric_mean(slowdown),
     )
 
 
-def _mean(rows: list[dict[str, Any]], key: str) -> float | None:
+def _mean(records: list[FieldRecord], value: Callable[[FieldRecord], float | None]) -> float | None:
     """None where a record is without it."""
-    values = [row.get(key) for row in rows]
-    return None if not values or None in values else float(sum(values) / len(values))  # type: ignore[arg-type]
+    values = [value(record) for record in records]
+    known = [value for value in values if value is not None]
+    return float(sum(known) / len(known)) if known and len(known) == len(values) else None
 
 
-def _total(fields: list[list[dict[str, Any]]], key: str) -> int | None:
+def _total(fields: list[list[FieldRecord]], value: Callable[[FieldRecord], int | None]) -> int | None:
     """fields: per problem the records of its seeds."""
-    means = [_mean(rows, key) for rows in fields]
+    means = [_mean(records, value) for records in fields]
     known = [mean for mean in means if mean is not None]
     return round(sum(known)) if known and len(known) == len(means) else None
 
 
-def _spread(fields: list[list[dict[str, Any]]]) -> float | None:
-    parts = [np.array([row["energy"] for row in rows]) for rows in fields if len(rows) > 1]
+def _spread(fields: list[list[FieldRecord]]) -> float | None:
+    parts = [np.array([record.energy for record in records]) for records in fields if len(records) > 1]
     return (
         float(np.mean([part.std(ddof=1) / part.mean() if part.mean() > 0 else 0.0 for part in parts]))
         if parts

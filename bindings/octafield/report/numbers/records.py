@@ -6,13 +6,18 @@ problem only. A case is a problem with a seed: seeds are no problems of their ow
 its seeds.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from ...records.field import FieldRecord, RunWithoutField
 
 OF_METHODS = ("representation", "solver", "rounds", "max_iterations", "tolerance", "start")
 INDEPENDENT = "independent start"  # rounds 0: no step in sh4 before the method's own
@@ -21,17 +26,24 @@ OF_SETTINGS = ("boundary", "sampling", "feature_tolerance")
 
 @dataclass(eq=False)
 class Run:
-    """row: the record (result.json; `state` failed or crashed where there is no field). input: its name on the page.
-    folder: of the run's files; link: the same relative to the page."""
+    """row: the record of a field, or of a run without (octafield.read_record). input: its name on the page. folder: of
+    the run's files; link: the same relative to the page."""
 
-    row: dict[str, Any]
+    row: FieldRecord | RunWithoutField
     input: str
     folder: Path | None = None
     link: str = ""
 
     @property
+    def record(self) -> FieldRecord:
+        """Of the field. Raises ValueError where there is none."""
+        if not self.done:
+            raise ValueError(f"{self.input}: the run {self.state}")
+        return cast("FieldRecord", self.row)
+
+    @property
     def options(self) -> dict[str, Any]:
-        return self.row.get("options") or {}
+        return self.row.options
 
     @property
     def choices(self) -> dict[str, Any]:
@@ -41,7 +53,7 @@ class Run:
 
     @property
     def state(self) -> str:
-        return str(self.row.get("state", "done"))
+        return str(self.row.get("state", "done"))  # a comparison has runs with a field only, and no states
 
     @property
     def done(self) -> bool:
@@ -50,7 +62,12 @@ class Run:
     @property
     def computed(self) -> bool:
         """Has a field, and not one that was read from a file."""
-        return self.done and "energy_history" in self.row
+        return self.done and self.record.computed
+
+    @property
+    def message(self) -> str:
+        """What went wrong where there is no field."""
+        return str(self.row.get("message", ""))
 
     @property
     def seed(self) -> int:
@@ -175,13 +192,13 @@ class Results:
         """The input and setting with the first seed that any method ended on."""
         return next(iter(self.cases_of(Problem(name, setting))), None)
 
-    def least(self, value: Callable[[dict[str, Any]], float], problems: Sequence[Problem]) -> dict[Method, np.ndarray]:
+    def least(self, value: Callable[[FieldRecord], float], problems: Sequence[Problem]) -> dict[Method, np.ndarray]:
         """value(record) per method and problem: the mean over seeds of the least of the repeats; infinite where a seed
         is without a field that another method has."""
 
         def of(method: Method, problem: Problem) -> float:
             seeds = [
-                min((value(run.row) for run in self._fields.get((method, case), ())), default=math.inf)
+                min((value(run.record) for run in self._fields.get((method, case), ())), default=math.inf)
                 for case in self.cases_of(problem)
             ]
             return sum(seeds) / len(seeds) if seeds else math.inf

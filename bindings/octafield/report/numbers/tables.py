@@ -2,7 +2,7 @@
 
 import csv
 import itertools
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -160,7 +160,7 @@ def _cell(column: Column, value: object, largest: float | None) -> Cell:
     return Cell("" if several else shown, links, None if several or key == shown else key, not column.form, share)
 
 
-def write_records(path: Path, records: Sequence[dict[str, Any]]) -> None:
+def write_records(path: Path, records: Sequence[Mapping[str, Any]]) -> None:
     """One line per record: every number and word of it, see flatten."""
     flat = [flatten(record) for record in records]
     columns = list(dict.fromkeys(name for line in flat for name in line))
@@ -170,12 +170,12 @@ def write_records(path: Path, records: Sequence[dict[str, Any]]) -> None:
         writer.writerows(flat)
 
 
-def flatten(record: dict[str, Any]) -> dict[str, Any]:
+def flatten(record: Mapping[str, Any]) -> dict[str, Any]:
     """The record's numbers and words, nested ones as group_name; lists and versions are left out."""
     flat: dict[str, Any] = {}
     for name, value in record.items():
         if name in ("alignment_deg", "feature_alignment_deg", "integrability", "sizes", "wall_seconds", "cpu_seconds"):
             flat |= {f"{name}_{key}": inner for key, inner in value.items()}
-        elif not isinstance(value, (dict, list)):
+        elif not isinstance(value, (Mapping, list)):
             flat[name] = value
     return flat

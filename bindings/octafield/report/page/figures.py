@@ -163,7 +163,7 @@ def convergence(results: Results, case: Case) -> dict[Method, Convergence]:
         run = results.field(method, case)
         if run is None or not run.computed:
             continue
-        energy, own = run.row["energy_history"], run.row.get("objective_history", [])
+        energy, own = run.record.energy_history or [], run.record.objective_history or []
         scaled = [value / own[0] for value in own] if own and own[0] > 0 else []
         found[method] = Convergence(energy, scaled, max(0, len(energy) - len(scaled)))
     return found
@@ -222,9 +222,9 @@ def seconds_plot(labels: Sequence[str], runs: Sequence[Run], salt: str = "") -> 
     """Seconds by the clock per phase, one stacked bar per run."""
     figure, (axes,) = new_figure(_HALF, 1.0 + 0.24 * len(runs))
     left, places = np.zeros(len(runs)), range(len(runs))
-    phases = [*PHASES, *(["sizes"] if any("sizes" in run.row["wall_seconds"] for run in runs) else [])]
+    phases = [*PHASES, *(["sizes"] if any("sizes" in run.record.wall_seconds for run in runs) else [])]
     for number, phase in enumerate(phases):
-        seconds = np.array([run.row["wall_seconds"].get(phase, 0.0) for run in runs])
+        seconds = np.array([run.record.wall_seconds.get(phase, 0.0) for run in runs])
         axes.barh(places, seconds, left=left, height=0.66, color=PALETTE[number], label=phase, edgecolor="none")
         left += seconds
     axes.set_yticks(list(places), labels, fontsize=9)

@@ -1,5 +1,7 @@
 """The part of a report's page that shows one input."""
 
+from __future__ import annotations
+
 import base64
 import html
 from collections.abc import Sequence
@@ -14,6 +16,7 @@ from . import figures, prose, scenes
 from .exhibits import Exhibit, Exhibits
 
 if TYPE_CHECKING:
+    from ...records.field import FieldRecord
     from ...view.picture import Picture
 
 CONVERGENCE = (
@@ -51,14 +54,14 @@ def mesh_section(
             lines(results, [p for p in results.problems if p.input == name]),
             exhibits.cite(f"runs {name}", f"convergence {name}"),
         )
-    row = fields[0].row if fields else {}
+    record = fields[0].record if fields else None
     return {
         "anchor": anchors[name],
         "name": name,
         "links": _links(anchors, name) if many else [],
-        "facts": _facts(row) if fields else "",
-        "sha256": row.get("mesh_sha256"),
-        "notes": [*row.get("notes", ()), *_unserved(row), *_verdicts(fields)],
+        "facts": _facts(record) if record else "",
+        "sha256": record.mesh_sha256 if record else None,
+        "notes": [*record.notes, *_unserved(record), *_verdicts(fields)] if record else [],
         "texts": texts,
         "tables": exhibits.of(f"runs {name}"),
         "failures": runs_without_field(results, runs) if many else None,
@@ -73,26 +76,30 @@ def runs_without_field(results: Results, runs: Sequence[Run]) -> Table | None:
     return failure_table(results, bad) if bad else None
 
 
-def _facts(row: dict[str, Any]) -> str:
+def _facts(record: FieldRecord) -> str:
     source = {"file": "the file's lines", "angle": "dihedral angle", "none": "request none"}.get(
-        row["feature_source"], row["feature_source"]
+        record.feature_source, record.feature_source
     )
     return (
-        f"{row['vertices']:,} vertices, {row['tets']:,} tetrahedra, {row['boundary_triangles']:,} boundary triangles"
-        f" with a mean edge of {row['edge_length']:.4g}; {row['feature_edges']:,} feature edges and"
-        f" {row['feature_corners']:,} corners by {source}."
+        f"{record.vertices:,} vertices, {record.tets:,} tetrahedra, {record.boundary_triangles:,} boundary triangles"
+        f" with a mean edge of {record.edge_length:.4g}; {record.feature_edges:,} feature edges and"
+        f" {record.feature_corners:,} corners by {source}."
     )
 
 
 def _verdicts(fields: Sequence[Run]) -> list[str]:
     """What runs on this mesh are told to be worth, each sentence once."""
-    told = [f"Verdict: {sentence}." for run in fields for sentence in run.row.get("verdict", {}).get("sentences", ())]
+    told = [f"Verdict: {sentence}." for run in fields for sentence in _sentences(run.record)]
     return list(dict.fromkeys(told))
 
 
-def _unserved(row: dict[str, Any]) -> list[str]:
+def _sentences(record: FieldRecord) -> list[str]:
+    return [] if record.verdict is None else record.verdict.sentences
+
+
+def _unserved(record: FieldRecord) -> list[str]:
     """Why an angle of up to 45 degrees at some edges is no fault of a method."""
-    count = row.get("unserved_vertices", 0)
+    count = record.unserved_vertices
     if not count:
         return []
     return [
@@ -149,7 +156,7 @@ def _views(results: Results, exhibits: Exhibits, cases: Sequence[Case], anchor: 
     rows = []
     for case, of in groupby(zip(shown, places, strict=True), lambda entry: entry[0][0]):
         views = [
-            (place, method, f"E {run.row['energy']:.6g}, {run.row['singular_edges']:,} edges")
+            (place, method, f"E {run.record.energy:.6g}, {run.record.singular_edges:,} edges")
             for (_, method, run), place in of
             if place is not None
         ]

@@ -58,7 +58,7 @@ def scope(results: Results, open_runs: int, cite: str) -> str:
 
 def starts(results: Results, cite: str) -> str:
     """Where methods begin and what they are judged by."""
-    ours = [run for run in results.runs if run.computed and run.row.get("start", "default") == "default"]
+    ours = [run for run in results.runs if run.computed and run.record.start in (None, "default")]
     rounds = {run.options.get("rounds", 2) > 0 for run in ours}
     others = [m for m in results.methods if m.representation != "sh4" and m not in results.read()]
     if not ours or not (others or len(rounds) > 1):
@@ -94,10 +94,10 @@ def _methods(methods: Sequence[Method]) -> str:
 
 def meshes(results: Results, cite: str) -> str:
     """Their sizes."""
-    first = {run.input: run.row for run in reversed(results.runs) if run.done}
+    first = {run.input: run.record for run in reversed(results.runs) if run.done}
     if not first:
         return ""
-    sizes = [sorted(row[key] for row in first.values()) for key in ("vertices", "tets")]
+    sizes = [sorted(r.vertices for r in first.values()), sorted(r.tets for r in first.values())]
     vertices, tets = (f"{s[0]:,}" if s[0] == s[-1] else f"{s[0]:,} to {s[-1]:,}" for s in sizes)
     of = "mesh has" if len(first) == 1 else "meshes have"
     return sentence(f"the {of} {vertices} vertices and {tets} tetrahedra {cite}")
@@ -208,12 +208,12 @@ def profile(profiles: dict[Method, Profile], cite: str) -> str:
 
 
 def convergence(results: Results, cite: str) -> str:
-    fields = [run.row for run in results.runs if run.computed]
-    stopped = [row for row in fields if not row.get("converged", True)]
+    fields = [run.record for run in results.runs if run.computed]
+    stopped = [record for record in fields if record.converged is False]
     if not stopped:
         return ""
     reasons = listed(
-        f"“{html.escape(str(reason))}”" for reason in dict.fromkeys(row.get("stop_reason", "") for row in stopped)
+        f"“{html.escape(reason)}”" for reason in dict.fromkeys(record.stop_reason or "" for record in stopped)
     )
     return sentence(
         f"the tolerance was not met by {len(stopped)} of {counted(len(fields), 'field')} ({reasons}) {cite}"
@@ -336,7 +336,7 @@ def _in_all(problems: int) -> str:
 
 
 def shared_time(results: Results, cite: str) -> str:
-    first = {run.input: run.row for run in reversed(results.runs) if run.done}
+    first = {run.input: run.record for run in reversed(results.runs) if run.done}
     seconds = sorted(map(preparation_seconds, first.values()))
     if not seconds:
         return ""

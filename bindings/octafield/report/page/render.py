@@ -77,13 +77,13 @@ def _reproduction(runs: Sequence[Run]) -> dict[str, Any]:
     options = [run.options for run in runs]
     first = options[0] if options else {}
     common = {name: value for name, value in first.items() if all(o.get(name) == value for o in options)}
-    row = next((run.row for run in runs if "versions" in run.row), {})
+    record = next((run.record for run in runs if run.done), None)
     return {
-        "version": next((run.row["version"] for run in runs if "version" in run.row), ""),
+        "version": record.version if record else "",
         "common": json.dumps(common, indent=1),
         "varying": [name.replace("_", " ") for name in dict.fromkeys(n for o in options for n in o if n not in common)],
-        "versions": row.get("versions", {}),
-        "machine": row.get("machine"),
+        "versions": record.versions if record else {},
+        "machine": record.machine if record else None,
     }
 
 

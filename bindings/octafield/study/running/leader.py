@@ -11,7 +11,7 @@ from ...progress.phases import Progress
 from ..description import Study
 from ..memory import MeshSizes
 from ..plan import Run, groups, mesh_of
-from ..store import LOG_FILE, Store, write_record
+from ..store import LOG_FILE, Store, write_failure
 from .child import Ending
 
 _ATTEMPTS = 2  # of a run whose process dies
@@ -127,7 +127,8 @@ class Leader:
     def _without_result(self, group: Group, run: Run, state: str, message: str, kind: str = "") -> None:
         with self.store.new_run(run) as folder:
             (folder / LOG_FILE).write_text(message + "\n", encoding="utf-8")
-            write_record(folder, run, {"error": "SolverError", "error_kind": kind} if kind else {}, state, message)
+            about = {"error": "SolverError", "error_kind": kind} if kind else {}
+            write_failure(folder, run, state, message, **about)
         self.finished(group, run.key)
 
     def input_changed(self, group: Group, message: str) -> None:

@@ -21,7 +21,7 @@ from ..._core import TriangleMesh
 from ...errors import Error, InvalidInput
 from ...progress.phases import Progress
 from ..plan import Run, Source, has_promised_content
-from ..store import LOG_FILE, Store, write_record
+from ..store import LOG_FILE, Store, write_failure, write_field
 
 if TYPE_CHECKING:
     from ...fields.frame_field import FieldResult
@@ -88,19 +88,18 @@ def _write_run(store: Store, run: Run, result: "FieldResult", keep_fields: bool,
     with store.new_run(run) as folder:
         if keep_fields:
             write_field_result(result, folder)
-        notes = [f"{run.name}: {note}" for note in result.record["notes"]]
-        lines = [*notes, f"{result.record['stop_reason']} after {result.record['iterations']} iterations"]
+        notes = [f"{run.name}: {note}" for note in result.record.notes]
+        lines = [*notes, f"{result.record.stop_reason} after {result.record.iterations} iterations"]
         (folder / LOG_FILE).write_text("\n".join(lines) + "\n", encoding="utf-8")
-        times = {"began": begin, "ended": time.time(), "host": os.uname().nodename}
-        write_record(folder, run, {**result.record, **times}, "done")
+        write_field(folder, run, result.record, began=begin, ended=time.time(), host=os.uname().nodename)
 
 
 def _write_failure(store: Store, run: Run, error: Error, begin: float) -> None:
     with store.new_run(run) as folder:
         (folder / LOG_FILE).write_text("".join(traceback.format_exception(error)), encoding="utf-8")
-        times = {"began": begin, "ended": time.time(), "host": os.uname().nodename}
         kind = {"error": type(error).__name__, "error_kind": getattr(error, "kind", "")}
-        write_record(folder, run, {**kind, **times}, "failed", str(error))
+        times = {"began": begin, "ended": time.time(), "host": os.uname().nodename}
+        write_failure(folder, run, "failed", str(error), **kind, **times)
 
 
 def main() -> None:

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from ..errors import InvalidInput
-from ..meshes.openvolumemesh.mesh import OvmMesh
-from ..meshes.topology import unique_triangles
+from ...errors import InvalidInput
+from ..topology import unique_triangles
+from .mesh import OvmMesh
 
 FEATURES = {"vertex": "AlgoHex::FeatureVertices", "edge": "AlgoHex::FeatureEdges", "face": "AlgoHex::FeatureFaces"}
 

@@ -1,0 +1,1 @@
+"""What a run leaves in JSON: a model per kind of record, read and written in one place."""

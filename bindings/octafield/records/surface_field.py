@@ -1,0 +1,32 @@
+"""The record of a direction field on a surface."""
+
+from typing import Any
+
+from pydantic import Field
+
+from .field import InputRecord
+from .parts import SingularPoint
+
+
+class SurfaceFieldRecord(InputRecord):
+    """`octafield surface-field`: result.json and `SurfaceFieldResult.record`."""
+
+    vertices: int = Field(description="of the surface")
+    triangles: int = Field(description="of the surface")
+    symmetry: int = Field(description="directions at a point, N")
+    method: str = Field(description="as the option says")
+    seed: int = Field(description="of the random start")
+    euler_characteristic: int = Field(description="of the surface")
+    index_sum: float = Field(description="of the singular points, turns")
+    singularities: list[SingularPoint] = Field(description="the singular points")
+    energy: float = Field(description="what the method minimised")
+    dirichlet_energy: float = Field(description="of the unit field, a number without unit")
+    energy_history: list[float] = Field(description="energy at the start and after each step")
+    epsilon: float = Field(description="of the Ginzburg-Landau energy, input unit; 0 for other methods")
+    iterations: int = Field(description="of the solver")
+    converged: bool = Field(description="whether the tolerance was met")
+    stopped: bool = Field(description="by the caller's progress")
+    residual: float = Field(description="of the last step, relative")
+    constraints: int = Field(description="edges and vertices whose directions the caller gave")
+    options: dict[str, Any] = Field(description="`octafield.SurfaceFieldOptions(**record.options)` makes them again")
+    files: list[str] | None = Field(default=None, description="names of what was written, within the folder")
