@@ -45,7 +45,7 @@ def memory_mb(tets: int) -> float:
 
 def seconds(tets: int) -> float:
     """From file to field by default options."""
-    return 1.0 + field_seconds(FieldOptions().representation, tets)
+    return 1.0 + field_seconds(FieldOptions().scheme_name, tets)
 
 
 def field_seconds(representation: str, tets: float) -> float:

@@ -163,7 +163,7 @@ class EdgeLaws(_Laws):
         return np.asarray(self.scheme.residual(first, second))
 
     def lengths(self, first: Float64s, second: Float64s) -> Float64s:
-        return np.linalg.norm(self.between(first, second), axis=1, keepdims=True)
+        return np.asarray(np.linalg.norm(self.between(first, second), axis=1, keepdims=True))
 
     def derivatives(self, frames: Float64s) -> list[tuple[str, Float64s, Float64s]]:
         if self.scheme.differential is None:

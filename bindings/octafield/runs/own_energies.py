@@ -37,9 +37,9 @@ def energies_of(result: AnalysedField, energies: dict[str, Energy], threads: int
 
 def _energy_of(result: AnalysedField, name: str, energy: Energy, threads: int) -> float:
     if isinstance(energy, OwnScheme):
-        in_tets = result.tet_frames is not None
-        where = _core.tet_sampling(result.tets) if in_tets else result.tets
-        return _core.scheme_energy(energy, where, result.tet_frames if in_tets else result.frames, threads=threads)
+        if result.tet_frames is not None:
+            return _core.scheme_energy(energy, _core.tet_sampling(result.tets), result.tet_frames, threads=threads)
+        return _core.scheme_energy(energy, result.tets, result.frames, threads=threads)
     assert callable(energy)
     try:
         value = float(energy(result))

@@ -171,7 +171,7 @@ def _with_schemes_in(study: Study) -> Study:
     """FILE.py:NAME, like other files, is relative to the folder of the study."""
 
     def placed(key: str, value: Scalar) -> Scalar:
-        return in_folder(value, study.folder) if key == "representation" else value  # type: ignore[no-any-return]
+        return in_folder(value, study.folder) if key == "representation" else value
 
     runs = {key: [placed(key, value) for value in values] for key, values in study.runs.items()}
     skip = [{key: placed(key, value) for key, value in rule.items()} for rule in study.skip]

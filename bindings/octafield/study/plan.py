@@ -166,7 +166,9 @@ def _runs_on(
 
 def _key(digest: str, options: FieldOptions, repeat: int) -> str:
     given = options.recorded()
-    if is_in_file(options.representation):  # what is in the file counts, not where it lies
+    if isinstance(options.representation, str) and is_in_file(
+        options.representation
+    ):  # what is in the file counts, not where it lies
         given["representation"] = f"{options.scheme_name} {scheme_digest(options.representation)}"
     content = {k: _RENAMED.get((k, v), v) for k, v in given.items() if k != "threads" and (k, v) not in _LATER}
     text = json.dumps([digest, content, repeat, octafield_version()], sort_keys=True)
