@@ -310,6 +310,36 @@ class SizeField:
     @property
     def notes(self) -> list[str]: ...
 
+class SurfaceDomain:
+    def __init__(self, mesh: TriangleMesh | None = None, features: FeatureGraph | None = None) -> None: ...
+    @property
+    def vertices(self) -> Float64s: ...
+    @property
+    def triangles(self) -> Int32s: ...
+    @property
+    def edges(self) -> Int32s: ...
+    @property
+    def triangle_edges(self) -> Int32s: ...
+    @property
+    def edge_triangles(self) -> Int32s: ...
+    @property
+    def normals(self) -> Float64s: ...
+    @property
+    def edge_lengths(self) -> Float64s: ...
+    @property
+    def corner_angles(self) -> Float64s: ...
+    @property
+    def mesh(self) -> TriangleMesh: ...
+    @property
+    def features(self) -> FeatureGraph: ...
+    @property
+    def mean_edge_length(self) -> float: ...
+    @property
+    def size(self) -> float: ...
+    def with_features(self, features: FeatureGraph) -> SurfaceDomain: ...
+    @staticmethod
+    def made() -> int: ...
+
 class DirectionConstraints:
     def __init__(
         self,
@@ -368,7 +398,7 @@ class DirectionField:
     def __init__(
         self,
         symmetry: int = ...,
-        topology: EdgeTopology = ...,
+        domain: SurfaceDomain = ...,
         values: ArrayLike = ...,
         epsilon: float = ...,
         energy: float = ...,
@@ -379,7 +409,7 @@ class DirectionField:
         energy_history: ArrayLike = ...,
     ) -> None: ...
     @property
-    def topology(self) -> EdgeTopology: ...
+    def domain(self) -> SurfaceDomain: ...
     @property
     def values(self) -> NDArray[np.complex128]: ...
     @values.setter
@@ -531,8 +561,7 @@ def size_field(
     max_cells: float = ...,
 ) -> SizeField: ...
 def direction_field(
-    mesh: TriangleMesh,
-    features: FeatureGraph,
+    surface: SurfaceDomain | TriangleMesh,
     *,
     symmetry: int = ...,
     method: str = ...,
@@ -552,13 +581,11 @@ def direction_field(
     guide: DirectionGuide | None = None,
     progress: Progress | None = None,
 ) -> DirectionField: ...
-def vertex_directions(mesh: TriangleMesh, features: FeatureGraph, field: DirectionField) -> Float64s: ...
-def triangle_directions(mesh: TriangleMesh, field: DirectionField) -> Float64s: ...
-def surface_singularities(mesh: TriangleMesh, field: DirectionField) -> SurfaceSingularities: ...
-def principal_directions(mesh: TriangleMesh, features: FeatureGraph | None = None) -> PrincipalDirections: ...
+def vertex_directions(field: DirectionField) -> Float64s: ...
+def triangle_directions(field: DirectionField) -> Float64s: ...
+def surface_singularities(field: DirectionField) -> SurfaceSingularities: ...
+def principal_directions(surface: SurfaceDomain | TriangleMesh) -> PrincipalDirections: ...
 def streamlines(
-    mesh: TriangleMesh,
-    features: FeatureGraph,
     field: DirectionField,
     singularities: SurfaceSingularities,
     triangles: ArrayLike,
@@ -571,8 +598,6 @@ def streamlines(
     singular_radius: float = ...,
 ) -> list[Streamline]: ...
 def separatrices(
-    mesh: TriangleMesh,
-    features: FeatureGraph,
     field: DirectionField,
     singularities: SurfaceSingularities,
     *,
@@ -582,8 +607,6 @@ def separatrices(
     progress: Progress | None = None,
 ) -> list[Streamline]: ...
 def even_streamlines(
-    mesh: TriangleMesh,
-    features: FeatureGraph,
     field: DirectionField,
     singularities: SurfaceSingularities,
     *,
@@ -1766,3 +1789,169 @@ def find_locking(domain: TetDomain | TetMesh) -> LockingElements: ...
 def split_locking(domain: TetDomain | TetMesh) -> LockingSplit: ...
 def split_between_singular(domain: TetDomain | TetMesh, of_tets: ArrayLike, *, threads: int = 0) -> SingularSplit: ...
 def with_constraints(base: BoundaryConstraints, given: VertexConstraints) -> BoundaryConstraints: ...
+
+class FieldAnalysis:
+    energy: float
+    def __init__(
+        self,
+        energy: float = ...,
+        singular_graph: SingularGraph = ...,
+        meshability: Meshability = ...,
+        boundary_meshability: BoundaryMeshability = ...,
+        integrability: Integrability = ...,
+        alignment: ArrayLike = ...,
+        feature_alignment: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def singular_graph(self) -> SingularGraph: ...
+    @property
+    def meshability(self) -> Meshability: ...
+    @property
+    def boundary_meshability(self) -> BoundaryMeshability: ...
+    @property
+    def integrability(self) -> Integrability: ...
+    @property
+    def alignment(self) -> Float64s: ...
+    @alignment.setter
+    def alignment(self, value: ArrayLike) -> None: ...
+    @property
+    def feature_alignment(self) -> Float64s: ...
+    @feature_alignment.setter
+    def feature_alignment(self, value: ArrayLike) -> None: ...
+
+class TetFieldAnalysis:
+    energy: float
+    energy_at_vertices: float
+    def __init__(
+        self,
+        energy: float = ...,
+        energy_at_vertices: float = ...,
+        vertex_frames: ArrayLike = ...,
+        singular_edges: SingularEdges = ...,
+        meshability: Meshability = ...,
+        boundary_meshability: BoundaryMeshability = ...,
+        alignment: ArrayLike = ...,
+        feature_alignment: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def vertex_frames(self) -> Float64s: ...
+    @vertex_frames.setter
+    def vertex_frames(self, value: ArrayLike) -> None: ...
+    @property
+    def singular_edges(self) -> SingularEdges: ...
+    @property
+    def meshability(self) -> Meshability: ...
+    @property
+    def boundary_meshability(self) -> BoundaryMeshability: ...
+    @property
+    def alignment(self) -> Float64s: ...
+    @alignment.setter
+    def alignment(self, value: ArrayLike) -> None: ...
+    @property
+    def feature_alignment(self) -> Float64s: ...
+    @feature_alignment.setter
+    def feature_alignment(self, value: ArrayLike) -> None: ...
+
+class ComputedField:
+    def __init__(
+        self,
+        cross_field: DirectionField = ...,
+        constraints: BoundaryConstraints = ...,
+        solved: FrameFieldResult = ...,
+        combed: CombedVertices = ...,
+        analysis: FieldAnalysis = ...,
+    ) -> None: ...
+    @property
+    def cross_field(self) -> DirectionField: ...
+    @property
+    def constraints(self) -> BoundaryConstraints: ...
+    @property
+    def solved(self) -> FrameFieldResult: ...
+    @property
+    def combed(self) -> CombedVertices: ...
+    @property
+    def analysis(self) -> FieldAnalysis: ...
+
+class ComputedTetField:
+    def __init__(
+        self,
+        cross_field: DirectionField = ...,
+        constraints: BoundaryConstraints = ...,
+        solved: FrameFieldResult = ...,
+        combed: CombedVertices = ...,
+        analysis: TetFieldAnalysis = ...,
+    ) -> None: ...
+    @property
+    def cross_field(self) -> DirectionField: ...
+    @property
+    def constraints(self) -> BoundaryConstraints: ...
+    @property
+    def solved(self) -> FrameFieldResult: ...
+    @property
+    def combed(self) -> CombedVertices: ...
+    @property
+    def analysis(self) -> TetFieldAnalysis: ...
+
+def sheet_domain(domain: TetDomain | TetMesh) -> SurfaceDomain: ...
+def surface_constraints(
+    domain: TetDomain | TetMesh,
+    cross: DirectionField,
+    *,
+    sites: str = ...,
+    mode: str = ...,
+    feature_tolerance: float = ...,
+) -> BoundaryConstraints: ...
+def analyse_field(domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0) -> FieldAnalysis: ...
+def analyse_tet_field(
+    domain: TetDomain | TetMesh, sampling: Sampling, of_tets: ArrayLike, *, threads: int = 0
+) -> TetFieldAnalysis: ...
+def compute_field(
+    domain: TetDomain | TetMesh,
+    *,
+    constraints: VertexConstraints | None = None,
+    progress: Progress | None = None,
+    mode: str = ...,
+    feature_tolerance: float = ...,
+    start: str = ...,
+    seed: int = ...,
+    rounds: int = ...,
+    round_time: float = ...,
+    threads: int = ...,
+    first_time: float = ...,
+    last_time: float = ...,
+    time_exponent: float = ...,
+    max_steps: int = ...,
+    linear_tolerance: float = ...,
+    keep_best: bool = ...,
+    representation: str = ...,
+    solver: str = ...,
+    max_iterations: int = ...,
+    tolerance: float = ...,
+    linear_solver: str = ...,
+    midpoint_limit: float = ...,
+) -> ComputedField: ...
+def compute_tet_field(
+    domain: TetDomain | TetMesh,
+    *,
+    constraints: VertexConstraints | None = None,
+    progress: Progress | None = None,
+    mode: str = ...,
+    feature_tolerance: float = ...,
+    start: str = ...,
+    seed: int = ...,
+    rounds: int = ...,
+    round_time: float = ...,
+    threads: int = ...,
+    first_time: float = ...,
+    last_time: float = ...,
+    time_exponent: float = ...,
+    max_steps: int = ...,
+    linear_tolerance: float = ...,
+    keep_best: bool = ...,
+    representation: str = ...,
+    solver: str = ...,
+    max_iterations: int = ...,
+    tolerance: float = ...,
+    linear_solver: str = ...,
+    midpoint_limit: float = ...,
+) -> ComputedTetField: ...

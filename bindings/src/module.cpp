@@ -68,6 +68,7 @@ PYBIND11_MODULE(_core, module) {
     bind_parameterization(module);
     bind_frame_streamlines(module);
     bind_volume_input(module);
+    bind_recipe(module);
     bind_end();
     add_examples(module);
 }

@@ -14,8 +14,8 @@ from .._core import (
     BoundaryConstraints,
     BoundaryMeshability,
     FeatureWedge,
+    FieldAnalysis,
     FrameStreamline,
-    Integrability,
     Meshability,
     SectorNormals,
     SingularGraph,
@@ -28,17 +28,11 @@ from . import verdict
 
 
 @dataclass
-class FieldAnalysis:
-    """alignment, feature_alignment: radians, one per sector normal and feature tangent. off_vertices: of the boundary,
-    too far from a normal that is served. record: for the JSON object."""
+class VertexAnalysis:
+    """of_field: what C++ finds. off_vertices: of the boundary, too far from a normal that is served. record: for the
+    JSON object."""
 
-    singular_graph: SingularGraph
-    meshability: Meshability
-    boundary_meshability: BoundaryMeshability
-    integrability: Integrability
-    alignment: np.ndarray
-    feature_alignment: np.ndarray
-    energy: float
+    of_field: FieldAnalysis
     streamlines: list[FrameStreamline]
     off_vertices: np.ndarray
     record: dict[str, Any]
@@ -50,31 +44,26 @@ def analyse(
     threads: int = 0,
     streamlines: int = 0,
     feature_tolerance: float = _core.BoundaryOptions().feature_tolerance,
-) -> FieldAnalysis:
+) -> VertexAnalysis:
     """streamlines: number of seeds, three curves each. feature_tolerance: radians, of the constraints."""
     tets = meshed.volume()
-    graph = _core.singular_graph(tets, frames, threads=threads)
-    meshability = _core.local_meshability(tets, frames, graph)
-    at_boundary = _core.boundary_meshability(tets, frames, threads=threads)
-    integrability = _core.integrability(tets, frames, threads=threads)
-    alignment = np.asarray(_core.alignment_angles(tets, frames))
+    found = _core.analyse_field(tets, frames, threads=threads)
+    alignment, integrability, energy = np.asarray(found.alignment), found.integrability, found.energy
     sectors = _core.sector_normals(tets)
     unserved = unserved_sectors(meshed, sectors, feature_tolerance)
     off = verdict.off_vertices(alignment[~unserved], np.asarray(sectors.vertex)[~unserved])
-    feature_alignment = np.asarray(_core.feature_alignment_angles(tets, frames))
-    energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
     size = _core.shape_size(tets.surface.mesh)
     seeds = _core.spread_points(tets, streamlines)
     lines = _core.frame_streamlines(tets, frames, seeds, max_length=2 * size, threads=threads) if len(seeds) else []
     record = {
         "energy": energy,
         "energy_unit_speed": _core.unit_speed_factor * energy,
-        **_singular_record(graph),
-        **meshability_record(meshability),
-        **boundary_record(at_boundary),
+        **_singular_record(found.singular_graph),
+        **meshability_record(found.meshability),
+        **boundary_record(found.boundary_meshability),
         "alignment_deg": {**degrees(alignment), "held_max": degrees(alignment[~unserved])["max"]},
         "unserved_vertices": len(np.unique(np.asarray(sectors.vertex)[unserved])),
-        "feature_alignment_deg": degrees(feature_alignment),
+        "feature_alignment_deg": degrees(np.asarray(found.feature_alignment)),
         "integrability": {
             name: getattr(integrability, name) for name in ("jump_rms", "jump_max", "twist_rms", "twist_max")
         },
@@ -84,9 +73,7 @@ def analyse(
             "ends": dict(sorted(Counter(end for line in lines for end in (line.first_end, line.last_end)).items())),
         },
     }
-    return FieldAnalysis(
-        graph, meshability, at_boundary, integrability, alignment, feature_alignment, energy, lines, off, record
-    )
+    return VertexAnalysis(found, lines, off, record)
 
 
 def _singular_record(graph: SingularGraph) -> dict[str, Any]:
