@@ -1,7 +1,7 @@
 // From a domain to a frame field with its analysis, in one call or in parts.
 #include "bind.hpp"
 #include "interruptible.hpp"
-#include "octafield/volume/compute_field.hpp"
+#include "octafield/volume/computed_field.hpp"
 #include "options.hpp"
 #include "sampling.hpp"
 
@@ -57,7 +57,7 @@ void bind_computed(py::module_& m, const char* name, const char* doc) {
         .finish([](const Result& r) { return "energy " + number(r.analysis.energy); });
 }
 
-// Binds `function` (compute_field, compute_tet_field) under `name`.
+// Binds `function` (computed_field, computed_tet_field) under `name`.
 template <class Function>
 void bind_compute(py::module_& m, const char* name, Function function, const char* doc) {
     m.def(
@@ -94,11 +94,10 @@ void bind_parts(py::module_& m) {
         [](const DomainOrMesh& mesh, const surface::DirectionField& cross, const std::string& sites,
            const py::kwargs& given) {
             const auto [options] = options_of<BoundaryOptions>("surface_constraints", given);
-            return run_interruptible(
-                [mesh, cross, where = from_word<Sites>(sites, "sites"), options = options](Job&) {
-                    check(cross);
-                    return surface_constraints(domain_of(mesh), cross, where, options);
-                });
+            return run_interruptible([mesh, cross, where = from_word<Sites>(sites, "sites"), options = options](Job&) {
+                check(cross);
+                return surface_constraints(domain_of(mesh), cross, where, options);
+            });
         },
         "domain"_a, "cross"_a, py::kw_only(), "sites"_a = to_word(Sites::vertices),
         "What the surface asks of the frames, as BoundaryConstraints: boundary_constraints, or with sites \"tets\" "
@@ -143,14 +142,14 @@ void bind_recipe(py::module_& m) {
     bind_computed<ComputedTetField>(m, "ComputedTetField", "A frame field in the tets, and what led to it.");
     bind_parts(m);
     bind_compute(
-        m, "compute_field", &compute_field,
+        m, "computed_field", &computed_field,
         "From a domain to a frame field with its analysis, as a ComputedField: cross field on the surface, "
         "surface_constraints, frame_field, comb_vertices, analyse_field. constraints: the user's own, in place "
         "of the surface's. seed: of the cross field and of frame_field; where mode is \"none\", the cross field "
         "is the start. The other options are those of the parts. octafield.compute_field does the same from a "
         "file on. Raises InvalidInput, GeometryError, SolverError, Cancelled.");
-    bind_compute(m, "compute_tet_field", &compute_tet_field,
-                 "compute_field with frames in the tets, as a ComputedTetField.");
+    bind_compute(m, "computed_tet_field", &computed_tet_field,
+                 "computed_field with frames in the tets, as a ComputedTetField.");
 }
 
 }  // namespace octafield::bindings

@@ -47,7 +47,7 @@ struct ComputedField {
 
 // Frames at the vertices. Progress tells the phases of the parts; cancelling throws Cancelled or keeps the best field
 // as the parts do. Throws InvalidInput, GeometryError, SolverError.
-ComputedField compute_field(const TetDomain& domain, const FieldOptions& options = {}, const Progress& progress = {});
+ComputedField computed_field(const TetDomain& domain, const FieldOptions& options = {}, const Progress& progress = {});
 
 struct ComputedTetField {
     surface::DirectionField cross_field;  // on sheet_domain(domain)
@@ -58,7 +58,7 @@ struct ComputedTetField {
 };
 
 // The same with frames in the tets.
-ComputedTetField compute_tet_field(const TetDomain& domain, const FieldOptions& options = {},
-                                   const Progress& progress = {});
+ComputedTetField computed_tet_field(const TetDomain& domain, const FieldOptions& options = {},
+                                    const Progress& progress = {});
 
 }  // namespace octafield::volume

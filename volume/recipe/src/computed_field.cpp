@@ -1,4 +1,4 @@
-#include "octafield/volume/compute_field.hpp"
+#include "octafield/volume/computed_field.hpp"
 
 #include <utility>
 
@@ -49,12 +49,11 @@ BoundaryConstraints surface_constraints(const TetDomain& domain, const surface::
             "the cross field lives on another surface than that of the tets; compute it on "
             "sheet_domain(domain)",
             "wrong_mesh");
-    if (sites == Sites::tets)
-        return tet_boundary_constraints(domain, surface::triangle_directions(cross), options);
+    if (sites == Sites::tets) return tet_boundary_constraints(domain, surface::triangle_directions(cross), options);
     return boundary_constraints(domain, at_surface_vertices(domain, surface::vertex_directions(cross)), options);
 }
 
-ComputedField compute_field(const TetDomain& domain, const FieldOptions& options, const Progress& progress) {
+ComputedField computed_field(const TetDomain& domain, const FieldOptions& options, const Progress& progress) {
     ComputedField result;
     solve(domain, domain, Sites::vertices, options, progress, result);
     result.combed = comb_vertices(domain, result.solved.smooth.frames, options.solve.threads);
@@ -62,7 +61,7 @@ ComputedField compute_field(const TetDomain& domain, const FieldOptions& options
     return result;
 }
 
-ComputedTetField compute_tet_field(const TetDomain& domain, const FieldOptions& options, const Progress& progress) {
+ComputedTetField computed_tet_field(const TetDomain& domain, const FieldOptions& options, const Progress& progress) {
     ComputedTetField result;
     const Sampling sampling = tet_sampling(domain);
     solve(domain, sampling, Sites::tets, options, progress, result);
