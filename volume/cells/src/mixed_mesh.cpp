@@ -51,7 +51,9 @@ Face face_of(const Cell& cell, const CellFace& local) {
         if (cell.ids[local.local[k]] < cell.ids[local.local[lowest]]) lowest = k;
     for (int k = 0; k < local.corners; ++k) face.cycle[k] = cell.ids[local.local[(lowest + k) % local.corners]];
     face.sorted = face.cycle;
-    std::sort(face.sorted.begin(), face.sorted.begin() + face.corners);
+    for (int k = 1; k < local.corners; ++k)  // few enough; std::sort makes GCC 12 see bounds that are not there
+        for (int j = k; j > 0 && face.sorted[j] < face.sorted[j - 1]; --j)
+            std::swap(face.sorted[j], face.sorted[j - 1]);
     return face;
 }
 
