@@ -35,8 +35,8 @@ n = len(box.vertices)
 frames, of_tets = of.frames.random_rotations(n, 1), of.frames.random_rotations(len(box.tets), 2)
 free = of.volume.BoundaryConstraints([0] * n, np.zeros((n, 3)), frames, [0] * n, [])
 smooth = of.frames.quaternion_exp(0.3 * np.asarray(box.vertices))
-cross = of.surface.direction_field(ball, none)
-points = of.surface.surface_singularities(ball, cross)
+cross = of.surface.direction_field(ball)
+points = of.surface.surface_singularities(cross)
 vectors = np.random.default_rng(1).normal(size=(20_000, 9))
 answer = dict(progress=lambda *_: True)
 def forever(call):
@@ -51,12 +51,12 @@ print("ready", flush=True)
 
 # CALL may be given a callback: {} or {**answer}.
 CALLS = {
-    "direction_field": "lambda: of.surface.direction_field(ball, none, {})",
-    "mbo": "lambda: of.surface.direction_field(ball, none, method='mbo', {})",
+    "direction_field": "lambda: of.surface.direction_field(ball, {})",
+    "mbo": "lambda: of.surface.direction_field(ball, method='mbo', {})",
     "remesh": "lambda: of.surface.remesh(ball, none, edge_length=0.08, {})",
     "tetrahedralize": "lambda: of.volume.tetrahedralize(ball, edge_length=0.15, {})",
-    "separatrices": "lambda: of.surface.separatrices(ball, none, cross, points, {})",
-    "even_streamlines": "lambda: of.surface.even_streamlines(ball, none, cross, points, spacing=0.1, {})",
+    "separatrices": "lambda: of.surface.separatrices(cross, points, {})",
+    "even_streamlines": "lambda: of.surface.even_streamlines(cross, points, spacing=0.1, {})",
     "smooth": "lambda: of.volume.smooth(box, free, frames, tolerance=0, max_iterations=1000, {})",
     "smooth_lbfgs": "lambda: of.volume.smooth(box, free, frames, solver='lbfgs', tolerance=0, max_iterations=1000, {})",
     "smooth_metric": "lambda: of.volume.smooth(box, free, smooth, representation='geodesic', tolerance=0, {})",

@@ -80,13 +80,12 @@ def solve(mesh, features, boundary: str, epsilon: float, length: float):
     edges, points = np.array(octafield.surface.edge_topology(mesh).edges), np.array(mesh.vertices)
     lengths = np.linalg.norm(points[edges[:, 1]] - points[edges[:, 0]], axis=1)
     field = octafield.surface.direction_field(
-        mesh,
-        features,
+        octafield.surface.SurfaceDomain(mesh, features),
         boundary_alignment=boundary,
         edge_epsilon=np.maximum(epsilon, 2 * lengths),
         alignment_length=length,
     )
-    return field, octafield.surface.surface_singularities(mesh, field)
+    return field, octafield.surface.surface_singularities(field)
 
 
 def crosses(mesh, field, window, count: int) -> np.ndarray:
@@ -99,9 +98,7 @@ def crosses(mesh, field, window, count: int) -> np.ndarray:
     for name in ELEMENTS:
         places = places[~Polygon(element(name)).contains_points(places)]
     first = (
-        0.4
-        * spacing
-        * np.array(octafield.surface.triangle_directions(mesh, field))[cKDTree(centres).query(places)[1], :2]
+        0.4 * spacing * np.array(octafield.surface.triangle_directions(field))[cKDTree(centres).query(places)[1], :2]
     )
     second = np.column_stack([-first[:, 1], first[:, 0]])
     return np.concatenate([np.stack([places - arm, places + arm], axis=1) for arm in (first, second)])
@@ -121,7 +118,7 @@ def draw(output: Path, mesh, features, drawn, size: float) -> None:
         10.4, 5.4, len(drawn), len(WINDOWS), width_ratios=[w / h for w, h in zip(widths, heights)]
     )
     for row, (label, field, singular) in zip(panels, drawn):
-        lines = octafield.surface.separatrices(mesh, features, field, singular, max_length=1.2, singular_radius=size)
+        lines = octafield.surface.separatrices(field, singular, max_length=1.2, singular_radius=size)
         for axes, (name, window) in zip(row, WINDOWS.items()):
             axes.add_collection(
                 LineCollection(

@@ -94,7 +94,7 @@ def draw(output: Path, mesh, features, drawn, size: float) -> None:
         for axes, spacing in ((upper, 0.055), (lower, 1.6 * size)):
             add_lines(
                 axes,
-                octafield.surface.even_streamlines(mesh, features, field, singular, spacing=spacing),
+                octafield.surface.even_streamlines(field, singular, spacing=spacing),
                 STREAMLINE,
                 0.5,
             )
@@ -126,10 +126,10 @@ def main() -> None:
     rows, drawn = [], {}
     for name, options in runs(mean_edge).items():
         start = time.process_time()
-        field = octafield.surface.direction_field(mesh, features, **options)
+        field = octafield.surface.direction_field(octafield.surface.SurfaceDomain(mesh, features), **options)
         seconds = time.process_time() - start
-        singular = octafield.surface.surface_singularities(mesh, field)
-        directions = np.array(octafield.surface.triangle_directions(mesh, field))
+        singular = octafield.surface.surface_singularities(field)
+        directions = np.array(octafield.surface.triangle_directions(field))
         inside = [s.index for s in singular.points if not s.boundary]
         drawn[name] = (field, singular)
         rows.append(

@@ -27,12 +27,14 @@ PRINTED = {4: 0.85, 6: 0.90}  # Beaufort et al. 2017, caption of figure 8
 def solve(edge: float, symmetry: int, epsilon: float, seed: int):
     mesh = even_disk(edge)
     features = octafield.surface.detect_features(mesh)
-    field = octafield.surface.direction_field(mesh, features, symmetry=symmetry, epsilon=epsilon, seed=seed)
-    return mesh, features, field, octafield.surface.surface_singularities(mesh, field)
+    field = octafield.surface.direction_field(
+        octafield.surface.SurfaceDomain(mesh, features), symmetry=symmetry, epsilon=epsilon, seed=seed
+    )
+    return mesh, field, octafield.surface.surface_singularities(field)
 
 
 def measured(edge: float, symmetry: int, epsilon: float, seed: int) -> dict:
-    mesh, _, field, singular = solve(edge, symmetry, epsilon, seed)
+    mesh, field, singular = solve(edge, symmetry, epsilon, seed)
     points = np.array([s.position for s in singular.points])
     inside = located_in_plane(mesh, field, points[[not s.boundary for s in singular.points]], epsilon)
     renormalised = octafield.surface.disk_renormalised_energy(inside)
@@ -116,13 +118,11 @@ def figure_3_9(output: Path, edge: float, epsilon: float, seed: int) -> None:
     """The fields, their critical points and separatrices, and the circle of theory."""
     figure, panels = new_figure(7.8, 4.4, 1, 2)
     for axes, d in zip(panels, PRINTED):
-        mesh, features, field, singular = solve(edge, d, epsilon, seed)
-        add_lines(
-            axes, octafield.surface.even_streamlines(mesh, features, field, singular, spacing=0.07), STREAMLINE, 0.6
-        )
+        mesh, field, singular = solve(edge, d, epsilon, seed)
+        add_lines(axes, octafield.surface.even_streamlines(field, singular, spacing=0.07), STREAMLINE, 0.6)
         add_lines(
             axes,
-            octafield.surface.separatrices(mesh, features, field, singular, singular_radius=3 * edge),
+            octafield.surface.separatrices(field, singular, singular_radius=3 * edge),
             SEPARATRIX,
             1.3,
         )

@@ -33,8 +33,8 @@ def disk_rows(edge: float, epsilon: float, output: Path) -> list[tuple]:
     figure, panels = new_figure(9.8, 3.0, 1, 3, width_ratios=(1, 1.16, 1.3))
     rows = []
     for axes, name, eps, color in zip(panels, ("Laplacian smoothing", "Ginzburg-Landau"), (HARMONIC, epsilon), PALETTE):
-        field = octafield.surface.direction_field(mesh, features, epsilon=eps)
-        singular = octafield.surface.surface_singularities(mesh, field)
+        field = octafield.surface.direction_field(octafield.surface.SurfaceDomain(mesh, features), epsilon=eps)
+        singular = octafield.surface.surface_singularities(field)
         norm = abs(np.array(field.values))
         shown = add_norm(axes, mesh, field)
         add_points(axes, singular, 4)
@@ -43,7 +43,7 @@ def disk_rows(edge: float, epsilon: float, output: Path) -> list[tuple]:
         order = np.argsort(radii)[:: max(1, len(radii) // 3000)]
         panels[2].plot(radii[order], norm[order], ".", color=color, markersize=2, label=name)
         area = np.bincount(
-            np.array(field.topology.triangle_edges).ravel(),
+            np.array(field.domain.triangle_edges).ravel(),
             np.repeat(np.array(octafield.surface.triangle_areas(mesh)) / 3, 3),
         )
         rows.append(
@@ -79,8 +79,10 @@ def ell_rows(edge: float, epsilon: float) -> list[tuple]:
         ("strong", {}),
         ("weak, L = eps", {"boundary_alignment": "weak", "alignment_length": epsilon}),
     ):
-        field = octafield.surface.direction_field(mesh, features, epsilon=epsilon, **options)
-        singular = octafield.surface.surface_singularities(mesh, field)
+        field = octafield.surface.direction_field(
+            octafield.surface.SurfaceDomain(mesh, features), epsilon=epsilon, **options
+        )
+        singular = octafield.surface.surface_singularities(field)
         signs = [s.index > 0 for s in singular.points]
         rows.append(
             (

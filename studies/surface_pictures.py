@@ -35,7 +35,7 @@ def draw_field(
     path: Path, mesh, field, singular, view, spacing: float, separatrix: float = 0.0, up=(0, 0, 1.0)
 ) -> None:
     """Streamlines, singular points, and the separatrices up to a length; seen from `view`."""
-    shape, features = scene.plotter(), octafield.FeatureGraph()
+    shape = scene.plotter()
     shape.add_mesh(
         scene.surface_mesh(mesh).compute_normals(),
         color="#e8ecf1",
@@ -46,10 +46,10 @@ def draw_field(
     )
     towards = np.array(view, float) / np.linalg.norm(view)
     lifted = 2e-3 * scene.diagonal(np.array(mesh.vertices)) * towards  # lines in front of the facets they lie in
-    lines = polylines(octafield.surface.even_streamlines(mesh, features, field, singular, spacing=spacing))
+    lines = polylines(octafield.surface.even_streamlines(field, singular, spacing=spacing))
     shape.add_mesh(lines.translate(lifted), color=STREAMLINE, line_width=2, lighting=False)
     if separatrix:
-        lines = polylines(octafield.surface.separatrices(mesh, features, field, singular, max_length=separatrix))
+        lines = polylines(octafield.surface.separatrices(field, singular, max_length=separatrix))
         shape.add_mesh(lines.translate(1.5 * lifted), color=SEPARATRIX, line_width=5, lighting=False)
     radius = 0.012 * scene.diagonal(np.array(mesh.vertices))
     ball = pyvista.Sphere(radius=radius, theta_resolution=48, phi_resolution=48)
@@ -98,7 +98,7 @@ def add_points(axes, singular, size: float = 6, keep=lambda point: True) -> None
 
 def add_norm(axes, mesh, field) -> object:
     """|f| by colour, 0 to 1: each triangle the mean of its edges."""
-    norm = abs(np.array(field.values))[np.array(field.topology.triangle_edges)].mean(axis=1)
+    norm = abs(np.array(field.values))[np.array(field.domain.triangle_edges)].mean(axis=1)
     points = np.array(mesh.vertices)
     return axes.tripcolor(
         points[:, 0],

@@ -32,7 +32,7 @@ def fitted_zero(places: np.ndarray, values: np.ndarray) -> complex:
 
 def edge_vectors(mesh, field) -> tuple[np.ndarray, np.ndarray]:
     """Midpoints and vectors of the edges, (E, 3)."""
-    ends = np.array(mesh.vertices)[np.array(field.topology.edges)]
+    ends = np.array(mesh.vertices)[np.array(field.domain.edges)]
     return ends.mean(axis=1), ends[:, 1] - ends[:, 0]
 
 

@@ -39,9 +39,11 @@ def row(path: Path, meshed, symmetry: int, method: str) -> list:
     """With odd N there is no sense in which feature edges inside the surface could be followed: none are."""
     features = meshed.features if symmetry % 2 == 0 else octafield.FeatureGraph()
     begin = time.process_time()
-    field = octafield.surface.direction_field(meshed.surface, features, symmetry=symmetry, method=method)
-    found = octafield.surface.surface_singularities(meshed.surface, field)
-    octafield.surface.vertex_directions(meshed.surface, features, field)
+    field = octafield.surface.direction_field(
+        octafield.surface.SurfaceDomain(meshed.surface, features), symmetry=symmetry, method=method
+    )
+    found = octafield.surface.surface_singularities(field)
+    octafield.surface.vertex_directions(field)
     seconds = time.process_time() - begin
     return [path.name, len(meshed.surface.triangles), meshed.feature_source, len(features.edges), symmetry, method,
             len(found.points), f"{found.index_sum:g}", found.euler_characteristic, "yes" if found.agree else "NO",

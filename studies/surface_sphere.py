@@ -60,12 +60,14 @@ def mesh_of(symmetry: int, n: int) -> octafield.TriangleMesh:
 def solve(symmetry: int, n: int, epsilon: float, seed: int):
     mesh = mesh_of(symmetry, n)
     features = octafield.surface.detect_features(mesh, angle=2.0)
-    field = octafield.surface.direction_field(mesh, features, symmetry=symmetry, epsilon=epsilon, seed=seed)
-    return mesh, features, field, octafield.surface.surface_singularities(mesh, field)
+    field = octafield.surface.direction_field(
+        octafield.surface.SurfaceDomain(mesh, features), symmetry=symmetry, epsilon=epsilon, seed=seed
+    )
+    return mesh, field, octafield.surface.surface_singularities(field)
 
 
 def measured(symmetry: int, n: int, epsilon: float, seed: int) -> tuple:
-    mesh, _, field, singular = solve(symmetry, n, epsilon, seed)
+    mesh, field, singular = solve(symmetry, n, epsilon, seed)
     points = located_on_sphere(mesh, field, np.array([s.position for s in singular.points]), epsilon)
     logarithmic = octafield.surface.logarithmic_energy(points)
     if len(points) == 2 * symmetry:
@@ -177,7 +179,7 @@ def main() -> None:
     ]
     text = figure_3_11(arguments.output) + "\n" + markdown_table(header, rows)
     for symmetry in BEST:
-        mesh, _, field, singular = solve(symmetry, sizes[len(sizes) // 2], epsilons[0], 1)
+        mesh, field, singular = solve(symmetry, sizes[len(sizes) // 2], epsilons[0], 1)
         draw_field(
             arguments.output / f"surface_sphere_{symmetry}.png",
             mesh,

@@ -71,10 +71,10 @@ def constraints(mesh, around: int, points: int, weight: float) -> octafield.surf
     )
 
 
-def free_energy(mesh, features, field) -> float:
+def free_energy(mesh, field) -> float:
     """E of the field without its constraints: Dirichlet part and penalty."""
     share = np.repeat(np.array(octafield.surface.triangle_areas(mesh)) / 3, 3)
-    masses = np.bincount(np.array(field.topology.triangle_edges).ravel(), share)
+    masses = np.bincount(np.array(field.domain.triangle_edges).ravel(), share)
     return field.dirichlet_energy + float(np.sum(masses * (abs(np.array(field.values)) ** 2 - 1) ** 2)) / (
         4 * field.epsilon**2
     )
@@ -82,16 +82,13 @@ def free_energy(mesh, features, field) -> float:
 
 def state(mesh, around: int, points: int, epsilon: float):
     """With the least of the weights that leads there; the last one if none does."""
-    features = octafield.FeatureGraph()
     for weight in WEIGHTS:
         held = constraints(mesh, around, points, weight)
-        field = octafield.surface.direction_field(
-            mesh, features, epsilon=epsilon, first_epsilon=epsilon, constraints=held
-        )
-        singular = octafield.surface.surface_singularities(mesh, field)
+        field = octafield.surface.direction_field(mesh, epsilon=epsilon, first_epsilon=epsilon, constraints=held)
+        singular = octafield.surface.surface_singularities(field)
         if len(singular.points) == points:
             break
-    return features, field, singular, weight
+    return field, singular, weight
 
 
 def counts(singular) -> tuple[int, int]:
@@ -104,8 +101,8 @@ def states_table(around: int, epsilons: list[float], wanted: list[int]) -> tuple
     rows, curves = [], {}
     for points in wanted:
         for epsilon in epsilons:
-            features, field, singular, weight = state(mesh, around, points, epsilon)
-            energy, found = free_energy(mesh, features, field), counts(singular)
+            field, singular, weight = state(mesh, around, points, epsilon)
+            energy, found = free_energy(mesh, field), counts(singular)
             kept = sum(found) == points
             if kept:
                 curves.setdefault(points, []).append((epsilon, energy))
@@ -146,7 +143,7 @@ def states_table(around: int, epsilons: list[float], wanted: list[int]) -> tuple
 def free_table(around: int, epsilons: list[float]) -> str:
     """Without constraints: each method as it is, and guided by the principal directions. mbo and eigen do not
     depend on epsilon."""
-    mesh, features, rows = torus(around, around // 2), octafield.FeatureGraph(), []
+    mesh, rows = torus(around, around // 2), []
     principal = octafield.surface.principal_directions(mesh)
     guide = octafield.surface.DirectionGuide(principal.directions, principal.anisotropy)
     runs = [
@@ -160,14 +157,14 @@ def free_table(around: int, epsilons: list[float]) -> str:
     ]
     runs += [(name, None, {"method": name}) for name in ("mbo", "eigen")]
     for name, epsilon, options in runs:
-        field = octafield.surface.direction_field(mesh, features, **options)
-        found = counts(octafield.surface.surface_singularities(mesh, field))
+        field = octafield.surface.direction_field(mesh, **options)
+        found = counts(octafield.surface.surface_singularities(field))
         rows.append(
             (
                 "-" if epsilon is None else f"{epsilon:g}",
                 name,
                 f"{found[0]} + {found[1]}",
-                f"{free_energy(mesh, features, field):.3f}",
+                f"{free_energy(mesh, field):.3f}",
                 f"{field.dirichlet_energy:.3f}",
             )
         )
@@ -181,9 +178,7 @@ def aligned(around: int) -> float:
     edges, points = np.array(topology.edges), np.array(mesh.vertices)
     middle = points[edges].mean(axis=1)
     held = octafield.surface.DirectionConstraints(edges, azimuthal(middle))
-    return octafield.surface.direction_field(
-        mesh, octafield.FeatureGraph(), method="eigen", constraints=held
-    ).dirichlet_energy
+    return octafield.surface.direction_field(mesh, method="eigen", constraints=held).dirichlet_energy
 
 
 def energy_figure(path: Path, curves: dict) -> None:

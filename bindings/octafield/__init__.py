@@ -29,6 +29,7 @@ from ._core import (
     require_valid,
     write_surface,
 )
+from .domain.cell_files import read_cells, write_cells
 from .domain.meshed_input import MeshedInput
 from .domain.meshing import prepare_mesh
 from .domain.parameterization import ParameterizationInput, parameterization_input
@@ -88,6 +89,7 @@ __all__ = [
     "parameterization_input",
     "prepare_field",
     "prepare_mesh",
+    "read_cells",
     "read_frames",
     "read_record",
     "read_surface",
@@ -103,6 +105,7 @@ __all__ = [
     "to_pyvista",
     "to_scipy",
     "volume",
+    "write_cells",
     "write_frames",
     "write_surface",
 ]

@@ -12,6 +12,7 @@ void bind_tensors(pybind11::module_& module);
 void bind_su2(pybind11::module_& module);
 void bind_metrics(pybind11::module_& module);
 void bind_surface_types(pybind11::module_& module);
+void bind_surface_domain(pybind11::module_& module);
 void bind_surface(pybind11::module_& module);
 void bind_direction_field_types(pybind11::module_& module);
 void bind_direction_fields(pybind11::module_& module);
@@ -34,6 +35,8 @@ void bind_parameterization_types(pybind11::module_& module);
 void bind_parameterization(pybind11::module_& module);
 void bind_volume_input_types(pybind11::module_& module);
 void bind_volume_input(pybind11::module_& module);
+void bind_cells(pybind11::module_& module);
+void bind_recipe(pybind11::module_& module);
 void add_examples(pybind11::module_& module);  // to docstrings, after everything else
 
 }  // namespace octafield::bindings

@@ -102,36 +102,12 @@ void check_edges(const Edges& edges, const surface::TriangleMesh& mesh, std::str
     require_none(edges.rows(), missing, name, "not an edge of the mesh", "not_an_edge");
 }
 
-void check(surface::FeatureGraph& features, const surface::TriangleMesh& mesh) {
-    check_edges(features.edges, mesh, "features.edges");
-    require_ids(features.corners, mesh.vertices.rows(), "features.corners");
-
-    std::vector<std::pair<Index, Index>> edges;
-    for (Eigen::Index i = 0; i < features.edges.rows(); ++i)
-        edges.push_back(ordered(features.edges(i, 0), features.edges(i, 1)));
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    features.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
-    for (std::size_t i = 0; i < edges.size(); ++i)
-        features.edges.row(static_cast<Eigen::Index>(i)) << edges[i].first, edges[i].second;
-
-    std::sort(features.corners.begin(), features.corners.end());
-    features.corners.erase(std::unique(features.corners.begin(), features.corners.end()), features.corners.end());
-}
-
-void check(const surface::DirectionField& field, const surface::TriangleMesh& mesh) {
+void check(const surface::DirectionField& field) {
     if (field.symmetry < 1 || field.symmetry > surface::largest_symmetry)
         throw InvalidInput("field.symmetry: " + std::to_string(field.symmetry) + " is not in 1 .. " +
                                std::to_string(surface::largest_symmetry),
                            "option_out_of_range");
-    const auto topology = surface::edge_topology(mesh);
-    const auto same = [](const auto& a, const auto& b) {
-        return a.rows() == b.rows() && (a.array() == b.array()).all();
-    };
-    if (!same(topology.edges, field.topology.edges) || !same(topology.triangle_edges, field.topology.triangle_edges) ||
-        !same(topology.edge_triangles, field.topology.edge_triangles))
-        throw InvalidInput("field: computed on another mesh (its edges are not those of this mesh)", "wrong_mesh");
-    require_rows(field.values.rows(), topology.edges.rows(), "field.values", "edge");
+    require_rows(field.values.rows(), field.domain.edge_count(), "field.values", "edge of field.domain");
     require_none(
         field.values.rows(), [&](auto i) { return !std::isfinite(std::abs(field.values[i])); }, "field.values",
         "a value is not finite", "non_finite");
@@ -216,9 +192,7 @@ void check(volume::BoundaryConstraints& constraints, Index vertex_count) {
     if (constraints.lengths.rows() > 0) check_vectors(constraints.lengths, vertex_count, "constraints.lengths");
 }
 
-void check(const volume::VertexConstraints& constraints) {
-    require_known(constraints.kinds, "constraints.kinds");
-}
+void check(const volume::VertexConstraints& constraints) { require_known(constraints.kinds, "constraints.kinds"); }
 
 void check(const volume::SingularGraph& graph) {
     require_finite(graph.points, "graph.points");

@@ -47,12 +47,11 @@ void check(const volume::FrameFieldOptions& options);
 void check(const surface::TriangleMesh& mesh, bool require_elements = true);
 void check(const volume::TetMesh& mesh, bool require_elements = true);
 
-// Edges are edges of the mesh and corners its vertices; both are put into the order that FeatureGraph promises.
-void check(surface::FeatureGraph& features, const surface::TriangleMesh& mesh);
+// Edges are edges of the mesh.
 void check_edges(const Edges& edges, const surface::TriangleMesh& mesh, std::string_view name);
 
-// The field's edges are those of the mesh.
-void check(const surface::DirectionField& field, const surface::TriangleMesh& mesh);
+// One finite value per edge of the field's domain.
+void check(const surface::DirectionField& field);
 
 // Edges are edges of the mesh, vertices its vertices; one finite direction each. The solver tests the rest.
 void check(const surface::DirectionConstraints& constraints, const surface::TriangleMesh& mesh);

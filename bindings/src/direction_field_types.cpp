@@ -49,7 +49,7 @@ void bind_field(py::module_& m) {
         "An N-direction field with one complex value exp(i N theta) per edge, theta the angle of the direction "
         "from the edge (lower to higher vertex id).")
         .field("symmetry", &DirectionField::symmetry, "N: 4 for a cross field.")
-        .field("topology", &DirectionField::topology, "EdgeTopology of the mesh the field lives on.")
+        .field("domain", &DirectionField::domain, "SurfaceDomain the field lives on.")
         .field("values", &DirectionField::values, "(E,) complex128, one value per edge in the edge's own frame.")
         .field("epsilon", &DirectionField::epsilon,
                "Coherence length used, input unit; the smallest where it differs from edge to edge.")

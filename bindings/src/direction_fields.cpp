@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "checks.hpp"
+#include "domain.hpp"
 #include "interruptible.hpp"
 #include "octafield/surface/directions.hpp"
 #include "octafield/surface/principal_directions.hpp"
@@ -15,15 +16,14 @@ using py::literals::operator""_a;
 
 namespace {
 
-DirectionField solve(const TriangleMesh& mesh, const FeatureGraph& features, DirectionFieldOptions options,
+DirectionField solve(const SurfaceOrMesh& surface, DirectionFieldOptions options,
                      const std::optional<ProgressCallable>& progress) {
     return run_interruptible(
-        [mesh = mesh, features = features, options = std::move(options)](Job& job) mutable {
-            check(mesh);
-            check(features, mesh);
-            check(options.constraints, mesh);
-            check(options.guide, mesh);
-            return direction_field(mesh, features, options, job.progress());
+        [surface, options = std::move(options)](Job& job) {
+            const SurfaceDomain domain = domain_of(surface);
+            check(options.constraints, domain.mesh());
+            check(options.guide, domain.mesh());
+            return direction_field(domain, options, job.progress());
         },
         progress);
 }
@@ -31,27 +31,28 @@ DirectionField solve(const TriangleMesh& mesh, const FeatureGraph& features, Dir
 void bind_direction_field(py::module_& m) {
     m.def(
         "direction_field",
-        [](const TriangleMesh& mesh, const FeatureGraph& features,
-           const std::optional<DirectionConstraints>& constraints, const std::optional<DirectionGuide>& guide,
-           const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+        [](const SurfaceOrMesh& surface, const std::optional<DirectionConstraints>& constraints,
+           const std::optional<DirectionGuide>& guide, const std::optional<ProgressCallable>& progress,
+           const py::kwargs& given) {
             auto [options] = options_of<DirectionFieldOptions>("direction_field", given);
             if (constraints) options.constraints = *constraints;
             if (guide) options.guide = *guide;
-            return solve(mesh, features, std::move(options), progress);
+            return solve(surface, std::move(options), progress);
         },
-        "mesh"_a, "features"_a, py::kw_only(), "constraints"_a = py::none(), "guide"_a = py::none(),
-        "progress"_a = py::none(),
-        "N-direction field on Crouzeix-Raviart elements (Beaufort et al. 2017), aligned to the mesh's boundary and the "
-        "feature edges, as a DirectionField.\n\n"
+        "surface"_a, py::kw_only(), "constraints"_a = py::none(), "guide"_a = py::none(), "progress"_a = py::none(),
+        "N-direction field on Crouzeix-Raviart elements (Beaufort et al. 2017), aligned to the surface's boundary and "
+        "its feature edges, as a DirectionField.\n\n"
         "symmetry: N, 4 for crosses. method: \"gl\", a local minimum of the Ginzburg-Landau functional; "
         "\"mbo\", diffusion and projection (Viertel and Osting 2019), close to it at a fraction of the time; "
         "\"eigen\", the globally smoothest (Knoeppel et al. 2013), the start of both. epsilon: coherence length, "
         "input unit, 0 means 2 mean edge lengths, at most a tenth of octafield.surface.shape_size; edge_epsilon: (E,) "
-        "one per edge instead, in the order of edge_topology; first_epsilon: where the continuation in epsilon starts, "
+        "one per edge instead, in the order of SurfaceDomain.edges; first_epsilon: where the continuation in epsilon "
+        "starts, "
         "0 means a tenth of the size. max_iterations: of the descent, or of diffusion and projection; tolerance: "
         "on the residual; energy_tolerance: relative decrease of a round of steps at which to stop; seed: of the "
         "random start where nothing is aligned, and of mbo's disturbance.\n\n"
-        "boundary_alignment, feature_alignment: \"strong\", the field follows the edges; \"weak\", a penalty that singular "
+        "boundary_alignment, feature_alignment: \"strong\", the field follows the edges; \"weak\", a penalty that "
+        "singular "
         "points may sit on; \"none\". alignment_length: of the weak penalty, input unit, 0 means epsilon; "
         "least_feature_angle: feature edges that bend by less (radians) are ignored; corner_tolerance: in [0, 1], two "
         "edges are followed weakly at a vertex where their directions differ by more than this part of pi / N. "
@@ -64,55 +65,45 @@ void bind_direction_field(py::module_& m) {
 void bind_directions(py::module_& m) {
     m.def(
         "vertex_directions",
-        [](const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field) {
-            return own(run_interruptible([mesh = mesh, features = features, field](Job&) mutable {
-                check(mesh);
-                check(features, mesh);
-                check(field, mesh);
-                return vertex_directions(mesh, features, field);
+        [](const DirectionField& field) {
+            return own(run_interruptible([field](Job&) {
+                check(field);
+                return vertex_directions(field);
             }));
         },
-        "mesh"_a, "features"_a, "field"_a,
-        "(V, 3) unit rows: one representative direction per vertex, orthogonal to vertex_normals(mesh), following "
-        "feature curves and the mesh's boundary.");
+        "field"_a,
+        "(V, 3) unit rows: one representative direction per vertex, orthogonal to vertex_normals of the mesh, "
+        "following the features of field.domain and the mesh's boundary.");
     m.def(
         "triangle_directions",
-        [](const TriangleMesh& mesh, const DirectionField& field) {
-            return own(run_interruptible([mesh = mesh, field](Job&) {
-                check(mesh);
-                check(field, mesh);
-                return triangle_directions(mesh, field);
+        [](const DirectionField& field) {
+            return own(run_interruptible([field](Job&) {
+                check(field);
+                return triangle_directions(field);
             }));
         },
-        "mesh"_a, "field"_a,
-        "(F, 3) unit rows: one representative direction per triangle, in its plane, at the centroid.");
+        "field"_a, "(F, 3) unit rows: one representative direction per triangle, in its plane, at the centroid.");
     m.def(
         "surface_singularities",
-        [](const TriangleMesh& mesh, const DirectionField& field) {
-            return run_interruptible([mesh = mesh, field](Job&) {
-                check(mesh);
-                check(field, mesh);
-                return surface_singularities(mesh, field);
+        [](const DirectionField& field) {
+            return run_interruptible([field](Job&) {
+                check(field);
+                return surface_singularities(field);
             });
         },
-        "mesh"_a, "field"_a,
+        "field"_a,
         "All triangles and vertices where the field has an index other than 0, as SurfaceSingularities: the points, "
         "the sum of their indices, and whether it is the Euler characteristic. On the mesh's boundary the index counts "
         "how often another of the N directions becomes the one that follows the boundary.");
     m.def(
         "principal_directions",
-        [](const TriangleMesh& mesh, const std::optional<FeatureGraph>& features) {
-            return run_interruptible([mesh = mesh, features = features.value_or(FeatureGraph{})](Job&) mutable {
-                check(mesh);
-                check(features, mesh);
-                return principal_directions(mesh, features);
-            });
+        [](const SurfaceOrMesh& surface) {
+            return run_interruptible([surface](Job&) { return principal_directions(domain_of(surface)); });
         },
-        "mesh"_a, "features"_a = py::none(),
+        "surface"_a,
         "Principal curvatures and directions of each triangle, from the change of the vertex normals (Rusinkiewicz "
         "2004), as PrincipalDirections. Nothing is averaged across features. As a guide field: "
-        "DirectionGuide(p.directions, p.anisotropy). Raises GeometryError where edge_topology does, and for triangles "
-        "without area.");
+        "DirectionGuide(p.directions, p.anisotropy). Raises GeometryError where SurfaceDomain does.");
 }
 
 }  // namespace

@@ -14,37 +14,11 @@ using surface::FeatureGraph;
 
 namespace {
 
-// Of an array inside the domain.
-template <ArrayType T>
-py::array frozen_view(const TetDomain& domain, const T& array) {
-    auto kept = std::make_unique<TetDomain>(domain);
-    const py::capsule owner(kept.get(), [](void* pointer) { delete static_cast<TetDomain*>(pointer); });
-    kept.release();
-    const auto* data = reinterpret_cast<const scalar_of<T>*>(array.data());
-    py::array_t<scalar_of<T>> view(shape_of(array), data, owner);
-    view.attr("flags").attr("writeable") = false;
-    return view;
-}
-
-// get(domain) -> an array inside it.
-template <class Get>
-void view_property(py::class_<TetDomain>& type, const char* name, Get get, const char* doc) {
-    type.def_property_readonly(
-        name, [get](const TetDomain& domain) { return frozen_view(domain, get(domain)); }, doc);
-}
-
-// Features of the Python object in the order that FeatureGraph promises.
-FeatureGraph checked(std::optional<FeatureGraph> features, const surface::TriangleMesh& surface) {
-    if (!features) return {};
-    check(*features, surface);
-    return std::move(*features);
-}
-
 TetDomain made(const TetMesh& mesh, const ArrayLike& regions, const std::optional<FeatureGraph>& features) {
     return run_interruptible(
         [mesh = mesh, ids = from_python<std::vector<Index>>(regions, "regions"), features](Job&) mutable {
             const TetDomain domain(std::move(mesh), std::move(ids));
-            return features ? domain.with_features(checked(std::move(features), domain.surface().mesh)) : domain;
+            return features ? domain.with_features(std::move(*features)) : domain;
         });
 }
 
@@ -113,7 +87,7 @@ void bind_domain(py::module_& m) {
             "with_features",
             [](const TetDomain& domain, const FeatureGraph& features) {
                 return run_interruptible([domain = domain, features = features](Job&) mutable {
-                    return domain.with_features(checked(std::move(features), domain.surface().mesh));
+                    return domain.with_features(std::move(features));
                 });
             },
             "features"_a, "The same mesh with other feature edges; nothing is copied. Raises InvalidInput.")

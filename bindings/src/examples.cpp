@@ -122,7 +122,8 @@ constexpr Example of_meshes[] = {
     3.0)"},
     {"principal_directions", R"(
     >>> cylinder = generate("cylinder")
-    >>> found = octafield.surface.principal_directions(cylinder, octafield.surface.detect_features(cylinder))
+    >>> domain = octafield.surface.SurfaceDomain(cylinder, octafield.surface.detect_features(cylinder))
+    >>> found = octafield.surface.principal_directions(domain)
     >>> found.curvatures.shape == (len(cylinder.triangles), 2)
     True)"},
 };
@@ -130,24 +131,22 @@ constexpr Example of_meshes[] = {
 constexpr Example of_surface_fields[] = {
     {"direction_field", R"(
     >>> ball = generate("ball")
-    >>> field = octafield.surface.direction_field(ball, octafield.surface.detect_features(ball))
-    >>> field.symmetry, field.converged, len(octafield.surface.surface_singularities(ball, field).points)
+    >>> field = octafield.surface.direction_field(ball)
+    >>> field.symmetry, field.converged, len(octafield.surface.surface_singularities(field).points)
     (4, True, 8))"},
     {"surface_singularities", R"(
     >>> ball = generate("ball")
-    >>> field = octafield.surface.direction_field(ball, octafield.surface.detect_features(ball), symmetry=6)
-    >>> octafield.surface.surface_singularities(ball, field)  # 12 points of index 1/6
+    >>> field = octafield.surface.direction_field(ball, symmetry=6)
+    >>> octafield.surface.surface_singularities(field)  # 12 points of index 1/6
     SurfaceSingularities(12 points, index sum 2, Euler characteristic 2))"},
     {"separatrices", R"(
     >>> ball = generate("ball")
-    >>> features = octafield.surface.detect_features(ball)
-    >>> field = octafield.surface.direction_field(ball, features)
-    >>> len(octafield.surface.separatrices(ball, features, field, octafield.surface.surface_singularities(ball, field)))
+    >>> field = octafield.surface.direction_field(ball)
+    >>> len(octafield.surface.separatrices(field, octafield.surface.surface_singularities(field)))
     24)"},
     {"vertex_directions", R"(
     >>> torus = generate("torus")
-    >>> features = octafield.surface.detect_features(torus)
-    >>> directions = octafield.surface.vertex_directions(torus, features, octafield.surface.direction_field(torus, features))
+    >>> directions = octafield.surface.vertex_directions(octafield.surface.direction_field(torus))
     >>> bool(np.allclose(np.linalg.norm(directions, axis=1), 1))
     True)"},
 };
@@ -215,8 +214,8 @@ constexpr Example of_volume_fields[] = {
     >>> domain = octafield.TetDomain(octafield.volume.tetrahedralize(generate("box")))
     >>> surface = domain.surface.mesh
     >>> domain = domain.with_features(octafield.surface.detect_features(surface))
-    >>> field = octafield.surface.direction_field(surface, domain.features)
-    >>> directions = octafield.surface.vertex_directions(surface, domain.features, field)
+    >>> field = octafield.surface.direction_field(octafield.surface.SurfaceDomain(surface, domain.features))
+    >>> directions = octafield.surface.vertex_directions(field)
     >>> held = octafield.volume.boundary_constraints(domain, directions)
     >>> bool((held.kind[domain.surface.vertex_map] > 0).all())
     True)"},

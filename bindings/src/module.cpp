@@ -69,6 +69,8 @@ PYBIND11_MODULE(_core, module) {
     bind_parameterization(module);
     bind_frame_streamlines(module);
     bind_volume_input(module);
+    bind_recipe(module);
+    bind_cells(module);
     bind_end();
     add_examples(module);
 }

@@ -15,16 +15,12 @@ namespace {
 
 // What every curve is traced in; owned by the work that traces.
 struct Surroundings {
-    TriangleMesh mesh;
-    FeatureGraph features;
     DirectionField field;
     SurfaceSingularities singularities;
 
-    void check_all() {
-        check(mesh);
-        check(features, mesh);
-        check(field, mesh);
-        check(singularities, mesh);
+    void check_all() const {
+        check(field);
+        check(singularities, field.domain.mesh());
     }
 };
 
@@ -54,27 +50,27 @@ void bind_seeded(py::module_& m) {
     const StreamlineOptions defaults;
     m.def(
         "streamlines",
-        [](const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field,
-           const SurfaceSingularities& singularities, const ArrayLike& triangles, const ArrayLike& directions,
-           const std::optional<ArrayLike>& weights, double max_length, bool both_ways, bool stop_at_features,
-           double singular_radius) {
+        [](const DirectionField& field, const SurfaceSingularities& singularities, const ArrayLike& triangles,
+           const ArrayLike& directions, const std::optional<ArrayLike>& weights, double max_length, bool both_ways,
+           bool stop_at_features, double singular_radius) {
             std::optional<Points> barycentric;
             if (weights) barycentric = from_python<Points>(*weights, "weights");
             return run_interruptible(
-                [on = Surroundings{mesh, features, field, singularities},
+                [on = Surroundings{field, singularities},
                  seeds = seeds_of(from_python<std::vector<Index>>(triangles, "triangles"),
                                   from_python<Points>(directions, "directions"), barycentric),
-                 options = tracing(max_length, both_ways, stop_at_features, singular_radius)](Job&) mutable {
+                 options = tracing(max_length, both_ways, stop_at_features, singular_radius)](Job&) {
                     on.check_all();
-                    return streamlines(on.mesh, on.features, on.field, on.singularities, seeds, options);
+                    return streamlines(on.field, on.singularities, seeds, options);
                 });
         },
-        "mesh"_a, "features"_a, "field"_a, "singularities"_a, "triangles"_a, "directions"_a, "weights"_a = py::none(),
-        py::kw_only(), "max_length"_a = defaults.max_length, "both_ways"_a = defaults.both_ways,
+        "field"_a, "singularities"_a, "triangles"_a, "directions"_a, "weights"_a = py::none(), py::kw_only(),
+        "max_length"_a = defaults.max_length, "both_ways"_a = defaults.both_ways,
         "stop_at_features"_a = defaults.stop_at_features, "singular_radius"_a = defaults.singular_radius,
         "One curve along the field per seed, as a list of Streamline. Seed i lies in triangles[i] and takes, of the N "
         "directions there, the one nearest to directions[i]; weights: (n, 3) barycentric, the centroids if left out. "
-        "max_length: input unit, from the seed each way, 0 means 4 times octafield.surface.shape_size; both_ways: against "
+        "max_length: input unit, from the seed each way, 0 means 4 times octafield.surface.shape_size; both_ways: "
+        "against "
         "the direction as well; singular_radius: a curve ends that near to a singular point, 0 means half the mean "
         "edge length. Raises InvalidInput naming the seeds that are outside the mesh or have no direction in their "
         "triangle's plane.");
@@ -84,18 +80,17 @@ void bind_separatrices(py::module_& m) {
     const StreamlineOptions defaults;
     m.def(
         "separatrices",
-        [](const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field,
-           const SurfaceSingularities& singularities, double max_length, bool stop_at_features, double singular_radius,
-           const std::optional<ProgressCallable>& progress) {
+        [](const DirectionField& field, const SurfaceSingularities& singularities, double max_length,
+           bool stop_at_features, double singular_radius, const std::optional<ProgressCallable>& progress) {
             return run_interruptible(
-                [on = Surroundings{mesh, features, field, singularities},
-                 options = tracing(max_length, false, stop_at_features, singular_radius)](Job& job) mutable {
+                [on = Surroundings{field, singularities},
+                 options = tracing(max_length, false, stop_at_features, singular_radius)](Job& job) {
                     on.check_all();
-                    return separatrices(on.mesh, on.features, on.field, on.singularities, options, job.progress());
+                    return separatrices(on.field, on.singularities, options, job.progress());
                 },
                 progress);
         },
-        "mesh"_a, "features"_a, "field"_a, "singularities"_a, py::kw_only(), "max_length"_a = defaults.max_length,
+        "field"_a, "singularities"_a, py::kw_only(), "max_length"_a = defaults.max_length,
         "stop_at_features"_a = defaults.stop_at_features, "singular_radius"_a = defaults.singular_radius,
         "progress"_a = py::none(),
         "From every singular point one curve for each direction that runs straight away from it, as a list of "
@@ -108,9 +103,8 @@ void bind_even(py::module_& m) {
     const EvenStreamlineOptions defaults;
     m.def(
         "even_streamlines",
-        [](const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field,
-           const SurfaceSingularities& singularities, double spacing, double stop_ratio, double min_length,
-           double max_length, bool both_ways, bool stop_at_features, double singular_radius,
+        [](const DirectionField& field, const SurfaceSingularities& singularities, double spacing, double stop_ratio,
+           double min_length, double max_length, bool both_ways, bool stop_at_features, double singular_radius,
            const std::optional<ProgressCallable>& progress) {
             const EvenStreamlineOptions options{
                 .spacing = finite(spacing, "spacing"),
@@ -118,20 +112,21 @@ void bind_even(py::module_& m) {
                 .min_length = finite(min_length, "min_length"),
                 .tracing = tracing(max_length, both_ways, stop_at_features, singular_radius)};
             return run_interruptible(
-                [on = Surroundings{mesh, features, field, singularities}, options](Job& job) mutable {
+                [on = Surroundings{field, singularities}, options](Job& job) {
                     on.check_all();
-                    return even_streamlines(on.mesh, on.features, on.field, on.singularities, options, job.progress());
+                    return even_streamlines(on.field, on.singularities, options, job.progress());
                 },
                 progress);
         },
-        "mesh"_a, "features"_a, "field"_a, "singularities"_a, py::kw_only(), "spacing"_a = defaults.spacing,
+        "field"_a, "singularities"_a, py::kw_only(), "spacing"_a = defaults.spacing,
         "stop_ratio"_a = defaults.stop_ratio, "min_length"_a = defaults.min_length,
         "max_length"_a = defaults.tracing.max_length, "both_ways"_a = defaults.tracing.both_ways,
         "stop_at_features"_a = defaults.tracing.stop_at_features,
         "singular_radius"_a = defaults.tracing.singular_radius, "progress"_a = py::none(),
         "Curves that cover the surface at an even distance, one family per direction (2 for crosses; after Jobard and "
         "Lefer 1997), as a list of Streamline. spacing: between neighbours, input unit, 0 means 1/60 of "
-        "octafield.surface.shape_size; stop_ratio: a curve ends nearer to another one than this part of it, in (0, 1]; min_length: "
+        "octafield.surface.shape_size; stop_ratio: a curve ends nearer to another one than this part of it, in (0, 1]; "
+        "min_length: "
         "shorter curves are dropped unless closed, 0 means the spacing; the others as for streamlines. Raises "
         "InvalidInput, Cancelled.");
 }

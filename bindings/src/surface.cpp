@@ -233,7 +233,7 @@ void bind_remesh(py::module_& m) {
             return run_interruptible(
                 [mesh = mesh, features = features, options = options](Job& job) mutable {
                     check(mesh);
-                    check(features, mesh);
+                    features = ordered_features(std::move(features), mesh);
                     return remesh(mesh, features, options, job.progress());
                 },
                 progress);
@@ -252,7 +252,7 @@ void bind_remesh(py::module_& m) {
             const auto [options] = options_of<SizeFieldOptions>("size_field", given);
             return run_interruptible([mesh = mesh, features = features, options = options](Job& job) mutable {
                 check(mesh);
-                check(features, mesh);
+                features = ordered_features(std::move(features), mesh);
                 return size_field(mesh, features, options, job.progress());
             });
         },

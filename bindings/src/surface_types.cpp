@@ -106,6 +106,7 @@ void bind_results(py::module_& m) {
 void bind_surface_types(py::module_& m) {
     bind_meshes(m);
     bind_results(m);
+    bind_surface_domain(m);
     bind_direction_field_types(m);
 }
 

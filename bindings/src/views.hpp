@@ -35,4 +35,24 @@ void replace(T& array, T&& value) {
     }
 }
 
+// Of an array inside an object that shares what it holds and never changes: cannot be written to, keeps a copy of the
+// object alive.
+template <class Shared, ArrayType T>
+py::array frozen_view(const Shared& object, const T& array) {
+    auto kept = std::make_unique<Shared>(object);
+    const py::capsule owner(kept.get(), [](void* pointer) { delete static_cast<Shared*>(pointer); });
+    kept.release();
+    const auto* data = reinterpret_cast<const scalar_of<T>*>(array.data());
+    py::array_t<scalar_of<T>> result(shape_of(array), data, owner);
+    result.attr("flags").attr("writeable") = false;
+    return result;
+}
+
+// get(object) -> an array inside it.
+template <class Shared, class Get>
+void view_property(py::class_<Shared>& type, const char* name, Get get, const char* doc) {
+    type.def_property_readonly(
+        name, [get](const Shared& object) { return frozen_view(object, get(object)); }, doc);
+}
+
 }  // namespace octafield::bindings

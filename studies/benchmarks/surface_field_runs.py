@@ -28,14 +28,14 @@ def octafield_field(method: str, data) -> tuple[dict, np.ndarray]:
     epsilon = octafield.surface.mean_edge_length(mesh) / 2 if method.endswith("fine") else 0
     start = time.process_time()
     field = octafield.surface.direction_field(
-        mesh, features, method=method.split()[0], epsilon=epsilon, constraints=held
+        octafield.surface.SurfaceDomain(mesh, features), method=method.split()[0], epsilon=epsilon, constraints=held
     )
     seconds, memory = time.process_time() - start, megabytes()
-    singular = octafield.surface.surface_singularities(mesh, field)
+    singular = octafield.surface.surface_singularities(field)
     record = {"seconds": f"{seconds:.2f}", "megabytes": memory, "points": len(singular.points)}
     if not singular.agree:
         record["note"] = f"index sum {singular.index_sum:g} instead of {singular.euler_characteristic}"
-    return record, np.array(octafield.surface.triangle_directions(mesh, field))
+    return record, np.array(octafield.surface.triangle_directions(field))
 
 
 def mean_direction(corners: np.ndarray, directions: np.ndarray) -> np.ndarray:

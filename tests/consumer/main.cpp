@@ -17,12 +17,12 @@ int main() {
     surface.triangles << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
     octafield::surface::require_valid(surface);
     const auto features = octafield::surface::detect_features(surface);
-    const auto field = octafield::surface::direction_field(surface, features);
+    const auto field = octafield::surface::direction_field({surface, features});
 
     octafield::volume::TetrahedralizeOptions options;
     options.edge_length = 0.3;
     const octafield::volume::TetDomain domain(octafield::volume::tetrahedralize(surface, options), {}, features);
-    const auto directions = octafield::surface::vertex_directions(surface, features, field);
+    const auto directions = octafield::surface::vertex_directions(field);
     const auto constraints = octafield::volume::boundary_constraints(domain, directions);
     const auto result =
         octafield::volume::smooth(domain, constraints, octafield::volume::initial_frames(domain, constraints));

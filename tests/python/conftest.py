@@ -106,7 +106,7 @@ def sphere() -> octafield.TriangleMesh:
 def box_problem(box, box_surface, box_features):
     """Boundary, cross directions, constraints and start of the cube."""
     boundary = octafield.volume.boundary_surface(box)
-    field = octafield.surface.direction_field(box_surface, box_features)
-    directions = octafield.surface.vertex_directions(box_surface, box_features, field)
+    field = octafield.surface.direction_field(octafield.surface.SurfaceDomain(box_surface, box_features))
+    directions = octafield.surface.vertex_directions(field)
     constraints = octafield.volume.boundary_constraints(octafield.TetDomain(box, features=box_features), directions)
     return boundary, directions, constraints, octafield.volume.initial_frames(box, constraints)

@@ -3,8 +3,6 @@
 import numpy as np
 import octafield as of
 
-NONE = of.FeatureGraph()
-
 
 def at_angle(angle: float) -> np.ndarray:
     return np.array([np.cos(angle), np.sin(angle), 0])

@@ -3,7 +3,7 @@
 import numpy as np
 import octafield as of
 import pytest
-from surface_fixtures import NONE, at_angle, cylinder, square
+from surface_fixtures import at_angle, cylinder, square
 
 
 @pytest.fixture(scope="module")
@@ -13,7 +13,7 @@ def flat():
 
 def angles_of(mesh, field):
     """Direction of the field at every edge of a mesh in the plane z = 0, modulo pi / 2."""
-    along = np.diff(mesh.vertices[field.topology.edges], axis=1)[:, 0]
+    along = np.diff(mesh.vertices[field.domain.edges], axis=1)[:, 0]
     return (np.angle(field.values) / field.symmetry + np.arctan2(along[:, 1], along[:, 0])) % (np.pi / 2)
 
 
@@ -23,16 +23,16 @@ def guide_at(mesh, angle, **more):
 
 @pytest.mark.parametrize("method", ["gl", "mbo", "eigen"])
 def test_a_constant_guide_is_the_field_where_nothing_else_is_asked(flat, method):
-    field = of.surface.direction_field(flat, NONE, method=method, boundary_alignment="none", guide=guide_at(flat, 0.3))
+    field = of.surface.direction_field(flat, method=method, boundary_alignment="none", guide=guide_at(flat, 0.3))
     np.testing.assert_allclose(angles_of(flat, field), 0.3, atol=1e-6)
     np.testing.assert_allclose(np.abs(field.values), 1, atol=1e-6)
-    assert of.surface.surface_singularities(flat, field).boundary_deviation == pytest.approx(0.3, abs=1e-6)
+    assert of.surface.surface_singularities(field).boundary_deviation == pytest.approx(0.3, abs=1e-6)
 
 
 def test_the_guides_weights_and_length_count(flat):
     def largest(**more):
-        field = of.surface.direction_field(flat, NONE, guide=guide_at(flat, 0.3, **more))
-        angles = angles_of(flat, field)[(field.topology.edge_triangles >= 0).all(axis=1)]
+        field = of.surface.direction_field(flat, guide=guide_at(flat, 0.3, **more))
+        angles = angles_of(flat, field)[(field.domain.edge_triangles >= 0).all(axis=1)]
         return np.minimum(angles, np.pi / 2 - angles).max()
 
     assert largest(length=1e-3) == pytest.approx(0.3, abs=1e-3)  # the square's sides hold the boundary only
@@ -44,9 +44,9 @@ def test_the_boundary_is_followed_as_strongly_as_asked(flat):
     deviation = {}
     for word in ("strong", "weak", "none"):
         field = of.surface.direction_field(
-            flat, NONE, boundary_alignment=word, alignment_length=0.05, guide=guide_at(flat, 0.3, length=0.1)
+            flat, boundary_alignment=word, alignment_length=0.05, guide=guide_at(flat, 0.3, length=0.1)
         )
-        deviation[word] = of.surface.surface_singularities(flat, field).boundary_deviation
+        deviation[word] = of.surface.surface_singularities(field).boundary_deviation
     assert deviation["strong"] == pytest.approx(0, abs=1e-12)
     assert deviation["none"] == pytest.approx(0.3, abs=1e-6) and 0.01 < deviation["weak"] < 0.29
 
@@ -55,8 +55,10 @@ def test_features_are_followed_on_request_only(box_surface, box_features):
     features = {tuple(e) for e in box_features.edges.tolist()}
 
     def on_features(**options):
-        field = of.surface.direction_field(box_surface, box_features, method="eigen", seed=1, **options)
-        return field.values[[tuple(e) in features for e in field.topology.edges.tolist()]]
+        field = of.surface.direction_field(
+            of.surface.SurfaceDomain(box_surface, box_features), method="eigen", seed=1, **options
+        )
+        return field.values[[tuple(e) in features for e in field.domain.edges.tolist()]]
 
     np.testing.assert_allclose(on_features(), 1)
     free = on_features(feature_alignment="none")
@@ -74,11 +76,9 @@ def test_edges_of_the_constraints_hold_the_direction_given(sphere):
     direction = np.cos(0.2) * along + np.sin(0.2) * np.cross(normal, along)
     for given in (edge, edge[::-1]):
         asked = of.surface.DirectionConstraints([given], [5 * direction + normal])
-        field = of.surface.direction_field(sphere, NONE, constraints=asked)
+        field = of.surface.direction_field(sphere, constraints=asked)
         assert field.values[100] == pytest.approx(np.exp(0.8j), abs=1e-12)
-    loose = of.surface.direction_field(
-        sphere, NONE, constraints=of.surface.DirectionConstraints([edge], [direction], [1e-3])
-    )
+    loose = of.surface.direction_field(sphere, constraints=of.surface.DirectionConstraints([edge], [direction], [1e-3]))
     assert 1e-6 < abs(loose.values[100] - np.exp(0.8j))
 
 
@@ -87,33 +87,33 @@ def test_vertices_of_the_constraints_turn_the_edges_around_them(flat):
     asked = of.surface.DirectionConstraints(
         vertices=[middle], vertex_directions=[at_angle(0.3)], vertex_weights=[np.inf]
     )
-    field = of.surface.direction_field(flat, NONE, constraints=asked)
-    here = (field.topology.edges == middle).any(axis=1)
+    field = of.surface.direction_field(flat, constraints=asked)
+    here = (field.domain.edges == middle).any(axis=1)
     assert here.sum() == 6
     np.testing.assert_allclose(angles_of(flat, field)[here], 0.3)
 
 
 def test_one_coherence_length_per_edge_overrides_the_common_one(sphere):
     count = len(of.surface.edge_topology(sphere).edges)
-    common = of.surface.direction_field(sphere, NONE, epsilon=0.15)
-    same = of.surface.direction_field(sphere, NONE, epsilon=9.0, edge_epsilon=np.full(count, 0.15))
+    common = of.surface.direction_field(sphere, epsilon=0.15)
+    same = of.surface.direction_field(sphere, epsilon=9.0, edge_epsilon=np.full(count, 0.15))
     assert same.epsilon == common.epsilon == 0.15 and same.energy == pytest.approx(common.energy, rel=1e-6)
-    graded = of.surface.direction_field(sphere, NONE, edge_epsilon=np.linspace(0.1, 0.2, count))
+    graded = of.surface.direction_field(sphere, edge_epsilon=np.linspace(0.1, 0.2, count))
     assert graded.epsilon == 0.1 and graded.energy != common.energy
 
 
 @pytest.mark.parametrize("method", ["gl", "mbo", "eigen"])
 def test_the_square_has_no_singular_point_and_its_corners_make_the_characteristic(flat, method):
-    found = of.surface.surface_singularities(flat, of.surface.direction_field(flat, NONE, method=method))
+    found = of.surface.surface_singularities(of.surface.direction_field(flat, method=method))
     assert found.euler_characteristic == 1 and found.agree and found.index_sum == pytest.approx(1)
     assert all(p.boundary and p.index_times_symmetry == 1 for p in found.points) and len(found.points) == 4
 
 
 def test_indices_that_contradict_the_surface_are_seen(flat):
-    field = of.surface.direction_field(flat, NONE)
+    field = of.surface.direction_field(flat)
     values = field.values.copy()
-    values[np.flatnonzero((field.topology.edge_triangles >= 0).all(axis=1))[40]] *= -1
-    found = of.surface.surface_singularities(flat, of.surface.DirectionField(4, field.topology, values))
+    values[np.flatnonzero((field.domain.edge_triangles >= 0).all(axis=1))[40]] *= -1
+    found = of.surface.surface_singularities(of.surface.DirectionField(4, field.domain, values))
     assert found.index_sum == pytest.approx(1) and found.agree  # of any field: Poincare and Hopf
 
 
@@ -126,15 +126,16 @@ def test_principal_directions_of_a_cylinder_run_round_it():
     np.testing.assert_allclose(np.linalg.norm(found.directions, axis=1), 1)
     assert found.anisotropy.min() > 0.5
     guide = of.surface.DirectionGuide(found.directions, found.anisotropy, 0.1)
-    field = of.surface.direction_field(mesh, NONE, boundary_alignment="none", symmetry=2, guide=guide)
-    np.testing.assert_allclose(of.surface.triangle_directions(mesh, field)[:, 2], 0, atol=0.02)
+    field = of.surface.direction_field(mesh, boundary_alignment="none", symmetry=2, guide=guide)
+    np.testing.assert_allclose(of.surface.triangle_directions(field)[:, 2], 0, atol=0.02)
 
 
 def test_principal_directions_do_not_reach_across_features(box_surface, box_features):
-    assert np.abs(of.surface.principal_directions(box_surface, box_features).curvatures).max() < 1e-9
+    domain = of.surface.SurfaceDomain(box_surface, box_features)
+    assert np.abs(of.surface.principal_directions(domain).curvatures).max() < 1e-9
     assert np.abs(of.surface.principal_directions(box_surface).curvatures).max() > 1
     with pytest.raises(of.InvalidInput, match="features"):
-        of.surface.principal_directions(box_surface, of.FeatureGraph([[0, 10**6]]))
+        of.surface.SurfaceDomain(box_surface, of.FeatureGraph([[0, 10**6]]))
 
 
 def test_constraints_and_guides_that_do_not_fit_are_refused(flat):
@@ -155,7 +156,7 @@ def test_constraints_and_guides_that_do_not_fit_are_refused(flat):
     ]
     for name, constraints in bad:
         with pytest.raises(of.InvalidInput, match=name):
-            of.surface.direction_field(flat, NONE, constraints=constraints)
+            of.surface.direction_field(flat, constraints=constraints)
     for guide in (
         of.surface.DirectionGuide([x]),
         of.surface.DirectionGuide(np.zeros((count, 3))),
@@ -167,7 +168,7 @@ def test_constraints_and_guides_that_do_not_fit_are_refused(flat):
         guide_at(flat, 0.3, weights=np.full(count, np.nan)),
     ):
         with pytest.raises(of.InvalidInput, match="guide"):
-            of.surface.direction_field(flat, NONE, guide=guide)
+            of.surface.direction_field(flat, guide=guide)
 
 
 @pytest.mark.parametrize("options", [
@@ -177,6 +178,6 @@ def test_constraints_and_guides_that_do_not_fit_are_refused(flat):
     {"edge_epsilon": [0.1]}, {"edge_epsilon": "wide"}])  # fmt: skip
 def test_options_out_of_range_are_refused(flat, options):
     with pytest.raises(of.InvalidInput, match=next(iter(options))):
-        of.surface.direction_field(flat, NONE, **options)
+        of.surface.direction_field(flat, **options)
     with pytest.raises(TypeError):
-        of.surface.direction_field(flat, NONE, constraints=[[0, 1]])
+        of.surface.direction_field(flat, constraints=[[0, 1]])

@@ -40,7 +40,7 @@ def test_an_exception_in_a_callback_comes_out_as_it_is(box, box_surface, box_fea
     _, _, constraints, start = box_problem
     for call in (
         lambda: of.volume.smooth(box, constraints, start, progress=fail),
-        lambda: of.surface.direction_field(box_surface, box_features, progress=fail),
+        lambda: of.surface.direction_field(of.surface.SurfaceDomain(box_surface, box_features), progress=fail),
         lambda: of.surface.remesh(box_surface, box_features, progress=fail),
     ):
         with pytest.raises(Unlike) as caught:
@@ -50,9 +50,9 @@ def test_an_exception_in_a_callback_comes_out_as_it_is(box, box_surface, box_fea
 
 def test_a_callback_of_the_wrong_kind_is_refused(box_surface, box_features):
     with pytest.raises(TypeError):
-        of.surface.direction_field(box_surface, box_features, progress=3)
+        of.surface.direction_field(of.surface.SurfaceDomain(box_surface, box_features), progress=3)
     with pytest.raises(TypeError):
-        of.surface.direction_field(box_surface, box_features, progress=lambda: None)
+        of.surface.direction_field(of.surface.SurfaceDomain(box_surface, box_features), progress=lambda: None)
 
 
 def test_where_there_is_no_best_state_stopping_raises(box_surface, box_features):

@@ -3,25 +3,24 @@
 import numpy as np
 import octafield as of
 import pytest
-from surface_fixtures import NONE, at_angle, square
+from surface_fixtures import at_angle, square
 
 
 @pytest.fixture(scope="module")
 def flat():
     """The unit square, its field of axes and the four corners."""
-    mesh = square(6)
-    field = of.surface.direction_field(mesh, NONE)
-    return mesh, NONE, field, of.surface.surface_singularities(mesh, field)
+    field = of.surface.direction_field(square(6))
+    return field, of.surface.surface_singularities(field)
 
 
 @pytest.fixture(scope="module")
 def on_sphere(sphere):
-    field = of.surface.direction_field(sphere, NONE)
-    return sphere, NONE, field, of.surface.surface_singularities(sphere, field)
+    field = of.surface.direction_field(sphere)
+    return field, of.surface.surface_singularities(field)
 
 
 def test_streamlines_of_a_constant_field_are_straight_and_cross_the_square(flat):
-    mesh = flat[0]
+    mesh = flat[0].domain
     triangles = [12, 30, 59]
     lines = of.surface.streamlines(*flat, triangles, [at_angle(0.2), at_angle(np.pi / 2), [-3.0, 0, 0]])
     centres = mesh.vertices[mesh.triangles[triangles]].mean(axis=1)
@@ -33,7 +32,7 @@ def test_streamlines_of_a_constant_field_are_straight_and_cross_the_square(flat)
 
 
 def test_streamlines_start_at_the_weights_and_end_where_asked(flat):
-    mesh = flat[0]
+    mesh = flat[0].domain
     start = mesh.vertices[mesh.triangles[20]].T @ [0.2, 0.3, 0.5]
     (line,) = of.surface.streamlines(*flat, [20], [at_angle(0)], [[0.2, 0.3, 0.5]], both_ways=False, max_length=0.1)
     np.testing.assert_allclose(line.points[0], start, atol=1e-6)
@@ -43,21 +42,23 @@ def test_streamlines_start_at_the_weights_and_end_where_asked(flat):
 
 
 def test_streamlines_stop_at_features_unless_told_not_to(flat):
-    mesh, _, field, found = flat
+    plain, found = flat
+    mesh = plain.domain.mesh
     middle = np.flatnonzero(np.isclose(mesh.vertices[:, 0], 0.5))
     features = of.surface.feature_graph(mesh, np.column_stack([middle[:-1], middle[1:]]))
-    (stopped,) = of.surface.streamlines(mesh, features, field, found, [12], [at_angle(0)])
-    (through,) = of.surface.streamlines(mesh, features, field, found, [12], [at_angle(0)], stop_at_features=False)
+    field = of.surface.DirectionField(4, plain.domain.with_features(features), plain.values)
+    (stopped,) = of.surface.streamlines(field, found, [12], [at_angle(0)])
+    (through,) = of.surface.streamlines(field, found, [12], [at_angle(0)], stop_at_features=False)
     assert stopped.last_end == "feature" and stopped.length == pytest.approx(0.5)
     assert through.last_end == "boundary" and through.length == pytest.approx(1)
 
 
 @pytest.mark.parametrize("symmetry", [2, 4, 6])
 def test_every_singular_point_has_its_separatrices(sphere, symmetry):
-    field = of.surface.direction_field(sphere, NONE, symmetry=symmetry, method="mbo")
-    found = of.surface.surface_singularities(sphere, field)
+    field = of.surface.direction_field(sphere, symmetry=symmetry, method="mbo")
+    found = of.surface.surface_singularities(field)
     lines, edge = (
-        of.surface.separatrices(sphere, NONE, field, found, max_length=1.0),
+        of.surface.separatrices(field, found, max_length=1.0),
         of.surface.mean_edge_length(sphere),
     )
     assert len(found.points) >= 2 * symmetry - 2
@@ -75,10 +76,11 @@ def test_every_singular_point_has_its_separatrices(sphere, symmetry):
 
 
 def test_the_separatrices_of_a_cube_are_its_edges(box_surface, box_features):
-    field = of.surface.direction_field(box_surface, box_features)
-    found = of.surface.surface_singularities(box_surface, field)
-    assert of.surface.separatrices(box_surface, box_features, field, found) == []
-    traced = of.surface.separatrices(box_surface, NONE, field, found)  # the same field, its edges no features
+    field = of.surface.direction_field(of.surface.SurfaceDomain(box_surface, box_features))
+    found = of.surface.surface_singularities(field)
+    assert of.surface.separatrices(field, found) == []
+    plain = of.surface.DirectionField(4, of.surface.SurfaceDomain(box_surface), field.values)
+    traced = of.surface.separatrices(plain, found)  # the same field, its edges no features
     assert len(traced) == 24 and all(line.length == pytest.approx(1, abs=0.15) for line in traced)
 
 
@@ -118,7 +120,7 @@ def test_seeds_that_do_not_fit_are_named(flat):
 
 
 def test_options_and_points_that_do_not_fit_are_refused(flat, on_sphere):
-    mesh, features, field, found = flat
+    field, found = flat
     for options in ({"spacing": -1.0}, {"spacing": np.nan}, {"spacing": 1e-9}, {"stop_ratio": 0.0}, {"stop_ratio": 2.0},
                     {"min_length": -1.0}, {"max_length": -1.0}, {"singular_radius": np.inf}):  # fmt: skip
         with pytest.raises(of.InvalidInput, match=next(iter(options))):
@@ -129,10 +131,10 @@ def test_options_and_points_that_do_not_fit_are_refused(flat, on_sphere):
     endless = of.surface.SurfaceSingularity([0, 0, 0], -(2**31), 0.25, 0, -1)
     for point in (*nowhere, lost, endless):
         with pytest.raises(of.InvalidInput, match="singularities.points") as caught:
-            of.surface.separatrices(mesh, features, field, of.surface.SurfaceSingularities([point]))
+            of.surface.separatrices(field, of.surface.SurfaceSingularities([point]))
         assert caught.value.elements == [0]
-    with pytest.raises(of.InvalidInput, match="another mesh"):
-        of.surface.separatrices(mesh, features, on_sphere[2], found)
+    with pytest.raises(of.InvalidInput, match="not on the mesh"):
+        of.surface.separatrices(on_sphere[0], found)
 
 
 def test_energies_of_points_are_their_formulas():
@@ -157,7 +159,7 @@ def test_energies_of_points_are_their_formulas():
 
 
 def test_the_field_of_the_sphere_finds_nearly_the_least_energy(on_sphere):
-    points = np.array([p.position / np.linalg.norm(p.position) for p in on_sphere[3].points])
+    points = np.array([p.position / np.linalg.norm(p.position) for p in on_sphere[1].points])
     assert len(points) == 8
     assert of.surface.logarithmic_energy(points) == pytest.approx(-10.428018, abs=0.05)  # of the square antiprism
 

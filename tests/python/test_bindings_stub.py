@@ -94,15 +94,16 @@ points: NDArray[np.float64] = mesh.vertices
 def report(phase: str, fraction: float, merit: float) -> bool | None:
     return fraction < 1
 features = octafield.surface.detect_features(mesh, angle=0.5)
+domain = octafield.surface.SurfaceDomain(mesh, features)
 field: octafield.surface.DirectionField = octafield.surface.direction_field(
-    mesh, features, method="eigen", progress=report)
+    domain, method="eigen", progress=report)
 guided = octafield.surface.direction_field(
-    mesh, features, edge_epsilon=np.ones(3), constraints=octafield.surface.DirectionConstraints([[0, 1]], [[1, 0, 0]]),
-    guide=octafield.surface.DirectionGuide(octafield.surface.principal_directions(mesh, features).directions),
+    domain, edge_epsilon=np.ones(3), constraints=octafield.surface.DirectionConstraints([[0, 1]], [[1, 0, 0]]),
+    guide=octafield.surface.DirectionGuide(octafield.surface.principal_directions(domain).directions),
     boundary_alignment="weak")
-found: octafield.surface.SurfaceSingularities = octafield.surface.surface_singularities(mesh, field)
+found: octafield.surface.SurfaceSingularities = octafield.surface.surface_singularities(field)
 lines: list[octafield.surface.Streamline] = octafield.surface.separatrices(
-    mesh, features, field, found, progress=report)
+    field, found, progress=report)
 length: float = sum(line.length for line in lines) + octafield.surface.core_energy
 tets = octafield.volume.tetrahedralize(mesh)
 octafield.require_valid(tets)
@@ -120,6 +121,6 @@ def test_a_typed_program_passes_mypy_strict(tmp_path):
     command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", "example.py"]
     run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert run.returncode == 0, run.stdout
-    wrong = EXAMPLE + '\noctafield.direction_field(mesh, features, epsilon="wide")\n'
+    wrong = EXAMPLE + '\noctafield.surface.direction_field(domain, epsilon="wide")\n'
     (tmp_path / "example.py").write_text(wrong)
     assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 1

@@ -1,5 +1,8 @@
 """Functions on triangle meshes."""
 
+import gc
+import pickle
+
 import numpy as np
 import octafield as of
 import pytest
@@ -12,7 +15,7 @@ def edges_of(mesh):
 
 @pytest.fixture(scope="module")
 def box_field(box_surface, box_features):
-    return of.surface.direction_field(box_surface, box_features)
+    return of.surface.direction_field(of.surface.SurfaceDomain(box_surface, box_features))
 
 
 def test_the_cube_has_its_volume_area_and_characteristic(box_surface):
@@ -119,30 +122,30 @@ def test_remeshing_keeps_shape_and_corners(box_surface, box_features):
 
 def test_cross_field_of_the_cube_has_eight_corners(box_surface, box_features, box_field):
     assert box_field.symmetry == 4 and box_field.converged and box_field.values.dtype == np.complex128
-    np.testing.assert_array_equal(box_field.topology.edges, edges_of(box_surface))
-    found = of.surface.surface_singularities(box_surface, box_field)
+    np.testing.assert_array_equal(box_field.domain.edges, edges_of(box_surface))
+    found = of.surface.surface_singularities(box_field)
     assert found.index_sum == pytest.approx(2) and found.euler_characteristic == 2 and found.agree
     assert [p.index_times_symmetry for p in found.points] == [1] * 8 and found.boundary_deviation == 0
     features = {tuple(e) for e in box_features.edges.tolist()}
-    on_features = [tuple(e) in features for e in box_field.topology.edges.tolist()]
+    on_features = [tuple(e) in features for e in box_field.domain.edges.tolist()]
     np.testing.assert_allclose(box_field.values[on_features], 1)
 
 
 def test_directions_are_unit_tangents(box_surface, box_features, box_field):
-    per_triangle = of.surface.triangle_directions(box_surface, box_field)
+    per_triangle = of.surface.triangle_directions(box_field)
     np.testing.assert_allclose(np.linalg.norm(per_triangle, axis=1), 1)
     np.testing.assert_allclose(np.sum(per_triangle * of.surface.triangle_normals(box_surface), axis=1), 0, atol=1e-12)
-    per_vertex = of.surface.vertex_directions(box_surface, box_features, box_field)
+    per_vertex = of.surface.vertex_directions(box_field)
     np.testing.assert_allclose(np.linalg.norm(per_vertex, axis=1), 1)
     np.testing.assert_allclose(np.sum(per_vertex * of.surface.vertex_normals(box_surface), axis=1), 0, atol=1e-12)
 
 
 @pytest.mark.parametrize("symmetry, method", [(4, "eigen"), (6, "eigen"), (4, "gl"), (6, "mbo"), (1, "mbo")])
 def test_indices_on_the_sphere_add_up_to_two(sphere, symmetry, method):
-    field = of.surface.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
-    found = of.surface.surface_singularities(sphere, field)
+    field = of.surface.direction_field(sphere, symmetry=symmetry, method=method, seed=3)
+    found = of.surface.surface_singularities(field)
     assert sum(p.index for p in found.points) == pytest.approx(2) and found.agree
-    again = of.surface.direction_field(sphere, of.FeatureGraph(), symmetry=symmetry, method=method, seed=3)
+    again = of.surface.direction_field(sphere, symmetry=symmetry, method=method, seed=3)
     assert again.values.tobytes() == field.values.tobytes()
 
 
@@ -150,11 +153,14 @@ def test_features_may_be_given_in_any_order(box_surface, box_features, box_field
     shuffled = of.FeatureGraph(
         np.concatenate([box_features.edges[::-1, ::-1], box_features.edges[:3]]), box_features.corners[::-1]
     )
-    assert of.surface.direction_field(box_surface, shuffled).values.tobytes() == box_field.values.tobytes()
+    assert (
+        of.surface.direction_field(of.surface.SurfaceDomain(box_surface, shuffled)).values.tobytes()
+        == box_field.values.tobytes()
+    )
 
 
 def test_stopping_a_field_keeps_the_best_state(sphere):
-    field = of.surface.direction_field(sphere, of.FeatureGraph(), progress=lambda phase, fraction, merit: False)
+    field = of.surface.direction_field(sphere, progress=lambda phase, fraction, merit: False)
     assert not field.converged and np.isfinite(field.values).all()
 
 
@@ -174,15 +180,10 @@ ON_MESH = [
     of.volume.tetrahedralize,
     lambda m: of.surface.feature_graph(m, []),
     lambda m: of.surface.remesh(m, NONE),
-    lambda m: of.surface.direction_field(m, NONE),
-    lambda m: of.surface.vertex_directions(m, NONE, of.surface.DirectionField()),
-    lambda m: of.surface.triangle_directions(m, of.surface.DirectionField()),
-    lambda m: of.surface.surface_singularities(m, of.surface.DirectionField()),
+    of.surface.SurfaceDomain,
+    of.surface.direction_field,
     lambda m: of.write_surface(m, "never.off"),
     of.surface.principal_directions,
-    lambda m: of.surface.separatrices(m, NONE, of.surface.DirectionField(), of.surface.SurfaceSingularities()),
-    lambda m: of.surface.even_streamlines(m, NONE, of.surface.DirectionField(), of.surface.SurfaceSingularities()),
-    lambda m: of.surface.streamlines(m, NONE, of.surface.DirectionField(), of.surface.SurfaceSingularities(), [], []),
     lambda m: of.volume.write_surface_field("never.vtp", m, np.eye(3)),
 ]
 
@@ -209,7 +210,7 @@ def test_coordinates_that_are_not_finite_are_refused_everywhere(call):
         of.volume.tetrahedralize,
         of.surface.principal_directions,
         lambda m: of.surface.remesh(m, NONE),
-        lambda m: of.surface.direction_field(m, NONE),
+        of.surface.direction_field,
     ],
 )
 def test_an_empty_mesh_is_refused_where_nothing_can_be_said(call):
@@ -226,9 +227,9 @@ def test_features_that_are_not_of_the_mesh_are_refused(box, box_surface, box_fie
         (of.FeatureGraph([[3, 3]], []), "not_an_edge"),
     ):
         for call in (
-            lambda f: of.surface.direction_field(box_surface, f),
+            lambda f: of.surface.SurfaceDomain(box_surface, f),
+            box_field.domain.with_features,
             lambda f: of.surface.remesh(box_surface, f),
-            lambda f: of.surface.vertex_directions(box_surface, f, box_field),
             lambda f: of.TetDomain(box, features=f),
         ):
             with pytest.raises(of.InvalidInput, match="features") as caught:
@@ -238,24 +239,53 @@ def test_features_that_are_not_of_the_mesh_are_refused(box, box_surface, box_fie
         of.surface.feature_graph(box_surface, [far])
 
 
-def test_a_field_of_another_mesh_is_refused(box_surface, box_features, sphere, box_field):
-    wrong_values = of.surface.DirectionField(4, box_field.topology, box_field.values[:-1])
-    lost_values = of.surface.DirectionField(4, box_field.topology, box_field.values * np.nan)
-    no_symmetry = of.surface.DirectionField(0, box_field.topology, box_field.values)
-    for mesh, field in (
-        (sphere, box_field),
-        (box_surface, wrong_values),
-        (box_surface, lost_values),
-        (box_surface, no_symmetry),
-        (box_surface, of.surface.DirectionField()),
+def test_values_that_are_not_those_of_the_domain_are_refused(sphere, box_field):
+    make = of.surface.DirectionField
+    for field in (
+        make(4, of.surface.SurfaceDomain(sphere), box_field.values),
+        make(4, box_field.domain, box_field.values[:-1]),
+        make(4, box_field.domain, box_field.values * np.nan),
+        make(0, box_field.domain, box_field.values),
     ):
         for call in (
             of.surface.triangle_directions,
             of.surface.surface_singularities,
-            lambda m, f: of.surface.vertex_directions(m, NONE, f),
+            of.surface.vertex_directions,
+            lambda f: of.surface.separatrices(f, of.surface.SurfaceSingularities()),
         ):
             with pytest.raises(of.InvalidInput, match="field"):
-                call(mesh, field)
+                call(field)
+
+
+def test_a_domain_shows_its_arrays_and_keeps_them_alive(box_surface, box_features, box_field):
+    domain = of.surface.SurfaceDomain(box_surface, box_features)
+    topology = of.surface.edge_topology(box_surface)
+    expected = {
+        "vertices": box_surface.vertices,
+        "triangles": box_surface.triangles,
+        "edges": topology.edges,
+        "triangle_edges": topology.triangle_edges,
+        "edge_triangles": topology.edge_triangles,
+        "normals": of.surface.triangle_normals(box_surface),
+    }
+    for name, array in expected.items():
+        shown = getattr(domain, name)
+        np.testing.assert_array_equal(shown, array)
+        assert not shown.flags.writeable
+        assert np.shares_memory(shown, getattr(domain.with_features(of.FeatureGraph()), name))  # nothing is copied
+    np.testing.assert_allclose(domain.corner_angles.sum(axis=1), np.pi)
+    ends = box_surface.vertices[topology.edges]
+    np.testing.assert_allclose(domain.edge_lengths, np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
+    assert domain.size == of.surface.shape_size(box_surface)
+    assert domain.mean_edge_length == of.surface.mean_edge_length(box_surface)
+    np.testing.assert_array_equal(domain.features.edges, box_features.edges)
+    lengths, copy = domain.edge_lengths, domain.edge_lengths.copy()
+    del domain
+    gc.collect()
+    np.testing.assert_array_equal(lengths, copy)
+    again = pickle.loads(pickle.dumps(box_field))
+    np.testing.assert_array_equal(again.domain.edges, box_field.domain.edges)
+    np.testing.assert_array_equal(again.domain.features.edges, box_features.edges)
 
 
 def test_options_out_of_range_are_refused(box_surface, box_features):
@@ -267,9 +297,9 @@ def test_options_out_of_range_are_refused(box_surface, box_features):
         {"max_iterations": -1},
     ):
         with pytest.raises(of.InvalidInput):
-            of.surface.direction_field(box_surface, box_features, **options)
+            of.surface.direction_field(of.surface.SurfaceDomain(box_surface, box_features), **options)
     with pytest.raises(of.InvalidInput, match="gl, mbo, eigen") as caught:
-        of.surface.direction_field(box_surface, box_features, method="ginzburg_landau")
+        of.surface.direction_field(of.surface.SurfaceDomain(box_surface, box_features), method="ginzburg_landau")
     assert caught.value.kind == "unknown_word"
     for options in ({"edge_length": -1.0}, {"edge_length": np.nan}, {"iterations": 0}):
         with pytest.raises(of.InvalidInput):

@@ -32,6 +32,15 @@ CLASSES = [
     of.SingularGraph,
     of.volume.SingularEdge,
     of.volume.SingularEdges,
+    of.surface.SurfaceDomain,
+    of.surface.QuadMesh,
+    of.volume.MixedMesh,
+    of.volume.CellDefect,
+    of.volume.CellBoundary,
+    of.volume.FieldAnalysis,
+    of.volume.TetFieldAnalysis,
+    of.volume.ComputedField,
+    of.volume.ComputedTetField,
 ]
 
 

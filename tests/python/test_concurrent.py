@@ -20,8 +20,8 @@ def metric_field():
 
 
 CALLS = {
-    "gl": lambda: of.surface.direction_field(BALL, NONE).values,
-    "mbo": lambda: of.surface.direction_field(BALL, NONE, method="mbo").values,
+    "gl": lambda: of.surface.direction_field(BALL).values,
+    "mbo": lambda: of.surface.direction_field(BALL, method="mbo").values,
     "ceres": metric_field,
 }
 

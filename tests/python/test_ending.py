@@ -35,8 +35,8 @@ print("ready", flush=True)
 """
 
 CALLS = {
-    "direction_field": "of.surface.direction_field(ball, none)",
-    "direction_field_calls_back": "of.surface.direction_field(ball, none, progress=lambda *_: True)",
+    "direction_field": "of.surface.direction_field(ball)",
+    "direction_field_calls_back": "of.surface.direction_field(ball, progress=lambda *_: True)",
     "smooth": "of.volume.smooth(box, free, frames, tolerance=0, max_iterations=1000)",
     "smooth_calls_back": "of.volume.smooth(box, free, frames, tolerance=0, max_iterations=1000, progress=lambda *_: "
     "True)",

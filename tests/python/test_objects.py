@@ -55,7 +55,7 @@ def objects(field, tmp_path_factory):
             of.surface.detect_features(generate("box"))),
             of.surface.size_field(generate("box"), of.surface.detect_features(generate("box"))),
         of.surface.edge_topology(surface), of.volume.feature_tangents(tets), of.volume.sector_normals(tets),
-        of.surface.principal_directions(surface, field.features),
+        of.surface.principal_directions(of.surface.SurfaceDomain(surface, field.features)),
         of.volume.locate_points(tets, [[0, 0, 0.5], [9, 9, 9]]), of.sample_frames(field, [[0, 0, 0.5]]),
         of.volume.comb_vertices(tets, field.frames), of.volume.smoothed_curves(field.singular_graph),
         of.volume.frame_field(tets, field.constraints, max_steps=2, max_iterations=2), of.volume.vertex_sampling(tets),

@@ -16,7 +16,7 @@ from octafield.fields.direction_field import compute_surface_field
 from octafield.fields.frame_field import compute_field, prepare_field, run_field
 from octafield.options import FieldOptions, SurfaceFieldOptions
 from octafield.progress.phases import PHASES
-from octafield.runs.run_folder import FIELD_FILES, write_field_result
+from octafield.runs.run_folder import FIELD_FILES, write_field_result, write_surface_result
 from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared, write_cube, write_sphere
 
 COARSE = FieldOptions(edge_length=0.25)
@@ -278,3 +278,40 @@ def test_a_run_validates_its_mesh_once(tmp_path, kind, sampling):
     result = compute_field(source, options if kind == "surface" else replace(options, edge_length=0))
     write_field_result(result, tmp_path)
     assert octafield.TetDomain.made() == before + 1
+
+
+@pytest.mark.parametrize("options", [{"remesh": False}, {"edge_length": 0.3}, {"edge_length": 0.3, "curvature": 5}])
+def test_a_surface_run_validates_its_surface_once(tmp_path, options):
+    """Counted from the field on: remeshing works on surfaces that change."""
+    options = SurfaceFieldOptions(**options)
+    meshed = octafield.prepare_mesh(generate("cylinder"), options, volume=False)
+    before = octafield.surface.SurfaceDomain.made()
+    result = octafield.compute_surface_field(meshed, options)
+    write_surface_result(result, tmp_path)
+    assert octafield.surface.SurfaceDomain.made() == before + 1
+
+
+def in_halves(tets):
+    """With a region on either side of x = 0."""
+    centres = np.asarray(tets.vertices)[np.asarray(tets.tets)].mean(axis=1)
+    return octafield.TetDomain(tets.mesh, regions=(centres[:, 0] > 0).astype(np.int32) + 1)
+
+
+@pytest.mark.parametrize("sampling", ["vertices", "tets"])
+@pytest.mark.parametrize("body, boundary", [("cylinder", "aligned"), ("ball", "fixed"), ("halves", "aligned")])
+def test_the_recipe_of_cpp_gives_the_same_bits(body, boundary, sampling):
+    options = FieldOptions(edge_length=0.4, boundary=boundary, sampling=sampling, seed=3)
+    source = generate("ball" if body == "halves" else body)
+    meshed = octafield.prepare_mesh(source, options)
+    if body == "halves":
+        options = replace(options, edge_length=0)
+        meshed = octafield.prepare_mesh(in_halves(meshed.volume()), options)
+        assert meshed.interface_triangles > 0
+    result = compute_field(meshed, options)
+    compute = octafield.volume.computed_field if sampling == "vertices" else octafield.volume.computed_tet_field
+    found = compute(meshed.volume(), mode=boundary, seed=3)
+    assert found.cross_field.energy == result.direction_field.energy
+    assert found.analysis.energy == result.record["energy"]
+    np.testing.assert_array_equal(found.combed.frames, result.frames)
+    np.testing.assert_array_equal(found.constraints.kind, result.constraints.kind)
+    np.testing.assert_array_equal(found.analysis.alignment, result.alignment)

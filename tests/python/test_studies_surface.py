@@ -91,11 +91,7 @@ def test_common_energy_is_the_dirichlet_integral_of_smooth_fields():
 
 def test_common_energy_does_not_know_which_of_the_four_directions_is_given():
     mesh = surface_meshes.torus(40, 20)
-    directions = np.array(
-        octafield.surface.triangle_directions(
-            mesh, octafield.surface.direction_field(mesh, octafield.FeatureGraph(), method="mbo")
-        )
-    )
+    directions = np.array(octafield.surface.triangle_directions(octafield.surface.direction_field(mesh, method="mbo")))
     turned = np.cross(octafield.surface.triangle_normals(mesh), directions)
     mixed = np.where(np.arange(len(turned))[:, None] % 2 == 0, directions, turned)
     energies = [surface_fields.common_energy(mesh, octafield.FeatureGraph(), d) for d in (directions, turned, mixed)]

@@ -24,8 +24,10 @@ def test_indices_add_up_to_the_euler_characteristic(path):
     for method in ("gl", "mbo", "eigen"):
         for symmetry in (4,) if method == "gl" else (1, 2, 4, 6):
             features = meshed.features if symmetry % 2 == 0 else of.FeatureGraph()
-            field = of.surface.direction_field(meshed.surface, features, symmetry=symmetry, method=method)
-            found = of.surface.surface_singularities(meshed.surface, field)
+            field = of.surface.direction_field(
+                of.surface.SurfaceDomain(meshed.surface, features), symmetry=symmetry, method=method
+            )
+            found = of.surface.surface_singularities(field)
             assert found.agree and found.index_sum == of.surface.euler_characteristic(meshed.surface), (
                 method,
                 symmetry,
@@ -44,6 +46,6 @@ def test_unsound_surfaces_are_refused_by_kind(name, kind):
 def test_a_hole_is_a_boundary_of_the_surface():
     meshed = prepare_mesh(shared(SHARED_SURFACES / "bad_hole_s17.obj"), MeshOptions(remesh=False), volume=False)
     found = of.surface.surface_singularities(
-        meshed.surface, of.surface.direction_field(meshed.surface, meshed.features)
+        of.surface.direction_field(of.surface.SurfaceDomain(meshed.surface, meshed.features))
     )
     assert found.agree and found.euler_characteristic == 1

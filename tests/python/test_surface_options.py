@@ -10,7 +10,7 @@ from octafield.domain.meshing import prepare_mesh
 from octafield.fields.direction_field import compute_surface_field
 from octafield.options import SurfaceFieldOptions
 from pipeline_fixtures import SHARED_TETS, octafield, shared, write_sphere
-from surface_fixtures import NONE, cylinder, grid_triangles, square
+from surface_fixtures import cylinder, grid_triangles, square
 
 AS_IT_IS = {"remesh": False, "features": "none"}
 
@@ -33,7 +33,7 @@ def bumpy_cylinder():
 
 def degrees_off(mesh, field, wanted):
     """Per triangle, between the nearest of the four directions and the part of `wanted` in its plane."""
-    normals, found = of.surface.triangle_normals(mesh), of.surface.triangle_directions(mesh, field)
+    normals, found = of.surface.triangle_normals(mesh), of.surface.triangle_directions(field)
     along = np.abs((found * wanted).sum(axis=1))
     across = np.abs((found * np.cross(normals, wanted)).sum(axis=1))
     return np.degrees(np.arctan2(np.minimum(along, across), np.maximum(along, across)))
@@ -122,8 +122,8 @@ def test_stopping_keeps_the_best_field_there_is(sphere):
 
 def test_answers_that_are_neither_true_nor_false_are_the_callers_error(sphere):
     with pytest.raises(ValueError, match="ambiguous"):
-        of.surface.direction_field(sphere, NONE, progress=lambda *report: np.zeros(3))
-    assert not of.surface.direction_field(sphere, NONE, progress=lambda *report: 0).converged
+        of.surface.direction_field(sphere, progress=lambda *report: np.zeros(3))
+    assert not of.surface.direction_field(sphere, progress=lambda *report: 0).converged
 
 
 def test_the_files_features_go_before_the_angle_and_seams_are_none():
@@ -139,7 +139,7 @@ def test_the_files_features_go_before_the_angle_and_seams_are_none():
     assert by_angle.feature_source == "angle" and len(none.features.edges) == 0
     field = compute_surface_field(path, SurfaceFieldOptions(features="file")).direction_field
     followed = {tuple(edge) for edge in by_file.features.edges.tolist()}
-    on = np.array([tuple(edge) in followed for edge in field.topology.edges.tolist()])
+    on = np.array([tuple(edge) in followed for edge in field.domain.edges.tolist()])
     assert (np.abs(field.values[on] - 1) < 1e-12).mean() > 0.8  # all but those at corners no field can follow
     assert (np.abs(field.values[~on] - 1) < 1e-12).mean() < 0.05
 
@@ -150,7 +150,9 @@ def test_flat_feature_edges_are_followed_or_not_as_asked(tmp_path):
     diagonal = [[0, 10], [10, 20]]  # edges of the mesh, at 45 degrees to its sides
     features = of.surface.feature_graph(mesh, diagonal + np.column_stack([middle[:-1], middle[1:]]).tolist())
     on = [tuple(edge) in {(0, 10), (10, 20)} for edge in of.surface.edge_topology(mesh).edges.tolist()]
-    follows = lambda **more: np.abs(of.surface.direction_field(mesh, features, **more).values[on] - 1)
+    follows = lambda **more: np.abs(
+        of.surface.direction_field(of.surface.SurfaceDomain(mesh, features), **more).values[on] - 1
+    )
     assert follows(boundary_alignment="none").min() < 1e-12
     assert follows(least_feature_angle=1e-6).min() > 1
 
@@ -160,40 +162,36 @@ def test_flat_feature_edges_are_followed_or_not_as_asked(tmp_path):
 
 @pytest.fixture(scope="module")
 def flat():
-    mesh = square(5)
-    field = of.surface.direction_field(mesh, NONE)
-    return mesh, NONE, field, of.surface.surface_singularities(mesh, field)
+    field = of.surface.direction_field(square(5))
+    return field, of.surface.surface_singularities(field)
 
 
 def test_fields_of_any_size_are_traced_and_those_without_numbers_refused(flat):
-    mesh, features, field, found = flat
+    field, found = flat
     usual = of.surface.even_streamlines(*flat)
     for size in (1e300, 1e-300):
-        scaled = of.surface.DirectionField(4, field.topology, field.values * size)
-        lines = of.surface.even_streamlines(mesh, features, scaled, found)
+        scaled = of.surface.DirectionField(4, field.domain, field.values * size)
+        lines = of.surface.even_streamlines(scaled, found)
         assert sum(line.length for line in lines) == pytest.approx(sum(line.length for line in usual), rel=1e-3)
-        assert of.surface.separatrices(mesh, features, scaled, found) == []
+        assert of.surface.separatrices(scaled, found) == []
     for values, symmetry in (
         (field.values * np.nan, 4),
         (field.values[:5], 4),
         (field.values, 0),
         (field.values, 1001),
     ):
-        wrong = of.surface.DirectionField(symmetry, field.topology, values)
+        wrong = of.surface.DirectionField(symmetry, field.domain, values)
         for call in (of.surface.triangle_directions, of.surface.surface_singularities):
             with pytest.raises(of.InvalidInput, match="field"):
-                call(mesh, wrong)
-    turned = of.TriangleMesh(mesh.vertices, mesh.triangles[:, [1, 2, 0]])
-    with pytest.raises(of.InvalidInput, match="another mesh"):
-        of.surface.separatrices(turned, features, field, found)
+                call(wrong)
 
 
 def test_singular_points_away_from_their_triangle_are_refused(flat):
-    mesh, features, field, _ = flat
+    field, _ = flat
     for position, triangle, vertex in (([1e300, 0, 0], 10, -1), ([0.9, 0.9, 0], 0, -1), ([0.5, 0.5, 0], -1, 0)):
         points = of.surface.SurfaceSingularities([of.surface.SurfaceSingularity(position, 1, 0.25, triangle, vertex)])
         with pytest.raises(of.InvalidInput, match="not on the mesh") as caught:
-            of.surface.separatrices(mesh, features, field, points)
+            of.surface.separatrices(field, points)
         assert caught.value.elements == [0]
 
 
@@ -201,9 +199,10 @@ def test_singular_points_away_from_their_triangle_are_refused(flat):
     lambda x: np.repeat(x, 2, axis=0)[::2], np.asfortranarray, lambda x: x.astype(">f8"), lambda x: x.tolist(),
     lambda x: x.astype(np.longdouble), lambda x: np.lib.stride_tricks.as_strided(x, writeable=False)])  # fmt: skip
 def test_arrays_of_any_layout_are_the_same_mesh(flat, change):
-    mesh, features, field, _ = flat
+    field, _ = flat
+    mesh = field.domain
     other = of.TriangleMesh(change(np.array(mesh.vertices)), np.repeat(mesh.triangles, 2, axis=1)[:, ::2])
-    np.testing.assert_array_equal(of.surface.direction_field(other, features).values, field.values)
+    np.testing.assert_array_equal(of.surface.direction_field(other).values, field.values)
 
 
 @pytest.mark.parametrize("change, kind", [
@@ -211,8 +210,9 @@ def test_arrays_of_any_layout_are_the_same_mesh(flat, change):
     (lambda x: x + 1j, "wrong_type"), (lambda x: x.astype(str), "wrong_type"),
     (lambda x: x * 1e300, "size_out_of_range")])  # fmt: skip
 def test_vertices_that_are_none_are_refused(flat, change, kind):
+    mesh = flat[0].domain
     with pytest.raises(of.Error) as caught:
-        of.surface.direction_field(of.TriangleMesh(change(np.array(flat[0].vertices)), flat[0].triangles), NONE)
+        of.surface.direction_field(of.TriangleMesh(change(np.array(mesh.vertices)), mesh.triangles))
     assert caught.value.kind == kind
 
 

@@ -8,7 +8,8 @@ constexpr auto mbo = DirectionFieldMethod::mbo;
 
 // Angle between a direction and the nearest of the field's N directions at the midpoint of an edge of a plane mesh.
 double angle_off(const TriangleMesh& mesh, const DirectionField& field, Index e, double angle) {
-    const Vector along = mesh.vertices.row(field.topology.edges(e, 1)) - mesh.vertices.row(field.topology.edges(e, 0));
+    const Vector along =
+        mesh.vertices.row(field.domain.topology().edges(e, 1)) - mesh.vertices.row(field.domain.topology().edges(e, 0));
     const double edge = std::atan2(along.y(), along.x());
     return std::abs(std::arg(field.values[e] * std::polar(1.0, field.symmetry * (edge - angle)))) / field.symmetry;
 }
@@ -24,7 +25,8 @@ TEST(Constraints, HardOnesHoldAtEdgesAndVerticesOfAnySymmetry) {
     const EdgeTopology topology = edge_topology(mesh);
     for (const int symmetry : {1, 2, 3, 4, 6})
         for (const auto method : {DirectionFieldMethod::gl, mbo, DirectionFieldMethod::eigen}) {
-            DirectionFieldOptions options{.symmetry = symmetry, .method = method, .boundary_alignment = Alignment::none};
+            DirectionFieldOptions options{
+                .symmetry = symmetry, .method = method, .boundary_alignment = Alignment::none};
             options.constraints.edges = topology.edges.row(17);
             options.constraints.edges.row(0).reverseInPlace();
             options.constraints.edge_directions.resize(1, 3);
@@ -32,7 +34,7 @@ TEST(Constraints, HardOnesHoldAtEdgesAndVerticesOfAnySymmetry) {
             options.constraints.vertices = {60};
             options.constraints.vertex_directions = Points::Zero(1, 3);
             options.constraints.vertex_directions << std::cos(0.7), std::sin(0.7), 0;
-            const DirectionField field = direction_field(mesh, {}, options);
+            const DirectionField field = direction_field(mesh, options);
             EXPECT_NEAR(angle_off(mesh, field, 17, 0.5), 0, 1e-12);
             int incident = 0;
             for (Index e = 0; e < topology.edges.rows(); ++e)
@@ -53,7 +55,7 @@ TEST(Constraints, GoBeforeTheBoundary) {
     options.constraints.edges = topology.edges.row(e);
     options.constraints.edge_directions.resize(1, 3);
     options.constraints.edge_directions << std::cos(0.9), std::sin(0.9), 0;
-    EXPECT_NEAR(angle_off(mesh, direction_field(mesh, {}, options), e, 0.9), 0, 1e-12);
+    EXPECT_NEAR(angle_off(mesh, direction_field(mesh, options), e, 0.9), 0, 1e-12);
 }
 
 TEST(Constraints, WeightedOnesBalanceTheTwistOfABar) {
@@ -87,7 +89,7 @@ TEST(Constraints, WeightedOnesBalanceTheTwistOfABar) {
         const double p = (low + high) / 2;
         (p < weight * n * std::sin(4 * asked - p) ? low : high) = p;
     }
-    const DirectionField field = direction_field(mesh, {}, options);
+    const DirectionField field = direction_field(mesh, options);
     for (const Index e : right) EXPECT_NEAR(angle_off(mesh, field, e, 0), low / 4, 2e-3);
     EXPECT_NEAR(field.energy, low * low / 2 + weight * n * (1 - std::cos(4 * asked - low)), 2e-3);
 }
@@ -101,10 +103,10 @@ TEST(Constraints, OneDirectionPinsAClosedSurfaceAtNoCost) {
     const Vector x = mesh.vertices.row(40);
     const Vector wanted = x.unitOrthogonal();
     options.constraints.vertex_directions.row(0) = wanted.transpose();
-    const DirectionField field = direction_field(mesh, {}, options);
-    EXPECT_EQ(surface_singularities(mesh, field).points.size(), 8u);
-    EXPECT_NEAR(field.energy, direction_field(mesh, {}).energy, 0.05 * field.energy);
-    const Vector d = vertex_directions(mesh, {}, field).row(40);
+    const DirectionField field = direction_field(mesh, options);
+    EXPECT_EQ(surface_singularities(field).points.size(), 8u);
+    EXPECT_NEAR(field.energy, direction_field(mesh).energy, 0.05 * field.energy);
+    const Vector d = vertex_directions(field).row(40);
     EXPECT_NEAR(std::min(std::abs(d.dot(wanted)), std::abs(d.dot(x.cross(wanted)))), 0, 1e-4);
 }
 
@@ -122,10 +124,11 @@ TEST(Guide, IsFollowedClosely) {
     const auto worst = [&](double length, DirectionFieldMethod method) {
         options.guide.length = length;
         options.method = method;
-        const DirectionField field = direction_field(mesh, {}, options);
+        const DirectionField field = direction_field(mesh, options);
         double most = 0;
         for (Index e = 0; e < field.values.size(); ++e) {
-            const Eigen::RowVector3d m = mesh.vertices(field.topology.edges.row(e), Eigen::all).colwise().mean();
+            const Eigen::RowVector3d m =
+                mesh.vertices(field.domain.topology().edges.row(e), Eigen::all).colwise().mean();
             most = std::max(most, angle_off(mesh, field, e, angle(m.x(), m.y())));
         }
         return most;
@@ -145,10 +148,9 @@ TEST(Guide, AlongTheCurvatureLinesOfATorusLeavesNoSingularPoint) {
             azimuth(mesh.vertices(mesh.triangles.row(t), Eigen::all).colwise().mean().transpose());
     for (const auto method : {DirectionFieldMethod::gl, mbo, DirectionFieldMethod::eigen}) {
         options.method = method;
-        EXPECT_TRUE(surface_singularities(mesh, direction_field(mesh, {}, options)).points.empty());
+        EXPECT_TRUE(surface_singularities(direction_field(mesh, options)).points.empty());
     }
-    EXPECT_FALSE(surface_singularities(mesh, direction_field(mesh, {}, {.method = DirectionFieldMethod::eigen}))
-                     .points.empty());
+    EXPECT_FALSE(surface_singularities(direction_field(mesh, {.method = DirectionFieldMethod::eigen})).points.empty());
 }
 
 TEST(Guide, WithoutWeightIsNoGuide) {
@@ -156,7 +158,7 @@ TEST(Guide, WithoutWeightIsNoGuide) {
     DirectionFieldOptions options;
     options.guide.directions = Points::Zero(mesh.triangles.rows(), 3);
     options.guide.weights = Eigen::VectorXd::Zero(mesh.triangles.rows());
-    EXPECT_TRUE(direction_field(mesh, {}, options).values == direction_field(mesh, {}).values);
+    EXPECT_TRUE(direction_field(mesh, options).values == direction_field(mesh).values);
 }
 
 // ---- bad input ----
@@ -171,7 +173,7 @@ std::string refusal(const Change& change) {
     options.constraints.vertex_directions = Points::Ones(1, 3);
     change(options, mesh);
     try {
-        direction_field(mesh, {}, options);
+        direction_field(mesh, options);
     } catch (const InvalidInput& error) {
         return error.kind();
     }
@@ -199,9 +201,9 @@ TEST(Alignment, RefusesConstraintsAndGuidesThatMakeNoSense) {
               }),
               "contradiction");
     const TriangleMesh mesh = disk(3);
-    EXPECT_THROW(direction_field(mesh, {}, {.alignment_length = -1}), InvalidInput);
-    EXPECT_THROW(direction_field(mesh, {}, {.corner_tolerance = 2}), InvalidInput);
-    EXPECT_THROW(direction_field(mesh, {}, {.first_epsilon = -1}), InvalidInput);
+    EXPECT_THROW(direction_field(mesh, {.alignment_length = -1}), InvalidInput);
+    EXPECT_THROW(direction_field(mesh, {.corner_tolerance = 2}), InvalidInput);
+    EXPECT_THROW(direction_field(mesh, {.first_epsilon = -1}), InvalidInput);
 }
 
 }  // namespace

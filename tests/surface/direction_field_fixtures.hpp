@@ -32,16 +32,17 @@ using Vector = Eigen::Vector3d;
 constexpr double pi = std::numbers::pi;
 
 // The field that follows direction(x) at the edge midpoints x of a surface with normal(x).
-inline DirectionField prescribed(const TriangleMesh& mesh, int symmetry,
+inline DirectionField prescribed(const SurfaceDomain& domain, int symmetry,
                                  const std::function<Vector(const Vector&)>& direction,
                                  const std::function<Vector(const Vector&)>& normal) {
     DirectionField field;
     field.symmetry = symmetry;
-    field.topology = edge_topology(mesh);
-    field.values.resize(field.topology.edges.rows());
+    field.domain = domain;
+    field.values.resize(domain.edge_count());
+    const TriangleMesh& mesh = domain.mesh();
+    const Edges& edges = domain.topology().edges;
     for (Index e = 0; e < field.values.size(); ++e) {
-        const Vector low = mesh.vertices.row(field.topology.edges(e, 0)),
-                     high = mesh.vertices.row(field.topology.edges(e, 1));
+        const Vector low = mesh.vertices.row(edges(e, 0)), high = mesh.vertices.row(edges(e, 1));
         const Vector middle = (low + high) / 2, along = high - low, d = direction(middle);
         field.values[e] =
             std::polar(1.0, symmetry * std::atan2(normal(middle).normalized().cross(along).dot(d), along.dot(d)));

@@ -14,14 +14,14 @@ void expect_sound_fields(const TriangleMesh& mesh, const FeatureGraph& features 
     for (const DirectionFieldMethod method : methods)
         for (const int symmetry : {2, 4, 6})
             for (const Alignment boundary : {Alignment::strong, Alignment::weak, Alignment::none}) {
-                const DirectionField field =
-                    direction_field(mesh, features, {.symmetry = symmetry, .method = method, .boundary_alignment = boundary});
-                const SurfaceSingularities found = surface_singularities(mesh, field);
+                const DirectionField field = direction_field(
+                    {mesh, features}, {.symmetry = symmetry, .method = method, .boundary_alignment = boundary});
+                const SurfaceSingularities found = surface_singularities(field);
                 EXPECT_TRUE(found.agree) << symmetry << ", sum " << found.index_sum;
                 EXPECT_EQ(found.euler_characteristic, euler_characteristic(mesh));
-                const Points at_vertices = vertex_directions(mesh, features, field);
+                const Points at_vertices = vertex_directions(field);
                 EXPECT_NEAR((at_vertices.rowwise().norm().array() - 1).abs().maxCoeff(), 0, 1e-9);
-                const Points normals = triangle_normals(mesh), inside = triangle_directions(mesh, field);
+                const Points normals = triangle_normals(mesh), inside = triangle_directions(field);
                 EXPECT_LT(normals.cwiseProduct(inside).rowwise().sum().cwiseAbs().maxCoeff(), 1e-9);
             }
 }
@@ -77,7 +77,7 @@ TEST(HardSurfaces, MoebiusStripsAreRefusedWhole) {
             EXPECT_EQ(error.elements().size(), 40u);
         }
     };
-    expect_refusal([&] { direction_field(strip, {}); });
+    expect_refusal([&] { direction_field(strip); });
     expect_refusal([&] { principal_directions(strip); });
 }
 
@@ -104,8 +104,8 @@ TEST(HardSurfaces, TrianglesTooThinForDoublePrecisionAreNamed) {
     mesh.triangles.row(triangles + 1) << c, a, count;
     for (const DirectionFieldMethod method : methods) {
         try {
-            const DirectionField field = direction_field(mesh, {}, {.method = method});
-            EXPECT_TRUE(surface_singularities(mesh, field).agree);
+            const DirectionField field = direction_field(mesh, {.method = method});
+            EXPECT_TRUE(surface_singularities(field).agree);
         } catch (const SolverError& error) {
             EXPECT_EQ(error.kind(), "thin_triangles");
             EXPECT_EQ(error.elements(), std::vector<Index>{t});
@@ -118,13 +118,13 @@ TEST(HardSurfaces, SizesBeyondDoublePrecisionAreRefused) {
     for (const double size : {1e-30, 1e-6, 1e6, 1e30}) {
         TriangleMesh mesh = icosphere(1);
         mesh.vertices *= size;
-        EXPECT_TRUE(surface_singularities(mesh, direction_field(mesh, {})).agree);
+        EXPECT_TRUE(surface_singularities(direction_field(mesh)).agree);
     }
     for (const double size : {1e-200, 1e-90, 1e90, 1e150, 1e300}) {
         TriangleMesh mesh = icosphere(1);
         mesh.vertices *= size;
         try {
-            direction_field(mesh, {});
+            direction_field(mesh);
             FAIL() << "size " << size << " was accepted";
         } catch (const GeometryError& error) {
             EXPECT_EQ(error.kind(), "size_out_of_range");
@@ -139,8 +139,7 @@ TEST(HardSurfaces, PiecesClosedAndOpenAndTouchingHaveFields) {
     const TriangleMesh touching =
         make_mesh({{0, 0, 0}, {1, -0.5, 0}, {1, 0.5, 0}, {-1, 0.5, 0}, {-1, -0.5, 0}}, {{0, 1, 2}, {0, 3, 4}});
     for (const DirectionFieldMethod method : methods) {
-        const SurfaceSingularities found =
-            surface_singularities(touching, direction_field(touching, {}, {.method = method}));
+        const SurfaceSingularities found = surface_singularities(direction_field(touching, {.method = method}));
         EXPECT_TRUE(found.agree);
         EXPECT_EQ(found.euler_characteristic, 2);
     }
@@ -201,8 +200,8 @@ TEST(HardFeatures, CornersOfAnyAngleHaveTheirNearestIndex) {
                 }
             }
         for (const DirectionFieldMethod method : methods) {
-            const DirectionField field = direction_field(mesh, {}, {.method = method});
-            const SurfaceSingularities found = surface_singularities(mesh, field);
+            const DirectionField field = direction_field(mesh, {.method = method});
+            const SurfaceSingularities found = surface_singularities(field);
             EXPECT_TRUE(found.agree) << degrees;
             // Index 1/2 - angle / (2 pi), rounded to quarters, where the corner is near to one: else it is released.
             const double exact = 4 * (0.5 - degrees / 360.0);
@@ -219,7 +218,7 @@ TEST(HardFeatures, CornersOfAnyAngleHaveTheirNearestIndex) {
 std::string refusal(const DirectionFieldOptions& options) {
     const TriangleMesh mesh = disk(4);
     try {
-        direction_field(mesh, {}, options);
+        direction_field(mesh, options);
         return "";
     } catch (const Error& error) {
         return error.kind();
@@ -250,11 +249,11 @@ TEST(HardNumbers, WeightsTooSmallToCountAreNone) {
     const Points x = Eigen::RowVector3d(1, 0, 0).replicate(mesh.triangles.rows(), 1);
     const Eigen::VectorXd tiny = Eigen::VectorXd::Constant(mesh.triangles.rows(), 1e-300);
     for (const DirectionFieldMethod method : methods) {
-        const DirectionField weak =
-            direction_field(mesh, {}, {.method = method, .boundary_alignment = Alignment::weak, .alignment_length = 1e-300});
+        const DirectionField weak = direction_field(
+            mesh, {.method = method, .boundary_alignment = Alignment::weak, .alignment_length = 1e-300});
         const DirectionField guided =
-            direction_field(mesh, {}, {.method = method, .boundary_alignment = Alignment::none, .guide = {x, tiny}});
-        const DirectionField free = direction_field(mesh, {}, {.method = method, .boundary_alignment = Alignment::none});
+            direction_field(mesh, {.method = method, .boundary_alignment = Alignment::none, .guide = {x, tiny}});
+        const DirectionField free = direction_field(mesh, {.method = method, .boundary_alignment = Alignment::none});
         EXPECT_EQ(weak.values, free.values);
         EXPECT_EQ(guided.values, free.values);
         EXPECT_LT(free.energy, 1e-9);
@@ -262,20 +261,20 @@ TEST(HardNumbers, WeightsTooSmallToCountAreNone) {
 }
 
 TEST(HardNumbers, SymmetriesBeyondAnyMeshAreRefused) {
-    EXPECT_THROW(direction_field(disk(3), {}, {.symmetry = largest_symmetry + 1}), InvalidInput);
+    EXPECT_THROW(direction_field(disk(3), {.symmetry = largest_symmetry + 1}), InvalidInput);
     const TriangleMesh mesh = disk(3);
-    EXPECT_TRUE(surface_singularities(mesh, direction_field(mesh, {}, {.symmetry = largest_symmetry})).agree);
+    EXPECT_TRUE(surface_singularities(direction_field(mesh, {.symmetry = largest_symmetry})).agree);
 }
 
 TEST(HardNumbers, TheSizeOfAFieldDoesNotMatterToCurves) {
     const TriangleMesh mesh = icosphere(2);
-    DirectionField field = direction_field(mesh, {});
-    const SurfaceSingularities found = surface_singularities(mesh, field);
-    const auto lines = separatrices(mesh, {}, field, found);
+    DirectionField field = direction_field(mesh);
+    const SurfaceSingularities found = surface_singularities(field);
+    const auto lines = separatrices(field, found);
     for (const double size : {0x1p-1000, 0x1p1000}) {
         DirectionField scaled = field;
         scaled.values *= size;
-        const auto same = separatrices(mesh, {}, scaled, found);
+        const auto same = separatrices(scaled, found);
         ASSERT_EQ(same.size(), lines.size());
         for (std::size_t i = 0; i < lines.size(); ++i) EXPECT_NEAR(same[i].length, lines[i].length, 1e-6);
     }
@@ -283,11 +282,11 @@ TEST(HardNumbers, TheSizeOfAFieldDoesNotMatterToCurves) {
 
 TEST(HardNumbers, NoCurveIsLongerThanAsked) {
     const TriangleMesh mesh = icosphere(2);
-    const DirectionField field = direction_field(mesh, {});
-    const SurfaceSingularities found = surface_singularities(mesh, field);
+    const DirectionField field = direction_field(mesh);
+    const SurfaceSingularities found = surface_singularities(field);
     for (const double most : {1e-9, 0.05, 0.3, 1.0, 3.0}) {
         std::size_t cut = 0;
-        for (const Streamline& line : separatrices(mesh, {}, field, found, {.max_length = most})) {
+        for (const Streamline& line : separatrices(field, found, {.max_length = most})) {
             double length = 0;
             for (Eigen::Index i = 1; i < line.points.rows(); ++i)
                 length += (line.points.row(i) - line.points.row(i - 1)).norm();
@@ -319,10 +318,10 @@ TEST(VertexDirections, FollowTheBoundaryOnlyWhereTheFieldDoes) {
         }
         return most;
     };
-    EXPECT_LT(off(vertex_directions(mesh, {}, direction_field(mesh, {}, options))), 1e-6);
+    EXPECT_LT(off(vertex_directions(direction_field(mesh, options))), 1e-6);
     options.boundary_alignment = Alignment::strong;
     const FeatureGraph rim = detect_features(mesh);  // with the corners
-    EXPECT_NEAR(off(vertex_directions(mesh, rim, direction_field(mesh, rim, options))), 0.3, 1e-6);
+    EXPECT_NEAR(off(vertex_directions(direction_field({mesh, rim}, options))), 0.3, 1e-6);
 }
 
 }  // namespace

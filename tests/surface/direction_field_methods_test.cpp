@@ -8,7 +8,7 @@ constexpr auto mbo = DirectionFieldMethod::mbo;
 constexpr auto eigenvector = DirectionFieldMethod::eigen;
 
 DirectionField computed(const TriangleMesh& mesh, DirectionFieldMethod method, int symmetry = 4) {
-    return direction_field(mesh, {}, {.symmetry = symmetry, .method = method});
+    return direction_field(mesh, {.symmetry = symmetry, .method = method});
 }
 
 // ---- diffusion and projection ----
@@ -20,14 +20,14 @@ TEST(DiffusedField, HasLengthOneAndLessEnergyThanTheEigenvector) {
         EXPECT_NEAR((field.values.cwiseAbs().array() - 1).abs().maxCoeff(), 0, 1e-14);
         EXPECT_LT(field.dirichlet_energy, start.dirichlet_energy);
         EXPECT_NEAR(field.energy, field.dirichlet_energy, 1e-9 * field.energy);
-        EXPECT_LE(surface_singularities(mesh, field).points.size(), surface_singularities(mesh, start).points.size());
+        EXPECT_LE(surface_singularities(field).points.size(), surface_singularities(start).points.size());
     }
 }
 
 TEST(DiffusedField, OnTheSphereItNeedsNoFixedEdgeAndHasTheFewestPoints) {
     const TriangleMesh mesh = icosphere(4);
     for (const int symmetry : {1, 2, 4, 6}) {
-        const auto points = surface_singularities(mesh, computed(mesh, mbo, symmetry)).points;
+        const auto points = surface_singularities(computed(mesh, mbo, symmetry)).points;
         ASSERT_EQ(points.size(), static_cast<std::size_t>(2 * symmetry));
         for (const auto& point : points) EXPECT_EQ(point.index_times_symmetry, 1);
         // Far apart: at least 3/4 of the nearest distances at the minimum of the logarithmic energy.
@@ -38,7 +38,7 @@ TEST(DiffusedField, OnTheSphereItNeedsNoFixedEdgeAndHasTheFewestPoints) {
 
 TEST(DiffusedField, OnTheDiskItsPointsAreNearThePublishedRadius) {
     for (const auto& [symmetry, radius] : {std::pair(4, 0.8501), std::pair(6, 0.9031)}) {
-        const auto points = surface_singularities(disk(30), computed(disk(30), mbo, symmetry)).points;
+        const auto points = surface_singularities(computed(disk(30), mbo, symmetry)).points;
         ASSERT_EQ(points.size(), static_cast<std::size_t>(symmetry));
         for (const auto& point : points) EXPECT_NEAR(point.position.norm(), radius, 2.0 / 30);  // two edges
     }
@@ -47,10 +47,10 @@ TEST(DiffusedField, OnTheDiskItsPointsAreNearThePublishedRadius) {
 TEST(DiffusedField, IsALocalMinimumAmongFieldsOfLengthOne) {
     for (const auto boundary : {Alignment::strong, Alignment::weak})
         for (const TriangleMesh& mesh : {icosphere(4), disk(24), torus(80, 40, 1, 0.5)}) {
-            const DirectionField field = direction_field(mesh, {}, {.method = mbo, .boundary_alignment = boundary});
+            const DirectionField field = direction_field(mesh, {.method = mbo, .boundary_alignment = boundary});
             ASSERT_TRUE(field.converged);
-            const auto links = detail::corner_links(mesh, field.topology, 4);
-            const auto is_free = [&](Index e) { return field.topology.edge_triangles.row(e).minCoeff() >= 0; };
+            const auto links = detail::corner_links(field.domain, 4);
+            const auto is_free = [&](Index e) { return field.domain.topology().edge_triangles.row(e).minCoeff() >= 0; };
             std::mt19937 random(5);
             std::uniform_real_distribution<double> turn(-1, 1);
             const auto energy = [&](const Eigen::VectorXcd& values) { return detail::dirichlet_energy(links, values); };
@@ -99,11 +99,11 @@ TEST(DiffusedField, AParallelFieldIsFound) {
     // On a flat square with free boundary, and on a tube whose rims are followed, along and round it.
     const TriangleMesh square = plate(8, [](double, double) { return true; }), open = tube(20, 6, 1.5);
     for (const auto method : {mbo, eigenvector}) {
-        EXPECT_NEAR(direction_field(square, {}, {.method = method, .boundary_alignment = Alignment::none}).dirichlet_energy, 0,
-                    1e-9);
-        const DirectionField field = direction_field(open, {}, {.method = method});
+        EXPECT_NEAR(direction_field(square, {.method = method, .boundary_alignment = Alignment::none}).dirichlet_energy,
+                    0, 1e-9);
+        const DirectionField field = direction_field(open, {.method = method});
         EXPECT_NEAR(field.dirichlet_energy, 0, 1e-9);
-        EXPECT_TRUE(surface_singularities(open, field).points.empty());
+        EXPECT_TRUE(surface_singularities(field).points.empty());
         const auto along = prescribed(
             open, 4, [](auto&) -> Vector { return Vector::UnitZ(); },
             [](const Vector& x) -> Vector {  // of the side on which the midpoint lies, or of both where they meet
@@ -119,13 +119,13 @@ TEST(EveryMethod, FindsTheFieldWithoutPointsOnATorusWhereItCostsLess) {
     const TriangleMesh mesh = torus(96, 48, 1, 0.5);
     const double exact = 32 * std::pow(std::numbers::pi, 2) * (2 - std::sqrt(3.0));
     const DirectionField diffused = computed(mesh, mbo);
-    EXPECT_TRUE(surface_singularities(mesh, diffused).points.empty());
+    EXPECT_TRUE(surface_singularities(diffused).points.empty());
     EXPECT_LT(diffused.energy, 1.001 * exact);
     EXPECT_GT(diffused.energy, 0.98 * exact);
-    const DirectionField fine = direction_field(mesh, {}, {.epsilon = 0.03}),
-                         wide = direction_field(mesh, {}, {.epsilon = 0.12});
-    EXPECT_TRUE(surface_singularities(mesh, fine).points.empty());
-    EXPECT_EQ(surface_singularities(mesh, wide).points.size(), 12u);
+    const DirectionField fine = direction_field(mesh, {.epsilon = 0.03}),
+                         wide = direction_field(mesh, {.epsilon = 0.12});
+    EXPECT_TRUE(surface_singularities(fine).points.empty());
+    EXPECT_EQ(surface_singularities(wide).points.size(), 12u);
 }
 
 TEST(DiffusedField, HistoryIterationsAndProgressBelongTogether) {
@@ -133,7 +133,7 @@ TEST(DiffusedField, HistoryIterationsAndProgressBelongTogether) {
     std::vector<double> told;
     double last = 0;
     const DirectionField field =
-        direction_field(mesh, {}, {.method = mbo}, [&](std::string_view, double fraction, double energy) {
+        direction_field(mesh, {.method = mbo}, [&](std::string_view, double fraction, double energy) {
             if (std::isnan(energy)) return true;
             EXPECT_GE(fraction, last);
             EXPECT_LE(last = fraction, 1);
@@ -143,7 +143,7 @@ TEST(DiffusedField, HistoryIterationsAndProgressBelongTogether) {
     EXPECT_EQ(field.energy_history.size(), static_cast<std::size_t>(field.iterations) + 1);
     EXPECT_EQ(std::vector<double>(field.energy_history.begin() + 1, field.energy_history.end()), told);
     EXPECT_NEAR(field.energy, told.back(), 1e-9 * field.energy);
-    const DirectionField cut = direction_field(mesh, {}, {.method = mbo, .max_iterations = 2});
+    const DirectionField cut = direction_field(mesh, {.method = mbo, .max_iterations = 2});
     EXPECT_EQ(cut.iterations, 2);
     EXPECT_FALSE(cut.converged);
 }
@@ -151,7 +151,7 @@ TEST(DiffusedField, HistoryIterationsAndProgressBelongTogether) {
 TEST(DiffusedField, CancellingKeepsAField) {
     int calls = 0;
     const DirectionField field =
-        direction_field(icosphere(3), {}, {.method = mbo}, [&](auto, double, double) { return ++calls < 12; });
+        direction_field(icosphere(3), {.method = mbo}, [&](auto, double, double) { return ++calls < 12; });
     EXPECT_FALSE(field.converged);
     EXPECT_EQ(calls, 12);
     EXPECT_NEAR((field.values.cwiseAbs().array() - 1).abs().maxCoeff(), 0, 1e-14);
@@ -170,11 +170,11 @@ TEST(EveryMethod, DoesNotDependOnTheLengthUnit) {
     for (const auto method : {mbo, eigenvector, DirectionFieldMethod::gl})
         for (const auto boundary : {Alignment::strong, Alignment::weak}) {
             const DirectionFieldOptions options{.method = method, .boundary_alignment = boundary};
-            const double energy = direction_field(unit, {}, options).energy;
+            const double energy = direction_field(unit, options).energy;
             for (const double scale : {1e-6, 1e6}) {
                 TriangleMesh mesh = unit;
                 mesh.vertices *= scale;
-                EXPECT_NEAR(direction_field(mesh, {}, options).energy, energy, 1e-4 * energy);
+                EXPECT_NEAR(direction_field(mesh, options).energy, energy, 1e-4 * energy);
             }
         }
 }
@@ -197,7 +197,7 @@ TEST(EveryMethod, TakesStripsOneTriangleWideAndNeedles) {
         for (const TriangleMesh& mesh : {strip, needles, squashed}) {
             const DirectionField field = computed(mesh, method);
             EXPECT_TRUE(field.values.array().isFinite().all());
-            EXPECT_EQ(index_sum(surface_singularities(mesh, field).points), 4 * euler_characteristic(mesh));
+            EXPECT_EQ(index_sum(surface_singularities(field).points), 4 * euler_characteristic(mesh));
         }
 }
 
@@ -205,7 +205,7 @@ TEST(EveryMethod, TakesComponentsOfVeryDifferentSizeWithTheirOwnTimeSteps) {
     TriangleMesh small = icosphere(3);
     small.vertices *= 1e-3;
     const TriangleMesh mesh = joined({icosphere(3), small});
-    const auto points = surface_singularities(mesh, computed(mesh, mbo)).points;
+    const auto points = surface_singularities(computed(mesh, mbo)).points;
     EXPECT_EQ(points.size(), 16u);
 }
 
@@ -214,8 +214,8 @@ TEST(EveryMethod, TakesComponentsOfVeryDifferentSizeWithTheirOwnTimeSteps) {
 TEST(Continuation, EndsNoHigherThanADescentFromTheEigenvector) {
     for (const TriangleMesh& mesh : {icosphere(4), torus(60, 30, 1, 0.5), disk(20)}) {
         const double epsilon = 2 * mean_edge_length(mesh);
-        const double with = direction_field(mesh, {}, {.epsilon = epsilon}).energy;
-        const double without = direction_field(mesh, {}, {.epsilon = epsilon, .first_epsilon = epsilon}).energy;
+        const double with = direction_field(mesh, {.epsilon = epsilon}).energy;
+        const double without = direction_field(mesh, {.epsilon = epsilon, .first_epsilon = epsilon}).energy;
         EXPECT_LE(with, without * (1 + 1e-4));
     }
 }
@@ -223,8 +223,8 @@ TEST(Continuation, EndsNoHigherThanADescentFromTheEigenvector) {
 TEST(CoherenceLength, AConstantFieldIsTheSameAsOneNumber) {
     const TriangleMesh mesh = disk(12);
     const Eigen::VectorXd constant = Eigen::VectorXd::Constant(edge_topology(mesh).edges.rows(), 0.1);
-    const DirectionField one = direction_field(mesh, {}, {.epsilon = 0.1}),
-                         each = direction_field(mesh, {}, {.edge_epsilon = constant});
+    const DirectionField one = direction_field(mesh, {.epsilon = 0.1}),
+                         each = direction_field(mesh, {.edge_epsilon = constant});
     EXPECT_TRUE(one.values == each.values);
     EXPECT_EQ(each.epsilon, 0.1);
 }
@@ -238,8 +238,8 @@ TEST(CoherenceLength, CoresAreWideWhereItIsLong) {
     };
     Eigen::VectorXd epsilon(topology.edges.rows());
     for (Index e = 0; e < epsilon.size(); ++e) epsilon[e] = x(e) < 0 ? 0.2 : 0.06;
-    const DirectionField field = direction_field(mesh, {}, {.edge_epsilon = epsilon});
-    const Eigen::VectorXd masses = detail::edge_masses(mesh, topology);
+    const DirectionField field = direction_field(mesh, {.edge_epsilon = epsilon});
+    const Eigen::VectorXd masses = detail::edge_masses(mesh);
     double left = 0, right = 0;
     for (Index e = 0; e < epsilon.size(); ++e)
         if (std::abs(field.values[e]) < 0.7) (x(e) < 0 ? left : right) += masses[e];
@@ -253,7 +253,7 @@ TEST(CoherenceLength, RefusesFieldsThatDoNotFit) {
     Eigen::VectorXd bad = Eigen::VectorXd::Constant(edges, 0.3);
     bad[5] = 0;
     for (const Eigen::VectorXd& epsilon : {Eigen::VectorXd(Eigen::VectorXd::Constant(edges - 1, 0.3)), bad})
-        EXPECT_THROW(direction_field(mesh, {}, {.edge_epsilon = epsilon}), InvalidInput);
+        EXPECT_THROW(direction_field(mesh, {.edge_epsilon = epsilon}), InvalidInput);
 }
 
 }  // namespace

@@ -14,8 +14,7 @@ TEST(DirectionField, DirichletEnergyOfCurvatureLinesOnATorus) {
         const TriangleMesh mesh = torus(80 << level, 40 << level, 1, 0.5);
         const auto normal = [](const Vector& x) -> Vector { return x - Vector(x.x(), x.y(), 0).normalized(); };
         const DirectionField field = prescribed(mesh, 4, azimuth, normal);
-        errors[level] =
-            detail::dirichlet_energy(detail::corner_links(mesh, field.topology, 4), field.values) / exact - 1;
+        errors[level] = detail::dirichlet_energy(detail::corner_links(field.domain, 4), field.values) / exact - 1;
     }
     EXPECT_NEAR(errors[0], 0, 0.01);
     EXPECT_NEAR(errors[0] / errors[1], 4, 0.5);
@@ -26,8 +25,7 @@ TEST(DirectionField, ParallelFieldInThePlaneHasNoEnergy) {
         const TriangleMesh mesh = disk(4);
         const DirectionField field = prescribed(
             mesh, symmetry, [](auto&) { return Vector(std::cos(0.3), std::sin(0.3), 0); }, up);
-        EXPECT_NEAR(detail::dirichlet_energy(detail::corner_links(mesh, field.topology, symmetry), field.values), 0,
-                    1e-24);
+        EXPECT_NEAR(detail::dirichlet_energy(detail::corner_links(field.domain, symmetry), field.values), 0, 1e-24);
     }
 }
 
@@ -35,7 +33,7 @@ TEST(DirectionField, GradientAndHessianAgreeWithFiniteDifferences) {
     const TriangleMesh mesh = torus(7, 5, 1, 0.4);
     for (const int symmetry : {3, 4}) {
         const EdgeTopology topology = edge_topology(mesh);
-        const auto links = detail::corner_links(mesh, topology, symmetry);
+        const auto links = detail::corner_links(mesh, symmetry);
         std::vector<bool> held(topology.edges.rows(), false);
         held[3] = held[10] = true;
         const detail::FreeSystem system(links, held);
@@ -43,7 +41,7 @@ TEST(DirectionField, GradientAndHessianAgreeWithFiniteDifferences) {
         detail::Pull pull(topology.edges.rows());
         for (Index e = 0; e < pull.weights.size(); e += 2) pull.add(e, 0.1 * (1 + e % 7), std::polar(1.0, 0.3 * e));
         const Eigen::VectorXd epsilon = 0.3 + 0.1 * Eigen::VectorXd::Random(topology.edges.rows()).array();
-        const detail::GinzburgLandau functional(links, detail::edge_masses(mesh, topology), system, pull, epsilon);
+        const detail::GinzburgLandau functional(links, detail::edge_masses(mesh), system, pull, epsilon);
         const Eigen::VectorXcd values = Eigen::VectorXcd::Random(topology.edges.rows());
         const Eigen::VectorXd direction = Eigen::VectorXd::Random(2 * system.size());
         const Eigen::VectorXcd step = system.scatter(detail::as_complex(direction), values.size());
@@ -83,11 +81,11 @@ TEST(LineSearch, FindsTheFirstMinimumOfAQuartic) {
 TEST(DirectionField, DescentLeavesASaddlePoint) {
     // f = 0 solves the Euler-Lagrange equations and is the highest of all saddle points.
     const TriangleMesh mesh = icosphere(2);
-    const DirectionField field = direction_field(mesh, {});
-    const auto links = detail::corner_links(mesh, field.topology, 4);
+    const DirectionField field = direction_field(mesh);
+    const auto links = detail::corner_links(field.domain, 4);
     const detail::FreeSystem system(links, std::vector<bool>(field.values.size(), false));
     const detail::Pull pull(field.values.size());
-    const detail::GinzburgLandau functional(links, detail::edge_masses(mesh, field.topology), system, pull,
+    const detail::GinzburgLandau functional(links, detail::edge_masses(field.domain), system, pull,
                                             Eigen::VectorXd::Constant(field.values.size(), field.epsilon));
     Eigen::VectorXcd values = Eigen::VectorXcd::Zero(field.values.size());
     const auto result = detail::minimise(functional, system.elimination_order(), values, {}, {});
@@ -99,10 +97,10 @@ TEST(DirectionField, DescentLeavesASaddlePoint) {
 
 TEST(DirectionField, CrossFieldOnTheSphereHasEightPointsOnASquareAntiprism) {
     const TriangleMesh mesh = icosphere(4);
-    const DirectionField field = direction_field(mesh, {}, {.epsilon = 0.1});
+    const DirectionField field = direction_field(mesh, {.epsilon = 0.1});
     EXPECT_TRUE(field.converged);
     EXPECT_NEAR(field.energy, 42.85, 0.15);
-    const auto points = surface_singularities(mesh, field).points;
+    const auto points = surface_singularities(field).points;
     ASSERT_EQ(points.size(), 8u);
     for (const auto& point : points) {
         EXPECT_EQ(point.index, 0.25);
@@ -122,8 +120,8 @@ TEST(DirectionField, CrossFieldOnTheSphereHasEightPointsOnASquareAntiprism) {
 
 TEST(DirectionField, SixFoldFieldOnTheSphereHasTwelvePointsOnAnIcosahedron) {
     const TriangleMesh mesh = icosphere(3);
-    const DirectionField field = direction_field(mesh, {}, {.symmetry = 6});
-    const auto points = surface_singularities(mesh, field).points;
+    const DirectionField field = direction_field(mesh, {.symmetry = 6});
+    const auto points = surface_singularities(field).points;
     ASSERT_EQ(points.size(), 12u);
     const auto distances = sorted_distances(points);
     for (int i = 0; i < 30; ++i) EXPECT_NEAR(distances[i], 1.05146, 0.06);
@@ -132,10 +130,10 @@ TEST(DirectionField, SixFoldFieldOnTheSphereHasTwelvePointsOnAnIcosahedron) {
 
 TEST(DirectionField, AlignedFieldOnTheDiskHasItsPointsAtThePublishedRadius) {
     const TriangleMesh mesh = disk(30);
-    const DirectionField field = direction_field(mesh, {}, {.epsilon = 0.05});
+    const DirectionField field = direction_field(mesh, {.epsilon = 0.05});
     EXPECT_TRUE(field.converged);
     EXPECT_NEAR(field.energy, 35.0, 0.25);
-    const auto points = surface_singularities(mesh, field).points;
+    const auto points = surface_singularities(field).points;
     ASSERT_EQ(points.size(), 4u);
     for (const auto& point : points) EXPECT_NEAR(point.position.norm(), std::pow(3.0 / 11, 1.0 / 8), 0.025);
     const auto distances = sorted_distances(points);
@@ -145,7 +143,7 @@ TEST(DirectionField, AlignedFieldOnTheDiskHasItsPointsAtThePublishedRadius) {
 TEST(DirectionField, SymmetricStartWithOneMultiplePointSplitsIntoSimplePoints) {
     // The harmonic start on this six-fold mesh is z^6: one point of N * index 6, a saddle point of the functional.
     const TriangleMesh mesh = disk(16);
-    const auto points = surface_singularities(mesh, direction_field(mesh, {}, {.symmetry = 6, .epsilon = 0.06})).points;
+    const auto points = surface_singularities(direction_field(mesh, {.symmetry = 6, .epsilon = 0.06})).points;
     EXPECT_EQ(points.size(), 6u);
     for (const auto& point : points) EXPECT_EQ(point.index_times_symmetry, 1);
 }
@@ -159,9 +157,9 @@ TEST(DirectionField, FieldBetweenTwoCirclesHasNoSingularities) {
     std::vector<Vector> points;
     for (const auto& row : full.vertices.rowwise()) points.push_back(row.transpose());
     const TriangleMesh mesh = make_mesh(points, kept);
-    const DirectionField field = direction_field(mesh, {});
-    EXPECT_TRUE(surface_singularities(mesh, field).points.empty());
-    const Points directions = vertex_directions(mesh, {}, field);
+    const DirectionField field = direction_field(mesh);
+    EXPECT_TRUE(surface_singularities(field).points.empty());
+    const Points directions = vertex_directions(field);
     for (Index v = 0; v < directions.rows(); ++v) {
         if (mesh.vertices.row(v).norm() < 0.39) continue;
         const Vector x = mesh.vertices.row(v);
@@ -182,7 +180,7 @@ TEST(DirectionField, SingularitiesOfPrescribedFieldsHaveTheirSignAndPlace) {
                 return Vector(std::cos(angle), std::sin(angle), 0);
             };
             int inside = 0;
-            for (const auto& point : surface_singularities(mesh, prescribed(mesh, symmetry, direction, up)).points) {
+            for (const auto& point : surface_singularities(prescribed(mesh, symmetry, direction, up)).points) {
                 if (point.boundary) continue;
                 ++inside;
                 EXPECT_EQ(point.index_times_symmetry, turns);
@@ -204,9 +202,9 @@ TEST(DirectionField, CornersOfACubeCarryAQuarterEach) {
     FeatureGraph features;
     features.edges.resize(static_cast<Eigen::Index>(sharp.size()), 2);
     for (std::size_t i = 0; i < sharp.size(); ++i) features.edges.row(i) << sharp[i].first, sharp[i].second;
-    const DirectionField field = direction_field(mesh, features);
+    const DirectionField field = direction_field({mesh, features});
     EXPECT_NEAR(field.energy, 0, 1e-20);
-    const auto points = surface_singularities(mesh, field).points;
+    const auto points = surface_singularities(field).points;
     ASSERT_EQ(points.size(), 8u);
     for (const auto& point : points) {
         EXPECT_EQ(point.index, 0.25);
@@ -214,13 +212,13 @@ TEST(DirectionField, CornersOfACubeCarryAQuarterEach) {
         EXPECT_NEAR((point.position - Vector::Constant(0.5)).norm(), std::sqrt(0.75), 1e-15);
     }
     // Every triangle's cross is aligned with the axes.
-    const Points directions = triangle_directions(mesh, field);
+    const Points directions = triangle_directions(field);
     EXPECT_NEAR(directions.cwiseAbs().rowwise().maxCoeff().minCoeff(), 1, 1e-9);
 }
 
 TEST(DirectionField, ReentrantBoundaryCornerCarriesMinusAQuarter) {
     const TriangleMesh mesh = plate(8, [](double x, double y) { return x < 0.5 || y < 0.5; });
-    const auto points = surface_singularities(mesh, direction_field(mesh, {})).points;
+    const auto points = surface_singularities(direction_field(mesh)).points;
     ASSERT_EQ(points.size(), 6u);
     for (const auto& point : points) {
         EXPECT_TRUE(point.boundary);
@@ -234,10 +232,10 @@ TEST(DirectionField, IndicesSumToTheEulerCharacteristicForAnySymmetry) {
                                    plate(9, [](double x, double y) { return std::hypot(x - 0.5, y - 0.5) > 0.3; })};
     for (const int symmetry : {1, 2, 3, 4, 5, 6})
         for (const TriangleMesh& mesh : meshes)
-            for (const auto method : {DirectionFieldMethod::gl, DirectionFieldMethod::eigen,
-                                      DirectionFieldMethod::mbo}) {
-                const DirectionField field = direction_field(mesh, {}, {.symmetry = symmetry, .method = method});
-                EXPECT_EQ(index_sum(surface_singularities(mesh, field).points), symmetry * euler_characteristic(mesh));
+            for (const auto method :
+                 {DirectionFieldMethod::gl, DirectionFieldMethod::eigen, DirectionFieldMethod::mbo}) {
+                const DirectionField field = direction_field(mesh, {.symmetry = symmetry, .method = method});
+                EXPECT_EQ(index_sum(surface_singularities(field).points), symmetry * euler_characteristic(mesh));
             }
 }
 
@@ -247,12 +245,12 @@ TEST(DirectionField, IndicesSumToTheEulerCharacteristicOnRealSurfaces) {
     for (const char* name : {"s01", "s04", "s15", "s16", "s17", "i10"}) {
         const TriangleMesh mesh = read_surface(folder / (std::string(name) + "_surface.obj"));
         for (const FeatureGraph& features : {FeatureGraph{}, detect_features(mesh), all_edges(mesh)}) {
-            const DirectionField diffused = direction_field(mesh, features, {.method = DirectionFieldMethod::mbo});
-            EXPECT_TRUE(surface_singularities(mesh, diffused).agree) << name;
-            const DirectionField field = direction_field(mesh, features);
+            const DirectionField diffused = direction_field({mesh, features}, {.method = DirectionFieldMethod::mbo});
+            EXPECT_TRUE(surface_singularities(diffused).agree) << name;
+            const DirectionField field = direction_field({mesh, features});
             EXPECT_TRUE(field.converged) << name;
-            EXPECT_EQ(index_sum(surface_singularities(mesh, field).points), 4 * euler_characteristic(mesh)) << name;
-            const Points directions = vertex_directions(mesh, features, field), normals = vertex_normals(mesh);
+            EXPECT_EQ(index_sum(surface_singularities(field).points), 4 * euler_characteristic(mesh)) << name;
+            const Points directions = vertex_directions(field), normals = vertex_normals(mesh);
             EXPECT_NEAR((directions.rowwise().norm().array() - 1).abs().maxCoeff(), 0, 1e-12) << name;
             EXPECT_NEAR((directions.array() * normals.array()).rowwise().sum().abs().maxCoeff(), 0, 1e-12) << name;
         }
@@ -267,7 +265,7 @@ TEST(DirectionField, DirectionsReproduceAConstantPlaneField) {
     const DirectionField field = prescribed(
         mesh, 4, [&](auto&) { return constant; }, up);
     const auto off = [&](const Vector& d) { return std::min(std::abs(d.dot(constant)), std::abs(d.dot(across))); };
-    const Points at_vertices = vertex_directions(mesh, {}, field), in_triangles = triangle_directions(mesh, field);
+    const Points at_vertices = vertex_directions(field), in_triangles = triangle_directions(field);
     for (Index t = 0; t < in_triangles.rows(); ++t) EXPECT_NEAR(off(in_triangles.row(t)), 0, 1e-13);
     // At the boundary too, which the field does not follow.
     for (Index v = 0; v < at_vertices.rows(); ++v) EXPECT_NEAR(off(at_vertices.row(v)), 0, 1e-13);
@@ -278,7 +276,7 @@ TEST(DirectionField, VertexDirectionsFollowCurvatureLinesToSecondOrder) {
     for (const int level : {0, 1}) {
         const TriangleMesh mesh = torus(60 << level, 30 << level, 1, 0.5);
         const auto normal = [](const Vector& x) -> Vector { return x - Vector(x.x(), x.y(), 0).normalized(); };
-        const Points directions = vertex_directions(mesh, {}, prescribed(mesh, 4, azimuth, normal));
+        const Points directions = vertex_directions(prescribed(mesh, 4, azimuth, normal));
         const Points normals = vertex_normals(mesh);
         worst[level] = 0;
         for (Index v = 0; v < directions.rows(); ++v) {
@@ -300,8 +298,8 @@ TEST(DirectionField, FeatureVerticesFollowTheirCurve) {
     features.edges.resize(39, 2);  // open at both ends
     for (Index i = 0; i < 39; ++i) features.edges.row(i) << ring[i], ring[i + 1];
     const DirectionField field = prescribed(
-        mesh, 4, [](auto&) { return Vector::UnitZ(); }, normal);
-    const Points directions = vertex_directions(mesh, features, field);
+        {mesh, features}, 4, [](auto&) { return Vector::UnitZ(); }, normal);
+    const Points directions = vertex_directions(field);
     for (Index i = 1; i < 39; ++i)
         EXPECT_NEAR(std::abs(directions.row(ring[i]).dot(azimuth(mesh.vertices.row(ring[i])))), 1, 1e-4);
     const Vector chord = mesh.vertices.row(ring[1]) - mesh.vertices.row(ring[0]);

@@ -1,7 +1,7 @@
 // The fit of a vortex to the values round a point: what it finds, and when it does not tell.
 #include "charted_field.hpp"
-#include "singular_place.hpp"
 #include "direction_field_fixtures.hpp"
+#include "singular_place.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -28,7 +28,8 @@ struct Plane {
         for (Index t = 0; t < mesh.triangles.rows(); ++t) {
             bool inside = true;
             for (int k = 0; k < 3; ++k) {
-                const Vector a = mesh.vertices.row(mesh.triangles(t, k)), b = mesh.vertices.row(mesh.triangles(t, (k + 1) % 3));
+                const Vector a = mesh.vertices.row(mesh.triangles(t, k)),
+                             b = mesh.vertices.row(mesh.triangles(t, (k + 1) % 3));
                 inside = inside && (b - a).cross(Vector(z.real(), z.imag(), 0) - a).z() >= 0;
             }
             if (inside) return t;
@@ -36,9 +37,10 @@ struct Plane {
         return -1;
     }
     // Where the fit puts the point that is looked for from `start` on; nothing where it does not tell.
-    std::optional<Complex> found(const DirectionField& field, Complex start, const std::function<bool(Index)>& is_barrier) const {
-        const auto links = detail::corner_links(mesh, field.topology, field.symmetry);
-        const ChartedField charted(mesh, field, links);
+    std::optional<Complex> found(const DirectionField& field, Complex start,
+                                 const std::function<bool(Index)>& is_barrier) const {
+        const auto links = detail::corner_links(field.domain, field.symmetry);
+        const ChartedField charted(field, links);
         const Index t = triangle_at(start);
         const auto place =
             detail::fitted_place(charted, is_barrier, {t, charted.lower(t, {start.real(), start.imag(), 0})}, index);
@@ -75,13 +77,14 @@ TEST(FittedPlace, TakesTwentyOneValues) {
     std::vector<Index> reached{plane.triangle_at(zero)};
     for (std::size_t next = 0; reached.size() < 12; ++next)
         for (int k = 0; k < 3; ++k) {
-            const auto beside = field.topology.edge_triangles.row(field.topology.triangle_edges(reached[next], k));
+            const auto beside =
+                field.domain.topology().edge_triangles.row(field.domain.topology().triangle_edges(reached[next], k));
             const Index other = beside[0] == reached[next] ? beside[1] : beside[0];
             if (std::find(reached.begin(), reached.end(), other) == reached.end()) reached.push_back(other);
         }
     for (std::size_t count = 1; count <= 12; ++count) {
         const auto is_barrier = [&](Index e) {
-            const auto beside = field.topology.edge_triangles.row(e);
+            const auto beside = field.domain.topology().edge_triangles.row(e);
             return std::any_of(beside.begin(), beside.end(), [&](Index t) {
                 return std::find(reached.begin(), reached.begin() + count, t) == reached.begin() + count;
             });
@@ -100,7 +103,8 @@ TEST(FittedPlace, LeavesAQuarterRadianUnexplainedAndNoMore) {
     for (const double noise : {0.2, 0.22, 0.32, 0.4}) {
         DirectionField field = plane.vortex(zero);
         std::mt19937 random(5);
-        for (Index e = 0; e < field.values.size(); ++e) field.values[e] *= std::polar(1.0, random() % 2 == 0 ? noise : -noise);
+        for (Index e = 0; e < field.values.size(); ++e)
+            field.values[e] *= std::polar(1.0, random() % 2 == 0 ? noise : -noise);
         const auto found = plane.found(field, zero, nowhere);
         EXPECT_EQ(found.has_value(), noise < 0.25) << noise;
         if (found) {
@@ -115,9 +119,10 @@ TEST(FittedPlace, HardlyGoesByTheValuesNearerThanHalfAnEdge) {
     for (const double turn : {0.5, -0.5}) {
         DirectionField field = plane.vortex(zero);
         for (Index e = 0; e < field.values.size(); ++e) {
-            const auto ends = field.topology.edges.row(e);
+            const auto ends = field.domain.topology().edges.row(e);
             const Vector middle = (plane.mesh.vertices.row(ends[0]) + plane.mesh.vertices.row(ends[1])) / 2;
-            if ((middle - Vector(zero.real(), zero.imag(), 0)).norm() < 0.5 * plane.edge) field.values[e] *= std::polar(1.0, turn);
+            if ((middle - Vector(zero.real(), zero.imag(), 0)).norm() < 0.5 * plane.edge)
+                field.values[e] *= std::polar(1.0, turn);
         }
         const auto found = plane.found(field, zero, nowhere);
         ASSERT_TRUE(found);
@@ -131,7 +136,7 @@ TEST(FittedPlace, DoesNotGoOverABarrierOrTheBoundary) {
     const DirectionField any = plane.vortex(0);
     const auto on_line = [&](double y) {
         return [&, y](Index e) {
-            const auto ends = any.topology.edges.row(e);
+            const auto ends = any.domain.topology().edges.row(e);
             return plane.mesh.vertices(ends[0], 1) == y && plane.mesh.vertices(ends[1], 1) == y;
         };
     };

@@ -49,7 +49,7 @@ TEST(PrincipalDirections, SphereBendsAlikeInAllDirections) {
 TEST(PrincipalDirections, PlaneAndCubeHaveNone) {
     EXPECT_EQ(principal_directions(disk(6)).anisotropy.maxCoeff(), 0);
     const TriangleMesh cube = cube_surface(4);
-    const PrincipalDirections found = principal_directions(cube, detect_features(cube));
+    const PrincipalDirections found = principal_directions({cube, detect_features(cube)});
     EXPECT_NEAR(found.curvatures.cwiseAbs().maxCoeff(), 0, 1e-12);
     EXPECT_LT(found.anisotropy.maxCoeff(), 1e-12);
     // Without features the edges are bends.

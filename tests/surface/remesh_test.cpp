@@ -109,13 +109,17 @@ TEST(Features, WrongArgumentsAreRefused) {
     EXPECT_THROW(detect_features(cube, {.angle = 0}), InvalidInput);
     EXPECT_THROW(detect_features(cube, {.angle = 40}), InvalidInput) << "degrees";
     EXPECT_THROW(detect_features(cube, {.corner_angle = std::nan("")}), InvalidInput);
-    Edges wrong(2, 2);
-    wrong << 0, 1, 0, 99;
-    try {
-        feature_graph(cube, wrong);
-        FAIL();
-    } catch (const InvalidInput& error) {
-        EXPECT_EQ(error.kind(), "not_an_edge");
+    const Index last = static_cast<Index>(cube.vertices.rows()) - 1;
+    for (const auto& [end, kind] : {std::pair(last, "not_an_edge"), std::pair(last + 1, "index_out_of_range")}) {
+        Edges wrong(2, 2);
+        wrong << 0, 1, 0, end;
+        try {
+            feature_graph(cube, wrong);
+            FAIL();
+        } catch (const InvalidInput& error) {
+            EXPECT_EQ(error.kind(), kind);
+            EXPECT_EQ(error.elements(), std::vector<Index>{1});
+        }
     }
 }
 

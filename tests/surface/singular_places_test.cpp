@@ -21,9 +21,7 @@ Complex flat(const Vector& x) { return {x.x(), x.y()}; }
 
 // From the north pole.
 Complex lowered(const Vector& x) { return Complex(x.x(), x.y()) / (1 - x.z()); }
-Vector lifted(Complex w) {
-    return Vector(2 * w.real(), 2 * w.imag(), std::norm(w) - 1) / (1 + std::norm(w));
-}
+Vector lifted(Complex w) { return Vector(2 * w.real(), 2 * w.imag(), std::norm(w) - 1) / (1 + std::norm(w)); }
 
 TriangleMesh jittered(TriangleMesh mesh, double by, const std::function<bool(const Vector&)>& moves,
                       const std::function<Vector(const Vector&)>& back) {
@@ -65,7 +63,7 @@ double depth(const TriangleMesh& mesh, const SurfaceSingularity& point) {
 // Every known zero is found once, with its index and in its triangle: the largest error.
 double largest_error(const TriangleMesh& mesh, const DirectionField& field, const std::vector<Vector>& places,
                      const std::vector<Zero>& zeros) {
-    const auto found = surface_singularities(mesh, field);
+    const auto found = surface_singularities(field);
     EXPECT_TRUE(found.agree);
     double largest = 0;
     std::size_t inside = 0;
@@ -87,7 +85,8 @@ double largest_error(const TriangleMesh& mesh, const DirectionField& field, cons
 }
 
 TEST(SingularPlaces, ZerosInTheDiskAreWithinATenthOfAnEdge) {
-    const std::vector<Zero> zeros = {{{0.513, 0.204}, 1}, {{-0.371, 0.433}, -1}, {{-0.292, -0.517}, 1}, {{0.07, -0.03}, 1}};
+    const std::vector<Zero> zeros = {
+        {{0.513, 0.204}, 1}, {{-0.371, 0.433}, -1}, {{-0.292, -0.517}, 1}, {{0.07, -0.03}, 1}};
     std::vector<Vector> places;
     for (const Zero& zero : zeros) places.emplace_back(zero.at.real(), zero.at.imag(), 0);
     for (const int symmetry : {1, 2, 4, 6})
@@ -134,7 +133,7 @@ TEST(SingularPlaces, ZerosOnTheSphereAreWithinATenthOfAnEdge) {
 TEST(SingularPlaces, OnAJitteredSphereTheyHaveTheLogarithmicEnergyOfTheAntiprism) {
     const TriangleMesh mesh = jittered_sphere(4, 0.01);
     ASSERT_EQ(mesh.triangles.rows(), 5120);
-    const auto found = surface_singularities(mesh, direction_field(mesh, {}, {})).points;
+    const auto found = surface_singularities(direction_field(mesh, {})).points;
     ASSERT_EQ(found.size(), 8u);
     Points points(8, 3);
     for (Index i = 0; i < 8; ++i) points.row(i) = found[i].position.normalized().transpose();
@@ -144,7 +143,7 @@ TEST(SingularPlaces, OnAJitteredSphereTheyHaveTheLogarithmicEnergyOfTheAntiprism
 TEST(SingularPlaces, OnTheDiskTheyAreAtOneRadius) {
     const TriangleMesh mesh = disk(30);
     for (const auto method : {DirectionFieldMethod::gl, DirectionFieldMethod::mbo}) {
-        const auto found = surface_singularities(mesh, direction_field(mesh, {}, {.method = method})).points;
+        const auto found = surface_singularities(direction_field(mesh, {.method = method})).points;
         ASSERT_EQ(found.size(), 4u);
         for (const auto& point : found) EXPECT_NEAR(point.position.norm(), found[0].position.norm(), 0.2 / 30);
     }
@@ -152,7 +151,7 @@ TEST(SingularPlaces, OnTheDiskTheyAreAtOneRadius) {
 
 TEST(SingularPlaces, CornersOfACubeKeepTheirs) {
     const TriangleMesh cube = cube_surface(6);
-    const auto found = surface_singularities(cube, direction_field(cube, detect_features(cube), {})).points;
+    const auto found = surface_singularities(direction_field({cube, detect_features(cube)}, {})).points;
     ASSERT_EQ(found.size(), 8u);
     for (const auto& point : found) {
         ASSERT_GE(point.vertex, 0);
@@ -165,12 +164,13 @@ TEST(SingularPlaces, PointsNearerThanAnEdgeKeepTheirSumAndMoveNoFurtherThanAnEdg
     const TriangleMesh mesh = disk(n);
     for (const double apart : {0.2, 0.6, 1.2, 2.0})
         for (const int sign : {1, -1}) {
-            const std::vector<Zero> zeros = {{{0.31, 0.12}, 1}, {Complex(0.31, 0.12) + std::polar(apart / n, 0.7), sign}};
+            const std::vector<Zero> zeros = {{{0.31, 0.12}, 1},
+                                             {Complex(0.31, 0.12) + std::polar(apart / n, 0.7), sign}};
             const auto direction = [&](const Vector& x) -> Vector {
                 const double angle = angle_of(zeros, flat(x), 4);
                 return {std::cos(angle), std::sin(angle), 0};
             };
-            const auto found = surface_singularities(mesh, prescribed(mesh, 4, direction, up));
+            const auto found = surface_singularities(prescribed(mesh, 4, direction, up));
             EXPECT_TRUE(found.agree);
             int inside = 0;
             for (const auto& point : found.points) {

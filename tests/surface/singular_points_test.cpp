@@ -6,7 +6,8 @@ namespace {
 
 Complex flat(const Vector& x) { return {x.x(), x.y()}; }
 
-// A triangle in the middle of three others: too few values for a fit. The corners of all begin at `shift`, and vertices are numbered backwards.
+// A triangle in the middle of three others: too few values for a fit. The corners of all begin at `shift`, and vertices
+// are numbered backwards.
 TriangleMesh four_triangles(int shift, bool backwards) {
     std::vector<Vector> points = {{0, 0, 0}, {1, 0.1, 0}, {0.4, 0.9, 0}, {0.6, -0.8, 0}, {1.3, 1, 0}, {-0.5, 0.6, 0}};
     std::vector<Eigen::Vector3i> triangles = {{0, 1, 2}, {1, 0, 3}, {2, 1, 4}, {0, 2, 5}};
@@ -28,12 +29,14 @@ TEST(SingularPoints, WithoutAFitAreZerosOfTheLinearFunctionThroughTheMidpoints) 
                         const double angle = std::arg(flat(x) - zero) / symmetry;
                         return {std::cos(angle), std::sin(angle), 0};
                     };
-                    const auto found = surface_singularities(mesh, prescribed(mesh, symmetry, direction, up));
+                    const auto found = surface_singularities(prescribed(mesh, symmetry, direction, up));
                     EXPECT_TRUE(found.agree);
                     // Barycentric coordinates among the midpoints, of the point where the unit values balance.
                     Eigen::Matrix3d system, midpoints;
                     for (int k = 0; k < 3; ++k) {
-                        const Vector middle = (mesh.vertices.row(mesh.triangles(0, k)) + mesh.vertices.row(mesh.triangles(0, (k + 1) % 3))) / 2;
+                        const Vector middle = (mesh.vertices.row(mesh.triangles(0, k)) +
+                                               mesh.vertices.row(mesh.triangles(0, (k + 1) % 3))) /
+                                              2;
                         const double angle = std::arg(flat(middle) - zero);
                         system.col(k) << std::cos(angle), std::sin(angle), 1;
                         midpoints.col(k) = middle;
@@ -52,14 +55,20 @@ TEST(SingularPoints, WithoutAFitAreZerosOfTheLinearFunctionThroughTheMidpoints) 
 }
 
 TEST(SingularPoints, OfATriangleAndItsCornerCancelWhereTheFieldDoesNotTurn) {
-    // Inside, as the boundary has points of its own. Two sides of a triangle turned by a third of a turn to either side: the angles of its sides go once round, and
-    // those of the edges at the corner between the two go once back.
+    // Inside, as the boundary has points of its own. Two sides of a triangle turned by a third of a turn to either
+    // side: the angles of its sides go once round, and those of the edges at the corner between the two go once back.
     const TriangleMesh mesh = disk(3);
-    const DirectionField constant = prescribed(mesh, 4, [](auto&) -> Vector { return {1, 0.2, 0}; }, up);
+    const DirectionField constant = prescribed(
+        mesh, 4,
+        [](auto&) -> Vector {
+            return {1, 0.2, 0};
+        },
+        up);
     const auto inside = [&](const DirectionField& field) {
-        const auto found = surface_singularities(mesh, field);
+        const auto found = surface_singularities(field);
         EXPECT_TRUE(found.agree);
-        return std::count_if(found.points.begin(), found.points.end(), [](const auto& point) { return !point.boundary; });
+        return std::count_if(found.points.begin(), found.points.end(),
+                             [](const auto& point) { return !point.boundary; });
     };
     ASSERT_EQ(inside(constant), 0);
     for (const double sign : {1.0, -1.0})
@@ -67,8 +76,9 @@ TEST(SingularPoints, OfATriangleAndItsCornerCancelWhereTheFieldDoesNotTurn) {
             if (mesh.vertices(mesh.triangles.row(t), Eigen::all).rowwise().norm().maxCoeff() > 0.99) continue;
             for (int k = 0; k < 3; ++k) {
                 DirectionField field = constant;
-                field.values[field.topology.triangle_edges(t, k)] *= std::polar(1.0, sign * 2 * pi / 3);
-                field.values[field.topology.triangle_edges(t, (k + 2) % 3)] *= std::polar(1.0, -sign * 2 * pi / 3);
+                field.values[field.domain.topology().triangle_edges(t, k)] *= std::polar(1.0, sign * 2 * pi / 3);
+                field.values[field.domain.topology().triangle_edges(t, (k + 2) % 3)] *=
+                    std::polar(1.0, -sign * 2 * pi / 3);
                 EXPECT_EQ(inside(field), 0) << t << ' ' << k;
             }
         }
@@ -88,18 +98,21 @@ TEST(SingularPoints, StayAtTheTipOfAConeOfMoreThanFifteenHundredthsAndLeaveOneOf
         const TriangleMesh mesh = cone(defect);
         // Round the tip: the N-th power turns once against every plane there.
         const DirectionField field = prescribed(
-            mesh, 1, [](const Vector& x) -> Vector { return {-x.y(), x.x(), 0}; },
+            mesh, 1,
+            [](const Vector& x) -> Vector {
+                return {-x.y(), x.x(), 0};
+            },
             [&](const Vector& x) -> Vector {
                 const double r = x.head<2>().norm(), slope = r > 0 ? x.z() / r : 0;
                 return {-slope * x.x() / r, -slope * x.y() / r, 1};
             });
         int inside = 0;
-        for (const auto& point : surface_singularities(mesh, field).points) {
+        for (const auto& point : surface_singularities(field).points) {
             if (point.boundary) continue;
             ++inside;
             EXPECT_EQ(point.index_times_symmetry, 1);
             EXPECT_EQ(point.vertex, defect > 0.15 ? 0 : -1) << defect;
-            EXPECT_EQ(point.triangle < 0, defect > 0.15) << defect;
+            EXPECT_EQ(point.triangle<0, defect> 0.15) << defect;
             EXPECT_GE(point.triangle, -1);
             EXPECT_LT(point.position.norm(), 0.02);
         }
@@ -107,8 +120,8 @@ TEST(SingularPoints, StayAtTheTipOfAConeOfMoreThanFifteenHundredthsAndLeaveOneOf
     }
 }
 
-// A zero at the middle vertex of a square that is folded along y = 1/2 by `fold`. On that line the field is along or across
-// it: exactly where it is held, else to a billionth.
+// A zero at the middle vertex of a square that is folded along y = 1/2 by `fold`. On that line the field is along or
+// across it: exactly where it is held, else to a billionth.
 DirectionField folded(TriangleMesh& mesh, double fold, bool held) {
     const Complex middle(0.5, 0.5);
     DirectionField field = prescribed(
@@ -119,7 +132,7 @@ DirectionField folded(TriangleMesh& mesh, double fold, bool held) {
         },
         up);
     for (Index e = 0; e < field.values.size(); ++e) {
-        const auto ends = field.topology.edges.row(e);
+        const auto ends = field.domain.topology().edges.row(e);
         if (mesh.vertices(ends[0], 1) != 0.5 || mesh.vertices(ends[1], 1) != 0.5) continue;
         EXPECT_NEAR(std::abs(field.values[e].real()), 1, 1e-12);
         field.values[e] = std::round(field.values[e].real()) * std::polar(1.0, held ? 0 : 1e-9);
@@ -128,6 +141,7 @@ DirectionField folded(TriangleMesh& mesh, double fold, bool held) {
         const double over = mesh.vertices(v, 1) - 0.5;
         if (over > 0) mesh.vertices.row(v).tail<2>() << 0.5 + over * std::cos(fold), over * std::sin(fold);
     }
+    field.domain = mesh;
     return field;
 }
 
@@ -137,7 +151,7 @@ TEST(SingularPoints, StayAtVerticesOfEdgesThatTheFieldFollowsAndOfCreases) {
             TriangleMesh mesh = plate(16, [](double, double) { return true; });
             const DirectionField field = folded(mesh, degrees * pi / 180, held);
             int inside = 0;
-            for (const auto& point : surface_singularities(mesh, field).points) {
+            for (const auto& point : surface_singularities(field).points) {
                 if (point.boundary) continue;
                 ++inside;
                 EXPECT_EQ(point.index_times_symmetry, 1);

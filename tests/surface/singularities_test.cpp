@@ -16,13 +16,13 @@ TEST(SurfaceSingularities, ResultStatesTheSumAndTheEulerCharacteristic) {
     const auto tube = [](const Vector& x) -> Vector { return x - Vector(x.x(), x.y(), 0).normalized(); };
     for (const int symmetry : {1, 2, 3, 4, 6}) {
         const auto on_sphere = icosphere(3);
-        const auto sphere = surface_singularities(on_sphere, prescribed(on_sphere, symmetry, azimuth, outward));
+        const auto sphere = surface_singularities(prescribed(on_sphere, symmetry, azimuth, outward));
         EXPECT_TRUE(sphere.agree);
         EXPECT_EQ(sphere.euler_characteristic, 2);
         EXPECT_EQ(sphere.index_sum, 2);
         EXPECT_EQ(sphere.boundary_deviation, 0);
         const auto on_torus = torus(20, 12, 1, 0.4);
-        const auto ring = surface_singularities(on_torus, prescribed(on_torus, symmetry, azimuth, tube));
+        const auto ring = surface_singularities(prescribed(on_torus, symmetry, azimuth, tube));
         EXPECT_TRUE(ring.agree);
         EXPECT_TRUE(ring.points.empty());
         EXPECT_EQ(ring.euler_characteristic, 0);
@@ -35,9 +35,9 @@ TEST(SurfaceSingularities, PartsThatTouchAtAVertexCountOnePerPart) {
         make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
                   {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}});
     DirectionField field;
-    field.topology = edge_topology(mesh);
-    field.values = Eigen::VectorXcd::Ones(field.topology.edges.rows());
-    const auto found = surface_singularities(mesh, field);
+    field.domain = mesh;
+    field.values = Eigen::VectorXcd::Ones(field.domain.edge_count());
+    const auto found = surface_singularities(field);
     EXPECT_EQ(found.euler_characteristic, 4);
     EXPECT_EQ(found.index_sum, 4);
     EXPECT_TRUE(found.agree);
@@ -51,7 +51,7 @@ TEST(SurfaceSingularities, FieldAtAnAngleToTheBoundaryHasItsPointsInsideOnly) {
         const auto direction = [&](const Vector& x) {
             return at_angle(polar_angle(x) + pi / 2 + most * std::sin(3 * polar_angle(x)));
         };
-        const auto found = surface_singularities(mesh, prescribed(mesh, symmetry, direction, up));
+        const auto found = surface_singularities(prescribed(mesh, symmetry, direction, up));
         EXPECT_TRUE(found.agree);
         for (const auto& point : found.points) EXPECT_FALSE(point.boundary);
         EXPECT_NEAR(found.boundary_deviation, most, 0.02 * most);
@@ -63,7 +63,7 @@ TEST(SurfaceSingularities, ConstantFieldInADiskHasPointsWhereItChangesTheBranchT
     for (const int symmetry : {2, 4, 6}) {
         const auto field = prescribed(
             mesh, symmetry, [](auto&) { return at_angle(0.05); }, up);
-        const auto found = surface_singularities(mesh, field);
+        const auto found = surface_singularities(field);
         EXPECT_TRUE(found.agree);
         EXPECT_EQ(found.index_sum, 1);
         ASSERT_EQ(static_cast<int>(found.points.size()), symmetry);
@@ -83,7 +83,7 @@ TEST(SurfaceSingularities, FieldAcrossTheBoundaryHasNoneThere) {
     const TriangleMesh mesh = disk(12);
     for (const int symmetry : {2, 4, 6}) {
         const auto direction = [&](const Vector& x) { return at_angle(polar_angle(x) + pi / 2 + pi / symmetry); };
-        const auto found = surface_singularities(mesh, prescribed(mesh, symmetry, direction, up));
+        const auto found = surface_singularities(prescribed(mesh, symmetry, direction, up));
         EXPECT_TRUE(found.agree);
         EXPECT_EQ(found.index_sum, 1);
         for (const auto& point : found.points) EXPECT_FALSE(point.boundary);
@@ -96,7 +96,7 @@ TEST(SurfaceSingularities, ZerosAtEdgeMidpointsKeepTheSumExact) {
         const TriangleMesh mesh = icosphere(2);
         DirectionField field = prescribed(mesh, symmetry, azimuth, [](const Vector& x) { return x; });
         for (Index e = 0; e < field.values.size(); e += 3) field.values[e] = e % 2 == 0 ? 0 : 1e-300;
-        EXPECT_TRUE(surface_singularities(mesh, field).agree);
+        EXPECT_TRUE(surface_singularities(field).agree);
     }
 }
 
@@ -108,7 +108,7 @@ TEST(SurfaceSingularities, DoNotDependOnTheUnit) {
         TriangleMesh scaled = mesh;
         scaled.vertices *= unit;
         const auto direction = [&](const Vector& x) { return at_angle(polar_angle(x - unit * zero) / 4); };
-        const auto found = surface_singularities(scaled, prescribed(scaled, 4, direction, up));
+        const auto found = surface_singularities(prescribed(scaled, 4, direction, up));
         int inside = 0;
         for (const auto& point : found.points) {
             if (point.boundary) continue;
@@ -126,17 +126,18 @@ TEST(SurfaceSingularities, RefuseValuesThatAreNotFiniteAndOtherMeshes) {
     DirectionField field = prescribed(mesh, 4, azimuth, up);
     field.values[7] = std::numeric_limits<double>::quiet_NaN();
     try {
-        surface_singularities(mesh, field);
+        surface_singularities(field);
         FAIL();
     } catch (const InvalidInput& error) {
         EXPECT_EQ(error.kind(), "not_finite");
         EXPECT_EQ(error.elements(), std::vector<Index>{7});
     }
+    field.domain = disk(4);
     try {
-        surface_singularities(disk(4), field);
+        surface_singularities(field);
         FAIL();
     } catch (const InvalidInput& error) {
-        EXPECT_EQ(error.kind(), "wrong_mesh");
+        EXPECT_EQ(error.kind(), "wrong_size");
     }
 }
 

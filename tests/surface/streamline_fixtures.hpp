@@ -37,10 +37,10 @@ struct Traced {
     std::vector<Streamline> lines;
 };
 
-inline Traced trace(const TriangleMesh& mesh, const DirectionField& field, const std::vector<StreamlineSeed>& seeds,
-                    const StreamlineOptions& options = {}, const FeatureGraph& features = {}) {
-    const SurfaceSingularities singularities = surface_singularities(mesh, field);
-    return {singularities, streamlines(mesh, features, field, singularities, seeds, options)};
+inline Traced trace(const DirectionField& field, const std::vector<StreamlineSeed>& seeds,
+                    const StreamlineOptions& options = {}) {
+    const SurfaceSingularities singularities = surface_singularities(field);
+    return {singularities, streamlines(field, singularities, seeds, options)};
 }
 
 inline double distance_to_triangle_plane_and_sides(const TriangleMesh& mesh, Index t, const Vector& p) {

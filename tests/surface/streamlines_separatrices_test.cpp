@@ -15,11 +15,11 @@ TEST(Separatrices, PointsOfIndexKHaveNMinusKOfThemEvenlySpread) {
                 return at_angle(0.4 + turns * std::atan2(x.y() - zero.y(), x.x() - zero.x()) / symmetry);
             };
             const auto field = prescribed(mesh, symmetry, direction, up);
-            SurfaceSingularities found = surface_singularities(mesh, field);
+            SurfaceSingularities found = surface_singularities(field);
             std::erase_if(found.points, [](const auto& point) { return point.boundary; });
             if (turns == -2 && found.points.size() != 1) continue;  // split in two simple points
             ASSERT_EQ(found.points.size(), 1u);
-            const auto lines = separatrices(mesh, {}, field, found);
+            const auto lines = separatrices(field, found);
             ASSERT_EQ(static_cast<int>(lines.size()), symmetry - turns) << symmetry << " " << turns;
             expect_sound(mesh, lines);
             for (const Streamline& line : lines) {
@@ -52,9 +52,9 @@ TEST(Separatrices, OfFourPointsInADiskConnectThem) {
     std::vector<Complex> square_points;
     for (int i = 0; i < 4; ++i) square_points.push_back(std::polar(std::pow(3.0 / 11, 1.0 / 8), 0.3 + i * pi / 2));
     const auto field = polygon_field(mesh, square_points);
-    const auto found = surface_singularities(mesh, field);
+    const auto found = surface_singularities(field);
     ASSERT_EQ(found.points.size(), 4u);
-    const auto lines = separatrices(mesh, {}, field, found);
+    const auto lines = separatrices(field, found);
     expect_sound(mesh, lines);
     ASSERT_EQ(lines.size(), 12u);
     std::vector<std::pair<Index, Index>> connections;
@@ -83,10 +83,10 @@ TEST(Separatrices, OfACubeRunAlongItsEdges) {
         (x - Vector::Constant(0.5)).cwiseAbs().maxCoeff(&axis);
         return Vector(Vector::Unit((axis + 1) % 3));
     };
-    const auto field = prescribed(mesh, 4, direction, normal);
-    const auto found = surface_singularities(mesh, field);
+    DirectionField field = prescribed(mesh, 4, direction, normal);
+    const auto found = surface_singularities(field);
     ASSERT_EQ(found.points.size(), 8u);
-    const auto lines = separatrices(mesh, {}, field, found);
+    const auto lines = separatrices(field, found);
     ASSERT_EQ(lines.size(), 24u);
     expect_sound(mesh, lines);
     for (const Streamline& line : lines) {
@@ -97,17 +97,17 @@ TEST(Separatrices, OfACubeRunAlongItsEdges) {
             1e-12);
     }
     // With its edges as features nothing is left.
-    const FeatureGraph sharp = detect_features(mesh);
-    EXPECT_TRUE(separatrices(mesh, sharp, field, found).empty());
+    field.domain = field.domain.with_features(detect_features(mesh));
+    EXPECT_TRUE(separatrices(field, found).empty());
 }
 
 TEST(Separatrices, OfAReentrantCornerContinueItsSides) {
     const TriangleMesh mesh = plate(8, [](double x, double y) { return x < 0.5 || y < 0.5; });
     const auto field = prescribed(
         mesh, 4, [](auto&) { return Vector::UnitX(); }, up);
-    const auto found = surface_singularities(mesh, field);
+    const auto found = surface_singularities(field);
     ASSERT_EQ(found.points.size(), 6u);
-    const auto lines = separatrices(mesh, {}, field, found);
+    const auto lines = separatrices(field, found);
     ASSERT_EQ(lines.size(), 2u);  // none from the five corners of 90 degrees
     const Vector ends[] = {lines[0].points.row(lines[0].points.rows() - 1),
                            lines[1].points.row(lines[1].points.rows() - 1)};
@@ -123,7 +123,7 @@ TEST(Separatrices, ScaleWithTheUnit) {
         TriangleMesh mesh = disk(12);
         mesh.vertices *= unit;
         const auto field = polygon_field(mesh, points, unit);
-        const auto lines = separatrices(mesh, {}, field, surface_singularities(mesh, field));
+        const auto lines = separatrices(field, surface_singularities(field));
         expect_sound(mesh, lines);
         ASSERT_EQ(lines.size(), 12u);
         double length = 0;
@@ -140,9 +140,9 @@ TEST(EvenStreamlines, CoverAPlateEvenly) {
     const TriangleMesh mesh = square(16);
     const auto field = prescribed(
         mesh, 4, [](auto&) { return at_angle(0.3); }, up);
-    const auto found = surface_singularities(mesh, field);
+    const auto found = surface_singularities(field);
     const double spacing = 0.05;
-    const auto lines = even_streamlines(mesh, {}, field, found, {.spacing = spacing});
+    const auto lines = even_streamlines(field, found, {.spacing = spacing});
     expect_sound(mesh, lines);
     std::vector<double> offsets[2];  // of the lines of each family across its direction
     for (const Streamline& line : lines) {
@@ -163,9 +163,9 @@ TEST(EvenStreamlines, CoverAPlateEvenly) {
 TEST(EvenStreamlines, CoverASphereOnceAndAlwaysAlike) {
     const TriangleMesh mesh = icosphere(4);
     const auto field = prescribed(mesh, 4, azimuth, outward);
-    const auto found = surface_singularities(mesh, field);
-    const auto lines = even_streamlines(mesh, {}, field, found, {.spacing = 0.15}),
-               again = even_streamlines(mesh, {}, field, found, {.spacing = 0.15});
+    const auto found = surface_singularities(field);
+    const auto lines = even_streamlines(field, found, {.spacing = 0.15}),
+               again = even_streamlines(field, found, {.spacing = 0.15});
     expect_sound(mesh, lines);
     double length = 0;
     for (const Streamline& line : lines) {
@@ -177,7 +177,7 @@ TEST(EvenStreamlines, CoverASphereOnceAndAlwaysAlike) {
     EXPECT_LT(length, 2 * 4 * pi / (0.6 * 0.15));
     ASSERT_EQ(lines.size(), again.size());
     for (std::size_t i = 0; i < lines.size(); ++i) EXPECT_EQ(lines[i].points, again[i].points);
-    EXPECT_THROW(even_streamlines(mesh, {}, field, found, {}, [](auto, double, double) { return false; }), Cancelled);
+    EXPECT_THROW(even_streamlines(field, found, {}, [](auto, double, double) { return false; }), Cancelled);
 }
 
 }  // namespace

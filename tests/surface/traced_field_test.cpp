@@ -14,8 +14,8 @@ namespace {
 // The lines along a and b, the same in all of the plane.
 class TwoDirections : public Charts {
 public:
-    TwoDirections(const TriangleMesh& mesh, const EdgeTopology& topology, Eigen::Vector3d a, Eigen::Vector3d b)
-        : Charts(mesh, topology), directions_{std::move(a), std::move(b)} {}
+    TwoDirections(const TriangleMesh& mesh, Eigen::Vector3d a, Eigen::Vector3d b)
+        : Charts(mesh), directions_{std::move(a), std::move(b)} {}
 
     int symmetry() const { return 4; }  // a, b and their opposites
     Complex direction(Index t, Complex, Complex heading) const {
@@ -38,11 +38,10 @@ static_assert(!TracedField<Charts>);
 
 TEST(TracedField, LinesOfTwoObliqueDirectionsAreStraightFromTriangleToTriangle) {
     const TriangleMesh mesh = testing::disk(9);
-    const EdgeTopology topology = edge_topology(mesh);
     const Eigen::Vector3d a(1, 0.1, 0), b(std::cos(1.1), std::sin(1.1), 0);  // 57 degrees apart
-    const TwoDirections field(mesh, topology, a, b);
+    const TwoDirections field(mesh, a, b);
     const SurfaceSingularities none;
-    const FieldTracer<TwoDirections> tracer(field, {}, none, {});
+    const FieldTracer<TwoDirections> tracer(field, none, {});
     for (const Eigen::Vector3d& direction : {a, b, Eigen::Vector3d(-a), Eigen::Vector3d(-b)}) {
         const Index t = 10;
         const Complex heading = field.lower_vector(t, direction.normalized());

@@ -56,12 +56,6 @@ class MeshedInput(OnTets):
             raise InvalidInput(f"{self.name}: was prepared with volume=False; prepare it with its volume", "no_volume")
         return self.tets
 
-    def at_boundary_vertices(self, values: np.ndarray) -> np.ndarray:
-        """Of values at the vertices of the surface, those at the vertices of tets.surface: of the first copy each."""
-        if self.sheet_map is None:
-            return values
-        return values[np.unique(self.sheet_map, return_index=True)[1]]
-
     def digest(self) -> str:
         """SHA-256 of the mesh arrays, first 16 hexadecimal digits: equal for equal meshes."""
         vertices, cells = (

@@ -13,11 +13,13 @@ from .. import _core
 from .._core import (
     BoundaryMeshability,
     FeatureGraph,
+    FieldAnalysis,
     FrameStreamline,
     Integrability,
     Meshability,
     SingularGraph,
     TetDomain,
+    TetFieldAnalysis,
     TriangleMesh,
 )
 from ..domain.inputs import feature_edges, regions_of
@@ -41,15 +43,6 @@ if TYPE_CHECKING:
 __all__ = ["AnalysedField", "analyse"]
 
 _SHOWN = ("vertices", "tets", "energy", "singular_edges", "complex_edges", "non_meshable_vertices", "converged")
-_OF_ANALYSIS = (
-    "singular_graph",
-    "alignment",
-    "feature_alignment",
-    "meshability",
-    "boundary_meshability",
-    "integrability",
-    "streamlines",
-)
 
 
 @dataclass(repr=False, kw_only=True)
@@ -164,18 +157,22 @@ def analysed_field(
             of_tets = analyse_tets(meshed, _core.tet_sampling(tets), frames, options.threads)
             figures, off = of_tets.figures, of_tets.off_vertices
             parts = {
-                "frames": combed(tets, of_tets.frames, None, options.threads)[0],
+                "frames": combed(tets, np.asarray(of_tets.of_field.vertex_frames), None, options.threads)[0],
                 "tet_frames": frames,
-                "singular_graph": of_tets.singular.graph,
-            }
-            parts |= {
-                name: getattr(of_tets, name)
-                for name in ("alignment", "feature_alignment", "meshability", "boundary_meshability")
+                "singular_graph": of_tets.of_field.singular_edges.graph,
+                "integrability": None,
+                **_analysis_of(of_tets.of_field),
             }
         else:
             found = analyse_frames(meshed, frames, options.threads, options.streamlines, options.feature_tolerance)
             figures, off = found.figures, found.off_vertices
-            parts = {"frames": frames, **{name: getattr(found, name) for name in _OF_ANALYSIS}}
+            parts = {
+                "frames": frames,
+                "singular_graph": found.of_field.singular_graph,
+                "integrability": found.of_field.integrability,
+                "streamlines": found.streamlines,
+                **_analysis_of(found.of_field),
+            }
     sizes = sizes_of_run(tets, parts["frames"], options, clock, progress)
     told = FieldRecord(
         **record.of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
@@ -197,6 +194,16 @@ def analysed_field(
         feature_edges=feature_edges(tets),
         **parts,
     )
+
+
+def _analysis_of(found: FieldAnalysis | TetFieldAnalysis) -> dict[str, Any]:
+    """What both kinds of sites have."""
+    return {
+        "alignment": np.asarray(found.alignment),
+        "feature_alignment": np.asarray(found.feature_alignment),
+        "meshability": found.meshability,
+        "boundary_meshability": found.boundary_meshability,
+    }
 
 
 def combed(

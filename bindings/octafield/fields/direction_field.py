@@ -19,6 +19,7 @@ from .._core import (
     DirectionGuide,
     FeatureGraph,
     Streamline,
+    SurfaceDomain,
     SurfaceSingularities,
     TriangleMesh,
 )
@@ -109,11 +110,11 @@ def compute_surface_field(
     clock = PhaseClock(meshed.clock)
     stop = StopNote(progress)
     with naming(meshed.name), clock.phase("surface"):
+        surface = SurfaceDomain(meshed.surface, meshed.features)
         if options.curvature > 0:
-            guide = _lines_of_curvature(meshed, options, guide)
+            guide = _lines_of_curvature(surface, options, guide)
         field = _core.direction_field(
-            meshed.surface,
-            meshed.features,
+            surface,
             symmetry=options.symmetry,
             method=options.method,
             epsilon=options.epsilon,
@@ -125,7 +126,7 @@ def compute_surface_field(
             seed=options.seed,
             progress=forward(stop.progress, "surface", 0.0, 0.9),
         )
-        directions, singularities, separatrices = structure(meshed, field, stop.progress, stop)
+        directions, singularities, separatrices = structure(field, stop.progress, stop)
     peak_mb = max(meshed.peak_mb, memory.megabytes())
     told = record.of_surface_field(
         meshed, clock, peak_mb, field, singularities, options, constraints, stopped=stop.stopped
@@ -134,28 +135,25 @@ def compute_surface_field(
 
 
 def _lines_of_curvature(
-    meshed: MeshedInput, options: SurfaceFieldOptions, guide: DirectionGuide | None
+    surface: SurfaceDomain, options: SurfaceFieldOptions, guide: DirectionGuide | None
 ) -> DirectionGuide:
     if guide is not None:
         raise InvalidInput("a guide field and curvature are one too many: set curvature to 0", "two_guides")
-    found = _core.principal_directions(meshed.surface, meshed.features)
+    found = _core.principal_directions(surface)
     return DirectionGuide(found.directions, options.curvature * found.anisotropy)
 
 
 def structure(
-    meshed: MeshedInput, field: DirectionField, progress: Progress | None, stop: StopNote | None = None
+    field: DirectionField, progress: Progress | None, stop: StopNote | None = None
 ) -> tuple[np.ndarray, SurfaceSingularities, list[Streamline]]:
     """Directions at the vertices, singular points and separatrices of a surface field. Cancelled while it traces, it
     raises Cancelled; with `stop` it leaves the separatrices out, as when it was stopped before."""
-    surface, features = meshed.surface, meshed.features
-    directions = np.asarray(_core.vertex_directions(surface, features, field))
-    singularities = _core.surface_singularities(surface, field)
+    directions = np.asarray(_core.vertex_directions(field))
+    singularities = _core.surface_singularities(field)
     if stop is not None and stop.stopped:
         return directions, singularities, []
     try:
-        separatrices = _core.separatrices(
-            surface, features, field, singularities, progress=forward(progress, "surface", 0.9, 1.0)
-        )
+        separatrices = _core.separatrices(field, singularities, progress=forward(progress, "surface", 0.9, 1.0))
     except Cancelled:
         if stop is None:
             raise

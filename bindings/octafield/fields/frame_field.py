@@ -140,9 +140,9 @@ def prepare_field(meshed: MeshedInput, seed: int = 0, progress: Progress | None 
     with clock.phase("surface"):
         announce(progress, "surface")
         field = _core.direction_field(
-            meshed.surface, meshed.features, seed=seed, progress=forward(progress, "surface", 0.0, 0.9)
+            _core.sheet_domain(meshed.volume()), seed=seed, progress=forward(progress, "surface", 0.0, 0.9)
         )
-        directions, singularities, separatrices = structure(meshed, field, progress)
+        directions, singularities, separatrices = structure(field, progress)
     peak = max(meshed.peak_mb, memory.megabytes())
     return FieldProblem(meshed, seed, field, directions, singularities, separatrices, clock, peak)
 
@@ -178,7 +178,13 @@ def run_field(
     with clock.phase("smooth"):
         announce(progress, "smooth")
         in_tets = _core.tet_sampling(tets) if options.sampling == "tets" else None
-        held = _boundary_constraints(problem, options)
+        held = _core.surface_constraints(
+            tets,
+            problem.direction_field,
+            sites=options.sampling,
+            mode="none" if options.boundary == OF_A_START else options.boundary,
+            feature_tolerance=options.feature_tolerance,
+        )
         if options.boundary == OF_A_START:
             held = held_at_start(tets, options, held, start)
         if constraints is not None:
@@ -242,14 +248,3 @@ def _refuse_ignored(meshed: MeshedInput, options: FieldOptions) -> None:
             f"{meshed.name}: the mesh is there already, so that {listed} would be ignored; give them to prepare_mesh",
             "ignored_options",
         )
-
-
-def _boundary_constraints(problem: FieldProblem, options: FieldOptions) -> BoundaryConstraints:
-    meshed = problem.meshed
-    tets = meshed.volume()
-    mode, tolerance = "none" if options.boundary == OF_A_START else options.boundary, options.feature_tolerance
-    if options.sampling == "tets":  # triangles of the surface are those of the boundary, sheets or not
-        directions = _core.triangle_directions(meshed.surface, problem.direction_field)
-        return _core.tet_boundary_constraints(tets, directions, mode=mode, feature_tolerance=tolerance)
-    directions = meshed.at_boundary_vertices(problem.directions)
-    return _core.boundary_constraints(tets, directions, mode=mode, feature_tolerance=tolerance)

@@ -18,13 +18,13 @@ from .._core import (
     DirectionConstraints,
     DirectionField,
     FeatureWedge,
+    FieldAnalysis,
     FrameStreamline,
-    Integrability,
     Meshability,
-    SingularEdges,
     SingularGraph,
     SingularVertex,
     SurfaceSingularities,
+    TetFieldAnalysis,
     VertexConstraints,
 )
 from ..domain.meshed_input import MeshedInput
@@ -78,32 +78,24 @@ def of_mesh(meshed: MeshedInput) -> dict[str, Any]:
 
 
 def of_field_at_vertices(
-    energy: float,
-    graph: SingularGraph,
-    meshability: Meshability,
-    at_boundary: BoundaryMeshability,
-    integrability: Integrability,
-    alignment: np.ndarray,
-    unserved: np.ndarray,
-    unserved_vertices: int,
-    feature_alignment: np.ndarray,
-    lines: list[FrameStreamline],
+    found: FieldAnalysis, unserved: np.ndarray, unserved_vertices: int, lines: list[FrameStreamline]
 ) -> FieldFigures:
-    """alignment, feature_alignment: radians; unserved: (k,) bool, of alignment."""
+    """unserved: (k,) bool, of the angles of alignment."""
+    graph, integrability, alignment = found.singular_graph, found.integrability, np.asarray(found.alignment)
     held = _degrees(alignment[~unserved]).max
     ends = Counter(end for line in lines for end in (line.first_end, line.last_end))
     return FieldFigures(
-        energy=energy,
-        energy_unit_speed=_core.unit_speed_factor * energy,
+        energy=found.energy,
+        energy_unit_speed=_core.unit_speed_factor * found.energy,
         **_of_graph([int(t.quarter_turns) for t in graph.triangles], graph),
         singular_length_smoothed=float(_core.smoothed_curves(graph).length),
         complex_edges=int(graph.complex_triangles),
         undecided_edges=int(graph.undecided_triangles),
-        **_of_meshability(meshability),
-        **_of_boundary(at_boundary),
+        **_of_meshability(found.meshability),
+        **_of_boundary(found.boundary_meshability),
         alignment_deg=_degrees(alignment).changed(held_max=held),
         unserved_vertices=unserved_vertices,
-        feature_alignment_deg=_degrees(feature_alignment),
+        feature_alignment_deg=_degrees(np.asarray(found.feature_alignment)),
         integrability=IntegrabilityFigures(
             jump_rms=integrability.jump_rms,
             jump_max=integrability.jump_max,
@@ -116,28 +108,20 @@ def of_field_at_vertices(
     )
 
 
-def of_field_in_tets(
-    energy: float,
-    energy_at_vertices: float,
-    found: SingularEdges,
-    meshability: Meshability,
-    at_boundary: BoundaryMeshability,
-    alignment: np.ndarray,
-    feature_alignment: np.ndarray,
-) -> FieldFigures:
-    """alignment, feature_alignment: radians."""
+def of_field_in_tets(found: TetFieldAnalysis) -> FieldFigures:
+    singular = found.singular_edges
     return FieldFigures(
-        energy=energy,
-        energy_unit_speed=_core.unit_speed_factor * energy,
-        energy_at_vertices=energy_at_vertices,
-        **_of_graph([int(edge.quarter_turns) for edge in found.edges], found.graph),
-        complex_edges=int(found.complex_edges),
-        undecided_edges=int(found.undecided_edges),
-        tied_triangles=int(found.tied_triangles),
-        **_of_meshability(meshability),
-        **_of_boundary(at_boundary),
-        alignment_deg=_degrees(alignment),
-        feature_alignment_deg=_degrees(feature_alignment),
+        energy=found.energy,
+        energy_unit_speed=_core.unit_speed_factor * found.energy,
+        energy_at_vertices=found.energy_at_vertices,
+        **_of_graph([int(edge.quarter_turns) for edge in singular.edges], singular.graph),
+        complex_edges=int(singular.complex_edges),
+        undecided_edges=int(singular.undecided_edges),
+        tied_triangles=int(singular.tied_triangles),
+        **_of_meshability(found.meshability),
+        **_of_boundary(found.boundary_meshability),
+        alignment_deg=_degrees(np.asarray(found.alignment)),
+        feature_alignment_deg=_degrees(np.asarray(found.feature_alignment)),
     )
 
 

@@ -10,12 +10,9 @@ import numpy as np
 
 from .. import _core
 from .._core import (
-    BoundaryMeshability,
+    FieldAnalysis,
     FrameStreamline,
-    Integrability,
-    Meshability,
     SectorNormals,
-    SingularGraph,
 )
 from ..domain.meshed_input import MeshedInput
 from . import verdict
@@ -25,17 +22,11 @@ if TYPE_CHECKING:
 
 
 @dataclass
-class FieldAnalysis:
-    """alignment, feature_alignment: radians, one per sector normal and feature tangent. off_vertices: of the boundary,
-    too far from a normal that is served. figures: for the record."""
+class VertexAnalysis:
+    """of_field: what C++ finds. off_vertices: of the boundary, too far from a normal that is served. figures: for
+    the record."""
 
-    singular_graph: SingularGraph
-    meshability: Meshability
-    boundary_meshability: BoundaryMeshability
-    integrability: Integrability
-    alignment: np.ndarray
-    feature_alignment: np.ndarray
-    energy: float
+    of_field: FieldAnalysis
     streamlines: list[FrameStreamline]
     off_vertices: np.ndarray
     figures: FieldFigures
@@ -47,39 +38,22 @@ def analyse(
     threads: int = 0,
     streamlines: int = 0,
     feature_tolerance: float = _core.BoundaryOptions().feature_tolerance,
-) -> FieldAnalysis:
+) -> VertexAnalysis:
     """streamlines: number of seeds, three curves each. feature_tolerance: radians, of the constraints."""
     from . import record
 
     tets = meshed.volume()
-    graph = _core.singular_graph(tets, frames, threads=threads)
-    meshability = _core.local_meshability(tets, frames, graph)
-    at_boundary = _core.boundary_meshability(tets, frames, threads=threads)
-    integrability = _core.integrability(tets, frames, threads=threads)
-    alignment = np.asarray(_core.alignment_angles(tets, frames))
+    found = _core.analyse_field(tets, frames, threads=threads)
+    alignment = np.asarray(found.alignment)
     sectors = _core.sector_normals(tets)
     unserved = unserved_sectors(meshed, sectors, feature_tolerance)
     off = verdict.off_vertices(alignment[~unserved], np.asarray(sectors.vertex)[~unserved])
-    feature_alignment = np.asarray(_core.feature_alignment_angles(tets, frames))
-    energy = float(_core.dirichlet_energy(tets, frames, threads=threads))
     size = _core.shape_size(tets.surface.mesh)
     seeds = _core.spread_points(tets, streamlines)
     lines = _core.frame_streamlines(tets, frames, seeds, max_length=2 * size, threads=threads) if len(seeds) else []
-    figures = record.of_field_at_vertices(
-        energy,
-        graph,
-        meshability,
-        at_boundary,
-        integrability,
-        alignment,
-        unserved,
-        len(np.unique(np.asarray(sectors.vertex)[unserved])),
-        feature_alignment,
-        lines,
-    )
-    return FieldAnalysis(
-        graph, meshability, at_boundary, integrability, alignment, feature_alignment, energy, lines, off, figures
-    )
+    unserved_vertices = len(np.unique(np.asarray(sectors.vertex)[unserved]))
+    figures = record.of_field_at_vertices(found, unserved, unserved_vertices, lines)
+    return VertexAnalysis(found, lines, off, figures)
 
 
 def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolerance: float) -> np.ndarray:

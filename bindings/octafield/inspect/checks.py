@@ -167,7 +167,7 @@ def curvature(seen: Examined) -> Finding:
     text = "edges are shorter than radii of curvature"
     surface = seen.found.surface
     try:
-        found = _core.principal_directions(surface, seen.features)
+        found = _core.principal_directions(_core.SurfaceDomain(surface, seen.features))
     except Error:
         return Finding(text, PASS)  # interfaces: the surface has no two sides
     bend = np.abs(np.asarray(found.curvatures)[:, 0])

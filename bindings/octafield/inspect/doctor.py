@@ -109,7 +109,7 @@ def _threads() -> str:
     surface = _core.remesh(_cube(), _core.detect_features(_cube()), edge_length=0.08).mesh
 
     def energies(times: int) -> set[float]:
-        return {_core.direction_field(surface, _core.FeatureGraph()).energy for _ in range(times)}
+        return {_core.direction_field(surface).energy for _ in range(times)}
 
     alone = energies(1)
     try:

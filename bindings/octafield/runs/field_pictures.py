@@ -4,7 +4,7 @@ import numpy as np
 import pyvista
 
 from .. import _core
-from .._core import DirectionField, TriangleMesh
+from .._core import DirectionField
 from ..fields.analysed import AnalysedField
 from ..fields.frame_field import FieldProblem
 from ..view import captions, scene
@@ -24,7 +24,7 @@ def surface_cross_field(problem: FieldProblem) -> Picture:
     points = np.asarray(mesh.vertices)
     shape = scene.plotter()
     scene.add_body(shape, scene.surface_mesh(mesh))
-    shape.add_mesh(_crosses(mesh, problem.direction_field), color=scene.CROSS, line_width=4, lighting=False)
+    shape.add_mesh(_crosses(problem.direction_field), color=scene.CROSS, line_width=4, lighting=False)
     scene.add_features(shape, mesh, features, 7)
     radius = 0.011 * scene.diagonal(points)
     legend = [(scene.CROSS, "cross")] + [(scene.CURVE, "feature curve")] * (len(features.edges) > 0)
@@ -120,12 +120,13 @@ def frames_on_cut(result: AnalysedField) -> Picture:
     return Picture("Frames on a cut", caption, scene.render(shape), [(scene.SKY, "frame"), (CUT, "cut")])
 
 
-def _crosses(mesh: TriangleMesh, field: DirectionField) -> pyvista.PolyData:
-    corners = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
-    normals = np.asarray(_core.triangle_normals(mesh))
-    directions = np.asarray(_core.triangle_directions(mesh, field))
-    total = float(np.asarray(_core.triangle_areas(mesh)).sum())
-    spacing = max(np.sqrt(total / MOST_CROSSES), 0.75 * float(_core.mean_edge_length(mesh)))
+def _crosses(field: DirectionField) -> pyvista.PolyData:
+    surface = field.domain
+    corners = surface.vertices[surface.triangles]
+    normals = surface.normals
+    directions = np.asarray(_core.triangle_directions(field))
+    total = float(np.asarray(_core.triangle_areas(surface.mesh)).sum())
+    spacing = max(np.sqrt(total / MOST_CROSSES), 0.75 * surface.mean_edge_length)
     chosen = _spread(corners.mean(axis=1), spacing)
     centres = corners[chosen].mean(axis=1) + 0.06 * spacing * normals[chosen]
     first, second = directions[chosen], np.cross(normals[chosen], directions[chosen])

@@ -5,30 +5,20 @@
 #include <cmath>
 
 #include "octafield/error.hpp"
-#include "vertex_fans.hpp"
 
 namespace octafield::surface::detail {
 namespace {
 
-double edge_length(const TriangleMesh& mesh, const EdgeTopology& topology, Index e) {
-    return (mesh.vertices.row(topology.edges(e, 1)) - mesh.vertices.row(topology.edges(e, 0))).norm();
-}
-
 bool on_boundary(const EdgeTopology& topology, Index e) { return topology.edge_triangles.row(e).minCoeff() < 0; }
 
 // How each edge is to be followed as part of the boundary or of a feature.
-std::vector<Alignment> wanted(const EdgeTopology& topology, const FeatureGraph& features, const Points& normals,
-                              const DirectionFieldOptions& options) {
+std::vector<Alignment> wanted(const SurfaceDomain& domain, const DirectionFieldOptions& options) {
+    const EdgeTopology& topology = domain.topology();
+    const Points& normals = domain.normals();
     std::vector<Alignment> result(topology.edges.rows(), Alignment::none);
-    std::vector<Index> unknown;
-    for (Index i = 0; i < features.edges.rows(); ++i) {
-        const Index e = find_edge(topology, features.edges(i, 0), features.edges(i, 1));
-        if (e < 0) {
-            const auto [low, high] = std::minmax(features.edges(i, 0), features.edges(i, 1));
-            unknown.insert(unknown.end(), {low, high});
+    for (Index e = 0; e < topology.edges.rows(); ++e) {
+        if (!domain.is_feature()[e] || on_boundary(topology, e) || options.feature_alignment == Alignment::none)
             continue;
-        }
-        if (on_boundary(topology, e) || options.feature_alignment == Alignment::none) continue;
         const Eigen::Vector3d left = normals.row(topology.edge_triangles(e, 0)),
                               right = normals.row(topology.edge_triangles(e, 1));
         if (std::atan2(left.cross(right).norm(), left.dot(right)) < options.least_feature_angle) continue;
@@ -40,10 +30,6 @@ std::vector<Alignment> wanted(const EdgeTopology& topology, const FeatureGraph& 
                                "odd_symmetry", {low, high});
         result[e] = options.feature_alignment;
     }
-    if (!unknown.empty())
-        throw InvalidInput(std::to_string(unknown.size() / 2) + " feature edges are no edges of the mesh (vertices " +
-                               first_few(unknown) + ")",
-                           "unknown_edge", unknown);
     for (Index e = 0; e < topology.edges.rows(); ++e)
         if (on_boundary(topology, e)) result[e] = options.boundary_alignment;
     return result;
@@ -64,12 +50,11 @@ Index find_edge(const EdgeTopology& topology, Index a, Index b) {
     return found ? first : -1;
 }
 
-std::vector<bool> contradicting_edges(const TriangleMesh& mesh, const EdgeTopology& topology,
-                                      const std::vector<CornerLink>& links, int symmetry,
+std::vector<bool> contradicting_edges(const SurfaceDomain& domain, const std::vector<CornerLink>& links, int symmetry,
                                       const std::vector<bool>& follows, const Eigen::VectorXcd& values,
                                       double tolerance) {
     std::vector<bool> result(follows.size(), false);
-    const VertexFans fans = vertex_fans(mesh, topology);
+    const VertexFans& fans = domain.fans();
     for (const auto& fan : fans.fans) {
         const Index count = fan.last - fan.first;
         const auto corner = [&](Index i) -> const CornerLink& { return links[fans.corners[fan.first + i % count]]; };
@@ -96,10 +81,11 @@ std::vector<bool> contradicting_edges(const TriangleMesh& mesh, const EdgeTopolo
     return result;
 }
 
-AlignedEdges aligned_edges(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<CornerLink>& links,
-                           const FeatureGraph& features, const DirectionFieldOptions& options) {
+AlignedEdges aligned_edges(const SurfaceDomain& domain, const std::vector<CornerLink>& links,
+                           const DirectionFieldOptions& options) {
+    const EdgeTopology& topology = domain.topology();
     const Eigen::Index edges = topology.edges.rows();
-    const std::vector<Alignment> how = wanted(topology, features, triangle_normals(mesh), options);
+    const std::vector<Alignment> how = wanted(domain, options);
     std::vector<bool> follows(edges);
     Eigen::VectorXcd values = Eigen::VectorXcd::Zero(edges);
     for (Eigen::Index e = 0; e < edges; ++e) {
@@ -108,9 +94,9 @@ AlignedEdges aligned_edges(const TriangleMesh& mesh, const EdgeTopology& topolog
         if (follows[e]) values[e] = options.symmetry % 2 == 1 && topology.edge_triangles(e, 0) < 0 ? -1 : 1;
     }
     AlignedEdges result{std::vector<bool>(edges, false), Eigen::VectorXcd::Zero(edges), {}, Pull(edges)};
-    add_constraints(mesh, topology, links, options.symmetry, options.constraints, follows, result);
+    add_constraints(domain, links, options.symmetry, options.constraints, follows, result);
     const std::vector<bool> contradicting =
-        contradicting_edges(mesh, topology, links, options.symmetry, follows, values, options.corner_tolerance);
+        contradicting_edges(domain, links, options.symmetry, follows, values, options.corner_tolerance);
     for (Index e = 0; e < edges; ++e) {
         // An edge with a constraint of its own, hard or weighted, follows that alone.
         if (!follows[e] || result.is_held[e] || result.pull.weights[e] > 0) continue;
@@ -118,10 +104,10 @@ AlignedEdges aligned_edges(const TriangleMesh& mesh, const EdgeTopology& topolog
             result.is_held[e] = true;
             result.held[e] = values[e];
         } else {
-            result.weak.push_back({e, edge_length(mesh, topology, e), values[e]});
+            result.weak.push_back({e, domain.edge_lengths()[e], values[e]});
         }
     }
-    add_guide(mesh, topology, options.symmetry, options.guide, result);
+    add_guide(domain, options.symmetry, options.guide, result);
     return result;
 }
 

@@ -23,9 +23,9 @@ struct AlignedEdges {
     Pull pull;  // user constraints and guide; later the weak edges too
 };
 
-// Throws InvalidInput for options, features, constraints and guides that do not fit the mesh.
-AlignedEdges aligned_edges(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<CornerLink>& links,
-                           const FeatureGraph& features, const DirectionFieldOptions& options);
+// Throws InvalidInput for options, constraints and guides that do not fit the surface.
+AlignedEdges aligned_edges(const SurfaceDomain& domain, const std::vector<CornerLink>& links,
+                           const DirectionFieldOptions& options);
 
 // Adds the weak edges to the pull, with weights L length / eps^2 (thesis 3.27); `epsilon` (E); L = 0: eps.
 void add_weak_edges(AlignedEdges& edges, double alignment_length, const Eigen::VectorXd& epsilon);
@@ -34,14 +34,12 @@ void add_weak_edges(AlignedEdges& edges, double alignment_length, const Eigen::V
 Index find_edge(const EdgeTopology& topology, Index a, Index b);
 
 // The parts of aligned_edges with sources of their own.
-void add_constraints(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<CornerLink>& links,
-                     int symmetry, const DirectionConstraints& constraints, const std::vector<bool>& follows_feature,
+void add_constraints(const SurfaceDomain& domain, const std::vector<CornerLink>& links, int symmetry,
+                     const DirectionConstraints& constraints, const std::vector<bool>& follows_feature,
                      AlignedEdges& edges);
-void add_guide(const TriangleMesh& mesh, const EdgeTopology& topology, int symmetry, const DirectionGuide& guide,
-               AlignedEdges& edges);
+void add_guide(const SurfaceDomain& domain, int symmetry, const DirectionGuide& guide, AlignedEdges& edges);
 // Of the edges with follows[e], those beside a sector in which no field can follow both its sides.
-std::vector<bool> contradicting_edges(const TriangleMesh& mesh, const EdgeTopology& topology,
-                                      const std::vector<CornerLink>& links, int symmetry,
+std::vector<bool> contradicting_edges(const SurfaceDomain& domain, const std::vector<CornerLink>& links, int symmetry,
                                       const std::vector<bool>& follows, const Eigen::VectorXcd& values,
                                       double tolerance);
 

@@ -5,7 +5,6 @@
 
 #include "crouzeix_raviart.hpp"
 #include "octafield/surface/direction_field.hpp"
-#include "vertex_fans.hpp"
 
 namespace octafield::surface::detail {
 

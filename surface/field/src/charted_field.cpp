@@ -5,12 +5,12 @@
 
 namespace octafield::surface::detail {
 
-ChartedField::ChartedField(const TriangleMesh& mesh, const DirectionField& field, const std::vector<CornerLink>& links)
-    : Charts(mesh, field.topology), symmetry_(field.symmetry), linear_(mesh.triangles.rows()) {
+ChartedField::ChartedField(const DirectionField& field, const std::vector<CornerLink>& links)
+    : Charts(field.domain), symmetry_(field.symmetry), linear_(mesh().triangles.rows()) {
     // Directions do not depend on the size of f: scaled, its derivatives stay numbers.
     const double largest = field.values.size() > 0 ? field.values.cwiseAbs().maxCoeff() : 0;
     const Eigen::VectorXcd scaled = largest > 0 ? Eigen::VectorXcd(field.values / largest) : field.values;
-    for (Index t = 0; t < mesh.triangles.rows(); ++t) {
+    for (Index t = 0; t < domain().triangle_count(); ++t) {
         Linear& linear = linear_[t];
         const auto values = local_values(links, scaled, t);
         // The shape function of edge k is 1 - 2 times the barycentric function of corner k + 2, whose gradient is

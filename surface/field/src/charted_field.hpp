@@ -10,8 +10,7 @@ namespace octafield::surface::detail {
 
 class ChartedField : public Charts {
 public:
-    // Keeps references to mesh and field.
-    ChartedField(const TriangleMesh& mesh, const DirectionField& field, const std::vector<CornerLink>& links);
+    ChartedField(const DirectionField& field, const std::vector<CornerLink>& links);
 
     int symmetry() const { return symmetry_; }
 

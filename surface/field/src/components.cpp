@@ -30,8 +30,10 @@ struct Moments {
 
 }  // namespace
 
-Components components(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<CornerLink>& links,
+Components components(const SurfaceDomain& domain, const std::vector<CornerLink>& links,
                       const Eigen::VectorXd& masses) {
+    const TriangleMesh& mesh = domain.mesh();
+    const EdgeTopology& topology = domain.topology();
     std::vector<Index> parent(masses.size());
     std::iota(parent.begin(), parent.end(), 0);
     for (const CornerLink& link : links) {

@@ -8,8 +8,8 @@
 namespace octafield::surface::detail {
 
 struct Components {
-    std::vector<Index> of_edge;     // (E), 0, 1, ... by lowest edge
-    std::vector<double> sizes;      // as shape_size
+    std::vector<Index> of_edge;  // (E), 0, 1, ... by lowest edge
+    std::vector<double> sizes;   // as shape_size
     std::vector<double> areas;
     std::vector<bool> anchored;  // whether an edge is held or pulled
 
@@ -17,7 +17,6 @@ struct Components {
 };
 
 // Nothing is anchored yet. `masses` (E): a third of the adjacent triangles' areas.
-Components components(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<CornerLink>& links,
-                      const Eigen::VectorXd& masses);
+Components components(const SurfaceDomain& domain, const std::vector<CornerLink>& links, const Eigen::VectorXd& masses);
 
 }  // namespace octafield::surface::detail

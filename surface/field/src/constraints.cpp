@@ -8,7 +8,6 @@
 #include "alignment.hpp"
 #include "octafield/error.hpp"
 #include "short_number.hpp"
-#include "vertex_fans.hpp"
 
 namespace octafield::surface::detail {
 namespace {
@@ -57,11 +56,13 @@ void follow(AlignedEdges& edges, Index e, Complex value, double weight) {
     }
 }
 
-void constrain_edges(const TriangleMesh& mesh, const EdgeTopology& topology, int symmetry,
-                     const DirectionConstraints& constraints, AlignedEdges& edges) {
+void constrain_edges(const SurfaceDomain& domain, int symmetry, const DirectionConstraints& constraints,
+                     AlignedEdges& edges) {
+    const TriangleMesh& mesh = domain.mesh();
+    const EdgeTopology& topology = domain.topology();
     require_rows("edges", constraints.edges.rows(), constraints.edge_directions, constraints.edge_weights);
     if (constraints.edges.rows() == 0) return;
-    const Points normals = triangle_normals(mesh);
+    const Points& normals = domain.normals();
     for (Index i = 0; i < constraints.edges.rows(); ++i) {
         const Index a = constraints.edges(i, 0), b = constraints.edges(i, 1), e = find_edge(topology, a, b);
         if (e < 0)
@@ -89,10 +90,12 @@ void constrain_edges(const TriangleMesh& mesh, const EdgeTopology& topology, int
 }
 
 // The direction at a vertex, on the edges that meet there.
-void constrain_vertex(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<CornerLink>& links,
-                      int symmetry, const VertexFans& fans, const VertexFans::Fan& fan,
-                      const Eigen::Vector3d& direction, const Eigen::Vector3d& normal, double weight,
-                      const std::vector<bool>& taken, AlignedEdges& edges) {
+void constrain_vertex(const SurfaceDomain& domain, const std::vector<CornerLink>& links, int symmetry,
+                      const VertexFans::Fan& fan, const Eigen::Vector3d& direction, const Eigen::Vector3d& normal,
+                      double weight, const std::vector<bool>& taken, AlignedEdges& edges) {
+    const TriangleMesh& mesh = domain.mesh();
+    const EdgeTopology& topology = domain.topology();
+    const VertexFans& fans = domain.fans();
     double total = 0;
     for (Index i = fan.first; i < fan.last; ++i) total += links[fans.corners[i]].angle;
     const double scale = fan.closed ? 2 * std::numbers::pi / total : 1;
@@ -128,15 +131,15 @@ void constrain_vertex(const TriangleMesh& mesh, const EdgeTopology& topology, co
 
 }  // namespace
 
-void add_constraints(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<CornerLink>& links,
-                     int symmetry, const DirectionConstraints& constraints, const std::vector<bool>& follows_feature,
+void add_constraints(const SurfaceDomain& domain, const std::vector<CornerLink>& links, int symmetry,
+                     const DirectionConstraints& constraints, const std::vector<bool>& follows_feature,
                      AlignedEdges& edges) {
-    constrain_edges(mesh, topology, symmetry, constraints, edges);
+    const TriangleMesh& mesh = domain.mesh();
+    constrain_edges(domain, symmetry, constraints, edges);
     require_rows("vertices", static_cast<Eigen::Index>(constraints.vertices.size()), constraints.vertex_directions,
                  constraints.vertex_weights);
     if (constraints.vertices.empty()) return;
     const Points normals = vertex_normals(mesh);
-    const VertexFans fans = vertex_fans(mesh, topology);
     std::vector<std::vector<Index>> asked(mesh.vertices.rows());  // constraints by vertex
     for (std::size_t i = 0; i < constraints.vertices.size(); ++i) {
         const Index v = constraints.vertices[i];
@@ -147,15 +150,16 @@ void add_constraints(const TriangleMesh& mesh, const EdgeTopology& topology, con
         asked[v].push_back(static_cast<Index>(i));
     }
     std::vector<bool> taken = follows_feature;
-    for (Index e = 0; e < topology.edges.rows(); ++e) taken[e] = taken[e] || edges.is_held[e];
-    for (const auto& fan : fans.fans)
+    for (Index e = 0; e < domain.edge_count(); ++e) taken[e] = taken[e] || edges.is_held[e];
+    for (const auto& fan : domain.fans().fans)
         for (const Index i : asked[fan.vertex])
-            constrain_vertex(mesh, topology, links, symmetry, fans, fan, constraints.vertex_directions.row(i),
+            constrain_vertex(domain, links, symmetry, fan, constraints.vertex_directions.row(i),
                              normals.row(fan.vertex), weight_of(constraints.vertex_weights, i), taken, edges);
 }
 
-void add_guide(const TriangleMesh& mesh, const EdgeTopology& topology, int symmetry, const DirectionGuide& guide,
-               AlignedEdges& edges) {
+void add_guide(const SurfaceDomain& domain, int symmetry, const DirectionGuide& guide, AlignedEdges& edges) {
+    const TriangleMesh& mesh = domain.mesh();
+    const EdgeTopology& topology = domain.topology();
     const Eigen::Index triangles = mesh.triangles.rows();
     if (!(guide.length >= 0) || !std::isfinite(guide.length))
         throw InvalidInput("the length of a guide field must be a length, or 0 for the default");
@@ -165,9 +169,9 @@ void add_guide(const TriangleMesh& mesh, const EdgeTopology& topology, int symme
                                ", and as many weights or none; there are " + std::to_string(guide.directions.rows()) +
                                " and " + std::to_string(guide.weights.size()),
                            "wrong_size");
-    const Points normals = triangle_normals(mesh);
+    const Points& normals = domain.normals();
     const Eigen::VectorXd areas = triangle_areas(mesh);
-    const double length = guide.length > 0 ? guide.length : shape_size(mesh) / 10;
+    const double length = guide.length > 0 ? guide.length : domain.size() / 10;
     if (!std::isnormal(length * length))
         throw InvalidInput("the length of a guide field, " + short_number(length) +
                                ", is beyond double precision when squared; choose one between the edge length and the "

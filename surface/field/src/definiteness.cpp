@@ -1,6 +1,5 @@
 #include "definiteness.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,17 +13,6 @@ namespace {
 
 // Factorizations have failed with angles (radians) below this, never above.
 constexpr double thin = 1e-6;
-
-double least_angle(const TriangleMesh& mesh, Index t) {
-    double least = std::numbers::pi;
-    for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d origin = mesh.vertices.row(mesh.triangles(t, k));
-        const Eigen::Vector3d a = mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)).transpose() - origin;
-        const Eigen::Vector3d b = mesh.vertices.row(mesh.triangles(t, (k + 2) % 3)).transpose() - origin;
-        least = std::min(least, std::atan2(a.cross(b).norm(), a.dot(b)));
-    }
-    return least;
-}
 
 // Sum of the weights at a component: stiffness entries are about 1.
 constexpr double negligible = 1e-12;
@@ -44,15 +32,15 @@ void release_negligible(Components& components, AlignedEdges& aligned) {
     }
 }
 
-void explaining_failure(const TriangleMesh& mesh, const std::function<void()>& solve) {
+void explaining_failure(const SurfaceDomain& domain, const std::function<void()>& solve) {
     try {
         solve();
     } catch (const SolverError& error) {
         if (error.kind() != not_definite) throw;
         std::vector<Index> triangles;
         double least = std::numbers::pi;
-        for (Index t = 0; t < mesh.triangles.rows(); ++t) {
-            const double angle = least_angle(mesh, t);
+        for (Index t = 0; t < domain.triangle_count(); ++t) {
+            const double angle = domain.corner_angles().row(t).minCoeff();
             if (angle < thin) triangles.push_back(t);
             least = std::min(least, angle);
         }

@@ -17,6 +17,6 @@ inline constexpr const char* not_definite = "not_definite";
 
 // Calls `solve`; an error of kind not_definite it throws is thrown anew with its cause: the thinnest triangles
 // (elements), or weights that are too small to count.
-void explaining_failure(const TriangleMesh& mesh, const std::function<void()>& solve);
+void explaining_failure(const SurfaceDomain& domain, const std::function<void()>& solve);
 
 }  // namespace octafield::surface::detail

@@ -13,7 +13,6 @@
 #include "mbo.hpp"
 #include "octafield/library_threads.hpp"
 #include "octafield/surface/principal_directions.hpp"
-#include "orientation.hpp"
 #include "short_number.hpp"
 
 namespace octafield::surface {
@@ -24,7 +23,7 @@ using namespace detail;
 // A component whose |f| is below this everywhere has collapsed: minimisers that have not come near 1 somewhere.
 constexpr double least_length = 0.1;
 
-void require_usable(const TriangleMesh& mesh, const DirectionFieldOptions& options) {
+void require_usable(const SurfaceDomain& domain, const DirectionFieldOptions& options) {
     const auto is_length = [](double length) { return length >= 0 && std::isfinite(length); };
     if (options.symmetry < 1 || options.symmetry > largest_symmetry)
         throw InvalidInput("the symmetry of a direction field must be at least 1 and at most " +
@@ -40,11 +39,7 @@ void require_usable(const TriangleMesh& mesh, const DirectionFieldOptions& optio
         throw InvalidInput("least_feature_angle must be an angle in radians, 0 or more");
     if (!(options.corner_tolerance >= 0 && options.corner_tolerance <= 1))
         throw InvalidInput("corner_tolerance must lie between 0 and 1");
-    if (mesh.triangles.rows() == 0) throw GeometryError("the surface has no triangles", "empty");
-    if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertices.rows())
-        throw GeometryError("a triangle names a vertex that does not exist; there are " +
-                                std::to_string(mesh.vertices.rows()) + " vertices, numbered from 0",
-                            "index_out_of_range");
+    if (domain.triangle_count() == 0) throw GeometryError("the surface has no triangles", "empty");
 }
 
 // Of the components that nothing aligns, the only ones that a large epsilon makes vanish; infinity if there are none.
@@ -68,13 +63,10 @@ void require_not_below_edges(const DirectionFieldOptions& options, double epsilo
 bool is_scale(double length, double mean) { return length >= 1e-60 * mean && length <= 1e60 * mean; }
 
 // (E)
-Eigen::VectorXd chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& topology, const Components& components,
+Eigen::VectorXd chosen_epsilon(const SurfaceDomain& domain, const Components& components,
                                const DirectionFieldOptions& options) {
-    const Eigen::Index edges = topology.edges.rows();
-    double sum = 0;
-    for (Index e = 0; e < edges; ++e)
-        sum += (mesh.vertices.row(topology.edges(e, 0)) - mesh.vertices.row(topology.edges(e, 1))).norm();
-    const double mean = sum / edges;
+    const Index edges = domain.edge_count();
+    const double mean = domain.mean_edge_length();
     if (options.edge_epsilon.size() != 0) {
         const Eigen::VectorXd& given = options.edge_epsilon;
         if (given.size() != edges)
@@ -93,8 +85,7 @@ Eigen::VectorXd chosen_epsilon(const TriangleMesh& mesh, const EdgeTopology& top
     }
     double epsilon = options.epsilon;
     if (epsilon == 0)
-        epsilon = std::min({2 * mean, shape_size(mesh) / 10,
-                            std::max(smallest_free_size(components) / 10, mean / 4)});
+        epsilon = std::min({2 * mean, domain.size() / 10, std::max(smallest_free_size(components) / 10, mean / 4)});
     else
         require_not_below_edges(options, epsilon, mean);
     if (!is_scale(epsilon, mean))
@@ -115,8 +106,8 @@ void require_not_collapsed(const DirectionField& field, const Components& compon
     }
     const auto collapsed = [&](Index c) { return longest[c] >= 0 && longest[c] < least_length; };
     std::vector<Index> triangles;
-    for (Index t = 0; t < field.topology.triangle_edges.rows(); ++t)
-        if (collapsed(components.of_edge[field.topology.triangle_edges(t, 0)])) triangles.push_back(t);
+    for (Index t = 0; t < field.domain.triangle_count(); ++t)
+        if (collapsed(components.of_edge[field.domain.topology().triangle_edges(t, 0)])) triangles.push_back(t);
     if (triangles.empty()) return;
     throw SolverError("the direction field vanishes on " + std::to_string(triangles.size()) + " triangles (" +
                           first_few(triangles) + "): epsilon, " + short_number(field.epsilon) +
@@ -158,8 +149,7 @@ void narrow_cores(Eigen::VectorXcd& values, const std::vector<bool>& is_held, co
 // Everything a field is computed from, and the computation of its values.
 class Solver {
 public:
-    Solver(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionFieldOptions& options,
-           DirectionField& field, const Progress& progress)
+    Solver(const DirectionFieldOptions& options, DirectionField& field, const Progress& progress)
         : options_(options),
           field_(field),
           progress_([this, &progress](std::string_view phase, double fraction, double merit) {
@@ -169,16 +159,16 @@ public:
           silent_([this](std::string_view phase, double, double) {
               return progress_(phase, 0, std::numeric_limits<double>::quiet_NaN());
           }),
-          links_(corner_links(mesh, field.topology, options.symmetry)),
-          masses_(edge_masses(mesh, field.topology)),
-          components_(components(mesh, field.topology, links_, masses_)),
-          aligned_(aligned_edges(mesh, field.topology, links_, features, options)),
+          links_(corner_links(field.domain, options.symmetry)),
+          masses_(edge_masses(field.domain)),
+          components_(components(field.domain, links_, masses_)),
+          aligned_(aligned_edges(field.domain, links_, options)),
           system_(links_, aligned_.is_held) {
         const auto anchor = [&](Index e) { components_.anchored[components_.of_edge[e]] = true; };
         for (Index e = 0; e < masses_.size(); ++e)
             if (aligned_.is_held[e] || aligned_.pull.weights[e] > 0) anchor(e);
         for (const WeakEdge& weak : aligned_.weak) anchor(weak.edge);
-        epsilon_ = chosen_epsilon(mesh, field.topology, components_, options);
+        epsilon_ = chosen_epsilon(field.domain, components_, options);
         add_weak_edges(aligned_, options.alignment_length, epsilon_);
         release_negligible(components_, aligned_);
         field.epsilon = epsilon_.minCoeff();
@@ -312,18 +302,17 @@ constexpr double least_anisotropy = 0.05;  // mean over the area, for principal 
 
 // Along the principal directions as far as a linear solve follows them, |f| = 1 (E); nothing where the surface bends
 // nearly alike in all directions.
-std::optional<Eigen::VectorXcd> along_curvature(const TriangleMesh& mesh, const FeatureGraph& features,
-                                                const DirectionFieldOptions& options) {
-    const PrincipalDirections curvature = principal_directions(mesh, features);
-    const Eigen::VectorXd areas = triangle_areas(mesh);
+std::optional<Eigen::VectorXcd> along_curvature(const SurfaceDomain& domain, const DirectionFieldOptions& options) {
+    const PrincipalDirections curvature = principal_directions(domain);
+    const Eigen::VectorXd areas = triangle_areas(domain.mesh());
     if (!(areas.dot(curvature.anisotropy) > least_anisotropy * areas.sum())) return {};
     DirectionFieldOptions guided = options;
     guided.method = DirectionFieldMethod::eigen;
     guided.guide = {.directions = curvature.directions, .weights = curvature.anisotropy};
     DirectionField field;
     field.symmetry = options.symmetry;
-    field.topology = oriented_topology(mesh);
-    Solver(mesh, features, guided, field, {}).run();
+    field.domain = domain;
+    Solver(guided, field, {}).run();
     return field.values;
 }
 
@@ -337,36 +326,35 @@ constexpr double first_part = 0.8;  // of the progress, where two starts are tri
 
 // Where nothing tells the field which way to run there are local minima of very different kind: a torus has one without
 // singular points, along its lines of curvature, which neither diffusion nor continuation from a large epsilon finds.
-void improve_from_curvature(const TriangleMesh& mesh, const FeatureGraph& features,
-                            const DirectionFieldOptions& options, DirectionField& field, const Progress& progress) {
-    const std::optional<Eigen::VectorXcd> start = along_curvature(mesh, features, options);
+void improve_from_curvature(const DirectionFieldOptions& options, DirectionField& field, const Progress& progress) {
+    const std::optional<Eigen::VectorXcd> start = along_curvature(field.domain, options);
     if (!start) return;
     DirectionField other;
     other.symmetry = field.symmetry;
-    other.topology = field.topology;
-    Solver(mesh, features, options, other, part(progress, first_part, 1)).run_from(*start);
+    other.domain = field.domain;
+    Solver(options, other, part(progress, first_part, 1)).run_from(*start);
     if (other.converged && other.energy < field.energy) field = std::move(other);
 }
 
 }  // namespace
 
-DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& features,
-                               const DirectionFieldOptions& options, const Progress& progress) {
-    require_usable(mesh, options);
+DirectionField direction_field(const SurfaceDomain& domain, const DirectionFieldOptions& options,
+                               const Progress& progress) {
+    require_usable(domain, options);
     calm_library_threads();
     DirectionField field;
     field.symmetry = options.symmetry;
-    field.topology = oriented_topology(mesh);
-    explaining_failure(mesh, [&] {
+    field.domain = domain;
+    explaining_failure(domain, [&] {
         bool free = false;
         {
             const Progress told = part(progress, 0, first_part);
-            Solver solver(mesh, features, options, field, told);
+            Solver solver(options, field, told);
             free = solver.has_free_component();
             solver.run();
         }
         if (free && field.converged && options.symmetry % 2 == 0 && options.method != DirectionFieldMethod::eigen)
-            improve_from_curvature(mesh, features, options, field, progress);
+            improve_from_curvature(options, field, progress);
     });
     return field;
 }

@@ -11,7 +11,6 @@
 #include "octafield/error.hpp"
 #include "octafield/surface/surface_singularities.hpp"
 #include "singular_place.hpp"
-#include "vertex_fans.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -66,10 +65,11 @@ void cancel_pairs(const TriangleMesh& mesh, std::vector<SurfaceSingularity>& fou
     std::erase_if(found, [](const SurfaceSingularity& singularity) { return singularity.index_times_symmetry == 0; });
 }
 
-void require_fit(const TriangleMesh& mesh, const DirectionField& field) {
-    if (field.values.size() != field.topology.edges.rows() ||
-        field.topology.triangle_edges.rows() != mesh.triangles.rows())
-        throw InvalidInput("the direction field belongs to another mesh: compute it on this one", "wrong_mesh");
+void require_fit(const DirectionField& field) {
+    if (field.values.size() != field.domain.edge_count())
+        throw InvalidInput("the direction field has " + std::to_string(field.values.size()) +
+                               " values; give one per edge, " + std::to_string(field.domain.edge_count()),
+                           "wrong_size");
     std::vector<Index> bad;
     for (Index e = 0; e < field.values.size(); ++e)
         if (!std::isfinite(field.values[e].real()) || !std::isfinite(field.values[e].imag())) bad.push_back(e);
@@ -83,8 +83,8 @@ void require_fit(const TriangleMesh& mesh, const DirectionField& field) {
 Eigen::VectorXd boundary_deviations(const DirectionField& field, const Eigen::VectorXcd& values) {
     Eigen::VectorXd deviations = Eigen::VectorXd::Zero(values.size());
     for (Index e = 0; e < values.size(); ++e)
-        if (field.topology.edge_triangles.row(e).minCoeff() < 0)
-            deviations[e] = detail::boundary_deviation(field.topology, field.symmetry, e, values[e]);
+        if (field.domain.topology().edge_triangles.row(e).minCoeff() < 0)
+            deviations[e] = detail::boundary_deviation(field.domain.topology(), field.symmetry, e, values[e]);
     return deviations;
 }
 
@@ -94,8 +94,7 @@ Eigen::VectorXd boundary_deviations(const DirectionField& field, const Eigen::Ve
 // (Gauss-Bonnet). On the boundary the deviations from it before and behind the vertex make the sum whole; those of one
 // boundary curve add up to nothing.
 int vertex_index(int symmetry, const std::vector<detail::CornerLink>& links, const std::vector<double>& turns,
-                 const Eigen::VectorXd& deviations, const detail::VertexFans& fans,
-                 const detail::VertexFans::Fan& fan) {
+                 const Eigen::VectorXd& deviations, const VertexFans& fans, const VertexFans::Fan& fan) {
     double sum = symmetry * (fan.closed ? 2 * pi : pi);
     for (Index i = fan.first; i < fan.last; ++i)
         sum += turns[fans.corners[i]] - symmetry * links[fans.corners[i]].angle;
@@ -106,11 +105,11 @@ int vertex_index(int symmetry, const std::vector<detail::CornerLink>& links, con
 
 // Edges that the plane of the triangles round a point must not go over: creases, where the surface has no plane, and
 // edges that the field follows exactly, as along features, on whose other side it is another field.
-std::vector<bool> barriers(const TriangleMesh& mesh, const DirectionField& field) {
-    const Points normals = triangle_normals(mesh);
+std::vector<bool> barriers(const DirectionField& field) {
+    const Points& normals = field.domain.normals();
     std::vector<bool> result(field.values.size());
     for (Index e = 0; e < field.values.size(); ++e) {
-        const auto beside = field.topology.edge_triangles.row(e);
+        const auto beside = field.domain.topology().edge_triangles.row(e);
         const bool held = field.values[e].imag() == 0 && std::abs(field.values[e].real()) == 1;
         result[e] = held || beside.minCoeff() < 0 ||
                     normals.row(beside[0]).dot(normals.row(beside[1])) < std::cos(crease_angle);
@@ -120,7 +119,7 @@ std::vector<bool> barriers(const TriangleMesh& mesh, const DirectionField& field
 
 // Vertices where a point may be near rather than at the vertex: inside, smooth, of no feature. At the tip of a cone the
 // angle defect holds the point.
-std::vector<Index> smooth_corners(const std::vector<detail::CornerLink>& links, const detail::VertexFans& fans,
+std::vector<Index> smooth_corners(const std::vector<detail::CornerLink>& links, const VertexFans& fans,
                                   const std::vector<bool>& is_barrier, Index vertices) {
     std::vector<Index> first(vertices, -1);
     for (const auto& fan : fans.fans) {
@@ -136,12 +135,13 @@ std::vector<Index> smooth_corners(const std::vector<detail::CornerLink>& links, 
 }
 
 // Moves the points inside to where the field round them says; they keep their places where it does not tell.
-void place_points(const TriangleMesh& mesh, const DirectionField& field, const std::vector<detail::CornerLink>& links,
-                  const detail::VertexFans& fans, std::vector<SurfaceSingularity>& points) {
+void place_points(const DirectionField& field, const std::vector<detail::CornerLink>& links,
+                  std::vector<SurfaceSingularity>& points) {
     if (std::all_of(points.begin(), points.end(), [](const auto& point) { return point.boundary; })) return;
-    const detail::ChartedField charted(mesh, field, links);
-    const std::vector<bool> is_barrier = barriers(mesh, field);
-    const std::vector<Index> corners = smooth_corners(links, fans, is_barrier, static_cast<Index>(mesh.vertices.rows()));
+    const detail::ChartedField charted(field, links);
+    const std::vector<bool> is_barrier = barriers(field);
+    const std::vector<Index> corners =
+        smooth_corners(links, field.domain.fans(), is_barrier, field.domain.vertex_count());
     for (SurfaceSingularity& point : points) {
         const Index corner = point.vertex >= 0 ? corners[point.vertex] : 3 * point.triangle;
         if (corner < 0) continue;
@@ -163,9 +163,10 @@ void place_points(const TriangleMesh& mesh, const DirectionField& field, const s
 
 }  // namespace
 
-SurfaceSingularities surface_singularities(const TriangleMesh& mesh, const DirectionField& field) {
-    require_fit(mesh, field);
-    const std::vector<detail::CornerLink> links = detail::corner_links(mesh, field.topology, field.symmetry);
+SurfaceSingularities surface_singularities(const DirectionField& field) {
+    require_fit(field);
+    const TriangleMesh& mesh = field.domain.mesh();
+    const std::vector<detail::CornerLink> links = detail::corner_links(field.domain, field.symmetry);
     const Eigen::VectorXcd values = detail::unit_values(field.values);
     const Eigen::VectorXd deviations = boundary_deviations(field, values);
     std::vector<double> turns(links.size());
@@ -180,7 +181,7 @@ SurfaceSingularities surface_singularities(const TriangleMesh& mesh, const Direc
         const int index = whole(-(turns[3 * t] + turns[3 * t + 1] + turns[3 * t + 2]) / (2 * pi));
         if (index != 0) add(zero_position(mesh, t, detail::local_values(links, field.values, t)), index, t, -1, false);
     }
-    const detail::VertexFans fans = detail::vertex_fans(mesh, field.topology);
+    const VertexFans& fans = field.domain.fans();
     std::vector<int> indices;
     for (const auto& fan : fans.fans)
         indices.push_back(vertex_index(field.symmetry, links, turns, deviations, fans, fan));
@@ -188,7 +189,7 @@ SurfaceSingularities surface_singularities(const TriangleMesh& mesh, const Direc
     for (std::size_t f = 0; f < fans.fans.size(); ++f)
         add(mesh.vertices.row(fans.fans[f].vertex), indices[f], -1, fans.fans[f].vertex, !fans.fans[f].closed);
     cancel_pairs(mesh, found.points);
-    place_points(mesh, field, links, fans, found.points);
+    place_points(field, links, found.points);
 
     int sum = 0;
     for (const SurfaceSingularity& point : found.points) sum += point.index_times_symmetry;

@@ -2,13 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "crouzeix_raviart.hpp"
-#include "feature_flags.hpp"
-#include "octafield/error.hpp"
 #include "octafield/surface/directions.hpp"
-#include "vertex_fans.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -97,20 +93,15 @@ double direction_angle(const std::vector<Spoke>& spokes, int symmetry, bool corn
 
 }  // namespace
 
-Points vertex_directions(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field) {
-    const auto& topology = field.topology;
-    const std::vector<detail::CornerLink> links = detail::corner_links(mesh, topology, field.symmetry);
-    const detail::VertexFans fans = detail::vertex_fans(mesh, topology);
-    const std::vector<bool> is_feature = detail::feature_flags(features, topology);
+Points vertex_directions(const DirectionField& field) {
+    const SurfaceDomain& domain = field.domain;
+    const TriangleMesh& mesh = domain.mesh();
+    const EdgeTopology& topology = domain.topology();
+    const VertexFans& fans = domain.fans();
+    const std::vector<detail::CornerLink> links = detail::corner_links(domain, field.symmetry);
     const Points normals = vertex_normals(mesh);
     std::vector<bool> is_corner(mesh.vertices.rows(), false);
-    for (const Index v : features.corners) {
-        if (v < 0 || v >= mesh.vertices.rows())
-            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the mesh; there are " +
-                                   std::to_string(mesh.vertices.rows()) + ", numbered from 0",
-                               "index_out_of_range", {v});
-        is_corner[v] = true;
-    }
+    for (const Index v : domain.features().corners) is_corner[v] = true;
 
     Points directions = Points::Zero(mesh.vertices.rows(), 3);
     std::vector<Spoke> spokes;
@@ -130,7 +121,7 @@ Points vertex_directions(const TriangleMesh& mesh, const FeatureGraph& features,
                          std::atan2(along.dot(frame.y), along.dot(frame.x)),
                          weight,
                          sign * field.values[e],
-                         is_feature[e] && along_edge(field.values[e], field.symmetry)};
+                         domain.is_feature()[e] && along_edge(field.values[e], field.symmetry)};
         };
         spokes.clear();
         double map_angle = 0, before = fan.closed ? links[fans.corners[fan.last - 1]].angle : 0;
@@ -146,14 +137,16 @@ Points vertex_directions(const TriangleMesh& mesh, const FeatureGraph& features,
     return directions;
 }
 
-Points triangle_directions(const TriangleMesh& mesh, const DirectionField& field) {
-    const std::vector<detail::CornerLink> links = detail::corner_links(mesh, field.topology, field.symmetry);
-    const Points normals = triangle_normals(mesh);
+Points triangle_directions(const DirectionField& field) {
+    const TriangleMesh& mesh = field.domain.mesh();
+    const EdgeTopology& topology = field.domain.topology();
+    const Points& normals = field.domain.normals();
+    const std::vector<detail::CornerLink> links = detail::corner_links(field.domain, field.symmetry);
     Points directions(mesh.triangles.rows(), 3);
     for (Index t = 0; t < directions.rows(); ++t) {
         const auto values = detail::local_values(links, field.values, t);
         const double angle = std::arg(values[0] + values[1] + values[2]) / field.symmetry;
-        const auto edge = field.topology.edges.row(field.topology.triangle_edges(t, 0));
+        const auto edge = topology.edges.row(topology.triangle_edges(t, 0));
         const Eigen::Vector3d normal = normals.row(t);
         const Eigen::Vector3d x = (mesh.vertices.row(edge[1]) - mesh.vertices.row(edge[0])).normalized();
         directions.row(t) = std::cos(angle) * x + std::sin(angle) * normal.cross(x);

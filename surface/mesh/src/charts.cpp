@@ -5,13 +5,16 @@
 
 namespace octafield::surface::detail {
 
-Charts::Charts(const TriangleMesh& mesh, const EdgeTopology& topology)
-    : mesh_(mesh), topology_(topology), corners_(mesh.triangles.rows()) {
-    for (Index t = 0; t < mesh.triangles.rows(); ++t) {
-        const Eigen::Vector3d origin = mesh.vertices.row(mesh.triangles(t, 0));
+Charts::Charts(SurfaceDomain domain)
+    : domain_(std::move(domain)),
+      mesh_(domain_.mesh()),
+      topology_(domain_.topology()),
+      corners_(mesh_.triangles.rows()) {
+    for (Index t = 0; t < mesh_.triangles.rows(); ++t) {
+        const Eigen::Vector3d origin = mesh_.vertices.row(mesh_.triangles(t, 0));
         corners_[t][0] = 0;
         for (int k = 1; k < 3; ++k)
-            corners_[t][k] = lower_vector(t, mesh.vertices.row(mesh.triangles(t, k)).transpose() - origin);
+            corners_[t][k] = lower_vector(t, mesh_.vertices.row(mesh_.triangles(t, k)).transpose() - origin);
     }
 }
 

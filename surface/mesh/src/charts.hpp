@@ -14,9 +14,9 @@ inline double dot(Complex a, Complex b) { return (std::conj(a) * b).real(); }
 // imaginary axis a quarter turn counter-clockwise. Side k runs from corner k to corner k + 1.
 class Charts {
 public:
-    // Keeps references.
-    Charts(const TriangleMesh& mesh, const EdgeTopology& topology);
+    explicit Charts(SurfaceDomain domain);
 
+    const SurfaceDomain& domain() const { return domain_; }
     const TriangleMesh& mesh() const { return mesh_; }
     const EdgeTopology& topology() const { return topology_; }
     const std::array<Complex, 3>& corners(Index t) const { return corners_[t]; }
@@ -50,6 +50,7 @@ public:
 private:
     std::array<Eigen::Vector3d, 2> axes(Index t) const;
 
+    SurfaceDomain domain_;
     const TriangleMesh& mesh_;
     const EdgeTopology& topology_;
     std::vector<std::array<Complex, 3>> corners_;

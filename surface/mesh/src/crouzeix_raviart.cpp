@@ -1,64 +1,32 @@
 #include "crouzeix_raviart.hpp"
 
-#include <Eigen/Geometry>
 #include <cmath>
-#include <string>
-
-#include "octafield/error.hpp"
 
 namespace octafield::surface::detail {
-namespace {
 
-// Sines of angles below this are rounding: cotangents would swamp every other entry of the stiffness matrix.
-constexpr double smallest_sine = 1e-12;
-
-// Squares of triangles' areas must be numbers.
-void require_squares(const std::vector<Index>& beyond) {
-    if (beyond.empty()) return;
-    throw GeometryError("the squared areas of " + std::to_string(beyond.size()) + " triangles (" + first_few(beyond) +
-                            ") are beyond double precision; measure the surface in another unit of length",
-                        "size_out_of_range", beyond);
-}
-
-}  // namespace
-
-std::vector<CornerLink> corner_links(const TriangleMesh& mesh, const EdgeTopology& topology, int symmetry) {
+std::vector<CornerLink> corner_links(const SurfaceDomain& domain, int symmetry) {
+    const EdgeTopology& topology = domain.topology();
     const double reversed = symmetry % 2 == 0 ? 1 : -1;
-    std::vector<CornerLink> links(3 * mesh.triangles.rows());
-    std::vector<Index> degenerate, beyond;
-    for (Index t = 0; t < mesh.triangles.rows(); ++t) {
+    std::vector<CornerLink> links(3 * static_cast<std::size_t>(domain.triangle_count()));
+    for (Index t = 0; t < domain.triangle_count(); ++t) {
         for (int k = 0; k < 3; ++k) {
-            const Index corner = mesh.triangles(t, k);
-            const Eigen::RowVector3d origin = mesh.vertices.row(corner);
-            const Eigen::RowVector3d a = mesh.vertices.row(mesh.triangles(t, (k + 1) % 3)) - origin;
-            const Eigen::RowVector3d b = mesh.vertices.row(mesh.triangles(t, (k + 2) % 3)) - origin;
-            const double sine = a.cross(b).norm(), cosine = a.dot(b);
-            const double most = a.norm() * b.norm();
-            const bool flat = !(sine > smallest_sine * most), square_fits = std::isnormal(most * most);
-            const bool repeated = a.isZero(0) || b.isZero(0);
-            if (flat && (square_fits || repeated) && (degenerate.empty() || degenerate.back() != t))
-                degenerate.push_back(t);
-            if (!square_fits && !repeated && (beyond.empty() || beyond.back() != t)) beyond.push_back(t);
+            const Index corner = domain.mesh().triangles(t, k);
             CornerLink& link = links[3 * t + k];
             link.first = topology.triangle_edges(t, k);
             link.second = topology.triangle_edges(t, (k + 2) % 3);
-            link.angle = std::atan2(sine, cosine);
-            link.weight = 2 * cosine / sine;
+            link.angle = domain.corner_angles()(t, k);
+            link.weight = 2 * domain.cotangents()(t, k);
             link.first_sign = topology.edges(link.first, 0) == corner ? 1 : reversed;
             link.second_turn =
                 std::polar(1.0, symmetry * link.angle) * (topology.edges(link.second, 0) == corner ? 1 : reversed);
         }
     }
-    require_squares(beyond);
-    if (!degenerate.empty())
-        throw GeometryError(std::to_string(degenerate.size()) + " triangles have no area (" + first_few(degenerate) +
-                                "); repair or remesh the surface first",
-                            "degenerate_triangle", degenerate);
     return links;
 }
 
-Eigen::VectorXd edge_masses(const TriangleMesh& mesh, const EdgeTopology& topology) {
-    const Eigen::VectorXd areas = triangle_areas(mesh);
+Eigen::VectorXd edge_masses(const SurfaceDomain& domain) {
+    const EdgeTopology& topology = domain.topology();
+    const Eigen::VectorXd areas = triangle_areas(domain.mesh());
     Eigen::VectorXd masses = Eigen::VectorXd::Zero(topology.edges.rows());
     for (Index t = 0; t < areas.size(); ++t)
         for (int k = 0; k < 3; ++k) masses[topology.triangle_edges(t, k)] += areas[t] / 3;

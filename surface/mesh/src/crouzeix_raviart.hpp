@@ -10,7 +10,7 @@
 #include <complex>
 #include <vector>
 
-#include "octafield/surface/triangle_mesh.hpp"
+#include "octafield/surface/surface_domain.hpp"
 
 namespace octafield::surface::detail {
 
@@ -25,11 +25,10 @@ struct CornerLink {
 };
 
 // Links of all corners, (3F), corner 3t + k at place 3t + k.
-// Throws GeometryError (kind "degenerate_triangle") where an angle cannot be told from 0 or pi.
-std::vector<CornerLink> corner_links(const TriangleMesh& mesh, const EdgeTopology& topology, int symmetry);
+std::vector<CornerLink> corner_links(const SurfaceDomain& domain, int symmetry);
 
 // Diagonal of the mass matrix, (E): a third of the areas of the adjacent triangles.
-Eigen::VectorXd edge_masses(const TriangleMesh& mesh, const EdgeTopology& topology);
+Eigen::VectorXd edge_masses(const SurfaceDomain& domain);
 
 // Unit values; where f = 0, exactly as in the middle of a symmetric mesh, any direction does.
 Eigen::VectorXcd unit_values(const Eigen::VectorXcd& values);

@@ -32,7 +32,14 @@ Edges normalized(const Edges& edges) {
 }
 
 void require_mesh_edges(const TriangleMesh& mesh, const Edges& edges) {
+    if (edges.rows() == 0) return;
     std::vector<Index> missing;  // positions in `edges`
+    for (Index e = 0; e < edges.rows(); ++e)
+        if (edges.row(e).minCoeff() < 0 || edges.row(e).maxCoeff() >= mesh.vertices.rows()) missing.push_back(e);
+    if (!missing.empty())
+        throw InvalidInput("features: edges " + first_few(missing) + " name vertices that the mesh does not have; its " +
+                               std::to_string(mesh.vertices.rows()) + " vertices are numbered from 0",
+                           "index_out_of_range", missing);
     const std::vector<HalfEdge> sides = sorted_half_edges(mesh.triangles);
     const auto before = [](const HalfEdge& side, std::pair<Index, Index> edge) {
         return std::pair(side.low, side.high) < edge;
@@ -43,9 +50,7 @@ void require_mesh_edges(const TriangleMesh& mesh, const Edges& edges) {
         if (found == sides.end() || std::pair(found->low, found->high) != edge) missing.push_back(e);
     }
     if (!missing.empty())
-        throw InvalidInput(std::to_string(missing.size()) + " feature edges are no edges of the mesh: feature edge " +
-                               first_few(missing),
-                           "not_an_edge", missing);
+        throw InvalidInput("features: edges " + first_few(missing) + " are no edges of the mesh", "not_an_edge", missing);
 }
 
 }  // namespace
@@ -85,6 +90,21 @@ FeatureGraph feature_graph(const TriangleMesh& mesh, const Edges& edges, double 
         first = last;
     }
     return graph;
+}
+
+FeatureGraph ordered_features(FeatureGraph features, const TriangleMesh& mesh) {
+    require_mesh_edges(mesh, features.edges);
+    std::vector<Index> lost;  // positions in `corners`
+    for (std::size_t i = 0; i < features.corners.size(); ++i)
+        if (features.corners[i] < 0 || features.corners[i] >= mesh.vertices.rows()) lost.push_back(static_cast<Index>(i));
+    if (!lost.empty())
+        throw InvalidInput("features: corners " + first_few(lost) + " are no vertices of the mesh; its " +
+                               std::to_string(mesh.vertices.rows()) + " vertices are numbered from 0",
+                           "index_out_of_range", lost);
+    features.edges = normalized(features.edges);
+    std::ranges::sort(features.corners);
+    features.corners.erase(std::unique(features.corners.begin(), features.corners.end()), features.corners.end());
+    return features;
 }
 
 }  // namespace octafield::surface

@@ -4,11 +4,6 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "crouzeix_raviart.hpp"
-#include "feature_flags.hpp"
-#include "orientation.hpp"
-#include "vertex_fans.hpp"
-
 namespace octafield::surface {
 namespace {
 
@@ -25,10 +20,12 @@ struct Sectors {
     Index count() const { return static_cast<Index>(one_sided.size()); }
 };
 
-Sectors smooth_sectors(const TriangleMesh& mesh, const EdgeTopology& topology, const std::vector<bool>& is_feature) {
-    const detail::VertexFans fans = detail::vertex_fans(mesh, topology);
+Sectors smooth_sectors(const SurfaceDomain& domain) {
+    const EdgeTopology& topology = domain.topology();
+    const std::vector<bool>& is_feature = domain.is_feature();
+    const VertexFans& fans = domain.fans();
     Sectors sectors;
-    sectors.of_corner.resize(3 * mesh.triangles.rows());
+    sectors.of_corner.resize(3 * static_cast<std::size_t>(domain.triangle_count()));
     for (const auto& fan : fans.fans) {
         const Index size = fan.last - fan.first;
         const auto starts_at_feature = [&](Index i) {
@@ -54,9 +51,10 @@ std::array<Vector, 3> corners(const TriangleMesh& mesh, Index t) {
 }
 
 // Max 1999: normals of adjacent triangles over the squared lengths of the two edges at the vertex.
-std::vector<Vector> sector_normals(const TriangleMesh& mesh, const Sectors& sectors) {
+std::vector<Vector> sector_normals(const SurfaceDomain& domain, const Sectors& sectors) {
+    const TriangleMesh& mesh = domain.mesh();
     std::vector<Vector> normals(sectors.count(), Vector::Zero());
-    const double scale = 1 / mean_edge_length(mesh);  // keeps sums in range in any unit
+    const double scale = 1 / domain.mean_edge_length();  // keeps sums in range in any unit
     for (Index t = 0; t < mesh.triangles.rows(); ++t) {
         const auto p = corners(mesh, t);
         for (int k = 0; k < 3; ++k) {
@@ -140,13 +138,12 @@ std::vector<Average> sector_tensors(const TriangleMesh& mesh, const Sectors& sec
 
 }  // namespace
 
-PrincipalDirections principal_directions(const TriangleMesh& mesh, const FeatureGraph& features) {
-    const EdgeTopology topology = detail::oriented_topology(mesh);
-    detail::corner_links(mesh, topology, 1);  // refuses triangles without area
-    const Sectors sectors = smooth_sectors(mesh, topology, detail::feature_flags(features, topology));
-    const std::vector<Vector> normals = sector_normals(mesh, sectors);
+PrincipalDirections principal_directions(const SurfaceDomain& domain) {
+    const TriangleMesh& mesh = domain.mesh();
+    const Sectors sectors = smooth_sectors(domain);
+    const std::vector<Vector> normals = sector_normals(domain, sectors);
     const std::vector<Average> averages = sector_tensors(mesh, sectors, normals);
-    const double flat = 1 / shape_size(mesh);
+    const double flat = 1 / domain.size();
 
     const Index count = static_cast<Index>(mesh.triangles.rows());
     PrincipalDirections result;

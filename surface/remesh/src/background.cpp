@@ -12,13 +12,13 @@
 namespace octafield::surface {
 namespace {
 
-constexpr double kTetsPerCube = 12.5;    // in a cube of one edge length, measured
+constexpr double kTetsPerCube = 12.5;     // in a cube of one edge length, measured
 constexpr double kTetsPerTriangle = 1.5;  // at least: in walls without vertices inside, measured
 constexpr double kGrowthInside = 0.3;     // of lengths, per depth: TetGen's bound on shapes, measured
 
 Eigen::VectorXd largest_curvatures(const TriangleMesh& mesh, const FeatureGraph& features) {
     try {
-        return principal_directions(mesh, features).curvatures.col(0).cwiseAbs();
+        return principal_directions({mesh, features}).curvatures.col(0).cwiseAbs();
     } catch (const GeometryError&) {  // a triangle too flat for it
         return Eigen::VectorXd::Zero(mesh.triangles.rows());
     }
@@ -114,8 +114,7 @@ Cells expected_cells(const Background& ground, double volume, double scale) {
     return {triangles, volume == 0 ? 0 : std::max(tets, kTetsPerTriangle * triangles)};
 }
 
-GroundTrees::GroundTrees(const Background& ground)
-    : ground_(ground), triangles_(ground.patches), ids_(ground.patches) {
+GroundTrees::GroundTrees(const Background& ground) : ground_(ground), triangles_(ground.patches), ids_(ground.patches) {
     for (Index t = 0; t < ground.mesh.triangles.rows(); ++t) {
         const auto p = [&](int k) {
             const auto row = ground.mesh.vertices.row(ground.mesh.triangles(t, k));

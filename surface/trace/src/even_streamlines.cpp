@@ -122,12 +122,12 @@ Index golden_stride(Index count) {
     return stride;
 }
 
-EvenStreamlineOptions with_defaults(const TriangleMesh& mesh, EvenStreamlineOptions options) {
+EvenStreamlineOptions with_defaults(const SurfaceDomain& domain, EvenStreamlineOptions options) {
     for (const double length : {options.spacing, options.min_length})
         if (!(length >= 0) || !std::isfinite(length))
             throw InvalidInput("spacing and min_length must be lengths, or 0 for the default");
     if (!(options.stop_ratio > 0 && options.stop_ratio <= 1)) throw InvalidInput("stop_ratio must be in (0, 1]");
-    const double size = shape_size(mesh);
+    const double size = domain.size();
     if (options.spacing == 0) options.spacing = size / 60;
     if (options.min_length == 0) options.min_length = options.spacing;
     if (options.spacing < 1e-5 * size)
@@ -138,13 +138,12 @@ EvenStreamlineOptions with_defaults(const TriangleMesh& mesh, EvenStreamlineOpti
 
 }  // namespace
 
-std::vector<Streamline> even_streamlines(const TriangleMesh& mesh, const FeatureGraph& features,
-                                         const DirectionField& field, const SurfaceSingularities& singularities,
+std::vector<Streamline> even_streamlines(const DirectionField& field, const SurfaceSingularities& singularities,
                                          const EvenStreamlineOptions& given, const Progress& progress) {
-    const EvenStreamlineOptions options = with_defaults(mesh, given);
-    const detail::TwoWayTracer tracer(mesh, features, field, singularities, options.tracing);
+    const EvenStreamlineOptions options = with_defaults(field.domain, given);
+    const detail::TwoWayTracer tracer(field, singularities, options.tracing);
     const detail::ChartedField& charts = tracer.field();
-    const Points normals = triangle_normals(mesh);
+    const Points& normals = field.domain.normals();
     const int symmetry = field.symmetry, families = symmetry % 2 == 0 ? symmetry / 2 : symmetry;
     LineCover cover(options.spacing, symmetry);
     std::vector<Streamline> lines;
@@ -167,7 +166,7 @@ std::vector<Streamline> even_streamlines(const TriangleMesh& mesh, const Feature
         }
     };
 
-    const Index count = static_cast<Index>(mesh.triangles.rows());
+    const Index count = field.domain.triangle_count();
     const Index stride = golden_stride(count);
     for (Index i = 0, t = 0; i < count; ++i, t = static_cast<Index>((t + std::int64_t{stride}) % count)) {
         if (i % 256 == 0) report_or_throw(progress, "streamlines", static_cast<double>(i) / count, NAN);

@@ -12,7 +12,6 @@
 #include <unordered_map>
 
 #include "charts.hpp"
-#include "feature_flags.hpp"
 #include "octafield/surface/streamlines.hpp"
 
 namespace octafield::surface::detail {
@@ -47,14 +46,13 @@ template <TracedField Field>
 class FieldTracer {
 public:
     // Fills in the defaults of the options. Keeps references.
-    FieldTracer(const Field& field, const FeatureGraph& features, const SurfaceSingularities& singularities,
-                const StreamlineOptions& options);
+    FieldTracer(const Field& field, const SurfaceSingularities& singularities, const StreamlineOptions& options);
 
     // From the singular point `origin`, if >= 0, whose surroundings do not end the curve before it has left them.
     TracedCurve trace(const Place& start, Index origin = -1, const Admit& admit = {}) const;
 
     double max_length() const { return max_length_; }
-    bool is_feature(Index edge) const { return is_feature_[edge]; }
+    bool is_feature(Index edge) const { return field_.domain().is_feature()[edge]; }
 
 private:
     struct Run;
@@ -65,7 +63,6 @@ private:
     const SurfaceSingularities& singularities_;
     double max_length_, singular_radius_, close_radius_, least_headway_;
     bool stop_at_features_;
-    std::vector<bool> is_feature_;                                // (E)
     std::unordered_map<Index, std::vector<Index>> surroundings_;  // triangle -> singular points near it
 };
 
@@ -95,13 +92,10 @@ inline double clear_of_vertices(double fraction) { return std::clamp(fraction, v
 }  // namespace tracing
 
 template <TracedField Field>
-FieldTracer<Field>::FieldTracer(const Field& field, const FeatureGraph& features,
-                                const SurfaceSingularities& singularities, const StreamlineOptions& options)
-    : field_(field),
-      singularities_(singularities),
-      stop_at_features_(options.stop_at_features),
-      is_feature_(feature_flags(features, field.topology())) {
-    const double edge = mean_edge_length(field.mesh()), size = shape_size(field.mesh());
+FieldTracer<Field>::FieldTracer(const Field& field, const SurfaceSingularities& singularities,
+                                const StreamlineOptions& options)
+    : field_(field), singularities_(singularities), stop_at_features_(options.stop_at_features) {
+    const double edge = field.domain().mean_edge_length(), size = field.domain().size();
     max_length_ = options.max_length > 0 ? options.max_length : 4 * size;
     singular_radius_ = options.singular_radius > 0 ? options.singular_radius : edge / 2;
     close_radius_ = edge / 10;
@@ -276,7 +270,7 @@ struct FieldTracer<Field>::Run {
     bool arrive(const Charts::Side& here, double fraction) {
         const Charts::Side there = field.across(here);
         if (there.triangle < 0) return finish(StreamlineEnd::boundary);
-        if (tracer.stop_at_features_ && tracer.is_feature_[field.topology().triangle_edges(triangle, here.side)])
+        if (tracer.stop_at_features_ && tracer.is_feature(field.topology().triangle_edges(triangle, here.side)))
             return finish(StreamlineEnd::feature);
         const Complex ahead = field.direction(there.triangle, field.on_side(there.triangle, there.side, 1 - fraction),
                                               field.carried(heading, here, there));

@@ -130,8 +130,9 @@ std::vector<SeparatrixStart> starts_in_triangle(const ChartedField& field, const
 }
 
 std::vector<SeparatrixStart> starts_at_vertex(const ChartedField& field, const std::vector<CornerLink>& links,
-                                              const Eigen::VectorXcd& values, const VertexFans& fans,
-                                              const VertexFans::Fan& fan, const DirectionTracer& tracer) {
+                                              const Eigen::VectorXcd& values, const VertexFans::Fan& fan,
+                                              const DirectionTracer& tracer) {
+    const VertexFans& fans = field.domain().fans();
     const int symmetry = field.symmetry();
     const CornerLink& first = links[fans.corners[fan.first]];
     std::vector<Sample> samples = {{0, std::arg(first.first_sign * values[first.first])}};

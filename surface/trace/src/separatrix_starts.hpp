@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "direction_tracer.hpp"
-#include "vertex_fans.hpp"
 
 namespace octafield::surface::detail {
 
@@ -22,7 +21,7 @@ std::vector<SeparatrixStart> starts_in_triangle(const ChartedField& field, const
 
 // The same at a vertex with one fan round it; without the directions along features and boundary edges.
 std::vector<SeparatrixStart> starts_at_vertex(const ChartedField& field, const std::vector<CornerLink>& links,
-                                              const Eigen::VectorXcd& values, const VertexFans& fans,
-                                              const VertexFans::Fan& fan, const DirectionTracer& tracer);
+                                              const Eigen::VectorXcd& values, const VertexFans::Fan& fan,
+                                              const DirectionTracer& tracer);
 
 }  // namespace octafield::surface::detail

@@ -8,11 +8,12 @@
 namespace octafield::surface::detail {
 namespace {
 
-void check(const TriangleMesh& mesh, const DirectionField& field, const SurfaceSingularities& singularities,
-           const StreamlineOptions& options) {
-    if (field.values.size() != field.topology.edges.rows() ||
-        field.topology.triangle_edges.rows() != mesh.triangles.rows())
-        throw InvalidInput("the direction field belongs to another mesh: compute it on this one", "wrong_mesh");
+void check(const DirectionField& field, const SurfaceSingularities& singularities, const StreamlineOptions& options) {
+    const TriangleMesh& mesh = field.domain.mesh();
+    if (field.values.size() != field.domain.edge_count())
+        throw InvalidInput("the direction field has " + std::to_string(field.values.size()) +
+                               " values; give one per edge, " + std::to_string(field.domain.edge_count()),
+                           "wrong_size");
     if (!field.values.allFinite()) throw InvalidInput("the direction field is not finite", "not_finite");
     for (const SurfaceSingularity& point : singularities.points)
         if (point.triangle >= mesh.triangles.rows() || point.vertex >= mesh.vertices.rows() ||
@@ -25,16 +26,16 @@ void check(const TriangleMesh& mesh, const DirectionField& field, const SurfaceS
             throw InvalidInput("max_length and singular_radius must be lengths, or 0 for the default");
 }
 
-std::vector<CornerLink> checked_links(const TriangleMesh& mesh, const DirectionField& field,
-                                      const SurfaceSingularities& singularities, const StreamlineOptions& options) {
-    check(mesh, field, singularities, options);
-    return corner_links(mesh, field.topology, field.symmetry);
+std::vector<CornerLink> checked_links(const DirectionField& field, const SurfaceSingularities& singularities,
+                                      const StreamlineOptions& options) {
+    check(field, singularities, options);
+    return corner_links(field.domain, field.symmetry);
 }
 
 DirectionField half_turned(const DirectionField& field) {
     DirectionField result;
     result.symmetry = field.symmetry;
-    result.topology = field.topology;
+    result.domain = field.domain;
     result.values = -field.values;
     return result;
 }
@@ -59,15 +60,14 @@ Streamline joined(const TracedCurve& back, const TracedCurve& ahead) {
     return line;
 }
 
-TwoWayTracer::TwoWayTracer(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field,
-                           const SurfaceSingularities& singularities, const StreamlineOptions& options)
+TwoWayTracer::TwoWayTracer(const DirectionField& field, const SurfaceSingularities& singularities,
+                           const StreamlineOptions& options)
     : both_ways_(options.both_ways),
-      field_(mesh, field, checked_links(mesh, field, singularities, options)),
-      forward_(field_, features, singularities, options) {
+      field_(field, checked_links(field, singularities, options)),
+      forward_(field_, singularities, options) {
     if (!both_ways_ || field.symmetry % 2 == 0) return;
-    opposite_values_ = half_turned(field);
-    opposite_field_.emplace(mesh, *opposite_values_, corner_links(mesh, field.topology, field.symmetry));
-    backward_.emplace(*opposite_field_, features, singularities, options);
+    opposite_field_.emplace(half_turned(field), corner_links(field.domain, field.symmetry));
+    backward_.emplace(*opposite_field_, singularities, options);
 }
 
 Streamline TwoWayTracer::trace(const Place& place, const Admit& ahead, const Admit& back) const {

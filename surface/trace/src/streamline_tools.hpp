@@ -12,9 +12,9 @@ Streamline joined(const TracedCurve& back, const TracedCurve& ahead);
 
 class TwoWayTracer {
 public:
-    // Throws InvalidInput where field or singular points do not fit the mesh, and for options that are no lengths.
-    TwoWayTracer(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field,
-                 const SurfaceSingularities& singularities, const StreamlineOptions& options);
+    // Throws InvalidInput where values or singular points do not fit the mesh, and for options that are no lengths.
+    TwoWayTracer(const DirectionField& field, const SurfaceSingularities& singularities,
+                 const StreamlineOptions& options);
 
     const ChartedField& field() const { return field_; }
     const DirectionTracer& forward() const { return forward_; }
@@ -25,7 +25,6 @@ private:
     ChartedField field_;
     DirectionTracer forward_;
     // With odd N the opposite of a direction is none of the N: the field turned by half a turn.
-    std::optional<DirectionField> opposite_values_;
     std::optional<ChartedField> opposite_field_;
     std::optional<DirectionTracer> backward_;
 };

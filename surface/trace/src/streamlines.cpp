@@ -42,7 +42,7 @@ std::vector<Place> seed_places(const detail::ChartedField& field, const std::vec
 }
 
 // Index of the singular point's vertex among the fans; -1 where several parts of the surface touch.
-const detail::VertexFans::Fan* only_fan(const detail::VertexFans& fans, Index vertex) {
+const VertexFans::Fan* only_fan(const VertexFans& fans, Index vertex) {
     const auto found = std::lower_bound(fans.fans.begin(), fans.fans.end(), vertex,
                                         [](const auto& fan, Index v) { return fan.vertex < v; });
     if (found == fans.fans.end() || found->vertex != vertex) return nullptr;
@@ -79,23 +79,20 @@ void cut(TracedCurve& curve, double most) {
 
 }  // namespace
 
-std::vector<Streamline> streamlines(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field,
-                                    const SurfaceSingularities& singularities, const std::vector<StreamlineSeed>& seeds,
-                                    const StreamlineOptions& options) {
-    const detail::TwoWayTracer tracer(mesh, features, field, singularities, options);
+std::vector<Streamline> streamlines(const DirectionField& field, const SurfaceSingularities& singularities,
+                                    const std::vector<StreamlineSeed>& seeds, const StreamlineOptions& options) {
+    const detail::TwoWayTracer tracer(field, singularities, options);
     std::vector<Streamline> lines;
     for (const Place& place : seed_places(tracer.field(), seeds)) lines.push_back(tracer.trace(place));
     return lines;
 }
 
-std::vector<Streamline> separatrices(const TriangleMesh& mesh, const FeatureGraph& features,
-                                     const DirectionField& field, const SurfaceSingularities& singularities,
+std::vector<Streamline> separatrices(const DirectionField& field, const SurfaceSingularities& singularities,
                                      const StreamlineOptions& options, const Progress& progress) {
     StreamlineOptions one_way = options;
     one_way.both_ways = false;
-    const detail::TwoWayTracer tracer(mesh, features, field, singularities, one_way);
-    const auto links = detail::corner_links(mesh, field.topology, field.symmetry);
-    const auto fans = detail::vertex_fans(mesh, field.topology);
+    const detail::TwoWayTracer tracer(field, singularities, one_way);
+    const auto links = detail::corner_links(field.domain, field.symmetry);
     const Eigen::VectorXcd unit_values = detail::unit_values(field.values);
     std::vector<Streamline> lines;
     for (std::size_t i = 0; i < singularities.points.size(); ++i) {
@@ -104,8 +101,8 @@ std::vector<Streamline> separatrices(const TriangleMesh& mesh, const FeatureGrap
         std::vector<detail::SeparatrixStart> starts;
         if (point.vertex < 0) {
             starts = detail::starts_in_triangle(tracer.field(), point, tracer.forward());
-        } else if (const auto* fan = only_fan(fans, point.vertex)) {
-            starts = detail::starts_at_vertex(tracer.field(), links, unit_values, fans, *fan, tracer.forward());
+        } else if (const auto* fan = only_fan(field.domain.fans(), point.vertex)) {
+            starts = detail::starts_at_vertex(tracer.field(), links, unit_values, *fan, tracer.forward());
         }
         for (const auto& start : starts) {
             TracedCurve curve = tracer.forward().trace(start.place, static_cast<Index>(i));

@@ -1,98 +1,26 @@
 #include "octafield/volume/write_vtk.hpp"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
-#include <vtkExecutive.h>
-#include <vtkFieldData.h>
 #include <vtkIntArray.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkStringArray.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <algorithm>
 #include <array>
 
 #include "octafield/frames/sh4.hpp"
-#include "octafield/temporary_file.hpp"
 #include "octafield/volume/combing.hpp"
 #include "octafield/volume/smoothed_curves.hpp"
 #include "require_frames.hpp"
+#include "vtk_writer.hpp"
 
 namespace octafield::volume {
 namespace {
 
+using namespace detail;
+
 namespace fs = std::filesystem;
-
-template <class Writer, class DataSet>
-void write(const fs::path& target, DataSet* data) {
-    TemporaryFile file(target);
-    vtkNew<vtkCallbackCommand> silent;  // observed errors are not printed; the error code tells what happened
-    silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-    vtkNew<Writer> writer;
-    writer->AddObserver(vtkCommand::ErrorEvent, silent);
-    writer->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, silent);
-    writer->SetFileName(file.path().c_str());
-    writer->SetInputData(data);
-    writer->SetDataModeToAppended();
-    writer->SetCompressorTypeToZLib();
-    if (writer->Write() != 1 || writer->GetErrorCode() != vtkErrorCode::NoError)
-        file.fail(writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError ? "the disk is full" : "writing failed");
-    file.move_to_target();
-}
-
-// As bytes: meshio refuses strings.
-void add_metadata(vtkUnstructuredGrid* data, const Metadata& metadata) {
-    for (const auto& [name, text] : metadata) {
-        if (text.empty()) continue;  // nor does meshio read an empty array
-        vtkNew<vtkUnsignedCharArray> array;
-        array->SetName(name.c_str());
-        array->SetNumberOfTuples(static_cast<vtkIdType>(text.size()));
-        std::copy(text.begin(), text.end(), array->GetPointer(0));
-        data->GetFieldData()->AddArray(array);
-    }
-}
-
-void add_metadata(vtkPolyData* data, const Metadata& metadata) {
-    for (const auto& [name, text] : metadata) {
-        vtkNew<vtkStringArray> array;
-        array->SetName(name.c_str());
-        array->InsertNextValue(text);
-        data->GetFieldData()->AddArray(array);
-    }
-}
-
-vtkNew<vtkPoints> to_points(const Points& rows) {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(rows.rows());
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) points->SetPoint(i, rows(i, 0), rows(i, 1), rows(i, 2));
-    return points;
-}
-
-// Adds an array of `count` tuples, tuple i = value(i), any indexable row of the given number of components.
-template <class Array, class Value>
-vtkNew<Array> add_array(vtkFieldData* to, const char* name, int components, Eigen::Index count, const Value& value) {
-    vtkNew<Array> array;
-    array->SetName(name);
-    array->SetNumberOfComponents(components);
-    array->SetNumberOfTuples(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-        const auto tuple = value(i);
-        for (int c = 0; c < components; ++c)
-            array->SetTypedComponent(i, c, static_cast<typename Array::ValueType>(tuple[c]));
-    }
-    to->AddArray(array);
-    return array;
-}
 
 template <class T>
 std::array<T, 1> one(T value) {
@@ -225,7 +153,7 @@ void write_field(const fs::path& path, const TetDomain& domain, const Quaternion
         add_array<vtkIntArray>(grid->GetFieldData(), "feature_edges", 2, more.features.rows(),
                                [&](Eigen::Index i) { return more.features.row(i); });
     add_metadata(grid, metadata);
-    write<vtkXMLUnstructuredGridWriter>(path, grid.Get());
+    write_xml<vtkXMLUnstructuredGridWriter>(path, grid.Get());
 }
 
 void write_singular_graph(const fs::path& path, const SingularGraph& graph, const Metadata& metadata,
@@ -259,7 +187,7 @@ void write_singular_graph(const fs::path& path, const SingularGraph& graph, cons
                               [&](Eigen::Index i) -> Eigen::Vector3d { return smoothed.row(i).transpose(); });
     if (meshability) add_meshability(data->GetPointData(), *meshability, graph.points.rows());
     add_metadata(data, metadata);
-    write<vtkXMLPolyDataWriter>(path, data.Get());
+    write_xml<vtkXMLPolyDataWriter>(path, data.Get());
 }
 
 void write_surface_field(const fs::path& path, const surface::TriangleMesh& mesh, const Points& directions,
@@ -274,7 +202,7 @@ void write_surface_field(const fs::path& path, const surface::TriangleMesh& mesh
     add_array<vtkDoubleArray>(data->GetPointData(), "direction", 3, directions.rows(),
                               [&](Eigen::Index i) -> Eigen::Vector3d { return directions.row(i).transpose(); });
     add_metadata(data, metadata);
-    write<vtkXMLPolyDataWriter>(path, data.Get());
+    write_xml<vtkXMLPolyDataWriter>(path, data.Get());
 }
 
 void write_surface_singularities(const fs::path& path, const std::vector<surface::SurfaceSingularity>& singularities,
@@ -292,7 +220,7 @@ void write_surface_singularities(const fs::path& path, const std::vector<surface
     add_array<vtkDoubleArray>(data->GetPointData(), "index", 1, count,
                               [&](Eigen::Index i) { return one(singularities[i].index); });
     add_metadata(data, metadata);
-    write<vtkXMLPolyDataWriter>(path, data.Get());
+    write_xml<vtkXMLPolyDataWriter>(path, data.Get());
 }
 
 }  // namespace octafield::volume

@@ -1,6 +1,5 @@
 #include "octafield/volume/tet_domain.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <string>
 #include <utility>
@@ -12,31 +11,6 @@ namespace octafield::volume {
 namespace {
 
 std::atomic<long long> domains_made = 0;
-
-void require_fitting(const surface::FeatureGraph& features, const surface::TriangleMesh& mesh) {
-    const Index count = static_cast<Index>(mesh.vertices.rows());
-    std::vector<Index> bad;
-    for (Index e = 0; e < features.edges.rows(); ++e)
-        if (features.edges.row(e).minCoeff() < 0 || features.edges.row(e).maxCoeff() >= count) bad.push_back(e);
-    if (!bad.empty())
-        throw InvalidInput("feature edges " + first_few(bad) + " refer to vertices that the surface does not have",
-                           "index_out_of_range", bad);
-    std::vector<std::pair<Index, Index>> known;
-    if (features.edges.rows() > 0)
-        for (const auto triangle : mesh.triangles.rowwise())
-            for (int k = 0; k < 3; ++k) known.push_back(std::minmax({triangle[k], triangle[(k + 1) % 3]}));
-    std::sort(known.begin(), known.end());
-    for (Index e = 0; e < features.edges.rows(); ++e) {
-        const std::pair<Index, Index> edge = std::minmax({features.edges(e, 0), features.edges(e, 1)});
-        if (!std::binary_search(known.begin(), known.end(), edge)) bad.push_back(e);
-    }
-    if (!bad.empty())
-        throw InvalidInput("feature edges " + first_few(bad) + " are no edges of the surface", "not_an_edge", bad);
-    for (const Index v : features.corners)
-        if (v < 0 || v >= count)
-            throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the surface", "index_out_of_range",
-                               {v});
-}
 
 }  // namespace
 
@@ -67,8 +41,8 @@ TetDomain::TetDomain(TetMesh mesh, std::vector<Index> regions, surface::FeatureG
 
 TetDomain::TetDomain(std::shared_ptr<const Topology> topology, surface::FeatureGraph features)
     : topology_(std::move(topology)) {
-    require_fitting(features, surface().mesh);
-    features_ = std::make_shared<const surface::FeatureGraph>(std::move(features));
+    features_ =
+        std::make_shared<const surface::FeatureGraph>(surface::ordered_features(std::move(features), surface().mesh));
 }
 
 TetDomain TetDomain::with_features(surface::FeatureGraph features) const { return {topology_, std::move(features)}; }

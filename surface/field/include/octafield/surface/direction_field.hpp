@@ -20,8 +20,7 @@
 
 #include "octafield/progress.hpp"
 #include "octafield/surface/direction_constraints.hpp"
-#include "octafield/surface/features.hpp"
-#include "octafield/surface/triangle_mesh.hpp"
+#include "octafield/surface/surface_domain.hpp"
 
 namespace octafield::surface {
 
@@ -57,8 +56,8 @@ struct DirectionFieldOptions {
     // it is large against a connected part of the surface, f = 0 is the minimum there. Without weak edges the methods
     // mbo and eigen do not depend on it.
     double epsilon = 0;
-    // Coherence length per edge, (E) in the order of edge_topology, input unit, all > 0; overrides `epsilon`. (0):
-    // none.
+    // Coherence length per edge, (E) in the order of the domain's topology, input unit, all > 0; overrides `epsilon`.
+    // (0): none.
     Eigen::VectorXd edge_epsilon{};
     // Continuation: E is first minimised, to part of the accuracy, with this coherence length, then with equal
     // fractions, down to 1/5, of the one before until the one above: singular points move freely while their cores are
@@ -92,7 +91,7 @@ struct DirectionFieldOptions {
 
 struct DirectionField {
     int symmetry = 4;
-    EdgeTopology topology;
+    SurfaceDomain domain;
     Eigen::VectorXcd values;      // (E), f per edge in the edge's own frame
     double epsilon = 0;           // the smallest, where it differs from edge to edge
     double energy = 0;            // E(f)
@@ -103,16 +102,15 @@ struct DirectionField {
     std::vector<double> energy_history;  // E at the start and after each iteration (of the last epsilon)
 };
 
-// Edges of the mesh boundary and of `features` have g = 1: one direction along the edge. With odd N the direction
-// follows the boundary, surface on its left, and features inside the surface are refused: they have no sense to run in.
-// Where nothing aligns a component, the methods gl and mbo also descend from the principal directions
-// (even N) and give the field of lower E. Requires an edge-manifold, consistently oriented mesh without degenerate
-// triangles, closed or not, any number of components. Cancelling through progress keeps the best state (converged =
-// false). Throws InvalidInput; GeometryError, where the surface cannot be oriented with kind "not_orientable";
-// SolverError when the descent ends with |f| < 0.1 on all free edges of a component (kind "epsilon_too_large", elements
-// its triangles): such a field has no directions; SolverError where triangles are too thin for double precision (kind
-// "thin_triangles", elements; angles far below 1e-6 radians) or weights too small to count (kind "bad_weights").
-DirectionField direction_field(const TriangleMesh& mesh, const FeatureGraph& features,
-                               const DirectionFieldOptions& options = {}, const Progress& progress = {});
+// Edges of the mesh boundary and of the domain's features have g = 1: one direction along the edge. With odd N the
+// direction follows the boundary, surface on its left, and features inside the surface are refused: they have no sense
+// to run in. Where nothing aligns a component, the methods gl and mbo also descend from the principal directions (even
+// N) and give the field of lower E. Cancelling through progress keeps the best state (converged = false). Throws
+// InvalidInput; GeometryError (kind "empty") without triangles; SolverError when the descent ends with |f| < 0.1 on all
+// free edges of a component (kind "epsilon_too_large", elements its triangles): such a field has no directions;
+// SolverError where triangles are too thin for double precision (kind "thin_triangles", elements; angles far below 1e-6
+// radians) or weights too small to count (kind "bad_weights").
+DirectionField direction_field(const SurfaceDomain& domain, const DirectionFieldOptions& options = {},
+                               const Progress& progress = {});
 
 }  // namespace octafield::surface

@@ -7,14 +7,14 @@ namespace octafield::surface {
 
 // One representative direction per vertex, from the mean of f over the incident edge midpoints, corner-angle weighted,
 // parallel transported to the vertex's tangent plane (the polar map with angles scaled to 2 pi, Knoeppel et al. 2013).
-// Unit rows, orthogonal to vertex_normals(mesh). Features and mesh boundary edges that the field follows (f = 1 there,
-// as strong alignment makes it) decide at their vertices: at a vertex of one such edge the direction follows it; at a
-// vertex of a curve, the curve's tangent; at a corner, the mean of its edges' crosses or, where they contradict each
-// other, the first of the edges. Edges that are followed weakly or not at all count like any other. At a vertex in no
-// triangle the row is zero.
-Points vertex_directions(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field);
+// Unit rows, orthogonal to vertex_normals(mesh). Features of the field's domain and mesh boundary edges that the field
+// follows (f = 1 there, as strong alignment makes it) decide at their vertices: at a vertex of one such edge the
+// direction follows it; at a vertex of a curve, the curve's tangent; at a corner, the mean of its edges' crosses or,
+// where they contradict each other, the first of the edges. Edges that are followed weakly or not at all count like any
+// other. At a vertex in no triangle the row is zero.
+Points vertex_directions(const DirectionField& field);
 
 // One representative direction per triangle: (F, 3) unit rows in the triangle's plane, from the value at the centroid.
-Points triangle_directions(const TriangleMesh& mesh, const DirectionField& field);
+Points triangle_directions(const DirectionField& field);
 
 }  // namespace octafield::surface

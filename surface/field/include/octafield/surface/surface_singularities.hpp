@@ -42,8 +42,8 @@ struct SurfaceSingularities {
 // count is, and both have the same sum along each closed boundary curve. Two changes to and fro, between which the
 // field stays nearer to the worst angle pi / N than to the boundary, are none.
 //
-// Throws InvalidInput where the field does not fit the mesh or has values that are not finite (kind "not_finite",
-// elements: edges).
-SurfaceSingularities surface_singularities(const TriangleMesh& mesh, const DirectionField& field);
+// Throws InvalidInput where there is not one value per edge (kind "wrong_size"), or where values are not finite (kind
+// "not_finite", elements: edges).
+SurfaceSingularities surface_singularities(const DirectionField& field);
 
 }  // namespace octafield::surface

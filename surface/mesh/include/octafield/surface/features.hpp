@@ -27,4 +27,8 @@ FeatureGraph detect_features(const TriangleMesh& mesh, const FeatureOptions& opt
 FeatureGraph feature_graph(const TriangleMesh& mesh, const Edges& edges,
                            double corner_angle = FeatureOptions{}.corner_angle);
 
+// The same features in the order that FeatureGraph promises, each once. Throws InvalidInput whose elements are the places
+// of edges, or corners, that the mesh does not have: kinds "index_out_of_range", "not_an_edge".
+FeatureGraph ordered_features(FeatureGraph features, const TriangleMesh& mesh);
+
 }  // namespace octafield::surface

@@ -1,7 +1,7 @@
 // Principal curvatures and directions of a triangle mesh.
 #pragma once
 
-#include "octafield/surface/features.hpp"
+#include "octafield/surface/surface_domain.hpp"
 
 namespace octafield::surface {
 
@@ -18,7 +18,6 @@ struct PrincipalDirections {
 // weighted as by Max 1999, which is exact on spheres), averaged over the triangles round its vertices. Neither normals
 // nor averages reach across features, so both sides of a sharp edge keep their own curvature. At the boundary and along
 // features the normals are one-sided: curvatures there come from the next triangles inside as far as there are any.
-// Throws GeometryError as direction_field does.
-PrincipalDirections principal_directions(const TriangleMesh& mesh, const FeatureGraph& features = {});
+PrincipalDirections principal_directions(const SurfaceDomain& domain);
 
 }  // namespace octafield::surface

@@ -34,10 +34,10 @@ struct Streamline {
 };
 
 struct StreamlineOptions {
-    double max_length = 0;  // input unit, from the seed each way; 0: 4 times the size (shape_size)
-    bool both_ways = true;  // against the direction as well; separatrices run one way only
-    bool stop_at_features = true;
-    double singular_radius = 0;  // input unit; 0: half the mean edge length
+    double max_length = 0;         // input unit, from the seed each way; 0: 4 times the size (shape_size)
+    bool both_ways = true;         // against the direction as well; separatrices run one way only
+    bool stop_at_features = true;  // of the field's domain
+    double singular_radius = 0;    // input unit; 0: half the mean edge length
 };
 
 struct StreamlineSeed {
@@ -47,10 +47,9 @@ struct StreamlineSeed {
 };
 
 // One curve per seed. Throws InvalidInput for a seed outside the mesh or without a direction in its triangle's plane
-// (elements: places of the seeds), for a field or singular points of another mesh, and for options that are no lengths.
-std::vector<Streamline> streamlines(const TriangleMesh& mesh, const FeatureGraph& features, const DirectionField& field,
-                                    const SurfaceSingularities& singularities, const std::vector<StreamlineSeed>& seeds,
-                                    const StreamlineOptions& options = {});
+// (elements: places of the seeds), for values or singular points of another mesh, and for options that are no lengths.
+std::vector<Streamline> streamlines(const DirectionField& field, const SurfaceSingularities& singularities,
+                                    const std::vector<StreamlineSeed>& seeds, const StreamlineOptions& options = {});
 
 // From every singular point of index k/N inside the surface (in a triangle or at a vertex) one curve for each of the
 // N - k directions that run straight away from it (none for k >= N): 3 for index +1/4, 5 for -1/4 when N = 4. In a
@@ -59,8 +58,7 @@ std::vector<Streamline> streamlines(const TriangleMesh& mesh, const FeatureGraph
 // boundary point, the directions strictly between its two boundary edges: N/2 - k - 1 for even N. Points in the order
 // of `singularities`, each one's curves counter-clockwise. With odd N, curves that arrive at a point are not traced
 // back.
-std::vector<Streamline> separatrices(const TriangleMesh& mesh, const FeatureGraph& features,
-                                     const DirectionField& field, const SurfaceSingularities& singularities,
+std::vector<Streamline> separatrices(const DirectionField& field, const SurfaceSingularities& singularities,
                                      const StreamlineOptions& options = {}, const Progress& progress = {});
 
 struct EvenStreamlineOptions {
@@ -74,8 +72,7 @@ struct EvenStreamlineOptions {
 
 // Curves that cover the surface at an even distance, one family per direction (2 for N = 4), each curve seeded where
 // its family has none yet (after Jobard and Lefer 1997). Throws InvalidInput, and Cancelled through progress.
-std::vector<Streamline> even_streamlines(const TriangleMesh& mesh, const FeatureGraph& features,
-                                         const DirectionField& field, const SurfaceSingularities& singularities,
+std::vector<Streamline> even_streamlines(const DirectionField& field, const SurfaceSingularities& singularities,
                                          const EvenStreamlineOptions& options = {}, const Progress& progress = {});
 
 }  // namespace octafield::surface

@@ -1,0 +1,92 @@
+// SurfaceDomain: arrays are numpy views that cannot be written to and that keep the domain alive.
+#include "octafield/surface/surface_domain.hpp"
+
+#include "bind.hpp"
+#include "checks.hpp"
+#include "interruptible.hpp"
+#include "record.hpp"
+
+namespace octafield::bindings {
+
+using namespace surface;
+using py::literals::operator""_a;
+
+namespace {
+
+SurfaceDomain made(const std::optional<TriangleMesh>& mesh, const std::optional<FeatureGraph>& features) {
+    if (!mesh) return {};
+    return run_interruptible([mesh = *mesh, features = features.value_or(FeatureGraph{})](Job&) mutable {
+        check(mesh, false);
+        return SurfaceDomain(std::move(mesh), std::move(features));
+    });
+}
+
+void bind_views(py::class_<SurfaceDomain>& type) {
+    view_property(
+        type, "vertices", [](const SurfaceDomain& d) -> auto& { return d.mesh().vertices; },
+        "(V, 3) float64 positions, the input's length unit; cannot be written to, as all arrays here.");
+    view_property(
+        type, "triangles", [](const SurfaceDomain& d) -> auto& { return d.mesh().triangles; },
+        "(F, 3) int32 vertex ids, counter-clockwise seen from outside.");
+    view_property(
+        type, "edges", [](const SurfaceDomain& d) -> auto& { return d.topology().edges; },
+        "(E, 2) int32 vertex ids, lower first, in lexicographic order.");
+    view_property(
+        type, "triangle_edges", [](const SurfaceDomain& d) -> auto& { return d.topology().triangle_edges; },
+        "(F, 3) int32 edge ids; column k is the edge from corner k to corner k+1 (mod 3).");
+    view_property(
+        type, "edge_triangles", [](const SurfaceDomain& d) -> auto& { return d.topology().edge_triangles; },
+        "(E, 2) int32: the triangle that runs the edge low to high, then the other; -1: none.");
+    view_property(
+        type, "normals", [](const SurfaceDomain& d) -> auto& { return d.normals(); },
+        "(F, 3) float64 unit normals of the triangles, outward.");
+    view_property(
+        type, "edge_lengths", [](const SurfaceDomain& d) -> auto& { return d.edge_lengths(); },
+        "(E,) float64, input unit.");
+    view_property(
+        type, "corner_angles", [](const SurfaceDomain& d) -> auto& { return d.corner_angles(); },
+        "(F, 3) float64 interior angles, radians.");
+}
+
+}  // namespace
+
+void bind_surface_domain(py::module_& m) {
+    py::class_<SurfaceDomain> type(
+        m, "SurfaceDomain",
+        "A triangle surface with all that is derived from it, made and validated once, then shared and never changed. "
+        "Functions that take a SurfaceDomain take a TriangleMesh too, and make a domain without features of it for "
+        "that call alone.");
+    type.def(py::init(&made), "mesh"_a = py::none(), "features"_a = py::none(),
+             "mesh: TriangleMesh, edge-manifold and consistently oriented, open or closed; none: no triangles. "
+             "features: FeatureGraph of it. Raises InvalidInput, and GeometryError naming elements where the mesh is "
+             "unsound.");
+    bind_views(type);
+    type.def_property_readonly(
+            "mesh", [](const SurfaceDomain& d) { return d.mesh(); }, "TriangleMesh, a copy that may be changed.")
+        .def_property_readonly(
+            "features", [](const SurfaceDomain& d) { return d.features(); },
+            "FeatureGraph, a copy: feature edges and corners.")
+        .def_property_readonly("mean_edge_length", &SurfaceDomain::mean_edge_length, "Input unit.")
+        .def_property_readonly("size", &SurfaceDomain::size, "octafield.surface.shape_size, input unit.")
+        .def(
+            "with_features",
+            [](const SurfaceDomain& domain, const FeatureGraph& features) {
+                return run_interruptible([domain = domain, features = features](Job&) mutable {
+                    return domain.with_features(std::move(features));
+                });
+            },
+            "features"_a, "The same surface with other features; nothing is copied. Raises InvalidInput.")
+        .def_static("made", &SurfaceDomain::made, "How many surfaces this process has validated so far.")
+        .def("__reduce__",
+             [](const py::object& self) {
+                 const auto& d = self.cast<const SurfaceDomain&>();
+                 return py::make_tuple(py::type::of(self), py::make_tuple(d.mesh(), d.features()));
+             })
+        .def("__repr__", [](const SurfaceDomain& d) {
+            return "SurfaceDomain(" + count(d.vertex_count(), "vertex", "vertices") + ", " +
+                   count(d.triangle_count(), "triangle") + ", " + count(d.features().edges.rows(), "feature edge") +
+                   box(d.mesh().vertices) + ")";
+        });
+}
+
+}  // namespace octafield::bindings
