@@ -1,11 +1,11 @@
 """Which discrete schemes on the SU(2) invariants are consistent: bar, cube, starts, the thesis's attempts, balls.
 
-    python studies/su2_consistency.py -o DIR [--parts bar,cube,starts,thesis,ball] [--amplitude 1] [--balls FILE.mesh.gz
-    ...]
+    python studies/su2_consistency.py -o DIR [--parts bar,cube,starts,thesis,ball] [--schemes sh4,geodesic,...]
+    [--amplitude 1] [--balls FILE.mesh.gz ...]
 
 Write-up: docs/su2_smoothing.md. DIR gets a CSV file and a markdown table per part, and the figures su2_*.png. --balls:
     tet meshes of balls (those published with ARFF); part ball is left out without them. --amplitude: of the boundary
-    frames of part cube.
+    frames of part cube. --schemes: of parts cube, starts and ball, with sh4 in any case.
 """
 
 import argparse
@@ -20,7 +20,7 @@ from octafield.view.plots import PALETTE
 from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
 from su2_problems import Problem, ball, bar, cube, grid_values, minimise, on_cells, random_representatives
 
-SCHEMES = ("sh4", "geodesic", "su2_geodesic", "su2_midpoint", "su2_symmetric", "su2_frozen", "su2")
+SCHEMES = ("sh4", "geodesic", "su2_geodesic", "su2_surface", "su2_midpoint", "su2_symmetric", "su2_frozen", "su2")
 COLOURS = dict(zip(SCHEMES, ("black", *PALETTE)))
 SIZES, FINE = (4, 8, 12, 16), 48
 LIMITS = (10, 20, 30, 40, np.inf)  # degrees
@@ -93,7 +93,7 @@ def study_bar(folder: Path) -> None:
     save_figure(figure, folder / "su2_bar.png")
 
 
-def study_cube(folder: Path, amplitude: float) -> None:
+def study_cube(folder: Path, amplitude: float, schemes: list[str]) -> None:
     fine = cube("kuhn", FINE, amplitude)
     reference = minimise(fine, "sh4", fine.target).frames
     rows = []
@@ -102,7 +102,7 @@ def study_cube(folder: Path, amplitude: float) -> None:
             problem = cube(family, n, amplitude)
             sh4 = minimise(problem, "sh4", octafield.volume.initial_frames(problem.mesh, problem.constraints))
             exact = grid_values(reference, FINE, np.asarray(problem.mesh.vertices))
-            for scheme in SCHEMES:
+            for scheme in schemes:
                 result = sh4 if scheme == "sh4" else minimise(problem, scheme, sh4.frames)
                 near, true = (degrees(result.frames, q, problem.free) for q in (sh4.frames, exact))
                 rows.append(
@@ -139,7 +139,7 @@ def study_cube(folder: Path, amplitude: float) -> None:
     table = []
     figure, panels = new_figure(11, 3.4, 1, 3, sharey=True)
     for axes, family in zip(panels, ("kuhn", "jittered", "tetgen")):
-        for scheme in SCHEMES:
+        for scheme in schemes:
             mine = [row for row in rows if row[0] == family and row[1] == scheme]
             means = [row[6] for row in mine]
             axes.loglog(
@@ -175,7 +175,7 @@ def study_cube(folder: Path, amplitude: float) -> None:
     )
 
 
-def study_starts(folder: Path) -> None:
+def study_starts(folder: Path, schemes: list[str]) -> None:
     rows = []
     for family, n in (("kuhn", 8), ("tetgen", 8)):
         problem, rng = cube(family, n), np.random.default_rng(1)
@@ -190,7 +190,7 @@ def study_starts(folder: Path) -> None:
         }
         for label, start in starts.items():
             row = [family, label]
-            for scheme in ("sh4", "geodesic", "su2_geodesic", "su2_midpoint", "su2_frozen", "su2"):
+            for scheme in schemes:
                 result = minimise(problem, scheme, random_representatives(start, rng), 1e-10)
                 away = degrees(result.frames, sh4, problem.free)
                 row.append(f"{away.mean():.3f} ({away.max():.2f})")
@@ -198,7 +198,7 @@ def study_starts(folder: Path) -> None:
     save(
         folder,
         "starts",
-        ["mesh", "start", "sh4", "geodesic", "su2_geodesic", "su2_midpoint", "su2_frozen", "su2"],
+        ["mesh", "start", *schemes],
         rows,
     )
 
@@ -224,15 +224,17 @@ def study_thesis(folder: Path) -> None:
     save(folder, "thesis", ["scheme", "n", "mean from sh4", "max from sh4", "E / E(sh4) - 1"], rows)
 
 
-def study_ball(folder: Path, paths: list[Path]) -> None:
+def study_ball(folder: Path, paths: list[Path], names: list[str]) -> None:
     schemes = [
         ("sh4", {}),
         ("geodesic", {}),
         ("su2_geodesic", {}),
+        ("su2_surface", {}),
         *(("su2_midpoint", {"midpoint_limit": np.radians(limit)}) for limit in LIMITS),
         ("su2_frozen", {}),
         ("su2", {}),
     ]
+    schemes = [(name, options) for name, options in schemes if name in names]
     rows, drawn, edges = [], [], []
     for path in paths:
         problem, rng = ball(path), np.random.default_rng(4)
@@ -317,6 +319,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--parts", default=",".join(PARTS))
+    parser.add_argument("--schemes", default=",".join(SCHEMES))
     parser.add_argument("--amplitude", type=float, default=1)
     parser.add_argument("--balls", type=Path, nargs="*", default=[])
     args = parser.parse_args()
@@ -324,12 +327,17 @@ def main() -> None:
     parts = args.parts.split(",")
     if unknown := set(parts) - set(PARTS):
         parser.error(f"unknown parts {sorted(unknown)}; give some of {','.join(PARTS)}")
+    asked = args.schemes.split(",")
+    if unknown := set(asked) - set(SCHEMES):
+        parser.error(f"unknown schemes {sorted(unknown)}; give some of {','.join(SCHEMES)}")
+    schemes = [name for name in SCHEMES if name in asked or name == "sh4"]
+    without_symmetric = [name for name in schemes if name != "su2_symmetric"]
     studies = {
         "bar": study_bar,
-        "cube": lambda folder: study_cube(folder, args.amplitude),
-        "starts": study_starts,
+        "cube": lambda folder: study_cube(folder, args.amplitude, schemes),
+        "starts": lambda folder: study_starts(folder, without_symmetric),
         "thesis": study_thesis,
-        "ball": lambda folder: study_ball(folder, args.balls),
+        "ball": lambda folder: study_ball(folder, args.balls, schemes),
     }
     for part in parts:
         if part != "ball" or args.balls:

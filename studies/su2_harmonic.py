@@ -7,10 +7,12 @@ Frames are unit quaternions q(x) = g (cos a(r), sin a(r) y / r) with y = x - cen
 a) / r^2 = 0, a(0) = 0: the harmonic maps from space to the sphere S^3 that turn with y (Eells, Sampson 1964, for the
 equation; the reduction is that of every equivariant map). All three axes turn, by different amounts, 60 degrees from
 corner to corner. Boundary frames are held; the error is that of the nodes, as the rotation vector from the exact frame
-to the computed one. DIR gets harmonic.csv, harmonic.md, su2_harmonic.png.
+to the computed one. DIR gets harmonic.csv, harmonic.md, su2_harmonic.png, and cost.md: iterations from the linear start
+on the finest meshes and CPU seconds of each (all threads, the start included).
 """
 
 import argparse
+import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -22,7 +24,7 @@ from scipy.integrate import solve_ivp
 from study_output import markdown_table, new_figure, save_figure, write_csv
 from su2_problems import Problem, held, jittered_cube, kuhn_grid, minimise, on_cells, quaternion_product, tetgen_cube
 
-SCHEMES = ("sh4", "geodesic", "su2_midpoint", "su2_symmetric", "su2_frozen", "su2")
+SCHEMES = ("sh4", "geodesic", "su2_surface", "su2_midpoint", "su2_symmetric", "su2_frozen", "su2")
 FAMILIES = {
     "kuhn": lambda n: kuhn_grid(n, n, n, 1 / n),
     "jittered": lambda n: jittered_cube(n, 0.2, n),
@@ -96,11 +98,18 @@ def order(values: Sequence[float], cells: Sequence[int]) -> float:
 
 def study(folder: Path, cells: Sequence[int], schemes: Sequence[str]) -> list[list[Any]]:
     rows: list[list[Any]] = []
+    cost: list[list[Any]] = []
     figure, panels = new_figure(11, 3.4, 1, 3, sharey=True)
     for axes, family in zip(panels, FAMILIES, strict=True):
         problems = [problem_of(family, n) for n in cells]
         for colour, scheme in zip(("black", *PALETTE), schemes, strict=False):
-            results = [solved(problem, scheme) for problem in problems]
+            results = []
+            for problem in problems:
+                begin = time.process_time()
+                results.append(solved(problem, scheme))
+                seconds = time.process_time() - begin
+            steps = results[-1].iterations
+            cost.append([family, scheme, steps, seconds / max(1, steps)])
             found = [errors(problem, result.frames) for problem, result in zip(problems, results, strict=True)]
             for norm in NORMS:
                 values = [each[norm] for each in found]
@@ -126,6 +135,12 @@ def study(folder: Path, cells: Sequence[int], schemes: Sequence[str]) -> list[li
     write_csv(folder / "harmonic.csv", header, rows)
     text = markdown_table(header, [[f"{x:.4g}" if isinstance(x, float) else x for x in row] for row in rows])
     (folder / "harmonic.md").write_text(text)
+    print(text)
+    text = markdown_table(
+        ["mesh", "scheme", f"iterations, n = {cells[-1]}", "CPU s of each"],
+        [[family, scheme, steps, f"{seconds:.3g}"] for family, scheme, steps, seconds in cost],
+    )
+    (folder / "cost.md").write_text(text)
     print(text)
     return rows
 

@@ -92,6 +92,7 @@ namespace {
 
 INSTANTIATE_TYPED_TEST_SUITE_P(Geodesic, DifferenceLaws, GeodesicScheme);
 INSTANTIATE_TYPED_TEST_SUITE_P(Su2Geodesic, DifferenceLaws, Su2GeodesicScheme);
+INSTANTIATE_TYPED_TEST_SUITE_P(Surface, DifferenceLaws, SurfaceScheme);
 INSTANTIATE_TYPED_TEST_SUITE_P(Midpoint, DifferenceLaws, MidpointScheme);
 INSTANTIATE_TYPED_TEST_SUITE_P(Symmetric, DifferenceLaws, SymmetricScheme);
 // Without a limit; the frozen scheme's metric has nothing to compare with.

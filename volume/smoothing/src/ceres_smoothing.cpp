@@ -15,8 +15,8 @@ constexpr Index cholesky_limit = 10000;
 // Passes energies on, keeps the history, and stops the solver when the caller wishes.
 class Reporter final : public ceres::IterationCallback {
 public:
-    Reporter(const SmoothOptions& options, const Sampling& sampling, const Quaternions& frames,
-             const Progress& progress, SmoothResult& result)
+    Reporter(const SmoothOptions& options, const Sampling& sampling, const FramesNow& frames, const Progress& progress,
+             SmoothResult& result)
         : options_(options), sampling_(sampling), frames_(frames), progress_(progress), result_(result) {}
 
     ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
@@ -31,10 +31,10 @@ public:
         return cancelled ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
     }
 
-    // Ceres keeps `frames` at its best state (update_state_every_iteration).
+    // Ceres keeps the unknowns at their best state (update_state_every_iteration).
     void add(double cost) {
         result_.objective_history.push_back(sampling_.size * cost);
-        result_.energy_history.push_back(dirichlet_energy(sampling_, frames_, options_.threads));
+        result_.energy_history.push_back(dirichlet_energy(sampling_, frames_(), options_.threads));
     }
 
     bool cancelled = false;
@@ -46,7 +46,7 @@ private:
 
     const SmoothOptions& options_;
     const Sampling& sampling_;
-    const Quaternions& frames_;
+    const FramesNow& frames_;
     const Progress& progress_;
     SmoothResult& result_;
 };
@@ -71,24 +71,6 @@ ceres::Solver::Options solver_options(const SmoothOptions& options, Index vertex
 
 }  // namespace
 
-void set_manifolds(ceres::Problem& problem, Quaternions& quaternions, const BoundaryConstraints& constraints,
-                   Manifolds& manifolds) {
-    for (Index v = 0; v < static_cast<Index>(constraints.kind.size()); ++v) {
-        double* parameters = quaternions.row(v).data();
-        if (!problem.HasParameterBlock(parameters)) continue;
-        ConstraintKinds::visit(constraints.kind[v], constraints.of(v), [&]<class Kind>(const Kind& kind) {
-            if constexpr (Kind::unknowns == 0) {
-                problem.SetParameterBlockConstant(parameters);
-            } else if constexpr (Kind::unknowns == 3) {
-                problem.SetManifold(parameters, &manifolds.frame);
-            } else {
-                manifolds.parts.push_back(std::make_unique<ConstraintManifold<Kind>>(kind));
-                problem.SetManifold(parameters, manifolds.parts.back().get());
-            }
-        });
-    }
-}
-
 ceres::Problem::Options problem_options(ceres::EvaluationCallback& field) {
     ceres::Problem::Options options;
     options.evaluation_callback = &field;
@@ -97,14 +79,14 @@ ceres::Problem::Options problem_options(ceres::EvaluationCallback& field) {
     return options;
 }
 
-SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quaternions, const Sampling& sampling,
+SmoothResult solve_with_ceres(ceres::Problem& problem, const FramesNow& frames, const Sampling& sampling,
                               const SmoothOptions& options, const Progress& progress) {
     calm_library_threads();
     FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres would log is in the exception
 
     SmoothResult result;
-    Reporter reporter(options, sampling, quaternions, progress, result);
-    ceres::Solver::Options o = solver_options(options, static_cast<Index>(quaternions.rows()));
+    Reporter reporter(options, sampling, frames, progress, result);
+    ceres::Solver::Options o = solver_options(options, static_cast<Index>(frames().rows()));
     o.callbacks.push_back(&reporter);
     o.update_state_every_iteration = true;
     ceres::Solver::Summary summary;
@@ -114,7 +96,7 @@ SmoothResult solve_with_ceres(ceres::Problem& problem, const Quaternions& quater
                               "; look for degenerate tets (octafield info), or try linear_solver=conjugate_gradients",
                           "smoothing");
 
-    result.frames = quaternions;
+    result.frames = frames();
     result.objective = sampling.size * summary.final_cost;
     // A line search reports neither a start at a minimum nor the step after which it is content.
     if (result.objective_history.empty() || result.objective_history.back() != result.objective)

@@ -1,33 +1,51 @@
-// The field as a least-squares solver sees it when it is smoothed in a metric: quaternions, and the differences over
-// all pairs of vertices that costs need, computed once per evaluation and in parallel.
+// The field as a least-squares solver sees it when it is smoothed in a metric: a row of unknowns per vertex, and the
+// differences over all pairs of vertices that costs need, computed once per evaluation and in parallel.
 #pragma once
 
 #include <ceres/cost_function.h>
 #include <ceres/evaluation_callback.h>
 
+#include <type_traits>
+
 #include "frame_difference.hpp"
-#include "frame_manifolds.hpp"
+#include "frame_unknowns.hpp"
 #include "octafield/arrays.hpp"
 #include "octafield/parallel.hpp"
 
 namespace octafield::volume {
 
+// Quaternions, unless the scheme says otherwise.
+template <class Scheme>
+struct UnknownsOf {
+    using type = QuaternionUnknowns;
+};
+template <class Scheme>
+requires requires { typename Scheme::Unknowns; }
+struct UnknownsOf<Scheme> {
+    using type = typename Scheme::Unknowns;
+};
+
 template <DifferenceScheme Scheme>
 class DifferenceField final : public ceres::EvaluationCallback {
 public:
     static constexpr int dimension = Scheme::dimension;
-    using LeftInverse = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
+    using Unknowns = typename UnknownsOf<Scheme>::type;
+    using LeftInverse = Eigen::Matrix<double, 3, Unknowns::size, Eigen::RowMajor>;
 
     struct Pair {
         Index i, j;
     };
 
-    DifferenceField(Quaternions quaternions, Scheme scheme_of_pairs, int threads)
+    DifferenceField(Quaternions start, Scheme scheme_of_pairs, int threads)
         : scheme(std::move(scheme_of_pairs)),
           threads_(threads),
-          quaternions_(std::move(quaternions)),
-          vertices_(quaternions_.rows()),
-          left_inverses_(quaternions_.rows()) {}
+          rows_(start.rows(), Unknowns::size),
+          frames_(std::move(start)),
+          vertices_(frames_.rows()),
+          left_inverses_(frames_.rows()) {
+        for (Eigen::Index v = 0; v < frames_.rows(); ++v)
+            rows_.row(v) = Unknowns::row(frames::from_wxyz(frames::Vector4(frames_.row(v).transpose()))).transpose();
+    }
 
     // Its number.
     std::size_t add_pair(Index i, Index j) {
@@ -36,25 +54,37 @@ public:
         return pairs_.size() - 1;
     }
 
-    double* parameters(Index vertex) { return quaternions_.row(vertex).data(); }
-    Quaternions& quaternions() { return quaternions_; }
-    frames::Quaternion frame(Index vertex) const {
-        return frames::from_wxyz(frames::Vector4(quaternions_.row(vertex).transpose()));
+    double* parameters(Index vertex) { return rows_.row(vertex).data(); }
+    Rows<double, Unknowns::size>& rows() { return rows_; }
+    frames::Quaternion frame(Index vertex) const { return Unknowns::frame(rows_.row(vertex).data()); }
+    // As quaternions, each in the representative nearest to what it was before.
+    const Quaternions& quaternions() {
+        if constexpr (std::is_same_v<Unknowns, QuaternionUnknowns>) {
+            return rows_;
+        } else {
+            parallel_for(rows_.rows(), threads_, [&](std::int64_t v) {
+                const frames::Quaternion last = frames::from_wxyz(frames::Vector4(frames_.row(v).transpose()));
+                if (rows_.row(v) == Unknowns::row(last).transpose()) return;  // keeps its bits
+                const frames::Quaternion now = frames::closest_representative(frame(static_cast<Index>(v)), last);
+                frames_.row(v) = frames::to_wxyz(now).transpose();
+            });
+            return frames_;
+        }
     }
     const std::vector<Pair>& pairs() const { return pairs_; }
     const Difference<dimension>& difference(std::size_t pair) const { return differences_[pair]; }
-    // Of the manifolds' PlusJacobian: derivatives by rotation vectors times this are ones by (w, x, y, z).
+    // Of the manifolds' PlusJacobian: derivatives by rotation vectors times this are ones by the row.
     const LeftInverse& left_inverse(Index vertex) const { return left_inverses_[vertex]; }
 
     void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override {
         if (new_evaluation_point) jacobians_current_ = false;
         const bool jacobians = evaluate_jacobians && !jacobians_current_;
         if (!new_evaluation_point && !jacobians) return;
-        parallel_for(quaternions_.rows(), threads_, [&](std::int64_t v) {
-            const frames::Quaternion q = frame(static_cast<Index>(v));
-            vertices_[v] = Scheme::at(q, jacobians);
+        parallel_for(rows_.rows(), threads_, [&](std::int64_t v) {
+            const double* row = rows_.row(v).data();
+            vertices_[v] = Scheme::at(Unknowns::point(row), jacobians);
             if (!jacobians) return;
-            FrameManifold().MinusJacobian(quaternions_.row(v).data(), left_inverses_[v].data());
+            typename Unknowns::FreeManifold().MinusJacobian(row, left_inverses_[v].data());
         });
         parallel_for(static_cast<std::int64_t>(pairs_.size()), threads_, [&](std::int64_t k) {
             differences_[k] = scheme.difference(k, vertices_[pairs_[k].i], vertices_[pairs_[k].j], jacobians);
@@ -67,7 +97,8 @@ public:
 private:
     int threads_;
     bool jacobians_current_ = false;
-    Quaternions quaternions_;
+    Rows<double, Unknowns::size> rows_;
+    Quaternions frames_;  // of quaternions()
     std::vector<typename Scheme::Vertex> vertices_;
     std::vector<LeftInverse> left_inverses_;
     std::vector<Pair> pairs_;
@@ -87,7 +118,7 @@ public:
     DifferenceCost(const Field& field, std::size_t first_pair, Coefficients coefficients)
         : field_(field), first_pair_(first_pair), coefficients_(std::move(coefficients)) {
         set_num_residuals(static_cast<int>(coefficients_.rows()) * d);
-        mutable_parameter_block_sizes()->assign(coefficients_.cols() + 1, 4);
+        mutable_parameter_block_sizes()->assign(coefficients_.cols() + 1, size);
     }
 
     bool Evaluate(const double* const*, double* residuals, double** jacobians) const override {
@@ -103,14 +134,14 @@ public:
             const auto& pair = field_.pairs()[first_pair_ + std::max(0, block - 1)];
             const auto& chain = field_.left_inverse(block == 0 ? pair.i : pair.j);
             for (int r = 0; r < rows; ++r)
-                Eigen::Map<Eigen::Matrix<double, d, 4, Eigen::RowMajor>>(jacobians[block] + 4 * r * d) =
+                Eigen::Map<Eigen::Matrix<double, d, size, Eigen::RowMajor>>(jacobians[block] + size * r * d) =
                     by_block(r, block) * chain;
         }
         return true;
     }
 
 private:
-    static constexpr int d = Scheme::dimension;
+    static constexpr int d = Scheme::dimension, size = Field::Unknowns::size;
     const Difference<d>& at(int k) const { return field_.difference(first_pair_ + k); }
 
     Eigen::Matrix<double, d, 3> by_block(int row, int block) const {

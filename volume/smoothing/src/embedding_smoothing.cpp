@@ -15,11 +15,12 @@ SmoothResult smooth_with_ceres(const Sampling& sampling, const BoundaryConstrain
     // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
     const double length = sampling.size;
     EmbeddedField<R> field(start, options.threads);
-    Manifolds manifolds;
+    Manifolds<> manifolds;
     ceres::Problem problem(problem_options(field));
     add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / length);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
-    return solve_with_ceres(problem, field.quaternions(), sampling, options, progress);
+    return solve_with_ceres(
+        problem, [&]() -> const Quaternions& { return field.quaternions(); }, sampling, options, progress);
 }
 
 }  // namespace

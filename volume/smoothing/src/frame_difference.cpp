@@ -83,6 +83,17 @@ Difference<4> measured_at(const Vector4& m, const Matrix43& dm_p, const Matrix43
     return result;
 }
 
+// The difference that is the rotation vector itself.
+Difference<3> turned_by(const Vector3& r, bool derivatives) {
+    Difference<3> result;
+    result.value = r;
+    if (derivatives) {
+        result.by_second = inverse_left_jacobian(r);
+        result.by_first = -result.by_second.transpose();
+    }
+    return result;
+}
+
 struct Midpoint {
     Vector4 m;
     Matrix43 by_first, by_second;
@@ -111,17 +122,16 @@ struct Blend {
 }  // namespace
 
 Difference<3> GeodesicScheme::difference(std::size_t, const Vertex& p, const Vertex& q, bool derivatives) const {
-    Difference<3> result;
-    const Vector3 r = frames::log(q * frames::closest_representative(p, q).conjugate());
-    result.value = r;
-    if (derivatives) {
-        result.by_second = inverse_left_jacobian(r);
-        result.by_first = -result.by_second.transpose();
-    }
-    return result;
+    return turned_by(frames::log(q * frames::closest_representative(p, q).conjugate()), derivatives);
 }
 
 Quaternion Su2GeodesicScheme::at(const Quaternion& q, bool) { return Su2::inverse_frame(Su2::complex(Su2::embed(q))); }
+
+Difference<3> SurfaceScheme::difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const {
+    if (const auto turn = frames::su2_surface::log(p, q)) return turned_by(*turn, derivatives);
+    const auto frame = [](const Vertex& at) { return Su2::inverse_frame(Su2::complex(at.h)); };
+    return GeodesicScheme{}.difference(pair, frame(p), frame(q), derivatives);
+}
 
 Su2Vertex su2_vertex(const Quaternion& q, bool derivatives) {
     Su2Vertex result{q, Su2::invariants({q.w(), q.x()}, {q.y(), q.z()}), {}};

@@ -8,7 +8,7 @@
 #include <concepts>
 #include <vector>
 
-#include "octafield/frames/su2.hpp"
+#include "octafield/frames/su2_surface.hpp"
 #include "octafield/volume/smooth.hpp"
 
 namespace octafield::volume {
@@ -51,6 +51,21 @@ struct Su2GeodesicScheme {
     Difference<3> difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const {
         return GeodesicScheme{}.difference(pair, p, q, derivatives);
     }
+};
+
+struct SurfaceUnknowns;
+
+// Rotation vector of the shortest geodesic on the model surface of su2, from points of it alone
+// (frames/su2_surface.hpp); where that finds none, between frames far apart, that of Su2GeodesicScheme, which is the
+// same vector.
+struct SurfaceScheme {
+    static constexpr int dimension = 3;
+    static SurfaceScheme made(const SmoothOptions&) { return {}; }
+    using Unknowns = SurfaceUnknowns;  // points h instead of quaternions
+    using Vertex = frames::su2_surface::Point;
+    static Vertex at(const frames::Quaternion& q, bool) { return frames::su2_surface::point(frames::Su2::embed(q)); }
+    static Vertex at(const frames::Su2::Vector& h, bool) { return frames::su2_surface::point(h); }
+    Difference<3> difference(std::size_t pair, const Vertex& p, const Vertex& q, bool derivatives) const;
 };
 
 // A frame with its invariants and their derivative by its world rotation vector.

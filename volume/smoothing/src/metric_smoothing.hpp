@@ -15,7 +15,8 @@ namespace octafield::volume {
 // A tet kept whole has its differences taken from its first vertex: to second order they are coordinates of the frames
 // at its corners.
 template <DifferenceScheme Scheme>
-void add_difference_costs(ceres::Problem& problem, DifferenceField<Scheme>& field, const DirichletBlocks& blocks, double scale) {
+void add_difference_costs(ceres::Problem& problem, DifferenceField<Scheme>& field, const DirichletBlocks& blocks,
+                          double scale) {
     using Cost = DifferenceCost<Scheme>;
     for (const auto& edge : blocks.edges) {
         typename Cost::Coefficients weight(1, 1);
@@ -40,21 +41,20 @@ class MetricProblem {
 public:
     MetricProblem(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                   Scheme scheme, const SmoothOptions& options)
-        : sampling_(sampling),
-          field(start, std::move(scheme), options.threads),
-          problem_(problem_options(field)) {
+        : sampling_(sampling), field(start, std::move(scheme), options.threads), problem_(problem_options(field)) {
         // The energy grows like a length: solved at unit size, so that no tolerance depends on the input's unit.
         add_difference_costs(problem_, field, dirichlet_blocks(sampling), 1 / sampling.size);
-        set_manifolds(problem_, field.quaternions(), constraints, manifolds_);
+        set_manifolds(problem_, field.rows(), constraints, manifolds_);
     }
 
     SmoothResult solve(const SmoothOptions& options, const Progress& progress) {
-        return solve_with_ceres(problem_, field.quaternions(), sampling_, options, progress);
+        return solve_with_ceres(
+            problem_, [this]() -> const Quaternions& { return field.quaternions(); }, sampling_, options, progress);
     }
 
 private:
     const Sampling& sampling_;
-    Manifolds manifolds_;
+    Manifolds<typename UnknownsOf<Scheme>::type> manifolds_;
 
 public:
     DifferenceField<Scheme> field;
@@ -67,8 +67,7 @@ private:
 template <DifferenceScheme Scheme>
 SmoothResult smooth_metric(const Sampling& sampling, const BoundaryConstraints& constraints, const Quaternions& start,
                            const SmoothOptions& options, const Progress& progress) {
-    return MetricProblem<Scheme>(sampling, constraints, start, Scheme::made(options), options)
-        .solve(options, progress);
+    return MetricProblem<Scheme>(sampling, constraints, start, Scheme::made(options), options).solve(options, progress);
 }
 
 }  // namespace octafield::volume

@@ -76,13 +76,14 @@ SmoothResult smooth_odeco_lengths(const Sampling& sampling, const BoundaryConstr
                                   const Quaternions& start, const SmoothOptions& options, const Progress& progress) {
     require_held(constraints);
     OdecoField field(start, start_lengths(constraints, start).array().log(), options.threads);
-    Manifolds manifolds;
+    Manifolds<> manifolds;
     LengthManifolds length_manifolds;
     ceres::Problem problem(problem_options(field));
     add_dirichlet_costs(problem, field, dirichlet_blocks(sampling), 1 / sampling.size);
     set_manifolds(problem, field.quaternions(), constraints, manifolds);
     hold_lengths(problem, field, constraints, length_manifolds);
-    SmoothResult result = solve_with_ceres(problem, field.quaternions(), sampling, options, progress);
+    SmoothResult result = solve_with_ceres(
+        problem, [&]() -> const Quaternions& { return field.quaternions(); }, sampling, options, progress);
     result.lengths = field.lengths();
     return result;
 }

@@ -37,9 +37,8 @@ constexpr Measured measured[] = {
 
 template <frames::Representation R>
 Row embedding_row() {
-    const auto* known = std::find_if(std::begin(measured), std::end(measured), [](const Measured& line) {
-        return line.name == std::string_view(R::name);
-    });
+    const auto* known = std::find_if(std::begin(measured), std::end(measured),
+                                     [](const Measured& line) { return line.name == std::string_view(R::name); });
     const Measured& line = known == std::end(measured) ? unknown : *known;
     return {{.name = std::string(R::name),
              .sort = embedding,
@@ -107,6 +106,10 @@ std::vector<Row> made() {
     add(metric_row("su2_symmetric", "2 J^+ (h_j - h_i) at m = i and at m = j, root mean square",
                    "the invariants in the metrics at both ends", &smooth_metric<SymmetricScheme>),
         0, "#7b8794");
+    add(metric_row("su2_surface", "rotation vector of the shortest geodesic of the model surface from h_i to h_j",
+                   "points of the model surface as unknowns, with its own tangents and geodesics",
+                   &smooth_metric<SurfaceScheme>),
+        0, "#117733");
     Row frozen = metric_row("su2_frozen", "2 J^+(m) (h_j - h_i), m half-way, held during each step",
                             "the metric held during a step: inconsistent, kept to show how it fails", &smooth_frozen);
     frozen.scheme.consistent = frozen.scheme.descends = false;
