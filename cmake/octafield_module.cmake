@@ -1,4 +1,4 @@
-# octafield_module(NAME SOURCES ...): the static library octafield_NAME (alias octafield::NAME) of the folder NAME/, with the
+# octafield_module(NAME): the static library octafield_NAME (alias octafield::NAME) of the sources in NAME/src/, with the
 # project's warnings. Each module links its dependencies itself: PUBLIC what its headers need, PRIVATE solvers and file libraries.
 add_library(octafield_warnings INTERFACE)
 target_compile_options(octafield_warnings INTERFACE -Wall -Wextra $<$<BOOL:${OCTAFIELD_WERROR}>:-Werror>)
@@ -30,10 +30,11 @@ function(octafield_use_headers target name)
   endif()
 endfunction()
 
-# The folder's static library TARGET, exported as octafield::NAME, with what its headers need of system headers.
+# The folder's static library TARGET, exported as octafield::NAME, with what its headers need of system headers. A new source is
+# found at the next build.
 function(octafield_library target name)
-  cmake_parse_arguments(ARG "" "" "SOURCES" ${ARGN})
-  add_library(${target} STATIC ${ARG_SOURCES})
+  file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
+  add_library(${target} STATIC ${sources})
   add_library(octafield::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(${target} PUBLIC
@@ -47,16 +48,16 @@ function(octafield_library target name)
 endfunction()
 
 function(octafield_module name)
-  octafield_library(octafield_${name} ${name} ${ARGN})
+  octafield_library(octafield_${name} ${name})
 endfunction()
 
-# octafield_submodule(MODULE NAME USES ... SOURCES ...): the static library octafield_MODULE_NAME of the folder MODULE/NAME/.
+# octafield_submodule(MODULE NAME USES ...): the static library octafield_MODULE_NAME of the folder MODULE/NAME/.
 # USES: the sub-modules of the same module below it. Their headers in include/ and their private ones in src/ can be included, those of
 # no other: so the compiler and the linker check the directions.
 function(octafield_submodule module name)
-  cmake_parse_arguments(ARG "" "" "USES;SOURCES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "USES" ${ARGN})
   set(target octafield_${module}_${name})
-  octafield_library(${target} ${module}_${name} SOURCES ${ARG_SOURCES})
+  octafield_library(${target} ${module}_${name})
   add_library(${target}_parts INTERFACE)  # the private headers, for its neighbours and tests
   target_include_directories(${target}_parts INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   foreach(used ${ARG_USES})

@@ -1,9 +1,10 @@
-// The representations known to Python: module functions <name>_embed and so on, generated for every entry of the C++
-// registry, and the dictionary `representations`.
+// The representations known to Python: the dictionary `representations` of every entry of the C++ registry, and module
+// functions <name>_embed and so on of those that have had them.
 
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "bind.hpp"
 #include "octafield/frames/registry.hpp"
@@ -106,9 +107,14 @@ py::tuple project(const ArrayLike& v, const std::optional<ArrayLike>& guess, int
     });
 }
 
+// Whose functions are names of the module, too.
+constexpr std::string_view with_named_functions[] = {"sh4", "tensor4", "su2", "odeco", "sh469"};
+
 template <Representation R>
-void bind_representation(py::module_& m, const py::dict& registry) {
+void bind_representation(py::module_& module, const py::dict& registry) {
     const std::string name(R::name), d = std::to_string(R::dimension);
+    const bool named = std::ranges::find(with_named_functions, R::name) != std::end(with_named_functions);
+    py::module_ m = named ? module : module.def_submodule("_registered", "Functions of `representations`.");
     const auto attribute = [&](const char* suffix) { return py::object(m.attr((name + suffix).c_str())); };
     m.def((name + "_embed").c_str(), embed<R>, "q"_a, py::kw_only(), "threads"_a = 0,
           ("(n, " + d + ") " + name + " vectors of (n, 4) unit quaternions w x y z. A single (4,) quaternion gives (" +

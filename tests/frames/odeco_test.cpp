@@ -12,8 +12,6 @@
 
 namespace octafield::frames {
 
-INSTANTIATE_TYPED_TEST_SUITE_P(Odeco, RepresentationLaws, Odeco);
-
 namespace {
 
 using std::numbers::pi;

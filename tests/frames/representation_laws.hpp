@@ -1,5 +1,6 @@
-// The laws every representation obeys (frames/representation.hpp), as one typed suite. A new representation joins by
-// one line: INSTANTIATE_TYPED_TEST_SUITE_P(Name, RepresentationLaws, Type).
+// The laws every representation obeys (frames/representation.hpp), as one typed suite. Those of the registry join by
+// themselves (registry_laws_test.cpp), one of another project by one line: INSTANTIATE_TYPED_TEST_SUITE_P(Name,
+// RepresentationLaws, Type).
 #pragma once
 
 #include <gtest/gtest.h>

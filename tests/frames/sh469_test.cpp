@@ -11,8 +11,6 @@
 
 namespace octafield::frames {
 
-INSTANTIATE_TYPED_TEST_SUITE_P(Sh469, RepresentationLaws, Sh469);
-
 namespace {
 
 using std::numbers::pi;

@@ -7,8 +7,6 @@
 
 namespace octafield::frames {
 
-INSTANTIATE_TYPED_TEST_SUITE_P(Sh4, RepresentationLaws, Sh4);
-
 namespace {
 
 using std::numbers::pi;

@@ -8,8 +8,6 @@
 
 namespace octafield::frames {
 
-INSTANTIATE_TYPED_TEST_SUITE_P(Su2, RepresentationLaws, Su2);
-
 namespace {
 
 using std::numbers::pi;

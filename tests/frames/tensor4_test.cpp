@@ -7,8 +7,6 @@
 
 namespace octafield::frames {
 
-INSTANTIATE_TYPED_TEST_SUITE_P(Tensor4, RepresentationLaws, Tensor4);
-
 namespace {
 
 // The definition, all 81 entries.

@@ -176,7 +176,10 @@ def completed(*typed: str) -> list[str]:
     (["surf"], ["surface-field"]),
     (["study", "r"], ["run", "resume", "report"]),
     (["field", "--repres"], ["--representation"]),
-    (["field", "--representation", "su"], ["su2", "su2_midpoint", "su2_geodesic", "su2_symmetric", "su2_surface", "su2_frozen"]),
+    (
+        ["field", "--representation", "su"],
+        ["su2", "su2_midpoint", "su2_geodesic", "su2_symmetric", "su2_surface", "su2_frozen"],
+    ),
     (["field", "--boundary", ""], ["aligned", "fixed", "none", "start"]),
     (["surface-field", "--method", ""], ["gl", "mbo", "eigen"]),
     (["compare", "--representations", "sh4,te"], ["sh4,tensor4"]),

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import meshio
 
 WRITTEN = (".vtu", ".msh", ".mesh", ".meshb")
-_READ = (*grids.CELL_SUFFIXES, ".mesh", ".meshb")
+_READ = (*(f".{name}" for name in grids.CELL_READERS), ".mesh", ".meshb")
 # meshio's cell types, and the arrays of our meshes
 _SOLIDS = {"tetra": "tets", "hexahedron": "hexahedra", "wedge": "wedges", "pyramid": "pyramids"}
 _FACES = {"triangle": "triangles", "quad": "quads"}
@@ -88,8 +88,8 @@ def _suffix(path: Path, known: tuple[str, ...]) -> str:
 
 
 def _contents(path: Path, suffix: str) -> tuple[np.ndarray, Blocks]:
-    if suffix in grids.CELL_SUFFIXES:
-        found = grids.read_cells(path, suffix)
+    if suffix[1:] in grids.CELL_READERS:
+        found = grids.read_cells(path, suffix[1:])
         return np.asarray(found.points, float), [(block.type, block.data) for block in found.cells]
     text = (
         read_binary_medit(read_bytes(path), str(path)) if suffix == ".meshb" else read_medit(read_text(path), str(path))

@@ -17,7 +17,7 @@ from .text_meshes import TextMesh, read_medit, read_tetgen
 from .vtk.legacy import read_legacy_vtk
 from .vtk.vtu import read_vtu
 
-_CELL_READERS: dict[str, Callable[[Path], CellMesh]] = {  # which give data of points and cells, too
+CELL_READERS: dict[str, Callable[[Path], CellMesh]] = {  # which give data of points and cells, too
     "vtk": lambda path: read_legacy_vtk(read_bytes(path), str(path)),
     "vtu": lambda path: read_vtu(read_bytes(path), str(path), path.stat().st_size),
     "msh": lambda path: read_gmsh(read_bytes(path), str(path)),
@@ -42,16 +42,16 @@ class Grid:
 
 
 def read_cells(path: Path, name: str) -> CellMesh:
-    """name: of a format in _CELL_READERS. Whatever the reader stumbles over becomes an IoError."""
+    """name: of a format in CELL_READERS. Whatever the reader stumbles over becomes an IoError."""
     with reading(path, f".{name}"):
-        found = _CELL_READERS[name](path)
+        found = CELL_READERS[name](path)
         blocks, found.notes = linear([(block.type, block.data) for block in found.cells])
         found.cells = [Block(kind, data) for kind, data in blocks]
         return found
 
 
 def read_cell_grid(name: str) -> Callable[[Path], Grid]:
-    """The reader of a format in _CELL_READERS."""
+    """The reader of a format in CELL_READERS."""
     return lambda path: grid_of_cells(read_cells(path, name))
 
 

@@ -22,6 +22,8 @@ struct RepresentationList {
         (visit.template operator()<R>(), ...);
     }
     static std::vector<std::string> names() { return {std::string(R::name)...}; }
+    template <template <class...> class List>
+    using In = List<R...>;
 };
 
 using Representations = RepresentationList<Sh4, Tensor4, Su2, Odeco, Sh469>;
