@@ -1,6 +1,6 @@
 """Which discrete schemes on the SU(2) invariants are consistent: bar, cube, starts, the thesis's attempts, balls.
 
-    python studies/su2_consistency.py -o DIR [--parts bar,cube,starts,thesis,ball] [--schemes sh4,geodesic,...]
+    python studies/su2_consistency.py -o DIR [--parts bar,cube,starts,thesis,line,ball] [--schemes sh4,geodesic,...]
     [--amplitude 1] [--balls FILE.mesh.gz ...]
 
 Write-up: docs/su2_smoothing.md. DIR gets a CSV file and a markdown table per part, and the figures su2_*.png. --balls:
@@ -18,13 +18,24 @@ import su2_limits
 import su2_thesis
 from octafield.view.plots import PALETTE
 from study_output import markdown_table, new_figure, save_figure, with_grid, write_csv
-from su2_problems import Problem, ball, bar, cube, grid_values, minimise, on_cells, random_representatives
+from su2_problems import (
+    Problem,
+    ball,
+    bar,
+    cube,
+    grid_values,
+    line_of,
+    minimise,
+    on_cells,
+    random_representatives,
+    singular_line,
+)
 
 SCHEMES = ("sh4", "geodesic", "su2_geodesic", "su2_surface", "su2_midpoint", "su2_symmetric", "su2_frozen", "su2")
 COLOURS = dict(zip(SCHEMES, ("black", *PALETTE)))
 SIZES, FINE = (4, 8, 12, 16), 48
 LIMITS = (10, 20, 30, 40, np.inf)  # degrees
-PARTS = ("bar", "cube", "starts", "thesis", "ball")
+PARTS = ("bar", "cube", "starts", "thesis", "line", "ball")
 
 
 def degrees(a: np.ndarray, b: np.ndarray, where: np.ndarray) -> np.ndarray:
@@ -224,6 +235,25 @@ def study_thesis(folder: Path) -> None:
     save(folder, "thesis", ["scheme", "n", "mean from sh4", "max from sh4", "E / E(sh4) - 1"], rows)
 
 
+def study_line(folder: Path) -> None:
+    """Away from a singular line: at free vertices a quarter of the cube or more from it."""
+    sizes = (5, 9, 13, 17)
+    rows = []
+    for scheme in ("sh4", "geodesic", "su2_midpoint"):
+        means, largest = [], []
+        for n in sizes:
+            problem = singular_line(n)
+            assert problem.target is not None
+            result = minimise(problem, scheme, problem.target, 1e-10)
+            far = np.linalg.norm(np.asarray(problem.mesh.vertices)[problem.free, :2] - line_of(n), axis=1) > 0.25
+            away = degrees(result.frames, problem.target, problem.free[far])
+            means.append(away.mean())
+            largest.append(away.max())
+        slopes = (-np.polyfit(np.log(sizes), np.log(values), 1)[0] for values in (means, largest))
+        rows.append([scheme, *(f"{m:.3f} ({x:.2f})" for m, x in zip(means, largest)), *(f"{s:.1f}" for s in slopes)])
+    save(folder, "line", ["scheme", *(f"n = {n}" for n in sizes), "order of means", "of maxima"], rows)
+
+
 def study_ball(folder: Path, paths: list[Path], names: list[str]) -> None:
     schemes = [
         ("sh4", {}),
@@ -337,6 +367,7 @@ def main() -> None:
         "cube": lambda folder: study_cube(folder, args.amplitude, schemes),
         "starts": lambda folder: study_starts(folder, without_symmetric),
         "thesis": study_thesis,
+        "line": study_line,
         "ball": lambda folder: study_ball(folder, args.balls, schemes),
     }
     for part in parts:

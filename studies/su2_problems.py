@@ -94,6 +94,26 @@ def cube(family: str, n: int, amplitude: float = 1) -> Problem:
     )
 
 
+def singular_line(n: int) -> Problem:
+    """Kuhn cube round a singular line along z, at the same place of its cell for every n: frames turn by a quarter
+    of the angle about the line, the harmonic map away from it, and are held on the boundary."""
+    mesh = kuhn_grid(n, n, n, 1 / n)
+    points = np.asarray(mesh.vertices)
+    x, y = (points[:, :2] - line_of(n)).T
+    turned = octafield.frames.quaternion_exp(np.stack([0 * x, 0 * x, np.arctan2(y, x) / 4], 1))
+    # From the left: far from the axes that su2 singles out.
+    first = np.repeat(octafield.frames.quaternion_exp(np.array([[0.7, 0.4, -0.3]])), len(points), axis=0)
+    frames = quaternion_product(first, turned)
+    boundary = np.asarray(octafield.volume.boundary_surface(mesh).vertex_map)
+    free = np.setdiff1d(np.arange(len(frames)), boundary)
+    return Problem(f"line n = {n}", 1 / n, mesh, held(mesh, frames, boundary), frames, free)
+
+
+def line_of(n: int) -> np.ndarray:
+    """x and y of the singular line: 0.3 and 0.2 cells from the middle of the cube, n odd."""
+    return np.array([0.5, 0.5]) + np.array([0.3, 0.2]) / n
+
+
 def bar(cells: int, ends: np.ndarray) -> Problem:
     """[0, 1] x [0, 2 / cells]^2 with frames held at x = 0 and x = 1 only: a problem in one dimension."""
     mesh = kuhn_grid(cells, 2, 2, 1 / cells)
