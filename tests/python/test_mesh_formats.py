@@ -153,7 +153,9 @@ def test_a_format_that_would_hide_another_or_holds_nothing_is_refused(changes, w
     assert dict(of.mesh_formats) == before
 
 
-def test_the_longest_suffix_decides(tet):
+def test_the_longest_suffix_decides(tet, monkeypatch):
+    monkeypatch.setitem(registry.MESH_FORMATS, "long", of.MeshFormat("long", (".my.vtk",), "long", ("tets",)))
+    assert registry.find_mesh_format("a.my.vtk.gz").name == "long"
     assert registry.find_mesh_format(Path("a.mesh")).name == "mesh"
     assert registry.find_mesh_format(Path("a.MESHB.gz")).name == "meshb"
     assert registry.find_mesh_format("x/b.tet").suffix_of("x/b.tet") == ".tet"
