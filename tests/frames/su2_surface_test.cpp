@@ -105,16 +105,15 @@ TEST(Su2Surface, LogIsTheRotationVectorOfTheShortestGeodesic) {
             ++asked;
             if (!turn) continue;
             ++found;
+            // Frames turned far can be near by another way.
             EXPECT_NEAR(turn->norm(), distance(frames[i], q), 3e-8);
+            EXPECT_LT(turn->norm(), 40 * degree);
             if (angle < 45) {
                 EXPECT_LT((*turn - w).norm(), 3e-8);
             }
         }
         const double share = angle <= 15 ? 1 : angle <= 20 ? 0.95 : 0;
         EXPECT_GE(found, share * asked) << angle;
-        if (angle > 40) {
-            EXPECT_EQ(found, 0) << angle;
-        }
     }
 }
 

@@ -26,7 +26,7 @@ struct Scheme {
     SchemeSort sort;
     std::string equation;  // what is minimised, one line
     std::string meaning;   // one clause for tables
-    // The harmonic field of the angle metric is its limit on refined meshes, at second order away from singular curves.
+    // The harmonic field of the angle metric is its limit on refined meshes, at second order without singular curves.
     bool consistent;
     bool descends;                      // no step raises the objective
     std::vector<SchemeSolver> solvers;  // those that go with it; the first is the default
