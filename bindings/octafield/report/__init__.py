@@ -8,6 +8,7 @@ The page is made from the records (result.json) of the runs, and from the files 
 """
 
 from .numbers.records import Run
-from .writer import PAGE_FILE, Report, write_report
+from .page.render import Report
+from .writer import PAGE_FILE, write_report
 
 __all__ = ["PAGE_FILE", "Report", "Run", "write_report"]
