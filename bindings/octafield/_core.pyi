@@ -1906,9 +1906,9 @@ def surface_constraints(
     domain: TetDomain | TetMesh,
     cross: DirectionField,
     *,
-    sites: str = ...,
     mode: str = ...,
     feature_tolerance: float = ...,
+    sites: str = ...,
 ) -> BoundaryConstraints: ...
 def analyse_field(domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0) -> FieldAnalysis: ...
 def analyse_tet_field(
@@ -1917,8 +1917,6 @@ def analyse_tet_field(
 def computed_field(
     domain: TetDomain | TetMesh,
     *,
-    constraints: VertexConstraints | None = None,
-    progress: Progress | None = None,
     mode: str = ...,
     feature_tolerance: float = ...,
     start: str = ...,
@@ -1938,12 +1936,12 @@ def computed_field(
     tolerance: float = ...,
     linear_solver: str = ...,
     midpoint_limit: float = ...,
+    constraints: VertexConstraints | None = None,
+    progress: Progress | None = None,
 ) -> ComputedField: ...
 def computed_tet_field(
     domain: TetDomain | TetMesh,
     *,
-    constraints: VertexConstraints | None = None,
-    progress: Progress | None = None,
     mode: str = ...,
     feature_tolerance: float = ...,
     start: str = ...,
@@ -1963,6 +1961,8 @@ def computed_tet_field(
     tolerance: float = ...,
     linear_solver: str = ...,
     midpoint_limit: float = ...,
+    constraints: VertexConstraints | None = None,
+    progress: Progress | None = None,
 ) -> ComputedTetField: ...
 
 class QuadMesh:

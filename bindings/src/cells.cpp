@@ -1,4 +1,6 @@
 // Meshes of mixed cells and surfaces of quads.
+#include <pybind11/stl/filesystem.h>
+
 #include "arrays.hpp"
 #include "bind.hpp"
 #include "checks.hpp"

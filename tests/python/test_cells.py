@@ -28,7 +28,7 @@ def mixed():
     ]  # fmt: skip
     return MixedMesh(
         points,
-        tets=[[6, 5, 8, 11]],
+        tets=[[5, 6, 8, 11]],
         hexahedra=[[0, 1, 2, 3, 4, 5, 6, 7]],
         wedges=[[1, 5, 9, 2, 6, 10]],
         pyramids=[[4, 5, 6, 7, 8]],
@@ -110,13 +110,19 @@ def test_other_programs_read_the_files(tmp_path, mixed, suffix):
     found = meshio.read(path)
     np.testing.assert_array_equal(found.points, mixed.vertices)
     for name, kind in MESHIO.items():
-        np.testing.assert_array_equal(found.cells_dict[kind], getattr(mixed, name))
+        cells = np.asarray(getattr(mixed, name))
+        if suffix == ".vtu" and kind == "wedge":  # meshio takes the other way of VTK's documentation
+            cells = cells[:, [0, 2, 1, 3, 5, 4]]
+        np.testing.assert_array_equal(found.cells_dict[kind], cells)
     if suffix == ".vtu":
         grid = pyvista.read(path)
-        np.testing.assert_array_equal(grid.cell_data["scaled_jacobian"], of.volume.scaled_jacobians(mixed))
+        ours = of.volume.scaled_jacobians(mixed)
+        np.testing.assert_array_equal(grid.cell_data["scaled_jacobian"], ours)
+        np.testing.assert_allclose(grid.cell_quality("scaled_jacobian").cell_data["scaled_jacobian"], ours)
+        np.testing.assert_allclose(grid.compute_cell_sizes()["Volume"], of.volume.cell_volumes(mixed))
 
 
-@pytest.mark.parametrize("suffix", [".vtk", ".vtu", ".msh", ".mesh"])
+@pytest.mark.parametrize("suffix", [".vtk", ".vtu", ".mesh"])
 def test_files_of_other_programs_are_read(tmp_path, mixed, suffix):
     blocks = [(kind, np.asarray(getattr(mixed, name))) for name, kind in reversed(MESHIO.items())]
     blocks.append(("triangle", np.array([[4, 5, 8]])))  # of the boundary

@@ -56,6 +56,8 @@ def read_cells(path: str | Path) -> MixedMesh | QuadMesh:
         for kind, name in kinds.items()
         if any(of == kind for of, _ in blocks)
     }
+    if "wedges" in arrays and suffix in (".vtk", ".vtu"):
+        arrays["wedges"] = _either_way(points, arrays["wedges"])
     if not arrays:
         raise InvalidInput(f"{path}: holds no cells", "no_cells")
     make: Callable[..., MixedMesh | QuadMesh] = MixedMesh if solid else QuadMesh
@@ -102,6 +104,17 @@ def _plain(kind: str, cells: np.ndarray) -> tuple[str, np.ndarray]:
         return kind, cells
     plain, order = _OF_RASTER[kind]
     return plain, cells[:, order]
+
+
+def _either_way(points: np.ndarray, wedges: np.ndarray) -> np.ndarray:
+    """VTK's documentation (and meshio) numbers wedges the other way round than its measures (and Gmsh) do; taken is
+    the way in which most are not inverted."""
+    if len(wedges) and (wedges.min() < 0 or wedges.max() >= len(points)):
+        return wedges  # for the tests of the mesh to name
+    origin, *ends = (points[wedges[:, corner]] for corner in (0, 1, 2, 3))
+    first, second, third = (end - origin for end in ends)
+    turned = np.einsum("ij,ij->i", np.cross(first, second), third) < 0
+    return wedges[:, [0, 2, 1, 3, 5, 4]] if turned.sum() > len(wedges) / 2 else wedges
 
 
 def _write(path: Path, suffix: str, mesh: MixedMesh | QuadMesh) -> None:
