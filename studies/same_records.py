@@ -19,7 +19,14 @@ from typing import Any
 
 DATA = Path(__file__).resolve().parents[1] / "../shared/data"
 TETS = ("s01c", "s03c", "s04c", "s05c", "s07c", "s10c", "s12c", "s14c", "s15c", "s17c", "i10c", "i11c")
-SURFACES = ("s01_surface.stl", "s04_surface.obj", "i10_surface.stl")
+SURFACES = (
+    "s01_surface.stl",
+    "s04_surface.obj",
+    "i10_surface.stl",
+    "s15_surface.stl",
+    "s16_surface.stl",
+    "s17_surface.obj",
+)
 NOT_COMPARED = {
     "version", "wall_seconds", "cpu_seconds", "peak_mb", "seconds", "input", "files", "commit", "machine",
     "created", "began", "ended",
