@@ -964,6 +964,9 @@ class SizeFieldOptions:
         max_cells: float = ...,
     ) -> None: ...
 
+direction_field_methods: dict[str, str]
+"""What each method for direction fields is, by its name."""
+
 class DirectionFieldOptions:
     words: ClassVar[dict[str, list[str]]]
     symmetry: int

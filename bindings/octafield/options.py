@@ -27,7 +27,7 @@ REPAIR_LEVELS = ("none", "merge", "safe", "fill", "resolve", "wrap")  # each doe
 REPAIRS = ("default", *REPAIR_LEVELS)
 LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
 LARGEST_SYMMETRY = 1000  # largest_symmetry of direction_field.hpp
-METHODS = tuple(_core.DirectionFieldOptions.words["method"])
+METHODS = dict(_core.direction_field_methods)  # with what each is
 ALIGNMENTS = tuple(_core.DirectionFieldOptions.words["boundary_alignment"])
 
 # The structs of the compiled module, whose defaults are those of the classes below.
@@ -149,8 +149,8 @@ class MeshOptions:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class SurfaceFieldOptions(MeshOptions):
-    """Of an N-direction field on a surface: symmetry is N, method "gl", "mbo" or "eigen",
-    epsilon the coherence length (0: default).
+    """Of an N-direction field on a surface: symmetry is N, method a key of
+    octafield.surface.direction_field_methods, epsilon the coherence length (0: default).
 
     boundary_alignment, feature_alignment: how the field follows the rim of an open surface, and feature edges inside:
         "strong", "weak" (singular points may sit there), "none".

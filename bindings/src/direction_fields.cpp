@@ -59,6 +59,9 @@ void bind_direction_field(py::module_& m) {
         "constraints: DirectionConstraints; guide: DirectionGuide.\n\n"
         "Cancelled by progress, the best state is returned with converged False. Raises InvalidInput, GeometryError, "
         "SolverError.");
+    py::dict methods;
+    for (const auto& [name, meaning] : direction_field_methods()) methods[py::str(name)] = meaning;
+    m.attr("direction_field_methods") = methods;
     list_options<DirectionFieldOptions>(m, "direction_field");
 }
 

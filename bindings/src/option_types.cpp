@@ -95,8 +95,7 @@ void bind_of_surfaces(py::module_& m) {
     Record<DirectionFieldOptions>(m, "DirectionFieldOptions",
                                   "Options of direction_field: its keyword arguments, with their defaults.")
         .field("symmetry", &DirectionFieldOptions::symmetry, "N: 4 for crosses.")
-        .field("method", &DirectionFieldOptions::method,
-               "\"gl\" (Ginzburg-Landau), \"mbo\" (diffusion and projection) or \"eigen\" (the globally smoothest).")
+        .field("method", &DirectionFieldOptions::method, "A key of direction_field_methods.")
         .field("epsilon", &DirectionFieldOptions::epsilon, "Coherence length, input unit; 0: from the edge length.")
         .field("edge_epsilon", &DirectionFieldOptions::edge_epsilon, "(E,) one per edge in its place, or none.")
         .field("first_epsilon", &DirectionFieldOptions::first_epsilon,
@@ -118,7 +117,7 @@ void bind_of_surfaces(py::module_& m) {
         .field("constraints", &DirectionFieldOptions::constraints, "DirectionConstraints.")
         .field("guide", &DirectionFieldOptions::guide, "DirectionGuide.")
         .finish([](const DirectionFieldOptions& o) {
-            return "symmetry=" + std::to_string(o.symmetry) + ", method='" + to_word(o.method) + "'";
+            return "symmetry=" + std::to_string(o.symmetry) + ", method='" + o.method + "'";
         });
 }
 

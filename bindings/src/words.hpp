@@ -23,13 +23,6 @@ template <class Enum>
 struct Words;
 
 template <>
-struct Words<surface::DirectionFieldMethod> {
-    using E = surface::DirectionFieldMethod;
-    static constexpr std::array<std::pair<const char*, E>, 3> list{
-        {{"gl", E::gl}, {"mbo", E::mbo}, {"eigen", E::eigen}}};
-};
-
-template <>
 struct Words<surface::Alignment> {
     using E = surface::Alignment;
     static constexpr std::array<std::pair<const char*, E>, 3> list{

@@ -52,7 +52,7 @@ def test_a_function_refuses_what_is_no_option(function):
     box = generate("box")
     arguments = {
         "detect_features": [box], "remesh": [box, of.FeatureGraph()], "size_field": [box, of.FeatureGraph()],
-        "direction_field": [box, of.FeatureGraph()],
+        "direction_field": [box],
     }  # fmt: skip
     tets = of.volume.tetrahedralize(box)
     given = arguments.get(function) or (
@@ -69,7 +69,7 @@ def test_a_function_refuses_what_is_no_option(function):
 
 def test_words_are_those_of_the_command_line():
     assert of.volume.SmoothOptions.words["solver"] == ["default", "trust_region", "levenberg_marquardt", "lbfgs"]
-    assert of.surface.DirectionFieldOptions.words["method"] == ["gl", "mbo", "eigen"]
+    assert list(of.surface.direction_field_methods) == ["gl", "mbo", "eigen"]
     with pytest.raises(of.InvalidInput, match="default, trust_region"):
         of.volume.SmoothOptions(solver="automatic")
 

@@ -6,12 +6,15 @@
 namespace octafield::surface {
 namespace {
 
-const std::vector<DirectionFieldMethod> methods = {DirectionFieldMethod::gl, DirectionFieldMethod::mbo,
-                                                   DirectionFieldMethod::eigen};
+const std::vector<std::string> methods = [] {
+    std::vector<std::string> names;
+    for (const DirectionFieldMethod& method : direction_field_methods()) names.push_back(method.name);
+    return names;
+}();
 
 // All methods, even symmetries and ways to follow the boundary give unit directions and the right sum of indices.
 void expect_sound_fields(const TriangleMesh& mesh, const FeatureGraph& features = {}) {
-    for (const DirectionFieldMethod method : methods)
+    for (const std::string& method : methods)
         for (const int symmetry : {2, 4, 6})
             for (const Alignment boundary : {Alignment::strong, Alignment::weak, Alignment::none}) {
                 const DirectionField field = direction_field(
@@ -102,7 +105,7 @@ TEST(HardSurfaces, TrianglesTooThinForDoublePrecisionAreNamed) {
     mesh.triangles.row(t) << a, b, count;
     mesh.triangles.row(triangles) << b, c, count;
     mesh.triangles.row(triangles + 1) << c, a, count;
-    for (const DirectionFieldMethod method : methods) {
+    for (const std::string& method : methods) {
         try {
             const DirectionField field = direction_field(mesh, {.method = method});
             EXPECT_TRUE(surface_singularities(field).agree);
@@ -138,7 +141,7 @@ TEST(HardSurfaces, PiecesClosedAndOpenAndTouchingHaveFields) {
     // Two triangles with one vertex in common, where only boundary edges meet: each part has its own.
     const TriangleMesh touching =
         make_mesh({{0, 0, 0}, {1, -0.5, 0}, {1, 0.5, 0}, {-1, 0.5, 0}, {-1, -0.5, 0}}, {{0, 1, 2}, {0, 3, 4}});
-    for (const DirectionFieldMethod method : methods) {
+    for (const std::string& method : methods) {
         const SurfaceSingularities found = surface_singularities(direction_field(touching, {.method = method}));
         EXPECT_TRUE(found.agree);
         EXPECT_EQ(found.euler_characteristic, 2);
@@ -199,7 +202,7 @@ TEST(HardFeatures, CornersOfAnyAngleHaveTheirNearestIndex) {
                     mesh.triangles.row(next++) << id(r - 1, s), id(r, s + 1), id(r - 1, s + 1);
                 }
             }
-        for (const DirectionFieldMethod method : methods) {
+        for (const std::string& method : methods) {
             const DirectionField field = direction_field(mesh, {.method = method});
             const SurfaceSingularities found = surface_singularities(field);
             EXPECT_TRUE(found.agree) << degrees;
@@ -226,7 +229,7 @@ std::string refusal(const DirectionFieldOptions& options) {
 }
 
 TEST(HardNumbers, LengthsBeyondTheScaleOfTheMeshAreRefused) {
-    for (const DirectionFieldMethod method : methods) {
+    for (const std::string& method : methods) {
         EXPECT_EQ(refusal({.method = method, .epsilon = 1e300}), "bad_epsilon");
         EXPECT_NE(refusal({.method = method, .epsilon = 1e-300}), "");
         Eigen::VectorXd lengths = Eigen::VectorXd::Constant(edge_topology(disk(4)).edges.rows(), 0.3);
@@ -238,7 +241,7 @@ TEST(HardNumbers, LengthsBeyondTheScaleOfTheMeshAreRefused) {
 TEST(HardNumbers, GuidesWithoutALengthOrAWeightToComputeWithAreRefused) {
     const Eigen::Index triangles = disk(4).triangles.rows();
     const Points x = Eigen::RowVector3d(1, 0, 0).replicate(triangles, 1);
-    for (const DirectionFieldMethod method : methods) {
+    for (const std::string& method : methods) {
         EXPECT_EQ(refusal({.method = method, .guide = {x, {}, 1e-200}}), "option_out_of_range");
         EXPECT_EQ(refusal({.method = method, .guide = {x, {}, 1e200}}), "option_out_of_range");
     }
@@ -248,7 +251,7 @@ TEST(HardNumbers, WeightsTooSmallToCountAreNone) {
     const TriangleMesh mesh = plate(6, [](double, double) { return true; });
     const Points x = Eigen::RowVector3d(1, 0, 0).replicate(mesh.triangles.rows(), 1);
     const Eigen::VectorXd tiny = Eigen::VectorXd::Constant(mesh.triangles.rows(), 1e-300);
-    for (const DirectionFieldMethod method : methods) {
+    for (const std::string& method : methods) {
         const DirectionField weak = direction_field(
             mesh, {.method = method, .boundary_alignment = Alignment::weak, .alignment_length = 1e-300});
         const DirectionField guided =

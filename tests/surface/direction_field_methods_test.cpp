@@ -4,10 +4,10 @@
 namespace octafield::surface {
 namespace {
 
-constexpr auto mbo = DirectionFieldMethod::mbo;
-constexpr auto eigenvector = DirectionFieldMethod::eigen;
+constexpr const char* mbo = "mbo";
+constexpr const char* eigenvector = "eigen";
 
-DirectionField computed(const TriangleMesh& mesh, DirectionFieldMethod method, int symmetry = 4) {
+DirectionField computed(const TriangleMesh& mesh, const std::string& method, int symmetry = 4) {
     return direction_field(mesh, {.symmetry = symmetry, .method = method});
 }
 
@@ -161,13 +161,13 @@ TEST(DiffusedField, CancellingKeepsAField) {
 
 TEST(EveryMethod, GivesTheSameBitsForTheSameInput) {
     const TriangleMesh mesh = icosphere(3);
-    for (const auto method : {mbo, eigenvector, DirectionFieldMethod::gl})
+    for (const auto method : {mbo, eigenvector, "gl"})
         EXPECT_TRUE(computed(mesh, method).values == computed(mesh, method).values);
 }
 
 TEST(EveryMethod, DoesNotDependOnTheLengthUnit) {
     const TriangleMesh unit = disk(12);
-    for (const auto method : {mbo, eigenvector, DirectionFieldMethod::gl})
+    for (const auto method : {mbo, eigenvector, "gl"})
         for (const auto boundary : {Alignment::strong, Alignment::weak}) {
             const DirectionFieldOptions options{.method = method, .boundary_alignment = boundary};
             const double energy = direction_field(unit, options).energy;
@@ -193,7 +193,7 @@ TEST(EveryMethod, TakesStripsOneTriangleWideAndNeedles) {
     needles.vertices.col(1) *= 1e-4;
     TriangleMesh squashed = icosphere(3);
     squashed.vertices.col(2) *= 1e-3;
-    for (const auto method : {mbo, eigenvector, DirectionFieldMethod::gl})
+    for (const auto method : {mbo, eigenvector, "gl"})
         for (const TriangleMesh& mesh : {strip, needles, squashed}) {
             const DirectionField field = computed(mesh, method);
             EXPECT_TRUE(field.values.array().isFinite().all());

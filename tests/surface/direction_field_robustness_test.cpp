@@ -37,9 +37,7 @@ TEST(DirectionField, TheEigenvectorDoesNotDependOnEpsilon) {
     TriangleMesh small = icosphere(2);
     small.vertices *= 1e-5;
     const TriangleMesh mesh = joined({torus(20, 12, 1, 0.4), small});
-    const auto at = [&](double epsilon) {
-        return direction_field(mesh, {.method = DirectionFieldMethod::eigen, .epsilon = epsilon});
-    };
+    const auto at = [&](double epsilon) { return direction_field(mesh, {.method = "eigen", .epsilon = epsilon}); };
     const DirectionField usual = at(0);
     for (const double epsilon : {1e-12, 1e-6, 1e6}) EXPECT_TRUE(at(epsilon).values == usual.values);
     // 8 singular points each turn by 1/4 on the sphere; a random field has hundreds.
@@ -48,7 +46,7 @@ TEST(DirectionField, TheEigenvectorDoesNotDependOnEpsilon) {
 
 TEST(DirectionField, SmallEpsilonKeepsTheSmoothestFieldsPoints) {
     const TriangleMesh mesh = icosphere(3);
-    const DirectionField smoothest = direction_field(mesh, {.method = DirectionFieldMethod::eigen});
+    const DirectionField smoothest = direction_field(mesh, {.method = "eigen"});
     const DirectionField field = direction_field(mesh, {.epsilon = mean_edge_length(mesh) / 50});
     EXPECT_LE(surface_singularities(field).points.size(), 10u);
     EXPECT_LE(field.dirichlet_energy, smoothest.dirichlet_energy);

@@ -217,7 +217,8 @@ TEST(Remesh, RipplesFinerThanTheEdgesAreToldAndSmoothSurfacesAreNot) {
     TriangleMesh ring = torus(240, 96, 1, 0.4);
     for (Index v = 0; v < ring.vertices.rows(); ++v) ring.vertices.row(v) *= 1 + 0.004 * (v % 2 ? 1 : -1);
     const auto told = [](const RemeshResult& result) {
-        return std::ranges::any_of(result.notes, [](const std::string& note) { return note.find("flattened") != note.npos; });
+        return std::ranges::any_of(result.notes,
+                                   [](const std::string& note) { return note.find("flattened") != note.npos; });
     };
     EXPECT_TRUE(told(remesh(ring, {Edges(0, 2), {}}, {.edge_length = 0.1})));
     EXPECT_FALSE(told(remesh(torus(240, 96, 1, 0.4), {Edges(0, 2), {}}, {.edge_length = 0.1})));

@@ -115,7 +115,8 @@ TEST(SizeField, TurnsAndGrowsWithTheSurface) {
     TriangleMesh there = here;
     there.vertices *= Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     there.vertices = (1e3 * there.vertices).rowwise() + Eigen::RowVector3d(500, -300, 70);
-    EXPECT_LT((size_field(there, kNone).lengths - 1e3 * lengths).cwiseAbs().maxCoeff(), 1e-6 * lengths.maxCoeff() * 1e3);
+    EXPECT_LT((size_field(there, kNone).lengths - 1e3 * lengths).cwiseAbs().maxCoeff(),
+              1e-6 * lengths.maxCoeff() * 1e3);
 }
 
 TEST(SizeField, StaysWithinTheCellsAskedForAndSaysWhatTheyCost) {

@@ -208,7 +208,7 @@ TEST(Streamlines, NoneIsStuckOnRealSurfaces) {
         const TriangleMesh mesh = read_surface(folder / (std::string(name) + "_surface.obj"));
         const FeatureGraph features = detect_features(mesh);
         DirectionFieldOptions options;
-        options.method = DirectionFieldMethod::eigen;
+        options.method = "eigen";
         const DirectionField field = direction_field({mesh, features}, options);
         const SurfaceSingularities found = surface_singularities(field);
         EXPECT_TRUE(found.agree);

@@ -161,7 +161,7 @@ Method = Annotated[
     typer.Option(
         metavar=choices(METHODS),
         autocompletion=words(METHODS),
-        help="gl: Ginzburg-Landau; mbo: diffusion, faster; eigen: smoothest eigenvector.",
+        help=f"{'; '.join(f'{name}: {meaning}' for name, meaning in METHODS.items())}.",
     ),
 ]
 Epsilon = Annotated[float, typer.Option(metavar="E", help="Coherence length, input unit; 0: from the edge length.")]

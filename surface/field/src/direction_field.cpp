@@ -8,6 +8,7 @@
 
 #include "alignment.hpp"
 #include "angle_descent.hpp"
+#include "continuation.hpp"
 #include "definiteness.hpp"
 #include "ginzburg_landau.hpp"
 #include "mbo.hpp"
@@ -22,6 +23,18 @@ using namespace detail;
 
 // A component whose |f| is below this everywhere has collapsed: minimisers that have not come near 1 somewhere.
 constexpr double least_length = 0.1;
+
+class Solver;
+
+struct Method {
+    DirectionFieldMethod known;
+    bool wants_epsilon;  // on the scale of the edges: its singular points have cores
+    // From the eigenvector field, with its diffusion; and from a field |f| = 1 (E) to the local minimum beside it,
+    // without diffusion and continuation, or nothing, where there is no such minimum.
+    void (*run)(Solver& solver);
+    void (*run_from)(Solver& solver);
+};
+const Method& method_of(const DirectionFieldOptions& options);  // throws InvalidInput that lists the names
 
 void require_usable(const SurfaceDomain& domain, const DirectionFieldOptions& options) {
     const auto is_length = [](double length) { return length >= 0 && std::isfinite(length); };
@@ -39,6 +52,7 @@ void require_usable(const SurfaceDomain& domain, const DirectionFieldOptions& op
         throw InvalidInput("least_feature_angle must be an angle in radians, 0 or more");
     if (!(options.corner_tolerance >= 0 && options.corner_tolerance <= 1))
         throw InvalidInput("corner_tolerance must lie between 0 and 1");
+    method_of(options);
     if (domain.triangle_count() == 0) throw GeometryError("the surface has no triangles", "empty");
 }
 
@@ -51,7 +65,7 @@ double smallest_free_size(const Components& components) {
 }
 
 void require_not_below_edges(const DirectionFieldOptions& options, double epsilon, double mean) {
-    if (options.method != DirectionFieldMethod::gl || epsilon >= mean / 100) return;
+    if (!method_of(options).wants_epsilon || epsilon >= mean / 100) return;
     throw InvalidInput(
         "an epsilon of " + short_number(epsilon) + " is below 1/100 of the mean edge length, " + short_number(mean) +
             ": singular points would stay where they start; choose 1/100 or more, 2 mean edge lengths are usual, "
@@ -116,35 +130,7 @@ void require_not_collapsed(const DirectionField& field, const Components& compon
                       "epsilon_too_large", triangles);
 }
 
-constexpr double continuation_ratio = 5;  // at most
 constexpr double stage_tolerance = 1e-4;  // of residual and energy, before the last stage
-
-// Coherence lengths, one (E) array after the other, the last as given.
-std::vector<Eigen::VectorXd> continuation(const Eigen::VectorXd& epsilon, double first, const Components& components) {
-    const double widest = *std::max_element(components.sizes.begin(), components.sizes.end()) / 10;
-    if (first == 0 || first > widest) first = widest;
-    const double fall = first / epsilon.minCoeff();
-    const int steps = fall > 1 ? static_cast<int>(std::ceil(std::log(fall) / std::log(continuation_ratio) - 1e-9)) : 0;
-    std::vector<Eigen::VectorXd> stages;
-    for (int i = 0; i < steps; ++i) {
-        const double least = first * std::pow(fall, -static_cast<double>(i) / steps);
-        stages.push_back(epsilon);
-        for (Eigen::Index e = 0; e < epsilon.size(); ++e)
-            stages.back()[e] = std::max(epsilon[e], std::min(least, components.sizes[components.of_edge[e]] / 10));
-    }
-    stages.push_back(epsilon);
-    return stages;
-}
-
-// Narrows the cores of singular points to a smaller epsilon: their profile is about |f| = s / sqrt(s^2 + c) with s the
-// distance in epsilons and some constant c, so s times q makes it q |f| / sqrt(1 + (q^2 - 1) |f|^2).
-void narrow_cores(Eigen::VectorXcd& values, const std::vector<bool>& is_held, const Eigen::VectorXd& from,
-                  const Eigen::VectorXd& to) {
-    for (Eigen::Index e = 0; e < values.size(); ++e) {
-        const double q = from[e] / to[e], square = std::min(1.0, std::norm(values[e]));
-        if (!is_held[e]) values[e] *= q / std::sqrt(1 + (q * q - 1) * square);
-    }
-}
 
 // Everything a field is computed from, and the computation of its values.
 class Solver {
@@ -175,19 +161,22 @@ public:
     }
 
     void run();
-    // The same from a field |f| = 1 (E): to the local minimum beside it, without diffusion and continuation.
     void run_from(const Eigen::VectorXcd& values);
     // Whether a component is free of anything to follow.
     bool has_free_component() const {
         return std::find(components_.anchored.begin(), components_.anchored.end(), false) != components_.anchored.end();
     }
 
+    // What methods are made of.
+    void start(bool diffused);  // the eigenvector field, diffused and projected or not
+    void settle();              // by the angles, to the local minimum beside a field |f| = 1
+    void descend_through_epsilons() { descend(continuation(epsilon_, options_.first_epsilon, components_)); }
+    void descend_at_epsilon() { descend({epsilon_}); }
+
 private:
     Problem problem() const { return {links_, system_, masses_, components_, aligned_.held, aligned_.pull}; }
-    void start();
     void tell();
     void diffuse(const Problem& problem, DiffusionSolver& diffusion);
-    void settle(const Problem& problem);
     void descend(const std::vector<Eigen::VectorXd>& stages);
 
     const DirectionFieldOptions& options_;
@@ -207,11 +196,7 @@ private:
 void Solver::run() {
     field_.values = aligned_.held;
     field_.converged = true;
-    if (system_.size() > 0) {
-        start();
-        if (options_.method == DirectionFieldMethod::gl)
-            descend(continuation(epsilon_, options_.first_epsilon, components_));
-    }
+    if (system_.size() > 0) method_of(options_).run(*this);
     tell();
 }
 
@@ -219,10 +204,7 @@ void Solver::run_from(const Eigen::VectorXcd& values) {
     field_.values = values;
     field_.converged = true;
     order_ = system_.elimination_order();
-    if (options_.method == DirectionFieldMethod::gl)
-        descend({epsilon_});
-    else
-        settle(problem());
+    method_of(options_).run_from(*this);
     tell();
 }
 
@@ -236,16 +218,12 @@ void Solver::tell() {
 }
 
 // The methods of length 1. Their factorizations are gone before that of the descent needs the memory.
-void Solver::start() {
+void Solver::start(bool diffused) {
     const Problem problem = this->problem();
-    const bool mbo = options_.method == DirectionFieldMethod::mbo;
-    {
-        DiffusionSolver diffusion(system_);
-        order_ = diffusion.order();
-        field_.values = start_field(problem, diffusion, options_.seed, progress_);
-        if (mbo && !cancelled_) diffuse(problem, diffusion);
-    }
-    if (mbo && field_.converged) settle(problem);
+    DiffusionSolver diffusion(system_);
+    order_ = diffusion.order();
+    field_.values = start_field(problem, diffusion, options_.seed, progress_);
+    if (diffused && !cancelled_) diffuse(problem, diffusion);
     field_.converged = field_.converged && !cancelled_;
 }
 
@@ -263,7 +241,8 @@ void Solver::diffuse(const Problem& problem, DiffusionSolver& diffusion) {
 }
 
 // From the projected field to the local minimum beside it.
-void Solver::settle(const Problem& problem) {
+void Solver::settle() {
+    if (!field_.converged) return;
     int steps = 0;
     const auto told = [&](double energy) {
         field_.energy_history.push_back(energy);
@@ -273,7 +252,7 @@ void Solver::settle(const Problem& problem) {
                field_.iterations < options_.max_iterations;
     };
     const bool more = field_.iterations < options_.max_iterations;
-    field_.converged = more && descend_angles(problem, order_, field_.values, options_.seed, told);
+    field_.converged = more && descend_angles(problem(), order_, field_.values, options_.seed, told) && !cancelled_;
 }
 
 // By the coherence lengths of the stages, one after the other.
@@ -307,7 +286,7 @@ std::optional<Eigen::VectorXcd> along_curvature(const SurfaceDomain& domain, con
     const Eigen::VectorXd areas = triangle_areas(domain.mesh());
     if (!(areas.dot(curvature.anisotropy) > least_anisotropy * areas.sum())) return {};
     DirectionFieldOptions guided = options;
-    guided.method = DirectionFieldMethod::eigen;
+    guided.method = "eigen";
     guided.guide = {.directions = curvature.directions, .weights = curvature.anisotropy};
     DirectionField field;
     field.symmetry = options.symmetry;
@@ -336,7 +315,47 @@ void improve_from_curvature(const DirectionFieldOptions& options, DirectionField
     if (other.converged && other.energy < field.energy) field = std::move(other);
 }
 
+// A row each.
+const std::vector<Method>& methods() {
+    static const std::vector<Method> table = {
+        {{"gl", "Ginzburg-Landau"},
+         true,
+         [](Solver& solver) {
+             solver.start(false);
+             solver.descend_through_epsilons();
+         },
+         [](Solver& solver) { solver.descend_at_epsilon(); }},
+        {{"mbo", "diffusion, faster"},
+         false,
+         [](Solver& solver) {
+             solver.start(true);
+             solver.settle();
+         },
+         [](Solver& solver) { solver.settle(); }},
+        {{"eigen", "smoothest eigenvector"}, false, [](Solver& solver) { solver.start(false); }, nullptr},
+    };
+    return table;
+}
+
+const Method& method_of(const DirectionFieldOptions& options) {
+    std::string names;
+    for (const Method& method : methods()) {
+        if (method.known.name == options.method) return method;
+        names += (names.empty() ? "" : ", ") + method.known.name;
+    }
+    throw InvalidInput("method '" + options.method + "' is not one of: " + names, "unknown_word");
+}
+
 }  // namespace
+
+const std::vector<DirectionFieldMethod>& direction_field_methods() {
+    static const std::vector<DirectionFieldMethod> known = [] {
+        std::vector<DirectionFieldMethod> all;
+        for (const Method& method : methods()) all.push_back(method.known);
+        return all;
+    }();
+    return known;
+}
 
 DirectionField direction_field(const SurfaceDomain& domain, const DirectionFieldOptions& options,
                                const Progress& progress) {
@@ -353,7 +372,7 @@ DirectionField direction_field(const SurfaceDomain& domain, const DirectionField
             free = solver.has_free_component();
             solver.run();
         }
-        if (free && field.converged && options.symmetry % 2 == 0 && options.method != DirectionFieldMethod::eigen)
+        if (free && field.converged && options.symmetry % 2 == 0 && method_of(options).run_from)
             improve_from_curvature(options, field, progress);
     });
     return field;

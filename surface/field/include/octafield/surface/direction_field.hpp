@@ -24,18 +24,18 @@
 
 namespace octafield::surface {
 
-enum class DirectionFieldMethod {
-    // Descent on E to a local minimum, from the eigenvector field, with continuation in epsilon.
-    gl,
-    // |f| = 1: globally smoothest (Knoeppel et al. 2013) on components that nothing aligns, the harmonic extension of
-    // what is aligned on the others, scaled to length 1. The start of the other two methods.
-    eigen,
-    // |f| = 1: implicit diffusion and projection in turn, with a falling time step (Merriman, Bence, Osher 1992;
-    // Viertel
-    // and Osting 2019), then descent on 1/2 int |grad f|^2 and the second line of E by the angles of f to a local
-    // minimum, with singular points moved to neighbouring places where that lowers the energy (single edges tried).
-    mbo,
+// A way to a field: a row of the table at the end of direction_field.cpp, from which options, words and help are taken.
+struct DirectionFieldMethod {
+    std::string name;     // DirectionFieldOptions::method
+    std::string meaning;  // one clause
 };
+// gl: descent on E to a local minimum, from the eigenvector field, with continuation in epsilon.
+// mbo: |f| = 1; implicit diffusion and projection in turn, with a falling time step (Merriman, Bence, Osher 1992;
+// Viertel and Osting 2019), then descent on 1/2 int |grad f|^2 and the second line of E by the angles of f to a local
+// minimum, with singular points moved to neighbouring places where that lowers the energy (single edges tried).
+// eigen: |f| = 1; globally smoothest (Knoeppel et al. 2013) on components that nothing aligns, the harmonic extension
+// of what is aligned on the others, scaled to length 1. The start of the other two.
+const std::vector<DirectionFieldMethod>& direction_field_methods();
 
 // How the field follows the mesh boundary or the feature edges inside the surface.
 enum class Alignment {
@@ -48,8 +48,8 @@ enum class Alignment {
 inline constexpr int largest_symmetry = 1000;
 
 struct DirectionFieldOptions {
-    int symmetry = 4;  // N, 1 to largest_symmetry
-    DirectionFieldMethod method = DirectionFieldMethod::gl;
+    int symmetry = 4;           // N, 1 to largest_symmetry
+    std::string method = "gl";  // of direction_field_methods()
     // Coherence length, eps in the thesis, input unit; 0: 2 mean edge lengths, at most 1/10 of the size
     // (shape_size), also of each connected part that nothing aligns as long as that is at least 1/4 of the mean edge
     // length. Below 1/100 of the mean edge length it is refused: the singular points would stay where they start. Where
