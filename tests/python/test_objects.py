@@ -81,7 +81,8 @@ def objects(field, tmp_path_factory):
         of.parameterization_input(tets, frames),
         of.read_frames(folder / "field.npz"), of.analyse(tets, frames),
         of.convert_file(folder / "field.npz", folder / "field.frame"),
-        list(of.frame_formats.values()), list(of.mesh_formats.values()), described, study.plan(described), study.run(described, folder / "study"),
+        list(of.frame_formats.values()), list(of.mesh_formats.values()),
+        described, study.plan(described), study.run(described, folder / "study"),
         *(error("what; the remedy", "a_kind", [1, 2]) for error in (of.Error, of.InvalidInput, of.GeometryError,
             of.SolverError, of.IoError, of.Cancelled)),
     ]  # fmt: skip
