@@ -239,7 +239,7 @@ def main() -> None:
     )
     for points in () if arguments.states_only else (8, 12):
         mesh = torus(arguments.around, arguments.around // 2)
-        _, field, singular, _ = state(mesh, arguments.around, points, PUBLISHED_EPSILON)
+        field, singular, _ = state(mesh, arguments.around, points, PUBLISHED_EPSILON)
         draw_field(
             arguments.output / f"surface_torus_{points}.png",
             mesh,

@@ -165,6 +165,7 @@ def test_reprs_are_one_short_line_with_the_class(cls, objects):
         assert text.startswith(f"{cls.__name__}(") and text.endswith(")")
         assert "\n" not in text and len(text) < 320 and " object at 0x" not in text and "array(" not in text
         assert any(c.isdigit() for c in text) or cls in (
+            of.MeshFormat,  # words and suffixes
             of.MeshOptions,
             of.FieldOptions,
             of.frames.Metric,

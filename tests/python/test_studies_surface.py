@@ -102,8 +102,8 @@ def test_common_energy_does_not_know_which_of_the_four_directions_is_given():
 
 
 def with_values(mesh, symmetry: int, values: np.ndarray):
-    topology = octafield.surface.edge_topology(mesh)
-    return octafield.surface.DirectionField(symmetry=symmetry, topology=topology, values=values)
+    domain = octafield.surface.SurfaceDomain(mesh)
+    return octafield.surface.DirectionField(symmetry=symmetry, domain=domain, values=values)
 
 
 def core(z: np.ndarray) -> np.ndarray:
