@@ -48,6 +48,11 @@ def require_scheme(representation: str | OwnScheme) -> None:
     if is_in_file(representation):
         minimised(representation)
     elif not isinstance(representation, OwnScheme):
+        if isinstance(representation, str) and ".py" in representation:
+            raise InvalidInput(
+                f"representation {representation!r} is not FILE.py:NAME, as ideas.py:bump_scheme",
+                "unknown_option_value",
+            )
         require_one_of("representation", representation, REPRESENTATIONS)
 
 

@@ -33,7 +33,7 @@ from .errors import InvalidInput, IoError
 
 Frames = NDArray[np.float64]  # (k, 4) unit quaternions w x y z
 _IN_FILE = re.compile(r"(?P<path>.+\.py):(?P<name>[A-Za-z_]\w*)")
-_NAME = re.compile(r"[A-Za-z][\w.+-]*")
+_NAME = re.compile(r"[A-Za-z][\w.+-]{0,63}")
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 
@@ -52,14 +52,21 @@ class _Described:
     def _check(self, function: object, what: str, *frames: Frames) -> None:
         if not isinstance(self.name, str) or not _NAME.fullmatch(self.name):
             raise InvalidInput(
-                f"a scheme's name begins with a letter and has letters, digits and _ . + - only, not {self.name!r}",
+                "a scheme's name begins with a letter and has letters, digits and _ . + - only, 64 at most (folders of"
+                f" runs are named after it), not {self.name!r:.100}",
                 "bad_scheme",
             )
         if self.name in _core.schemes:
             raise InvalidInput(f"{self.name!r} is a scheme of octafield's; choose another name", "bad_scheme")
         if not callable(function):
             raise InvalidInput(f"scheme {self.name!r}: {what} must be a function, not {function!r}", "bad_scheme")
-        shape = np.shape(function(*frames))
+        answer = function(*frames)
+        try:
+            shape = np.shape(answer)
+        except ValueError as error:
+            raise InvalidInput(
+                f"scheme {self.name!r}: {what} gave no array of numbers ({error})", "bad_scheme"
+            ) from error
         if len(shape) != 2 or shape[0] != len(frames[0]) or shape[1] < 1:
             raise InvalidInput(
                 f"scheme {self.name!r}: {what} gave an array of shape {shape} for {len(frames[0])} rows of quaternions;"
@@ -68,7 +75,12 @@ class _Described:
             )
         object.__setattr__(self, "dimension", shape[1])
 
-    def _check_colour(self, colour: str) -> None:
+    def _check_rest(self, differential: object, colour: str) -> None:
+        if differential is not None and not callable(differential):
+            raise InvalidInput(
+                f"scheme {self.name!r}: differential must be a function, or None for differences, not {differential!r}",
+                "bad_scheme",
+            )
         if colour and not _COLOUR.fullmatch(colour):
             raise InvalidInput(f"scheme {self.name!r}: colour must be #rrggbb, not {colour!r}", "bad_scheme")
 
@@ -100,7 +112,7 @@ class EmbeddingScheme(_Described):
 
     def __post_init__(self) -> None:
         self._check(self.embed, "embed", _core.random_rotations(3, 1))
-        self._check_colour(self.colour)
+        self._check_rest(self.differential, self.colour)
 
 
 @dataclass(frozen=True, repr=False)
@@ -132,7 +144,7 @@ class EdgeScheme(_Described):
     def __post_init__(self) -> None:
         frames = _core.random_rotations(6, 1)
         self._check(self.residual, "residual", frames[:3], frames[3:])
-        self._check_colour(self.colour)
+        self._check_rest(self.differential, self.colour)
 
 
 OwnScheme = EmbeddingScheme | EdgeScheme
@@ -198,11 +210,19 @@ def _run(path: str, digest: str) -> dict[str, Any]:
     sys.modules[module_name] = module  # dataclasses and pickle look there
     try:
         specification.loader.exec_module(module)
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # sys.exit() would end a command as if it were done
         del sys.modules[module_name]
-        line = _line_in(error, path)
-        raise InvalidInput(f"{path}{line}: the file fails: {type(error).__name__}: {error}", "bad_scheme") from error
+        told = f"{path}{_line_in(error, path)}: the file fails: {type(error).__name__}: {error}{_beside(error, path)}"
+        raise InvalidInput(told, "bad_scheme") from error
     return vars(module)
+
+
+def _beside(error: BaseException, path: str) -> str:
+    """The remedy where a module was not found that lies in the folder of the file: the digest would not know it."""
+    name = error.name if isinstance(error, ModuleNotFoundError) else None
+    if not name or not Path(path).with_name(f"{name}.py").is_file():
+        return ""
+    return f"; a file of schemes stands alone (runs are done again when it changes): put what it needs of {name}.py in"
 
 
 def _line_in(error: BaseException, path: str) -> str:

@@ -153,6 +153,12 @@ def test_cells_that_are_not_linear_and_unknown_files_are_refused(tmp_path, mixed
     for suffix in (".vtu", ".msh", ".mesh"):
         with pytest.raises(of.GeometryError, match="do not exist"):
             of.write_cells(tmp_path / f"lost{suffix}", lost)
+    lost = MixedMesh(np.where(np.arange(len(mixed.vertices))[:, None] == 1, np.nan, mixed.vertices), mixed.tets)
+    for suffix in (".vtu", ".msh", ".mesh", ".meshb"):
+        with pytest.raises(of.GeometryError, match=r"vertex 1 \(from 0\)"):
+            of.write_cells(tmp_path / f"lost{suffix}", lost)
+        with pytest.raises(of.InvalidInput, match="no cells"):
+            of.write_cells(tmp_path / f"lost{suffix}", MixedMesh(mixed.vertices))
     assert not list(tmp_path.glob("lost*"))
     short = tmp_path / "short.mesh.gz"
     short.write_bytes(gzip.compress(b"MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 1\n"))

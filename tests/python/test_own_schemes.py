@@ -136,7 +136,14 @@ def test_wrong_answers_are_told_with_the_name_of_the_scheme(problem):
     def not_finite(frames):
         return np.where(np.arange(len(frames))[:, None] == 5, np.nan, SH4.embed(frames))
 
-    for function, message in ((shrinking, r"'odd'.*expected an array of shape \(\d+, 9\)"), (not_finite, "row 5")):
+    def too_large(frames):
+        return 1e200 * SH4.embed(frames)
+
+    for function, message in (
+        (shrinking, r"'odd'.*expected an array of shape \(\d+, 9\)"),
+        (not_finite, "row 5"),
+        (too_large, "'odd'.*smaller numbers"),
+    ):
         scheme = EmbeddingScheme("odd", function)
         with pytest.raises(octafield.InvalidInput, match=message):
             octafield.run_field(problem, octafield.FieldOptions(representation=scheme))
@@ -151,6 +158,13 @@ def test_wrong_answers_are_told_with_the_name_of_the_scheme(problem):
         (lambda: EmbeddingScheme("mine", lambda q: q[:, 0]), r"shape \(3,\)"),
         (lambda: EdgeScheme("mine", lambda p, q: q[:1] - p[:1]), r"shape \(1, 4\)"),
         (lambda: EmbeddingScheme("mine", SH4.embed, colour="green"), "#rrggbb"),
+        (lambda: EmbeddingScheme("m" * 65, SH4.embed), "64 at most"),
+        (
+            lambda: EmbeddingScheme("mine", lambda q: [[0] * (k + 1) for k in range(len(q))]),
+            "'mine': embed gave no array",
+        ),
+        (lambda: EmbeddingScheme("mine", SH4.embed, differential="x"), "differential must be a function"),
+        (lambda: octafield.FieldOptions(representation="mine.py"), "not FILE.py:NAME"),
         (lambda: octafield.compute_field(generate("box"), by_lbfgs), "trust region"),
         (lambda: octafield.FieldOptions(representation=lambda q: q), "is not one of"),
     ],
@@ -165,8 +179,12 @@ def test_schemes_in_files_are_named_by_file_and_name(tmp_path):
     assert octafield.FieldOptions(representation=word).scheme_name == "bumps"
     bad = tmp_path / "bad.py"
     bad.write_text("x = 1\nraise ValueError('no luck')\n")
+    (tmp_path / "ends.py").write_text("import sys\n\nsys.exit()\n")
+    (tmp_path / "leans.py").write_text("import ends\n")
     for text, error, message in (
         (f"{bad}:scheme", octafield.InvalidInput, "bad.py:2: the file fails: ValueError: no luck"),
+        (f"{tmp_path}/ends.py:scheme", octafield.InvalidInput, "ends.py:3: the file fails: SystemExit"),
+        (f"{tmp_path}/leans.py:scheme", octafield.InvalidInput, "stands alone.*of ends.py in"),
         (f"{tmp_path}/none.py:scheme", octafield.IoError, "none.py: cannot read"),
         (f"{IDEAS}:nothing", octafield.InvalidInput, "schemes in it: bump_scheme, capped_scheme"),
         (f"{IDEAS}:bumps", octafield.InvalidInput, "no EmbeddingScheme"),
@@ -214,6 +232,20 @@ def test_a_comparison_ranks_by_energies_of_ones_own(tmp_path):
             octafield.compare(
                 generate("ball"), tmp_path / "no", representations=["sh4"], energies=energies, options=options
             )
+
+
+def test_names_of_energies_are_text_on_the_page_and_two_schemes_of_one_name_are_refused(tmp_path):
+    def energy(result):
+        return 1.0
+
+    energy.__name__ = "<script>alert(1)</script>"
+    options = octafield.FieldOptions(edge_length=0.6, max_iterations=1)
+    octafield.compare(generate("box"), tmp_path / "out", representations=["sh4"], energies=[energy], options=options)
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "<script>alert" not in page and html.escape(energy.__name__) in page
+    twins = [EmbeddingScheme("twin", SH4.embed), EmbeddingScheme("twin", lambda q: 2 * SH4.embed(q))]
+    with pytest.raises(octafield.InvalidInput, match="'twin' is there twice.*different names"):
+        octafield.compare(generate("box"), tmp_path / "no", representations=twins, options=options)
 
 
 def test_a_study_runs_schemes_in_files_and_knows_when_they_change(tmp_path):

@@ -100,6 +100,7 @@ def test_records_of_the_first_studies_open_and_unknown_names_survive(content, tm
     ("damage", "words"),
     [
         (lambda text: text[:200], "no whole JSON"),
+        (lambda text: "[" * 100_000, "no whole JSON"),
         (lambda text: "[1, 2]", "no JSON object"),
         (lambda text: '{"name": "of another program"}', "input: field required"),
         (lambda text: text.replace('"energy":', '"energie":'), "energy: field required"),

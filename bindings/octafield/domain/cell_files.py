@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _core
 from .._core import MixedMesh, QuadMesh
-from ..errors import InvalidInput, IoError
+from ..errors import GeometryError, InvalidInput, IoError
 from ..files.reading import plain_name, read_bytes, read_text, reading
 from ..files.scratch import through_file
 from ..meshes import grids
@@ -66,7 +66,8 @@ def read_cells(path: str | Path) -> MixedMesh | QuadMesh:
 
 def write_cells(path: str | Path, mesh: MixedMesh | QuadMesh) -> None:
     """Writes by extension: .vtu (with cell data scaled_jacobian), Gmsh .msh (2.2, binary), Medit .mesh or .meshb, also
-    .gz. Raises IoError, GeometryError for ids out of range.
+    .gz. Raises IoError, GeometryError for ids out of range and coordinates that are not finite, and InvalidInput where
+    there are no cells ("no_cells"): no reader takes such files.
 
     >>> import octafield
     >>> cube = octafield.volume.MixedMesh(
@@ -78,7 +79,15 @@ def write_cells(path: str | Path, mesh: MixedMesh | QuadMesh) -> None:
     """
     path = Path(path)
     suffix = _suffix(path, WRITTEN)
-    _core.scaled_jacobians(mesh)  # refuses ids out of range
+    cells = _core.scaled_jacobians(mesh)  # refuses ids out of range
+    if not len(cells):
+        raise InvalidInput(f"{path}: the mesh has no cells; give one at least", "no_cells")
+    lost = np.flatnonzero(~np.isfinite(np.asarray(mesh.vertices)).all(axis=1))
+    if len(lost):
+        raise GeometryError(
+            f"{path}: vertex {lost[0]} (from 0) of {len(lost)} has coordinates that are not finite; correct them",
+            "non_finite_vertex",
+        )
     through_file(path, suffix, lambda plain: _write(plain, suffix, mesh))
 
 

@@ -1,5 +1,6 @@
 """The field of a run: by the whole recipe, or smoothed from frames that are given."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -39,11 +40,22 @@ def smoothed_field(
     how["representation"] = minimised(options.representation)
     how["progress"] = forward(progress, "smooth", 0.0, 1.0)
     if start is not None:
-        return _core.smooth(where, held, fitting_frames(tets, start, options.sampling), **how), 0
+        return _finite(_core.smooth(where, held, fitting_frames(tets, start, options.sampling), **how), options), 0
     how |= {name: getattr(options, name) for name in _OF_ROUNDS}
     begin = "cross_field" if options.boundary == "none" else "constraints"
     found = _core.frame_field(where, held, start=begin, seed=seed, **how)
-    return found.smooth, found.diffusion_steps
+    return _finite(found.smooth, options), found.diffusion_steps
+
+
+def _finite(found: SmoothResult, options: FieldOptions) -> SmoothResult:
+    """Numbers of a user's scheme may be finite and their squares not: nothing was minimised then."""
+    if not math.isfinite(found.objective):
+        raise InvalidInput(
+            f"scheme {options.scheme_name!r}: its energy is {found.objective}: the squares of its numbers are"
+            " beyond a float64; give smaller numbers (lengths near 1)",
+            "bad_scheme",
+        )
+    return found
 
 
 def held_at_start(

@@ -81,7 +81,7 @@ def any_record(path: str | Path) -> AnyRecord:
         content = json.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
         raise IoError(f"{path}: cannot read it ({error.strerror})", "cannot_read") from error
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise IoError(f"{path}: not a record of octafield: no whole JSON ({error}); {_REMEDY}", "bad_record") from error
     return record_of(content, path)
 

@@ -353,8 +353,12 @@ def _check(
         ("boundaries", boundaries),
         ("starts", starts),
     ):
-        if len(set(values)) < len(values):
-            raise InvalidInput(f"{what}: each may be named once only", "repeated_value")
+        twice = next((value for k, value in enumerate(values) if value in values[:k]), None)
+        if twice is not None:
+            raise InvalidInput(
+                f"{what}: {twice!r} is there twice; leave one out, or give schemes of one's own different names",
+                "repeated_value",
+            )
 
 
 def _labelled(progress: Progress | None, label: str) -> Progress | None:

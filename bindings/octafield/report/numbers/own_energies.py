@@ -1,5 +1,7 @@
 """Energies of the user's own (octafield.compare(energies=...)): methods ranked by each."""
 
+import html
+
 import numpy as np
 
 from .profiles import geometric_mean
@@ -18,7 +20,7 @@ def own_energy_table(results: Results) -> Table:
     columns = [Column("boundary"), Column("method")]
     for name in names:
         columns += [
-            Column("mean", ".6g", f"{name} of the final frames, mean over runs", name),
+            Column("mean", ".6g", f"{html.escape(name)} of the final frames, mean over runs", name),
             Column(
                 "over lowest", ".4f", "to the lowest of all methods on the problem, geometric mean over problems", name
             ),
