@@ -159,3 +159,12 @@ def test_the_longest_suffix_decides(tet, monkeypatch):
     assert registry.find_mesh_format(Path("a.mesh")).name == "mesh"
     assert registry.find_mesh_format(Path("a.MESHB.gz")).name == "meshb"
     assert registry.find_mesh_format("x/b.tet").suffix_of("x/b.tet") == ".tet"
+
+
+def test_a_reader_that_gives_no_mesh_is_told_with_its_file(tmp_path, monkeypatch):
+    form = of.MeshFormat("nothing", (".nothing",), "Nothing", ("tets",), read=lambda path: None)
+    monkeypatch.setitem(registry.MESH_FORMATS, form.name, form)
+    path = tmp_path / "a.nothing"
+    path.write_text("x")
+    with pytest.raises(of.IoError, match=r"a\.nothing: .*the reader of nothing gave None, not a Grid"):
+        registry.read_mesh_file(path, 0.0, None)

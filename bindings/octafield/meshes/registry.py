@@ -86,7 +86,10 @@ def read_mesh_file(path: Path, edge_length: float, progress: Progress | None) ->
     if form.read is None:
         raise IoError(f"{path}: {form.title} files are written only")
     with reading(path, form.suffix_of(path)):
-        return form.read(path)
+        found = form.read(path)
+        if not isinstance(found, (Grid, TriangleMesh)):
+            raise TypeError(f"the reader of {form.name} gave {found!r:.100}, not a Grid or TriangleMesh")
+        return found
 
 
 def kinds_in_words(surface: str, tets: str, cad: str) -> str:
