@@ -86,7 +86,7 @@ std::shared_ptr<const ArrayScheme> array_scheme(const py::handle& value) {
     });
     if (derived)
         scheme->residual_differential = calling(value, "differential", [=](const py::object& answer, py::ssize_t n) {
-            const auto pair = py::tuple(answer);
+            const auto pair = py::isinstance<py::sequence>(answer) ? py::tuple(answer) : py::tuple();
             if (pair.size() != 2)
                 throw InvalidInput(differential + ": expected two arrays, by the first and by the second frame",
                                    "wrong_type");

@@ -129,6 +129,17 @@ def test_an_exception_of_a_scheme_comes_out_of_the_call(problem):
         octafield.run_field(problem, octafield.FieldOptions(representation=scheme))
 
 
+def test_a_scheme_that_exits_is_no_success(problem):
+    left = []
+
+    def leaving(frames):
+        left.append(len(frames))
+        return SH4.embed(frames) if len(left) < 3 else sys.exit(0)
+
+    with pytest.raises(octafield.InvalidInput, match="'leaving' calls sys.exit"):
+        octafield.run_field(problem, octafield.FieldOptions(representation=EmbeddingScheme("leaving", leaving)))
+
+
 def test_wrong_answers_are_told_with_the_name_of_the_scheme(problem):
     def shrinking(frames):
         return SH4.embed(frames)[: 3 if len(frames) > 3 else None]

@@ -39,6 +39,23 @@ def smoothed_field(
     how: dict[str, Any] = {name: getattr(options, name) for name in _OF_SMOOTHING}
     how["representation"] = minimised(options.representation)
     how["progress"] = forward(progress, "smooth", 0.0, 1.0)
+    try:
+        return _smoothed(tets, options, where, held, start, seed, how)
+    except SystemExit as error:  # of a user's scheme: it would end a command as if it were done
+        raise InvalidInput(
+            f"scheme {options.scheme_name!r} calls sys.exit(); raise an error instead", "bad_scheme"
+        ) from error
+
+
+def _smoothed(
+    tets: TetDomain,
+    options: FieldOptions,
+    where: TetDomain | Sampling,
+    held: BoundaryConstraints,
+    start: ArrayLike | None,
+    seed: int,
+    how: dict[str, Any],
+) -> tuple[SmoothResult, int]:
     if start is not None:
         return _finite(_core.smooth(where, held, fitting_frames(tets, start, options.sampling), **how), options), 0
     how |= {name: getattr(options, name) for name in _OF_ROUNDS}

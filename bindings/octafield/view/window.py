@@ -23,17 +23,24 @@ def shown_where_possible(shape: pyvista.Plotter) -> pyvista.Plotter:
 
 def _require_display(folder: Path) -> None:
     """VTK without a display ends the process, or says nothing at all."""
-    import pyvista
-
     words = f"there is no display to open a window on; write a picture: octafield view {folder} -o curves.png"
     if sys.platform != "linux":
         return
     if not os.environ.get("DISPLAY"):
         raise InvalidInput(words, "no_display")
-    if not pyvista.system_supports_plotting():
+    if not _opens_windows():
         raise InvalidInput(
             f"the display {os.environ['DISPLAY']} cannot be opened; {words.partition('; ')[2]}", "no_display"
         )
+
+
+def _opens_windows() -> bool:
+    """VTK takes a window that is never shown where it cannot open the display."""
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
+    from vtkmodules.vtkRenderingCore import vtkRenderWindow
+
+    name: str = vtkRenderWindow().GetClassName()
+    return "EGL" not in name and "OSOpenGL" not in name
 
 
 def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
