@@ -9,6 +9,7 @@ import sys
 import pytest
 from octafield.command_line import fields as cli
 from octafield.command_line.shell_completion import lists, words
+from octafield.options import METHODS
 from pipeline_fixtures import octafield, write_cube
 from typer.testing import CliRunner
 
@@ -181,7 +182,7 @@ def completed(*typed: str) -> list[str]:
         ["su2", "su2_midpoint", "su2_geodesic", "su2_symmetric", "su2_surface", "su2_frozen"],
     ),
     (["field", "--boundary", ""], ["aligned", "fixed", "none", "start"]),
-    (["surface-field", "--method", ""], ["gl", "mbo", "eigen"]),
+    (["surface-field", "--method", ""], list(METHODS)),
     (["compare", "--representations", "sh4,te"], ["sh4,tensor4"]),
     (["info", "--features", "f"], ["file"]),
 ])  # fmt: skip

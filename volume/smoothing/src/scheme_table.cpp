@@ -44,7 +44,8 @@ Row embedding_row() {
              .sort = embedding,
              .equation = "1/2 sum over components c of a_c^T L a_c, a = " + std::string(R::name) + "(frame) in R^" +
                          std::to_string(R::dimension),
-             .meaning = std::string(line.meaning),
+             .meaning =
+                 line.meaning.empty() ? "an embedding in R^" + std::to_string(R::dimension) : std::string(line.meaning),
              .consistent = frames::Equivariant<R>,  // isotropic: its metric is that of angles
              .descends = true,
              .solvers = {{trust_region, line.bytes_per_tet}, {levenberg_marquardt, 4800}, {lbfgs, 2000}},
