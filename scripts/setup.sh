@@ -12,7 +12,7 @@ build_with_progress() {
     mkdir -p build
     if ! "$@" 2>&1 | while IFS= read -r line; do
         printf '%s\n' "$line" >&3
-        [[ $line =~ ^[[:space:]]*\[([0-9]+)/([0-9]+)\] ]] || continue
+        [[ $line =~ ^[[:space:]]*\[([1-9][0-9]*)/([0-9]+)\] ]] || continue  # [0/2]: Ninja looks for new sources
         took=$((SECONDS - start))
         if [ "$took" -ge "$next" ] || [ "${BASH_REMATCH[1]}" = "${BASH_REMATCH[2]}" ]; then
             next=$((took + 10)) left=$((took * (BASH_REMATCH[2] - BASH_REMATCH[1]) / BASH_REMATCH[1]))

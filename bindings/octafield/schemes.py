@@ -15,6 +15,7 @@
 On the command line and in the file of a study a scheme is FILE.py:NAME, the file that makes it and its name there.
 """
 
+import contextlib
 import functools
 import hashlib
 import importlib.util
@@ -209,7 +210,8 @@ def _run(path: str, digest: str) -> dict[str, Any]:
     module = importlib.util.module_from_spec(specification)
     sys.modules[module_name] = module  # dataclasses and pickle look there
     try:
-        specification.loader.exec_module(module)
+        with contextlib.redirect_stdout(sys.stderr):  # standard output is the document of --json
+            specification.loader.exec_module(module)
     except (Exception, SystemExit) as error:  # sys.exit() would end a command as if it were done
         del sys.modules[module_name]
         told = f"{path}{_line_in(error, path)}: the file fails: {type(error).__name__}: {error}{_beside(error, path)}"

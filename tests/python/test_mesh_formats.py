@@ -143,6 +143,9 @@ def test_damaged_files_of_a_format_from_outside_are_refused_by_name(tet, tmp_pat
         ({"suffixes": ()}, "has suffixes"),
         ({"holds": ("hexahedra",)}, "holds triangles or tets"),
         ({"holds": ("regions",)}, "holds triangles or tets"),
+        ({"read": None, "write": None}, "a function that reads"),
+        ({"read": 3}, "a function that reads"),
+        ({"suffixes": (".x", ".x")}, "suffixes that differ"),
     ],
 )
 def test_a_format_that_would_hide_another_or_holds_nothing_is_refused(changes, words):

@@ -185,7 +185,7 @@ def test_unfit_schemes_are_refused(make, message):
         make()
 
 
-def test_schemes_in_files_are_named_by_file_and_name(tmp_path):
+def test_schemes_in_files_are_named_by_file_and_name(tmp_path, capsys):
     word = f"{IDEAS}:bump_scheme"
     assert octafield.FieldOptions(representation=word).scheme_name == "bumps"
     bad = tmp_path / "bad.py"
@@ -205,8 +205,9 @@ def test_schemes_in_files_are_named_by_file_and_name(tmp_path):
     own = tmp_path / "mine.py"
     own.write_text("import octafield\ns = octafield.volume.EmbeddingScheme('a', octafield.frames.sh4_embed)\n")
     assert octafield.FieldOptions(representation=f"{own}:s").scheme_name == "a"
-    own.write_text(own.read_text().replace("'a'", "'b'"))
+    own.write_text("print('hello')\n" + own.read_text().replace("'a'", "'b'"))
     assert octafield.FieldOptions(representation=f"{own}:s").scheme_name == "b"
+    assert capsys.readouterr().out == ""  # standard output is the document of --json
 
 
 def test_schemes_of_modules_pickle():

@@ -50,7 +50,7 @@ mesh_formats: Mapping[str, MeshFormat] = MappingProxyType(MESH_FORMATS)
 
 def register_mesh_format(form: MeshFormat) -> None:
     """Adds a format for this process: files of its suffixes are read and written as those of the library's own. Raises
-    InvalidInput where its name or a suffix is taken, or it holds what no mesh file does."""
+    InvalidInput where its name or a suffix is taken, it holds what no mesh file does, or nothing reads or writes it."""
     taken = {suffix: known for known in MESH_FORMATS.values() for suffix in known.suffixes}
     for suffix in form.suffixes:
         if suffix in taken:
@@ -62,6 +62,12 @@ def register_mesh_format(form: MeshFormat) -> None:
     if not form.suffixes or not set(form.holds) <= set(HELD) or not {"triangles", "tets"} & set(form.holds):
         raise InvalidInput(
             f"{form.name}: a mesh format has suffixes and holds triangles or tets, of {', '.join(HELD)}", "bad_format"
+        )
+    ways = [way for way in (form.read, form.write, form.mesh) if way is not None]
+    if not ways or not all(map(callable, ways)) or len(set(form.suffixes)) < len(form.suffixes):
+        raise InvalidInput(
+            f"{form.name}: a mesh format has suffixes that differ and a function that reads, writes or meshes",
+            "bad_format",
         )
     MESH_FORMATS[form.name] = form
 
