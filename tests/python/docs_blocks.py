@@ -1,6 +1,7 @@
 """The fenced blocks of Markdown pages, and how to run a page."""
 
 import contextlib
+import importlib
 import io
 import re
 import shlex
@@ -33,6 +34,8 @@ class Block:
     @property
     def content(self) -> str:
         """The text, a snippet in place of its name."""
+        lines = self.text.splitlines()
+        assert all(_SNIPPET.fullmatch(line) for line in lines if line.startswith("--8")), f"no snippet: {self.text}"
         return _SNIPPET.sub(lambda match: _snippet(ROOT / match[1], match[2]), self.text)
 
 
@@ -60,6 +63,8 @@ def run_page(page: Path) -> int:
         if block.is_file:
             with Path(Path(block.title).name).open("a", encoding="utf-8") as file:
                 file.write(block.content)
+            sys.modules.pop(Path(block.title).stem, None)  # another of this name, or what it was before
+            importlib.invalidate_caches()
         elif block.language == "python":
             with contextlib.redirect_stdout(io.StringIO()) as stdout:
                 exec(compile("\n" * (block.line - 1) + block.text, str(page), "exec"), namespace)

@@ -40,28 +40,16 @@ def smoothed_field(
     how["representation"] = minimised(options.representation)
     how["progress"] = forward(progress, "smooth", 0.0, 1.0)
     try:
-        return _smoothed(tets, options, where, held, start, seed, how)
+        if start is not None:
+            return _finite(_core.smooth(where, held, fitting_frames(tets, start, options.sampling), **how), options), 0
+        how |= {name: getattr(options, name) for name in _OF_ROUNDS}
+        begin = "cross_field" if options.boundary == "none" else "constraints"
+        found = _core.frame_field(where, held, start=begin, seed=seed, **how)
+        return _finite(found.smooth, options), found.diffusion_steps
     except SystemExit as error:  # of a user's scheme: it would end a command as if it were done
         raise InvalidInput(
             f"scheme {options.scheme_name!r} calls sys.exit(); raise an error instead", "bad_scheme"
         ) from error
-
-
-def _smoothed(
-    tets: TetDomain,
-    options: FieldOptions,
-    where: TetDomain | Sampling,
-    held: BoundaryConstraints,
-    start: ArrayLike | None,
-    seed: int,
-    how: dict[str, Any],
-) -> tuple[SmoothResult, int]:
-    if start is not None:
-        return _finite(_core.smooth(where, held, fitting_frames(tets, start, options.sampling), **how), options), 0
-    how |= {name: getattr(options, name) for name in _OF_ROUNDS}
-    begin = "cross_field" if options.boundary == "none" else "constraints"
-    found = _core.frame_field(where, held, start=begin, seed=seed, **how)
-    return _finite(found.smooth, options), found.diffusion_steps
 
 
 def _finite(found: SmoothResult, options: FieldOptions) -> SmoothResult:

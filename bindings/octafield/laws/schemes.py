@@ -1,5 +1,6 @@
 """Laws of schemes that are functions on arrays of frames."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import ClassVar
 
@@ -47,16 +48,17 @@ def central_differences(function: Callable[[Float64s], Float64s]) -> Float64s:
     return np.stack(columns, axis=-1)
 
 
-class _Laws:
+class _Laws(ABC):
     scheme: ClassVar[OwnScheme]
     tolerance: ClassVar[float] = 1e-9
 
+    @abstractmethod
     def values(self, frames: Float64s) -> Float64s:
-        raise NotImplementedError
+        """(k, d) of (k, 4) frames."""
 
+    @abstractmethod
     def derivatives(self, frames: Float64s) -> list[tuple[str, Float64s, Float64s]]:
         """(by what, given, differences)"""
-        raise NotImplementedError
 
     def assert_same(self, a: Float64s, b: Float64s, what: str) -> None:
         a, b = np.asarray(a, float), np.asarray(b, float)
