@@ -46,3 +46,10 @@ def test_long_prose_is_found_and_tables_code_and_headings_are_left_alone():
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_no_published_number_is_of_a_commit_nobody_can_check_out(page):
     assert re.findall(r"\b[0-9a-f]{7,40}(?:-dirty|\+)", page.read_text(encoding="utf-8")) == []
+
+
+def test_no_file_holds_marks_of_a_merge():
+    files = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=False).stdout
+    texts = [path for name in files.split("\0") if name and (path := ROOT / name).is_file()]
+    marks = re.compile(rb"^(?:<{7} |>{7} )", re.M)
+    assert [str(path) for path in texts if marks.search(path.read_bytes())] == []
