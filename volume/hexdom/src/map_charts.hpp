@@ -1,0 +1,48 @@
+// From tet to tet in a periodic map.
+#pragma once
+
+#include <vector>
+
+#include "exact_coordinates.hpp"
+#include "octafield/volume/tet_domain.hpp"
+
+namespace octafield::volume {
+
+// A rotation of the cube and a translation: coordinates in one tet from those in another.
+struct ChartChange {
+    std::array<std::int8_t, 3> axis{0, 1, 2};  // of the old coordinates
+    std::array<std::int8_t, 3> sign{1, 1, 1};
+    Coordinate shift{0, 0, 0};
+    Coordinate operator()(const Coordinate& x) const {
+        return {sign[0] * x[axis[0]] + shift[0], sign[1] * x[axis[1]] + shift[1], sign[2] * x[axis[2]] + shift[2]};
+    }
+};
+
+class MapCharts {
+public:
+    MapCharts(const TetDomain& domain, const PeriodicMap& map);
+
+    const PeriodicMap& map() const { return map_; }
+    const TetDomain& domain() const { return domain_; }
+    // Across the triangle opposite a corner: the tet there, or -1 (boundary, interface, or not joined).
+    Index across(Index tet, int corner) const;
+    ChartChange change(Index tet, int corner) const;  // where across() is a tet
+
+private:
+    const TetDomain& domain_;
+    const PeriodicMap& map_;
+    std::vector<Index> face_;             // per row of the triangle table: of map.faces, or -1
+    std::vector<std::uint8_t> interface_;  // per row: between regions
+};
+
+// A point of the tet, in the coordinates of the tet that it is in.
+struct Place {
+    Index tet = -1;  // -1: not reached
+    Coordinate at{};
+};
+
+// Goes straight from a point inside a tet to another point in the coordinates of that tet. The starting point must be
+// in general position: where the way meets an edge, or ends outside the map, the place is none.
+Place walk(const MapCharts& charts, Index tet, Coordinate from, Coordinate to);
+
+}  // namespace octafield::volume

@@ -1,0 +1,118 @@
+#include "phase_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "octafield/disjoint_sets.hpp"
+#include "octafield/parallel.hpp"
+
+namespace octafield::volume {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Real inner product of vectors of complex numbers: what is minimised is real. Serial, for the same bits at any number
+// of threads.
+double dot(const Phases& x, const Phases& y) {
+    double sum = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += x[i].real() * y[i].real() + x[i].imag() * y[i].imag();
+    return sum;
+}
+
+constexpr int most_steps = 400;
+
+}  // namespace
+
+PhaseSystem::PhaseSystem(Index count, const std::vector<std::uint8_t>& held, const std::vector<Coupling>& couplings)
+    : count_(count) {
+    std::vector<Index> row(count, -1);
+    for (Index k = 0; k < count; ++k)
+        if (!held[k]) {
+            row[k] = static_cast<Index>(free_.size());
+            free_.push_back(k);
+        }
+    const std::size_t rows = free_.size();
+    begin_.assign(rows + 1, 0);
+    diagonal_.assign(rows, 0);
+    right_.assign(rows, 0);
+    for (const Coupling& c : couplings)
+        if (row[c.a] >= 0 && row[c.b] >= 0) ++begin_[row[c.a] + 1], ++begin_[row[c.b] + 1];
+    for (std::size_t r = 0; r < rows; ++r) begin_[r + 1] += begin_[r];
+    entries_.resize(begin_.back());
+    std::vector<std::int64_t> next(begin_.begin(), begin_.end() - 1);
+    DisjointSets parts(rows + 1);  // the last: held
+    for (const Coupling& c : couplings) {
+        // z_b = turn z_a, z_a = conj(turn) z_b; z_b = turn conj(z_a), z_a = turn conj(z_b).
+        const Complex forth = c.weight * c.turn, back = c.weight * (c.conjugate ? c.turn : std::conj(c.turn));
+        const Index a = row[c.a], b = row[c.b];
+        if (a >= 0) diagonal_[a] += c.weight;
+        if (b >= 0) diagonal_[b] += c.weight;
+        if (a >= 0 && b >= 0) {
+            entries_[next[b]++] = {a, c.conjugate, forth};
+            entries_[next[a]++] = {b, c.conjugate, back};
+            parts.join(a, b);
+        } else if (a >= 0) {
+            right_[a] += back;
+            parts.join(a, static_cast<Index>(rows));
+        } else if (b >= 0) {
+            right_[b] += forth;
+            parts.join(b, static_cast<Index>(rows));
+        }
+    }
+    std::vector<Index> lowest_of(rows + 1, -1);
+    const Index held_part = parts.lowest(static_cast<Index>(rows));
+    for (Index r = 0; r < static_cast<Index>(rows); ++r)
+        if (parts.lowest(r) == r && r != held_part) arbitrary_.push_back(free_[r]);
+}
+
+Phases PhaseSystem::start() const {
+    Phases z(count_, 1.0);
+    for (const Index k : free_) z[k] = 0;
+    return z;
+}
+
+void PhaseSystem::times(double shift, const Phases& z, Phases& result, int threads) const {
+    parallel_for(static_cast<std::int64_t>(z.size()), threads, [&](std::int64_t r) {
+        Complex sum = (1 + shift) * diagonal_[r] * z[r];
+        for (std::int64_t e = begin_[r]; e < begin_[r + 1]; ++e) {
+            const Entry& entry = entries_[e];
+            sum -= entry.value * (entry.conjugate ? std::conj(z[entry.column]) : z[entry.column]);
+        }
+        result[r] = sum;
+    });
+}
+
+void PhaseSystem::diffuse(double shift, double tolerance, Phases& all, int threads) const {
+    const std::size_t rows = free_.size();
+    Phases x(rows), r(rows), p(rows), q(rows), s(rows);
+    for (std::size_t i = 0; i < rows; ++i) x[i] = all[free_[i]];
+    times(shift, x, q, threads);
+    for (std::size_t i = 0; i < rows; ++i) r[i] = right_[i] + shift * diagonal_[i] * x[i] - q[i];
+    const auto precondition = [&] {
+        for (std::size_t i = 0; i < rows; ++i) s[i] = diagonal_[i] > 0 ? r[i] / diagonal_[i] : 0;
+    };
+    precondition();
+    p = s;
+    double rho = dot(r, s);
+    const double enough = tolerance * tolerance * rho;
+    for (int step = 0; step < most_steps && rho > enough && rho > 0; ++step) {
+        times(shift, p, q, threads);
+        const double alpha = rho / dot(p, q);
+        if (!std::isfinite(alpha)) break;
+        for (std::size_t i = 0; i < rows; ++i) x[i] += alpha * p[i], r[i] -= alpha * q[i];
+        precondition();
+        const double next = dot(r, s);
+        for (std::size_t i = 0; i < rows; ++i) p[i] = s[i] + next / rho * p[i];
+        rho = next;
+    }
+    for (std::size_t i = 0; i < rows; ++i) all[free_[i]] = x[i];
+}
+
+void PhaseSystem::normalize(Phases& z) const {
+    for (Complex& value : z) {
+        const double size = std::abs(value);
+        value = size > 1e-200 ? value / size : Complex(1);
+    }
+}
+
+}  // namespace octafield::volume
