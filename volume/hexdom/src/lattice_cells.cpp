@@ -10,31 +10,88 @@
 namespace octafield::volume {
 namespace {
 
-// Corners of a hexahedron in the order of cell_arrays.hpp, as half-cells from its middle.
-constexpr std::array<std::array<int, 3>, 8> corner_way{{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                                                        {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}}};
+using Way = std::array<int, 3>;
 
-using Corners = std::array<Index, 8>;
+// Corners of a hexahedron in the order of cell_arrays.hpp, and its faces in that of cell_face, as half-cells from its
+// middle.
+constexpr std::array<Way, 8> corner_way{
+    {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
+constexpr std::array<Way, 6> face_way{{{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}};
 
-// Starting points in general position: some units off the middle.
-constexpr std::array<Coordinate, 4> offsets{{{211, 83, 149}, {-97, 331, -53}, {157, -269, 317}, {-401, -113, 241}}};
+// Starting points in general position, off the middle of a cell, in units of the map; and how far beyond a face the
+// search for the surface goes.
+constexpr std::array<Coordinate, 6> offsets{
+    {{211, 83, 149}, {-97, 331, -53}, {157, -269, 317}, {-401, -113, 241}, {59, 47, -613}, {-37, -29, -17}}};
+constexpr std::int64_t beyond = 640;
 
-Index corner_point(const MapCharts& charts, const LatticePoints& points, const Place& middle, int c) {
-    Coordinate to = middle.at;
-    for (int i = 0; i < 3; ++i) to[i] += corner_way[c][i] * (periodic_unit / 2);
+struct Cell {
+    std::array<Index, 8> corners;
+    WalkEnd worst = WalkEnd::reached;
+    std::uint8_t on_surface = 0;
+};
+
+Coordinate ahead(Coordinate at, const Way& way, std::int64_t length) {
+    for (int i = 0; i < 3; ++i) at[i] += way[i] * length;
+    return at;
+}
+
+// From near the middle of a cell, in its tet, to a point in the coordinates of that tet.
+Walk walk_from_middle(const MapCharts& charts, const Place& middle, const Coordinate& to) {
+    Walk last{WalkEnd::edge, {}, {}};
     for (const Coordinate& offset : offsets) {
-        Coordinate from = middle.at;
-        for (int i = 0; i < 3; ++i) from[i] += offset[i];
-        const Place near = walk(charts, middle.tet, middle.at, from);
-        if (near.tet < 0) continue;
-        // In the chart of the tet that `near` is in.
-        Coordinate goal = to;
-        Place start = near;
-        if (near.tet != middle.tet) continue;
-        const Index found = points.find(walk(charts, start.tet, from, goal));
-        if (found >= 0) return found;
+        // The tet of the starting point: from inside the middle's tet.
+        const TetCoordinates corners = coordinates_of(charts.map(), middle.tet);
+        Coordinate inside, from = middle.at;
+        for (int i = 0; i < 3; ++i) {
+            inside[i] = (corners[0][i] + corners[1][i] + corners[2][i] + corners[3][i]) / 4;
+            from[i] += offset[i];
+        }
+        const Walk start = walk(charts, middle.tet, inside, from, to);
+        if (start.end != WalkEnd::reached) continue;
+        last = walk(charts, start.place.tet, start.place.at, start.carried);
+        if (last.end != WalkEnd::edge) return last;
     }
-    return -1;
+    return last;
+}
+
+Cell cell_at(const MapCharts& charts, const LatticePoints& points, const Place& middle) {
+    Cell cell;
+    for (int c = 0; c < 8; ++c) {
+        const Walk way = walk_from_middle(charts, middle, ahead(middle.at, corner_way[c], periodic_unit / 2));
+        cell.corners[c] = way.end == WalkEnd::reached ? points.find(way.place) : -1;
+        if (cell.corners[c] < 0 && (cell.worst == WalkEnd::reached || way.end == WalkEnd::surface))
+            cell.worst = way.end == WalkEnd::reached ? WalkEnd::unusable : way.end;
+    }
+    if (cell.worst != WalkEnd::reached) return cell;
+    for (int f = 0; f < 6; ++f) {
+        const Coordinate to = ahead(middle.at, face_way[f], periodic_unit / 2 + beyond);
+        if (walk_from_middle(charts, middle, to).end == WalkEnd::surface)
+            cell.on_surface |= static_cast<std::uint8_t>(1 << f);
+    }
+    return cell;
+}
+
+bool degenerate(const Cell& cell) {
+    std::array<Index, 8> sorted = cell.corners;
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
+void place_points(const TetDomain& domain, const PeriodicMap& map, const LatticePoints& points, LatticeCells& result) {
+    const TetMesh& mesh = domain.mesh();
+    result.points.setZero(points.count(), 3);
+    result.weights.resize(points.count(), 4);
+    result.tet.resize(points.count());
+    for (Index p = 0; p < points.count(); ++p) {
+        const Place& place = points.place(p);
+        const std::array<Wide, 4> weights = barycentric(coordinates_of(map, place.tet), place.at);
+        const double whole = static_cast<double>(weights[0] + weights[1] + weights[2] + weights[3]);
+        result.tet[p] = place.tet;
+        for (int k = 0; k < 4; ++k) {
+            result.weights(p, k) = static_cast<double>(weights[k]) / whole;
+            result.points.row(p) += result.weights(p, k) * mesh.vertices.row(mesh.tets(place.tet, k));
+        }
+    }
 }
 
 }  // namespace
@@ -42,54 +99,33 @@ Index corner_point(const MapCharts& charts, const LatticePoints& points, const P
 LatticeCells lattice_cells(const TetDomain& domain, const PeriodicMap& map, double min_scaled_jacobian, int threads) {
     const MapCharts charts(domain, map);
     const LatticePoints points(charts, 0), middles(charts, periodic_unit / 2);
-    std::vector<Corners> corners(middles.count());
+    std::vector<Cell> cells(middles.count());
     parallel_for(middles.count(), threads, [&](std::int64_t k) {
-        for (int c = 0; c < 8; ++c)
-            corners[k][c] = corner_point(charts, points, middles.place(static_cast<Index>(k)), c);
+        cells[k] = cell_at(charts, points, middles.place(static_cast<Index>(k)));
     });
     LatticeCells result;
-    std::vector<Corners> sound;
-    for (const Corners& cell : corners) {
-        if (std::find(cell.begin(), cell.end(), -1) != cell.end()) {
-            ++result.lost.outside;
-            continue;
-        }
-        Corners sorted = cell;
-        std::sort(sorted.begin(), sorted.end());
-        if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
-            ++result.lost.degenerate;
-            continue;
-        }
-        sound.push_back(cell);
-    }
-    const Index count = points.count();
-    result.points.resize(count, 3);
-    result.weights.resize(count, 4);
-    result.tet.resize(count);
-    for (Index p = 0; p < count; ++p) {
-        const Place& place = points.place(p);
-        const TetCoordinates in = coordinates_of(map, place.tet);
-        const std::array<Wide, 4> weights = barycentric(in, place.at);
-        const double whole = static_cast<double>(weights[0] + weights[1] + weights[2] + weights[3]);
-        result.tet[p] = place.tet;
-        result.points.row(p).setZero();
-        for (int k = 0; k < 4; ++k) {
-            result.weights(p, k) = static_cast<double>(weights[k]) / whole;
-            result.points.row(p) += result.weights(p, k) * domain.mesh().vertices.row(domain.mesh().tets(place.tet, k));
-        }
-    }
+    place_points(domain, map, points, result);
+    const auto lose = [&](const Cell& cell) {
+        if (cell.worst == WalkEnd::surface) return ++result.lost.outside, true;
+        if (cell.worst != WalkEnd::reached) return ++result.lost.unusable, true;
+        if (degenerate(cell)) return ++result.lost.degenerate, true;
+        return false;
+    };
+    std::erase_if(cells, lose);
     MixedMesh mesh;
     mesh.vertices = result.points;
-    mesh.hexahedra.resize(sound.size(), 8);
-    for (std::size_t k = 0; k < sound.size(); ++k)
-        for (int c = 0; c < 8; ++c) mesh.hexahedra(k, c) = sound[k][c];
+    mesh.hexahedra.resize(static_cast<Eigen::Index>(cells.size()), 8);
+    for (std::size_t k = 0; k < cells.size(); ++k)
+        for (int c = 0; c < 8; ++c) mesh.hexahedra(static_cast<Eigen::Index>(k), c) = cells[k].corners[c];
     const Eigen::VectorXd quality = scaled_jacobians(mesh);
     std::vector<Index> good;
     for (Index k = 0; k < quality.size(); ++k) {
-        if (quality[k] >= min_scaled_jacobian)
-            good.push_back(k);
-        else
+        if (!(quality[k] >= min_scaled_jacobian)) {
             ++result.lost.poor;
+            continue;
+        }
+        good.push_back(k);
+        result.on_surface.push_back(cells[k].on_surface);
     }
     result.hexahedra = mesh.hexahedra(good, Eigen::all);
     return result;

@@ -38,12 +38,19 @@ ChartChange MapCharts::change(Index tet, int corner) const {
     return back;
 }
 
-Place walk(const MapCharts& charts, Index tet, Coordinate from, Coordinate to) {
+bool MapCharts::on_surface(Index tet, int corner) const {
+    const Index row = domain_.triangles().tet_triangles(tet, corner);
+    return face_[row] < 0 || interface_[row];
+}
+
+Walk walk(const MapCharts& charts, Index tet, Coordinate from, Coordinate to, Coordinate carried) {
+    constexpr int most_steps = 1000;
     int entered = -1;  // corner opposite the triangle through which the way came
-    for (int step = 0; step < 1000; ++step) {
+    const auto ends = [&](WalkEnd end) { return Walk{end, {tet, to}, carried}; };
+    for (int step = 0; step < most_steps; ++step) {
         const TetCoordinates corners = coordinates_of(charts.map(), tet);
         const std::array<Wide, 4> inside = barycentric(corners, to);
-        if (inside[0] >= 0 && inside[1] >= 0 && inside[2] >= 0 && inside[3] >= 0) return {tet, to};
+        if (inside[0] >= 0 && inside[1] >= 0 && inside[2] >= 0 && inside[3] >= 0) return ends(WalkEnd::reached);
         int exit = -1;
         for (int k = 0; k < 4 && exit < 0; ++k) {
             if (k == entered || inside[k] >= 0) continue;
@@ -51,24 +58,23 @@ Place walk(const MapCharts& charts, Index tet, Coordinate from, Coordinate to) {
             const int one = sign(orientation(from, to, corners[a], corners[b])),
                       two = sign(orientation(from, to, corners[b], corners[c])),
                       three = sign(orientation(from, to, corners[c], corners[a]));
-            if (one == 0 || two == 0 || three == 0) {
-                if (one * two >= 0 && two * three >= 0 && three * one >= 0) return {};  // meets an edge
-                continue;
-            }
-            if (one == two && two == three) exit = k;
+            const bool through = one * two >= 0 && two * three >= 0 && three * one >= 0;
+            if (through && (one == 0 || two == 0 || three == 0)) return ends(WalkEnd::edge);
+            if (through) exit = k;
         }
-        if (exit < 0) return {};
+        if (exit < 0) return ends(WalkEnd::edge);
         const Index next = charts.across(tet, exit);
-        if (next < 0) return {};
+        if (next < 0) return ends(charts.on_surface(tet, exit) ? WalkEnd::surface : WalkEnd::unusable);
         const ChartChange change = charts.change(tet, exit);
         from = change(from);
         to = change(to);
+        carried = change(carried);
         const Index row = charts.domain().triangles().tet_triangles(tet, exit);
         for (int k = 0; k < 4; ++k)
             if (charts.domain().triangles().tet_triangles(next, k) == row) entered = k;
         tet = next;
     }
-    return {};
+    return ends(WalkEnd::unusable);
 }
 
 }  // namespace octafield::volume

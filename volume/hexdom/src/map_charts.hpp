@@ -27,6 +27,7 @@ public:
     // Across the triangle opposite a corner: the tet there, or -1 (boundary, interface, or not joined).
     Index across(Index tet, int corner) const;
     ChartChange change(Index tet, int corner) const;  // where across() is a tet
+    bool on_surface(Index tet, int corner) const;     // of the mesh, or between regions
 
 private:
     const TetDomain& domain_;
@@ -37,12 +38,24 @@ private:
 
 // A point of the tet, in the coordinates of the tet that it is in.
 struct Place {
-    Index tet = -1;  // -1: not reached
+    Index tet = -1;
     Coordinate at{};
 };
 
-// Goes straight from a point inside a tet to another point in the coordinates of that tet. The starting point must be
-// in general position: where the way meets an edge, or ends outside the map, the place is none.
-Place walk(const MapCharts& charts, Index tet, Coordinate from, Coordinate to);
+enum class WalkEnd {
+    reached,
+    surface,   // of the mesh or between regions, in the way
+    unusable,  // a tet or triangle of no use in the way
+    edge       // the way meets an edge: start elsewhere
+};
+
+struct Walk {
+    WalkEnd end;
+    Place place;                   // the goal; of others the tet reached, and the goal in its coordinates
+    Coordinate carried;            // a second point in the coordinates of that tet
+};
+
+// Goes straight from a point inside a tet to another point in the coordinates of that tet.
+Walk walk(const MapCharts& charts, Index tet, Coordinate from, Coordinate to, Coordinate carried = {});
 
 }  // namespace octafield::volume

@@ -40,6 +40,7 @@ tetgenbehavior switches(const TetgenParameters& parameters) {
     char text[] = "pYMBFzQ";
     b.parse_commandline(text);
     if (parameters.tolerance > 0) b.epsilon = parameters.tolerance;
+    b.insertaddpoints = parameters.inside.rows() > 0;
     if (!parameters.refine) return b;
     b.quality = 1;
     b.minratio = parameters.radius_edge_ratio;
@@ -89,10 +90,16 @@ TetgenOutcome run_tetgen(const surface::TriangleMesh& mesh, const TetgenParamete
                          const Progress& progress) {
     IsolatedOutcome run = run_isolated(
         [&](const Emit& emit) {
-            tetgenio in, out;
+            tetgenio in, out, inside;
             fill_input(in, mesh, parameters.holes);
+            inside.firstnumber = 0;
+            inside.numberofpoints = static_cast<int>(parameters.inside.rows());
+            if (inside.numberofpoints > 0) {
+                inside.pointlist = new double[parameters.inside.size()];
+                std::copy_n(parameters.inside.data(), parameters.inside.size(), inside.pointlist);
+            }
             tetgenbehavior b = switches(parameters);
-            ::tetrahedralize(&b, &in, &out);
+            ::tetrahedralize(&b, &in, &out, inside.numberofpoints > 0 ? &inside : nullptr);
             emit_mesh(out, emit);
         },
         "tetrahedralize", progress);

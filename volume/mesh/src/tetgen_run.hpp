@@ -17,6 +17,7 @@ struct TetgenParameters {
     double max_volume = 0;               // -a
     double tolerance = 0;                // -T, for coplanarity; 0: TetGen's default
     std::vector<Eigen::Vector3d> holes;  // one point in each cavity
+    Points inside{0, 3};                 // points to be vertices; those not inside are left out
 };
 
 struct TetgenOutcome {
