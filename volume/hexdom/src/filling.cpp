@@ -1,4 +1,4 @@
-#include "cavity.hpp"
+#include "filling.hpp"
 
 #include <algorithm>
 #include <array>
