@@ -45,8 +45,8 @@ bool flippable(const TriangleComplex& complex, Index a, Index b, Diamond& diamon
 
 class Flipping {
 public:
-    Flipping(TriangleComplex& complex, const WantedEdges& wanted, double longest)
-        : complex_(complex), wanted_(wanted), longest_(longest) {}
+    Flipping(TriangleComplex& complex, const WantedEdges& wanted, const LengthBound& bound)
+        : complex_(complex), wanted_(wanted), bound_(bound) {}
 
     Index run() {
         for (Index t = static_cast<Index>(complex_.triangles.size()); t-- > 0;)
@@ -82,13 +82,13 @@ private:
         const double after = std::max(cosine_of_least_angle(a, e, c), cosine_of_least_angle(e, b, c));
         if (!(after < before - 1e-9)) return false;
         const double longest =
-            std::max({longest_, (a - b).norm(), (a - c).norm(), (b - c).norm(), (a - e).norm(), (b - e).norm()});
+            std::max({bound_(d.c, d.d), (a - b).norm(), (a - c).norm(), (b - c).norm(), (a - e).norm(), (b - e).norm()});
         return (c - e).norm() <= longest && complex_.lies_on_surface(d.flipped(), cos_30);
     }
 
     TriangleComplex& complex_;
     const WantedEdges& wanted_;
-    double longest_;
+    const LengthBound& bound_;
     std::vector<std::pair<Index, Index>> stack_;
 };
 
@@ -202,8 +202,8 @@ bool WantedEdges::has(Index a, Index b) const {
                        [&](const auto& edge) { return edge.second == b; });
 }
 
-Index flip_edges(TriangleComplex& complex, const WantedEdges& wanted, double longest) {
-    return Flipping(complex, wanted, longest).run();
+Index flip_edges(TriangleComplex& complex, const WantedEdges& wanted, const LengthBound& bound) {
+    return Flipping(complex, wanted, bound).run();
 }
 
 bool recover_edge(TriangleComplex& complex, const WantedEdges& wanted, Index a, Index b) {

@@ -30,18 +30,28 @@ Index recover_edges(TriangleComplex& complex, const WantedEdges& wanted) {
     return count;
 }
 
+// 1.6 edge_length, and at points the longest diagonal of their quads.
+detail::LengthBound length_bound(const TriangleComplex& complex, const Quads& quads, double edge_length) {
+    detail::LengthBound bound{std::vector<double>(complex.star.size(), 1.6 * edge_length)};
+    for (const auto q : quads.rowwise()) {
+        const double longest = 1.001 * std::max(complex.distance(q[0], q[2]), complex.distance(q[1], q[3]));
+        for (const Index p : q) bound.at[p] = std::max(bound.at[p], longest);
+    }
+    return bound;
+}
+
 void redraw(TriangleComplex& complex, const std::vector<std::uint8_t>& old, const WantedEdges& wanted,
-            double edge_length) {
-    const double longest = 1.6 * edge_length, cos_30 = 0.8660254037844387, cos_60 = 0.5;
-    detail::flip_edges(complex, wanted, longest);
-    detail::thin(complex, old, {longest, cos_30, 0.3, false});
-    detail::flip_edges(complex, wanted, longest);
+            const detail::LengthBound& bound) {
+    const double cos_30 = 0.8660254037844387, cos_60 = 0.5;
+    detail::flip_edges(complex, wanted, bound);
+    detail::thin(complex, old, bound, {cos_30, 0.3, false});
+    detail::flip_edges(complex, wanted, bound);
     for (int round = 0; round < 4; ++round) {
         const bool last_resort = round > 0;
-        Index changes = detail::thin(complex, old, {longest, cos_60, last_resort ? 0.02 : 0.1, last_resort});
-        detail::flip_edges(complex, wanted, longest);
+        Index changes = detail::thin(complex, old, bound, {cos_60, last_resort ? 0.02 : 0.1, last_resort});
+        detail::flip_edges(complex, wanted, bound);
         changes += recover_edges(complex, wanted);
-        detail::flip_edges(complex, wanted, longest);
+        detail::flip_edges(complex, wanted, bound);
         if (changes == 0 && round > 0) break;
     }
 }
@@ -113,7 +123,8 @@ PointSurface point_surface(const surface::TriangleMesh& mesh, const surface::Fea
     const surface::FeatureGraph features = surface::ordered_features(given_features, mesh);
     const Index count = static_cast<Index>(points.triangle.size());
     detail::PlacedPoints placed = detail::place_points(mesh, features, groups, points);
-    redraw(placed.complex, removable(placed, count, features.corners), WantedEdges(quads, count), edge_length);
+    redraw(placed.complex, removable(placed, count, features.corners), WantedEdges(quads, count),
+           length_bound(placed.complex, quads, edge_length));
     PointSurface result = Result(placed, count).surface(features.corners);
     result.quad_found = found_quads(placed.complex, quads);
     return result;

@@ -22,8 +22,8 @@ std::vector<Corners> fan(const std::vector<Index>& ring, std::size_t apex) {
 
 class Thinning {
 public:
-    Thinning(TriangleComplex& complex, const std::vector<std::uint8_t>& removable, const ThinLimits& limits)
-        : complex_(complex), removable_(removable), limits_(limits), key_(removable.size(), infinity) {}
+    Thinning(TriangleComplex& complex, const std::vector<std::uint8_t>& removable, const LengthBound& bound, const ThinLimits& limits)
+        : complex_(complex), removable_(removable), bound_(bound), limits_(limits), key_(removable.size(), infinity) {}
 
     Index run() {
         for (Index v = 0; v < static_cast<Index>(removable_.size()); ++v) enqueue(v);
@@ -53,7 +53,7 @@ private:
     bool take_out(Index v) {
         const std::vector<Page> pages = complex_.pages(v);
         if (pages.empty()) return false;
-        longest_ = limits_.longest;
+        longest_ = 0;
         for (const Page& page : pages) {
             for (const Index x : page.ring) longest_ = std::max(longest_, complex_.distance(v, x));
             for (std::size_t i = 0; i + 1 < page.ring.size(); ++i)
@@ -88,7 +88,7 @@ private:
     }
 
     bool new_edge_fits(Index a, Index b) const {
-        return complex_.distance(a, b) <= longest_ && !complex_.has_edge(a, b);
+        return complex_.distance(a, b) <= std::max(longest_, bound_(a, b)) && !complex_.has_edge(a, b);
     }
 
     double least_quality(const Page& page) const {
@@ -173,7 +173,7 @@ private:
     // is of a page, it may be there as that triangle's third side.
     bool chord_fits(const CurveEdge& joined) const {
         const Vector chord = complex_.place(joined.b) - complex_.place(joined.a);
-        if (!(chord.norm() > 0) || chord.norm() > longest_ || complex_.curve_edge(joined.a, joined.b) >= 0) return false;
+        if (!(chord.norm() > 0) || chord.norm() > std::max(longest_, bound_(joined.a, joined.b)) || complex_.curve_edge(joined.a, joined.b) >= 0) return false;
         const Vector direction = chord.normalized();
         return std::all_of(joined.beneath.begin(), joined.beneath.end(),
                            [&](const Vector& d) { return d.dot(direction) > limits_.least_cosine; });
@@ -212,6 +212,7 @@ private:
 
     TriangleComplex& complex_;
     const std::vector<std::uint8_t>& removable_;
+    const LengthBound& bound_;
     const ThinLimits& limits_;
     double longest_ = 0;  // round the vertex at hand
     std::vector<double> key_;  // of those in the queue
@@ -220,8 +221,9 @@ private:
 
 }  // namespace
 
-Index thin(TriangleComplex& complex, const std::vector<std::uint8_t>& removable, const ThinLimits& limits) {
-    return Thinning(complex, removable, limits).run();
+Index thin(TriangleComplex& complex, const std::vector<std::uint8_t>& removable, const LengthBound& bound,
+           const ThinLimits& limits) {
+    return Thinning(complex, removable, bound, limits).run();
 }
 
 }  // namespace octafield::volume::detail

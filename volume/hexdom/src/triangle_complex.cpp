@@ -41,7 +41,8 @@ void TriangleComplex::add(const Corners& t, Index group_of_it, Index old_triangl
     group.push_back(group_of_it);
     put(id, t);
     first_sample_.push_back(static_cast<Index>(samples_.size()));
-    samples_.push_back({(place(t[0]) + place(t[1]) + place(t[2])) / 3, old_normal, old_triangle, -1});
+    reference_.push_back(first_sample_.back());
+    samples_.push_back({middle(t), old_normal, old_triangle, -1});
 }
 
 void TriangleComplex::add_curve_edge(Index a, Index b, bool feature, const Vector& direction) {
@@ -136,6 +137,14 @@ std::vector<Index> TriangleComplex::samples_of(const std::vector<Index>& some) c
     return result;
 }
 
+// Samples that tell the old surface beneath: those of the triangles, and for one without what it refers to.
+std::vector<Index> TriangleComplex::references_of(const std::vector<Index>& some) const {
+    std::vector<Index> result = samples_of(some);
+    for (const Index t : some)
+        if (first_sample_[t] < 0) result.push_back(reference_[t]);
+    return result;
+}
+
 std::vector<int> TriangleComplex::owners(const std::vector<Index>& samples, const std::vector<Corners>& made) const {
     std::vector<int> result(samples.size(), 0);
     if (made.size() == 1) return result;
@@ -166,24 +175,21 @@ bool TriangleComplex::lies_on_surface(const Change& change, double least_cosine)
         if (!(length > 0)) return false;
         normals.push_back(n / length);
     }
-    const std::vector<Index> samples = samples_of(change.gone);
+    const std::vector<Index> references = references_of(change.gone);
     const auto agrees = [&](Index s, const Vector& normal) { return samples_[s].normal.dot(normal) > least_cosine; };
-    const bool all = std::all_of(samples.begin(), samples.end(), [&](Index s) {
+    const bool all = std::all_of(references.begin(), references.end(), [&](Index s) {
         return std::all_of(normals.begin(), normals.end(), [&](const Vector& n) { return agrees(s, n); });
     });
     if (all) return true;
+    const std::vector<Index> samples = samples_of(change.gone);
     const std::vector<int> owner = owners(samples, change.made);
     std::vector<bool> has(change.made.size(), false);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (!agrees(samples[i], normals[owner[i]])) return false;
         has[owner[i]] = true;
     }
-    for (std::size_t k = 0; k < has.size(); ++k) {
-        if (has[k]) continue;
-        const auto& [a, b, c] = change.made[k];
-        const Index s = nearest_sample(samples, (place(a) + place(b) + place(c)) / 3);
-        if (s >= 0 && !agrees(s, normals[k])) return false;
-    }
+    for (std::size_t k = 0; k < has.size(); ++k)
+        if (!has[k] && !agrees(nearest_sample(references, middle(change.made[k])), normals[k])) return false;
     return true;
 }
 
@@ -198,7 +204,7 @@ void TriangleComplex::put(Index t, const Corners& corners) {
 }
 
 void TriangleComplex::apply(const Change& change) {
-    const std::vector<Index> samples = samples_of(change.gone);
+    const std::vector<Index> samples = samples_of(change.gone), references = references_of(change.gone);
     const std::vector<int> owner = owners(samples, change.made);
     for (const Index t : change.gone) {
         remove(t);
@@ -210,6 +216,9 @@ void TriangleComplex::apply(const Change& change) {
         samples_[samples[i]].next = first;
         first = samples[i];
     }
+    for (std::size_t k = 0; k < change.made.size(); ++k)
+        if (first_sample_[change.gone[k]] < 0)
+            reference_[change.gone[k]] = nearest_sample(references, middle(change.made[k]));
 }
 
 CurveEdge TriangleComplex::joined_curve(Index v) const {
@@ -230,23 +239,7 @@ void TriangleComplex::join_curve(Index v) {
 }
 
 Index TriangleComplex::nearest_old_triangle(Index t) const {
-    const auto& [a, b, c] = triangles[t];
-    const Vector middle = (place(a) + place(b) + place(c)) / 3;
-    std::vector<Index> near{t}, samples = samples_of(near);
-    while (samples.empty()) {  // so small that no piece's middle lies beneath
-        std::vector<Index> wider;
-        for (const Index n : near)
-            for (const Index v : triangles[n])
-                for (const Index other : star[v])
-                    if (group[other] == group[t]) wider.push_back(other);
-        std::sort(wider.begin(), wider.end());
-        wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
-        if (wider.size() == near.size()) return -1;
-        near = std::move(wider);
-        samples = samples_of(near);
-    }
-    const Index s = nearest_sample(samples, middle);
-    return samples_[s].old_triangle;
+    return samples_[nearest_sample(references_of({t}), middle(triangles[t]))].old_triangle;
 }
 
 }  // namespace octafield::volume::detail

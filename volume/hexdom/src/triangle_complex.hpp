@@ -54,6 +54,7 @@ public:
     void add_curve_edge(Index a, Index b, bool feature, const Vector& direction);
 
     Vector place(Index v) const { return at.row(v); }
+    Vector middle(const Corners& t) const { return (place(t[0]) + place(t[1]) + place(t[2])) / 3; }
     double distance(Index a, Index b) const { return (at.row(a) - at.row(b)).norm(); }
     bool alive(Index t) const { return triangles[t][0] >= 0; }
     Index curve_edge(Index a, Index b) const;  // -1: none
@@ -83,6 +84,7 @@ private:
     };
     Vector scaled_normal(const Corners& t) const;
     std::vector<Index> samples_of(const std::vector<Index>& some) const;
+    std::vector<Index> references_of(const std::vector<Index>& some) const;
     std::vector<int> owners(const std::vector<Index>& samples, const std::vector<Corners>& made) const;
     Index nearest_sample(const std::vector<Index>& samples, const Vector& place) const;
     void remove(Index t);
@@ -90,6 +92,7 @@ private:
 
     std::vector<Sample> samples_;
     std::vector<Index> first_sample_;  // (F)
+    std::vector<Index> reference_;     // (F) for a triangle so small that no sample lies beneath: one that is near
 };
 
 }  // namespace octafield::volume::detail
