@@ -203,7 +203,8 @@ inline double least_corner(const MixedMesh& mesh) {
         for (const auto& corner : reference(static_cast<int>(cell.size())).joined) {
             Eigen::Matrix3d edges;
             for (int k = 0; k < 3; ++k)
-                edges.col(k) = (mesh.vertices.row(cell[corner[k + 1]]) - mesh.vertices.row(cell[corner[0]])).normalized();
+                edges.col(k) =
+                    (mesh.vertices.row(cell[corner[k + 1]]) - mesh.vertices.row(cell[corner[0]])).normalized();
             least = std::min(least, edges.determinant());
         }
     });

@@ -31,8 +31,8 @@ struct Region {
 // Quads of the cell that meet two triangles count as those.
 void add_to_region(const CellComplex& complex, Index cell, Region& region);
 
-// The tets and pyramids round the diagonal of a quad that meets two triangles, and in their place the quad. Nothing where
-// other cells or the mesh's boundary are between.
+// The tets and pyramids round the diagonal of a quad that meets two triangles, and in their place the quad. Nothing
+// where other cells or the mesh's boundary are between.
 std::optional<Region> cells_round_diagonal(const CellComplex& complex, const std::array<Index, 4>& round);
 
 struct Filling {

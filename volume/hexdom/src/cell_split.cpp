@@ -14,8 +14,8 @@ using Tet = std::array<Index, 4>;
 constexpr int most_tets = 12;
 constexpr int most_nodes = 20000;
 
-// Tets on given vertices with a given boundary, found triangle by triangle. As all are positive and the boundary closes,
-// they fill the inside once.
+// Tets on given vertices with a given boundary, found triangle by triangle. As all are positive and the boundary
+// closes, they fill the inside once.
 class Filler {
 public:
     Filler(const CellComplex& complex, Index cell, double least) : complex_(complex), cell_(cell), least_(least) {}

@@ -1,4 +1,5 @@
-// Pyramids where quads meet triangles: of two tets, about a point in the tets round the diagonal, or by giving the cell up.
+// Pyramids where quads meet triangles: of two tets, about a point in the tets round the diagonal, or by giving the cell
+// up.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <deque>
@@ -32,6 +33,8 @@ void require_cells(const MixedMesh& mesh) {
 class Conformer {
 public:
     explicit Conformer(const MixedMesh& mesh) : complex_(mesh), input_cells_(mesh.cell_count()) {
+        for (Index tet = 0; tet < mesh.tets.rows(); ++tet)
+            if (between_quads(tet)) complex_.remove(tet);
         for (Index cell = 0; cell < complex_.cell_count(); ++cell) queue_quads(cell);
     }
 
@@ -55,6 +58,19 @@ private:
         FaceCycle quad;
     };
 
+    // Flat, between two quads of its four vertices, which match without it.
+    bool between_quads(Index tet) const {
+        for (const CellFace& local : tet_shape.faces)
+            if (complex_.cell_across(complex_.face(tet, local)) >= 0) return false;
+        const auto& v = complex_.ids(tet);
+        for (const auto& round :
+             {std::array{v[0], v[1], v[2], v[3]}, {v[0], v[2], v[1], v[3]}, {v[0], v[1], v[3], v[2]}}) {
+            const FaceCycle quad = face_cycle(round);
+            if (complex_.cell_with(quad) >= 0 && complex_.cell_across(quad) >= 0) return true;
+        }
+        return false;
+    }
+
     QuadMeeting meeting_of(const OpenQuad& open) const {
         const QuadMeeting meeting = quad_meeting(complex_, open.quad);
         if (meeting.kind == Kind::part)
@@ -73,7 +89,7 @@ private:
     }
 
     void queue_quads(Index cell) {
-        if (&complex_.shape(cell) == &tet_shape) return;
+        if (!complex_.alive(cell) || &complex_.shape(cell) == &tet_shape) return;
         for (const CellFace& local : complex_.shape(cell).faces) {
             const FaceCycle face = complex_.face(cell, local);
             if (face.corners() == 4 && meeting_of({cell, face}).kind == Kind::triangles) open_.push_back({cell, face});
@@ -126,7 +142,8 @@ private:
         if (first < 0 || second < 0 || first == second) return -1;
         const auto apex = [&](Index tet) {
             const auto& ids = complex_.ids(tet);
-            return *std::find_if(ids.begin(), ids.end(), [&](Index v) { return v != q[0] && v != q[2] && v != q[1] && v != q[3]; });
+            return *std::find_if(ids.begin(), ids.end(),
+                                 [&](Index v) { return v != q[0] && v != q[2] && v != q[1] && v != q[3]; });
         };
         return apex(first) == apex(second) ? apex(first) : -1;
     }
