@@ -8,12 +8,25 @@ namespace octafield::volume {
 struct RecombineOptions {
     double min_scaled_jacobian = 0.3;  // of a hexahedron or wedge that is made, in (0, 1)
     bool wedges = true;
+    double max_boundary_fold = 0.35;  // radians: turn between two triangles of the boundary that become a quad
+    Edges kept_edges{0, 2};           // of the boundary: no quad replaces the two triangles at one (feature curves)
     int threads = 0;
 };
 
-// Cells of `mesh` that are no tets stay. Its faces match but for quads that meet two triangles of tets (either diagonal);
-// so do those of the result, where tets have been joined to more hexahedra and wedges. Vertices stay.
-MixedMesh recombine(const MixedMesh& mesh, const RecombineOptions& options = {});
+struct RecombineReport {
+    Index potential_hexahedra = 0, potential_wedges = 0;  // found; wedges among the tets that hexahedra left
+    Index hexahedra = 0, wedges = 0;                      // made
+    Index flat_tets = 0;  // that lay between two quads of their four vertices, or a quad and the boundary, and are gone
+};
+
+// Cells of `mesh` that are no tets stay. Its faces match but for quads that meet two triangles of tets (either
+// diagonal); so do those of the result, where tets have been joined to more hexahedra and wedges. Vertices stay. All
+// hexahedra that tets can be joined to are found vertex by vertex (Pellerin, Johnen, Verhetsel, Remacle 2018,
+// "Identifying combinations of tetrahedra into hexahedra"); of these some that can stand together are chosen: the best
+// first, then improved by exchanges as Andrade, Resende, Werneck 2012 do. The same at any number of threads. The
+// boundary may get a quad for two triangles; so a flat tet may go. Throws InvalidInput, and GeometryError with a defect
+// of the mesh.
+MixedMesh recombine(const MixedMesh& mesh, const RecombineOptions& options = {}, RecombineReport* report = nullptr);
 
 struct ConformReport {
     Index combined = 0;  // pyramids of two tets
@@ -21,8 +34,10 @@ struct ConformReport {
     Index split = 0;     // hexahedra and wedges given up: split about a point inside, or into tets
 };
 
-// The same region with faces that all match: pyramids on quads that met triangles. Positive at all corners as the mesh given
-// is. New vertices come last.
+// The same region with faces that all match: pyramids on quads that met triangles. Positive at all corners as the mesh
+// given is. New vertices come last. A flat tet on the four vertices of a quad goes where quads or the boundary are on
+// both its sides. Throws GeometryError: a defect of the mesh; kind "mismatched_face" where a quad meets triangles that
+// do not fill it; "unsplittable_cell" where no pyramid fits on a quad and the cell cannot be split.
 MixedMesh conform(const MixedMesh& mesh, ConformReport* report = nullptr);
 
 }  // namespace octafield::volume

@@ -1,0 +1,232 @@
+#include "cell_choice.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace octafield::volume::detail {
+namespace {
+
+constexpr int most_passes = 10;
+constexpr int most_rivals = 64;    // of one cell, looked at together
+constexpr int most_nodes = 20000;  // of their search
+constexpr double gain_at_least = 1e-9;
+
+// The heaviest set of which no two are joined in a graph of at most 64 vertices, by branch and bound.
+class IndependentSet {
+public:
+    IndependentSet(std::vector<double> weights, std::vector<std::uint64_t> joined)
+        : weights_(std::move(weights)), joined_(std::move(joined)) {}
+
+    double weight = 0;
+    std::uint64_t members = 0;
+
+    void search() {
+        const std::size_t n = weights_.size();
+        visit(n == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << n) - 1, 0, 0);
+    }
+
+private:
+    void visit(std::uint64_t open, double so_far, std::uint64_t chosen) {
+        if (so_far > weight) weight = so_far, members = chosen;
+        if (open == 0 || ++nodes_ > most_nodes || so_far + bound(open) <= weight) return;
+        const int v = heaviest(open);
+        const std::uint64_t bit = std::uint64_t{1} << v;
+        visit(open & ~(bit | joined_[v]), so_far + weights_[v], chosen | bit);
+        if (open & joined_[v]) visit(open & ~bit, so_far, chosen);  // else it is in some best set
+    }
+
+    int heaviest(std::uint64_t open) const {
+        int best = -1;
+        for (; open; open &= open - 1) {
+            const int v = __builtin_ctzll(open);
+            if (best < 0 || weights_[v] > weights_[best]) best = v;
+        }
+        return best;
+    }
+
+    // Cliques found one after the other give at most one member each.
+    double bound(std::uint64_t open) const {
+        double total = 0;
+        while (open) {
+            const int first = heaviest(open);
+            total += weights_[first];
+            std::uint64_t clique = std::uint64_t{1} << first, rest = open & joined_[first];
+            while (rest) {
+                const int v = __builtin_ctzll(rest);
+                clique |= std::uint64_t{1} << v;
+                rest &= joined_[v];
+            }
+            open &= ~clique;
+        }
+        return total;
+    }
+
+    const std::vector<double> weights_;
+    const std::vector<std::uint64_t> joined_;
+    int nodes_ = 0;
+};
+
+bool in_the_way(std::span<const Index> tets, const CellClaims& claims, std::span<const Index> other_tets,
+                const CellClaims& other) {
+    for (const Index tet : tets)
+        if (std::find(other_tets.begin(), other_tets.end(), tet) != other_tets.end()) return true;
+    for (int f = 0; f < claims.count; ++f)
+        for (int g = 0; g < other.count; ++g) {
+            const FaceClaim &a = claims.faces[f], &b = other.faces[g];
+            if (a.key == b.key) continue;
+            for (int k = 0; k < a.count; ++k)
+                if (std::find(b.triangles.begin(), b.triangles.begin() + b.count, a.triangles[k]) !=
+                    b.triangles.begin() + b.count)
+                    return true;
+        }
+    return false;
+}
+
+class Chooser {
+public:
+    Chooser(const TetSurroundings& surroundings, const CellShape& shape, const PotentialCells& cells,
+            const std::vector<double>& weights, ClaimTable& table)
+        : surroundings_(surroundings),
+          shape_(shape),
+          cells_(cells),
+          weights_(weights),
+          table_(table),
+          chosen_(cells.count(), 0),
+          order_(cells.count()) {
+        std::iota(order_.begin(), order_.end(), 0);
+        std::stable_sort(order_.begin(), order_.end(), [&](Index a, Index b) { return weights[a] > weights[b]; });
+    }
+
+    std::vector<Index> run() {
+        // The first round of exchanges puts in all that nothing is in the way of, the heaviest first.
+        for (int pass = 0; pass < most_passes; ++pass) {
+            const bool exchanged = exchange_for_one();
+            if (!exchange_for_several() && !exchanged) break;
+        }
+        std::vector<Index> result;
+        for (Index cell = 0; cell < cells_.count(); ++cell)
+            if (chosen_[cell]) result.push_back(cell);
+        return result;
+    }
+
+private:
+    std::optional<CellClaims> claims(Index cell) const {
+        return surroundings_.claims(shape_, cells_.ids[cell].data(), cells_.inner_pairs[cell]);
+    }
+
+    void put(Index cell, const CellClaims& claims) {
+        table_.add(cell, cells_.tets_of(cell), claims);
+        chosen_[cell] = 1;
+    }
+    void take_out(Index cell) {
+        table_.remove(cell, cells_.tets_of(cell), *claims(cell));
+        chosen_[cell] = 0;
+    }
+
+    // The weight of chosen cells in the way; infinite where one is settled.
+    double weight_in_the_way(Index cell, const CellClaims& claims) {
+        table_.conflicts(cells_.tets_of(cell), claims, conflicts_);
+        double total = 0;
+        for (const Index other : conflicts_)
+            total += other == ClaimTable::settled ? std::numeric_limits<double>::infinity() : weights_[other];
+        return total;
+    }
+
+    bool exchange_for_one() {
+        bool any = false;
+        for (const Index cell : order_) {
+            if (chosen_[cell] || !light_owners(cell)) continue;
+            const std::optional<CellClaims> claim = claims(cell);
+            if (!claim || !(weights_[cell] > weight_in_the_way(cell, *claim) + gain_at_least)) continue;
+            for (const Index other : std::vector<Index>(conflicts_)) take_out(other);
+            put(cell, *claim);
+            any = true;
+        }
+        return any;
+    }
+
+    // No owner of its tets is as heavy as the cell: quicker to see than all that is in the way.
+    bool light_owners(Index cell) const {
+        for (const Index tet : cells_.tets_of(cell)) {
+            const Index owner = table_.owners()[tet];
+            if (owner == ClaimTable::settled || (owner >= 0 && weights_[owner] >= weights_[cell])) return false;
+        }
+        return true;
+    }
+
+    bool one_owner(Index cell) const {
+        Index only = ClaimTable::nobody;
+        for (const Index tet : cells_.tets_of(cell)) {
+            const Index owner = table_.owners()[tet];
+            if (owner == ClaimTable::nobody) continue;
+            if (owner == ClaimTable::settled || (only != ClaimTable::nobody && only != owner)) return false;
+            only = owner;
+        }
+        return true;
+    }
+
+    bool exchange_for_several() {
+        std::vector<std::pair<Index, Index>> rivals;  // a chosen cell and one that only this is in the way of
+        for (const Index cell : order_) {
+            if (chosen_[cell] || !one_owner(cell)) continue;
+            const std::optional<CellClaims> claim = claims(cell);
+            if (!claim) continue;
+            table_.conflicts(cells_.tets_of(cell), *claim, conflicts_);
+            if (conflicts_.size() == 1 && conflicts_[0] >= 0) rivals.emplace_back(conflicts_[0], cell);
+        }
+        std::stable_sort(rivals.begin(), rivals.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        bool any = false;
+        for (auto first = rivals.begin(); first != rivals.end();) {
+            const auto last = std::find_if(first, rivals.end(), [&](const auto& r) { return r.first != first->first; });
+            if (last - first > 1 && exchange(first->first, first, last)) any = true;
+            first = last;
+        }
+        return any;
+    }
+
+    template <class Iterator>
+    bool exchange(Index cell, Iterator first, Iterator last) {
+        std::vector<Index> rivals;
+        std::vector<CellClaims> claimed;
+        std::vector<double> weights;
+        for (; first != last && rivals.size() < most_rivals; ++first) {
+            const std::optional<CellClaims> claim = claims(first->second);
+            table_.conflicts(cells_.tets_of(first->second), *claim, conflicts_);  // others may have come
+            if (conflicts_.size() != 1 || conflicts_[0] != cell) continue;
+            rivals.push_back(first->second);
+            claimed.push_back(*claim);
+            weights.push_back(weights_[first->second]);
+        }
+        std::vector<std::uint64_t> joined(rivals.size(), 0);
+        for (std::size_t i = 0; i < rivals.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                if (in_the_way(cells_.tets_of(rivals[i]), claimed[i], cells_.tets_of(rivals[j]), claimed[j])) {
+                    joined[i] |= std::uint64_t{1} << j;
+                    joined[j] |= std::uint64_t{1} << i;
+                }
+        IndependentSet best(std::move(weights), std::move(joined));
+        best.search();
+        if (!(best.weight > weights_[cell] + gain_at_least)) return false;
+        take_out(cell);
+        for (std::size_t i = 0; i < rivals.size(); ++i)
+            if (best.members >> i & 1u) put(rivals[i], claimed[i]);
+        return true;
+    }
+
+    const TetSurroundings& surroundings_;
+    const CellShape& shape_;
+    const PotentialCells& cells_;
+    const std::vector<double>& weights_;
+    ClaimTable& table_;
+    std::vector<std::uint8_t> chosen_;
+    std::vector<Index> order_, conflicts_;
+};
+
+}  // namespace
+
+std::vector<Index> choose_cells(const TetSurroundings& surroundings, const CellShape& shape,
+                                const PotentialCells& cells, const std::vector<double>& weights, ClaimTable& table) {
+    return Chooser(surroundings, shape, cells, weights, table).run();
+}
+
+}  // namespace octafield::volume::detail

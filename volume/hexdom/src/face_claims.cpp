@@ -1,0 +1,105 @@
+#include "face_claims.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace octafield::volume::detail {
+namespace {
+
+FaceKey key_of(const std::array<Index, 4>& round, int corners) {
+    FaceKey key{round, -1, 0};
+    if (corners == 3) key.sorted[3] = -1;
+    const auto lowest = std::min_element(round.begin(), round.begin() + corners) - round.begin();
+    if (corners == 4) key.across = round[(lowest + 2) % 4];
+    for (int k = 1; k < corners; ++k)  // std::sort makes GCC 12 see bounds that are not there
+        for (int j = k; j > 0 && key.sorted[j] < key.sorted[j - 1]; --j) std::swap(key.sorted[j], key.sorted[j - 1]);
+    return key;
+}
+
+}  // namespace
+
+TetSurroundings::TetSurroundings(const MixedMesh& mesh, const TetTopology& topology, const Edges& kept, double max_fold)
+    : mesh_(mesh),
+      topology_(topology),
+      least_cosine_(std::cos(max_fold)),
+      outside_(topology.triangle_count(), Outside::tets),
+      kept_(topology.link_start.size() - 1, 0) {
+    for (Eigen::Index e = 0; e < kept.rows(); ++e) {
+        const Index edge = topology.edge(kept(e, 0), kept(e, 1));
+        if (edge >= 0) kept_[edge] = 1;
+    }
+    for (Index t = 0; t < topology.triangle_count(); ++t)
+        if (topology.triangle_tets[t][0] < 0 || topology.triangle_tets[t][1] < 0) outside_[t] = Outside::boundary;
+    for_each_cell(mesh, [&](const Cell& cell) {
+        if (&cell.shape == &tet_shape) return;
+        for (const CellFace& local : cell.shape.faces) {
+            std::array<Index, 4> round{-1, -1, -1, -1};
+            for (int k = 0; k < local.corners; ++k) round[k] = cell.ids[local.local[k]];
+            // Each triangle of three corners: with a flat tet on it, a quad lies on two of them on either diagonal.
+            bool used = false;
+            for (int without = local.corners == 3 ? 3 : 0; without < 4; ++without) {
+                const Index a = round[without == 0 ? 1 : 0], b = round[without <= 1 ? 2 : 1],
+                            c = round[without <= 2 ? 3 : 2];
+                const Index triangle = topology.triangle(a, b, c);
+                // The tet there has it the other way round.
+                if (triangle < 0 || outside_[triangle] != Outside::boundary ||
+                    topology.tet_outside(triangle, a, b, c) < 0)
+                    continue;
+                outside_[triangle] = static_cast<Index>(fixed_.size());
+                used = true;
+            }
+            if (used) fixed_.push_back(key_of(round, local.corners));
+        }
+    });
+}
+
+std::optional<CellClaims> TetSurroundings::claims(const CellShape& shape, const Index* ids,
+                                                  unsigned inner_pairs) const {
+    std::optional<CellFacets> facets = cell_facets(topology_, shape, ids);
+    CellClaims claims{{}, static_cast<int>(shape.faces.size())};
+    for (int f = 0; f < claims.count; ++f) {
+        (*facets)[f].inner = inner_pairs >> f & 1u;
+        const std::optional<FaceClaim> of_face = claim((*facets)[f]);
+        if (!of_face) return std::nullopt;
+        claims.faces[f] = *of_face;
+    }
+    return claims;
+}
+
+std::optional<FaceClaim> TetSurroundings::claim(const CellFacet& facet) const {
+    FaceClaim claim{key_of(facet.round, facet.corners), {-1, -1, -1, -1}, 1, -1, false};
+    if (facet.corners == 3) {
+        const Index triangle = claim.triangles[0] = facet.pairs[0][0], beyond = outside_[triangle];
+        claim.closed = beyond != Outside::tets;
+        if (beyond >= 0 && fixed_[beyond] != claim.key) return std::nullopt;
+        return claim;
+    }
+    const auto& inner = facet.pairs[facet.inner];
+    const auto& other = facet.pairs[1 - facet.inner];
+    claim.flat = flat_tet_outside(topology_, facet);
+    claim.count = other[0] < 0 ? 2 : 4;
+    claim.triangles = {inner[0], inner[1], other[0], other[1]};
+    const int outermost = claim.flat < 0 ? facet.inner : 1 - facet.inner;
+    const auto& [first, second] = facet.pairs[outermost];
+    claim.closed = outside_[first] != Outside::tets;
+    if (claim.closed != (outside_[second] != Outside::tets)) return std::nullopt;
+    if (claim.closed && !may_close(facet, outermost, claim.key)) return std::nullopt;
+    if (claim.count == 4 && claim.flat < 0) claim.key.variant = 1 + facet.inner;
+    return claim;
+}
+
+bool TetSurroundings::may_close(const CellFacet& facet, int pair, const FaceKey& key) const {
+    const Index beyond = outside_[facet.pairs[pair][0]];
+    if (beyond != outside_[facet.pairs[pair][1]]) return false;
+    if (beyond >= 0) return fixed_[beyond] == key;
+    const auto& round = facet.round;
+    if (kept_[topology_.edge(round[pair], round[pair + 2])]) return false;
+    const auto normal = [&](const std::array<Index, 3>& t) -> Eigen::Vector3d {
+        const Eigen::Vector3d a = mesh_.vertices.row(t[0]), b = mesh_.vertices.row(t[1]), c = mesh_.vertices.row(t[2]);
+        return (b - a).cross(c - a).normalized();
+    };
+    return normal(facet.half(pair, 0)).dot(normal(facet.half(pair, 1))) >= least_cosine_;
+}
+
+}  // namespace octafield::volume::detail

@@ -1,0 +1,61 @@
+// Which faces cells need where: two cells can stand together if they share no tet and no triangle as parts of different
+// faces.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "cell_facets.hpp"
+#include "octafield/volume/mixed_mesh.hpp"
+#include "potential_cells.hpp"
+
+namespace octafield::volume::detail {
+
+// A quad by its vertices and order, or a triangle.
+struct FaceKey {
+    std::array<Index, 4> sorted;  // of a triangle the last is -1
+    Index across;                 // from the lowest; -1 of a triangle
+    Index variant;  // not 0: the quad may be met on the pair of triangles variant - 1 only, as more than a flat tet
+                    // lies between that and the other pair
+    bool operator==(const FaceKey&) const = default;
+};
+
+// The triangles that must be this face, or nothing.
+struct FaceClaim {
+    FaceKey key;
+    std::array<Index, 4> triangles;
+    int count;    // 1, 2, or 4: the pair beyond a flat tet, too
+    Index flat;   // the flat tet, -1: none
+    bool closed;  // the outermost pair lies on the mesh's boundary or on a cell that stays
+};
+
+struct CellClaims {
+    std::array<FaceClaim, 6> faces;
+    int count;
+};
+
+// What lies outside the tets: of each triangle of one tet, the boundary or a face of another cell.
+class TetSurroundings {
+public:
+    // kept: edges that become no diagonal of a quad on the boundary.
+    TetSurroundings(const MixedMesh& mesh, const TetTopology& topology, const Edges& kept, double max_fold);
+
+    // Nothing where the cell cannot stand whatever else does: a quad would lie in part on the boundary or on a cell
+    // that stays, cross one of its quads, or fold the boundary.
+    std::optional<CellClaims> claims(const CellShape& shape, const Index* ids, unsigned inner_pairs) const;
+
+private:
+    enum Outside : Index { tets = -2, boundary = -1 };  // or the number of a fixed face
+    std::optional<FaceClaim> claim(const CellFacet& facet) const;
+    bool may_close(const CellFacet& facet, int pair, const FaceKey& key) const;
+
+    const MixedMesh& mesh_;
+    const TetTopology& topology_;
+    const double least_cosine_;
+    std::vector<Index> outside_;      // (triangles)
+    std::vector<FaceKey> fixed_;      // faces of cells that stay, that lie on tets
+    std::vector<std::uint8_t> kept_;  // (edges)
+};
+
+}  // namespace octafield::volume::detail
