@@ -54,8 +54,13 @@ private:
         const std::vector<Page> pages = complex_.pages(v);
         if (pages.empty()) return false;
         longest_ = 0;
+        stretch_ = 1;
         for (const Page& page : pages) {
-            for (const Index x : page.ring) longest_ = std::max(longest_, complex_.distance(v, x));
+            for (const Index x : page.ring) {
+                const double length = complex_.distance(v, x);
+                longest_ = std::max(longest_, length);
+                if (length < limits_.crowded) stretch_ = 1.5;
+            }
             for (std::size_t i = 0; i + 1 < page.ring.size(); ++i)
                 longest_ = std::max(longest_, complex_.distance(page.ring[i], page.ring[i + 1]));
         }
@@ -87,8 +92,10 @@ private:
         return true;
     }
 
+    double longest_edge(Index a, Index b) const { return std::max(longest_, stretch_ * bound_(a, b)); }
+
     bool new_edge_fits(Index a, Index b) const {
-        return complex_.distance(a, b) <= std::max(longest_, bound_(a, b)) && !complex_.has_edge(a, b);
+        return complex_.distance(a, b) <= longest_edge(a, b) && !complex_.has_edge(a, b);
     }
 
     double least_quality(const Page& page) const {
@@ -173,7 +180,7 @@ private:
     // is of a page, it may be there as that triangle's third side.
     bool chord_fits(const CurveEdge& joined) const {
         const Vector chord = complex_.place(joined.b) - complex_.place(joined.a);
-        if (!(chord.norm() > 0) || chord.norm() > std::max(longest_, bound_(joined.a, joined.b)) || complex_.curve_edge(joined.a, joined.b) >= 0) return false;
+        if (!(chord.norm() > 0) || chord.norm() > longest_edge(joined.a, joined.b) || complex_.curve_edge(joined.a, joined.b) >= 0) return false;
         const Vector direction = chord.normalized();
         return std::all_of(joined.beneath.begin(), joined.beneath.end(),
                            [&](const Vector& d) { return d.dot(direction) > limits_.least_cosine; });
@@ -214,7 +221,7 @@ private:
     const std::vector<std::uint8_t>& removable_;
     const LengthBound& bound_;
     const ThinLimits& limits_;
-    double longest_ = 0;  // round the vertex at hand
+    double longest_ = 0, stretch_ = 1;  // round the vertex at hand
     std::vector<double> key_;  // of those in the queue
     std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>> queue_;
 };

@@ -18,6 +18,7 @@ struct LengthBound {
 struct ThinLimits {
     double least_cosine;   // of the turn of new triangles from the old surface beneath
     double least_quality;  // of new triangles, unless those that go are as bad
+    double crowded;        // a vertex this near to another may leave edges of 1.5 times the bound
     bool any_filling;      // the hole filled in any way, not only from one of the vertices round it (edge collapse)
 };
 
