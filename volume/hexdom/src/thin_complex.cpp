@@ -22,7 +22,8 @@ std::vector<Corners> fan(const std::vector<Index>& ring, std::size_t apex) {
 
 class Thinning {
 public:
-    Thinning(TriangleComplex& complex, const std::vector<std::uint8_t>& removable, const LengthBound& bound, const ThinLimits& limits)
+    Thinning(TriangleComplex& complex, const std::vector<std::uint8_t>& removable, const LengthBound& bound,
+             const ThinLimits& limits)
         : complex_(complex), removable_(removable), bound_(bound), limits_(limits), key_(removable.size(), infinity) {}
 
     Index run() {
@@ -176,11 +177,13 @@ private:
         return false;
     }
 
-    // The longer curve edge: short enough, not there, along those beneath. Where a triangle between it and v is all there
-    // is of a page, it may be there as that triangle's third side.
+    // The longer curve edge: short enough, not there, along those beneath. Where a triangle between it and v is all
+    // there is of a page, it may be there as that triangle's third side.
     bool chord_fits(const CurveEdge& joined) const {
         const Vector chord = complex_.place(joined.b) - complex_.place(joined.a);
-        if (!(chord.norm() > 0) || chord.norm() > longest_edge(joined.a, joined.b) || complex_.curve_edge(joined.a, joined.b) >= 0) return false;
+        if (!(chord.norm() > 0) || chord.norm() > longest_edge(joined.a, joined.b) ||
+            complex_.curve_edge(joined.a, joined.b) >= 0)
+            return false;
         const Vector direction = chord.normalized();
         return std::all_of(joined.beneath.begin(), joined.beneath.end(),
                            [&](const Vector& d) { return d.dot(direction) > limits_.least_cosine; });
@@ -222,7 +225,7 @@ private:
     const LengthBound& bound_;
     const ThinLimits& limits_;
     double longest_ = 0, stretch_ = 1;  // round the vertex at hand
-    std::vector<double> key_;  // of those in the queue
+    std::vector<double> key_;           // of those in the queue
     std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>> queue_;
 };
 

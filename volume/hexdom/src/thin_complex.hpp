@@ -22,8 +22,9 @@ struct ThinLimits {
     bool any_filling;      // the hole filled in any way, not only from one of the vertices round it (edge collapse)
 };
 
-// Takes out vertices marked 1, those with the shortest edges first, and says how many. New edges keep to the bound unless one as
-// long was round the vertex. Features and topology stay. Edge collapse with the link condition (Dey, Edelsbrunner, Guha, Nekhayev 1999), for curves along their edges only.
+// Takes out vertices marked 1, those with the shortest edges first, and says how many. New edges keep to the bound
+// unless one as long was round the vertex. Features and topology stay. Edge collapse with the link condition (Dey,
+// Edelsbrunner, Guha, Nekhayev 1999), for curves along their edges only.
 Index thin(TriangleComplex& complex, const std::vector<std::uint8_t>& removable, const LengthBound& bound,
            const ThinLimits& limits);
 
