@@ -1,5 +1,5 @@
-// Surfaces of mapped unit squares, each triangulated irregularly, with a lattice of quads on them: the lattice knows nothing
-// of the triangles.
+// Surfaces of mapped unit squares, each triangulated irregularly, with a lattice of quads on them: the lattice knows
+// nothing of the triangles.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -27,8 +27,8 @@ struct Patched {
 };
 
 struct Fineness {
-    int cells;        // of the triangulation, along a side of a square
-    int lattice;      // of the lattice
+    int cells;            // of the triangulation, along a side of a square
+    int lattice;          // of the lattice
     double jitter = 0.3;  // of inner vertices, part of a cell
     unsigned seed = 1;
     double skip_lattice = 0;  // part of the lattice points left out, with their quads
@@ -196,7 +196,9 @@ inline std::vector<Map> cylinder_maps() {
             const Eigen::Vector2d p = rim(angle(u));
             return Eigen::Vector3d(p[0], p[1], 2 * v);
         });
-        const auto square = [=](double u) -> Eigen::Vector2d { return 0.5 * ((1 - u) * rim(angle(0)) + u * rim(angle(1))); };
+        const auto square = [=](double u) -> Eigen::Vector2d {
+            return 0.5 * ((1 - u) * rim(angle(0)) + u * rim(angle(1)));
+        };
         for (const double z : {0.0, 2.0})
             maps.push_back([=](double u, double v) {
                 const double w = z > 0 ? u : 1 - u;

@@ -44,16 +44,18 @@ void require_mesh(const surface::TriangleMesh& mesh) {
         const double area = a.cross(b).norm();
         return !(area > 0 && area > 1e-14 * (a.squaredNorm() + b.squaredNorm()));
     };
-    throw_if_any<GeometryError>(where(n, flat), "degenerate_triangle", "triangles of no area",
-                                "they have no normal that new ones could be compared with: collapse their shortest edges");
+    throw_if_any<GeometryError>(
+        where(n, flat), "degenerate_triangle", "triangles of no area",
+        "they have no normal that new ones could be compared with: collapse their shortest edges");
 }
 
 void require_points(const surface::TriangleMesh& mesh, const SurfacePoints& points) {
     require_size("weights", points.weights.rows(), static_cast<Eigen::Index>(points.triangle.size()), "points");
     const Index n = static_cast<Index>(points.triangle.size());
-    throw_if_any(where(n, [&](Index p) { return points.triangle[p] < 0 || points.triangle[p] >= mesh.triangles.rows(); }),
-                 "index_out_of_range", "points lie in triangles that the mesh does not have",
-                 "it has " + std::to_string(mesh.triangles.rows()) + ", numbered from 0");
+    throw_if_any(
+        where(n, [&](Index p) { return points.triangle[p] < 0 || points.triangle[p] >= mesh.triangles.rows(); }),
+        "index_out_of_range", "points lie in triangles that the mesh does not have",
+        "it has " + std::to_string(mesh.triangles.rows()) + ", numbered from 0");
     const auto bad = [&](Index p) {
         const auto w = points.weights.row(p);
         return !w.allFinite() || w.minCoeff() < 0 || std::abs(w.sum() - 1) > weight_rounding;

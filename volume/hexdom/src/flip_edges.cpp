@@ -81,8 +81,8 @@ private:
         const double before = std::max(cosine_of_least_angle(a, b, c), cosine_of_least_angle(b, a, e));
         const double after = std::max(cosine_of_least_angle(a, e, c), cosine_of_least_angle(e, b, c));
         if (!(after < before - 1e-9)) return false;
-        const double longest =
-            std::max({bound_(d.c, d.d), (a - b).norm(), (a - c).norm(), (b - c).norm(), (a - e).norm(), (b - e).norm()});
+        const double longest = std::max(
+            {bound_(d.c, d.d), (a - b).norm(), (a - c).norm(), (b - c).norm(), (a - e).norm(), (b - e).norm()});
         return (c - e).norm() <= longest && complex_.lies_on_surface(d.flipped(), cos_30);
     }
 

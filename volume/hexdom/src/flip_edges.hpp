@@ -20,12 +20,12 @@ private:
     std::vector<Index> first_;  // (points + 1) of the edges of each lower vertex
 };
 
-// Flips while the least angle of two triangles grows by it (Lawson 1977) or a wanted edge comes of it; not edges of curves,
-// nor wanted ones. No new edge is longer than the bound and all edges of the two triangles. Says how many.
+// Flips while the least angle of two triangles grows by it (Lawson 1977) or a wanted edge comes of it; not edges of
+// curves, nor wanted ones. No new edge is longer than the bound and all edges of the two triangles. Says how many.
 Index flip_edges(TriangleComplex& complex, const WantedEdges& wanted, const LengthBound& bound);
 
-// Flips all edges that cross the way from a to b (Sloan 1993), seen along the normal there. False, and few edges changed,
-// where curves, other wanted edges or vertices are in the way or triangles would turn by 60 degrees and more.
+// Flips all edges that cross the way from a to b (Sloan 1993), seen along the normal there. False, and few edges
+// changed, where curves, other wanted edges or vertices are in the way or triangles would turn by 60 degrees and more.
 bool recover_edge(TriangleComplex& complex, const WantedEdges& wanted, Index a, Index b);
 
 }  // namespace octafield::volume::detail

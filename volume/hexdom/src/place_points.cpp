@@ -20,8 +20,8 @@ using Triangulation = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation
 // A point this near an edge or corner, in weights, is on it.
 constexpr double on_border = 1e-9;
 
-// A place along an edge. The two parts add up to 1 exactly, so that in the plane of weights all places of an edge are on
-// one line for exact predicates too.
+// A place along an edge. The two parts add up to 1 exactly, so that in the plane of weights all places of an edge are
+// on one line for exact predicates too.
 struct OnEdge {
     Index edge, point;
     double high;  // part of the higher vertex
@@ -255,8 +255,8 @@ private:
     const surface::TriangleMesh& mesh_;
     const std::vector<Index>& groups_;
     const SurfacePoints& points_;
-    Points weights_;       // borders exact
-    Triangles edge_of_;    // (F, 3) of sides
+    Points weights_;        // borders exact
+    Triangles edge_of_;     // (F, 3) of sides
     Triangles neighbours_;  // (F, 3) across sides that are on no curve; -1
     std::vector<OldEdge> edges_;
     std::vector<Index> at_vertex_, inside_;

@@ -7,8 +7,8 @@
 namespace octafield::volume::detail {
 
 struct PlacedPoints {
-    TriangleComplex complex;     // vertices: the points, then old vertices in use where no point is
-    std::vector<Index> source;   // (V) old vertex at this place, or -1
+    TriangleComplex complex;       // vertices: the points, then old vertices in use where no point is
+    std::vector<Index> source;     // (V) old vertex at this place, or -1
     std::vector<Index> vertex_of;  // (old V) the vertex there, -1: in no triangle
 };
 

@@ -41,14 +41,14 @@ detail::LengthBound length_bound(const TriangleComplex& complex, const Quads& qu
 }
 
 void redraw(TriangleComplex& complex, const std::vector<std::uint8_t>& old, const WantedEdges& wanted,
-            const detail::LengthBound& bound) {
+            const detail::LengthBound& bound, double edge_length) {
     const double cos_30 = 0.8660254037844387, cos_60 = 0.5;
     detail::flip_edges(complex, wanted, bound);
-    detail::thin(complex, old, bound, {cos_30, 0.3, false});
+    detail::thin(complex, old, bound, {cos_30, 0.3, 0, false});
     detail::flip_edges(complex, wanted, bound);
     for (int round = 0; round < 4; ++round) {
-        const bool last_resort = round > 0;
-        Index changes = detail::thin(complex, old, bound, {cos_60, last_resort ? 0.02 : 0.1, last_resort});
+        const detail::ThinLimits first{cos_60, 0.1, 0, false}, last_resort{cos_60, 0.02, edge_length / 4, true};
+        Index changes = detail::thin(complex, old, bound, round == 0 ? first : last_resort);
         detail::flip_edges(complex, wanted, bound);
         changes += recover_edges(complex, wanted);
         detail::flip_edges(complex, wanted, bound);
@@ -124,7 +124,7 @@ PointSurface point_surface(const surface::TriangleMesh& mesh, const surface::Fea
     const Index count = static_cast<Index>(points.triangle.size());
     detail::PlacedPoints placed = detail::place_points(mesh, features, groups, points);
     redraw(placed.complex, removable(placed, count, features.corners), WantedEdges(quads, count),
-           length_bound(placed.complex, quads, edge_length));
+           length_bound(placed.complex, quads, edge_length), edge_length);
     PointSurface result = Result(placed, count).surface(features.corners);
     result.quad_found = found_quads(placed.complex, quads);
     return result;

@@ -22,7 +22,8 @@ std::vector<Corners> fan(const std::vector<Index>& ring, std::size_t apex) {
 
 class Thinning {
 public:
-    Thinning(TriangleComplex& complex, const std::vector<std::uint8_t>& removable, const LengthBound& bound, const ThinLimits& limits)
+    Thinning(TriangleComplex& complex, const std::vector<std::uint8_t>& removable, const LengthBound& bound,
+             const ThinLimits& limits)
         : complex_(complex), removable_(removable), bound_(bound), limits_(limits), key_(removable.size(), infinity) {}
 
     Index run() {
@@ -54,8 +55,13 @@ private:
         const std::vector<Page> pages = complex_.pages(v);
         if (pages.empty()) return false;
         longest_ = 0;
+        stretch_ = 1;
         for (const Page& page : pages) {
-            for (const Index x : page.ring) longest_ = std::max(longest_, complex_.distance(v, x));
+            for (const Index x : page.ring) {
+                const double length = complex_.distance(v, x);
+                longest_ = std::max(longest_, length);
+                if (length < limits_.crowded) stretch_ = 1.5;
+            }
             for (std::size_t i = 0; i + 1 < page.ring.size(); ++i)
                 longest_ = std::max(longest_, complex_.distance(page.ring[i], page.ring[i + 1]));
         }
@@ -87,8 +93,10 @@ private:
         return true;
     }
 
+    double longest_edge(Index a, Index b) const { return std::max(longest_, stretch_ * bound_(a, b)); }
+
     bool new_edge_fits(Index a, Index b) const {
-        return complex_.distance(a, b) <= std::max(longest_, bound_(a, b)) && !complex_.has_edge(a, b);
+        return complex_.distance(a, b) <= longest_edge(a, b) && !complex_.has_edge(a, b);
     }
 
     double least_quality(const Page& page) const {
@@ -169,11 +177,13 @@ private:
         return false;
     }
 
-    // The longer curve edge: short enough, not there, along those beneath. Where a triangle between it and v is all there
-    // is of a page, it may be there as that triangle's third side.
+    // The longer curve edge: short enough, not there, along those beneath. Where a triangle between it and v is all
+    // there is of a page, it may be there as that triangle's third side.
     bool chord_fits(const CurveEdge& joined) const {
         const Vector chord = complex_.place(joined.b) - complex_.place(joined.a);
-        if (!(chord.norm() > 0) || chord.norm() > std::max(longest_, bound_(joined.a, joined.b)) || complex_.curve_edge(joined.a, joined.b) >= 0) return false;
+        if (!(chord.norm() > 0) || chord.norm() > longest_edge(joined.a, joined.b) ||
+            complex_.curve_edge(joined.a, joined.b) >= 0)
+            return false;
         const Vector direction = chord.normalized();
         return std::all_of(joined.beneath.begin(), joined.beneath.end(),
                            [&](const Vector& d) { return d.dot(direction) > limits_.least_cosine; });
@@ -214,8 +224,8 @@ private:
     const std::vector<std::uint8_t>& removable_;
     const LengthBound& bound_;
     const ThinLimits& limits_;
-    double longest_ = 0;  // round the vertex at hand
-    std::vector<double> key_;  // of those in the queue
+    double longest_ = 0, stretch_ = 1;  // round the vertex at hand
+    std::vector<double> key_;           // of those in the queue
     std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>, std::greater<>> queue_;
 };
 

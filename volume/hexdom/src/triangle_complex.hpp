@@ -1,4 +1,5 @@
-// Triangles that change, by lists of those at each vertex: edges of one, two, three triangles and more are all alike here.
+// Triangles that change, by lists of those at each vertex: edges of one, two, three triangles and more are all alike
+// here.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,7 +18,8 @@ inline Corners turned(const Corners& t, Index v) {  // the same triangle, v firs
     return v == t[0] ? t : v == t[1] ? Corners{t[1], t[2], t[0]} : Corners{t[2], t[0], t[1]};
 }
 
-// An edge that stays an edge, or part of a longer one: of a feature, of a border of groups, where triangles end or meet.
+// An edge that stays an edge, or part of a longer one: of a feature, of a border of groups, where triangles end or
+// meet.
 struct CurveEdge {
     Index a, b;
     bool feature;
@@ -30,8 +32,8 @@ struct Change {
     std::vector<Corners> made;
 };
 
-// What is left of one side of a vertex when it goes: triangles (vertex, ring[i], ring[i + 1]). A page round a free vertex is
-// closed, its ring a cycle; those of a vertex on a curve reach from one curve edge to the other.
+// What is left of one side of a vertex when it goes: triangles (vertex, ring[i], ring[i + 1]). A page round a free
+// vertex is closed, its ring a cycle; those of a vertex on a curve reach from one curve edge to the other.
 struct Page {
     std::vector<Index> ring, triangles;
 };

@@ -9,25 +9,34 @@
 
 namespace octafield::volume {
 
-// Places on a triangle mesh. A weight of exactly 0 puts a point on the opposite edge; two, at a vertex.
+// Places on a triangle mesh. A weight of exactly 0 puts a point on the opposite edge; two, at a vertex. Weights below
+// 1e-9 count as 0.
 struct SurfacePoints {
     std::vector<Index> triangle;  // (p)
     Points weights;               // (p, 3) barycentric in it, >= 0, sum 1
 };
 
 struct PointSurface {
-    surface::TriangleMesh mesh;     // the points first, in their order; then vertices of the old surface that had to stay
-    std::vector<Index> source;      // (V) vertex of the old surface at this place, or -1
-    std::vector<Index> triangle;    // (F) a triangle of the old surface of the same group, near
-    surface::FeatureGraph features; // the old features' curves, along edges of the new surface; corners stay
-    std::vector<std::uint8_t> quad_found;  // (q) 1: its four edges and one diagonal are edges, and two triangles fill it
+    surface::TriangleMesh mesh;   // the points first, in their order; then vertices of the old surface that had to stay
+    std::vector<Index> source;    // (V) vertex of the old surface at this place, or -1
+    std::vector<Index> triangle;  // (F) a triangle of the old surface of the same group, near
+    surface::FeatureGraph features;        // the old features' curves, along edges of the new surface; corners stay
+    std::vector<std::uint8_t> quad_found;  // (q) 1: its four edges and one diagonal are edges, and two triangles fill
+                                           // it; the diagonal is no feature
 };
 
-// mesh: may have edges of three triangles or more (interfaces); its features hold the curves to be kept. groups: (F) a
-// number per triangle; edges between groups, of one triangle, or of three and more are kept as features are. quads: (q)
-// of points, round each; made of two triangles where that is possible without a fold. Vertices of the old surface are
-// taken out (edges collapsed) where the new triangles turn by less than 60 degrees from those they replace and no edge
-// gets longer than 1.6 edge_length; none is needed where points are dense. Near linear.
+// The surface of `mesh` with the points as vertices, and as few of the old ones as can be. Topology stays: components,
+// holes, genus, how triangles meet at edges. mesh: may have edges of three triangles or more (interfaces). features:
+// its curves to be kept; between two points, or old vertices that stay, they become straight edges. groups: (F) a
+// number per triangle; edges between groups, of one triangle, of three and more, and of two that run it alike, are kept
+// as features are. quads: (q) of points, round each; made of two triangles where that is possible without a fold.
+// edge_length: of the lattice, in the mesh's unit. Old vertices are taken out (edges collapsed, Hoppe et al. 1993)
+// where new triangles turn by less than 60 degrees from the old ones beneath them and no edge gets longer than 1.6
+// edge_length, or than the diagonals of the quads at its ends, or than one there was round the vertex; 1.5 times that
+// where the vertex would stay within edge_length / 4 of another. Corners of `features`, and vertices where kept edges
+// end, meet or change their kind, stay. Throws InvalidInput, whose elements are the ids concerned: "wrong_size",
+// "index_out_of_range", "not_an_edge" (features), "not_finite", "invalid_weights", "repeated_vertex" (of a quad),
+// "coincident_points", "invalid_option"; GeometryError: "degenerate_triangle". Near linear.
 PointSurface point_surface(const surface::TriangleMesh& mesh, const surface::FeatureGraph& features,
                            const std::vector<Index>& groups, const SurfacePoints& points, const Quads& quads,
                            double edge_length);
