@@ -8,6 +8,7 @@
 #include "octafield/error.hpp"
 #include "octafield/parallel.hpp"
 #include "octafield/volume/cell_quality.hpp"
+#include "surface_fit.hpp"
 #include "vertex_moves.hpp"
 
 namespace octafield::volume {
@@ -26,8 +27,10 @@ constexpr double flat = 1e-14;       // qualities up to this are those of flat c
 constexpr double resting = 1e-3;     // moves shorter than this part of the edges wake no neighbours
 constexpr double on_surface = 1e-9;  // distance from the surface, in edges, that is rounding
 constexpr int untangling_sweeps = 30;
-constexpr int patience = 4;         // sweeps of untangling without fewer inverted cells
-constexpr std::int64_t grain = 64;  // vertices worth a thread
+constexpr int untangling_rounds = 3;
+constexpr int following_sweeps = 5;  // of vertices inside after those of the surface were fitted to it
+constexpr int patience = 4;          // sweeps of untangling without fewer inverted cells
+constexpr std::int64_t grain = 64;   // vertices worth a thread
 
 void require_options(const ImproveOptions& options) {
     const auto require = [](bool good, const std::string& what) {
@@ -111,16 +114,55 @@ public:
         floor_ = std::max(options.good, lowest());
     }
 
+    // What is left tangled gets further tries once the cells round it are better.
     void run() {
-        if (lowest() <= flat) untangle_cells();
-        std::vector<bool> awake(mesh_.vertices.rows(), true);
-        for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
+        for (int round = 0; round < untangling_rounds; ++round) {
+            if (lowest() <= flat) untangle_cells();
+            sweep(std::vector<bool>(mesh_.vertices.rows(), true), options_.sweeps);
+            if (lowest() > flat) break;
+        }
+        if (options_.fit_surface && guide_ != nullptr && guide_->has_triangles()) fit_surface();
+    }
+
+private:
+    void sweep(std::vector<bool> awake, int most) {
+        for (int k = 0; k < most; ++k) {
             visit_all(awake, [&](Index v) { improve(v); });
             if (!wake(awake)) break;
         }
     }
 
-private:
+    // Vertices inside follow; those of the surface would slide back on it.
+    void fit_surface() {
+        const detail::SurfaceFit fit(mesh_, support_, *guide_, place_, options_.threads);
+        const Points before = mesh_.vertices, steps = fit.steps(before);
+        for (Index v = 0; v < steps.rows(); ++v)
+            if (support_.kind[v] == Kind::surface && !steps.row(v).isZero(0)) offset(v, steps.row(v));
+        if (!(fit.misfit(mesh_.vertices) < fit.misfit(before))) {
+            mesh_.vertices = before;
+            return;
+        }
+        inside_only_ = true;
+        sweep(std::vector<bool>(mesh_.vertices.rows(), true), std::min(options_.sweeps, following_sweeps));
+    }
+
+    // As much of the step as the tolerance and the cells allow.
+    void offset(Index v, Vector step) {
+        VertexStar star;
+        star.set(mesh_, cells_, v);
+        if (step.norm() > options_.tolerance) step *= options_.tolerance / step.norm();
+        const double lowest = star.lowest(Vector::Zero());
+        const Vector start = mesh_.vertices.row(v);
+        const double most = std::max(options_.tolerance, (place_[v].point - start).norm());
+        for (int halvings = 0; halvings < 3; ++halvings, step /= 2) {
+            const double bound = std::min(lowest, floor_);
+            if (star.lowest(step, bound) < bound) continue;
+            if ((guide_->nearest_in_patch(start + step, place_[v]).point - start - step).norm() > most) continue;
+            mesh_.vertices.row(v) = start + step;
+            return;
+        }
+    }
+
     double lowest() const { return scaled_jacobians(mesh_).minCoeff(); }
 
     // visit(v) for those awake, colour by colour: what is written of one is not read for another.
@@ -130,7 +172,8 @@ private:
         std::vector<Index> turn;
         for (const std::vector<Index>& colour : colours_) {
             turn.clear();
-            std::ranges::copy_if(colour, std::back_inserter(turn), [&](Index v) { return awake[v]; });
+            std::ranges::copy_if(colour, std::back_inserter(turn),
+                                 [&](Index v) { return awake[v] && !(inside_only_ && slides(v)); });
             parallel_for(
                 static_cast<std::int64_t>(turn.size()), options_.threads, [&](std::int64_t i) { visit(turn[i]); },
                 grain);
@@ -217,7 +260,8 @@ private:
         const double off = slides(v) ? (place_[v].point - start).norm() : 0;
         if (off > std::max(options_.tolerance, on_surface * star.size())) detail::snap(star, way, move, floor_);
         if (star.lowest(move.x) < options_.good) detail::raise_lowest(star, way, move);
-        detail::smooth(star, way, move, floor_);
+        // At the floor itself smoothing may be barred for ever.
+        if (detail::smooth(star, way, move, floor_) == detail::Smoothed::barred) detail::raise_lowest(star, way, move);
         accept(v, move, star.size());
     }
 
@@ -229,7 +273,8 @@ private:
     std::vector<std::vector<Index>> colours_;
     std::vector<SurfaceGuide::Place> place_;  // of vertices that slide
     std::vector<double> moved_;               // in the last sweep, in edges at the vertex
-    double floor_;                            // smoothing lets no quality fall below this
+    bool inside_only_ = false;
+    double floor_;  // smoothing lets no quality fall below this
 };
 
 }  // namespace

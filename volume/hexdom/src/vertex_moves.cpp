@@ -152,28 +152,33 @@ bool untangle(const VertexStar& star, const Slide& slide, Move& move) {
     return moved;
 }
 
-bool smooth(const VertexStar& star, const Slide& slide, Move& move, double floor) {
+Smoothed smooth(const VertexStar& star, const Slide& slide, Move& move, double floor) {
     Vector gradient;
     Eigen::Matrix3d hessian;
     const double energy = star.energy(move.x, gradient, hessian);
-    if (!std::isfinite(energy)) return false;
+    if (!std::isfinite(energy)) return Smoothed::rests;
     // Along the piece only: the rest of the space gets a matrix that leaves it alone.
     const Eigen::Matrix3d tangential = slide.tangential(move.place);
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - tangential;
     hessian = tangential * hessian * tangential + hessian.trace() * across;
     Vector step = -hessian.ldlt().solve(tangential * gradient);
     const double length = step.norm(), size = star.size();
-    if (!(length > least_step * size)) return false;
+    if (!(length > least_step * size)) return Smoothed::rests;
     if (length > longest_step * size) step *= longest_step * size / length;
     const double before = star.lowest(move.x);
+    Smoothed result = Smoothed::rests;
     for (int halvings = 0; halvings < 3; ++halvings, step /= 2) {
         Move next;
         next.x = slide.allowed(move.x + step, next.place);
-        if (!(star.energy(next.x) < energy) || !keeps(star, next.x, before, floor)) continue;
+        if (!(star.energy(next.x) < energy)) continue;
+        if (!keeps(star, next.x, before, floor)) {
+            result = Smoothed::barred;
+            continue;
+        }
         move = next;
-        return true;
+        return Smoothed::moved;
     }
-    return false;
+    return result;
 }
 
 bool snap(const VertexStar& star, const Slide& slide, Move& move, double floor) {

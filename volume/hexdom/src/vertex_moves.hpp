@@ -41,8 +41,10 @@ bool raise_lowest(const VertexStar& star, const Slide& slide, Move& move);
 // The same of determinants, for vertices with corners that are flat or inverted; the way out of all of them if there is
 // one.
 bool untangle(const VertexStar& star, const Slide& slide, Move& move);
-// One step of Newton's method for the energy; no quality below `floor`, unless it was, is let fall.
-bool smooth(const VertexStar& star, const Slide& slide, Move& move, double floor);
+// One step of Newton's method for the energy; no quality below `floor`, unless it was, is let fall. Barred: that was in
+// the way.
+enum class Smoothed { moved, rests, barred };
+Smoothed smooth(const VertexStar& star, const Slide& slide, Move& move, double floor);
 // Towards the nearest place of its piece, under the same rule.
 bool snap(const VertexStar& star, const Slide& slide, Move& move, double floor);
 
