@@ -9,25 +9,36 @@
 
 namespace octafield::volume {
 
-// Per cell, 1: the Jacobian of the map from the reference cell (trilinear hexahedron, wedge, cone over a bilinear quad) is
-// above 0 everywhere in it, by coefficients of Bernstein polynomials, the cell halved until they tell. 0: it is not, or
-// nothing was proven within the depth.
+// Per cell, 1: the Jacobian of the map from the reference cell (trilinear hexahedron, wedge, cone over a bilinear quad)
+// is above 0 everywhere in it, but for a pyramid's apex, by coefficients of Bernstein polynomials, the cell halved
+// until they tell (Johnen, Remacle, Geuzaine 2013); what doubles round is allowed for. 0: it is not (coordinates that
+// are not finite included), or nothing was proven within `depth` halvings of each side, 0 to 20. Throws GeometryError
+// (kind "index_out_of_range"), InvalidInput ("depth_out_of_range").
 std::vector<std::uint8_t> proven_positive(const MixedMesh& mesh, int depth = 8, int threads = 0);
 
-// Where vertices may go.
+// Where vertices may go: anywhere, along the patch of the surface nearest at the start (its triangles between feature
+// edges), along the curve nearest at the start (feature edges between corners), nowhere.
 struct VertexSupport {
     enum class Kind : std::uint8_t { inside, surface, curve, fixed };
     std::vector<Kind> kind;  // (n)
 };
 
 struct ImproveOptions {
-    int sweeps = 20;
+    int sweeps = 20;       // at most: vertices round which nothing moves any more are left out
+    double good = 0.5;     // qualities below are raised first, and smoothing lets none fall below
     double tolerance = 0;  // how far surface vertices may leave the surface, input unit
+    bool fit_surface =
+        false;  // moves surface vertices within `tolerance` so that the faces between them fit the surface
     int threads = 0;
 };
 
-// Moves vertices so that the lowest quality round each rises (scaled Jacobian; untangles what is inverted), then so that the
-// whole gets smoother; what is positive stays so. Surface vertices slide on `surface`, those on curves along its feature edges.
+// Moves vertices so that the lowest quality round each rises (as scaled_jacobians takes it, of inverted corners, too;
+// Freitag, Ollivier-Gooch 1997), and so that the whole gets smoother (inverse mean ratio; Knupp 2001). If all cells are
+// positive, they stay so, and the lowest scaled Jacobian does not fall; if not, as many as can be are made positive by
+// single moves. Vertices on surface and curves stay on their pieces; those that start farther away than `tolerance` are
+// brought there as far as their cells allow. Deterministic; linear in the cells per sweep. Throws InvalidInput: kinds
+// "wrong_size" (of support), "index_out_of_range", "non_finite_vertex", "no_surface", "no_features" (where vertices
+// shall slide on what is not there), "option_out_of_range"; GeometryError "index_out_of_range" (cells).
 MixedMesh improve_cells(MixedMesh mesh, const VertexSupport& support, const surface::TriangleMesh& surface,
                         const surface::FeatureGraph& features, const ImproveOptions& options = {});
 

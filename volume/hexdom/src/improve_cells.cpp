@@ -1,0 +1,296 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "octafield/error.hpp"
+#include "octafield/parallel.hpp"
+#include "octafield/volume/cell_quality.hpp"
+#include "surface_fit.hpp"
+#include "vertex_moves.hpp"
+
+namespace octafield::volume {
+namespace {
+
+using detail::Incidence;
+using detail::Move;
+using detail::Slide;
+using detail::SurfaceGuide;
+using detail::VertexCells;
+using detail::VertexStar;
+using Kind = VertexSupport::Kind;
+using Vector = Eigen::Vector3d;
+
+constexpr double flat = 1e-14;       // qualities up to this are those of flat corners, rounded
+constexpr double resting = 1e-3;     // moves shorter than this part of the edges wake no neighbours
+constexpr double on_surface = 1e-9;  // distance from the surface, in edges, that is rounding
+constexpr int untangling_sweeps = 30;
+constexpr int untangling_rounds = 3;
+constexpr int following_sweeps = 5;  // of vertices inside after those of the surface were fitted to it
+constexpr int patience = 4;          // sweeps of untangling without fewer inverted cells
+constexpr std::int64_t grain = 64;   // vertices worth a thread
+
+void require_options(const ImproveOptions& options) {
+    const auto require = [](bool good, const std::string& what) {
+        if (!good) throw InvalidInput(what, "option_out_of_range");
+    };
+    require(options.sweeps >= 0, "sweeps is " + std::to_string(options.sweeps) + "; give 0 or more");
+    require(options.good >= 0 && options.good <= 1, "good is " + std::to_string(options.good) + "; give 0 to 1");
+    require(options.tolerance >= 0 && std::isfinite(options.tolerance),
+            "tolerance is " + std::to_string(options.tolerance) + "; give a length of 0 or more");
+}
+
+void require_vertices(const MixedMesh& mesh, const VertexSupport& support) {
+    if (static_cast<Eigen::Index>(support.kind.size()) != mesh.vertices.rows())
+        throw InvalidInput("support has " + std::to_string(support.kind.size()) + " kinds for " +
+                               std::to_string(mesh.vertices.rows()) + " vertices; give one for each",
+                           "wrong_size");
+    std::vector<Index> lost;
+    for (Index v = 0; v < mesh.vertices.rows(); ++v)
+        if (!mesh.vertices.row(v).allFinite()) lost.push_back(v);
+    if (!lost.empty())
+        throw InvalidInput("vertices are not finite (" + first_few(lost) + "); correct or remove them",
+                           "non_finite_vertex", lost);
+}
+
+bool any_of_kind(const VertexSupport& support, Kind kind) {
+    return std::ranges::find(support.kind, kind) != support.kind.end();
+}
+
+// Null if no vertex slides.
+std::unique_ptr<SurfaceGuide> guide_for(const VertexSupport& support, const surface::TriangleMesh& surface,
+                                        const surface::FeatureGraph& features) {
+    const bool on_patches = any_of_kind(support, Kind::surface), on_curves = any_of_kind(support, Kind::curve);
+    if (!on_patches && !on_curves) return nullptr;
+    auto guide = std::make_unique<SurfaceGuide>(surface, features);
+    if (on_patches && !guide->has_triangles())
+        throw InvalidInput("vertices shall stay on a surface without area; give the surface, or none of kind surface",
+                           "no_surface");
+    if (on_curves && !guide->has_edges())
+        throw InvalidInput(
+            "vertices shall stay on feature curves where there are none; give them, or none of kind curve",
+            "no_features");
+    return guide;
+}
+
+// One number per vertex that moves, so that no two of a cell share it, the lowest in the order of the vertices.
+std::vector<std::vector<Index>> colours(const MixedMesh& mesh, const VertexCells& cells, const VertexSupport& support) {
+    std::vector<std::vector<Index>> of_colour;
+    std::vector<int> colour(mesh.vertices.rows(), -1);
+    std::vector<Index> seen;
+    for (Index v = 0; v < mesh.vertices.rows(); ++v) {
+        if (support.kind[v] == Kind::fixed || cells.of(v).empty()) continue;
+        for (const Incidence& at : cells.of(v))
+            for (const Index other : detail::cell_vertices(mesh, at.cell))
+                if (colour[other] >= 0) seen[colour[other]] = v;
+        const auto free = std::ranges::find_if(seen, [&](Index last) { return last != v; }) - seen.begin();
+        if (free == static_cast<std::ptrdiff_t>(seen.size())) {
+            seen.push_back(-1);
+            of_colour.emplace_back();
+        }
+        colour[v] = static_cast<int>(free);
+        of_colour[free].push_back(v);
+    }
+    return of_colour;
+}
+
+class Improver {
+public:
+    Improver(MixedMesh& mesh, const VertexSupport& support, const SurfaceGuide* guide, const ImproveOptions& options)
+        : mesh_(mesh),
+          support_(support),
+          guide_(guide),
+          options_(options),
+          cells_(mesh),
+          colours_(colours(mesh, cells_, support)),
+          place_(mesh.vertices.rows()),
+          moved_(mesh.vertices.rows()) {
+        parallel_for(mesh.vertices.rows(), options.threads, [&](std::int64_t v) {
+            if (support.kind[v] == Kind::surface) place_[v] = guide->nearest_on_surface(mesh.vertices.row(v));
+            if (support.kind[v] == Kind::curve) place_[v] = guide->nearest_on_curves(mesh.vertices.row(v));
+        });
+        floor_ = std::max(options.good, lowest());
+    }
+
+    // What is left tangled gets further tries once the cells round it are better.
+    void run() {
+        for (int round = 0; round < untangling_rounds; ++round) {
+            if (lowest() <= flat) untangle_cells();
+            sweep(std::vector<bool>(mesh_.vertices.rows(), true), options_.sweeps);
+            if (lowest() > flat) break;
+        }
+        if (options_.fit_surface && guide_ != nullptr && guide_->has_triangles()) fit_surface();
+    }
+
+private:
+    void sweep(std::vector<bool> awake, int most) {
+        for (int k = 0; k < most; ++k) {
+            visit_all(awake, [&](Index v) { improve(v); });
+            if (!wake(awake)) break;
+        }
+    }
+
+    // Vertices inside follow; those of the surface would slide back on it.
+    void fit_surface() {
+        const detail::SurfaceFit fit(mesh_, support_, *guide_, place_, options_.threads);
+        const Points before = mesh_.vertices, steps = fit.steps(before);
+        for (Index v = 0; v < steps.rows(); ++v)
+            if (support_.kind[v] == Kind::surface && !steps.row(v).isZero(0)) offset(v, steps.row(v));
+        if (!(fit.misfit(mesh_.vertices) < fit.misfit(before))) {
+            mesh_.vertices = before;
+            return;
+        }
+        inside_only_ = true;
+        sweep(std::vector<bool>(mesh_.vertices.rows(), true), std::min(options_.sweeps, following_sweeps));
+    }
+
+    // As much of the step as the tolerance and the cells allow.
+    void offset(Index v, Vector step) {
+        VertexStar star;
+        star.set(mesh_, cells_, v);
+        if (step.norm() > options_.tolerance) step *= options_.tolerance / step.norm();
+        const double lowest = star.lowest(Vector::Zero());
+        const Vector start = mesh_.vertices.row(v);
+        const double most = std::max(options_.tolerance, (place_[v].point - start).norm());
+        for (int halvings = 0; halvings < 3; ++halvings, step /= 2) {
+            const double bound = std::min(lowest, floor_);
+            if (star.lowest(step, bound) < bound) continue;
+            if ((guide_->nearest_in_patch(start + step, place_[v]).point - start - step).norm() > most) continue;
+            mesh_.vertices.row(v) = start + step;
+            return;
+        }
+    }
+
+    double lowest() const { return scaled_jacobians(mesh_).minCoeff(); }
+
+    // visit(v) for those awake, colour by colour: what is written of one is not read for another.
+    template <class Visit>
+    void visit_all(const std::vector<bool>& awake, const Visit& visit) {
+        std::ranges::fill(moved_, 0.0);
+        std::vector<Index> turn;
+        for (const std::vector<Index>& colour : colours_) {
+            turn.clear();
+            std::ranges::copy_if(colour, std::back_inserter(turn),
+                                 [&](Index v) { return awake[v] && !(inside_only_ && slides(v)); });
+            parallel_for(
+                static_cast<std::int64_t>(turn.size()), options_.threads, [&](std::int64_t i) { visit(turn[i]); },
+                grain);
+        }
+    }
+
+    // Those that moved and all that share a cell with them. False if none.
+    bool wake(std::vector<bool>& awake) const {
+        awake.assign(awake.size(), false);
+        bool any = false;
+        for (Index v = 0; v < mesh_.vertices.rows(); ++v) {
+            if (!(moved_[v] > resting)) continue;
+            any = true;
+            for (const Incidence& at : cells_.of(v))
+                for (const Index other : detail::cell_vertices(mesh_, at.cell)) awake[other] = true;
+        }
+        return any;
+    }
+
+    std::vector<Index> inverted_cells() const {
+        const Eigen::VectorXd qualities = scaled_jacobians(mesh_);
+        std::vector<Index> found;
+        for (Index c = 0; c < qualities.size(); ++c)
+            if (!(qualities[c] > flat)) found.push_back(c);
+        return found;
+    }
+
+    // Single moves until no fewer cells get inverted; the best there was.
+    void untangle_cells() {
+        std::vector<Index> bad = inverted_cells();
+        Points best = mesh_.vertices;
+        std::size_t fewest = bad.size();
+        std::vector<SurfaceGuide::Place> best_places = place_;
+        for (int sweep = 0, idle = 0; sweep < untangling_sweeps && idle < patience && !bad.empty(); ++sweep) {
+            std::vector<bool> awake(mesh_.vertices.rows());
+            for (const Index c : bad)
+                for (const Index v : detail::cell_vertices(mesh_, c)) awake[v] = true;
+            visit_all(awake, [&](Index v) { untangle_vertex(v); });
+            bad = inverted_cells();
+            ++idle;
+            if (bad.size() >= fewest) continue;
+            fewest = bad.size(), best = mesh_.vertices, best_places = place_, idle = 0;
+        }
+        mesh_.vertices = best;
+        place_ = best_places;
+    }
+
+    Slide slide(Index v) const {
+        const Slide::Along along = support_.kind[v] == Kind::surface ? Slide::Along::patch
+                                   : support_.kind[v] == Kind::curve ? Slide::Along::curve
+                                                                     : Slide::Along::space;
+        return {guide_, along, mesh_.vertices.row(v), place_[v]};
+    }
+    bool slides(Index v) const { return support_.kind[v] != Kind::inside; }
+
+    void accept(Index v, const Move& move, double size) {
+        if (move.x.isZero(0)) return;
+        const Vector start = mesh_.vertices.row(v);
+        // To the bit where it is of the piece: sums of differences are rounded.
+        const bool on_piece = slides(v) && move.place.point - start == move.x;
+        mesh_.vertices.row(v) = on_piece ? move.place.point : Vector(start + move.x);
+        place_[v] = move.place;
+        moved_[v] = move.x.norm() / size;
+    }
+
+    void untangle_vertex(Index v) {
+        static thread_local VertexStar star;
+        star.set(mesh_, cells_, v);
+        const Slide way = slide(v);
+        Move move{Vector::Zero(), place_[v]};
+        if (!(star.size() > 0) || star.lowest(move.x) > flat) return;
+        detail::untangle(star, way, move);
+        if (star.lowest(move.x) > 0) detail::raise_lowest(star, way, move);
+        accept(v, move, star.size());
+    }
+
+    void improve(Index v) {
+        static thread_local VertexStar star;
+        star.set(mesh_, cells_, v);
+        if (!(star.size() > 0)) return;
+        const Slide way = slide(v);
+        Move move{Vector::Zero(), place_[v]};
+        const Vector start = mesh_.vertices.row(v);
+        const double off = slides(v) ? (place_[v].point - start).norm() : 0;
+        if (off > std::max(options_.tolerance, on_surface * star.size())) detail::snap(star, way, move, floor_);
+        if (star.lowest(move.x) < options_.good) detail::raise_lowest(star, way, move);
+        // At the floor itself smoothing may be barred for ever.
+        if (detail::smooth(star, way, move, floor_) == detail::Smoothed::barred) detail::raise_lowest(star, way, move);
+        accept(v, move, star.size());
+    }
+
+    MixedMesh& mesh_;
+    const VertexSupport& support_;
+    const SurfaceGuide* guide_;
+    const ImproveOptions& options_;
+    VertexCells cells_;
+    std::vector<std::vector<Index>> colours_;
+    std::vector<SurfaceGuide::Place> place_;  // of vertices that slide
+    std::vector<double> moved_;               // in the last sweep, in edges at the vertex
+    bool inside_only_ = false;
+    double floor_;  // smoothing lets no quality fall below this
+};
+
+}  // namespace
+
+MixedMesh improve_cells(MixedMesh mesh, const VertexSupport& support, const surface::TriangleMesh& surface,
+                        const surface::FeatureGraph& features, const ImproveOptions& options) {
+    require_options(options);
+    require_vertices(mesh, support);
+    const Eigen::VectorXd before = scaled_jacobians(mesh);
+    const auto guide = guide_for(support, surface, features);
+    if (mesh.cell_count() == 0) return mesh;
+    MixedMesh better = mesh;
+    Improver(better, support, guide.get(), options).run();
+    // Steps are guarded corner by corner; a pyramid's quality folds back above 1, which they do not see.
+    const double lowest = before.minCoeff();
+    return lowest > flat && scaled_jacobians(better).minCoeff() < lowest - 1e-12 ? mesh : better;
+}
+
+}  // namespace octafield::volume
