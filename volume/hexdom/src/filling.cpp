@@ -210,14 +210,23 @@ CavitySurface sound_surface(CellsOnSurface& cells, Cavity& cavity) {
 
 TetMesh tets_in(const CavitySurface& surface, const Cavity& cavity, const CellsOnSurface& cells,
                 const Progress& progress) {
+    // Where TetGen fails in one way it may not in another: with points of the lattice inside or without, with bounds on
+    // the tets or without, with another tolerance for what is coplanar.
+    struct Way {
+        bool inside, refine;
+        double tolerance;
+    };
+    static constexpr Way ways[] = {{true, true, 0},   {true, true, 1e-12},  {false, true, 0},
+                                   {false, true, 1e-6}, {false, false, 0}, {false, false, 1e-12}};
     TetgenParameters parameters;
     parameters.holes = cavity.holes();
-    parameters.inside = cells.spare;
     parameters.radius_edge_ratio = 1.8;
     parameters.max_volume = 0.4 * std::pow(cells.edge_length, 3);
     TetgenOutcome outcome;
-    for (const double tolerance : {0.0, 1e-12, 1e-6}) {
-        parameters.tolerance = tolerance;
+    for (const Way& way : ways) {
+        parameters.inside = way.inside ? cells.spare : Points(0, 3);
+        parameters.refine = way.refine;
+        parameters.tolerance = way.tolerance;
         outcome = run_tetgen(surface.mesh, parameters, progress);
         if (outcome.finished && outcome.mesh.tets.rows() > 0) return std::move(outcome.mesh);
     }

@@ -1,0 +1,167 @@
+#include "octafield/volume/hex_dominant.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "filling.hpp"
+#include "mesh_regions.hpp"
+#include "octafield/error.hpp"
+#include "octafield/volume/integrability.hpp"
+#include "octafield/volume/refine_uniformly.hpp"
+#include "octafield/volume/sample_frames.hpp"
+#include "octafield/volume/scaling.hpp"
+#include "require_frames.hpp"
+
+namespace octafield::volume {
+namespace {
+
+constexpr double most_log_scale = 0.693;  // sizes give way by a factor of two
+
+struct WorkingField {
+    TetDomain domain;
+    Quaternions frames;     // at the vertices
+    Eigen::VectorXd sizes;  // at the vertices
+};
+
+double mean_edge(const TetMesh& mesh) {
+    double sum = 0;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        for (int a = 0; a < 4; ++a)
+            for (int b = a + 1; b < 4; ++b)
+                sum += (mesh.vertices.row(mesh.tets(t, a)) - mesh.vertices.row(mesh.tets(t, b))).norm();
+    return sum / (6.0 * mesh.tets.rows());
+}
+
+Eigen::VectorXd wanted_sizes(const TetDomain& domain, const HexDominantOptions& options) {
+    const Eigen::Index n = domain.vertex_count();
+    if (options.sizes.size() == 0) {
+        const double length = options.edge_length > 0 ? options.edge_length
+                                                      : surface::mean_edge_length(domain.surface().mesh);
+        return Eigen::VectorXd::Constant(n, length);
+    }
+    if (options.sizes.size() != n)
+        throw InvalidInput("sizes has " + std::to_string(options.sizes.size()) + " entries; give one per vertex, " +
+                               std::to_string(n),
+                           "wrong_size");
+    std::vector<Index> bad;
+    for (Index v = 0; v < n; ++v)
+        if (!(options.sizes[v] > 0) || !std::isfinite(options.sizes[v])) bad.push_back(v);
+    if (!bad.empty())
+        throw InvalidInput("sizes at vertices " + first_few(bad) + " are not above 0", "edge_length", bad);
+    return options.sizes;
+}
+
+void require_options(const HexDominantOptions& options) {
+    if (!(options.edge_length >= 0) || !std::isfinite(options.edge_length))
+        throw InvalidInput("edge_length must be a length above 0, or 0 for the mean edge of the surface", "edge_length");
+    if (!(options.min_scaled_jacobian > 0 && options.min_scaled_jacobian < 1))
+        throw InvalidInput("min_scaled_jacobian must be between 0 and 1", "min_scaled_jacobian");
+    if (options.refinements < -1 || options.refinements > 6)
+        throw InvalidInput("refinements must be from 0 to 6, or -1 to choose", "refinements");
+}
+
+WorkingField refined(WorkingField field, const HexDominantOptions& options) {
+    for (int level = 0; options.refinements < 0 || level < options.refinements; ++level) {
+        if (options.refinements < 0) {
+            const bool fine = mean_edge(field.domain.mesh()) <= 0.6 * field.sizes.minCoeff();
+            if (fine || std::int64_t(8) * field.domain.tet_count() > options.most_tets) break;
+        }
+        RefinedDomain next = refine_uniformly(field.domain);
+        SampleOptions sampling;
+        sampling.tolerance = std::numeric_limits<double>::infinity();
+        sampling.threads = options.threads;
+        Quaternions frames =
+            sample_frames(field.domain, field.frames, next.domain.mesh().vertices, sampling).frames;
+        frames.topRows(field.frames.rows()) = field.frames;
+        Eigen::VectorXd sizes(next.parents.rows());
+        for (Eigen::Index v = 0; v < sizes.size(); ++v)
+            sizes[v] = (field.sizes[next.parents(v, 0)] + field.sizes[next.parents(v, 1)]) / 2;
+        field = {std::move(next.domain), std::move(frames), std::move(sizes)};
+    }
+    return field;
+}
+
+struct TetAxes {
+    Quaternions frames;  // (m, 4)
+    Points lengths;      // (m, 3) of a cell along each axis
+};
+
+TetAxes tet_axes(const WorkingField& field, const HexDominantOptions& options) {
+    const TetMesh& mesh = field.domain.mesh();
+    TetAxes result;
+    Points log_scales = Points::Zero(mesh.tets.rows(), 3);
+    if (options.correction == SizeCorrection::axes) {
+        AxisScaleOptions scaling;
+        scaling.threads = options.threads;
+        AxisScales scales = axis_scales(field.domain, field.frames, scaling);
+        result.frames = std::move(scales.of_tets);
+        log_scales = std::move(scales.log_scales);
+    } else {
+        result.frames = tet_frames(field.domain, field.frames, options.threads);
+        if (options.correction == SizeCorrection::isotropic) {
+            const IsotropicScale scale = isotropic_scale(field.domain, field.frames, options.threads);
+            for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+                log_scales.row(t).setConstant(scale.log_scale(mesh.tets.row(t)).mean());
+        }
+    }
+    result.lengths.resize(mesh.tets.rows(), 3);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        result.lengths.row(t) = field.sizes(mesh.tets.row(t)).mean() *
+                                (-log_scales.row(t).array()).max(-most_log_scale).min(most_log_scale).exp();
+    return result;
+}
+
+}  // namespace
+
+HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
+                             const Progress& progress) {
+    require_options(options);
+    require_frames(frames, domain.vertex_count());
+    report_or_throw(progress, "sizes", 0, 0);
+    const WorkingField field = refined({domain, frames, wanted_sizes(domain, options)}, options);
+    const double length = field.sizes.mean();
+    HexDominantMesh result;
+    HexDominantCounts& counts = result.counts;
+    counts.tets = field.domain.tet_count();
+
+    std::optional<LatticeCells> cells;
+    {
+        const TetAxes axes = tet_axes(field, options);
+        PeriodicMapOptions map_options;
+        map_options.hold_angle = options.hold_angle;
+        map_options.threads = options.threads;
+        const PeriodicMap map = periodic_map(field.domain, axes.frames, axes.lengths, map_options, progress);
+        counts.inconsistent = map.inconsistent;
+        counts.turned_over = map.turned_over;
+        report_or_throw(progress, "lattice", 0, 0);
+        cells = lattice_cells(field.domain, map, options.min_scaled_jacobian, options.threads);
+    }
+    counts.lost = cells->lost;
+    counts.lattice_hexahedra = static_cast<Index>(cells->hexahedra.rows());
+    report_or_throw(progress, "surface", 0, 0);
+    CellsOnSurface placed = cells_on_surface(field.domain, *cells, length);
+    cells.reset();
+    report_or_throw(progress, "tetrahedralize", 0, 0);
+    MixedMesh mesh = filled(placed, progress);
+    counts.crossing = placed.crossing;
+    const Index before = static_cast<Index>(mesh.hexahedra.rows());
+    if (options.recombine && mesh.tets.rows() > 0 && domain.regions().empty()) {
+        report_or_throw(progress, "recombine", 0, 0);
+        RecombineOptions join;
+        join.min_scaled_jacobian = options.min_scaled_jacobian;
+        join.threads = options.threads;
+        mesh = recombine(mesh, join);
+        counts.recombined_hexahedra = static_cast<Index>(mesh.hexahedra.rows()) - before;
+        counts.recombined_wedges = static_cast<Index>(mesh.wedges.rows());
+    }
+    report_or_throw(progress, "conform", 0, 0);
+    mesh = conform(mesh, &counts.pyramids);
+    result.support = vertex_support(placed.surface, static_cast<Index>(mesh.vertices.rows()));
+    result.mesh = std::move(mesh);
+    if (!domain.regions().empty()) result.regions = cell_regions(field.domain, placed.surface, result.mesh);
+    return result;
+}
+
+}  // namespace octafield::volume
