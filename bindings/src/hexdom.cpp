@@ -19,7 +19,7 @@ using surface::TriangleMesh;
 namespace {
 
 // As many rows as the domain has tets and inner triangles, and ids in range.
-void check(const PeriodicMap& map, const TetDomain& domain) {
+void check_map(const PeriodicMap& map, const TetDomain& domain) {
     const auto rows = [](Eigen::Index given, Eigen::Index wanted, const char* name) {
         if (given != wanted)
             throw InvalidInput(std::string("map.") + name + ": " + std::to_string(given) + " rows, " +
@@ -119,7 +119,7 @@ void bind_lattice(py::module_& m) {
             finite(min_scaled_jacobian, "min_scaled_jacobian");
             return run_interruptible([=](Job&) {
                 const TetDomain domain = domain_of(mesh);
-                check(map, domain);
+                check_map(map, domain);
                 return lattice_cells(domain, map, min_scaled_jacobian, threads);
             });
         },

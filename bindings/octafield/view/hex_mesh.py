@@ -7,6 +7,7 @@ import pyvista
 
 from .._core import MixedMesh, SingularGraph
 from ..errors import IoError
+from ..meshes.vtk.vtu import read_vtu
 from . import scene
 from .curves import add_curves, curves_by_kind, curves_of_file
 from .datasets import cell_grid
@@ -25,9 +26,11 @@ def hex_scene(mesh: MixedMesh, scaled_jacobians: np.ndarray, graph: SingularGrap
 
 def scene_of_folder(folder: Path) -> pyvista.Plotter:
     """The same from mesh.vtu and singular.vtp of a result."""
-    grid = pyvista.read(folder / "mesh.vtu")
+    path = folder / "mesh.vtu"
+    read_vtu(path.read_bytes(), str(path))  # VTK ends the process where a count is wrong
+    grid = pyvista.read(path)
     if not isinstance(grid, pyvista.UnstructuredGrid) or "scaled_jacobian" not in grid.cell_data:
-        raise IoError(f"{folder / 'mesh.vtu'}: no cells with scaled Jacobians; give a result of octafield hex-dominant")
+        raise IoError(f"{path}: no cells with scaled Jacobians; give a result of octafield hex-dominant")
     curves = curves_of_file(folder / "singular.vtp")[0] if (folder / "singular.vtp").is_file() else {}
     return _drawn(grid, curves)
 
