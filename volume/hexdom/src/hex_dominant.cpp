@@ -1,6 +1,8 @@
 #include "octafield/volume/hex_dominant.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,7 +11,7 @@
 #include "mesh_regions.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/integrability.hpp"
-#include "octafield/volume/refine_uniformly.hpp"
+#include "octafield/volume/refine_tets.hpp"
 #include "octafield/volume/sample_frames.hpp"
 #include "octafield/volume/scaling.hpp"
 #include "require_frames.hpp"
@@ -24,15 +26,6 @@ struct WorkingField {
     Quaternions frames;     // at the vertices
     Eigen::VectorXd sizes;  // at the vertices
 };
-
-double mean_edge(const TetMesh& mesh) {
-    double sum = 0;
-    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
-        for (int a = 0; a < 4; ++a)
-            for (int b = a + 1; b < 4; ++b)
-                sum += (mesh.vertices.row(mesh.tets(t, a)) - mesh.vertices.row(mesh.tets(t, b))).norm();
-    return sum / (6.0 * mesh.tets.rows());
-}
 
 Eigen::VectorXd wanted_sizes(const TetDomain& domain, const HexDominantOptions& options) {
     const Eigen::Index n = domain.vertex_count();
@@ -58,29 +51,45 @@ void require_options(const HexDominantOptions& options) {
         throw InvalidInput("edge_length must be a length above 0, or 0 for the mean edge of the surface", "edge_length");
     if (!(options.min_scaled_jacobian > 0 && options.min_scaled_jacobian < 1))
         throw InvalidInput("min_scaled_jacobian must be between 0 and 1", "min_scaled_jacobian");
-    if (options.refinements < -1 || options.refinements > 6)
-        throw InvalidInput("refinements must be from 0 to 6, or -1 to choose", "refinements");
+    if (options.refinements < 0 || options.refinements > 6)
+        throw InvalidInput("refinements must be from 0 to 6", "refinements");
 }
 
-WorkingField refined(WorkingField field, const HexDominantOptions& options) {
-    for (int level = 0; options.refinements < 0 || level < options.refinements; ++level) {
-        if (options.refinements < 0) {
-            const bool fine = mean_edge(field.domain.mesh()) <= 0.6 * field.sizes.minCoeff();
-            if (fine || std::int64_t(8) * field.domain.tet_count() > options.most_tets) break;
-        }
-        RefinedDomain next = refine_uniformly(field.domain);
-        SampleOptions sampling;
-        sampling.tolerance = std::numeric_limits<double>::infinity();
-        sampling.threads = options.threads;
-        Quaternions frames =
-            sample_frames(field.domain, field.frames, next.domain.mesh().vertices, sampling).frames;
-        frames.topRows(field.frames.rows()) = field.frames;
-        Eigen::VectorXd sizes(next.parents.rows());
-        for (Eigen::Index v = 0; v < sizes.size(); ++v)
-            sizes[v] = (field.sizes[next.parents(v, 0)] + field.sizes[next.parents(v, 1)]) / 2;
-        field = {std::move(next.domain), std::move(frames), std::move(sizes)};
+// The tets marked are cut; the frames of new vertices are those of `given`, the field that was handed in.
+WorkingField refined(const WorkingField& field, const WorkingField& given, std::vector<std::uint8_t> marked,
+                     int threads) {
+    RefinedDomain next = refine_tets(field.domain, std::move(marked));
+    const Eigen::Index known = field.frames.rows(), added = next.parents.rows() - known;
+    SampleOptions sampling;
+    sampling.tolerance = std::numeric_limits<double>::infinity();
+    sampling.threads = threads;
+    Quaternions frames(next.parents.rows(), 4);
+    frames.topRows(known) = field.frames;
+    frames.bottomRows(added) =
+        sample_frames(given.domain, given.frames, next.domain.mesh().vertices.bottomRows(added), sampling).frames;
+    Eigen::VectorXd sizes(next.parents.rows());
+    for (Eigen::Index v = 0; v < sizes.size(); ++v)
+        sizes[v] = (field.sizes[next.parents(v, 0)] + field.sizes[next.parents(v, 1)]) / 2;
+    return {std::move(next.domain), std::move(frames), std::move(sizes)};
+}
+
+// Tets of no use for the map, and those that share a vertex with them, where they are not small already.
+std::vector<std::uint8_t> tets_to_refine(const WorkingField& field, const PeriodicMap& map) {
+    const TetMesh& mesh = field.domain.mesh();
+    std::vector<std::uint8_t> near(mesh.vertices.rows(), 0), marked(mesh.tets.rows(), 0);
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
+        if (!map.usable[t])
+            for (const Index v : mesh.tets.row(t)) near[v] = 1;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
+        const auto corners = mesh.tets.row(t);
+        if (!near[corners[0]] && !near[corners[1]] && !near[corners[2]] && !near[corners[3]]) continue;
+        double longest = 0;
+        for (int a = 0; a < 4; ++a)
+            for (int b = a + 1; b < 4; ++b)
+                longest = std::max(longest, (mesh.vertices.row(corners[a]) - mesh.vertices.row(corners[b])).norm());
+        marked[t] = longest > 0.4 * field.sizes(corners).mean();
     }
-    return field;
+    return marked;
 }
 
 struct TetAxes {
@@ -113,30 +122,41 @@ TetAxes tet_axes(const WorkingField& field, const HexDominantOptions& options) {
     return result;
 }
 
+PeriodicMap map_of(const WorkingField& field, const HexDominantOptions& options, const Progress& progress) {
+    const TetAxes axes = tet_axes(field, options);
+    PeriodicMapOptions map_options;
+    map_options.hold_angle = options.hold_angle;
+    map_options.threads = options.threads;
+    return periodic_map(field.domain, axes.frames, axes.lengths, map_options, progress);
+}
+
 }  // namespace
 
 HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
                              const Progress& progress) {
     require_options(options);
     require_frames(frames, domain.vertex_count());
-    report_or_throw(progress, "sizes", 0, 0);
-    const WorkingField field = refined({domain, frames, wanted_sizes(domain, options)}, options);
-    const double length = field.sizes.mean();
+    const WorkingField given{domain, frames, wanted_sizes(domain, options)};
+    const double length = given.sizes.mean();
     HexDominantMesh result;
     HexDominantCounts& counts = result.counts;
-    counts.tets = field.domain.tet_count();
-
     std::optional<LatticeCells> cells;
-    {
-        const TetAxes axes = tet_axes(field, options);
-        PeriodicMapOptions map_options;
-        map_options.hold_angle = options.hold_angle;
-        map_options.threads = options.threads;
-        const PeriodicMap map = periodic_map(field.domain, axes.frames, axes.lengths, map_options, progress);
+    WorkingField field = given;
+    for (int level = 0;; ++level) {
+        report_or_throw(progress, "sizes", 0, 0);
+        const PeriodicMap map = map_of(field, options, progress);
+        std::vector<std::uint8_t> marked = tets_to_refine(field, map);
+        const std::int64_t count = std::count(marked.begin(), marked.end(), 1);
+        if (count > 0 && level < options.refinements && field.domain.tet_count() + 8 * count <= options.most_tets) {
+            field = refined(field, given, std::move(marked), options.threads);
+            continue;
+        }
+        counts.tets = field.domain.tet_count();
         counts.inconsistent = map.inconsistent;
         counts.turned_over = map.turned_over;
         report_or_throw(progress, "lattice", 0, 0);
         cells = lattice_cells(field.domain, map, options.min_scaled_jacobian, options.threads);
+        break;
     }
     counts.lost = cells->lost;
     counts.lattice_hexahedra = static_cast<Index>(cells->hexahedra.rows());

@@ -18,10 +18,10 @@ struct HexDominantOptions {
     double edge_length = 0;  // wanted, input unit; 0: the mean edge of the surface
     Eigen::VectorXd sizes{};  // (n) wanted at the vertices, in place of edge_length; empty: the same everywhere
     SizeCorrection correction = SizeCorrection::axes;
-    // The tets are cut into eight so many times first, so that coordinates can turn within a cell; -1: until edges of
-    // tets are at most 0.6 of a cell's, within most_tets.
-    int refinements = -1;
-    Index most_tets = 600000;
+    // Times that tets on which the map is of no use, and those next to them, are cut into eight and the map is made
+    // anew, while the mesh stays within most_tets.
+    int refinements = 2;
+    Index most_tets = 2000000;
     double min_scaled_jacobian = 0.3;  // of hexahedra of the lattice, and of cells made of tets
     double hold_angle = 0.7;           // of PeriodicMapOptions, radians
     bool recombine = true;             // tets between are joined to hexahedra and wedges
