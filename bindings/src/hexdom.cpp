@@ -6,7 +6,7 @@
 #include "interruptible.hpp"
 #include "octafield/volume/cell_quality.hpp"
 #include "octafield/volume/hex_dominant.hpp"
-#include "octafield/volume/refine_uniformly.hpp"
+#include "octafield/volume/refine_tets.hpp"
 #include "options.hpp"
 
 namespace octafield::bindings {
@@ -83,15 +83,19 @@ void bind_whole(py::module_& m) {
 
 void bind_lattice(py::module_& m) {
     m.def(
-        "refine_uniformly",
-        [](const DomainOrMesh& mesh) {
-            RefinedDomain refined =
-                run_interruptible([mesh](Job&) { return refine_uniformly(domain_of(mesh)); });
-            return std::pair<TetDomain, py::array_t<Index>>(std::move(refined.domain), own(std::move(refined.parents)));
+        "refine_tets",
+        [](const DomainOrMesh& mesh, const ArrayLike& marked) {
+            RefinedDomain refined = run_interruptible(
+                [mesh, marks = from_python<std::vector<std::uint8_t>>(marked, "marked")](Job&) {
+                    return refine_tets(domain_of(mesh), marks);
+                });
+            return std::tuple<TetDomain, py::array_t<Index>, py::array_t<Index>>(
+                std::move(refined.domain), own(std::move(refined.parents)), own(std::move(refined.parent)));
         },
-        "domain"_a,
-        "Every tet cut into eight (Bey 1995), as a pair: the TetDomain, old vertices first, tets 8 t to 8 t + 7 those "
-        "of tet t; and (n, 2) int32 the two old vertices that each vertex lies half-way between.");
+        "domain"_a, "marked"_a,
+        "Tets marked with 1 in (m,) cut into eight (Bey 1995), and their neighbours so that they still meet, as three: "
+        "the TetDomain, old vertices first; (n, 2) int32 the two old vertices that each vertex lies half-way between; "
+        "(m,) int32 the old tet that each is part of. Raises InvalidInput.");
     m.def(
         "periodic_map",
         [](const DomainOrMesh& mesh, const ArrayLike& of_tets, const ArrayLike& lengths,

@@ -72,8 +72,8 @@ void bind_options(py::module_& m) {
                "How sizes give way to the turning of the field, within a factor of two: \"none\", \"isotropic\" (all "
                "axes alike) or \"axes\" (each for itself).")
         .field("refinements", &HexDominantOptions::refinements,
-               "The tets are cut into eight so many times first; -1: until their edges are at most 0.6 of a cell's.")
-        .field("most_tets", &HexDominantOptions::most_tets, "With refinements -1: none beyond so many tets.")
+               "Times that tets on which the map is of no use are cut into eight, and the map is made anew.")
+        .field("most_tets", &HexDominantOptions::most_tets, "None are cut where the mesh would have more.")
         .field("min_scaled_jacobian", &HexDominantOptions::min_scaled_jacobian,
                "Of hexahedra of the lattice, and of cells made of tets; in (0, 1).")
         .field("hold_angle", &HexDominantOptions::hold_angle, "Of PeriodicMapOptions, radians.")

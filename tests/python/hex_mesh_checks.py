@@ -74,5 +74,7 @@ def volume_of(mesh):
         if len(corners) == 3:
             total += np.dot(p[0], np.cross(p[1], p[2])) / 6
         else:  # the mean of both ways to split it is exact
-            total += sum(np.dot(p[a], np.cross(p[b], p[c])) for a, b, c in ((0, 1, 2), (0, 2, 3), (0, 1, 3), (1, 2, 3))) / 12
+            total += (
+                sum(np.dot(p[a], np.cross(p[b], p[c])) for a, b, c in ((0, 1, 2), (0, 2, 3), (0, 1, 3), (1, 2, 3))) / 12
+            )
     return total

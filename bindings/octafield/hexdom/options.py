@@ -44,7 +44,7 @@ class HexMeshOptions:
                 "an edge length decides the number of cells: leave it or the number of cells out", "option_out_of_range"
             )
         require_one_of("correction", self.correction, CORRECTIONS)
-        integer_in("refinements", self.refinements, -1, 6, " (-1: as the cells need)")
+        integer_in("refinements", self.refinements, 0, 6)
         integer_in("most_tets", self.most_tets, 1, LARGEST_INT)
         if not 0 < self.min_scaled_jacobian < 1:
             raise InvalidInput("the least scaled Jacobian must lie between 0 and 1", "option_out_of_range")

@@ -13,7 +13,7 @@ from .curves import add_curves, curves_by_kind, curves_of_file
 from .datasets import cell_grid
 
 _VIEW = np.array([-0.45, -0.75, 0.62])  # from the middle towards the eye, in the shape's principal axes
-OTHERS = "#e8e2d4"
+OTHERS = "#e9b3a4"
 _COLOURS = "viridis"
 
 
@@ -63,6 +63,9 @@ def _drawn(grid: pyvista.UnstructuredGrid, curves: dict[int, pyvista.PolyData | 
             ambient=0.45,
             specular=0,
         )
+    outline = grid.extract_surface(algorithm=None).extract_feature_edges(35, boundary_edges=False)
+    if outline.n_cells:
+        shape.add_mesh(outline, color=scene.CURVE, line_width=2, lighting=False)
     add_curves(shape, curves, 0.006 * scene.diagonal(points))
     scene.look(shape, points, direction, axes[2])
     return shape
