@@ -7,7 +7,7 @@ import numpy as np
 FACES = {
     "tets": ["021", "013", "123", "203"],
     "hexahedra": ["0321", "4567", "0154", "1265", "2376", "3047"],
-    "wedges": ["012", "354", "0341", "1452", "2530"],
+    "wedges": ["021", "345", "0143", "1254", "2035"],
     "pyramids": ["0321", "014", "124", "234", "304"],
 }
 # Of each corner its three neighbours, so that the determinant is positive in a sound cell.
