@@ -168,10 +168,13 @@ TEST(PointSurfaceCurves, a_border_of_a_plane_without_points_becomes_its_corners)
     keep_points(p, [](const Eigen::Vector3d&) { return false; });
     const surface::FeatureGraph border = surface::detect_features(p.mesh);
     ASSERT_EQ(border.corners.size(), 4u);
-    const PointSurface s = point_surface(p.mesh, border, one_group(p), p.points, p.quads, 10);
-    EXPECT_EQ(s.mesh.vertices.rows(), 4);
-    EXPECT_EQ(s.mesh.triangles.rows(), 2);
-    EXPECT_NEAR(area_of(s.mesh), 1, 1e-12);
+    for (const bool named : {true, false}) {
+        const PointSurface s =
+            point_surface(p.mesh, named ? border : surface::FeatureGraph{}, one_group(p), p.points, p.quads, 10);
+        EXPECT_EQ(s.mesh.vertices.rows(), 4);
+        EXPECT_EQ(s.mesh.triangles.rows(), 2);
+        EXPECT_NEAR(area_of(s.mesh), 1, 1e-12);
+    }
 }
 
 // The plane's square, its border kept as edges of one triangle are.
