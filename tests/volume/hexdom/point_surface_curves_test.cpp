@@ -240,6 +240,15 @@ TEST(PointSurfaceCurves, a_feature_ends_where_it_did_along_a_border_of_groups) {
         for (const Index v : e) old_highest = std::max(old_highest, p.mesh.vertices(v, 1));
     EXPECT_EQ(highest, old_highest);
     EXPECT_GT(all, 1);
+    int border = 0;  // jagged, without being kept for its turns
+    const std::vector<Index> new_groups = groups_of(s, groups);
+    std::map<std::pair<Index, Index>, std::set<Index>> new_groups_at;
+    for (Index t = 0; t < s.mesh.triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k)
+            new_groups_at[std::minmax({s.mesh.triangles(t, k), s.mesh.triangles(t, (k + 1) % 3)})].insert(
+                new_groups[t]);
+    for (const auto& [edge, there] : new_groups_at) border += there.size() == 2;
+    EXPECT_LT(border, 8);
 }
 
 TEST(PointSurfaceCurves, edges_that_both_triangles_run_alike_stay) {

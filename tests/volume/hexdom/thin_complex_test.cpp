@@ -68,6 +68,19 @@ TEST(ThinComplex, topology_alone_keeps_borders_and_edges_of_three_triangles) {
     EXPECT_LT(wall.triangles.rows(), 40);
 }
 
+TEST(ThinComplex, surfaces_that_touch_at_a_vertex_go_on_touching) {
+    std::vector<Map> boxes = box_maps({0, 0, 0}, {1, 1, 1});
+    for (const Map& side : box_maps({1, 1, 1}, {2, 2, 2})) boxes.push_back(side);
+    const surface::TriangleMesh both = thinned_without_geometry(boxes, 5);
+    EXPECT_EQ(euler(both), 3);
+    EXPECT_TRUE(closed_and_oriented(both));
+    const std::set<Index> used(both.triangles.data(), both.triangles.data() + both.triangles.size());
+    EXPECT_LT(used.size(), 20u);
+    EXPECT_EQ(std::count_if(used.begin(), used.end(),
+                            [&](Index v) { return both.vertices.row(v) == Eigen::RowVector3d(1, 1, 1); }),
+              1);
+}
+
 // A vertex in the middle of a polygon in the plane, which alone may go.
 TriangleComplex wheel(const std::vector<Eigen::Vector2d>& ring, const Eigen::Vector2d& middle) {
     const Index n = static_cast<Index>(ring.size());
