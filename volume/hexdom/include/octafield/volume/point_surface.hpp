@@ -38,7 +38,8 @@ struct PointSurface {
 // ends, or than one there was round the vertex; 1.5 times that where the vertex would stay within edge_length / 4 of
 // another. Corners of `features` stay, and vertices where kept edges end, meet, change their kind, or turn by more than
 // 60 degrees where one triangle ends or three and more meet. Nothing else bounds how far the new surface lies from the
-// old one: about edge_length^2 / 4 times the curvature, as between any points so far apart.
+// old one: about edge_length^2 / 4 times the curvature, as between any points so far apart. Walls thinner than that may
+// cross: nobody looks here.
 //
 // Throws InvalidInput, whose elements are the ids concerned: "wrong_size", "index_out_of_range", "not_an_edge"
 // (features), "not_finite", "invalid_weights", "repeated_vertex" (of a quad), "coincident_points", "invalid_option";
