@@ -66,20 +66,29 @@ private:
     int nodes_ = 0;
 };
 
+bool crosses(const FaceClaim& a, const FaceClaim& b) {
+    if (a.key == b.key) return false;
+    if (a.diagonal >= 0 && a.diagonal == b.diagonal) return true;
+    const auto end = b.triangles.begin() + b.count;
+    return std::find_first_of(b.triangles.begin(), end, a.triangles.begin(), a.triangles.begin() + a.count) != end;
+}
+
+// A diagonal of the first is an edge of the second.
+bool cuts(const CellClaims& claims, const CellClaims& other) {
+    const auto end = other.edges.begin() + other.edge_count;
+    for (int f = 0; f < claims.count; ++f)
+        if (claims.faces[f].diagonal >= 0 && std::find(other.edges.begin(), end, claims.faces[f].diagonal) != end)
+            return true;
+    return false;
+}
+
 bool in_the_way(std::span<const Index> tets, const CellClaims& claims, std::span<const Index> other_tets,
                 const CellClaims& other) {
-    for (const Index tet : tets)
-        if (std::find(other_tets.begin(), other_tets.end(), tet) != other_tets.end()) return true;
+    if (std::find_first_of(tets.begin(), tets.end(), other_tets.begin(), other_tets.end()) != tets.end()) return true;
     for (int f = 0; f < claims.count; ++f)
-        for (int g = 0; g < other.count; ++g) {
-            const FaceClaim &a = claims.faces[f], &b = other.faces[g];
-            if (a.key == b.key) continue;
-            for (int k = 0; k < a.count; ++k)
-                if (std::find(b.triangles.begin(), b.triangles.begin() + b.count, a.triangles[k]) !=
-                    b.triangles.begin() + b.count)
-                    return true;
-        }
-    return false;
+        for (int g = 0; g < other.count; ++g)
+            if (crosses(claims.faces[f], other.faces[g])) return true;
+    return cuts(claims, other) || cuts(other, claims);
 }
 
 class Chooser {

@@ -32,7 +32,7 @@ public:
           report_(report),
           topology_(mesh.tets, static_cast<Index>(mesh.vertices.rows())),
           surroundings_(mesh, topology_, options.kept_edges, options.max_boundary_fold),
-          table_(static_cast<Index>(mesh.tets.rows()), topology_.triangle_count()),
+          table_(topology_),
           taken_(mesh.tets.rows(), 0) {}
 
     MixedMesh run() {
