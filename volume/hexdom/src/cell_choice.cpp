@@ -101,7 +101,13 @@ public:
           weights_(weights),
           table_(table),
           chosen_(cells.count(), 0),
+          tried_(cells.count(), 0),
+          looked_at_(cells.count(), 0),
+          only_(cells.count(), ClaimTable::nobody),
           order_(cells.count()) {
+        Index vertices = 0;
+        for (const auto& ids : cells.ids) vertices = std::max(vertices, *std::max_element(ids.begin(), ids.end()) + 1);
+        changed_.assign(vertices, 1);
         std::iota(order_.begin(), order_.end(), 0);
         std::stable_sort(order_.begin(), order_.end(), [&](Index a, Index b) { return weights[a] > weights[b]; });
     }
@@ -126,10 +132,22 @@ private:
     void put(Index cell, const CellClaims& claims) {
         table_.add(cell, cells_.tets_of(cell), claims);
         chosen_[cell] = 1;
+        touch(cell);
     }
     void take_out(Index cell) {
         table_.remove(cell, cells_.tets_of(cell), *claims(cell));
         chosen_[cell] = 0;
+        touch(cell);
+    }
+
+    // Cells in each other's way share a vertex: where none has changed since a cell was looked at, nothing else has.
+    void touch(Index cell) {
+        ++now_;
+        for (int k = 0; k < shape_.vertices; ++k) changed_[cells_.ids[cell][k]] = now_;
+    }
+    bool changed_since(Index cell, std::int64_t then) const {
+        const auto& ids = cells_.ids[cell];
+        return std::any_of(ids.begin(), ids.begin() + shape_.vertices, [&](Index v) { return changed_[v] > then; });
     }
 
     // The weight of chosen cells in the way; infinite where one is settled.
@@ -144,7 +162,9 @@ private:
     bool exchange_for_one() {
         bool any = false;
         for (const Index cell : order_) {
-            if (chosen_[cell] || !light_owners(cell)) continue;
+            if (chosen_[cell] || !changed_since(cell, tried_[cell])) continue;
+            tried_[cell] = now_;
+            if (!light_owners(cell)) continue;
             const std::optional<CellClaims> claim = claims(cell);
             if (!claim || !(weights_[cell] > weight_in_the_way(cell, *claim) + gain_at_least)) continue;
             for (const Index other : std::vector<Index>(conflicts_)) take_out(other);
@@ -174,20 +194,33 @@ private:
         return true;
     }
 
+    // The only chosen cell in the way; nobody: none, or not one only.
+    Index only_in_the_way(Index cell) {
+        if (!one_owner(cell)) return ClaimTable::nobody;
+        const std::optional<CellClaims> claim = claims(cell);
+        if (!claim) return ClaimTable::nobody;
+        table_.conflicts(cells_.tets_of(cell), *claim, conflicts_);
+        return conflicts_.size() == 1 && conflicts_[0] >= 0 ? conflicts_[0] : ClaimTable::nobody;
+    }
+
     bool exchange_for_several() {
         std::vector<std::pair<Index, Index>> rivals;  // a chosen cell and one that only this is in the way of
+        std::vector<std::uint8_t> news(cells_.count(),
+                                       0);  // of chosen cells: 1 where rivals are not those of last time
         for (const Index cell : order_) {
-            if (chosen_[cell] || !one_owner(cell)) continue;
-            const std::optional<CellClaims> claim = claims(cell);
-            if (!claim) continue;
-            table_.conflicts(cells_.tets_of(cell), *claim, conflicts_);
-            if (conflicts_.size() == 1 && conflicts_[0] >= 0) rivals.emplace_back(conflicts_[0], cell);
+            if (chosen_[cell]) continue;
+            if (changed_since(cell, looked_at_[cell])) {
+                looked_at_[cell] = now_;
+                only_[cell] = only_in_the_way(cell);
+                if (only_[cell] >= 0) news[only_[cell]] = 1;
+            }
+            if (only_[cell] >= 0) rivals.emplace_back(only_[cell], cell);
         }
         std::stable_sort(rivals.begin(), rivals.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         bool any = false;
         for (auto first = rivals.begin(); first != rivals.end();) {
             const auto last = std::find_if(first, rivals.end(), [&](const auto& r) { return r.first != first->first; });
-            if (last - first > 1 && exchange(first->first, first, last)) any = true;
+            if (news[first->first] && last - first > 1 && exchange(first->first, first, last)) any = true;
             first = last;
         }
         return any;
@@ -228,6 +261,11 @@ private:
     const std::vector<double>& weights_;
     ClaimTable& table_;
     std::vector<std::uint8_t> chosen_;
+    std::int64_t now_ = 1;               // changes so far
+    std::vector<std::int64_t> changed_;  // (vertices) when a cell there was put in or taken out
+    std::vector<std::int64_t> tried_;    // (cells) when exchange_for_one looked at it
+    std::vector<std::int64_t> looked_at_;
+    std::vector<Index> only_;  // (cells) only_in_the_way then
     std::vector<Index> order_, conflicts_;
 };
 

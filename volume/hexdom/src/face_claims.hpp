@@ -19,7 +19,10 @@ struct FaceKey {
     Index across;                 // from the lowest; -1 of a triangle
     Index variant;  // not 0: the quad may be met on the pair of triangles variant - 1 only, as more than a flat tet
                     // lies between that and the other pair
-    bool operator==(const FaceKey&) const = default;
+    bool operator==(const FaceKey& other) const {
+        return sorted[0] == other.sorted[0] && sorted[1] == other.sorted[1] && sorted[2] == other.sorted[2] &&
+               sorted[3] == other.sorted[3] && across == other.across && variant == other.variant;
+    }
 };
 
 // The triangles that must be this face, or nothing.
