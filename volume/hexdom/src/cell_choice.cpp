@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "octafield/parallel.hpp"
+
 namespace octafield::volume::detail {
 namespace {
 
@@ -94,12 +96,13 @@ bool in_the_way(std::span<const Index> tets, const CellClaims& claims, std::span
 class Chooser {
 public:
     Chooser(const TetSurroundings& surroundings, const CellShape& shape, const PotentialCells& cells,
-            const std::vector<double>& weights, ClaimTable& table)
+            const std::vector<double>& weights, ClaimTable& table, int threads)
         : surroundings_(surroundings),
           shape_(shape),
           cells_(cells),
           weights_(weights),
           table_(table),
+          threads_(threads),
           chosen_(cells.count(), 0),
           tried_(cells.count(), 0),
           looked_at_(cells.count(), 0),
@@ -195,26 +198,31 @@ private:
     }
 
     // The only chosen cell in the way; nobody: none, or not one only.
-    Index only_in_the_way(Index cell) {
+    Index only_in_the_way(Index cell) const {
         if (!one_owner(cell)) return ClaimTable::nobody;
         const std::optional<CellClaims> claim = claims(cell);
         if (!claim) return ClaimTable::nobody;
-        table_.conflicts(cells_.tets_of(cell), *claim, conflicts_);
-        return conflicts_.size() == 1 && conflicts_[0] >= 0 ? conflicts_[0] : ClaimTable::nobody;
+        std::vector<Index> conflicts;
+        table_.conflicts(cells_.tets_of(cell), *claim, conflicts);
+        return conflicts.size() == 1 && conflicts[0] >= 0 ? conflicts[0] : ClaimTable::nobody;
     }
 
     bool exchange_for_several() {
+        std::vector<std::uint8_t> looked(cells_.count(), 0);
+        parallel_for(cells_.count(), threads_, [&](std::int64_t i) {
+            const Index cell = static_cast<Index>(i);
+            if (chosen_[cell] || !changed_since(cell, looked_at_[cell])) return;
+            looked_at_[cell] = now_;
+            only_[cell] = only_in_the_way(cell);
+            looked[cell] = only_[cell] >= 0;
+        });
         std::vector<std::pair<Index, Index>> rivals;  // a chosen cell and one that only this is in the way of
         std::vector<std::uint8_t> news(cells_.count(),
                                        0);  // of chosen cells: 1 where rivals are not those of last time
         for (const Index cell : order_) {
-            if (chosen_[cell]) continue;
-            if (changed_since(cell, looked_at_[cell])) {
-                looked_at_[cell] = now_;
-                only_[cell] = only_in_the_way(cell);
-                if (only_[cell] >= 0) news[only_[cell]] = 1;
-            }
-            if (only_[cell] >= 0) rivals.emplace_back(only_[cell], cell);
+            if (chosen_[cell] || only_[cell] < 0) continue;
+            if (looked[cell]) news[only_[cell]] = 1;
+            rivals.emplace_back(only_[cell], cell);
         }
         std::stable_sort(rivals.begin(), rivals.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         bool any = false;
@@ -260,6 +268,7 @@ private:
     const PotentialCells& cells_;
     const std::vector<double>& weights_;
     ClaimTable& table_;
+    const int threads_;
     std::vector<std::uint8_t> chosen_;
     std::int64_t now_ = 1;               // changes so far
     std::vector<std::int64_t> changed_;  // (vertices) when a cell there was put in or taken out
@@ -272,8 +281,9 @@ private:
 }  // namespace
 
 std::vector<Index> choose_cells(const TetSurroundings& surroundings, const CellShape& shape,
-                                const PotentialCells& cells, const std::vector<double>& weights, ClaimTable& table) {
-    return Chooser(surroundings, shape, cells, weights, table).run();
+                                const PotentialCells& cells, const std::vector<double>& weights, ClaimTable& table,
+                                int threads) {
+    return Chooser(surroundings, shape, cells, weights, table, threads).run();
 }
 
 }  // namespace octafield::volume::detail

@@ -52,6 +52,7 @@ private:
 // for several, exactly among those that only that cell is in the way of; no times, so always the same. Adds them to the
 // table; ascending.
 std::vector<Index> choose_cells(const TetSurroundings& surroundings, const CellShape& shape,
-                                const PotentialCells& cells, const std::vector<double>& weights, ClaimTable& table);
+                                const PotentialCells& cells, const std::vector<double>& weights, ClaimTable& table,
+                                int threads);
 
 }  // namespace octafield::volume::detail
