@@ -111,7 +111,8 @@ public:
             if (support.kind[v] == Kind::surface) place_[v] = guide->nearest_on_surface(mesh.vertices.row(v));
             if (support.kind[v] == Kind::curve) place_[v] = guide->nearest_on_curves(mesh.vertices.row(v));
         });
-        floor_ = std::max(options.good, lowest());
+        start_lowest_ = lowest();
+        floor_ = std::max(options.good, start_lowest_);
     }
 
     // What is left tangled gets further tries once the cells round it are better.
@@ -254,11 +255,10 @@ private:
         static thread_local VertexStar star;
         star.set(mesh_, cells_, v);
         if (!(star.size() > 0)) return;
-        const Slide way = slide(v);
+        Slide way = slide(v);
         Move move{Vector::Zero(), place_[v]};
-        const Vector start = mesh_.vertices.row(v);
-        const double off = slides(v) ? (place_[v].point - start).norm() : 0;
-        if (off > std::max(options_.tolerance, on_surface * star.size())) detail::snap(star, way, move, floor_);
+        if (way.distance() > std::max(options_.tolerance, on_surface * star.size()))
+            detail::snap(star, way, move, std::max(start_lowest_, options_.good / 2));
         if (star.lowest(move.x) < options_.good) detail::raise_lowest(star, way, move);
         // At the floor itself smoothing may be barred for ever.
         if (detail::smooth(star, way, move, floor_) == detail::Smoothed::barred) detail::raise_lowest(star, way, move);
@@ -274,7 +274,7 @@ private:
     std::vector<SurfaceGuide::Place> place_;  // of vertices that slide
     std::vector<double> moved_;               // in the last sweep, in edges at the vertex
     bool inside_only_ = false;
-    double floor_;  // smoothing lets no quality fall below this
+    double start_lowest_, floor_;  // quality: least at the start; smoothing lets none fall below this
 };
 
 }  // namespace
