@@ -37,7 +37,9 @@ public:
     void set(const MixedMesh& mesh, const VertexCells& cells, Index v);
 
     bool empty() const { return corners_.empty(); }
-    double size() const { return size_; }  // mean length of the edges at the vertex
+    double size() const {
+        return size_;
+    }  // mean length of the edges (of pyramids, diagonals of the base, too) at the vertex
 
     // Least scaled Jacobian, as scaled_jacobians takes it, over the corners that the vertex changes: of flat and
     // inverted corners, the edges' triple product over the product of their lengths, <= 0. Stops early below `enough`.
