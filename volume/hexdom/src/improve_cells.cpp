@@ -115,11 +115,16 @@ public:
         floor_ = std::max(options.good, start_lowest_);
     }
 
-    // What is left tangled gets further tries once the cells round it are better.
+    // Smoothing raises most of the low qualities by itself, and in a better balance: raising comes in the second half
+    // of the sweeps. What is left tangled gets further tries once the cells round it are better.
     void run() {
         for (int round = 0; round < untangling_rounds; ++round) {
             if (lowest() <= flat) untangle_cells();
-            sweep(std::vector<bool>(mesh_.vertices.rows(), true), options_.sweeps);
+            const std::vector<bool> all(mesh_.vertices.rows(), true);
+            raising_ = false;
+            sweep(all, options_.sweeps - options_.sweeps / 2);
+            raising_ = true;
+            sweep(all, options_.sweeps / 2);
             if (lowest() > flat) break;
         }
         if (options_.fit_surface && guide_ != nullptr && guide_->has_triangles()) fit_surface();
@@ -259,9 +264,11 @@ private:
         Move move{Vector::Zero(), place_[v]};
         if (way.distance() > std::max(options_.tolerance, on_surface * star.size()))
             detail::snap(star, way, move, std::max(start_lowest_, options_.good / 2));
-        if (star.lowest(move.x) < options_.good) detail::raise_lowest(star, way, move);
+        const double lowest = star.lowest(move.x);
+        if (lowest <= flat || (raising_ && lowest < options_.good)) detail::raise_lowest(star, way, move);
         // At the floor itself smoothing may be barred for ever.
-        if (detail::smooth(star, way, move, floor_) == detail::Smoothed::barred) detail::raise_lowest(star, way, move);
+        const auto result = detail::smooth(star, way, move, floor_);
+        if (raising_ && result == detail::Smoothed::barred) detail::raise_lowest(star, way, move);
         accept(v, move, star.size());
     }
 
@@ -273,8 +280,9 @@ private:
     std::vector<std::vector<Index>> colours_;
     std::vector<SurfaceGuide::Place> place_;  // of vertices that slide
     std::vector<double> moved_;               // in the last sweep, in edges at the vertex
-    bool inside_only_ = false;
-    double start_lowest_, floor_;  // quality: least at the start; smoothing lets none fall below this
+    bool inside_only_ = false;                // those on the surface rest
+    bool raising_ = false;                    // of qualities below options_.good
+    double start_lowest_, floor_;             // quality: least at the start; smoothing lets none fall below this
 };
 
 }  // namespace

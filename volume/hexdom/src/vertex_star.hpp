@@ -52,7 +52,7 @@ public:
     double lowest_determinant(const Vector& x) const;
     void determinants(const Vector& x, std::vector<double>& values, std::vector<Vector>& gradients) const;
 
-    // Sum over the corners of (|T| / sqrt(3))^3 / det T, T from the corner of the ideal cell: convex where all are
+    // Sum over the corners of (|T| / sqrt(3))^6 / det(T)^2, T from the corner of the ideal cell: convex where all are
     // positive, infinite elsewhere (inverse mean ratio; Knupp 2001).
     double energy(const Vector& x) const;
     double energy(const Vector& x, Vector& gradient, Eigen::Matrix3d& hessian) const;
