@@ -185,6 +185,15 @@ TEST(ImproveCells, WhatIsPerfectStaysToTheBit) {
     }
 }
 
+TEST(ImproveCells, WhatLiesOnACurveStaysThereWhateverItIsCalled) {
+    ImproveCase box = box_of_hexahedra(5, 0.3);
+    for (Kind& kind : box.support.kind)
+        if (kind != Kind::inside) kind = Kind::surface;
+    const MixedMesh better = box.improved();
+    expect_on_box(box, better, 5);
+    EXPECT_GT(lowest(better), 0.98);
+}
+
 TEST(ImproveCells, VerticesSlideOnACurvedSurface) {
     ImproveCase ball = ball_of_hexahedra(4, 2);
     std::mt19937 random(3);
