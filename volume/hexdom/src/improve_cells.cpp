@@ -27,7 +27,6 @@ constexpr double flat = 1e-14;       // qualities up to this are those of flat c
 constexpr double resting = 1e-3;     // moves shorter than this part of the edges wake no neighbours
 constexpr double on_surface = 1e-9;  // distance from the surface, in edges, that is rounding
 constexpr int untangling_sweeps = 30;
-constexpr int untangling_rounds = 3;
 constexpr int following_sweeps = 5;  // of vertices inside after those of the surface were fitted to it
 constexpr int patience = 4;          // sweeps of untangling without fewer inverted cells
 constexpr std::int64_t grain = 64;   // vertices worth a thread
@@ -75,6 +74,20 @@ std::unique_ptr<SurfaceGuide> guide_for(const VertexSupport& support, const surf
     return guide;
 }
 
+// What lies on a curve may not leave it for either side, nor a corner for a curve, whatever it is called.
+VertexSupport settled(VertexSupport support, const Points& vertices, const SurfaceGuide& guide, double tolerance,
+                      int threads) {
+    parallel_for(vertices.rows(), threads, [&](std::int64_t v) {
+        Kind& kind = support.kind[v];
+        if (!guide.has_edges() || (kind != Kind::surface && kind != Kind::curve)) return;
+        const Vector at = vertices.row(v);
+        const SurfaceGuide::Place place = guide.nearest_on_curves(at);
+        if ((place.point - at).norm() > tolerance) return;
+        kind = guide.at_corner(place, tolerance) ? Kind::fixed : Kind::curve;
+    });
+    return support;
+}
+
 // One number per vertex that moves, so that no two of a cell share it, the lowest in the order of the vertices.
 std::vector<std::vector<Index>> colours(const MixedMesh& mesh, const VertexCells& cells, const VertexSupport& support) {
     std::vector<std::vector<Index>> of_colour;
@@ -98,29 +111,37 @@ std::vector<std::vector<Index>> colours(const MixedMesh& mesh, const VertexCells
 
 class Improver {
 public:
-    Improver(MixedMesh& mesh, const VertexSupport& support, const SurfaceGuide* guide, const ImproveOptions& options)
+    Improver(MixedMesh& mesh, VertexSupport kinds, const SurfaceGuide* guide, const ImproveOptions& options)
         : mesh_(mesh),
-          support_(support),
+          support_(std::move(kinds)),
           guide_(guide),
           options_(options),
           cells_(mesh),
-          colours_(colours(mesh, cells_, support)),
+          colours_(colours(mesh, cells_, support_)),
           place_(mesh.vertices.rows()),
           moved_(mesh.vertices.rows()) {
         parallel_for(mesh.vertices.rows(), options.threads, [&](std::int64_t v) {
-            if (support.kind[v] == Kind::surface) place_[v] = guide->nearest_on_surface(mesh.vertices.row(v));
-            if (support.kind[v] == Kind::curve) place_[v] = guide->nearest_on_curves(mesh.vertices.row(v));
+            if (support_.kind[v] == Kind::surface) place_[v] = guide->nearest_on_surface(mesh.vertices.row(v));
+            if (support_.kind[v] == Kind::curve) place_[v] = guide->nearest_on_curves(mesh.vertices.row(v));
         });
-        floor_ = std::max(options.good, lowest());
+        start_lowest_ = lowest();
+        floor_ = std::max(options.good, start_lowest_);
     }
 
-    // What is left tangled gets further tries once the cells round it are better.
+    // Smoothing raises most of the low qualities by itself, and in a better balance: raising comes in the second half
+    // of the sweeps. What is left tangled gets further tries once the cells round it are better.
     void run() {
-        for (int round = 0; round < untangling_rounds; ++round) {
-            if (lowest() <= flat) untangle_cells();
-            sweep(std::vector<bool>(mesh_.vertices.rows(), true), options_.sweeps);
-            if (lowest() > flat) break;
-        }
+        std::size_t inverted = inverted_cells().size(), before = 0;
+        do {
+            before = inverted;
+            if (inverted > 0) untangle_cells();
+            const std::vector<bool> all(mesh_.vertices.rows(), true);
+            raising_ = false;
+            sweep(all, options_.sweeps - options_.sweeps / 2);
+            raising_ = true;
+            sweep(all, options_.sweeps / 2);
+            inverted = inverted_cells().size();
+        } while (inverted > 0 && inverted < before / 2);
         if (options_.fit_surface && guide_ != nullptr && guide_->has_triangles()) fit_surface();
     }
 
@@ -254,27 +275,29 @@ private:
         static thread_local VertexStar star;
         star.set(mesh_, cells_, v);
         if (!(star.size() > 0)) return;
-        const Slide way = slide(v);
+        Slide way = slide(v);
         Move move{Vector::Zero(), place_[v]};
-        const Vector start = mesh_.vertices.row(v);
-        const double off = slides(v) ? (place_[v].point - start).norm() : 0;
-        if (off > std::max(options_.tolerance, on_surface * star.size())) detail::snap(star, way, move, floor_);
-        if (star.lowest(move.x) < options_.good) detail::raise_lowest(star, way, move);
+        if (way.distance() > std::max(options_.tolerance, on_surface * star.size()))
+            detail::snap(star, way, move, std::max(start_lowest_, options_.good / 2));
+        const double lowest = star.lowest(move.x);
+        if (lowest <= flat || (raising_ && lowest < options_.good)) detail::raise_lowest(star, way, move);
         // At the floor itself smoothing may be barred for ever.
-        if (detail::smooth(star, way, move, floor_) == detail::Smoothed::barred) detail::raise_lowest(star, way, move);
+        const auto result = detail::smooth(star, way, move, floor_);
+        if (raising_ && result == detail::Smoothed::barred) detail::raise_lowest(star, way, move);
         accept(v, move, star.size());
     }
 
     MixedMesh& mesh_;
-    const VertexSupport& support_;
+    VertexSupport support_;
     const SurfaceGuide* guide_;
     const ImproveOptions& options_;
     VertexCells cells_;
     std::vector<std::vector<Index>> colours_;
     std::vector<SurfaceGuide::Place> place_;  // of vertices that slide
     std::vector<double> moved_;               // in the last sweep, in edges at the vertex
-    bool inside_only_ = false;
-    double floor_;  // smoothing lets no quality fall below this
+    bool inside_only_ = false;                // those on the surface rest
+    bool raising_ = false;                    // of qualities below options_.good
+    double start_lowest_, floor_;             // quality: least at the start; smoothing lets none fall below this
 };
 
 }  // namespace
@@ -287,7 +310,10 @@ MixedMesh improve_cells(MixedMesh mesh, const VertexSupport& support, const surf
     const auto guide = guide_for(support, surface, features);
     if (mesh.cell_count() == 0) return mesh;
     MixedMesh better = mesh;
-    Improver(better, support, guide.get(), options).run();
+    const double rounding = on_surface * surface::bounding_box_diagonal(surface.vertices);
+    Improver(better, guide ? settled(support, mesh.vertices, *guide, rounding, options.threads) : support, guide.get(),
+             options)
+        .run();
     // Steps are guarded corner by corner; a pyramid's quality folds back above 1, which they do not see.
     const double lowest = before.minCoeff();
     return lowest > flat && scaled_jacobians(better).minCoeff() < lowest - 1e-12 ? mesh : better;

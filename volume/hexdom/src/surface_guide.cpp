@@ -181,8 +181,9 @@ void require_ids(const Rows& rows, Eigen::Index vertices, const char* what) {
 void require_sound(const surface::TriangleMesh& mesh, const surface::FeatureGraph& features) {
     require_ids(mesh.triangles, mesh.vertices.rows(), "triangles of the surface");
     require_ids(features.edges, mesh.vertices.rows(), "feature edges");
-    require_ids(Eigen::Map<const Eigen::VectorXi>(features.corners.data(), static_cast<Eigen::Index>(features.corners.size())),
-                mesh.vertices.rows(), "corners of the features");
+    require_ids(
+        Eigen::Map<const Eigen::VectorXi>(features.corners.data(), static_cast<Eigen::Index>(features.corners.size())),
+        mesh.vertices.rows(), "corners of the features");
     std::vector<Index> lost;
     for (const Index v : mesh.triangles.reshaped())
         if (!mesh.vertices.row(v).allFinite()) lost.push_back(v);
@@ -249,6 +250,13 @@ Place SurfaceGuide::nearest_in_patch(const Vector& point, const Place& near) con
 }
 Place SurfaceGuide::nearest_in_curve(const Vector& point, const Place& near) const {
     return trees_->segments.nearest(point, near);
+}
+
+bool SurfaceGuide::at_corner(const Place& place, double tolerance) const {
+    return std::ranges::any_of(trees_->features.edges.row(place.element), [&](Index v) {
+        return (trees_->mesh.vertices.row(v).transpose() - place.point).norm() <= tolerance &&
+               std::ranges::find(trees_->features.corners, v) != trees_->features.corners.end();
+    });
 }
 
 Vector SurfaceGuide::normal(Index triangle) const {

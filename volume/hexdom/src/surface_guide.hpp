@@ -33,6 +33,9 @@ public:
     Place nearest_in_patch(const Vector& point, const Place& near) const;
     Place nearest_in_curve(const Vector& point, const Place& near) const;
 
+    // Whether a place of a curve is within `tolerance` of a corner at an end of its edge.
+    bool at_corner(const Place& place, double tolerance) const;
+
     Vector normal(Index triangle) const;  // unit, outward
     Vector tangent(Index edge) const;     // unit
 

@@ -75,6 +75,12 @@ const CornersAt& corners_at(const CellShape* shape) {
                                         : pyramid;
 }
 
+// (|T| / sqrt(3))^6 / det(T)^2, with |T|^2 = square and the ideal's weight. Squared, so that poor corners count more.
+double shape_energy(double weight, double square, double determinant) {
+    const double root = weight / determinant;
+    return root * root * square * square * square;
+}
+
 // The edges of the map at a hexahedron's middle run between opposite faces' vertices, summed: on which side each vertex
 // is.
 constexpr int middle_signs[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
@@ -226,7 +232,7 @@ double VertexStar::energy(const Vector& x) const {
         const double determinant = corner.determinant + corner.slope.dot(x);
         if (!(determinant > 0)) return std::numeric_limits<double>::infinity();
         const double square = corner.square * x.squaredNorm() + 2 * corner.linear.dot(x) + corner.constant;
-        sum += corner.weight * square * std::sqrt(square) / determinant;
+        sum += shape_energy(corner.weight, square, determinant);
     }
     return sum;
 }
@@ -240,15 +246,15 @@ double VertexStar::energy(const Vector& x, Vector& gradient, Eigen::Matrix3d& he
         const double determinant = corner.determinant + corner.slope.dot(x);
         if (!(determinant > 0)) return std::numeric_limits<double>::infinity();
         const double square = corner.square * x.squaredNorm() + 2 * corner.linear.dot(x) + corner.constant;
-        const double value = corner.weight * square * std::sqrt(square) / determinant;
+        const double value = shape_energy(corner.weight, square, determinant);
         const Vector of_square = 2 * (corner.square * x + corner.linear) / square,
                      of_slope = corner.slope / determinant;
-        const Vector both = 1.5 * of_square - of_slope;  // of the logarithm
+        const Vector both = 3 * of_square - 2 * of_slope;  // of the logarithm
         sum += value;
         gradient += value * both;
-        hessian += value * (both * both.transpose() - 1.5 * of_square * of_square.transpose() +
-                            of_slope * of_slope.transpose());
-        hessian.diagonal().array() += value * 3 * corner.square / square;
+        hessian += value * (both * both.transpose() - 3 * of_square * of_square.transpose() +
+                            2 * of_slope * of_slope.transpose());
+        hessian.diagonal().array() += value * 6 * corner.square / square;
     }
     return sum;
 }
