@@ -195,6 +195,22 @@ TEST(SurfaceGuide, PlacesStayOnTheirPatchesAndCurves) {
     EXPECT_NEAR(std::abs(guide.tangent(ridge.element)[1]), 1, 1e-14);
 }
 
+// A wall that stands on a floor, whose triangles meet along it: three patches, if no edge is a feature.
+TEST(SurfaceGuide, AnInterfaceIsAPatchOfItsOwn) {
+    surface::TriangleMesh mesh;
+    mesh.vertices.resize(8, 3);
+    mesh.vertices << -1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 1, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 0, 1, 1;
+    mesh.triangles.resize(6, 3);
+    mesh.triangles << 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 1, 4, 7, 1, 7, 6;
+    const SurfaceGuide guide(mesh, {});
+    const auto wall = guide.nearest_on_surface({0.1, 0.5, 0.5}), left = guide.nearest_on_surface({-0.5, 0.5, 0.1}),
+               right = guide.nearest_on_surface({0.5, 0.5, 0.1});
+    EXPECT_NE(wall.piece, left.piece);
+    EXPECT_NE(wall.piece, right.piece);
+    EXPECT_NE(left.piece, right.piece);
+    EXPECT_LT((guide.nearest_in_patch({0.5, 0.5, 0.1}, wall).point - Vector(0, 0.5, 0.1)).norm(), 1e-15);
+}
+
 TEST(SurfaceGuide, NearestPlacesAreThoseOfAllTriangles) {
     const ImproveCase ball = ball_of_hexahedra(1, 1);  // for its surface: one patch
     const SurfaceGuide guide(ball.surface, ball.features);

@@ -1,11 +1,8 @@
 #include <algorithm>
-#include <cmath>
-#include <memory>
-#include <optional>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "octafield/error.hpp"
+#include "improve_setup.hpp"
 #include "octafield/parallel.hpp"
 #include "octafield/volume/cell_quality.hpp"
 #include "surface_fit.hpp"
@@ -31,84 +28,6 @@ constexpr int following_sweeps = 5;  // of vertices inside after those of the su
 constexpr int patience = 4;          // sweeps of untangling without fewer inverted cells
 constexpr std::int64_t grain = 64;   // vertices worth a thread
 
-void require_options(const ImproveOptions& options) {
-    const auto require = [](bool good, const std::string& what) {
-        if (!good) throw InvalidInput(what, "option_out_of_range");
-    };
-    require(options.sweeps >= 0, "sweeps is " + std::to_string(options.sweeps) + "; give 0 or more");
-    require(options.good >= 0 && options.good <= 1, "good is " + std::to_string(options.good) + "; give 0 to 1");
-    require(options.tolerance >= 0 && std::isfinite(options.tolerance),
-            "tolerance is " + std::to_string(options.tolerance) + "; give a length of 0 or more");
-}
-
-void require_vertices(const MixedMesh& mesh, const VertexSupport& support) {
-    if (static_cast<Eigen::Index>(support.kind.size()) != mesh.vertices.rows())
-        throw InvalidInput("support has " + std::to_string(support.kind.size()) + " kinds for " +
-                               std::to_string(mesh.vertices.rows()) + " vertices; give one for each",
-                           "wrong_size");
-    std::vector<Index> lost;
-    for (Index v = 0; v < mesh.vertices.rows(); ++v)
-        if (!mesh.vertices.row(v).allFinite()) lost.push_back(v);
-    if (!lost.empty())
-        throw InvalidInput("vertices are not finite (" + first_few(lost) + "); correct or remove them",
-                           "non_finite_vertex", lost);
-}
-
-bool any_of_kind(const VertexSupport& support, Kind kind) {
-    return std::ranges::find(support.kind, kind) != support.kind.end();
-}
-
-// Null if no vertex slides.
-std::unique_ptr<SurfaceGuide> guide_for(const VertexSupport& support, const surface::TriangleMesh& surface,
-                                        const surface::FeatureGraph& features) {
-    const bool on_patches = any_of_kind(support, Kind::surface), on_curves = any_of_kind(support, Kind::curve);
-    if (!on_patches && !on_curves) return nullptr;
-    auto guide = std::make_unique<SurfaceGuide>(surface, features);
-    if (on_patches && !guide->has_triangles())
-        throw InvalidInput("vertices shall stay on a surface without area; give the surface, or none of kind surface",
-                           "no_surface");
-    if (on_curves && !guide->has_edges())
-        throw InvalidInput(
-            "vertices shall stay on feature curves where there are none; give them, or none of kind curve",
-            "no_features");
-    return guide;
-}
-
-// What lies on a curve may not leave it for either side, nor a corner for a curve, whatever it is called.
-VertexSupport settled(VertexSupport support, const Points& vertices, const SurfaceGuide& guide, double tolerance,
-                      int threads) {
-    parallel_for(vertices.rows(), threads, [&](std::int64_t v) {
-        Kind& kind = support.kind[v];
-        if (!guide.has_edges() || (kind != Kind::surface && kind != Kind::curve)) return;
-        const Vector at = vertices.row(v);
-        const SurfaceGuide::Place place = guide.nearest_on_curves(at);
-        if ((place.point - at).norm() > tolerance) return;
-        kind = guide.at_corner(place, tolerance) ? Kind::fixed : Kind::curve;
-    });
-    return support;
-}
-
-// One number per vertex that moves, so that no two of a cell share it, the lowest in the order of the vertices.
-std::vector<std::vector<Index>> colours(const MixedMesh& mesh, const VertexCells& cells, const VertexSupport& support) {
-    std::vector<std::vector<Index>> of_colour;
-    std::vector<int> colour(mesh.vertices.rows(), -1);
-    std::vector<Index> seen;
-    for (Index v = 0; v < mesh.vertices.rows(); ++v) {
-        if (support.kind[v] == Kind::fixed || cells.of(v).empty()) continue;
-        for (const Incidence& at : cells.of(v))
-            for (const Index other : detail::cell_vertices(mesh, at.cell))
-                if (colour[other] >= 0) seen[colour[other]] = v;
-        const auto free = std::ranges::find_if(seen, [&](Index last) { return last != v; }) - seen.begin();
-        if (free == static_cast<std::ptrdiff_t>(seen.size())) {
-            seen.push_back(-1);
-            of_colour.emplace_back();
-        }
-        colour[v] = static_cast<int>(free);
-        of_colour[free].push_back(v);
-    }
-    return of_colour;
-}
-
 class Improver {
 public:
     Improver(MixedMesh& mesh, VertexSupport kinds, const SurfaceGuide* guide, const ImproveOptions& options)
@@ -117,7 +36,7 @@ public:
           guide_(guide),
           options_(options),
           cells_(mesh),
-          colours_(colours(mesh, cells_, support_)),
+          colours_(detail::colours(mesh, cells_, support_)),
           place_(mesh.vertices.rows()),
           moved_(mesh.vertices.rows()) {
         parallel_for(mesh.vertices.rows(), options.threads, [&](std::int64_t v) {
@@ -304,15 +223,15 @@ private:
 
 MixedMesh improve_cells(MixedMesh mesh, const VertexSupport& support, const surface::TriangleMesh& surface,
                         const surface::FeatureGraph& features, const ImproveOptions& options) {
-    require_options(options);
-    require_vertices(mesh, support);
+    detail::require_options(options);
+    detail::require_vertices(mesh, support);
     const Eigen::VectorXd before = scaled_jacobians(mesh);
-    const auto guide = guide_for(support, surface, features);
+    const auto guide = detail::guide_for(support, surface, features);
     if (mesh.cell_count() == 0) return mesh;
     MixedMesh better = mesh;
     const double rounding = on_surface * surface::bounding_box_diagonal(surface.vertices);
-    Improver(better, guide ? settled(support, mesh.vertices, *guide, rounding, options.threads) : support, guide.get(),
-             options)
+    Improver(better, guide ? detail::settled(support, mesh.vertices, *guide, rounding, options.threads) : support,
+             guide.get(), options)
         .run();
     // Steps are guarded corner by corner; a pyramid's quality folds back above 1, which they do not see.
     const double lowest = before.minCoeff();

@@ -8,8 +8,8 @@
 
 namespace octafield::volume::detail {
 
-// Patches: the triangles between feature edges; curves: the feature edges between corners. Pieces of both kinds are
-// found by the point they start from and not left.
+// Patches: the triangles between feature edges and edges of three triangles or more; curves: the feature edges between
+// corners. Pieces of both kinds are found by the point they start from and not left.
 class SurfaceGuide {
 public:
     using Vector = Eigen::Vector3d;
