@@ -89,7 +89,7 @@ private:
     // As much of the step as the tolerance and the cells allow.
     void offset(Index v, Vector step) {
         VertexStar star;
-        star.set(mesh_, cells_, v);
+        star.set(mesh_, cells_, v, options_.hexahedra_first);
         if (step.norm() > options_.tolerance) step *= options_.tolerance / step.norm();
         const double lowest = star.lowest(Vector::Zero());
         const Vector start = mesh_.vertices.row(v);
@@ -181,7 +181,7 @@ private:
 
     void untangle_vertex(Index v) {
         static thread_local VertexStar star;
-        star.set(mesh_, cells_, v);
+        star.set(mesh_, cells_, v, options_.hexahedra_first);
         const Slide way = slide(v);
         Move move{Vector::Zero(), place_[v]};
         if (!(star.size() > 0) || star.lowest(move.x) > flat) return;
@@ -192,7 +192,7 @@ private:
 
     void improve(Index v) {
         static thread_local VertexStar star;
-        star.set(mesh_, cells_, v);
+        star.set(mesh_, cells_, v, options_.hexahedra_first);
         if (!(star.size() > 0)) return;
         Slide way = slide(v);
         Move move{Vector::Zero(), place_[v]};

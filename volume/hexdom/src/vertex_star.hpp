@@ -34,7 +34,8 @@ public:
     using Vector = Eigen::Vector3d;
 
     // Refers to the mesh until the next call; displacements count from where v is then.
-    void set(const MixedMesh& mesh, const VertexCells& cells, Index v);
+    // hexahedra_first: see ImproveOptions.
+    void set(const MixedMesh& mesh, const VertexCells& cells, Index v, bool hexahedra_first = false);
 
     bool empty() const { return corners_.empty(); }
     double size() const {
@@ -70,8 +71,9 @@ private:
         double square, constant;  // |T|^2 = square |x|^2 + 2 linear.x + constant
         Vector linear;
     };
-    void add(const Vector (&edges)[3], const int (&signs)[3], double factor, const struct IdealCorner* ideal);
-    void add_cell(const MixedMesh& mesh, const Incidence& at);
+    void add(const Vector (&edges)[3], const int (&signs)[3], double factor, const struct IdealCorner* ideal,
+             double importance);
+    void add_cell(const MixedMesh& mesh, const Incidence& at, bool hexahedra_first);
 
     std::vector<Corner> corners_;
     double size_ = 0, length_sum_ = 0;
