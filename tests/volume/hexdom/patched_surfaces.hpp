@@ -54,95 +54,133 @@ inline Points rows_of(const std::vector<Eigen::Vector3d>& list) {
     return result;
 }
 
-inline Patched patched_surface(const std::vector<Map>& maps, const Fineness& f) {
-    Patched result;
-    Welder vertices, places;
-    std::vector<std::array<Index, 3>> triangles;
-    std::vector<std::array<Index, 4>> quads;
-    std::vector<Eigen::Vector3d> weights;
-    std::mt19937 random(f.seed);
-    const auto uniform = [&] { return random() / 4294967296.0; };
-    const int n = f.cells, m = f.lattice;
-    for (std::size_t patch = 0; patch < maps.size(); ++patch) {
-        std::vector<Eigen::Vector2d> uv;
-        std::vector<Index> global;
-        for (int j = 0; j <= n; ++j)
-            for (int i = 0; i <= n; ++i) {
-                const bool inner = i > 0 && i < n && j > 0 && j < n;
-                const double du = uniform() - 0.5, dv = uniform() - 0.5, s = inner ? 2 * f.jitter / n : 0;
-                uv.emplace_back(double(i) / n + s * du, double(j) / n + s * dv);
-                global.push_back(vertices.id(maps[patch](uv.back()[0], uv.back()[1])));
+// One square: its triangles by places in it.
+class Square {
+public:
+    Square(const Fineness& f, std::mt19937& random) : n_(f.cells) {
+        const auto uniform = [&] { return random() / 4294967296.0; };
+        for (int j = 0; j <= n_; ++j)
+            for (int i = 0; i <= n_; ++i) {
+                const bool inner = i > 0 && i < n_ && j > 0 && j < n_;
+                const double du = uniform() - 0.5, dv = uniform() - 0.5, s = inner ? 2 * f.jitter / n_ : 0;
+                uv.emplace_back(double(i) / n_ + s * du, double(j) / n_ + s * dv);
             }
-        const Index first = static_cast<Index>(triangles.size());
-        std::vector<std::array<int, 3>> local;
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i) {
-                const int a = j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
-                const auto cross = [&](int p, int q, int r) {
-                    const Eigen::Vector2d x = uv[q] - uv[p], y = uv[r] - uv[p];
-                    return x[0] * y[1] - x[1] * y[0];
-                };
-                const bool ac = std::min(cross(a, b, c), cross(a, c, d)) > 0.2 / n / n &&
-                                (uniform() < 0.5 || std::min(cross(b, c, d), cross(b, d, a)) < 0.2 / n / n);
-                if (ac)
-                    local.insert(local.end(), {{a, b, c}, {a, c, d}});
+        for (int j = 0; j < n_; ++j)
+            for (int i = 0; i < n_; ++i) {
+                const int a = j * (n_ + 1) + i, b = a + 1, c = b + n_ + 1, d = a + n_ + 1;
+                const double least = 0.2 / n_ / n_;  // no triangle is turned over
+                const bool one = std::min(cross(a, b, c), cross(a, c, d)) > least;
+                const bool other = std::min(cross(b, c, d), cross(b, d, a)) > least;
+                if (one && (!other || uniform() < 0.5))
+                    triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
                 else
-                    local.insert(local.end(), {{b, c, d}, {b, d, a}});
+                    triangles.insert(triangles.end(), {{b, c, d}, {b, d, a}});
             }
-        for (const auto& [a, b, c] : local) {
-            triangles.push_back({global[a], global[b], global[c]});
-            result.groups.push_back(static_cast<Index>(patch));
+    }
+
+    // The triangle at a place and the weights in it.
+    std::pair<Index, Eigen::Vector3d> locate(double u, double v) const {
+        Index best = -1;
+        Eigen::Vector3d weights = Eigen::Vector3d::Constant(-1e9);
+        const int ci = std::min(n_ - 1, int(u * n_)), cj = std::min(n_ - 1, int(v * n_));
+        for (int j = std::max(0, cj - 1); j <= std::min(n_ - 1, cj + 1); ++j)
+            for (int t = 2 * (j * n_ + std::max(0, ci - 1)); t < 2 * (j * n_ + std::min(n_, ci + 2)); ++t) {
+                Eigen::Matrix3d corners;
+                for (int k = 0; k < 3; ++k) corners.col(k) << uv[triangles[t][k]], 1;
+                const Eigen::Vector3d w = corners.inverse() * Eigen::Vector3d(u, v, 1);
+                if (w.minCoeff() > weights.minCoeff()) weights = w, best = t;
+            }
+        weights = (weights.array() < 1e-9).select(0, weights);
+        return {best, weights / weights.sum()};
+    }
+
+    std::vector<Eigen::Vector2d> uv;
+    std::vector<std::array<int, 3>> triangles;
+
+private:
+    double cross(int p, int q, int r) const {
+        const Eigen::Vector2d x = uv[q] - uv[p], y = uv[r] - uv[p];
+        return x[0] * y[1] - x[1] * y[0];
+    }
+    int n_;
+};
+
+class PatchedBuilder {
+public:
+    explicit PatchedBuilder(const Fineness& f) : f_(f), random_(f.seed) {}
+
+    void add(const Map& map) {
+        const Square square(f_, random_);
+        const Index first = static_cast<Index>(triangles_.size());
+        std::vector<Index> global;
+        for (const auto& p : square.uv) global.push_back(vertices_.id(map(p[0], p[1])));
+        for (const auto& [a, b, c] : square.triangles) {
+            triangles_.push_back({global[a], global[b], global[c]});
+            result_.groups.push_back(patches_);
         }
-        const auto locate = [&](double u, double v) {
-            Index best = -1;
-            Eigen::Vector3d best_weights = Eigen::Vector3d::Zero();
-            double most = -1e9;
-            const int ci = std::min(n - 1, int(u * n)), cj = std::min(n - 1, int(v * n));
-            for (int j = std::max(0, cj - 1); j <= std::min(n - 1, cj + 1); ++j)
-                for (int i = std::max(0, ci - 1); i <= std::min(n - 1, ci + 1); ++i)
-                    for (int h = 0; h < 2; ++h) {
-                        const int t = 2 * (j * n + i) + h;
-                        Eigen::Matrix3d corners;
-                        for (int k = 0; k < 3; ++k) corners.col(k) << uv[local[t][k]], 1;
-                        const Eigen::Vector3d w = corners.inverse() * Eigen::Vector3d(u, v, 1);
-                        if (w.minCoeff() > most) most = w.minCoeff(), best = t, best_weights = w;
-                    }
-            best_weights = (best_weights.array() < 1e-9).select(0, best_weights);
-            return std::pair<Index, Eigen::Vector3d>(first + best, best_weights / best_weights.sum());
-        };
+        add_lattice(map, square, first);
+        ++patches_;
+    }
+
+    Patched take() {
+        result_.mesh = {rows_of(vertices_.places), rows<3>(triangles_)};
+        result_.points.weights = rows_of(weights_);
+        result_.exact = rows_of(places_.places);
+        result_.quads = rows<4>(quads_);
+        return std::move(result_);
+    }
+
+private:
+    template <int N>
+    static Rows<Index, N> rows(const std::vector<std::array<Index, N>>& list) {
+        Rows<Index, N> result(list.size(), N);
+        for (std::size_t i = 0; i < list.size(); ++i)
+            for (int k = 0; k < N; ++k) result(i, k) = list[i][k];
+        return result;
+    }
+
+    void add_lattice(const Map& map, const Square& square, Index first) {
+        const int m = f_.lattice;
         std::vector<Index> lattice;
         for (int j = 0; j <= m; ++j)
-            for (int i = 0; i <= m; ++i) {
-                const double u = double(i) / m, v = double(j) / m;
-                const bool border = i == 0 || j == 0 || i == m || j == m;
-                if (!border && uniform() < f.skip_lattice) {
-                    lattice.push_back(-1);
-                    continue;
-                }
-                const std::size_t before = places.places.size();
-                lattice.push_back(places.id(maps[patch](u, v)));
-                if (places.places.size() == before) continue;
-                const auto [t, w] = locate(u, v);
-                result.points.triangle.push_back(t);
-                weights.push_back(w);
-            }
+            for (int i = 0; i <= m; ++i) lattice.push_back(lattice_point(map, square, first, i, j));
         for (int j = 0; j < m; ++j)
             for (int i = 0; i < m; ++i) {
                 const int a = j * (m + 1) + i;
                 const std::array<Index, 4> q{lattice[a], lattice[a + 1], lattice[a + m + 2], lattice[a + m + 1]};
-                if (std::min({q[0], q[1], q[2], q[3]}) >= 0) quads.push_back(q);
+                if (std::min({q[0], q[1], q[2], q[3]}) >= 0) quads_.push_back(q);
             }
     }
-    result.mesh.vertices = rows_of(vertices.places);
-    result.mesh.triangles.resize(triangles.size(), 3);
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (int k = 0; k < 3; ++k) result.mesh.triangles(t, k) = triangles[t][k];
-    result.points.weights = rows_of(weights);
-    result.exact = rows_of(places.places);
-    result.quads.resize(quads.size(), 4);
-    for (std::size_t q = 0; q < quads.size(); ++q)
-        for (int k = 0; k < 4; ++k) result.quads(q, k) = quads[q][k];
-    return result;
+
+    // -1: left out.
+    Index lattice_point(const Map& map, const Square& square, Index first, int i, int j) {
+        const int m = f_.lattice;
+        const bool border = i == 0 || j == 0 || i == m || j == m;
+        if (!border && random_() / 4294967296.0 < f_.skip_lattice) return -1;
+        const double u = double(i) / m, v = double(j) / m;
+        const std::size_t before = places_.places.size();
+        const Index id = places_.id(map(u, v));
+        if (places_.places.size() == before) return id;  // on the border of a square before
+        const auto [t, w] = square.locate(u, v);
+        result_.points.triangle.push_back(first + t);
+        weights_.push_back(w);
+        return id;
+    }
+
+    Fineness f_;
+    std::mt19937 random_;
+    Index patches_ = 0;
+    Patched result_;
+    Welder vertices_, places_;
+    std::vector<std::array<Index, 3>> triangles_;
+    std::vector<std::array<Index, 4>> quads_;
+    std::vector<Eigen::Vector3d> weights_;
+};
+
+inline Patched patched_surface(const std::vector<Map>& maps, const Fineness& f) {
+    PatchedBuilder builder(f);
+    for (const Map& map : maps) builder.add(map);
+    return builder.take();
 }
 
 // The six sides of the box from `low` to `high`, outward, without those named.

@@ -168,9 +168,105 @@ TEST(PointSurfaceCurves, a_border_of_a_plane_without_points_becomes_its_corners)
     keep_points(p, [](const Eigen::Vector3d&) { return false; });
     const surface::FeatureGraph border = surface::detect_features(p.mesh);
     ASSERT_EQ(border.corners.size(), 4u);
-    const PointSurface s = point_surface(p.mesh, border, one_group(p), p.points, p.quads, 10);
-    EXPECT_EQ(s.mesh.vertices.rows(), 4);
-    EXPECT_EQ(s.mesh.triangles.rows(), 2);
+    for (const bool named : {true, false}) {
+        const PointSurface s =
+            point_surface(p.mesh, named ? border : surface::FeatureGraph{}, one_group(p), p.points, p.quads, 10);
+        EXPECT_EQ(s.mesh.vertices.rows(), 4);
+        EXPECT_EQ(s.mesh.triangles.rows(), 2);
+        EXPECT_NEAR(area_of(s.mesh), 1, 1e-12);
+    }
+}
+
+// The plane's square, its border kept as edges of one triangle are.
+Patched flat_square(int cells) {
+    Patched p = patched_surface({[](double u, double v) { return Eigen::Vector3d(u, v, 0); }}, {cells, 2});
+    keep_points(p, [](const Eigen::Vector3d&) { return false; });
+    return p;
+}
+
+TEST(PointSurfaceCurves, a_border_in_a_plane_keeps_its_shape) {
+    Patched p = flat_square(16);
+    for (Index v = 0; v < p.mesh.vertices.rows(); ++v) {  // the square to a disc
+        const double x = 2 * p.mesh.vertices(v, 0) - 1, y = 2 * p.mesh.vertices(v, 1) - 1;
+        p.mesh.vertices.row(v) << x * std::sqrt(1 - y * y / 2), y * std::sqrt(1 - x * x / 2), 0;
+    }
+    const PointSurface s = point_surface(p.mesh, {}, one_group(p), p.points, p.quads, 10);
+    EXPECT_GE(s.mesh.vertices.rows(), 4);  // a triangle would turn by 60 degrees from the circle
+    EXPECT_GT(area_of(s.mesh), 1.5);       // of pi; that of a triangle is 1.3
+}
+
+TEST(PointSurfaceCurves, corners_stay_even_where_nothing_turns) {
+    const Patched p = flat_square(8);
+    std::vector<Index> corners;
+    for (Index v = 0; v < p.mesh.vertices.rows(); ++v)
+        if (v % 7 == 3) corners.push_back(v);
+    const PointSurface s = point_surface(p.mesh, {Edges(0, 2), corners}, one_group(p), p.points, p.quads, 10);
+    ASSERT_EQ(s.features.corners.size(), corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) EXPECT_EQ(s.source[s.features.corners[i]], corners[i]);
+}
+
+// A feature that ends where nobody named a corner, on a border of groups that goes on.
+TEST(PointSurfaceCurves, a_feature_ends_where_it_did_along_a_border_of_groups) {
+    Patched p = flat_square(8);
+    std::vector<Index> groups;
+    for (const auto t : p.mesh.triangles.rowwise()) {
+        const Eigen::RowVector3d middle =
+            (p.mesh.vertices.row(t[0]) + p.mesh.vertices.row(t[1]) + p.mesh.vertices.row(t[2])) / 3;
+        groups.push_back(middle[0] > 0.5);
+    }
+    std::vector<std::pair<Index, Index>> along;  // the border of the groups, below y = 0.6
+    double all = 0, below = 0;
+    std::map<std::pair<Index, Index>, std::set<Index>> groups_at;
+    for (Index t = 0; t < p.mesh.triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k)
+            groups_at[std::minmax({p.mesh.triangles(t, k), p.mesh.triangles(t, (k + 1) % 3)})].insert(groups[t]);
+    for (const auto& [edge, there] : groups_at) {
+        if (there.size() < 2) continue;
+        const Eigen::RowVector3d a = p.mesh.vertices.row(edge.first), b = p.mesh.vertices.row(edge.second);
+        all += (a - b).norm();
+        if (std::max(a[1], b[1]) > 0.6) continue;
+        below += (a - b).norm();
+        along.push_back(edge);
+    }
+    Edges edges(along.size(), 2);
+    for (std::size_t i = 0; i < along.size(); ++i) edges.row(i) << along[i].first, along[i].second;
+    const PointSurface s = point_surface(p.mesh, {edges, {}}, groups, p.points, p.quads, 0.3);
+    EXPECT_LT(length_of(s.mesh, s.features.edges), below + 1e-12);
+    EXPECT_GT(length_of(s.mesh, s.features.edges), 0.5 * below);
+    double highest = 0, old_highest = 0;  // where the feature ends
+    for (const auto e : s.features.edges.rowwise())
+        for (const Index v : e) highest = std::max(highest, s.mesh.vertices(v, 1));
+    for (const auto e : edges.rowwise())
+        for (const Index v : e) old_highest = std::max(old_highest, p.mesh.vertices(v, 1));
+    EXPECT_EQ(highest, old_highest);
+    EXPECT_GT(all, 1);
+    int border = 0;  // jagged, without being kept for its turns
+    const std::vector<Index> new_groups = groups_of(s, groups);
+    std::map<std::pair<Index, Index>, std::set<Index>> new_groups_at;
+    for (Index t = 0; t < s.mesh.triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k)
+            new_groups_at[std::minmax({s.mesh.triangles(t, k), s.mesh.triangles(t, (k + 1) % 3)})].insert(
+                new_groups[t]);
+    for (const auto& [edge, there] : new_groups_at) border += there.size() == 2;
+    EXPECT_LT(border, 8);
+}
+
+TEST(PointSurfaceCurves, edges_that_both_triangles_run_alike_stay) {
+    Patched p = flat_square(8);
+    const surface::FeatureGraph border = surface::detect_features(p.mesh);
+    for (auto t : p.mesh.triangles.rowwise())
+        if (p.mesh.vertices(t[0], 0) + p.mesh.vertices(t[1], 0) + p.mesh.vertices(t[2], 0) > 1.5) std::swap(t[0], t[1]);
+    const auto alike = [](const surface::TriangleMesh& mesh) {
+        double sum = 0;
+        for (const auto& [edge, runs] : edge_runs(mesh))
+            if (runs.first == 2 || runs.second == 2)
+                sum += (mesh.vertices.row(edge.first) - mesh.vertices.row(edge.second)).norm();
+        return sum;
+    };
+    const PointSurface s = point_surface(p.mesh, border, one_group(p), p.points, p.quads, 0.3);
+    EXPECT_LT(s.mesh.triangles.rows(), p.mesh.triangles.rows() / 2);
+    EXPECT_GT(alike(p.mesh), 1);
+    EXPECT_GT(alike(s.mesh), 0.8 * alike(p.mesh));  // corners of the zigzag cut
     EXPECT_NEAR(area_of(s.mesh), 1, 1e-12);
 }
 

@@ -28,6 +28,31 @@ Index turn_round_edge(const CellComplex& complex, Index cell, Index a, Index c, 
     return -1;
 }
 
+std::array<FaceCycle, 2> halves_of(const std::array<Index, 4>& round) {
+    return {triangle_cycle(round[0], round[1], round[2]), triangle_cycle(round[0], round[2], round[3])};
+}
+
+// A cell lies against the outward triangle, and nothing behind it.
+bool faces_quad(const CellComplex& complex, const FaceCycle& triangle) {
+    return complex.cell_across(triangle) >= 0 && complex.cell_with(triangle) < 0;
+}
+
+// The triangle is half of another quad that two triangles fill: three vertices of one quad may be three of another's.
+bool in_pair_of_another(const CellComplex& complex, const FaceCycle& triangle, const FaceCycle& quad) {
+    for (const Index cell : complex.cells_at(triangle.ids[0]))
+        for (const CellFace& local : complex.shape(cell).faces) {
+            const FaceCycle face = complex.face(cell, local);
+            if (face.corners() == 3 || face == quad || complex.cell_across(face) >= 0) continue;
+            for (int k = 0; k < 4; ++k) {
+                const auto& f = face.ids;
+                const std::array<FaceCycle, 2> halves =
+                    halves_of({f[k], f[(k + 1) % 4], f[(k + 2) % 4], f[(k + 3) % 4]});
+                if (halves[0] == triangle && faces_quad(complex, halves[1])) return true;
+            }
+        }
+    return false;
+}
+
 std::vector<ConeFace> cone_faces(const CellComplex& complex, const std::vector<FaceCycle>& boundary) {
     std::vector<ConeFace> faces;
     for (const FaceCycle& cycle : boundary) {
@@ -79,16 +104,22 @@ Index cell_across_worst(const CellComplex& complex, const Filling& filling) {
 QuadMeeting quad_meeting(const CellComplex& complex, const FaceCycle& quad) {
     const auto& q = quad.ids;
     if (complex.cell_across(quad) >= 0) return {QuadMeeting::Kind::quad, q};
-    // A triangle that lies against the quad, nothing between.
-    const auto faces_quad = [&](Index i, Index j, Index k) {
-        const FaceCycle triangle = triangle_cycle(i, j, k);
-        return complex.cell_across(triangle) >= 0 && complex.cell_with(triangle) < 0 ? 1 : 0;
-    };
-    const int along = faces_quad(q[0], q[1], q[2]) + faces_quad(q[0], q[2], q[3]);
-    const int across = faces_quad(q[1], q[2], q[3]) + faces_quad(q[1], q[3], q[0]);
-    if (along + across == 0) return {QuadMeeting::Kind::boundary, q};
-    if (along + across != 2 || along == 1) return {QuadMeeting::Kind::part, q};
-    return {QuadMeeting::Kind::triangles, along == 2 ? q : std::array<Index, 4>{q[1], q[2], q[3], q[0]}};
+    QuadMeeting meeting{QuadMeeting::Kind::boundary, q};
+    int pairs = 0, lone = 0;
+    for (int k = 0; k < 2; ++k) {
+        const std::array<Index, 4> round{q[k], q[k + 1], q[(k + 2) % 4], q[(k + 3) % 4]};
+        const std::array<FaceCycle, 2> halves = halves_of(round);
+        const bool first = faces_quad(complex, halves[0]), second = faces_quad(complex, halves[1]);
+        if (first && second) {
+            ++pairs;
+            meeting.round = round;
+        } else if (first != second && !in_pair_of_another(complex, halves[first ? 0 : 1], quad)) {
+            ++lone;
+        }
+    }
+    if (pairs == 1 && lone == 0) meeting.kind = QuadMeeting::Kind::triangles;
+    if (pairs > 1 || lone > 0) meeting.kind = QuadMeeting::Kind::part;
+    return meeting;
 }
 
 void add_to_region(const CellComplex& complex, Index cell, Region& region) {

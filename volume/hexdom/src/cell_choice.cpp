@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "octafield/parallel.hpp"
+
 namespace octafield::volume::detail {
 namespace {
 
@@ -66,33 +68,49 @@ private:
     int nodes_ = 0;
 };
 
+bool crosses(const FaceClaim& a, const FaceClaim& b) {
+    if (a.key == b.key) return false;
+    if (a.diagonal >= 0 && a.diagonal == b.diagonal) return true;
+    const auto end = b.triangles.begin() + b.count;
+    return std::find_first_of(b.triangles.begin(), end, a.triangles.begin(), a.triangles.begin() + a.count) != end;
+}
+
+// A diagonal of the first is an edge of the second.
+bool cuts(const CellClaims& claims, const CellClaims& other) {
+    const auto end = other.edges.begin() + other.edge_count;
+    for (int f = 0; f < claims.count; ++f)
+        if (claims.faces[f].diagonal >= 0 && std::find(other.edges.begin(), end, claims.faces[f].diagonal) != end)
+            return true;
+    return false;
+}
+
 bool in_the_way(std::span<const Index> tets, const CellClaims& claims, std::span<const Index> other_tets,
                 const CellClaims& other) {
-    for (const Index tet : tets)
-        if (std::find(other_tets.begin(), other_tets.end(), tet) != other_tets.end()) return true;
+    if (std::find_first_of(tets.begin(), tets.end(), other_tets.begin(), other_tets.end()) != tets.end()) return true;
     for (int f = 0; f < claims.count; ++f)
-        for (int g = 0; g < other.count; ++g) {
-            const FaceClaim &a = claims.faces[f], &b = other.faces[g];
-            if (a.key == b.key) continue;
-            for (int k = 0; k < a.count; ++k)
-                if (std::find(b.triangles.begin(), b.triangles.begin() + b.count, a.triangles[k]) !=
-                    b.triangles.begin() + b.count)
-                    return true;
-        }
-    return false;
+        for (int g = 0; g < other.count; ++g)
+            if (crosses(claims.faces[f], other.faces[g])) return true;
+    return cuts(claims, other) || cuts(other, claims);
 }
 
 class Chooser {
 public:
     Chooser(const TetSurroundings& surroundings, const CellShape& shape, const PotentialCells& cells,
-            const std::vector<double>& weights, ClaimTable& table)
+            const std::vector<double>& weights, ClaimTable& table, int threads)
         : surroundings_(surroundings),
           shape_(shape),
           cells_(cells),
           weights_(weights),
           table_(table),
+          threads_(threads),
           chosen_(cells.count(), 0),
+          tried_(cells.count(), 0),
+          looked_at_(cells.count(), 0),
+          only_(cells.count(), ClaimTable::nobody),
           order_(cells.count()) {
+        Index vertices = 0;
+        for (const auto& ids : cells.ids) vertices = std::max(vertices, *std::max_element(ids.begin(), ids.end()) + 1);
+        changed_.assign(vertices, 1);
         std::iota(order_.begin(), order_.end(), 0);
         std::stable_sort(order_.begin(), order_.end(), [&](Index a, Index b) { return weights[a] > weights[b]; });
     }
@@ -117,10 +135,22 @@ private:
     void put(Index cell, const CellClaims& claims) {
         table_.add(cell, cells_.tets_of(cell), claims);
         chosen_[cell] = 1;
+        touch(cell);
     }
     void take_out(Index cell) {
         table_.remove(cell, cells_.tets_of(cell), *claims(cell));
         chosen_[cell] = 0;
+        touch(cell);
+    }
+
+    // Cells in each other's way share a vertex: where none has changed since a cell was looked at, nothing else has.
+    void touch(Index cell) {
+        ++now_;
+        for (int k = 0; k < shape_.vertices; ++k) changed_[cells_.ids[cell][k]] = now_;
+    }
+    bool changed_since(Index cell, std::int64_t then) const {
+        const auto& ids = cells_.ids[cell];
+        return std::any_of(ids.begin(), ids.begin() + shape_.vertices, [&](Index v) { return changed_[v] > then; });
     }
 
     // The weight of chosen cells in the way; infinite where one is settled.
@@ -135,7 +165,9 @@ private:
     bool exchange_for_one() {
         bool any = false;
         for (const Index cell : order_) {
-            if (chosen_[cell] || !light_owners(cell)) continue;
+            if (chosen_[cell] || !changed_since(cell, tried_[cell])) continue;
+            tried_[cell] = now_;
+            if (!light_owners(cell)) continue;
             const std::optional<CellClaims> claim = claims(cell);
             if (!claim || !(weights_[cell] > weight_in_the_way(cell, *claim) + gain_at_least)) continue;
             for (const Index other : std::vector<Index>(conflicts_)) take_out(other);
@@ -165,20 +197,38 @@ private:
         return true;
     }
 
+    // The only chosen cell in the way; nobody: none, or not one only.
+    Index only_in_the_way(Index cell) const {
+        if (!one_owner(cell)) return ClaimTable::nobody;
+        const std::optional<CellClaims> claim = claims(cell);
+        if (!claim) return ClaimTable::nobody;
+        std::vector<Index> conflicts;
+        table_.conflicts(cells_.tets_of(cell), *claim, conflicts);
+        return conflicts.size() == 1 && conflicts[0] >= 0 ? conflicts[0] : ClaimTable::nobody;
+    }
+
     bool exchange_for_several() {
+        std::vector<std::uint8_t> looked(cells_.count(), 0);
+        parallel_for(cells_.count(), threads_, [&](std::int64_t i) {
+            const Index cell = static_cast<Index>(i);
+            if (chosen_[cell] || !changed_since(cell, looked_at_[cell])) return;
+            looked_at_[cell] = now_;
+            only_[cell] = only_in_the_way(cell);
+            looked[cell] = only_[cell] >= 0;
+        });
         std::vector<std::pair<Index, Index>> rivals;  // a chosen cell and one that only this is in the way of
+        std::vector<std::uint8_t> news(cells_.count(),
+                                       0);  // of chosen cells: 1 where rivals are not those of last time
         for (const Index cell : order_) {
-            if (chosen_[cell] || !one_owner(cell)) continue;
-            const std::optional<CellClaims> claim = claims(cell);
-            if (!claim) continue;
-            table_.conflicts(cells_.tets_of(cell), *claim, conflicts_);
-            if (conflicts_.size() == 1 && conflicts_[0] >= 0) rivals.emplace_back(conflicts_[0], cell);
+            if (chosen_[cell] || only_[cell] < 0) continue;
+            if (looked[cell]) news[only_[cell]] = 1;
+            rivals.emplace_back(only_[cell], cell);
         }
         std::stable_sort(rivals.begin(), rivals.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         bool any = false;
         for (auto first = rivals.begin(); first != rivals.end();) {
             const auto last = std::find_if(first, rivals.end(), [&](const auto& r) { return r.first != first->first; });
-            if (last - first > 1 && exchange(first->first, first, last)) any = true;
+            if (news[first->first] && last - first > 1 && exchange(first->first, first, last)) any = true;
             first = last;
         }
         return any;
@@ -218,15 +268,22 @@ private:
     const PotentialCells& cells_;
     const std::vector<double>& weights_;
     ClaimTable& table_;
+    const int threads_;
     std::vector<std::uint8_t> chosen_;
+    std::int64_t now_ = 1;               // changes so far
+    std::vector<std::int64_t> changed_;  // (vertices) when a cell there was put in or taken out
+    std::vector<std::int64_t> tried_;    // (cells) when exchange_for_one looked at it
+    std::vector<std::int64_t> looked_at_;
+    std::vector<Index> only_;  // (cells) only_in_the_way then
     std::vector<Index> order_, conflicts_;
 };
 
 }  // namespace
 
 std::vector<Index> choose_cells(const TetSurroundings& surroundings, const CellShape& shape,
-                                const PotentialCells& cells, const std::vector<double>& weights, ClaimTable& table) {
-    return Chooser(surroundings, shape, cells, weights, table).run();
+                                const PotentialCells& cells, const std::vector<double>& weights, ClaimTable& table,
+                                int threads) {
+    return Chooser(surroundings, shape, cells, weights, table, threads).run();
 }
 
 }  // namespace octafield::volume::detail

@@ -8,10 +8,14 @@
 
 namespace octafield::volume::detail {
 
-// Which tets and triangles the cells chosen so far need.
+// Which tets, triangles and edges the cells chosen so far need.
 class ClaimTable {
 public:
-    ClaimTable(Index tets, Index triangles) : owner_(tets, nobody), claims_(triangles) {}
+    explicit ClaimTable(const TetTopology& topology)
+        : owner_(topology.tet_triangles.size(), nobody),
+          claims_(topology.triangle_count()),
+          diagonals_(topology.edge_count()),
+          edge_users_(topology.edge_count()) {}
 
     static constexpr Index nobody = -1, settled = -2;  // settled: a cell that is not to be changed any more
 
@@ -35,14 +39,20 @@ private:
         FaceKey key{};
         std::array<Index, 2> cells{nobody, nobody};
     };
-    std::vector<Index> owner_;
-    std::vector<Claim> claims_;
+    static void put(Claim& claim, Index cell, const FaceKey& key);
+    static void drop(Claim& claim, Index cell);
+
+    std::vector<Index> owner_;                    // (tets)
+    std::vector<Claim> claims_;                   // (triangles)
+    std::vector<Claim> diagonals_;                // (edges) of faces they are diagonals on
+    std::vector<std::vector<Index>> edge_users_;  // (edges)
 };
 
 // Cells with the weights' sum great: by weight first, then improved by exchanging cells for heavier ones and one cell
 // for several, exactly among those that only that cell is in the way of; no times, so always the same. Adds them to the
 // table; ascending.
 std::vector<Index> choose_cells(const TetSurroundings& surroundings, const CellShape& shape,
-                                const PotentialCells& cells, const std::vector<double>& weights, ClaimTable& table);
+                                const PotentialCells& cells, const std::vector<double>& weights, ClaimTable& table,
+                                int threads);
 
 }  // namespace octafield::volume::detail

@@ -76,27 +76,32 @@ bool set_inner(CellFacets& facets, int faces, const Barriers& barriers) {
 
 }  // namespace
 
+std::optional<CellFacet> quad_facet(const TetTopology& topology, const std::array<Index, 4>& round) {
+    const auto& [a, b, c, d] = round;
+    const auto pair = [&](Index from, Index to, Index first, Index second) -> std::array<Index, 2> {
+        const Index edge = topology.edge(from, to), one = topology.triangle_at(edge, first),
+                    other = one < 0 ? -1 : topology.triangle_at(edge, second);
+        return other < 0 ? std::array<Index, 2>{-1, -1} : std::array<Index, 2>{one, other};
+    };
+    const CellFacet facet{4, round, {pair(a, c, b, d), pair(b, d, c, a)}};
+    if (facet.pairs[0][0] < 0 && facet.pairs[1][0] < 0) return std::nullopt;
+    return facet;
+}
+
 std::optional<CellFacets> cell_facets(const TetTopology& topology, const CellShape& shape, const Index* ids) {
     CellFacets facets;
     for (std::size_t f = 0; f < shape.faces.size(); ++f) {
-        CellFacet& facet = facets[f];
-        facet.corners = shape.faces[f].corners;
-        facet.pairs = {{{-1, -1}, {-1, -1}}};
-        facet.round[3] = -1;
-        for (int k = 0; k < facet.corners; ++k) facet.round[k] = ids[shape.faces[f].local[k]];
-        const auto& [a, b, c, d] = facet.round;
-        if (facet.corners == 3) {
-            facet.pairs[0][0] = topology.triangle(a, b, c);
-            if (facet.pairs[0][0] < 0) return std::nullopt;
+        const CellFace& face = shape.faces[f];
+        std::array<Index, 4> round{-1, -1, -1, -1};
+        for (int k = 0; k < face.corners; ++k) round[k] = ids[face.local[k]];
+        if (face.corners == 4) {
+            const std::optional<CellFacet> quad = quad_facet(topology, round);
+            if (!quad) return std::nullopt;
+            facets[f] = *quad;
             continue;
         }
-        const auto pair = [&](Index from, Index to, Index first, Index second) -> std::array<Index, 2> {
-            const Index edge = topology.edge(from, to), one = topology.triangle_at(edge, first),
-                        other = one < 0 ? -1 : topology.triangle_at(edge, second);
-            return other < 0 ? std::array<Index, 2>{-1, -1} : std::array<Index, 2>{one, other};
-        };
-        facet.pairs = {pair(a, c, b, d), pair(b, d, c, a)};
-        if (facet.pairs[0][0] < 0 && facet.pairs[1][0] < 0) return std::nullopt;
+        facets[f] = {3, round, {{{topology.triangle(round[0], round[1], round[2]), -1}, {-1, -1}}}};
+        if (facets[f].pairs[0][0] < 0) return std::nullopt;
     }
     return facets;
 }

@@ -28,6 +28,7 @@ struct CellFacet {
 using CellFacets = std::array<CellFacet, 6>;  // the first of shape.faces.size()
 
 // Nothing where the tet mesh has no triangles for a face.
+std::optional<CellFacet> quad_facet(const TetTopology& topology, const std::array<Index, 4>& round);
 std::optional<CellFacets> cell_facets(const TetTopology& topology, const CellShape& shape, const Index* ids);
 
 constexpr int most_inner_tets = 32;

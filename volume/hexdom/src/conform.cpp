@@ -21,6 +21,7 @@ using Kind = QuadMeeting::Kind;
 constexpr double good_pyramid = 0.2;  // of two tets, without a new vertex
 constexpr double sound = 1e-3;        // quality that is tried to be kept, at the price of a cell given up
 constexpr double least = 1e-9;        // far above rounding
+constexpr double positive = 1e-14;    // above rounding: of flat tets that were there before
 constexpr double flat = 0.94;         // cosine, about 20 degrees: boundary triangles that a quad may replace
 
 void require_cells(const MixedMesh& mesh) {
@@ -110,7 +111,7 @@ private:
     }
 
     void close(Index cell, const std::array<Index, 4>& round) {
-        if (&complex_.shape(cell) == &pyramid_shape) return split(cell, least);
+        if (&complex_.shape(cell) == &pyramid_shape) return split(cell);
         if (absorb(cell, round)) return;
         const double joined = joined_quality(round);
         const Filling raised = joined < good_pyramid ? filling_round(round) : no_filling();
@@ -119,7 +120,7 @@ private:
         if (given_up.apex.quality >= sound) return give_up(given_up);
         if (std::max(joined, raised.apex.quality) >= least) return put_pyramid(round, joined, raised);
         if (given_up.apex.quality >= least) return give_up(given_up);
-        split(cell, least);
+        split(cell);
     }
 
     void put_pyramid(const std::array<Index, 4>& round, double joined, const Filling& raised) {
@@ -215,8 +216,10 @@ private:
         fill(complex_, filling);
     }
 
-    void split(Index cell, double quality) {
-        const std::vector<std::array<Index, 4>> tets = split_into_tets(complex_, cell, quality);
+    void split(Index cell) {
+        std::vector<std::array<Index, 4>> tets;
+        for (const double quality : {0.05, sound, least, positive})
+            if (tets.empty()) tets = split_into_tets(complex_, cell, quality);
         if (tets.empty())
             throw GeometryError("no pyramid fits on a quad of the " + name(cell) +
                                     " that meets two triangles, and it cannot be split; improve the cells there",

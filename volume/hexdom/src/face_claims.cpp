@@ -17,6 +17,21 @@ FaceKey key_of(const std::array<Index, 4>& round, int corners) {
     return key;
 }
 
+// Pairs of corners.
+const std::vector<std::array<int, 2>>& shape_edges(const CellShape& shape) {
+    const auto edges = [](const CellShape& of) {
+        std::vector<std::array<int, 2>> pairs;
+        for (const CellFace& face : of.faces)
+            for (int k = 0; k < face.corners; ++k) {
+                const int a = face.local[k], b = face.local[(k + 1) % face.corners];
+                if (a < b) pairs.push_back({a, b});  // the other face at the edge has it the other way round
+            }
+        return pairs;
+    };
+    static const std::vector<std::array<int, 2>> hexahedron = edges(hexahedron_shape), wedge = edges(wedge_shape);
+    return &shape == &wedge_shape ? wedge : hexahedron;
+}
+
 }  // namespace
 
 TetSurroundings::TetSurroundings(const MixedMesh& mesh, const TetTopology& topology, const Edges& kept, double max_fold)
@@ -24,7 +39,9 @@ TetSurroundings::TetSurroundings(const MixedMesh& mesh, const TetTopology& topol
       topology_(topology),
       least_cosine_(std::cos(max_fold)),
       outside_(topology.triangle_count(), Outside::tets),
-      kept_(topology.link_start.size() - 1, 0) {
+      fixed_edges_(topology.edge_count(), 0),
+      fixed_diagonals_(topology.edge_count(), -1),
+      kept_(topology.edge_count(), 0) {
     for (Eigen::Index e = 0; e < kept.rows(); ++e) {
         const Index edge = topology.edge(kept(e, 0), kept(e, 1));
         if (edge >= 0) kept_[edge] = 1;
@@ -32,43 +49,69 @@ TetSurroundings::TetSurroundings(const MixedMesh& mesh, const TetTopology& topol
     for (Index t = 0; t < topology.triangle_count(); ++t)
         if (topology.triangle_tets[t][0] < 0 || topology.triangle_tets[t][1] < 0) outside_[t] = Outside::boundary;
     for_each_cell(mesh, [&](const Cell& cell) {
-        if (&cell.shape == &tet_shape) return;
-        for (const CellFace& local : cell.shape.faces) {
-            std::array<Index, 4> round{-1, -1, -1, -1};
-            for (int k = 0; k < local.corners; ++k) round[k] = cell.ids[local.local[k]];
-            // Each triangle of three corners: with a flat tet on it, a quad lies on two of them on either diagonal.
-            bool used = false;
-            for (int without = local.corners == 3 ? 3 : 0; without < 4; ++without) {
-                const Index a = round[without == 0 ? 1 : 0], b = round[without <= 1 ? 2 : 1],
-                            c = round[without <= 2 ? 3 : 2];
-                const Index triangle = topology.triangle(a, b, c);
-                // The tet there has it the other way round.
-                if (triangle < 0 || outside_[triangle] != Outside::boundary ||
-                    topology.tet_outside(triangle, a, b, c) < 0)
-                    continue;
-                outside_[triangle] = static_cast<Index>(fixed_.size());
-                used = true;
-            }
-            if (used) fixed_.push_back(key_of(round, local.corners));
-        }
+        if (&cell.shape != &tet_shape) add_fixed_faces(cell);
     });
+}
+
+void TetSurroundings::add_fixed_faces(const Cell& cell) {
+    for (const CellFace& local : cell.shape.faces) {
+        std::array<Index, 4> round{-1, -1, -1, -1};
+        for (int k = 0; k < local.corners; ++k) round[k] = cell.ids[local.local[k]];
+        for (int k = 0; k < local.corners; ++k) {
+            const Index edge = topology_.edge(round[k], round[(k + 1) % local.corners]);
+            if (edge >= 0) fixed_edges_[edge] = 1;
+        }
+        if (!add_fixed_face(round, local.corners) || local.corners == 3) continue;
+        const std::optional<CellFacet> facet = quad_facet(topology_, round);
+        if (!facet) continue;  // of a quad that meets other cells
+        // Outside is within for the tets: a flat tet has its other diagonal beyond.
+        const Index number = static_cast<Index>(fixed_.size()) - 1;
+        for (int k = 0; k < 2; ++k) {
+            if (facet->pairs[k][0] < 0 || outside_[facet->pairs[k][0]] != number) continue;
+            CellFacet from_here = *facet;
+            from_here.inner = k;
+            const int outermost = flat_tet_outside(topology_, from_here) < 0 ? k : 1 - k;
+            fixed_diagonals_[topology_.edge(round[outermost], round[outermost + 2])] = number;
+        }
+    }
+}
+
+// Sets outside_ of the triangles that lie against the face. False where there are none.
+bool TetSurroundings::add_fixed_face(const std::array<Index, 4>& round, int corners) {
+    bool any = false;
+    for (int without = corners == 3 ? 3 : 0; without < 4; ++without) {
+        const Index a = round[without == 0 ? 1 : 0], b = round[without <= 1 ? 2 : 1], c = round[without <= 2 ? 3 : 2];
+        const Index triangle = topology_.triangle(a, b, c);
+        // The tet there has it the other way round.
+        if (triangle < 0 || outside_[triangle] != Outside::boundary || topology_.tet_outside(triangle, a, b, c) < 0)
+            continue;
+        outside_[triangle] = static_cast<Index>(fixed_.size());
+        any = true;
+    }
+    if (any) fixed_.push_back(key_of(round, corners));
+    return any;
 }
 
 std::optional<CellClaims> TetSurroundings::claims(const CellShape& shape, const Index* ids,
                                                   unsigned inner_pairs) const {
     std::optional<CellFacets> facets = cell_facets(topology_, shape, ids);
-    CellClaims claims{{}, static_cast<int>(shape.faces.size())};
+    CellClaims claims{{}, static_cast<int>(shape.faces.size()), {}, 0};
     for (int f = 0; f < claims.count; ++f) {
         (*facets)[f].inner = inner_pairs >> f & 1u;
         const std::optional<FaceClaim> of_face = claim((*facets)[f]);
         if (!of_face) return std::nullopt;
         claims.faces[f] = *of_face;
     }
+    for (const auto& [a, b] : shape_edges(shape)) {
+        const Index edge = topology_.edge(ids[a], ids[b]);
+        if (fixed_diagonals_[edge] >= 0) return std::nullopt;
+        claims.edges[claims.edge_count++] = edge;
+    }
     return claims;
 }
 
 std::optional<FaceClaim> TetSurroundings::claim(const CellFacet& facet) const {
-    FaceClaim claim{key_of(facet.round, facet.corners), {-1, -1, -1, -1}, 1, -1, false};
+    FaceClaim claim{key_of(facet.round, facet.corners), {-1, -1, -1, -1}, 1, -1, -1, false};
     if (facet.corners == 3) {
         const Index triangle = claim.triangles[0] = facet.pairs[0][0], beyond = outside_[triangle];
         claim.closed = beyond != Outside::tets;
@@ -85,6 +128,10 @@ std::optional<FaceClaim> TetSurroundings::claim(const CellFacet& facet) const {
     claim.closed = outside_[first] != Outside::tets;
     if (claim.closed != (outside_[second] != Outside::tets)) return std::nullopt;
     if (claim.closed && !may_close(facet, outermost, claim.key)) return std::nullopt;
+    if (!claim.closed) {
+        claim.diagonal = topology_.edge(facet.round[outermost], facet.round[outermost + 2]);
+        if (fixed_edges_[claim.diagonal] || fixed_diagonals_[claim.diagonal] >= 0) return std::nullopt;
+    }
     if (claim.count == 4 && claim.flat < 0) claim.key.variant = 1 + facet.inner;
     return claim;
 }

@@ -1,5 +1,6 @@
-// Which faces cells need where: two cells can stand together if they share no tet and no triangle as parts of different
-// faces.
+// Which faces and edges cells need where. Two cells can stand together if they share no tet, no triangle as parts of
+// different faces, and no edge that is a diagonal on one's quad, but for the same quad: a quad that meets two triangles
+// gets a pyramid, and the diagonal has to go.
 #pragma once
 
 #include <array>
@@ -18,21 +19,27 @@ struct FaceKey {
     Index across;                 // from the lowest; -1 of a triangle
     Index variant;  // not 0: the quad may be met on the pair of triangles variant - 1 only, as more than a flat tet
                     // lies between that and the other pair
-    bool operator==(const FaceKey&) const = default;
+    bool operator==(const FaceKey& other) const {
+        return sorted[0] == other.sorted[0] && sorted[1] == other.sorted[1] && sorted[2] == other.sorted[2] &&
+               sorted[3] == other.sorted[3] && across == other.across && variant == other.variant;
+    }
 };
 
 // The triangles that must be this face, or nothing.
 struct FaceClaim {
     FaceKey key;
     std::array<Index, 4> triangles;
-    int count;    // 1, 2, or 4: the pair beyond a flat tet, too
-    Index flat;   // the flat tet, -1: none
-    bool closed;  // the outermost pair lies on the mesh's boundary or on a cell that stays
+    int count;       // 1, 2, or 4: the pair beyond a flat tet, too
+    Index flat;      // the flat tet, -1: none
+    Index diagonal;  // the edge between the outermost pair, -1: of a triangle, or closed
+    bool closed;     // the outermost pair lies on the mesh's boundary or on a cell that stays
 };
 
 struct CellClaims {
     std::array<FaceClaim, 6> faces;
     int count;
+    std::array<Index, 12> edges;
+    int edge_count;
 };
 
 // What lies outside the tets: of each triangle of one tet, the boundary or a face of another cell.
@@ -47,15 +54,19 @@ public:
 
 private:
     enum Outside : Index { tets = -2, boundary = -1 };  // or the number of a fixed face
+    void add_fixed_faces(const Cell& cell);
+    bool add_fixed_face(const std::array<Index, 4>& round, int corners);
     std::optional<FaceClaim> claim(const CellFacet& facet) const;
     bool may_close(const CellFacet& facet, int pair, const FaceKey& key) const;
 
     const MixedMesh& mesh_;
     const TetTopology& topology_;
     const double least_cosine_;
-    std::vector<Index> outside_;      // (triangles)
-    std::vector<FaceKey> fixed_;      // faces of cells that stay, that lie on tets
-    std::vector<std::uint8_t> kept_;  // (edges)
+    std::vector<Index> outside_;             // (triangles)
+    std::vector<FaceKey> fixed_;             // faces of cells that stay, that lie on tets
+    std::vector<std::uint8_t> fixed_edges_;  // (edges) 1: of cells that stay
+    std::vector<Index> fixed_diagonals_;     // (edges) the face of a cell that stays on which it lies, -1: none
+    std::vector<std::uint8_t> kept_;         // (edges)
 };
 
 }  // namespace octafield::volume::detail

@@ -10,6 +10,7 @@
 #include "filling.hpp"
 #include "mesh_regions.hpp"
 #include "octafield/error.hpp"
+#include "octafield/volume/cell_quality.hpp"
 #include "octafield/volume/integrability.hpp"
 #include "octafield/volume/refine_tets.hpp"
 #include "octafield/volume/sample_frames.hpp"
@@ -130,6 +131,18 @@ PeriodicMap map_of(const WorkingField& field, const HexDominantOptions& options,
     return periodic_map(field.domain, axes.frames, axes.lengths, map_options, progress);
 }
 
+MixedMesh improved(MixedMesh mesh, const TetDomain& domain, const std::vector<std::uint8_t>& support, double length,
+                   int threads) {
+    VertexSupport where;
+    for (const std::uint8_t kind : support) where.kind.push_back(static_cast<VertexSupport::Kind>(kind));
+    ImproveOptions how;
+    how.tolerance = 0.1 * length;
+    how.fit_surface = true;
+    how.hexahedra_first = true;
+    how.threads = threads;
+    return improve_cells(std::move(mesh), where, domain.surface().mesh, domain.features(), how);
+}
+
 }  // namespace
 
 HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
@@ -179,6 +192,10 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     report_or_throw(progress, "conform", 0, 0);
     mesh = conform(mesh, &counts.pyramids);
     result.support = vertex_support(placed.surface, static_cast<Index>(mesh.vertices.rows()));
+    if (options.improve) {
+        report_or_throw(progress, "improve", 0, 0);
+        mesh = improved(std::move(mesh), field.domain, result.support, length, options.threads);
+    }
     result.mesh = std::move(mesh);
     if (!domain.regions().empty()) result.regions = cell_regions(field.domain, placed.surface, result.mesh);
     return result;

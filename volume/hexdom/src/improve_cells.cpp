@@ -1,11 +1,8 @@
 #include <algorithm>
-#include <cmath>
-#include <memory>
-#include <optional>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "octafield/error.hpp"
+#include "improve_setup.hpp"
 #include "octafield/parallel.hpp"
 #include "octafield/volume/cell_quality.hpp"
 #include "surface_fit.hpp"
@@ -27,100 +24,43 @@ constexpr double flat = 1e-14;       // qualities up to this are those of flat c
 constexpr double resting = 1e-3;     // moves shorter than this part of the edges wake no neighbours
 constexpr double on_surface = 1e-9;  // distance from the surface, in edges, that is rounding
 constexpr int untangling_sweeps = 30;
-constexpr int untangling_rounds = 3;
 constexpr int following_sweeps = 5;  // of vertices inside after those of the surface were fitted to it
 constexpr int patience = 4;          // sweeps of untangling without fewer inverted cells
 constexpr std::int64_t grain = 64;   // vertices worth a thread
 
-void require_options(const ImproveOptions& options) {
-    const auto require = [](bool good, const std::string& what) {
-        if (!good) throw InvalidInput(what, "option_out_of_range");
-    };
-    require(options.sweeps >= 0, "sweeps is " + std::to_string(options.sweeps) + "; give 0 or more");
-    require(options.good >= 0 && options.good <= 1, "good is " + std::to_string(options.good) + "; give 0 to 1");
-    require(options.tolerance >= 0 && std::isfinite(options.tolerance),
-            "tolerance is " + std::to_string(options.tolerance) + "; give a length of 0 or more");
-}
-
-void require_vertices(const MixedMesh& mesh, const VertexSupport& support) {
-    if (static_cast<Eigen::Index>(support.kind.size()) != mesh.vertices.rows())
-        throw InvalidInput("support has " + std::to_string(support.kind.size()) + " kinds for " +
-                               std::to_string(mesh.vertices.rows()) + " vertices; give one for each",
-                           "wrong_size");
-    std::vector<Index> lost;
-    for (Index v = 0; v < mesh.vertices.rows(); ++v)
-        if (!mesh.vertices.row(v).allFinite()) lost.push_back(v);
-    if (!lost.empty())
-        throw InvalidInput("vertices are not finite (" + first_few(lost) + "); correct or remove them",
-                           "non_finite_vertex", lost);
-}
-
-bool any_of_kind(const VertexSupport& support, Kind kind) {
-    return std::ranges::find(support.kind, kind) != support.kind.end();
-}
-
-// Null if no vertex slides.
-std::unique_ptr<SurfaceGuide> guide_for(const VertexSupport& support, const surface::TriangleMesh& surface,
-                                        const surface::FeatureGraph& features) {
-    const bool on_patches = any_of_kind(support, Kind::surface), on_curves = any_of_kind(support, Kind::curve);
-    if (!on_patches && !on_curves) return nullptr;
-    auto guide = std::make_unique<SurfaceGuide>(surface, features);
-    if (on_patches && !guide->has_triangles())
-        throw InvalidInput("vertices shall stay on a surface without area; give the surface, or none of kind surface",
-                           "no_surface");
-    if (on_curves && !guide->has_edges())
-        throw InvalidInput(
-            "vertices shall stay on feature curves where there are none; give them, or none of kind curve",
-            "no_features");
-    return guide;
-}
-
-// One number per vertex that moves, so that no two of a cell share it, the lowest in the order of the vertices.
-std::vector<std::vector<Index>> colours(const MixedMesh& mesh, const VertexCells& cells, const VertexSupport& support) {
-    std::vector<std::vector<Index>> of_colour;
-    std::vector<int> colour(mesh.vertices.rows(), -1);
-    std::vector<Index> seen;
-    for (Index v = 0; v < mesh.vertices.rows(); ++v) {
-        if (support.kind[v] == Kind::fixed || cells.of(v).empty()) continue;
-        for (const Incidence& at : cells.of(v))
-            for (const Index other : detail::cell_vertices(mesh, at.cell))
-                if (colour[other] >= 0) seen[colour[other]] = v;
-        const auto free = std::ranges::find_if(seen, [&](Index last) { return last != v; }) - seen.begin();
-        if (free == static_cast<std::ptrdiff_t>(seen.size())) {
-            seen.push_back(-1);
-            of_colour.emplace_back();
-        }
-        colour[v] = static_cast<int>(free);
-        of_colour[free].push_back(v);
-    }
-    return of_colour;
-}
-
 class Improver {
 public:
-    Improver(MixedMesh& mesh, const VertexSupport& support, const SurfaceGuide* guide, const ImproveOptions& options)
+    Improver(MixedMesh& mesh, VertexSupport kinds, const SurfaceGuide* guide, const ImproveOptions& options)
         : mesh_(mesh),
-          support_(support),
+          support_(std::move(kinds)),
           guide_(guide),
           options_(options),
           cells_(mesh),
-          colours_(colours(mesh, cells_, support)),
+          colours_(detail::colours(mesh, cells_, support_)),
           place_(mesh.vertices.rows()),
           moved_(mesh.vertices.rows()) {
         parallel_for(mesh.vertices.rows(), options.threads, [&](std::int64_t v) {
-            if (support.kind[v] == Kind::surface) place_[v] = guide->nearest_on_surface(mesh.vertices.row(v));
-            if (support.kind[v] == Kind::curve) place_[v] = guide->nearest_on_curves(mesh.vertices.row(v));
+            if (support_.kind[v] == Kind::surface) place_[v] = guide->nearest_on_surface(mesh.vertices.row(v));
+            if (support_.kind[v] == Kind::curve) place_[v] = guide->nearest_on_curves(mesh.vertices.row(v));
         });
-        floor_ = std::max(options.good, lowest());
+        start_lowest_ = lowest();
+        floor_ = std::max(options.good, start_lowest_);
     }
 
-    // What is left tangled gets further tries once the cells round it are better.
+    // Smoothing raises most of the low qualities by itself, and in a better balance: raising comes in the second half
+    // of the sweeps. What is left tangled gets further tries once the cells round it are better.
     void run() {
-        for (int round = 0; round < untangling_rounds; ++round) {
-            if (lowest() <= flat) untangle_cells();
-            sweep(std::vector<bool>(mesh_.vertices.rows(), true), options_.sweeps);
-            if (lowest() > flat) break;
-        }
+        std::size_t inverted = inverted_cells().size(), before = 0;
+        do {
+            before = inverted;
+            if (inverted > 0) untangle_cells();
+            const std::vector<bool> all(mesh_.vertices.rows(), true);
+            raising_ = false;
+            sweep(all, options_.sweeps - options_.sweeps / 2);
+            raising_ = true;
+            sweep(all, options_.sweeps / 2);
+            inverted = inverted_cells().size();
+        } while (inverted > 0 && inverted < before / 2);
         if (options_.fit_surface && guide_ != nullptr && guide_->has_triangles()) fit_surface();
     }
 
@@ -149,7 +89,7 @@ private:
     // As much of the step as the tolerance and the cells allow.
     void offset(Index v, Vector step) {
         VertexStar star;
-        star.set(mesh_, cells_, v);
+        star.set(mesh_, cells_, v, options_.hexahedra_first);
         if (step.norm() > options_.tolerance) step *= options_.tolerance / step.norm();
         const double lowest = star.lowest(Vector::Zero());
         const Vector start = mesh_.vertices.row(v);
@@ -241,7 +181,7 @@ private:
 
     void untangle_vertex(Index v) {
         static thread_local VertexStar star;
-        star.set(mesh_, cells_, v);
+        star.set(mesh_, cells_, v, options_.hexahedra_first);
         const Slide way = slide(v);
         Move move{Vector::Zero(), place_[v]};
         if (!(star.size() > 0) || star.lowest(move.x) > flat) return;
@@ -252,42 +192,47 @@ private:
 
     void improve(Index v) {
         static thread_local VertexStar star;
-        star.set(mesh_, cells_, v);
+        star.set(mesh_, cells_, v, options_.hexahedra_first);
         if (!(star.size() > 0)) return;
-        const Slide way = slide(v);
+        Slide way = slide(v);
         Move move{Vector::Zero(), place_[v]};
-        const Vector start = mesh_.vertices.row(v);
-        const double off = slides(v) ? (place_[v].point - start).norm() : 0;
-        if (off > std::max(options_.tolerance, on_surface * star.size())) detail::snap(star, way, move, floor_);
-        if (star.lowest(move.x) < options_.good) detail::raise_lowest(star, way, move);
+        if (way.distance() > std::max(options_.tolerance, on_surface * star.size()))
+            detail::snap(star, way, move, std::max(start_lowest_, options_.good / 2));
+        const double lowest = star.lowest(move.x);
+        if (lowest <= flat || (raising_ && lowest < options_.good)) detail::raise_lowest(star, way, move);
         // At the floor itself smoothing may be barred for ever.
-        if (detail::smooth(star, way, move, floor_) == detail::Smoothed::barred) detail::raise_lowest(star, way, move);
+        const auto result = detail::smooth(star, way, move, floor_);
+        if (raising_ && result == detail::Smoothed::barred) detail::raise_lowest(star, way, move);
         accept(v, move, star.size());
     }
 
     MixedMesh& mesh_;
-    const VertexSupport& support_;
+    VertexSupport support_;
     const SurfaceGuide* guide_;
     const ImproveOptions& options_;
     VertexCells cells_;
     std::vector<std::vector<Index>> colours_;
     std::vector<SurfaceGuide::Place> place_;  // of vertices that slide
     std::vector<double> moved_;               // in the last sweep, in edges at the vertex
-    bool inside_only_ = false;
-    double floor_;  // smoothing lets no quality fall below this
+    bool inside_only_ = false;                // those on the surface rest
+    bool raising_ = false;                    // of qualities below options_.good
+    double start_lowest_, floor_;             // quality: least at the start; smoothing lets none fall below this
 };
 
 }  // namespace
 
 MixedMesh improve_cells(MixedMesh mesh, const VertexSupport& support, const surface::TriangleMesh& surface,
                         const surface::FeatureGraph& features, const ImproveOptions& options) {
-    require_options(options);
-    require_vertices(mesh, support);
+    detail::require_options(options);
+    detail::require_vertices(mesh, support);
     const Eigen::VectorXd before = scaled_jacobians(mesh);
-    const auto guide = guide_for(support, surface, features);
+    const auto guide = detail::guide_for(support, surface, features);
     if (mesh.cell_count() == 0) return mesh;
     MixedMesh better = mesh;
-    Improver(better, support, guide.get(), options).run();
+    const double rounding = on_surface * surface::bounding_box_diagonal(surface.vertices);
+    Improver(better, guide ? detail::settled(support, mesh.vertices, *guide, rounding, options.threads) : support,
+             guide.get(), options)
+        .run();
     // Steps are guarded corner by corner; a pyramid's quality folds back above 1, which they do not see.
     const double lowest = before.minCoeff();
     return lowest > flat && scaled_jacobians(better).minCoeff() < lowest - 1e-12 ? mesh : better;

@@ -65,9 +65,11 @@ public:
     }
 
     PlacedPoints run() {
+        require_apart();
         PlacedPoints result = numbered_vertices();
         add_curves(result);
         add_triangles(result);
+        require_apart();
         return result;
     }
 
@@ -99,46 +101,51 @@ private:
     void sort_points() {
         at_vertex_.assign(mesh_.vertices.rows(), -1);
         weights_ = points_.weights;
-        std::vector<Index> coincident;
         for (Index p = 0; p < weights_.rows(); ++p) {
             Vector w = weights_.row(p);
             w = (w.array() < on_border).select(0, w);
             w /= w.sum();
             weights_.row(p) = w;
-            const Index t = points_.triangle[p];
-            const int zeros = static_cast<int>((w.array() == 0).count());
-            int most;
-            w.maxCoeff(&most);
-            if (zeros == 2) {
-                Index& there = at_vertex_[mesh_.triangles(t, most)];
-                if (there >= 0) coincident.insert(coincident.end(), {there, p});
-                there = p;
-            } else if (zeros == 1) {
-                int opposite;
-                w.minCoeff(&opposite);
-                const int side = (opposite + 1) % 3;
-                const Index edge = edge_of_(t, side);
-                const bool starts_high = mesh_.triangles(t, side) == edges_[edge].high;
-                on_edges_.push_back({edge, p, exact_part(w[starts_high ? side : (side + 1) % 3])});
-            } else {
+            const auto zeros = (w.array() == 0).count();
+            if (zeros == 2)
+                put_at_vertex(p, w);
+            else if (zeros == 1)
+                put_on_edge(p, w);
+            else
                 inside_.push_back(p);
-            }
         }
         std::sort(on_edges_.begin(), on_edges_.end());
         for (std::size_t i = 1; i < on_edges_.size(); ++i)
             if (on_edges_[i].edge == on_edges_[i - 1].edge && on_edges_[i].high - on_edges_[i - 1].high < 1e-12)
-                coincident.insert(coincident.end(), {on_edges_[i - 1].point, on_edges_[i].point});
+                coincident_.insert(coincident_.end(), {on_edges_[i - 1].point, on_edges_[i].point});
         std::stable_sort(inside_.begin(), inside_.end(),
                          [&](Index p, Index q) { return points_.triangle[p] < points_.triangle[q]; });
-        require_apart(coincident);
     }
 
-    static void require_apart(std::vector<Index> coincident) {
-        if (coincident.empty()) return;
-        std::sort(coincident.begin(), coincident.end());
-        coincident.erase(std::unique(coincident.begin(), coincident.end()), coincident.end());
-        throw InvalidInput("points lie at one place (" + first_few(coincident) + "); give each place once",
-                           "coincident_points", coincident);
+    void put_at_vertex(Index p, const Vector& w) {
+        int corner;
+        w.maxCoeff(&corner);
+        Index& there = at_vertex_[mesh_.triangles(points_.triangle[p], corner)];
+        if (there >= 0) coincident_.insert(coincident_.end(), {there, p});
+        there = p;
+    }
+
+    void put_on_edge(Index p, const Vector& w) {
+        int opposite;
+        w.minCoeff(&opposite);
+        const Index t = points_.triangle[p];
+        const int side = (opposite + 1) % 3;
+        const Index edge = edge_of_(t, side);
+        const bool starts_high = mesh_.triangles(t, side) == edges_[edge].high;
+        on_edges_.push_back({edge, p, exact_part(w[starts_high ? side : (side + 1) % 3])});
+    }
+
+    void require_apart() {
+        if (coincident_.empty()) return;
+        std::sort(coincident_.begin(), coincident_.end());
+        coincident_.erase(std::unique(coincident_.begin(), coincident_.end()), coincident_.end());
+        throw InvalidInput("points lie at one place (" + first_few(coincident_) + "); give each place once",
+                           "coincident_points", coincident_);
     }
 
     PlacedPoints numbered_vertices() const {
@@ -200,7 +207,6 @@ private:
 
     void add_triangles(PlacedPoints& result) {
         Triangulation plane;
-        std::vector<Index> coincident;
         auto inside = inside_.begin();
         for (Index t = 0; t < mesh_.triangles.rows(); ++t) {
             const auto last = std::find_if(inside, inside_.end(), [&](Index p) { return points_.triangle[p] != t; });
@@ -216,13 +222,12 @@ private:
             insert_edge_points(plane, t);
             for (; inside != last; ++inside) {
                 const Index other = insert(plane, weights_(*inside, 1), weights_(*inside, 2), *inside);
-                if (other != *inside) coincident.insert(coincident.end(), {other, *inside});
+                if (other != *inside) coincident_.insert(coincident_.end(), {other, *inside});
             }
             for (const auto& face : plane.finite_face_handles())
                 result.complex.add({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()},
                                    groups_[t], t, normal);
         }
-        require_apart(coincident);
     }
 
     // The vertex that is at this place, which is the one given if none was before.
@@ -259,7 +264,7 @@ private:
     Triangles edge_of_;     // (F, 3) of sides
     Triangles neighbours_;  // (F, 3) across sides that are on no curve; -1
     std::vector<OldEdge> edges_;
-    std::vector<Index> at_vertex_, inside_;
+    std::vector<Index> at_vertex_, inside_, coincident_;
     std::vector<OnEdge> on_edges_;
 };
 

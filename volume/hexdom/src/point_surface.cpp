@@ -1,6 +1,7 @@
 #include "octafield/volume/point_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "flip_edges.hpp"
 #include "place_points.hpp"
@@ -13,6 +14,19 @@ using detail::Corners;
 using detail::TriangleComplex;
 using detail::WantedEdges;
 
+// Where triangles end or three and more meet along a curve that is no feature, so that no corners of it are known.
+bool turns_sharply(const TriangleComplex& complex, Index v) {
+    if (complex.curves_at[v].size() != 2) return false;
+    std::vector<Index> triangles;
+    for (const Index e : complex.curves_at[v]) {
+        const detail::CurveEdge& edge = complex.curve_edges[e];
+        complex.triangles_at_edge(edge.a, edge.b, triangles);
+        if (edge.feature || triangles.size() == 2) return false;
+    }
+    const detail::CurveEdge joined = complex.joined_curve(v);
+    return joined.beneath.front().dot(joined.beneath.back()) < std::cos(surface::FeatureOptions{}.corner_angle);
+}
+
 // Old vertices but corners; those that turn out to be ends or meetings of curves stay anyway.
 std::vector<std::uint8_t> removable(const detail::PlacedPoints& placed, Index points,
                                     const std::vector<Index>& corners) {
@@ -20,6 +34,8 @@ std::vector<std::uint8_t> removable(const detail::PlacedPoints& placed, Index po
     std::fill(result.begin(), result.begin() + points, 0);
     for (const Index v : corners)
         if (placed.vertex_of[v] >= 0) result[placed.vertex_of[v]] = 0;
+    for (Index v = points; v < static_cast<Index>(result.size()); ++v)
+        if (turns_sharply(placed.complex, v)) result[v] = 0;
     return result;
 }
 

@@ -32,7 +32,7 @@ public:
           report_(report),
           topology_(mesh.tets, static_cast<Index>(mesh.vertices.rows())),
           surroundings_(mesh, topology_, options.kept_edges, options.max_boundary_fold),
-          table_(static_cast<Index>(mesh.tets.rows()), topology_.triangle_count()),
+          table_(topology_),
           taken_(mesh.tets.rows(), 0) {}
 
     MixedMesh run() {
@@ -61,7 +61,7 @@ private:
         // Many poor cells or few good ones: a cube is worth two of quality 0.25.
         std::vector<double> weights(cells.count());
         for (Index cell = 0; cell < cells.count(); ++cell) weights[cell] = 0.5 + 2 * cells.quality[cell];
-        std::vector<Index> chosen = choose_cells(surroundings_, shape, cells, weights, table_);
+        std::vector<Index> chosen = choose_cells(surroundings_, shape, cells, weights, table_, options_.threads);
         for (const Index cell : chosen) {
             for (const Index tet : cells.tets_of(cell)) taken_[tet] = 1;
             take_flat_tets(*surroundings_.claims(shape, cells.ids[cell].data(), cells.inner_pairs[cell]));

@@ -131,23 +131,29 @@ private:
     std::vector<Index> parent_;
 };
 
-// The triangles that feature edges enclose.
+struct Side {
+    Index low, high, triangle;
+};
+
+// The triangles that feature edges, and edges of three triangles or more, enclose.
 Sets patches(const surface::TriangleMesh& mesh, const surface::FeatureGraph& features) {
     std::vector<std::pair<Index, Index>> cuts;
     for (const auto edge : features.edges.rowwise()) cuts.push_back(std::minmax(edge[0], edge[1]));
     std::ranges::sort(cuts);
-    std::vector<std::tuple<Index, Index, Index>> sides;
+    std::vector<Side> sides;
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
         for (int k = 0; k < 3; ++k) {
             const auto [low, high] = std::minmax(mesh.triangles(t, k), mesh.triangles(t, (k + 1) % 3));
-            if (!std::ranges::binary_search(cuts, std::pair(low, high))) sides.emplace_back(low, high, t);
+            if (!std::ranges::binary_search(cuts, std::pair(low, high))) sides.push_back({low, high, t});
         }
-    std::ranges::sort(sides);
+    std::ranges::sort(sides, {}, [](const Side& side) { return std::tie(side.low, side.high, side.triangle); });
     Sets sets(mesh.triangles.rows());
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-        const auto& [low, high, t] = sides[i];
-        if (std::tie(low, high) == std::tie(std::get<0>(sides[i - 1]), std::get<1>(sides[i - 1])))
-            sets.join(std::get<2>(sides[i - 1]), t);
+    for (auto first = sides.cbegin(); first != sides.cend();) {
+        const auto last = std::find_if(first, sides.cend(), [&](const Side& side) {
+            return std::tie(side.low, side.high) != std::tie(first->low, first->high);
+        });
+        if (last - first == 2) sets.join(first->triangle, (first + 1)->triangle);
+        first = last;
     }
     return sets;
 }
@@ -181,8 +187,9 @@ void require_ids(const Rows& rows, Eigen::Index vertices, const char* what) {
 void require_sound(const surface::TriangleMesh& mesh, const surface::FeatureGraph& features) {
     require_ids(mesh.triangles, mesh.vertices.rows(), "triangles of the surface");
     require_ids(features.edges, mesh.vertices.rows(), "feature edges");
-    require_ids(Eigen::Map<const Eigen::VectorXi>(features.corners.data(), static_cast<Eigen::Index>(features.corners.size())),
-                mesh.vertices.rows(), "corners of the features");
+    require_ids(
+        Eigen::Map<const Eigen::VectorXi>(features.corners.data(), static_cast<Eigen::Index>(features.corners.size())),
+        mesh.vertices.rows(), "corners of the features");
     std::vector<Index> lost;
     for (const Index v : mesh.triangles.reshaped())
         if (!mesh.vertices.row(v).allFinite()) lost.push_back(v);
@@ -249,6 +256,13 @@ Place SurfaceGuide::nearest_in_patch(const Vector& point, const Place& near) con
 }
 Place SurfaceGuide::nearest_in_curve(const Vector& point, const Place& near) const {
     return trees_->segments.nearest(point, near);
+}
+
+bool SurfaceGuide::at_corner(const Place& place, double tolerance) const {
+    return std::ranges::any_of(trees_->features.edges.row(place.element), [&](Index v) {
+        return (trees_->mesh.vertices.row(v).transpose() - place.point).norm() <= tolerance &&
+               std::ranges::find(trees_->features.corners, v) != trees_->features.corners.end();
+    });
 }
 
 Vector SurfaceGuide::normal(Index triangle) const {

@@ -8,8 +8,8 @@
 
 namespace octafield::volume::detail {
 
-// Patches: the triangles between feature edges; curves: the feature edges between corners. Pieces of both kinds are
-// found by the point they start from and not left.
+// Patches: the triangles between feature edges and edges of three triangles or more; curves: the feature edges between
+// corners. Pieces of both kinds are found by the point they start from and not left.
 class SurfaceGuide {
 public:
     using Vector = Eigen::Vector3d;
@@ -32,6 +32,9 @@ public:
     // Of the same piece; `near` is a place of it not far away.
     Place nearest_in_patch(const Vector& point, const Place& near) const;
     Place nearest_in_curve(const Vector& point, const Place& near) const;
+
+    // Whether a place of a curve is within `tolerance` of a corner at an end of its edge.
+    bool at_corner(const Place& place, double tolerance) const;
 
     Vector normal(Index triangle) const;  // unit, outward
     Vector tangent(Index edge) const;     // unit

@@ -30,6 +30,7 @@ struct TetTopology {
     Index edge(Index a, Index b) const;                // -1: none
     Index triangle_at(Index edge, Index third) const;  // -1: none, also of edge -1
     Index triangle(Index a, Index b, Index c) const { return triangle_at(edge(a, b), c); }
+    Index edge_count() const { return static_cast<Index>(link_start.size()) - 1; }
     Index triangle_count() const { return static_cast<Index>(triangle_tets.size()); }
 
     // The tet for which a, b, c, the vertices of the triangle, go round outward; -1: none.

@@ -112,13 +112,16 @@ bool keeps(const VertexStar& star, const Vector& x, double before, double floor)
 }  // namespace
 
 Slide::Slide(const SurfaceGuide* guide, Along along, const Vector& start, const Place& place)
-    : guide_(guide), along_(along), start_(start), place_(place) {}
+    : guide_(guide), along_(along), start_(start), place_(place) {
+    if (along != Along::space) away_ = start - place.point;
+}
 
 Vector Slide::allowed(const Vector& x, Place& place) const {
     if (along_ == Along::space) return x;
-    place = along_ == Along::patch ? guide_->nearest_in_patch(start_ + x, place_)
-                                   : guide_->nearest_in_curve(start_ + x, place_);
-    return place.point - start_;
+    const Vector wanted = place_.point + x;
+    place =
+        along_ == Along::patch ? guide_->nearest_in_patch(wanted, place_) : guide_->nearest_in_curve(wanted, place_);
+    return place.point + kept_ * away_ - start_;
 }
 
 Eigen::Matrix3d Slide::tangential(const Place& place) const {
@@ -181,16 +184,17 @@ Smoothed smooth(const VertexStar& star, const Slide& slide, Move& move, double f
     return result;
 }
 
-bool snap(const VertexStar& star, const Slide& slide, Move& move, double floor) {
-    Move whole;
-    whole.x = slide.allowed(move.x, whole.place);
+bool snap(const VertexStar& star, Slide& slide, Move& move, double floor) {
     const double before = star.lowest(move.x);
-    for (const double share : {1.0, 0.5, 0.25}) {
-        const Vector x = move.x + share * (whole.x - move.x);
-        if (!keeps(star, x, before, floor)) continue;
-        move = {x, whole.place};
+    for (const double kept : {0.0, 0.5, 0.8, 0.95}) {
+        slide.bring_nearer(kept);
+        Move next;
+        next.x = slide.allowed(move.x, next.place);
+        if (!keeps(star, next.x, before, floor)) continue;
+        move = next;
         return true;
     }
+    slide.bring_nearer(1);
     return false;
 }
 

@@ -13,20 +13,23 @@ public:
     using Place = SurfaceGuide::Place;
     enum class Along : std::uint8_t { space, patch, curve };
 
-    // `place` is where it was seen last on its piece; not used in space.
+    // `place` is where its piece is nearest; not used in space. A start away from there keeps its distance, until it is
+    // brought nearer.
     Slide(const SurfaceGuide* guide, Along along, const Vector& start, const Place& place);
 
     // The displacement, of the start, nearest to x that is allowed; `place` is filled in.
     Vector allowed(const Vector& x, Place& place) const;
-    // Of a gradient, the part along the piece where it touches at `place`.
+    // Projects vectors on the directions along the piece where it touches at `place`.
     Eigen::Matrix3d tangential(const Place& place) const;
-    const Place& start_place() const { return place_; }
+    double distance() const { return away_.norm(); }    // of the start from its piece
+    void bring_nearer(double share) { kept_ = share; }  // of the distance that is kept
 
 private:
     const SurfaceGuide* guide_;
     Along along_;
-    Vector start_;
+    Vector start_, away_ = Vector::Zero();
     Place place_;
+    double kept_ = 1;
 };
 
 // A vertex on its way: displacement from its start, and where that is on its piece.
@@ -45,7 +48,7 @@ bool untangle(const VertexStar& star, const Slide& slide, Move& move);
 // the way.
 enum class Smoothed { moved, rests, barred };
 Smoothed smooth(const VertexStar& star, const Slide& slide, Move& move, double floor);
-// Towards the nearest place of its piece, under the same rule.
-bool snap(const VertexStar& star, const Slide& slide, Move& move, double floor);
+// To the nearest place of its piece, or nearer to it, under the same rule.
+bool snap(const VertexStar& star, Slide& slide, Move& move, double floor);
 
 }  // namespace octafield::volume::detail

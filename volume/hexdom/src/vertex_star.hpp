@@ -34,10 +34,13 @@ public:
     using Vector = Eigen::Vector3d;
 
     // Refers to the mesh until the next call; displacements count from where v is then.
-    void set(const MixedMesh& mesh, const VertexCells& cells, Index v);
+    // hexahedra_first: see ImproveOptions.
+    void set(const MixedMesh& mesh, const VertexCells& cells, Index v, bool hexahedra_first = false);
 
     bool empty() const { return corners_.empty(); }
-    double size() const { return size_; }  // mean length of the edges at the vertex
+    double size() const {
+        return size_;
+    }  // mean length of the edges (of pyramids, diagonals of the base, too) at the vertex
 
     // Least scaled Jacobian, as scaled_jacobians takes it, over the corners that the vertex changes: of flat and
     // inverted corners, the edges' triple product over the product of their lengths, <= 0. Stops early below `enough`.
@@ -50,7 +53,7 @@ public:
     double lowest_determinant(const Vector& x) const;
     void determinants(const Vector& x, std::vector<double>& values, std::vector<Vector>& gradients) const;
 
-    // Sum over the corners of (|T| / sqrt(3))^3 / det T, T from the corner of the ideal cell: convex where all are
+    // Sum over the corners of (|T| / sqrt(3))^6 / det(T)^2, T from the corner of the ideal cell: convex where all are
     // positive, infinite elsewhere (inverse mean ratio; Knupp 2001).
     double energy(const Vector& x) const;
     double energy(const Vector& x, Vector& gradient, Eigen::Matrix3d& hessian) const;
@@ -68,8 +71,9 @@ private:
         double square, constant;  // |T|^2 = square |x|^2 + 2 linear.x + constant
         Vector linear;
     };
-    void add(const Vector (&edges)[3], const int (&signs)[3], double factor, const struct IdealCorner* ideal);
-    void add_cell(const MixedMesh& mesh, const Incidence& at);
+    void add(const Vector (&edges)[3], const int (&signs)[3], double factor, const struct IdealCorner* ideal,
+             double importance);
+    void add_cell(const MixedMesh& mesh, const Incidence& at, bool hexahedra_first);
 
     std::vector<Corner> corners_;
     double size_ = 0, length_sum_ = 0;

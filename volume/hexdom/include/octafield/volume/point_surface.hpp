@@ -26,17 +26,24 @@ struct PointSurface {
 };
 
 // The surface of `mesh` with the points as vertices, and as few of the old ones as can be. Topology stays: components,
-// holes, genus, how triangles meet at edges. mesh: may have edges of three triangles or more (interfaces). features:
-// its curves to be kept; between two points, or old vertices that stay, they become straight edges. groups: (F) a
-// number per triangle; edges between groups, of one triangle, of three and more, and of two that run it alike, are kept
-// as features are. quads: (q) of points, round each; made of two triangles where that is possible without a fold.
-// edge_length: of the lattice, in the mesh's unit. Old vertices are taken out (edges collapsed, Hoppe et al. 1993)
-// where new triangles turn by less than 60 degrees from the old ones beneath them and no edge gets longer than 1.6
-// edge_length, or than the diagonals of the quads at its ends, or than one there was round the vertex; 1.5 times that
-// where the vertex would stay within edge_length / 4 of another. Corners of `features`, and vertices where kept edges
-// end, meet or change their kind, stay. Throws InvalidInput, whose elements are the ids concerned: "wrong_size",
-// "index_out_of_range", "not_an_edge" (features), "not_finite", "invalid_weights", "repeated_vertex" (of a quad),
-// "coincident_points", "invalid_option"; GeometryError: "degenerate_triangle". Near linear.
+// holes, genus, how triangles meet at edges.
+//
+// mesh: may have edges of three triangles or more (interfaces). features: its curves to be kept; between two points, or
+// old vertices that stay, they become straight edges. groups: (F) a number per triangle; edges between groups, of one
+// triangle, of three and more, and of two that run it alike, are kept as features are. quads: (q) of points, round
+// each; made of two triangles where that is possible without a fold. edge_length: of the lattice, in the mesh's unit.
+//
+// Old vertices are taken out (edges collapsed, Hoppe et al. 1993) where new triangles turn by less than 60 degrees from
+// the old ones beneath them and no edge gets longer than 1.6 edge_length, or than the diagonals of the quads at its
+// ends, or than one there was round the vertex; 1.5 times that where the vertex would stay within edge_length / 4 of
+// another. Corners of `features` stay, and vertices where kept edges end, meet, change their kind, or turn by more than
+// 60 degrees where one triangle ends or three and more meet. Nothing else bounds how far the new surface lies from the
+// old one: about edge_length^2 / 4 times the curvature, as between any points so far apart. Walls thinner than that may
+// cross: nobody looks here.
+//
+// Throws InvalidInput, whose elements are the ids concerned: "wrong_size", "index_out_of_range", "not_an_edge"
+// (features), "not_finite", "invalid_weights", "repeated_vertex" (of a quad), "coincident_points", "invalid_option";
+// GeometryError: "degenerate_triangle". Near linear.
 PointSurface point_surface(const surface::TriangleMesh& mesh, const surface::FeatureGraph& features,
                            const std::vector<Index>& groups, const SurfacePoints& points, const Quads& quads,
                            double edge_length);
