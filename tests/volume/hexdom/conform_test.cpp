@@ -33,6 +33,12 @@ std::set<std::vector<Index>> true_outside(const MixedMesh& mesh) {
 void expect_same_region(const MixedMesh& before, const MixedMesh& after) {
     EXPECT_EQ(true_outside(before), outside(after));
     EXPECT_EQ(before.vertices, after.vertices.topRows(before.vertices.rows()));
+    std::set<Index> added;
+    testing::each_cell(after, [&](const std::vector<Index>& cell) {
+        for (const Index v : cell)
+            if (v >= before.vertices.rows()) added.insert(v);
+    });
+    EXPECT_EQ(static_cast<Eigen::Index>(added.size()), after.vertices.rows() - before.vertices.rows());
 }
 
 void orient(MixedMesh& mesh, Eigen::Index tet) {

@@ -200,4 +200,16 @@ void fill(CellComplex& complex, const Filling& filling) {
     }
 }
 
+void improve_apex(CellComplex& complex, Index vertex) {
+    std::vector<FaceCycle> around;
+    for (const Index cell : complex.cells_at(vertex))
+        for (const CellFace& local : complex.shape(cell).faces) {
+            const FaceCycle face = complex.face(cell, local);
+            if (std::find(face.ids.begin(), face.ids.end(), vertex) == face.ids.end()) around.push_back(face);
+        }
+    const std::vector<ConeFace> faces = cone_faces(complex, around);
+    const Vector here = complex.point(vertex);
+    complex.move(vertex, best_apex(faces, {here, centroid(faces)}, 0.1 * mean_edge(faces)).place);
+}
+
 }  // namespace octafield::volume::detail

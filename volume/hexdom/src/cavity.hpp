@@ -46,4 +46,7 @@ Filling best_filling(const CellComplex& complex, Region region, std::vector<Eige
 
 void fill(CellComplex& complex, const Filling& filling);
 
+// Moves a vertex that is no corner of a quad to where the worst cell at it is best.
+void improve_apex(CellComplex& complex, Index vertex);
+
 }  // namespace octafield::volume::detail

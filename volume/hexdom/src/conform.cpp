@@ -33,7 +33,8 @@ void require_cells(const MixedMesh& mesh) {
 // many of both and fewer tets: so it ends.
 class Conformer {
 public:
-    explicit Conformer(const MixedMesh& mesh) : complex_(mesh), input_cells_(mesh.cell_count()) {
+    explicit Conformer(const MixedMesh& mesh)
+        : complex_(mesh), input_cells_(mesh.cell_count()), input_vertices_(static_cast<Index>(mesh.vertices.rows())) {
         for (Index tet = 0; tet < mesh.tets.rows(); ++tet)
             if (between_quads(tet)) complex_.remove(tet);
         for (Index cell = 0; cell < complex_.cell_count(); ++cell) queue_quads(cell);
@@ -48,7 +49,11 @@ public:
             const QuadMeeting meeting = meeting_of(open);
             if (meeting.kind == Kind::triangles) close(open.cell, meeting.round);
         }
-        return complex_.mesh();
+        // Each was placed for the tets of its time.
+        for (int sweep = 0; sweep < 3; ++sweep)
+            for (Index apex = input_vertices_; apex < complex_.vertex_count(); ++apex)
+                if (!complex_.cells_at(apex).empty()) improve_apex(complex_, apex);
+        return complex_.mesh(input_vertices_);
     }
 
     ConformReport report;
@@ -237,7 +242,7 @@ private:
     }
 
     CellComplex complex_;
-    const Index input_cells_;
+    const Index input_cells_, input_vertices_;
     std::deque<OpenQuad> open_;
 };
 

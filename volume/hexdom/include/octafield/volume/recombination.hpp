@@ -35,9 +35,10 @@ struct ConformReport {
 };
 
 // The same region with faces that all match: pyramids on quads that met triangles. Positive at all corners as the mesh
-// given is. New vertices come last. A flat tet on the four vertices of a quad goes where quads or the boundary are on
-// both its sides. Throws GeometryError: a defect of the mesh; kind "mismatched_face" where a quad meets triangles that
-// do not fill it; "unsplittable_cell" where no pyramid fits on a quad and the cell cannot be split.
+// given is. Vertices stay, new ones come last; of the old ones inside, some may be in no cell any more. A flat tet on
+// the four vertices of a quad goes where quads or the boundary are on both its sides. Throws GeometryError: a defect of
+// the mesh; kind "mismatched_face" where a quad meets triangles that do not fill it; "unsplittable_cell" where no
+// pyramid fits on a quad and the cell cannot be split.
 MixedMesh conform(const MixedMesh& mesh, ConformReport* report = nullptr);
 
 }  // namespace octafield::volume
