@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cell_choice.hpp"
 #include "delaunay_mesh.hpp"
 #include "mixed_grids.hpp"
 
@@ -200,6 +201,25 @@ TEST(PotentialCells, OfDelaunayMeshesOfGridsAreAllFoundWithFlatTetsOnTheirQuads)
         for (Eigen::Index i = 0; i < points.size(); ++i) points.data()[i] += uniform(random);
         expect_all_found(testing::delaunay_mesh(points), 0.2, cubes, 0);
     }
+}
+
+TEST(ClaimTable, CellsThatShareATetAreInEachOthersWayUntilOneIsRemoved) {
+    const MixedMesh mesh = CubeGrid(
+                               {1, 1, 1}, [](int, int, int) { return Filled::kuhn; }, 0, 1)
+                               .mesh();
+    const detail::TetTopology topology(mesh.tets, 8);
+    detail::ClaimTable table(topology);
+    const std::vector<Index> first{0, 1}, second{1, 2}, third{2, 3};
+    const detail::CellClaims nothing{};
+    std::vector<Index> found;
+    table.add(7, first, nothing);
+    table.conflicts(second, nothing, found);
+    EXPECT_EQ(found, std::vector<Index>{7});
+    table.conflicts(third, nothing, found);
+    EXPECT_TRUE(found.empty());
+    table.remove(7, first, nothing);
+    table.conflicts(second, nothing, found);
+    EXPECT_TRUE(found.empty());
 }
 
 }  // namespace

@@ -232,6 +232,29 @@ TEST(Recombine, HalfCubesBecomeWedges) {
     EXPECT_EQ(recombine(mesh, {.wedges = false}).wedges.rows(), 0);
 }
 
+TEST(Recombine, NoWedgeStandsOnHalfOfAQuad) {
+    // A cube, on half of its top three tets that make a wedge, on the other half tets.
+    MixedMesh mesh = CubeGrid(
+                         {1, 1, 2}, [](int, int, int k) { return k ? Filled::empty : Filled::hexahedron; }, 0, 0)
+                         .mesh();
+    mesh.vertices.conservativeResize(13, 3);
+    mesh.vertices.row(12) << 0.45, 0.7, 1.4;
+    mesh.tets.resize(6, 4);
+    mesh.tets << 4, 5, 7, 11, 4, 5, 9, 11, 4, 8, 9, 11, 4, 7, 6, 12, 4, 7, 11, 12, 4, 8, 11, 12;
+    for (Eigen::Index t = 0; t < 6; ++t) {
+        const auto edge = [&](int k) -> Vector {
+            return mesh.vertices.row(mesh.tets(t, k)) - mesh.vertices.row(mesh.tets(t, 0));
+        };
+        if (edge(1).cross(edge(2)).dot(edge(3)) < 0) std::swap(mesh.tets(t, 0), mesh.tets(t, 1));
+    }
+    RecombineReport report;
+    const MixedMesh result = recombine(mesh, {}, &report);
+    EXPECT_GT(report.potential_wedges, 0);
+    EXPECT_EQ(report.wedges, 0) << result.wedges;
+    EXPECT_EQ(report.hexahedra, 0);
+    EXPECT_EQ(expect_good(mesh, result, report).hexahedra.rows(), 1);
+}
+
 // A cube in six tets whose top is folded along its diagonal 4-7.
 MixedMesh folded_cube(double height) {
     MixedMesh mesh = kuhn(1, 0, 0);

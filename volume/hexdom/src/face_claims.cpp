@@ -111,12 +111,10 @@ std::optional<CellClaims> TetSurroundings::claims(const CellShape& shape, const 
 }
 
 std::optional<FaceClaim> TetSurroundings::claim(const CellFacet& facet) const {
-    FaceClaim claim{key_of(facet.round, facet.corners), {-1, -1, -1, -1}, 1, -1, -1, false};
+    FaceClaim claim{key_of(facet.round, facet.corners), {-1, -1, -1, -1}, 1, -1, -1};
     if (facet.corners == 3) {
-        const Index triangle = claim.triangles[0] = facet.pairs[0][0], beyond = outside_[triangle];
-        claim.closed = beyond != Outside::tets;
-        if (beyond >= 0 && fixed_[beyond] != claim.key) return std::nullopt;
-        return claim;
+        claim.triangles[0] = facet.pairs[0][0];
+        return claim;  // on half of a quad that stays, its edges would be that quad's diagonal: see claims()
     }
     const auto& inner = facet.pairs[facet.inner];
     const auto& other = facet.pairs[1 - facet.inner];
@@ -125,10 +123,10 @@ std::optional<FaceClaim> TetSurroundings::claim(const CellFacet& facet) const {
     claim.triangles = {inner[0], inner[1], other[0], other[1]};
     const int outermost = claim.flat < 0 ? facet.inner : 1 - facet.inner;
     const auto& [first, second] = facet.pairs[outermost];
-    claim.closed = outside_[first] != Outside::tets;
-    if (claim.closed != (outside_[second] != Outside::tets)) return std::nullopt;
-    if (claim.closed && !may_close(facet, outermost)) return std::nullopt;
-    if (!claim.closed) {
+    const bool closed = outside_[first] != Outside::tets;
+    if (closed != (outside_[second] != Outside::tets)) return std::nullopt;
+    if (closed && !may_close(facet, outermost)) return std::nullopt;
+    if (!closed) {
         claim.diagonal = topology_.edge(facet.round[outermost], facet.round[outermost + 2]);
         if (fixed_edges_[claim.diagonal] || fixed_diagonals_[claim.diagonal] >= 0) return std::nullopt;
     }

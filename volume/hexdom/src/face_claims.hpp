@@ -33,7 +33,6 @@ struct FaceClaim {
     int count;       // 1, 2, or 4: the pair beyond a flat tet, too
     Index flat;      // the flat tet, -1: none
     Index diagonal;  // the edge between the outermost pair, -1: of a triangle, or closed
-    bool closed;     // the outermost pair lies on the mesh's boundary or on a cell that stays
 };
 
 struct CellClaims {

@@ -16,7 +16,7 @@ struct RecombineOptions {
 struct RecombineReport {
     Index potential_hexahedra = 0, potential_wedges = 0;  // found; wedges among the tets that hexahedra left
     Index hexahedra = 0, wedges = 0;                      // made
-    Index flat_tets = 0;  // that lay between two quads of their four vertices, or a quad and the boundary, and are gone
+    Index flat_tets = 0;  // gone: they lay against a quad and had its four vertices, as where diagonals cross
 };
 
 // Cells of `mesh` that are no tets stay. Its faces match but for quads that meet two triangles of tets (either
