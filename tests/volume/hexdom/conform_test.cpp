@@ -164,6 +164,18 @@ TEST(Conform, RegionsFilledByTetGenBecomeSound) {
     }
 }
 
+TEST(Conform, RegionsFilledByTetGenGetMoreHexahedraByRecombination) {
+    const MixedMesh mesh = staircase_in_a_box(7, 0.1, 1);
+    RecombineOptions options;
+    options.max_boundary_fold = 1e-6;
+    const MixedMesh result = conform(recombine(mesh, options));
+    expect_sound(result, 1e-4);
+    EXPECT_EQ(result.vertices.topRows(mesh.vertices.rows()), mesh.vertices);
+    EXPECT_EQ(result.hexahedra.topRows(mesh.hexahedra.rows()), mesh.hexahedra);
+    EXPECT_GT(result.hexahedra.rows(), 2 * mesh.hexahedra.rows());
+    EXPECT_NEAR(cell_volumes(result).sum(), 343, 1e-9);
+}
+
 TEST(Conform, AHexahedronOnTrianglesOfWedgesIsGivenUp) {
     const auto kind = [](int, int, int k) { return k == 1 ? Filled::wedges : Filled::hexahedron; };
     const MixedMesh mesh = CubeGrid({3, 3, 4}, kind, 0.15, 3).mesh();
