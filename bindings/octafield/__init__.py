@@ -39,6 +39,8 @@ from .fields.direction_field import SurfaceFieldResult, compute_surface_field
 from .fields.frame_field import FieldProblem, FieldResult, compute_field, prepare_field, run_field
 from .fields.probes import sample_frames, slice_frames
 from .frame_files import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
+from .hexdom.hex_mesh import HexDominantResult, compute_hex_dominant
+from .hexdom.options import HexMeshOptions
 from .meshes.mesh_format import MeshFormat
 from .meshes.registry import mesh_formats, register_mesh_format
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
@@ -60,6 +62,8 @@ __all__ = [
     "FrameFile",
     "FrameFormat",
     "GeometryError",
+    "HexDominantResult",
+    "HexMeshOptions",
     "InvalidInput",
     "IoError",
     "MeshFormat",
@@ -78,6 +82,7 @@ __all__ = [
     "analyse",
     "compare",
     "compute_field",
+    "compute_hex_dominant",
     "compute_surface_field",
     "convert_file",
     "frame_formats",

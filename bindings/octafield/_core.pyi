@@ -2045,3 +2045,291 @@ def cell_boundary(mesh: MixedMesh) -> CellBoundary: ...
 def split_quads(mesh: QuadMesh) -> TriangleMesh: ...
 def write_mixed_mesh(path: Path, mesh: MixedMesh, metadata: dict[str, str] = ...) -> None: ...
 def write_quad_mesh(path: Path, mesh: QuadMesh, metadata: dict[str, str] = ...) -> None: ...
+
+# ---- volume: hex-dominant meshes
+
+class PeriodicMapOptions:
+    hold_angle: float
+    rounds: int
+    threads: int
+    def __init__(
+        self,
+        hold_angle: float = ...,
+        rounds: int = ...,
+        threads: int = ...,
+    ) -> None: ...
+
+class RecombineOptions:
+    min_scaled_jacobian: float
+    wedges: bool
+    max_boundary_fold: float
+    threads: int
+    def __init__(
+        self,
+        min_scaled_jacobian: float = ...,
+        wedges: bool = ...,
+        max_boundary_fold: float = ...,
+        kept_edges: ArrayLike = ...,
+        threads: int = ...,
+    ) -> None: ...
+    @property
+    def kept_edges(self) -> Int32s: ...
+    @kept_edges.setter
+    def kept_edges(self, value: ArrayLike) -> None: ...
+
+class ImproveOptions:
+    sweeps: int
+    good: float
+    tolerance: float
+    fit_surface: bool
+    threads: int
+    def __init__(
+        self,
+        sweeps: int = ...,
+        good: float = ...,
+        tolerance: float = ...,
+        fit_surface: bool = ...,
+        threads: int = ...,
+    ) -> None: ...
+
+class HexDominantOptions:
+    words: ClassVar[dict[str, list[str]]]
+    edge_length: float
+    correction: str
+    refinements: int
+    most_tets: int
+    min_scaled_jacobian: float
+    hold_angle: float
+    recombine: bool
+    improve: bool
+    threads: int
+    def __init__(
+        self,
+        edge_length: float = ...,
+        sizes: ArrayLike = ...,
+        correction: str = ...,
+        refinements: int = ...,
+        most_tets: int = ...,
+        min_scaled_jacobian: float = ...,
+        hold_angle: float = ...,
+        recombine: bool = ...,
+        improve: bool = ...,
+        threads: int = ...,
+    ) -> None: ...
+    @property
+    def sizes(self) -> Float64s: ...
+    @sizes.setter
+    def sizes(self, value: ArrayLike) -> None: ...
+
+class PeriodicMap:
+    inconsistent: int
+    turned_over: int
+    def __init__(
+        self,
+        frames: ArrayLike = ...,
+        coordinates: ArrayLike = ...,
+        usable: ArrayLike = ...,
+        faces: FaceMatchings = ...,
+        translation: ArrayLike = ...,
+        joined: ArrayLike = ...,
+        inconsistent: int = ...,
+        turned_over: int = ...,
+    ) -> None: ...
+    @property
+    def frames(self) -> Float64s: ...
+    @frames.setter
+    def frames(self, value: ArrayLike) -> None: ...
+    @property
+    def coordinates(self) -> Int32s: ...
+    @coordinates.setter
+    def coordinates(self, value: ArrayLike) -> None: ...
+    @property
+    def usable(self) -> UInt8s: ...
+    @usable.setter
+    def usable(self, value: ArrayLike) -> None: ...
+    @property
+    def faces(self) -> FaceMatchings: ...
+    @property
+    def translation(self) -> Int32s: ...
+    @translation.setter
+    def translation(self, value: ArrayLike) -> None: ...
+    @property
+    def joined(self) -> UInt8s: ...
+    @joined.setter
+    def joined(self, value: ArrayLike) -> None: ...
+
+class LostCells:
+    outside: int
+    unusable: int
+    degenerate: int
+    poor: int
+    def __init__(
+        self,
+        outside: int = ...,
+        unusable: int = ...,
+        degenerate: int = ...,
+        poor: int = ...,
+    ) -> None: ...
+
+class LatticeCells:
+    def __init__(
+        self,
+        points: ArrayLike = ...,
+        tet: ArrayLike = ...,
+        weights: ArrayLike = ...,
+        hexahedra: ArrayLike = ...,
+        on_surface: ArrayLike = ...,
+        lost: LostCells = ...,
+    ) -> None: ...
+    @property
+    def points(self) -> Float64s: ...
+    @points.setter
+    def points(self, value: ArrayLike) -> None: ...
+    @property
+    def tet(self) -> Int32s: ...
+    @tet.setter
+    def tet(self, value: ArrayLike) -> None: ...
+    @property
+    def weights(self) -> Float64s: ...
+    @weights.setter
+    def weights(self, value: ArrayLike) -> None: ...
+    @property
+    def hexahedra(self) -> Int32s: ...
+    @hexahedra.setter
+    def hexahedra(self, value: ArrayLike) -> None: ...
+    @property
+    def on_surface(self) -> UInt8s: ...
+    @on_surface.setter
+    def on_surface(self, value: ArrayLike) -> None: ...
+    @property
+    def lost(self) -> LostCells: ...
+
+class RecombineReport:
+    potential_hexahedra: int
+    potential_wedges: int
+    hexahedra: int
+    wedges: int
+    flat_tets: int
+    def __init__(
+        self,
+        potential_hexahedra: int = ...,
+        potential_wedges: int = ...,
+        hexahedra: int = ...,
+        wedges: int = ...,
+        flat_tets: int = ...,
+    ) -> None: ...
+
+class ConformReport:
+    combined: int
+    raised: int
+    split: int
+    def __init__(
+        self,
+        combined: int = ...,
+        raised: int = ...,
+        split: int = ...,
+    ) -> None: ...
+
+class HexDominantCounts:
+    tets: int
+    inconsistent: int
+    turned_over: int
+    lattice_hexahedra: int
+    crossing: int
+    recombined_hexahedra: int
+    recombined_wedges: int
+    def __init__(
+        self,
+        tets: int = ...,
+        inconsistent: int = ...,
+        turned_over: int = ...,
+        lost: LostCells = ...,
+        lattice_hexahedra: int = ...,
+        crossing: int = ...,
+        recombined_hexahedra: int = ...,
+        recombined_wedges: int = ...,
+        pyramids: ConformReport = ...,
+    ) -> None: ...
+    @property
+    def lost(self) -> LostCells: ...
+    @property
+    def pyramids(self) -> ConformReport: ...
+
+class HexDominantMesh:
+    def __init__(
+        self,
+        mesh: MixedMesh = ...,
+        regions: ArrayLike = ...,
+        support: ArrayLike = ...,
+        counts: HexDominantCounts = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> MixedMesh: ...
+    @property
+    def regions(self) -> Int32s: ...
+    @regions.setter
+    def regions(self, value: ArrayLike) -> None: ...
+    @property
+    def support(self) -> UInt8s: ...
+    @support.setter
+    def support(self, value: ArrayLike) -> None: ...
+    @property
+    def counts(self) -> HexDominantCounts: ...
+
+def hex_dominant(
+    domain: TetDomain | TetMesh,
+    frames: ArrayLike,
+    *,
+    edge_length: float = ...,
+    sizes: ArrayLike | None = ...,
+    correction: str = ...,
+    refinements: int = ...,
+    most_tets: int = ...,
+    min_scaled_jacobian: float = ...,
+    hold_angle: float = ...,
+    recombine: bool = ...,
+    improve: bool = ...,
+    threads: int = ...,
+    progress: Progress | None = None,
+) -> HexDominantMesh: ...
+def refine_tets(domain: TetDomain | TetMesh, marked: ArrayLike) -> tuple[TetDomain, Int32s, Int32s]: ...
+def periodic_map(
+    domain: TetDomain | TetMesh,
+    of_tets: ArrayLike,
+    lengths: ArrayLike,
+    *,
+    hold_angle: float = ...,
+    rounds: int = ...,
+    threads: int = ...,
+    progress: Progress | None = None,
+) -> PeriodicMap: ...
+def lattice_cells(
+    domain: TetDomain | TetMesh,
+    map: PeriodicMap,
+    *,
+    min_scaled_jacobian: float = ...,
+    threads: int = 0,
+) -> LatticeCells: ...
+def recombine(
+    mesh: MixedMesh,
+    *,
+    min_scaled_jacobian: float = ...,
+    wedges: bool = ...,
+    max_boundary_fold: float = ...,
+    kept_edges: ArrayLike | None = ...,
+    threads: int = ...,
+) -> tuple[MixedMesh, RecombineReport]: ...
+def conform(mesh: MixedMesh) -> tuple[MixedMesh, ConformReport]: ...
+def proven_positive(mesh: MixedMesh, *, depth: int = 8, threads: int = 0) -> UInt8s: ...
+def improve_cells(
+    mesh: MixedMesh,
+    support: ArrayLike,
+    surface: TriangleMesh,
+    features: FeatureGraph,
+    *,
+    sweeps: int = ...,
+    good: float = ...,
+    tolerance: float = ...,
+    fit_surface: bool = ...,
+    threads: int = ...,
+) -> MixedMesh: ...

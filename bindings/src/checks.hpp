@@ -26,6 +26,10 @@ struct BoundaryOptions;
 struct DiffuseOptions;
 struct SmoothOptions;
 struct FrameFieldOptions;
+struct PeriodicMapOptions;
+struct RecombineOptions;
+struct ImproveOptions;
+struct HexDominantOptions;
 }  // namespace octafield::volume
 
 namespace octafield::bindings {
@@ -42,6 +46,10 @@ void check(const volume::BoundaryOptions& options);
 void check(const volume::DiffuseOptions& options);
 void check(const volume::SmoothOptions& options);
 void check(const volume::FrameFieldOptions& options);
+void check(const volume::PeriodicMapOptions& options);
+void check(const volume::RecombineOptions& options);
+void check(const volume::ImproveOptions& options);
+void check(const volume::HexDominantOptions& options);
 
 // Coordinates finite, vertex ids in range. `require_elements`: at least one triangle or tet.
 void check(const surface::TriangleMesh& mesh, bool require_elements = true);

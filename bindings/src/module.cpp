@@ -56,6 +56,7 @@ PYBIND11_MODULE(_core, module) {
     bind_volume_types(module);
     bind_field_analysis_types(module);
     bind_parameterization_types(module);
+    bind_hexdom_types(module);
     bind_frame_streamline_types(module);
     bind_sampling_types(module);
     bind_volume_input_types(module);
@@ -71,6 +72,7 @@ PYBIND11_MODULE(_core, module) {
     bind_volume_input(module);
     bind_recipe(module);
     bind_cells(module);
+    bind_hexdom(module);
     bind_end();
     add_examples(module);
 }

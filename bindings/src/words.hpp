@@ -12,6 +12,7 @@
 #include "octafield/surface/direction_field.hpp"
 #include "octafield/surface/streamlines.hpp"
 #include "octafield/volume/boundary.hpp"
+#include "octafield/volume/hex_dominant.hpp"
 #include "octafield/volume/sampling.hpp"
 #include "octafield/volume/schemes.hpp"
 #include "octafield/volume/smooth.hpp"
@@ -94,6 +95,13 @@ struct Words<volume::LinearSolver> {
     using E = volume::LinearSolver;
     static constexpr std::array<std::pair<const char*, E>, 3> list{
         {{"default", E::default_}, {"cholesky", E::cholesky}, {"conjugate_gradients", E::conjugate_gradients}}};
+};
+
+template <>
+struct Words<volume::SizeCorrection> {
+    using E = volume::SizeCorrection;
+    static constexpr std::array<std::pair<const char*, E>, 3> list{
+        {{"none", E::none}, {"isotropic", E::isotropic}, {"axes", E::axes}}};
 };
 
 template <class Enum>

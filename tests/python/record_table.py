@@ -8,12 +8,18 @@ import types
 import typing
 from pathlib import Path
 
-from octafield.records import field, parts, surface_field
+from octafield.records import field, hex_dominant, parts, surface_field
 from octafield.records.base import Record
 
 PAGE = Path(__file__).parents[2] / "docs" / "records.md"
 END = "<!-- end of the table -->\n"
-KINDS = (field.FieldRecord, surface_field.SurfaceFieldRecord, field.RunWithField, field.RunWithoutField)
+KINDS = (
+    field.FieldRecord,
+    surface_field.SurfaceFieldRecord,
+    hex_dominant.HexDominantRecord,
+    field.RunWithField,
+    field.RunWithoutField,
+)
 PARTS = tuple(
     one for one in vars(parts).values() if isinstance(one, type) and issubclass(one, Record) and one is not Record
 )

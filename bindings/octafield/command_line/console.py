@@ -23,6 +23,7 @@ from ..progress.phases import Progress as Callback
 
 if TYPE_CHECKING:
     from ..records.field import InputRecord
+    from ..records.hex_dominant import HexDominantRecord
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 # kinds of SolverError that another option or another mesh avoids
@@ -124,7 +125,7 @@ def _say(message: str) -> None:
     print("octafield: " + " ".join(message.split()), file=sys.stderr, flush=True)
 
 
-def report_notes(record: "InputRecord") -> None:
+def report_notes(record: "InputRecord | HexDominantRecord") -> None:
     for note in record.notes:
         log.info("%s: %s", record.input, note)
 

@@ -13,6 +13,7 @@ from ..options import FieldOptions, SurfaceFieldOptions
 from . import compare as compare_cli
 from . import console, tables
 from . import files as files_cli
+from . import hexdom as hexdom_cli
 from . import inspect as cli_inspect
 from .console import carry_out, log
 from .options import InputFile, Json, Output, Quiet, Verbose, with_options
@@ -34,6 +35,7 @@ app.add_typer(cli_inspect.app)
 app.add_typer(studies, name="study")
 files_cli.register(app)
 compare_cli.register(app)
+hexdom_cli.register(app)
 
 
 def _show_version(wanted: bool) -> None:

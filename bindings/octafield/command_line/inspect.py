@@ -92,7 +92,7 @@ def doctor(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) ->
 
 @app.command()
 def view(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that `octafield field` wrote.")],
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that `field` or `hex-dominant` wrote.")],
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="PNG", help="Write a picture in place of opening a window.")
     ] = None,
@@ -100,7 +100,7 @@ def view(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """The singular curves of a result, in a window or a PNG."""
+    """The singular curves of a field, or a mesh cut open, in a window or a PNG."""
 
     def work() -> None:
         from ..view.window import view_folder

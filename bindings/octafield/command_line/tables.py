@@ -15,7 +15,9 @@ from ..report.numbers.columns import terminal_table
 from ..report.numbers.records import Results, Run
 
 if TYPE_CHECKING:
+    from ..records.base import Record
     from ..records.field import FieldRecord
+    from ..records.hex_dominant import HexDominantRecord
     from ..records.surface_field import SurfaceFieldRecord
 
 
@@ -38,6 +40,37 @@ def show_record(record: FieldRecord | SurfaceFieldRecord) -> None:
     _facts(record.input, facts)
     verdict = getattr(record, "verdict", None)
     _show_verdict(verdict.sentences if verdict else ())
+
+
+def show_hex_record(record: HexDominantRecord) -> None:
+    cells, steps = record.cells.to_dict(), record.steps
+    facts = [(kind, f"{count:,}") for kind, count in cells.items()]
+    facts += [
+        ("hexahedra, of the volume", f"{record.hex_volume_share:.1%}"),
+        ("hexahedra, of the cells", f"{record.hex_number_share:.1%}"),
+    ]
+    facts += [
+        (f"scaled Jacobian, {kind}", _several(figures, (".3f",) * 3))
+        for kind, figures in record.scaled_jacobian.items()
+    ]
+    facts += [
+        ("inverted", str(record.inverted)),
+        ("not proven positive", str(record.unproven)),
+        ("nonconforming faces", str(record.nonconforming_faces)),
+        ("volume error", f"{record.volume_error:.2e}"),
+        ("boundary deviation", _several(record.boundary_deviation, (".2e",) * 2)),
+        ("edge length", _several(record.edge_length, (".4g",) * 4)),
+        ("lost in the lattice", _several(steps.lost, ("d",) * 4)),
+        ("left out as crossing", str(steps.crossing)),
+        ("pyramids", _several(steps.pyramids, ("d",) * 3)),
+        ("seconds", f"{sum(record.wall_seconds.values()):.1f}"),
+        ("peak_mb", f"{record.peak_mb:.0f}"),
+    ]
+    _facts(record.input, facts)
+
+
+def _several(figures: Record, formats: Sequence[str]) -> str:
+    return "  ".join(f"{name} {value:{form}}" for (name, value), form in zip(figures.items(), formats, strict=True))
 
 
 def show_comparison(rows: list[FieldRecord]) -> None:

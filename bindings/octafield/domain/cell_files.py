@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _core
 from .._core import MixedMesh, QuadMesh
@@ -64,10 +65,12 @@ def read_cells(path: str | Path) -> MixedMesh | QuadMesh:
     return make(points, **arrays)
 
 
-def write_cells(path: str | Path, mesh: MixedMesh | QuadMesh) -> None:
+def write_cells(path: str | Path, mesh: MixedMesh | QuadMesh, *, regions: ArrayLike | None = None) -> None:
     """Writes by extension: .vtu (with cell data scaled_jacobian), Gmsh .msh (2.2, binary), Medit .mesh or .meshb, also
-    .gz. Raises IoError, GeometryError for ids out of range and coordinates that are not finite, and InvalidInput where
-    there are no cells ("no_cells"): no reader takes such files.
+    .gz. regions: an id per cell, in the order of their numbers, which become Gmsh's physical groups and Medit's
+    references (all raised where the least is below 1); a .vtu has none. Raises IoError, GeometryError for ids out of
+    range and coordinates that are not finite, and InvalidInput where there are no cells ("no_cells"): no reader takes
+    such files.
 
     >>> import octafield
     >>> cube = octafield.volume.MixedMesh(
@@ -88,7 +91,11 @@ def write_cells(path: str | Path, mesh: MixedMesh | QuadMesh) -> None:
             f"{path}: vertex {lost[0]} (from 0) of {len(lost)} has coordinates that are not finite; correct them",
             "non_finite_vertex",
         )
-    through_file(path, suffix, lambda plain: _write(plain, suffix, mesh))
+    ids = np.ones(len(cells), np.int64) if regions is None else np.asarray(regions, np.int64)
+    if ids.shape != (len(cells),):
+        raise InvalidInput(f"{path}: regions of shape {ids.shape} for {len(cells)} cells", "wrong_shape")
+    ids = ids + max(0, 1 - int(ids.min()))
+    through_file(path, suffix, lambda plain: _write(plain, suffix, mesh, ids))
 
 
 def _suffix(path: Path, known: tuple[str, ...]) -> str:
@@ -126,27 +133,27 @@ def _either_way(points: np.ndarray, wedges: np.ndarray) -> np.ndarray:
     return wedges[:, [0, 2, 1, 3, 5, 4]] if turned.sum() > len(wedges) / 2 else wedges
 
 
-def _write(path: Path, suffix: str, mesh: MixedMesh | QuadMesh) -> None:
+def _write(path: Path, suffix: str, mesh: MixedMesh | QuadMesh, regions: np.ndarray) -> None:
     if suffix != ".vtu":
-        _write_by_meshio(path, suffix, mesh)
+        _write_by_meshio(path, suffix, mesh, regions)
     elif isinstance(mesh, MixedMesh):
         _core.write_mixed_mesh(path, mesh)
     else:
         _core.write_quad_mesh(path, mesh)
 
 
-def _write_by_meshio(path: Path, suffix: str, mesh: MixedMesh | QuadMesh) -> None:
+def _write_by_meshio(path: Path, suffix: str, mesh: MixedMesh | QuadMesh, regions: np.ndarray) -> None:
     import meshio
 
     kinds = _SOLIDS if isinstance(mesh, MixedMesh) else _FACES
     blocks = [(kind, np.array(getattr(mesh, name), np.int64)) for kind, name in kinds.items()]
     blocks = [(kind, cells) for kind, cells in blocks if len(cells)]
-    ones = [np.ones(len(cells), np.int64) for _, cells in blocks]
+    ids = np.split(regions, np.cumsum([len(cells) for _, cells in blocks])[:-1])
     if suffix == ".msh":
-        data = {"gmsh:physical": ones, "gmsh:geometrical": ones}
+        data = {"gmsh:physical": ids, "gmsh:geometrical": ids}
         meshio.gmsh.write(str(path), _mesh(mesh, blocks, data), "2.2", binary=True)
     else:
-        meshio.medit.write(str(path), _mesh(mesh, blocks, {"medit:ref": ones}))
+        meshio.medit.write(str(path), _mesh(mesh, blocks, {"medit:ref": ids}))
 
 
 def _mesh(mesh: MixedMesh | QuadMesh, blocks: Blocks, data: dict[str, list[np.ndarray]]) -> "meshio.Mesh":

@@ -122,6 +122,22 @@ def vtp_bytes(surface: "pyvista.PolyData") -> bytes:
     return str(writer.GetOutputString()).encode()
 
 
+def vtu_bytes(grid: "pyvista.UnstructuredGrid", metadata: dict[str, str]) -> bytes:
+    """A .vtu file in memory, compressed. metadata: field data, as bytes: meshio reads no strings there."""
+    import numpy as np
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+    for name, text in metadata.items():
+        grid.field_data[name] = np.frombuffer(text.encode(), np.uint8)
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetDataModeToBinary()
+    writer.SetCompressorTypeToZLib()
+    writer.SetWriteToOutputString(True)
+    writer.Write()
+    return str(writer.GetOutputString()).encode()
+
+
 def _commit(staging: Path, target: Path, earlier: list[Path]) -> None:
     try:
         if not target.is_dir():

@@ -122,3 +122,90 @@ class SingularPoint(Record):
     position: list[float] = Field(description="(3,), input unit")
     index: float = Field(description="turns")
     boundary: bool = Field(description="on the boundary of the surface")
+
+
+class CellCounts(Record):
+    """Cells of a mesh by kind."""
+
+    tets: int = Field(description="how many")
+    hexahedra: int = Field(description="how many")
+    wedges: int = Field(description="how many")
+    pyramids: int = Field(description="how many")
+
+
+class JacobianFigures(Record):
+    """Least scaled Jacobians of the cells of a kind: 1 for the best shape, 0 and less where a corner is inverted."""
+
+    min: float = Field(description="the smallest")
+    p05: float = Field(description="5 % are smaller")
+    mean: float = Field(description="of all")
+
+
+class Deviation(Record):
+    """Between two surfaces, the larger of both ways."""
+
+    max: float = Field(description="the largest distance of a point to the other surface")
+    rms: float = Field(description="root mean square by area")
+
+
+class EdgeLengths(Record):
+    """Input unit."""
+
+    target: float = Field(description="wanted: the edge length, or the mean of the sizes by volume")
+    median: float = Field(description="half of them are smaller")
+    p05: float = Field(description="5 % are smaller")
+    p95: float = Field(description="95 % are smaller")
+
+
+class Quantiles(Record):
+    """Of positive numbers."""
+
+    median: float = Field(description="half of them are smaller")
+    p05: float = Field(description="5 % are smaller")
+    p95: float = Field(description="95 % are smaller")
+
+
+class FieldOfMesh(Record):
+    """The frame field that cells of a mesh follow."""
+
+    source: str = Field(description="computed, given, or the file it was read from")
+    representation: str | None = Field(default=None, description="or metric that was minimised")
+    boundary: str | None = Field(default=None, description="aligned, fixed, none or start")
+    energy: float = Field(description="Dirichlet energy in sh4, input unit")
+    singular_edges: int = Field(description="round which the frames turn")
+    complex_edges: int = Field(description="of these, those whose rotation keeps no axis")
+    non_meshable_vertices: int | None = Field(
+        default=None, description="places of the singular graph that no hex mesh has"
+    )
+    edge_length: float = Field(description="mean edge of the surface of the tets, input unit")
+
+
+class LostLatticeCells(Record):
+    """Cells of the lattice whose middle is in the map and that are no hexahedra, by the first reason."""
+
+    outside: int = Field(description="a corner lies beyond the surface")
+    unusable: int = Field(description="on the way to a corner are tets without coordinates")
+    degenerate: int = Field(description="two corners are one point")
+    poor: int = Field(description="a scaled Jacobian is below the least")
+
+
+class PyramidCounts(Record):
+    """How faces were made to match."""
+
+    combined: int = Field(description="pyramids of two tets")
+    raised: int = Field(description="pyramids with a new apex in the tets round a diagonal")
+    split: int = Field(description="hexahedra and wedges given up")
+
+
+class LatticeSteps(Record):
+    """Cells at every step of octafield.volume.hex_dominant."""
+
+    tets: int = Field(description="of the mesh that the periodic map is on")
+    inconsistent: int = Field(description="of these, without coordinates: jumps of edges do not sum to 0")
+    turned_over: int = Field(description="of these, coordinates turned over or flat")
+    lost: LostLatticeCells = Field(description="cells of the lattice that are no hexahedra")
+    lattice_hexahedra: int = Field(description="taken from the lattice")
+    crossing: int = Field(description="of these, left out as their faces cross others or are not in the surface")
+    recombined_hexahedra: int = Field(description="made of tets")
+    recombined_wedges: int = Field(description="made of tets")
+    pyramids: PyramidCounts = Field(description="where quads meet triangles")

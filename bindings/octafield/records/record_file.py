@@ -15,14 +15,16 @@ if TYPE_CHECKING:
 
     from .base import Record
     from .field import FieldRecord, RunWithField, RunWithoutField
+    from .hex_dominant import HexDominantRecord
     from .surface_field import SurfaceFieldRecord
 
-    AnyRecord = FieldRecord | SurfaceFieldRecord | RunWithField | RunWithoutField
+    AnyRecord = FieldRecord | SurfaceFieldRecord | HexDominantRecord | RunWithField | RunWithoutField
 
 RECORD_FILE = "result.json"
 _WHAT = {
     "FieldRecord": "a frame field",
     "GivenFieldRecord": "a frame field",
+    "HexDominantRecord": "a hex-dominant mesh",
     "RunWithField": "a frame field",
     "RunWithoutField": "a run of a study that ended without a field",
     "SurfaceFieldRecord": "a surface field",
@@ -99,12 +101,14 @@ def record_of(content: Any, name: object) -> AnyRecord:
 
 
 def _kind(content: dict[str, Any]) -> type[AnyRecord]:
-    from . import field, surface_field
+    from . import field, hex_dominant, surface_field
 
     if content.get("state", "done") != "done":
         return field.RunWithoutField
     if "state" in content:
         return field.RunWithField
+    if "hex_volume_share" in content:
+        return hex_dominant.HexDominantRecord
     if "symmetry" in content:
         return surface_field.SurfaceFieldRecord
     return field.GivenFieldRecord if "label" in content and "objective" not in content else field.FieldRecord

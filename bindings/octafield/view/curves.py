@@ -39,17 +39,10 @@ def singular_scene(
 
 def scene_from_files(surface_file: Path, singular_file: Path) -> pyvista.Plotter:
     """The same from surface.vtp and singular.vtp of a result; sharp edges in place of feature curves."""
-    surface, found = read_vtp(surface_file), read_vtp(singular_file)
+    surface = read_vtp(surface_file)
     points = np.asarray(surface.points)
-    curves: dict[int, pyvista.PolyData | None] = {}
     radius = 0.0045 * scene.diagonal(points)
-    if found.n_lines:
-        of = np.array([kind_of(int(t)) for t in np.asarray(found.cell_data["quarter_turns"])[found.n_verts :]])
-        nodes = np.asarray(found.points)[np.asarray(found.point_data["node"], bool)]
-        found.points = np.asarray(found.point_data["smoothed"])
-        for kind in set(of):
-            cells: np.ndarray = found.n_verts + np.flatnonzero(of == kind)
-            curves[kind] = found.extract_cells(cells).extract_surface(algorithm=None)
+    curves, nodes = curves_of_file(singular_file)
     shape = glass(surface)
     sharp = surface.extract_feature_edges(35, boundary_edges=False, non_manifold_edges=False)
     if sharp.n_cells:
@@ -59,6 +52,21 @@ def scene_from_files(surface_file: Path, singular_file: Path) -> pyvista.Plotter
         _add_nodes(shape, nodes, radius)
     three_quarter_view(shape, points)
     return shape
+
+
+def curves_of_file(path: Path) -> tuple[dict[int, pyvista.PolyData | None], np.ndarray]:
+    """The smoothed curves of singular.vtp by kind, and (n, 3) their nodes."""
+    found = read_vtp(path)
+    curves: dict[int, pyvista.PolyData | None] = {}
+    if not found.n_lines:
+        return curves, np.zeros((0, 3))
+    of = np.array([kind_of(int(t)) for t in np.asarray(found.cell_data["quarter_turns"])[found.n_verts :]])
+    nodes = np.asarray(found.points)[np.asarray(found.point_data["node"], bool)]
+    found.points = np.asarray(found.point_data["smoothed"])
+    for kind in set(of):
+        cells: np.ndarray = found.n_verts + np.flatnonzero(of == kind)
+        curves[kind] = found.extract_cells(cells).extract_surface(algorithm=None)
+    return curves, nodes
 
 
 def glass(surface: pyvista.PolyData) -> pyvista.Plotter:

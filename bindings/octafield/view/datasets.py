@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._core import MixedMesh
 from ..errors import IoError
 
 if TYPE_CHECKING:
@@ -22,6 +23,23 @@ def polylines(lines: Sequence[np.ndarray]) -> "pyvista.PolyData":
     starts = np.cumsum([0, *counts[:-1]])
     cells = [np.r_[count, np.arange(start, start + count)] for start, count in zip(starts, counts, strict=True)]
     return pyvista.PolyData(np.concatenate(lines), lines=np.concatenate(cells))
+
+
+def cell_grid(mesh: MixedMesh) -> "pyvista.UnstructuredGrid":
+    """A mesh of mixed cells, in the order of their numbers."""
+    import pyvista
+    from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_PYRAMID, VTK_TETRA, VTK_WEDGE
+
+    cells, types = [np.zeros(0, np.int64)], [np.zeros(0, np.uint8)]
+    for rows, kind in zip(
+        (mesh.tets, mesh.hexahedra, mesh.wedges, mesh.pyramids),
+        (VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID),
+        strict=True,
+    ):
+        count, corners = rows.shape
+        cells.append(np.column_stack([np.full(count, corners), rows]).ravel())
+        types.append(np.full(count, kind, np.uint8))
+    return pyvista.UnstructuredGrid(np.concatenate(cells), np.concatenate(types), np.array(mesh.vertices))
 
 
 def beginning(points: np.ndarray, length: float) -> np.ndarray:

@@ -44,16 +44,10 @@ def _opens_windows() -> bool:
 
 
 def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
-    """Shows the singular curves that `octafield field` wrote, in a window, or writes them to a PNG; what it did, for
-    --json."""
-    from .curves import scene_from_files
-
-    files = folder / "surface.vtp", folder / "singular.vtp"
-    missing = next((path for path in files if not path.is_file()), None)
-    if missing is not None:
-        raise IoError(f"{missing}: no such file; give the folder of a result of `octafield field`")
-    shape = scene_from_files(*files)
-    record = {"folder": str(folder), "files": [path.name for path in files], "picture": picture and str(picture)}
+    """Shows the singular curves that `octafield field` wrote, or the mesh of `octafield hex-dominant`, in a window, or
+    writes a PNG; what it did, for --json."""
+    shape, names = _scene_of(folder)
+    record = {"folder": str(folder), "files": names, "picture": picture and str(picture)}
     if picture is None:
         _require_display(folder)
         shape.off_screen = False
@@ -68,3 +62,18 @@ def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
     except OSError as error:
         raise IoError(f"{picture}: cannot write there ({error.strerror})") from error
     return record
+
+
+def _scene_of(folder: Path) -> tuple[pyvista.Plotter, list[str]]:
+    """With the names of the files it shows."""
+    if (folder / "mesh.vtu").is_file():
+        from .hex_mesh import scene_of_folder
+
+        return scene_of_folder(folder), ["mesh.vtu", "singular.vtp"]
+    from .curves import scene_from_files
+
+    files = folder / "surface.vtp", folder / "singular.vtp"
+    missing = next((path for path in files if not path.is_file()), None)
+    if missing is not None:
+        raise IoError(f"{missing}: no such file; give the folder of a result of `octafield field` or `hex-dominant`")
+    return scene_from_files(*files), [path.name for path in files]

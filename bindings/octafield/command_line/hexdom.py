@@ -1,0 +1,91 @@
+"""The command that makes meshes: octafield hex-dominant."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..hexdom.options import CORRECTIONS, HexMeshOptions
+from ..options import FieldOptions
+from . import console, tables
+from .console import carry_out, log
+from .options import InputFile, Json, Output, Quiet, Verbose, with_options
+from .shell_completion import words
+
+_DEFAULTS = HexMeshOptions()
+# What has another meaning here, or none: lengths of the tets have names of their own.
+_WITHOUT = ("edge_length", "sizes", "streamlines", "split_singular")
+
+
+def register(app: typer.Typer) -> None:
+    app.command("hex-dominant")(hex_dominant)
+
+
+@with_options(FieldOptions, without=_WITHOUT)
+def hex_dominant(
+    input: InputFile,
+    output: Output,
+    edge_length: Annotated[
+        float, typer.Option(metavar="LENGTH", help="Wanted edge of the cells, input unit; 0: the tets' on the surface.")
+    ] = 0.0,
+    cells: Annotated[
+        int, typer.Option(metavar="N", help="In its place: the edge of N cubes that fill the volume.")
+    ] = 0,
+    size: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="In its place: a number per vertex of INPUT, or rows x y z size; .npy or text.",
+        ),
+    ] = None,
+    tet_length: Annotated[
+        float,
+        typer.Option(
+            metavar="LENGTH",
+            help="Edge of the tets that the field is computed on, where INPUT has none; 0: that of the cells.",
+        ),
+    ] = 0.0,
+    field: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Frames of another program or run (docs/formats.md), on INPUT's tets, in place of computing them.",
+        ),
+    ] = None,
+    correction: Annotated[
+        str,
+        typer.Option(
+            metavar="|".join(CORRECTIONS),
+            autocompletion=words(CORRECTIONS),
+            help="How sizes give way to the turning of the field: not, alike along all axes, or along each.",
+        ),
+    ] = _DEFAULTS.correction,
+    options: Callable[[], FieldOptions] = FieldOptions,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Hex-dominant mesh along a frame field. DIR gets mesh.vtu, mesh.msh, mesh.mesh, singular.vtp, result.json."""
+
+    def work() -> None:
+        from dataclasses import replace
+
+        from ..files.writing import staged_folder
+        from ..hexdom.files import write_hex_result
+        from ..hexdom.hex_mesh import compute_hex_dominant
+        from ..records.record_file import RECORD_FILE
+
+        chosen = replace(options(), edge_length=tet_length)
+        of_cells = HexMeshOptions(edge_length=edge_length, cells=cells, correction=correction)
+        with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
+            result = compute_hex_dominant(input, chosen, progress, hex_options=of_cells, sizes=size, field=field)
+            write_hex_result(result, folder, progress)
+        console.report_notes(result.record)
+        if json:
+            console.put_json(json, result.record.to_dict())
+        if json != "-" and not quiet:
+            tables.show_hex_record(result.record)
+        log.info("wrote %s", output)
+
+    carry_out(work, quiet, verbose, json)

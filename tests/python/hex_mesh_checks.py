@@ -1,0 +1,80 @@
+"""Meshes of mixed cells judged by code of the tests' own: nothing of it asks what octafield says of a mesh."""
+
+from collections import Counter, defaultdict
+
+import numpy as np
+
+FACES = {
+    "tets": ["021", "013", "123", "203"],
+    "hexahedra": ["0321", "4567", "0154", "1265", "2376", "3047"],
+    "wedges": ["021", "345", "0143", "1254", "2035"],
+    "pyramids": ["0321", "014", "124", "234", "304"],
+}
+# Of each corner its three neighbours, so that the determinant is positive in a sound cell.
+CORNERS = {
+    "tets": ["0123", "1203", "2013", "3021"],
+    "hexahedra": ["0134", "1205", "2316", "3027", "4750", "5461", "6572", "7643"],
+    "wedges": ["0123", "1204", "2015", "3540", "4351", "5432"],
+    "pyramids": ["0134", "1204", "2314", "3024"],
+}
+
+
+def cells_of(mesh):
+    """(kind, corner ids) of each cell in the order of their numbers."""
+    return [(kind, tuple(map(int, row))) for kind in FACES for row in np.asarray(getattr(mesh, kind))]
+
+
+def faces_of(mesh):
+    """By sorted corners: the faces of cells there, (cell, corners round it)."""
+    found = defaultdict(list)
+    for number, (kind, cell) in enumerate(cells_of(mesh)):
+        for pattern in FACES[kind]:
+            corners = [cell[int(c)] for c in pattern]
+            found[tuple(sorted(corners))].append((number, corners))
+    return found
+
+
+def corner_jacobians(mesh):
+    points, found = np.asarray(mesh.vertices), []
+    for kind, patterns in CORNERS.items():
+        rows = np.asarray(getattr(mesh, kind))
+        for pattern in patterns:
+            at, a, b, c = (points[rows[:, int(k)]] for k in pattern)
+            found.append(np.einsum("ij,ij->i", np.cross(a - at, b - at), c - at))
+    return np.concatenate(found)
+
+
+def require_conforming(mesh):
+    """Every face belongs to two cells that run it in opposite senses, or lies on the boundary; that closes up."""
+    assert (corner_jacobians(mesh) > 0).all()
+    boundary = Counter()
+    for faces in faces_of(mesh).values():
+        assert len(faces) <= 2, "a face of three cells"
+        if len(faces) == 2:
+            (_, one), (_, other) = faces
+            back = other[::-1]
+            turned = back[back.index(one[0]) :] + back[: back.index(one[0])]
+            assert one == turned, "a face that its cells do not run in opposite senses"
+        else:
+            corners = faces[0][1]
+            boundary.update(zip(corners, [*corners[1:], corners[0]], strict=True))
+    assert all(boundary[b, a] == count for (a, b), count in boundary.items()), "the boundary does not close up"
+    quads = [set(corners) for corners, faces in faces_of(mesh).items() if len(corners) == 4]
+    thirds = {tuple(sorted(quad - {corner})) for quad in quads for corner in quad}
+    assert not thirds & {corners for corners, faces in faces_of(mesh).items() if len(corners) == 3 and len(faces) == 1}
+
+
+def volume_of(mesh):
+    """By the divergence theorem over the boundary, quads as bilinear patches."""
+    points, total = np.asarray(mesh.vertices), 0.0
+    for corners, faces in faces_of(mesh).items():
+        if len(faces) != 1:
+            continue
+        p = points[faces[0][1]]
+        if len(corners) == 3:
+            total += np.dot(p[0], np.cross(p[1], p[2])) / 6
+        else:  # the mean of both ways to split it is exact
+            total += (
+                sum(np.dot(p[a], np.cross(p[b], p[c])) for a, b, c in ((0, 1, 2), (0, 2, 3), (0, 1, 3), (1, 2, 3))) / 12
+            )
+    return total
