@@ -33,6 +33,12 @@ std::set<std::vector<Index>> true_outside(const MixedMesh& mesh) {
 void expect_same_region(const MixedMesh& before, const MixedMesh& after) {
     EXPECT_EQ(true_outside(before), outside(after));
     EXPECT_EQ(before.vertices, after.vertices.topRows(before.vertices.rows()));
+    std::set<Index> added;
+    testing::each_cell(after, [&](const std::vector<Index>& cell) {
+        for (const Index v : cell)
+            if (v >= before.vertices.rows()) added.insert(v);
+    });
+    EXPECT_EQ(static_cast<Eigen::Index>(added.size()), after.vertices.rows() - before.vertices.rows());
 }
 
 void orient(MixedMesh& mesh, Eigen::Index tet) {
@@ -40,6 +46,16 @@ void orient(MixedMesh& mesh, Eigen::Index tet) {
         return mesh.vertices.row(mesh.tets(tet, k)) - mesh.vertices.row(mesh.tets(tet, 0));
     };
     if (p(1).cross(p(2)).dot(p(3)) < 0) std::swap(mesh.tets(tet, 2), mesh.tets(tet, 3));
+}
+
+template <class Call>
+std::string kind_thrown(const Call& call) {
+    try {
+        call();
+    } catch (const GeometryError& error) {
+        return error.kind();
+    }
+    return "nothing";
 }
 
 TEST(Conform, TwoTetsWithOneApexBecomeAPyramidAndNothingElseChanges) {
@@ -148,6 +164,18 @@ TEST(Conform, RegionsFilledByTetGenBecomeSound) {
     }
 }
 
+TEST(Conform, RegionsFilledByTetGenGetMoreHexahedraByRecombination) {
+    const MixedMesh mesh = staircase_in_a_box(7, 0.1, 1);
+    RecombineOptions options;
+    options.max_boundary_fold = 1e-6;
+    const MixedMesh result = conform(recombine(mesh, options));
+    expect_sound(result, 1e-4);
+    EXPECT_EQ(result.vertices.topRows(mesh.vertices.rows()), mesh.vertices);
+    EXPECT_EQ(result.hexahedra.topRows(mesh.hexahedra.rows()), mesh.hexahedra);
+    EXPECT_GT(result.hexahedra.rows(), 2 * mesh.hexahedra.rows());
+    EXPECT_NEAR(cell_volumes(result).sum(), 343, 1e-9);
+}
+
 TEST(Conform, AHexahedronOnTrianglesOfWedgesIsGivenUp) {
     const auto kind = [](int, int, int k) { return k == 1 ? Filled::wedges : Filled::hexahedron; };
     const MixedMesh mesh = CubeGrid({3, 3, 4}, kind, 0.15, 3).mesh();
@@ -159,6 +187,23 @@ TEST(Conform, AHexahedronOnTrianglesOfWedgesIsGivenUp) {
     EXPECT_EQ(result.hexahedra.rows(), 9);
     EXPECT_EQ(result.wedges, mesh.wedges);
     EXPECT_NEAR(cell_volumes(result).sum(), 36, 1e-11);
+}
+
+TEST(Conform, APyramidOnTwoTrianglesBecomesTwoTets) {
+    MixedMesh mesh;
+    mesh.vertices.resize(7, 3);
+    mesh.vertices << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, -1, 0.9, 0.2, 1, 0.2, 0.9, 1;
+    mesh.pyramids.resize(1, 5);
+    mesh.pyramids << 0, 3, 2, 1, 4;
+    mesh.tets.resize(3, 4);
+    mesh.tets << 0, 2, 1, 5, 0, 2, 3, 6, 0, 2, 5, 6;
+    for (Eigen::Index t = 0; t < 3; ++t) orient(mesh, t);
+    const MixedMesh result = conform(mesh);
+    expect_sound(result, 0.05);
+    expect_same_region(mesh, result);
+    EXPECT_EQ(result.tets.rows(), 5);
+    EXPECT_EQ(result.pyramids.rows(), 0);
+    EXPECT_NEAR(cell_volumes(result).sum(), cell_volumes(mesh).sum(), 1e-12);
 }
 
 // Two cubes one above the other, and between them a flat tet, so that their quads' diagonals cross.
@@ -181,6 +226,16 @@ TEST(Conform, AFlatTetBetweenTwoQuadsGoes) {
     EXPECT_NEAR(cell_volumes(result).sum(), 2, 1e-12);
 }
 
+TEST(Conform, TetsBetweenTwoQuadsOfTheSameVerticesAreNamed) {
+    MixedMesh mesh = cubes_and_a_sliver(true);
+    mesh.vertices.conservativeResize(13, 3);
+    mesh.vertices.row(12) = mesh.vertices.middleRows(4, 4).colwise().mean();
+    mesh.tets.resize(4, 4);
+    mesh.tets << 4, 5, 6, 12, 4, 5, 7, 12, 4, 6, 7, 12, 5, 6, 7, 12;
+    for (Eigen::Index t = 0; t < 4; ++t) orient(mesh, t);
+    EXPECT_EQ(kind_thrown([&] { conform(mesh); }), "mismatched_face");
+}
+
 TEST(Conform, AFlatTetOnTheBoundaryGoes) {
     const MixedMesh result = conform(cubes_and_a_sliver(false));
     expect_sound(result);
@@ -200,6 +255,21 @@ TEST(Conform, AFatTetOnTheBoundaryStaysAndItsHexahedronIsGivenUp) {
     EXPECT_EQ(wanted, outside(result));
 }
 
+TEST(Conform, AFlatTetHalfOnTheBoundaryStaysAndItsHexahedronIsGivenUp) {
+    MixedMesh mesh = cubes_and_a_sliver(false);
+    mesh.vertices.conservativeResize(9, 3);
+    mesh.vertices.row(8) << 0.8, 0.2, 1.5;
+    mesh.tets.conservativeResize(2, 4);
+    mesh.tets.row(1) << 4, 5, 7, 8;
+    orient(mesh, 1);
+    ConformReport report;
+    const MixedMesh result = conform(mesh, &report);
+    expect_sound(result, 1e-3);
+    EXPECT_EQ(report.split, 1);
+    EXPECT_TRUE(outside(result).count({4, 6, 7}));
+    EXPECT_FALSE(outside(result).count({4, 5, 7}));
+}
+
 TEST(Conform, SoundMeshesStayBitForBit) {
     const auto kind = [](int i, int j, int) { return i == j ? Filled::hexahedron : Filled::empty; };
     const MixedMesh mesh = CubeGrid({3, 3, 3}, kind, 0.1, 5).mesh();
@@ -207,16 +277,6 @@ TEST(Conform, SoundMeshesStayBitForBit) {
     EXPECT_EQ(result.vertices, mesh.vertices);
     EXPECT_EQ(result.hexahedra, mesh.hexahedra);
     EXPECT_EQ(result.cell_count(), mesh.cell_count());
-}
-
-template <class Call>
-std::string kind_thrown(const Call& call) {
-    try {
-        call();
-    } catch (const GeometryError& error) {
-        return error.kind();
-    }
-    return "nothing";
 }
 
 TEST(Conform, DefectsAreNamed) {

@@ -280,7 +280,7 @@ TEST(ImproveCells, VerticesOffTheSurfaceAreBroughtThere) {
 }
 
 TEST(ImproveCells, TheSameBitsAtAnyThreadCountAndInEveryRun) {
-    ImproveCase both = box_of_both(11, 0.35);
+    ImproveCase both = box_of_both(10, 0.35);
     ImproveOptions one, two;
     one.threads = 1;
     two.threads = 2;
@@ -289,7 +289,7 @@ TEST(ImproveCells, TheSameBitsAtAnyThreadCountAndInEveryRun) {
     EXPECT_EQ(first, both.improved(one).vertices);
     one.fit_surface = two.fit_surface = true;
     one.tolerance = two.tolerance = 0.03;
-    const ImproveCase ball = ball_of_hexahedra(8, 4);
+    const ImproveCase ball = ball_of_hexahedra(6, 3);
     EXPECT_EQ(ball.improved(one).vertices, ball.improved(two).vertices);
 }
 

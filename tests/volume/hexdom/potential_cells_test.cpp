@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cell_choice.hpp"
 #include "delaunay_mesh.hpp"
 #include "mixed_grids.hpp"
 
@@ -189,16 +190,36 @@ TEST(PotentialCells, OfRandomDelaunayMeshesAreAllFound) {
 }
 
 TEST(PotentialCells, OfDelaunayMeshesOfGridsAreAllFoundWithFlatTetsOnTheirQuads) {
-    for (unsigned seed = 0; seed < 3; ++seed) {
+    for (unsigned seed = 0; seed < 16; ++seed) {
         std::mt19937 random(seed);
         std::uniform_real_distribution<double> uniform(-0.05, 0.05);
+        const int cubes = seed < 3 ? 2 : 1;  // of one, both diagonals are there on all six quads
         Points points = CubeGrid(
-                            {2, 1, 1}, [](int, int, int) { return Filled::kuhn; }, 0, 1)
+                            {cubes, 1, 1}, [](int, int, int) { return Filled::kuhn; }, 0, 1)
                             .mesh()
                             .vertices;
         for (Eigen::Index i = 0; i < points.size(); ++i) points.data()[i] += uniform(random);
-        expect_all_found(testing::delaunay_mesh(points), 0.2, 2, 0);
+        expect_all_found(testing::delaunay_mesh(points), 0.2, cubes, 0);
     }
+}
+
+TEST(ClaimTable, CellsThatShareATetAreInEachOthersWayUntilOneIsRemoved) {
+    const MixedMesh mesh = CubeGrid(
+                               {1, 1, 1}, [](int, int, int) { return Filled::kuhn; }, 0, 1)
+                               .mesh();
+    const detail::TetTopology topology(mesh.tets, 8);
+    detail::ClaimTable table(topology);
+    const std::vector<Index> first{0, 1}, second{1, 2}, third{2, 3};
+    const detail::CellClaims nothing{};
+    std::vector<Index> found;
+    table.add(7, first, nothing);
+    table.conflicts(second, nothing, found);
+    EXPECT_EQ(found, std::vector<Index>{7});
+    table.conflicts(third, nothing, found);
+    EXPECT_TRUE(found.empty());
+    table.remove(7, first, nothing);
+    table.conflicts(second, nothing, found);
+    EXPECT_TRUE(found.empty());
 }
 
 }  // namespace

@@ -37,20 +37,28 @@ bool faces_quad(const CellComplex& complex, const FaceCycle& triangle) {
     return complex.cell_across(triangle) >= 0 && complex.cell_with(triangle) < 0;
 }
 
-// The triangle is half of another quad that two triangles fill: three vertices of one quad may be three of another's.
-bool in_pair_of_another(const CellComplex& complex, const FaceCycle& triangle, const FaceCycle& quad) {
+// visit(quad, rest) for quads outward of which the triangle is one half and `rest` the other, until one is true.
+template <class Visit>
+bool any_quad_on(const CellComplex& complex, const FaceCycle& triangle, const Visit& visit) {
     for (const Index cell : complex.cells_at(triangle.ids[0]))
         for (const CellFace& local : complex.shape(cell).faces) {
+            if (local.corners == 3) continue;
             const FaceCycle face = complex.face(cell, local);
-            if (face.corners() == 3 || face == quad || complex.cell_across(face) >= 0) continue;
+            const auto& f = face.ids;
             for (int k = 0; k < 4; ++k) {
-                const auto& f = face.ids;
                 const std::array<FaceCycle, 2> halves =
                     halves_of({f[k], f[(k + 1) % 4], f[(k + 2) % 4], f[(k + 3) % 4]});
-                if (halves[0] == triangle && faces_quad(complex, halves[1])) return true;
+                if (halves[0] == triangle && visit(face, halves[1])) return true;
             }
         }
     return false;
+}
+
+// The triangle is half of another quad that two triangles fill: three vertices of one quad may be three of another's.
+bool in_pair_of_another(const CellComplex& complex, const FaceCycle& triangle, const FaceCycle& quad) {
+    return any_quad_on(complex, triangle, [&](const FaceCycle& other, const FaceCycle& rest) {
+        return other != quad && complex.cell_across(other) < 0 && faces_quad(complex, rest);
+    });
 }
 
 std::vector<ConeFace> cone_faces(const CellComplex& complex, const std::vector<FaceCycle>& boundary) {
@@ -122,6 +130,12 @@ QuadMeeting quad_meeting(const CellComplex& complex, const FaceCycle& quad) {
     return meeting;
 }
 
+bool lies_on_matched_quad(const CellComplex& complex, const FaceCycle& triangle) {
+    const FaceCycle outward = opposite(triangle);  // of the quad
+    const auto matched = [&](const FaceCycle& quad, const FaceCycle&) { return complex.cell_across(quad) >= 0; };
+    return any_quad_on(complex, outward, matched) && !in_pair_of_another(complex, outward, FaceCycle{});
+}
+
 void add_to_region(const CellComplex& complex, Index cell, Region& region) {
     const auto toggle = [&](const FaceCycle& face) {
         const auto found = std::find(region.boundary.begin(), region.boundary.end(), opposite(face));
@@ -158,7 +172,6 @@ std::optional<Region> cells_round_diagonal(const CellComplex& complex, const std
         if (at < 0) return std::nullopt;
         cell = complex.cell_across(triangle_cycle(a, at, c));
     }
-    if (cell >= 0) return std::nullopt;  // behind triangle (a, c, d) is the quad, which has no such face
     const std::vector<Index> cells = std::move(region.cells);
     region.cells.clear();
     for (const Index of_fan : cells) add_to_region(complex, of_fan, region);
@@ -198,6 +211,18 @@ void fill(CellComplex& complex, const Filling& filling) {
         else
             complex.add(pyramid_shape, std::array<Index, 5>{f[0], f[3], f[2], f[1], apex});
     }
+}
+
+void improve_apex(CellComplex& complex, Index vertex) {
+    std::vector<FaceCycle> around;
+    for (const Index cell : complex.cells_at(vertex))
+        for (const CellFace& local : complex.shape(cell).faces) {
+            const FaceCycle face = complex.face(cell, local);
+            if (std::find(face.ids.begin(), face.ids.end(), vertex) == face.ids.end()) around.push_back(face);
+        }
+    const std::vector<ConeFace> faces = cone_faces(complex, around);
+    const Vector here = complex.point(vertex);
+    complex.move(vertex, best_apex(faces, {here, centroid(faces)}, 0.1 * mean_edge(faces)).place);
 }
 
 }  // namespace octafield::volume::detail

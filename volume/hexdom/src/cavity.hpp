@@ -22,6 +22,10 @@ struct QuadMeeting {
 
 QuadMeeting quad_meeting(const CellComplex& complex, const FaceCycle& quad);
 
+// The triangle, outward of a tet that has nothing across it, is on three vertices of a quad, outward, that has another
+// cell's quad across; and it is not half of a quad that meets two triangles.
+bool lies_on_matched_quad(const CellComplex& complex, const FaceCycle& triangle);
+
 // Cells and the faces round all of them, outward.
 struct Region {
     std::vector<Index> cells;
@@ -45,5 +49,8 @@ struct Filling {
 Filling best_filling(const CellComplex& complex, Region region, std::vector<Eigen::Vector3d> seeds);
 
 void fill(CellComplex& complex, const Filling& filling);
+
+// Moves a vertex that is no corner of a quad to where the worst cell at it is best.
+void improve_apex(CellComplex& complex, Index vertex);
 
 }  // namespace octafield::volume::detail

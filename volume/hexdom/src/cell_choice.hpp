@@ -23,14 +23,6 @@ public:
     void conflicts(std::span<const Index> tets, const CellClaims& claims, std::vector<Index>& cells) const;
     void add(Index cell, std::span<const Index> tets, const CellClaims& claims);
     void remove(Index cell, std::span<const Index> tets, const CellClaims& claims);
-    // How many cells have claimed the triangle, all for the same face: 0, 1 or 2.
-    int claimants(Index triangle) const {
-        const auto& cells = claims_[triangle].cells;
-        return (cells[0] != nobody) + (cells[1] != nobody);
-    }
-    bool claimed_as(Index triangle, const FaceKey& key) const {
-        return claimants(triangle) > 0 && claims_[triangle].key == key;
-    }
     void settle();                                               // all of them
     const std::vector<Index>& owners() const { return owner_; }  // of tets
 

@@ -65,16 +65,25 @@ void CellComplex::remove(Index cell) {
     cells_[cell].shape = nullptr;
 }
 
-MixedMesh CellComplex::mesh() const {
+MixedMesh CellComplex::mesh(Index first_new) const {
     MixedMesh mesh;
-    mesh.vertices.resize(static_cast<Eigen::Index>(points_.size()), 3);
-    for (std::size_t v = 0; v < points_.size(); ++v) mesh.vertices.row(static_cast<Index>(v)) = points_[v];
+    std::vector<Index> number(points_.size());
+    Index used = 0;
+    mesh.vertices.resize(vertex_count(), 3);
+    for (Index v = 0; v < vertex_count(); ++v) {
+        if (v >= first_new && cells_at_[v].empty()) continue;
+        mesh.vertices.row(used) = points_[v];
+        number[v] = used++;
+    }
+    mesh.vertices.conservativeResize(used, 3);
     const auto take = [&](auto& rows, const CellShape& shape) {
         const auto kept = [&](const LiveCell& cell) { return cell.shape == &shape; };
         rows.resize(std::count_if(cells_.begin(), cells_.end(), kept), shape.vertices);
         Eigen::Index row = 0;
         for (const LiveCell& cell : cells_)
-            if (kept(cell)) std::copy_n(cell.ids.begin(), shape.vertices, rows.row(row++).data());
+            if (kept(cell))
+                std::transform(cell.ids.begin(), cell.ids.begin() + shape.vertices, rows.row(row++).data(),
+                               [&](Index v) { return number[v]; });
     };
     take(mesh.tets, tet_shape);
     take(mesh.hexahedra, hexahedron_shape);

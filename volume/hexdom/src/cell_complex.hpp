@@ -40,8 +40,12 @@ public:
     Index add(const CellShape& shape, std::span<const Index> ids);
     Index add_vertex(const Eigen::Vector3d& point);
     void remove(Index cell);
+    void move(Index vertex, const Eigen::Vector3d& point) { points_[vertex] = point; }
+    Index vertex_count() const { return static_cast<Index>(points_.size()); }
 
-    MixedMesh mesh() const;  // of each kind the cells in the order of their numbers
+    // Of each kind the cells in the order of their numbers. Vertices from number `first_new` on that no cell uses are
+    // left out.
+    MixedMesh mesh(Index first_new) const;
 
 private:
     struct LiveCell {

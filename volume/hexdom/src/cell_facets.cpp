@@ -120,7 +120,6 @@ bool find_inner_tets(const TetTopology& topology, const Tets& tets, const CellSh
         if ((!taken.empty() && taken[tet]) || !all_in(tets.row(tet).data(), ids, shape.vertices)) return false;
         for (const Index triangle : topology.tet_triangles[tet]) {
             if (Barrier* barrier = barriers.find(triangle)) {
-                if (barrier->inside != tet) return false;
                 barrier->hit = true;
                 continue;
             }

@@ -29,13 +29,29 @@ void require_cells(const MixedMesh& mesh) {
         if (defect.kind != "mismatched_face") throw GeometryError(defect.message, defect.kind, defect.cells);
 }
 
+std::vector<std::uint8_t> vertices_of_quads(const MixedMesh& mesh) {
+    std::vector<std::uint8_t> on(mesh.vertices.rows(), 0);
+    for_each_cell(mesh, [&](const Cell& cell) {
+        if (&cell.shape == &tet_shape) return;
+        for (int k = 0; k < cell.shape.vertices; ++k) on[cell.ids[k]] = 1;
+    });
+    return on;
+}
+
 // Every round makes fewer cells with quads that are no pyramids, or as many and fewer quads that meet triangles, or as
 // many of both and fewer tets: so it ends.
 class Conformer {
 public:
-    explicit Conformer(const MixedMesh& mesh) : complex_(mesh), input_cells_(mesh.cell_count()) {
+    explicit Conformer(const MixedMesh& mesh)
+        : complex_(mesh), input_cells_(mesh.cell_count()), input_vertices_(static_cast<Index>(mesh.vertices.rows())) {
         for (Index tet = 0; tet < mesh.tets.rows(); ++tet)
             if (between_quads(tet)) complex_.remove(tet);
+        const std::vector<std::uint8_t> on_quads = vertices_of_quads(mesh);
+        for (Index tet = 0; tet < mesh.tets.rows(); ++tet) {
+            int on = 0;
+            for (int k = 0; k < 4; ++k) on += on_quads[mesh.tets(tet, k)];
+            if (on >= 3 && complex_.alive(tet)) require_open(tet);
+        }
         for (Index cell = 0; cell < complex_.cell_count(); ++cell) queue_quads(cell);
     }
 
@@ -48,7 +64,11 @@ public:
             const QuadMeeting meeting = meeting_of(open);
             if (meeting.kind == Kind::triangles) close(open.cell, meeting.round);
         }
-        return complex_.mesh();
+        // Each was placed for the tets of its time.
+        for (int sweep = 0; sweep < 3; ++sweep)
+            for (Index apex = input_vertices_; apex < complex_.vertex_count(); ++apex)
+                if (!complex_.cells_at(apex).empty()) improve_apex(complex_, apex);
+        return complex_.mesh(input_vertices_);
     }
 
     ConformReport report;
@@ -58,6 +78,18 @@ private:
         Index cell;
         FaceCycle quad;
     };
+
+    // More than a flat tet between two quads of the same vertices: they seem to match, but tets are enclosed.
+    void require_open(Index tet) const {
+        for (const CellFace& local : tet_shape.faces) {
+            const FaceCycle face = complex_.face(tet, local);
+            if (complex_.cell_across(face) >= 0 || !lies_on_matched_quad(complex_, face)) continue;
+            throw GeometryError("tet " + std::to_string(tet) +
+                                    " lies between two quads of the same four vertices; "
+                                    "take the tets out between them, or one of the cells",
+                                "mismatched_face", {tet});
+        }
+    }
 
     // Flat, between two quads of its four vertices, which match without it.
     bool between_quads(Index tet) const {
@@ -237,7 +269,7 @@ private:
     }
 
     CellComplex complex_;
-    const Index input_cells_;
+    const Index input_cells_, input_vertices_;
     std::deque<OpenQuad> open_;
 };
 

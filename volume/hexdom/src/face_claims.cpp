@@ -111,12 +111,10 @@ std::optional<CellClaims> TetSurroundings::claims(const CellShape& shape, const 
 }
 
 std::optional<FaceClaim> TetSurroundings::claim(const CellFacet& facet) const {
-    FaceClaim claim{key_of(facet.round, facet.corners), {-1, -1, -1, -1}, 1, -1, -1, false};
+    FaceClaim claim{key_of(facet.round, facet.corners), {-1, -1, -1, -1}, 1, -1, -1};
     if (facet.corners == 3) {
-        const Index triangle = claim.triangles[0] = facet.pairs[0][0], beyond = outside_[triangle];
-        claim.closed = beyond != Outside::tets;
-        if (beyond >= 0 && fixed_[beyond] != claim.key) return std::nullopt;
-        return claim;
+        claim.triangles[0] = facet.pairs[0][0];
+        return claim;  // on half of a quad that stays, its edges would be that quad's diagonal: see claims()
     }
     const auto& inner = facet.pairs[facet.inner];
     const auto& other = facet.pairs[1 - facet.inner];
@@ -125,21 +123,26 @@ std::optional<FaceClaim> TetSurroundings::claim(const CellFacet& facet) const {
     claim.triangles = {inner[0], inner[1], other[0], other[1]};
     const int outermost = claim.flat < 0 ? facet.inner : 1 - facet.inner;
     const auto& [first, second] = facet.pairs[outermost];
-    claim.closed = outside_[first] != Outside::tets;
-    if (claim.closed != (outside_[second] != Outside::tets)) return std::nullopt;
-    if (claim.closed && !may_close(facet, outermost, claim.key)) return std::nullopt;
-    if (!claim.closed) {
+    const bool closed = outside_[first] != Outside::tets;
+    if (closed != (outside_[second] != Outside::tets)) return std::nullopt;
+    if (closed && !may_close(facet, outermost)) return std::nullopt;
+    if (!closed) {
         claim.diagonal = topology_.edge(facet.round[outermost], facet.round[outermost + 2]);
         if (fixed_edges_[claim.diagonal] || fixed_diagonals_[claim.diagonal] >= 0) return std::nullopt;
     }
-    if (claim.count == 4 && claim.flat < 0) claim.key.variant = 1 + facet.inner;
+    if (claim.count == 4 && claim.flat < 0) {
+        // What lies between the two pairs must not come between two quads of the same vertices.
+        if (outside_[other[0]] >= 0 || outside_[other[1]] >= 0) return std::nullopt;
+        const Index lowest = claim.key.sorted[0];
+        claim.key.variant = facet.round[facet.inner] == lowest || facet.round[facet.inner + 2] == lowest ? 1 : 2;
+    }
     return claim;
 }
 
-bool TetSurroundings::may_close(const CellFacet& facet, int pair, const FaceKey& key) const {
+bool TetSurroundings::may_close(const CellFacet& facet, int pair) const {
     const Index beyond = outside_[facet.pairs[pair][0]];
     if (beyond != outside_[facet.pairs[pair][1]]) return false;
-    if (beyond >= 0) return fixed_[beyond] == key;
+    if (beyond >= 0) return true;  // both on one face: it is this quad
     const auto& round = facet.round;
     if (kept_[topology_.edge(round[pair], round[pair + 2])]) return false;
     const auto normal = [&](const std::array<Index, 3>& t) -> Eigen::Vector3d {

@@ -17,8 +17,9 @@ namespace octafield::volume::detail {
 struct FaceKey {
     std::array<Index, 4> sorted;  // of a triangle the last is -1
     Index across;                 // from the lowest; -1 of a triangle
-    Index variant;  // not 0: the quad may be met on the pair of triangles variant - 1 only, as more than a flat tet
-                    // lies between that and the other pair
+    // 0, or the quad may be met on one pair of triangles only, as more than a flat tet lies between that and the other
+    // pair: 1 on the diagonal of the lowest vertex, 2 on the other.
+    Index variant;
     bool operator==(const FaceKey& other) const {
         return sorted[0] == other.sorted[0] && sorted[1] == other.sorted[1] && sorted[2] == other.sorted[2] &&
                sorted[3] == other.sorted[3] && across == other.across && variant == other.variant;
@@ -32,7 +33,6 @@ struct FaceClaim {
     int count;       // 1, 2, or 4: the pair beyond a flat tet, too
     Index flat;      // the flat tet, -1: none
     Index diagonal;  // the edge between the outermost pair, -1: of a triangle, or closed
-    bool closed;     // the outermost pair lies on the mesh's boundary or on a cell that stays
 };
 
 struct CellClaims {
@@ -57,7 +57,7 @@ private:
     void add_fixed_faces(const Cell& cell);
     bool add_fixed_face(const std::array<Index, 4>& round, int corners);
     std::optional<FaceClaim> claim(const CellFacet& facet) const;
-    bool may_close(const CellFacet& facet, int pair, const FaceKey& key) const;
+    bool may_close(const CellFacet& facet, int pair) const;
 
     const MixedMesh& mesh_;
     const TetTopology& topology_;

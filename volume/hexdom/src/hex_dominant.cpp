@@ -74,8 +74,8 @@ WorkingField refined(const WorkingField& field, const WorkingField& given, std::
     return {std::move(next.domain), std::move(frames), std::move(sizes)};
 }
 
-// Tets of no use for the map, and those that share a vertex with them, where they are not small already.
-std::vector<std::uint8_t> tets_to_refine(const WorkingField& field, const PeriodicMap& map) {
+// Tets of no use for the map, and those that share so many vertices with them, where they are not small already.
+std::vector<std::uint8_t> tets_to_refine(const WorkingField& field, const PeriodicMap& map, int shared) {
     const TetMesh& mesh = field.domain.mesh();
     std::vector<std::uint8_t> near(mesh.vertices.rows(), 0), marked(mesh.tets.rows(), 0);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
@@ -83,7 +83,7 @@ std::vector<std::uint8_t> tets_to_refine(const WorkingField& field, const Period
             for (const Index v : mesh.tets.row(t)) near[v] = 1;
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
         const auto corners = mesh.tets.row(t);
-        if (!near[corners[0]] && !near[corners[1]] && !near[corners[2]] && !near[corners[3]]) continue;
+        if (near[corners[0]] + near[corners[1]] + near[corners[2]] + near[corners[3]] < shared) continue;
         double longest = 0;
         for (int a = 0; a < 4; ++a)
             for (int b = a + 1; b < 4; ++b)
@@ -137,6 +137,7 @@ MixedMesh improved(MixedMesh mesh, const TetDomain& domain, const std::vector<st
     for (const std::uint8_t kind : support) where.kind.push_back(static_cast<VertexSupport::Kind>(kind));
     ImproveOptions how;
     how.tolerance = 0.1 * length;
+    how.good = 0.5;
     how.fit_surface = true;
     how.hexahedra_first = true;
     how.threads = threads;
@@ -158,7 +159,7 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     for (int level = 0;; ++level) {
         report_or_throw(progress, "sizes", 0, 0);
         const PeriodicMap map = map_of(field, options, progress);
-        std::vector<std::uint8_t> marked = tets_to_refine(field, map);
+        std::vector<std::uint8_t> marked = tets_to_refine(field, map, level == 0 ? 1 : 2);
         const std::int64_t count = std::count(marked.begin(), marked.end(), 1);
         if (count > 0 && level < options.refinements && field.domain.tet_count() + 8 * count <= options.most_tets) {
             field = refined(field, given, std::move(marked), options.threads);
@@ -196,6 +197,7 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
         report_or_throw(progress, "improve", 0, 0);
         mesh = improved(std::move(mesh), field.domain, result.support, length, options.threads);
     }
+    require_valid(mesh);
     result.mesh = std::move(mesh);
     if (!domain.regions().empty()) result.regions = cell_regions(field.domain, placed.surface, result.mesh);
     return result;

@@ -26,6 +26,7 @@ constexpr double on_surface = 1e-9;  // distance from the surface, in edges, tha
 constexpr int untangling_sweeps = 30;
 constexpr int following_sweeps = 5;  // of vertices inside after those of the surface were fitted to it
 constexpr int patience = 4;          // sweeps of untangling without fewer inverted cells
+constexpr double other_rank = 2.5;   // of tets and pyramids, see ImproveOptions::hexahedra_first
 constexpr std::int64_t grain = 64;   // vertices worth a thread
 
 class Improver {
@@ -235,7 +236,9 @@ MixedMesh improve_cells(MixedMesh mesh, const VertexSupport& support, const surf
         .run();
     // Steps are guarded corner by corner; a pyramid's quality folds back above 1, which they do not see.
     const double lowest = before.minCoeff();
-    return lowest > flat && scaled_jacobians(better).minCoeff() < lowest - 1e-12 ? mesh : better;
+    // What may fall: nothing, or with hexahedra first other cells down to what counts as good.
+    const double least = options.hexahedra_first ? std::min(lowest, options.good / other_rank) : lowest;
+    return lowest > flat && scaled_jacobians(better).minCoeff() < least - 1e-12 ? mesh : better;
 }
 
 }  // namespace octafield::volume

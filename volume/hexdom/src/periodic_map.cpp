@@ -121,11 +121,11 @@ private:
     Phases minimised(const PhaseSystem& system, const Progress& progress) const {
         Phases z = system.start();
         report_or_throw(progress, "periodic map", 0, 0);
-        system.diffuse(0, 1e-8, z, options_.threads);
+        system.diffuse(0, 1e-6, z, options_.threads);
         system.normalize(z);
         for (int round = 0; round < options_.rounds; ++round) {
             const double shift = 0.01 * std::pow(100.0, static_cast<double>(round) / std::max(options_.rounds - 1, 1));
-            system.diffuse(shift, 1e-4, z, options_.threads);
+            system.diffuse(shift, 1e-3, z, options_.threads);
             system.normalize(z);
             report_or_throw(progress, "periodic map", (round + 1.0) / options_.rounds, 0);
         }

@@ -70,13 +70,13 @@ private:
         return chosen;
     }
 
-    // Those that have a cell's quad on both sides, or the boundary beyond: the quad takes their place.
+    // Tets on the four vertices of a quad, outside it: the quad is as good on their other side, and may meet another
+    // there.
     void take_flat_tets(const CellClaims& claims) {
         for (int f = 0; f < claims.count; ++f) {
-            const FaceClaim& face = claims.faces[f];
-            if (face.flat < 0 || taken_[face.flat]) continue;
-            if (!face.closed && table_.claimants(face.triangles[0]) < 2) continue;
-            taken_[face.flat] = 1;
+            const Index flat = claims.faces[f].flat;
+            if (flat < 0 || taken_[flat]) continue;
+            taken_[flat] = 1;
             ++report_.flat_tets;
         }
     }

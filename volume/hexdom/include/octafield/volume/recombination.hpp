@@ -16,7 +16,7 @@ struct RecombineOptions {
 struct RecombineReport {
     Index potential_hexahedra = 0, potential_wedges = 0;  // found; wedges among the tets that hexahedra left
     Index hexahedra = 0, wedges = 0;                      // made
-    Index flat_tets = 0;  // that lay between two quads of their four vertices, or a quad and the boundary, and are gone
+    Index flat_tets = 0;  // gone: they lay against a quad and had its four vertices, as where diagonals cross
 };
 
 // Cells of `mesh` that are no tets stay. Its faces match but for quads that meet two triangles of tets (either
@@ -35,9 +35,10 @@ struct ConformReport {
 };
 
 // The same region with faces that all match: pyramids on quads that met triangles. Positive at all corners as the mesh
-// given is. New vertices come last. A flat tet on the four vertices of a quad goes where quads or the boundary are on
-// both its sides. Throws GeometryError: a defect of the mesh; kind "mismatched_face" where a quad meets triangles that
-// do not fill it; "unsplittable_cell" where no pyramid fits on a quad and the cell cannot be split.
+// given is. Vertices stay, new ones come last; of the old ones inside, some may be in no cell any more. A flat tet on
+// the four vertices of a quad goes where quads or the boundary are on both its sides. Throws GeometryError: a defect of
+// the mesh; kind "mismatched_face" where a quad meets triangles that do not fill it; "unsplittable_cell" where no
+// pyramid fits on a quad and the cell cannot be split.
 MixedMesh conform(const MixedMesh& mesh, ConformReport* report = nullptr);
 
 }  // namespace octafield::volume
