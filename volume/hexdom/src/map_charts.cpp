@@ -14,8 +14,12 @@ MapCharts::MapCharts(const TetDomain& domain, const PeriodicMap& map)
 }
 
 Index MapCharts::across(Index tet, int corner) const {
-    const Index row = domain_.triangles().tet_triangles(tet, corner), f = face_[row];
-    if (f < 0 || !map_.joined[f] || interface_[row]) return -1;
+    return interface_[domain_.triangles().tet_triangles(tet, corner)] ? -1 : beside(tet, corner);
+}
+
+Index MapCharts::beside(Index tet, int corner) const {
+    const Index f = face_[domain_.triangles().tet_triangles(tet, corner)];
+    if (f < 0 || !map_.joined[f]) return -1;
     return map_.faces.tets(f, map_.faces.tets(f, 0) == tet);
 }
 
