@@ -2082,6 +2082,7 @@ class ImproveOptions:
     good: float
     tolerance: float
     fit_surface: bool
+    hexahedra_first: bool
     threads: int
     def __init__(
         self,
@@ -2089,6 +2090,7 @@ class ImproveOptions:
         good: float = ...,
         tolerance: float = ...,
         fit_surface: bool = ...,
+        hexahedra_first: bool = ...,
         threads: int = ...,
     ) -> None: ...
 
@@ -2331,5 +2333,6 @@ def improve_cells(
     good: float = ...,
     tolerance: float = ...,
     fit_surface: bool = ...,
+    hexahedra_first: bool = ...,
     threads: int = ...,
 ) -> MixedMesh: ...

@@ -61,6 +61,8 @@ void bind_options(py::module_& m) {
         .field("tolerance", &ImproveOptions::tolerance, "How far surface vertices may leave the surface, input unit.")
         .field("fit_surface", &ImproveOptions::fit_surface,
                "Moves surface vertices within the tolerance so that the faces between them fit the surface.")
+        .field("hexahedra_first", &ImproveOptions::hexahedra_first,
+               "Other cells count less, so that hexahedra keep their shape where they meet them.")
         .field("threads", &ImproveOptions::threads, "0: all; the result does not depend on it.")
         .finish([](const ImproveOptions& o) { return "sweeps=" + std::to_string(o.sweeps); });
     Record<HexDominantOptions>(m, "HexDominantOptions",
