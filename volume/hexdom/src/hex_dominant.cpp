@@ -185,6 +185,7 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
         report_or_throw(progress, "recombine", 0, 0);
         RecombineOptions join;
         join.min_scaled_jacobian = options.min_scaled_jacobian;
+        join.kept_edges = placed.surface.features.edges;
         join.threads = options.threads;
         mesh = recombine(mesh, join);
         counts.recombined_hexahedra = static_cast<Index>(mesh.hexahedra.rows()) - before;

@@ -37,7 +37,7 @@ LatticePoints::LatticePoints(const MapCharts& charts, std::int32_t offset) {
             const Index node = static_cast<Index>(n);
             for (int k = 0; k < 4; ++k) {
                 if (!(zero_[n] >> k & 1)) continue;
-                const Index other = charts.beside(t, k);  // a point of an interface is one point
+                const Index other = charts.joined(t, k);
                 if (other < t) continue;
                 const std::int64_t found = find_node(other, charts.change(t, k)(at_[n]));
                 if (found >= 0) sets.join(node, static_cast<Index>(found));

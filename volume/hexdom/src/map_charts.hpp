@@ -24,10 +24,11 @@ public:
 
     const PeriodicMap& map() const { return map_; }
     const TetDomain& domain() const { return domain_; }
-    // Across the triangle opposite a corner: the tet there, or -1 (boundary, interface, or not joined).
+    // The tet across the triangle opposite a corner; -1: none, or the map does not join them.
+    Index joined(Index tet, int corner) const;
+    // The same, and -1 between regions: cells lie in one.
     Index across(Index tet, int corner) const;
-    Index beside(Index tet, int corner) const;        // the same, across interfaces, too
-    ChartChange change(Index tet, int corner) const;  // where beside() is a tet
+    ChartChange change(Index tet, int corner) const;  // where joined() is a tet
     bool on_surface(Index tet, int corner) const;     // of the mesh, or between regions
 
 private:
