@@ -144,6 +144,33 @@ MixedMesh improved(MixedMesh mesh, const TetDomain& domain, const std::vector<st
     return improve_cells(std::move(mesh), where, domain.surface().mesh, domain.features(), how);
 }
 
+// Vertices whose cells have been joined or split away: a solver would have unknowns that nothing determines.
+void drop_unused_vertices(HexDominantMesh& result) {
+    MixedMesh& mesh = result.mesh;
+    std::vector<Index> number(mesh.vertices.rows(), -1);
+    const auto for_each_kind = [&](const auto& visit) {
+        visit(mesh.tets);
+        visit(mesh.hexahedra);
+        visit(mesh.wedges);
+        visit(mesh.pyramids);
+    };
+    for_each_kind([&](const auto& cells) {
+        for (const Index v : cells.reshaped()) number[v] = 0;
+    });
+    Index count = 0;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+        if (number[v] < 0) continue;
+        number[v] = count;
+        mesh.vertices.row(count) = mesh.vertices.row(static_cast<Eigen::Index>(v));
+        result.support[count++] = result.support[v];
+    }
+    mesh.vertices.conservativeResize(count, 3);
+    result.support.resize(count);
+    for_each_kind([&](auto& cells) {
+        for (Index& v : cells.reshaped()) v = number[v];
+    });
+}
+
 }  // namespace
 
 HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
@@ -201,6 +228,7 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     require_valid(mesh);
     result.mesh = std::move(mesh);
     if (!domain.regions().empty()) result.regions = cell_regions(field.domain, placed.surface, result.mesh);
+    drop_unused_vertices(result);
     return result;
 }
 
