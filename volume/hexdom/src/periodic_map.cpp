@@ -103,8 +103,8 @@ private:
                 const std::complex<double> turn = wanted.turn[i] / wanted.weight;
                 const bool conjugate = from.sign != to.sign;
                 const bool backwards = to.sign < 0;
-                couplings.push_back({from.unknown, to.unknown, conjugate, wanted.weight,
-                                     backwards ? std::conj(turn) : turn});
+                couplings.push_back(
+                    {from.unknown, to.unknown, conjugate, wanted.weight, backwards ? std::conj(turn) : turn});
             }
         });
         std::vector<std::uint8_t> held(unknowns.count());
@@ -136,8 +136,8 @@ private:
         std::vector<std::int32_t> phase(z.size());
         for (std::size_t k = 0; k < z.size(); ++k) {
             const double turns = std::arg(z[k]) / (2 * pi);
-            phase[k] = static_cast<std::int32_t>(std::lround((turns - std::floor(turns)) * periodic_unit)) %
-                       periodic_unit;
+            phase[k] =
+                static_cast<std::int32_t>(std::lround((turns - std::floor(turns)) * periodic_unit)) % periodic_unit;
         }
         return phase;
     }
@@ -213,8 +213,7 @@ private:
     static double volume_of(const Rows<std::int32_t, 12>& coordinates, Eigen::Index t) {
         Matrix3 edges;
         for (int c = 0; c < 3; ++c)
-            for (int i = 0; i < 3; ++i)
-                edges(i, c) = double(coordinates(t, 3 * (c + 1) + i)) - coordinates(t, i);
+            for (int i = 0; i < 3; ++i) edges(i, c) = double(coordinates(t, 3 * (c + 1) + i)) - coordinates(t, i);
         return edges.determinant() / (double(periodic_unit) * periodic_unit * periodic_unit) - 1e-9;
     }
 

@@ -19,11 +19,11 @@ struct LostCells {
 };
 
 struct LatticeCells {
-    Points points;                        // (p, 3)
-    std::vector<Index> tet;               // (p) the lowest tet each is in
-    Rows<double, 4> weights;              // (p, 4) barycentric in it; exactly 0 on triangles, edges and at vertices
-    Hexahedra hexahedra;                  // (k, 8) of points
-    std::vector<std::uint8_t> on_surface; // (k) bit f: its face f (of cell_face) lies on the surface
+    Points points;                         // (p, 3)
+    std::vector<Index> tet;                // (p) the lowest tet each is in
+    Rows<double, 4> weights;               // (p, 4) barycentric in it; exactly 0 on triangles, edges and at vertices
+    Hexahedra hexahedra;                   // (k, 8) of points
+    std::vector<std::uint8_t> on_surface;  // (k) bit f: its face f (of cell_face) lies on the surface
     LostCells lost;
 };
 
