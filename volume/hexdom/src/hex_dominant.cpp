@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -53,6 +54,8 @@ void require_options(const HexDominantOptions& options) {
                            "edge_length");
     if (!(options.min_scaled_jacobian > 0 && options.min_scaled_jacobian < 1))
         throw InvalidInput("min_scaled_jacobian must be between 0 and 1", "min_scaled_jacobian");
+    if (!(options.hold_angle >= 0 && options.hold_angle <= std::numbers::pi / 2))
+        throw InvalidInput("hold_angle must be from 0 to pi / 2", "hold_angle");
     if (options.refinements < 0 || options.refinements > 6)
         throw InvalidInput("refinements must be from 0 to 6", "refinements");
 }
