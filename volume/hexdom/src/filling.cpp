@@ -65,16 +65,17 @@ std::vector<Index> groups_of(const TetDomain& domain) {
 
 // The surface of the cavity: what TetGen fills.
 struct CavitySurface {
-    surface::TriangleMesh mesh;   // compact
-    std::vector<Index> vertex;    // of all
-    std::vector<Index> cell;      // per triangle: the hexahedron whose face it is of, or -1
+    surface::TriangleMesh mesh;  // compact
+    std::vector<Index> vertex;   // of all
+    std::vector<Index> cell;     // per triangle: the hexahedron whose face it is of, or -1
 };
 
 class Cavity {
 public:
     explicit Cavity(CellsOnSurface& cells) : cells_(cells) {
         for (Index q = 0; q < cells.quads.rows(); ++q)
-            quads_.push_back({ascending(Quad{cells.quads(q, 0), cells.quads(q, 1), cells.quads(q, 2), cells.quads(q, 3)}), q});
+            quads_.push_back(
+                {ascending(Quad{cells.quads(q, 0), cells.quads(q, 1), cells.quads(q, 2), cells.quads(q, 3)}), q});
         std::sort(quads_.begin(), quads_.end());
         const Triangles& triangles = cells.surface.mesh.triangles;
         for (Index t = 0; t < triangles.rows(); ++t)
@@ -216,8 +217,8 @@ TetMesh tets_in(const CavitySurface& surface, const Cavity& cavity, const CellsO
         bool inside, refine;
         double tolerance;
     };
-    static constexpr Way ways[] = {{true, true, 0},   {true, true, 1e-12},  {false, true, 0},
-                                   {false, true, 1e-6}, {false, false, 0}, {false, false, 1e-12}};
+    static constexpr Way ways[] = {{true, true, 0},     {true, true, 1e-12}, {false, true, 0},
+                                   {false, true, 1e-6}, {false, false, 0},   {false, false, 1e-12}};
     TetgenParameters parameters;
     parameters.holes = cavity.holes();
     parameters.radius_edge_ratio = 1.8;

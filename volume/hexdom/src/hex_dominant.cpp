@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,14 +32,14 @@ struct WorkingField {
 Eigen::VectorXd wanted_sizes(const TetDomain& domain, const HexDominantOptions& options) {
     const Eigen::Index n = domain.vertex_count();
     if (options.sizes.size() == 0) {
-        const double length = options.edge_length > 0 ? options.edge_length
-                                                      : surface::mean_edge_length(domain.surface().mesh);
+        const double length =
+            options.edge_length > 0 ? options.edge_length : surface::mean_edge_length(domain.surface().mesh);
         return Eigen::VectorXd::Constant(n, length);
     }
     if (options.sizes.size() != n)
-        throw InvalidInput("sizes has " + std::to_string(options.sizes.size()) + " entries; give one per vertex, " +
-                               std::to_string(n),
-                           "wrong_size");
+        throw InvalidInput(
+            "sizes has " + std::to_string(options.sizes.size()) + " entries; give one per vertex, " + std::to_string(n),
+            "wrong_size");
     std::vector<Index> bad;
     for (Index v = 0; v < n; ++v)
         if (!(options.sizes[v] > 0) || !std::isfinite(options.sizes[v])) bad.push_back(v);
@@ -49,9 +50,12 @@ Eigen::VectorXd wanted_sizes(const TetDomain& domain, const HexDominantOptions& 
 
 void require_options(const HexDominantOptions& options) {
     if (!(options.edge_length >= 0) || !std::isfinite(options.edge_length))
-        throw InvalidInput("edge_length must be a length above 0, or 0 for the mean edge of the surface", "edge_length");
+        throw InvalidInput("edge_length must be a length above 0, or 0 for the mean edge of the surface",
+                           "edge_length");
     if (!(options.min_scaled_jacobian > 0 && options.min_scaled_jacobian < 1))
         throw InvalidInput("min_scaled_jacobian must be between 0 and 1", "min_scaled_jacobian");
+    if (!(options.hold_angle >= 0 && options.hold_angle <= std::numbers::pi / 2))
+        throw InvalidInput("hold_angle must be from 0 to pi / 2", "hold_angle");
     if (options.refinements < 0 || options.refinements > 6)
         throw InvalidInput("refinements must be from 0 to 6", "refinements");
 }

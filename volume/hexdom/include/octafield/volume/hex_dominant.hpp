@@ -15,7 +15,7 @@ namespace octafield::volume {
 enum class SizeCorrection { none, isotropic, axes };
 
 struct HexDominantOptions {
-    double edge_length = 0;  // wanted, input unit; 0: the mean edge of the surface
+    double edge_length = 0;   // wanted, input unit; 0: the mean edge of the surface
     Eigen::VectorXd sizes{};  // (n) wanted at the vertices, in place of edge_length; empty: the same everywhere
     SizeCorrection correction = SizeCorrection::axes;
     // Times that tets on which the map is of no use, and those next to them, are cut into eight and the map is made
@@ -31,19 +31,19 @@ struct HexDominantOptions {
 
 // Cells at every step.
 struct HexDominantCounts {
-    Index tets = 0;                    // of the mesh that the map is on
-    Index inconsistent = 0;            // of them, without coordinates: jumps of edges do not sum to 0
-    Index turned_over = 0;             // of them, coordinates turned over or flat
-    LostCells lost;                    // cells of the lattice that are no hexahedra
-    Index lattice_hexahedra = 0;       // taken from the lattice
-    Index crossing = 0;                // of these, left out as their faces cross others or are not in the surface
+    Index tets = 0;               // of the mesh that the map is on
+    Index inconsistent = 0;       // of them, without coordinates: jumps of edges do not sum to 0
+    Index turned_over = 0;        // of them, coordinates turned over or flat
+    LostCells lost;               // cells of the lattice that are no hexahedra
+    Index lattice_hexahedra = 0;  // taken from the lattice
+    Index crossing = 0;           // of these, left out as their faces cross others or are not in the surface
     Index recombined_hexahedra = 0, recombined_wedges = 0;
     ConformReport pyramids;
 };
 
 struct HexDominantMesh {
     MixedMesh mesh;
-    std::vector<Index> regions;       // per cell; empty where the domain has none
+    std::vector<Index> regions;         // per cell; empty where the domain has none
     std::vector<std::uint8_t> support;  // per vertex: 0 inside, 1 on the surface, 2 on a feature curve, 3 a corner
     HexDominantCounts counts;
 };
