@@ -37,7 +37,7 @@ LatticePoints::LatticePoints(const MapCharts& charts, std::int32_t offset) {
             const Index node = static_cast<Index>(n);
             for (int k = 0; k < 4; ++k) {
                 if (!(zero_[n] >> k & 1)) continue;
-                const Index other = charts.across(t, k);
+                const Index other = charts.beyond(t, k);
                 if (other < t) continue;
                 const std::int64_t found = find_node(other, charts.change(t, k)(at_[n]));
                 if (found >= 0) sets.join(node, static_cast<Index>(found));
@@ -110,9 +110,10 @@ void LatticePoints::enumerate(const MapCharts& charts, std::int32_t offset) {
 }
 
 std::int64_t LatticePoints::find_node(Index tet, const Coordinate& at) const {
-    for (std::int64_t n = begin_[tet]; n < begin_[tet + 1]; ++n)
-        if (at_[n] == at) return n;
-    return -1;
+    // They are in lexicographic order.
+    const auto first = at_.begin() + begin_[tet], last = at_.begin() + begin_[tet + 1];
+    const auto found = std::lower_bound(first, last, at);
+    return found != last && *found == at ? found - at_.begin() : -1;
 }
 
 Index LatticePoints::find(const Place& place) const {

@@ -14,9 +14,12 @@ MapCharts::MapCharts(const TetDomain& domain, const PeriodicMap& map)
 }
 
 Index MapCharts::across(Index tet, int corner) const {
-    const Index row = domain_.triangles().tet_triangles(tet, corner), f = face_[row];
-    if (f < 0 || !map_.joined[f] || interface_[row]) return -1;
-    return map_.faces.tets(f, map_.faces.tets(f, 0) == tet);
+    return interface_[domain_.triangles().tet_triangles(tet, corner)] ? -1 : beyond(tet, corner);
+}
+
+Index MapCharts::beyond(Index tet, int corner) const {
+    const Index f = face_[domain_.triangles().tet_triangles(tet, corner)];
+    return f < 0 || !map_.joined[f] ? -1 : map_.faces.tets(f, map_.faces.tets(f, 0) == tet);
 }
 
 ChartChange MapCharts::change(Index tet, int corner) const {

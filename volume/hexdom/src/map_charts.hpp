@@ -26,7 +26,8 @@ public:
     const TetDomain& domain() const { return domain_; }
     // Across the triangle opposite a corner: the tet there, or -1 (boundary, interface, or not joined).
     Index across(Index tet, int corner) const;
-    ChartChange change(Index tet, int corner) const;  // where across() is a tet
+    Index beyond(Index tet, int corner) const;        // the same, through interfaces too: there points are one
+    ChartChange change(Index tet, int corner) const;  // where beyond() is a tet
     bool on_surface(Index tet, int corner) const;     // of the mesh, or between regions
 
 private:

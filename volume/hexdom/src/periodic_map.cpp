@@ -162,12 +162,13 @@ private:
                 const double from = phase_at(unknowns, phase, first, a, i), to = phase_at(unknowns, phase, first, b, i);
                 // Round a singular curve the axes that it exchanges do not change along it.
                 if (!fan.returns(i) && from == 0 && to == 0) continue;
-                jump[i] = std::llround(wanted.mean[i] - (to - from) / periodic_unit);
-                if (std::abs(jump[i]) > most_cells)
+                const double cells = wanted.mean[i] - (to - from) / periodic_unit;
+                if (!(std::abs(cells) < most_cells))
                     throw InvalidInput("the edge of the vertices " + std::to_string(fan.a) + " and " +
-                                           std::to_string(fan.b) + " is " + std::to_string(std::abs(jump[i])) +
+                                           std::to_string(fan.b) + " is more than " + std::to_string(most_cells) +
                                            " cells long; give a larger edge length",
                                        "edge_length", {fan.a, fan.b});
+                jump[i] = std::llround(cells);
             }
             for (const FanTet& at : fan.tets) {
                 const int from = corner_of(mesh_, at.tet, fan.a), to = corner_of(mesh_, at.tet, fan.b);
