@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "cavity.hpp"
@@ -38,6 +39,8 @@ void mark_near(const surface::TriangleMesh& mesh, const std::vector<Index>& tria
         if (std::binary_search(near.begin(), near.end(), cell_of(mesh.vertices.row(v)))) marked[v] = 1;
 }
 
+}  // namespace
+
 MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress) {
     for (int layer = 0;; ++layer) {
         try {
@@ -49,6 +52,8 @@ MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress) {
                                              : std::vector<std::uint8_t>(cells.hexahedra.rows(), 1));
     }
 }
+
+namespace {
 
 MixedMesh joined(const FilledCells& filled, const HexDominantOptions& options, HexDominantCounts& counts) {
     RecombineOptions join;
@@ -85,7 +90,24 @@ bool good(const MixedMesh& mesh, int threads) {
     return find_cell_defects(mesh).empty() && unproven_cells(mesh, threads).empty();
 }
 
-double volume_error(const MixedMesh& mesh, double volume) { return std::abs(cell_volumes(mesh).sum() / volume - 1); }
+// Regions by number, volumes of each; all together where there are none.
+std::map<Index, double> volumes_of(const Eigen::VectorXd& volumes, const std::vector<Index>& regions) {
+    std::map<Index, double> sums;
+    for (Eigen::Index c = 0; c < volumes.size(); ++c) sums[regions.empty() ? 0 : regions[c]] += volumes[c];
+    return sums;
+}
+
+bool farther(const std::map<Index, double>& moved, const std::map<Index, double>& before,
+             const std::map<Index, double>& wanted) {
+    for (const auto& [region, volume] : wanted) {
+        const auto error = [&](const std::map<Index, double>& sums) {
+            const auto found = sums.find(region);
+            return std::abs((found == sums.end() ? 0 : found->second) / volume - 1);
+        };
+        if (!(error(moved) <= error(before) + 0.005)) return true;
+    }
+    return false;
+}
 
 }  // namespace
 
@@ -130,7 +152,7 @@ MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, Hex
             counts.pyramids = {};
             return without_unproven(conform(mesh, &counts.pyramids), options.threads);
         } catch (const GeometryError& error) {
-            if (error.kind() == "unsplittable_cell" && round < most_refillings)
+            if (error.kind() != "unproven_cell" && round < most_refillings)
                 marked = lattice_hexahedra(error.elements(), mesh, of_lattice);
             if (marked.empty() && !std::exchange(join, false)) {
                 if (of_lattice == 0) throw;
@@ -168,8 +190,9 @@ MixedMesh without_unproven(MixedMesh mesh, int threads) {
 }
 
 MixedMesh improved(const MixedMesh& mesh, const TetDomain& domain, const std::vector<std::uint8_t>& support,
-                   double edge_length, int threads) {
-    const double volume = tet_volumes(domain.mesh()).sum(), worst = volume_error(mesh, volume) + 0.005;
+                   const std::vector<Index>& regions, double edge_length, int threads) {
+    const std::map<Index, double> wanted = volumes_of(tet_volumes(domain.mesh()), domain.regions()),
+                                  before = volumes_of(cell_volumes(mesh), regions);
     for (const bool held : {false, true}) {
         VertexSupport where;
         for (const std::uint8_t kind : support)
@@ -181,7 +204,7 @@ MixedMesh improved(const MixedMesh& mesh, const TetDomain& domain, const std::ve
         how.hexahedra_first = true;
         how.threads = threads;
         MixedMesh moved = improve_cells(mesh, where, domain.surface().mesh, domain.features(), how);
-        if (good(moved, threads) && volume_error(moved, volume) <= worst) return moved;
+        if (good(moved, threads) && !farther(volumes_of(cell_volumes(moved), regions), before, wanted)) return moved;
     }
     return mesh;
 }

@@ -14,9 +14,11 @@ struct FilledCells {
     MixedMesh mesh;  // hexahedra and tets, as of filling.hpp
 };
 
+// Where no tets can be had, hexahedra next to them are left out, layer by layer, at last all. Throws as filled() does.
+MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress);
+
 // Where the surface through the points crosses itself, the old surface's vertices near stay, farther and farther round,
-// at last all. Where no tets can be had, hexahedra next to them are left out, layer by layer, at last all. Throws as
-// filled() does when none of this helps.
+// at last all. Throws as filled() does when none of this helps.
 FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, double edge_length,
                          const Progress& progress);
 
@@ -30,9 +32,10 @@ MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, Hex
 // Throws GeometryError (kind "unproven_cell"; elements: cells) where some are left after a few rounds.
 MixedMesh without_unproven(MixedMesh mesh, int threads);
 
-// Vertices moved. The mesh is given back as it was where the one with moved vertices is not valid and proven positive,
-// or, with vertices of the surface held, either, or where its volume is farther from the domain's by more than 0.5 %.
+// Vertices moved; where that mesh is not valid and proven positive, or the volume of a region is farther from the
+// domain's by more than 0.5 %, with vertices of the surface held; where that one is not either, the mesh as it was.
+// regions: per cell, or none.
 MixedMesh improved(const MixedMesh& mesh, const TetDomain& domain, const std::vector<std::uint8_t>& support,
-                   double edge_length, int threads);
+                   const std::vector<Index>& regions, double edge_length, int threads);
 
 }  // namespace octafield::volume

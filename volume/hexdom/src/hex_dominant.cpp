@@ -184,13 +184,13 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     counts.crossing = filled.cells.crossing;
     const PointSurface& surface = filled.cells.surface;
     result.support = vertex_support(surface, static_cast<Index>(mesh.vertices.rows()));
+    if (!domain.regions().empty()) result.regions = cell_regions(field.domain, surface, mesh);
     if (options.improve) {
         report_or_throw(progress, "improve", 0, 0);
-        mesh = improved(mesh, field.domain, result.support, length, options.threads);
+        mesh = improved(mesh, field.domain, result.support, result.regions, length, options.threads);
     }
     require_valid(mesh);
     result.mesh = std::move(mesh);
-    if (!domain.regions().empty()) result.regions = cell_regions(field.domain, surface, result.mesh);
     return result;
 }
 
