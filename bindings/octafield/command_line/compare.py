@@ -79,7 +79,7 @@ def compare(
             help="A mesh along every field, in the folder of its run; the report ranks them.",
         ),
     ] = MESHES[0],
-    cell_length: Annotated[
+    cell_edge: Annotated[
         float, typer.Option(metavar="LENGTH", help="Wanted edge of its cells, input unit; 0: the tets' on the surface.")
     ] = 0.0,
     cells: Annotated[
@@ -103,7 +103,7 @@ def compare(
         from ..runs.compare import compare as run_comparison
         from ..runs.compare import default_input
 
-        of_cells = HexMeshOptions(edge_length=cell_length, cells=cells, correction=correction)
+        of_cells = HexMeshOptions(edge_length=cell_edge, cells=cells, correction=correction)
         chosen = COMPARED if representations == "all" else _listed(representations)
         with console.progress_bar(quiet, whole=True) as progress:
             comparison = run_comparison(

@@ -34,7 +34,7 @@ def mesh_options(mesh: str, options: HexMeshOptions | None) -> HexMeshOptions | 
     if mesh == MESHES[0]:
         if options is not None:
             raise InvalidInput(
-                "options of cells (hex_options; --cell-length, --cells, --correction) need meshes: mesh 'hex-dominant'"
+                "options of cells (hex_options; --cell-edge, --cells, --correction) need meshes: mesh 'hex-dominant'"
                 " (--mesh hex-dominant)",
                 "ignored_options",
             )

@@ -94,7 +94,7 @@ def _figures(line: _Line) -> list[object]:
             lambda m: m.scaled_jacobian["hexahedra"].mean if worst(m) is not None and m.scaled_jacobian else None
         ),
         over(max, lambda m: percent(m.volume_error)),
-        over(max, lambda m: percent(m.boundary_deviation and m.boundary_deviation.max)),
+        over(max, lambda m: None if m.boundary_deviation is None else percent(m.boundary_deviation.max)),
         over(sum, lambda m: m.inverted),
         over(sum, lambda m: m.nonconforming_faces),
         over(sum, lambda m: m.seconds),
@@ -107,15 +107,15 @@ def hex_meshes(results: Results, cite: str) -> list[str]:
     if not lines:
         return []
     ranked = [line for line in lines if line.complete]
+    left = [line for line in lines if not line.complete]
+    text = []
     if ranked:
-        text = _best(results, ranked, cite)
+        text.append(_best(results, ranked, cite))
+        if left:
+            text.append(f"not ranked, for want of a mesh that another method has: {_named(results, left)} {cite}")
     elif any(line.meshes for line in lines):
-        text = f"no method has a mesh on every input, so methods are not ranked by their meshes {cite}"
-    else:
-        text = f"no mesh could be made along any field {cite}"
-    left = [line for line in lines if not line.complete and any(other.meshes for other in lines)]
-    missing = f"not ranked, for want of a mesh that another method has: {_named(results, left)} {cite}" if left else ""
-    return [" ".join(sentence(part) for part in (text, missing if ranked else "", _failures(results)) if part)]
+        text.append(f"no method has a mesh on every input, so methods are not ranked by their meshes {cite}")
+    return [" ".join(sentence(part) for part in (*text, _failures(results)) if part)]
 
 
 def _best(results: Results, ranked: list[_Line], cite: str) -> str:
@@ -157,7 +157,7 @@ def _mesh(run: Run) -> HexDominantFigures | None:
 
 def _lines(results: Results) -> list[_Line]:
     """The best first."""
-    if not any(map(_mesh, results.runs)):
+    if all(_mesh(run) is None for run in results.runs):
         return []
     found: dict[tuple[Setting, Method], dict[_Place, HexDominantFigures]] = {}
     for run in results.runs:

@@ -72,7 +72,10 @@ def add_front(results: Results, lines: list[Line], found: Deviations, exhibits: 
             profiles = _add_profiles(results, exhibits)
     meshes = hex_mesh_table(results)
     if meshes.rows:
-        caption = "One line per boundary treatment and method, over all inputs; the best first."
+        caption = (
+            "One line per boundary treatment and method, over all inputs; the best first. Cells of an input have one"
+        )
+        caption += " wanted edge length, whatever the field."
         exhibits.add("hex_meshes", meshes, "Hex-dominant meshes", caption)
     if found.pairs():
         kind = "matrix many" if len(results.methods) > MANY else "matrix"
