@@ -8,6 +8,7 @@ from .. import _core
 from ..errors import InvalidInput
 from ..options import LARGEST_INT, integer_in, require_one_of
 
+MESHES = ("none", "hex-dominant")  # that comparisons make along each field
 CORRECTIONS = tuple(_core.HexDominantOptions.words["correction"])
 _DEFAULTS = _core.HexDominantOptions()
 
