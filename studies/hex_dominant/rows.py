@@ -102,7 +102,8 @@ def short(row: dict) -> str:
     if "error" in row:
         return f"{row['seconds']:.0f} s, {row['error']}"
     return (
-        f"{row['hex_volume_share']:.1%} {row['hex_number_share']:.1%} SJ {row['hex_sj_min']:.2f}/{row['hex_sj_mean']:.3f}"
+        f"{row['hex_volume_share']:.1%} {row['hex_number_share']:.1%}"
+        f" SJ {row['hex_sj_min']:.2f}/{row['hex_sj_mean']:.3f}"
         f" all {row['sj_min']:.3f}, deviation {row['deviation']:.2%}, {row['seconds']:.0f} s {row['faults']}"
     )
 
@@ -154,10 +155,11 @@ def summary(rows: list[dict]) -> str:
         middle = lambda name: statistics.median(row[name] for row in of)  # noqa: B023, E731
         worst = min(of, key=lambda row: row["hex_volume_share"])
         lines.append(
-            f"{factor:g} of the mean edge, {len(of)} meshes: median hex share {middle('hex_volume_share'):.1%} by volume,"
-            f" {middle('hex_number_share'):.1%} by number, worst {worst['hex_volume_share']:.1%} ({worst['file']});"
+            f"{factor:g} of the mean edge, {len(of)} meshes: median hex share {middle('hex_volume_share'):.1%} by"
+            f" volume, {middle('hex_number_share'):.1%} by number, worst {worst['hex_volume_share']:.1%} ({worst['file']});"
             f" mean scaled Jacobian of hexahedra {middle('hex_sj_mean'):.3f} in the median; largest volume error"
-            f" {max(row['volume_error'] for row in of):.2%}, largest deviation {max(row['deviation'] for row in of):.2%}."
+            f" {max(row['volume_error'] for row in of):.2%}, largest deviation"
+            f" {max(row['deviation'] for row in of):.2%}."
         )
     head = f"{len(rows)} runs, {len(made)} meshes, {sound} of them conforming and without an inverted cell."
     return "\n".join([head, *lines])
