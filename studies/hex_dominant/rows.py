@@ -156,7 +156,8 @@ def summary(rows: list[dict]) -> str:
         worst = min(of, key=lambda row: row["hex_volume_share"])
         lines.append(
             f"{factor:g} of the mean edge, {len(of)} meshes: median hex share {middle('hex_volume_share'):.1%} by"
-            f" volume, {middle('hex_number_share'):.1%} by number, worst {worst['hex_volume_share']:.1%} ({worst['file']});"
+            f" volume, {middle('hex_number_share'):.1%} by number, worst {worst['hex_volume_share']:.1%}"
+            f" ({worst['file']});"
             f" mean scaled Jacobian of hexahedra {middle('hex_sj_mean'):.3f} in the median; largest volume error"
             f" {max(row['volume_error'] for row in of):.2%}, largest deviation"
             f" {max(row['deviation'] for row in of):.2%}."
