@@ -37,23 +37,33 @@ HEADER = [
 
 
 def run_one(path: Path, factor: float, limit: float, length: float = 0.0, keep: Path | None = None) -> dict:
+    """keep: folder that gets the mesh's files."""
+    words = ["studies.hex_dominant.run", str(path), str(factor)]
+    return run_words(words, limit, [str(length), *([str(keep)] if keep else [])])
+
+
+def run_words(words: list[str], limit: float, after: list[str] | None = None) -> dict:
+    """What a module writes into the JSON file whose name is put between `words` and `after`."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "row.json"
-        words = [sys.executable, "-m", "studies.hex_dominant.run", str(path), str(factor), str(out), str(length)]
-        words += [str(keep)] if keep else []
+        command = [sys.executable, "-m", *words, str(out), *(after or [])]
         begun = time.monotonic()
         with (Path(folder) / "stderr").open("w+") as stderr:
-            child = subprocess.Popen(words, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=stderr)
+            child = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=stderr)
             peak = wait(child, limit)
             stderr.seek(0)
             told = stderr.read().strip().splitlines()
-        seconds = time.monotonic() - begun
+        measured = {"seconds": time.monotonic() - begun, "MB": peak}
         if out.exists():
-            return {"seconds": seconds, "MB": peak} | json.loads(out.read_text())
-        code = child.returncode
-        what = f"signal {signal.Signals(-code).name}" if code < 0 else f"exit code {code}"
-        what = f"stopped at {limit:.0f} s or {MOST_MB} MB" if code == -signal.SIGKILL else what
-        return {"seconds": seconds, "MB": peak, "error": f"{what} {told[-1][:300] if told else ''}".strip()}
+            return measured | json.loads(out.read_text())
+        return measured | {"error": ending(child.returncode, limit, told)}
+
+
+def ending(code: int, limit: float, told: list[str]) -> str:
+    if code == -signal.SIGKILL:
+        return f"stopped at {limit:.0f} s or {MOST_MB} MB"
+    what = f"signal {signal.Signals(-code).name}" if code < 0 else f"exit code {code}"
+    return f"{what} {told[-1][:300] if told else ''}".strip()
 
 
 def wait(child: subprocess.Popen, limit: float) -> float:
