@@ -76,6 +76,8 @@ void bind_options(py::module_& m) {
         .field("refinements", &HexDominantOptions::refinements,
                "Times that tets on which the map is of no use are cut into eight, and the map is made anew.")
         .field("most_tets", &HexDominantOptions::most_tets, "None are cut where the mesh would have more.")
+        .field("most_hexahedra", &HexDominantOptions::most_hexahedra,
+               "An edge length that asks for more is refused.")
         .field("min_scaled_jacobian", &HexDominantOptions::min_scaled_jacobian,
                "Of hexahedra of the lattice, and of cells made of tets; in (0, 1).")
         .field("hold_angle", &HexDominantOptions::hold_angle, "Of PeriodicMapOptions, radians.")
