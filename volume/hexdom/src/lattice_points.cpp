@@ -38,8 +38,8 @@ LatticePoints::LatticePoints(const MapCharts& charts, std::int32_t offset) {
     enumerate(charts, offset);
     DisjointSets sets(at_.size());
     const TetDomain& domain = charts.domain();
-    // Across triangles; then what lies at a vertex, or at the same place of an edge, also where the tets round it are
-    // not all usable.
+    // Across triangles, interfaces too; then what lies at a vertex, or at the same place of an edge, also where the
+    // tets round it are not all usable.
     struct OnEdge {
         Index a, b;
         std::int64_t part, whole;
@@ -53,7 +53,7 @@ LatticePoints::LatticePoints(const MapCharts& charts, std::int32_t offset) {
             const Index node = static_cast<Index>(n);
             for (int k = 0; k < 4; ++k) {
                 if (!(zero_[n] >> k & 1)) continue;
-                const Index other = charts.across(t, k);
+                const Index other = charts.beside(t, k);
                 if (other < t) continue;
                 const std::int64_t found = find_node(other, charts.change(t, k)(at_[n]));
                 if (found >= 0) sets.join(node, static_cast<Index>(found));

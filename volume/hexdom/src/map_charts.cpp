@@ -13,10 +13,14 @@ MapCharts::MapCharts(const TetDomain& domain, const PeriodicMap& map)
         if (domain.sides()(s, 1) >= 0) interface_[domain.surface_rows()[s]] = 1;
 }
 
-Index MapCharts::across(Index tet, int corner) const {
-    const Index row = domain_.triangles().tet_triangles(tet, corner), f = face_[row];
-    if (f < 0 || !map_.joined[f] || interface_[row]) return -1;
+Index MapCharts::beside(Index tet, int corner) const {
+    const Index f = face_[domain_.triangles().tet_triangles(tet, corner)];
+    if (f < 0 || !map_.joined[f]) return -1;
     return map_.faces.tets(f, map_.faces.tets(f, 0) == tet);
+}
+
+Index MapCharts::across(Index tet, int corner) const {
+    return interface_[domain_.triangles().tet_triangles(tet, corner)] ? -1 : beside(tet, corner);
 }
 
 ChartChange MapCharts::change(Index tet, int corner) const {

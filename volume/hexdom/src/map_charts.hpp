@@ -24,9 +24,11 @@ public:
 
     const PeriodicMap& map() const { return map_; }
     const TetDomain& domain() const { return domain_; }
-    // Across the triangle opposite a corner: the tet there, or -1 (boundary, interface, or not joined).
+    // Across the triangle opposite a corner: the tet there, or -1 (boundary, or not joined).
+    Index beside(Index tet, int corner) const;
+    // The same, and -1 at interfaces: where ways go on.
     Index across(Index tet, int corner) const;
-    ChartChange change(Index tet, int corner) const;  // where across() is a tet
+    ChartChange change(Index tet, int corner) const;  // where beside() is a tet
     bool on_surface(Index tet, int corner) const;     // of the mesh, or between regions
 
 private:
