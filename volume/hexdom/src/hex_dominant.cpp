@@ -22,6 +22,7 @@ namespace octafield::volume {
 namespace {
 
 constexpr double most_log_scale = 0.693;  // sizes give way by a factor of two
+constexpr int most_cells = 20'000'000;
 
 struct WorkingField {
     TetDomain domain;
@@ -58,6 +59,18 @@ void require_options(const HexDominantOptions& options) {
         throw InvalidInput("hold_angle must be from 0 to pi / 2", "hold_angle");
     if (options.refinements < 0 || options.refinements > 6)
         throw InvalidInput("refinements must be from 0 to 6", "refinements");
+}
+
+// Before anything is listed: where the field has no map, tets fill the domain in cells of the same size.
+void require_room(const WorkingField& field) {
+    const Eigen::VectorXd volumes = tet_volumes(field.domain.mesh());
+    double cells = 0;
+    for (Eigen::Index t = 0; t < volumes.size(); ++t)
+        cells += volumes[t] / std::pow(field.sizes(field.domain.mesh().tets.row(t)).mean(), 3);
+    if (!(cells <= most_cells))
+        throw InvalidInput(
+            "the mesh would have more than " + std::to_string(most_cells) + " cells; give a larger edge length",
+            "edge_length");
 }
 
 // The tets marked are cut; the frames of new vertices are those of `given`, the field that was handed in.
@@ -155,6 +168,7 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     require_options(options);
     require_frames(frames, domain.vertex_count());
     const WorkingField given{domain, frames, wanted_sizes(domain, options)};
+    require_room(given);
     const double length = given.sizes.mean();
     HexDominantMesh result;
     HexDominantCounts& counts = result.counts;
