@@ -211,6 +211,7 @@ TEST(HexDominant, ABallWithAComputedFieldAndTheSameBitsAtAnyNumberOfThreads) {
     const TetDomain domain = ball();
     const Quaternions frames = computed_field(domain).combed.frames;
     HexDominantOptions options = with_length(0.3);
+    options.refinements = 1;
     options.threads = 1;
     const HexDominantMesh one = hex_dominant(domain, frames, options);
     expect_mesh_of(domain, one, 0.05);
