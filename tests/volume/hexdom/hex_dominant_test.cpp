@@ -232,6 +232,29 @@ TEST(HexDominant, RandomFramesStillMakeAValidMesh) {
     }
 }
 
+// Of a field with singular curves and noise, and of no field, on both sides of an interface.
+TEST(HexDominant, NoiseOrRandomFramesInTwoRegionsToo) {
+    const TetMesh mesh = testing::jittered_cube(4, 0.2, 6);
+    std::vector<Index> regions;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) regions.push_back(testing::centroid(mesh, t).z() > 0.5);
+    const TetDomain domain = testing::with_detected_features(mesh, regions);
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    for (unsigned seed = 1; seed < 5; ++seed) {
+        HexDominantOptions options = with_length(0.12);
+        options.refinements = 0;
+        options.improve = false;
+        const Quaternions noisy = testing::sample(mesh, [&](const Vector3& x) {
+            const frames::Vector3 noise(normal(random), normal(random), normal(random));
+            return frames::exp(frames::Vector3(0, 0, std::atan2(x.y() - 0.47, x.x() - 0.52) / 4)) *
+                   frames::exp(0.05 * (seed % 4) * noise);
+        });
+        expect_mesh_of(domain, hex_dominant(domain, noisy, options), 1e-9);
+        expect_mesh_of(domain, hex_dominant(domain, testing::random_frames(domain.vertex_count(), seed), options),
+                       1e-9);
+    }
+}
+
 TEST(HexDominant, SizesAtVerticesAreHonoured) {
     const TetDomain domain = testing::with_detected_features(testing::jittered_box({2, 1, 1}, 6, 0.1));
     HexDominantOptions options;
