@@ -110,7 +110,8 @@ public:
         std::vector<Index> owners;
         for (const HexahedronFace& face : faces_of(cells_.hexahedra)) {
             const std::vector<Index> on_surface = quad(face.sorted) < 0 ? std::vector<Index>() : halves(face.round);
-            for (const Index t : on_surface) covered[t] = 1;
+            // An interface with hexahedra on one side alone is the wall of the cavity on the other.
+            for (const Index t : on_surface) covered[t] = face.other >= 0 || !cells_.interface[t];
             if (face.other >= 0 || !on_surface.empty()) continue;
             const auto& [a, b, c, d] = face.round;
             // Inward of the cavity's other side: the face seen from the cavity. The diagonal that stands out of the
@@ -229,7 +230,10 @@ TetMesh tets_in(const CavitySurface& surface, const Cavity& cavity, const CellsO
         parameters.refine = way.refine;
         parameters.tolerance = way.tolerance;
         outcome = run_tetgen(surface.mesh, parameters, progress);
-        if (outcome.finished && outcome.mesh.tets.rows() > 0) return std::move(outcome.mesh);
+        // Vertices of the surface are lost where holes leak through it.
+        if (outcome.finished && outcome.mesh.tets.rows() > 0 &&
+            outcome.mesh.vertices.rows() >= surface.mesh.vertices.rows())
+            return std::move(outcome.mesh);
     }
     throw GeometryError("the space between the hexahedra and the surface could not be filled with tets: " +
                             outcome.reason + "; give another edge length",
@@ -245,6 +249,7 @@ CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cel
     result.quads = lattice.quads;
     result.surface = point_surface(domain.surface().mesh, domain.features(), groups_of(domain), lattice.points,
                                    lattice.quads, edge_length);
+    for (const Index t : result.surface.triangle) result.interface.push_back(domain.sides()(t, 1) >= 0);
     const Index on_surface = static_cast<Index>(result.surface.mesh.vertices.rows());
     std::vector<Index> number(cells.points.rows(), -1), inner;
     for (std::size_t i = 0; i < lattice.lattice_point.size(); ++i)

@@ -1,6 +1,7 @@
 // What is left between hexahedra and the surface, filled with tets.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,9 @@ namespace octafield::volume {
 // Hexahedra on vertices that begin with those of a surface through their points.
 struct CellsOnSurface {
     PointSurface surface;
-    Quads quads;      // of vertices, faces of cells on the surface
-    Points vertices;  // the surface's first, then those of hexahedra inside
+    std::vector<std::uint8_t> interface;  // per triangle of the surface, 1: between regions
+    Quads quads;                          // of vertices, faces of cells on the surface
+    Points vertices;                      // the surface's first, then those of hexahedra inside
     Hexahedra hexahedra;
     Points spare;  // points of the lattice inside that no hexahedron has
     double edge_length;
