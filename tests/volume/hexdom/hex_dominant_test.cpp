@@ -210,6 +210,7 @@ TEST(HexDominant, ABallWithAComputedFieldAndTheSameBitsAtAnyNumberOfThreads) {
     const TetDomain domain = ball();
     const Quaternions frames = computed_field(domain).combed.frames;
     HexDominantOptions options = with_length(0.3);
+    options.refinements = 1;
     options.threads = 1;
     const HexDominantMesh one = hex_dominant(domain, frames, options);
     expect_mesh_of(domain, one, 0.05);
@@ -227,6 +228,29 @@ TEST(HexDominant, RandomFramesStillMakeAValidMesh) {
             hex_dominant(domain, testing::random_frames(domain.vertex_count(), seed), options);
         expect_mesh_of(domain, result, 1e-9);
         expect_features_kept(domain, result);
+    }
+}
+
+// Of a field with singular curves and noise, and of no field, on both sides of an interface.
+TEST(HexDominant, NoiseOrRandomFramesInTwoRegionsToo) {
+    const TetMesh mesh = testing::jittered_cube(4, 0.2, 6);
+    std::vector<Index> regions;
+    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) regions.push_back(testing::centroid(mesh, t).z() > 0.5);
+    const TetDomain domain = testing::with_detected_features(mesh, regions);
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    for (unsigned seed = 1; seed < 5; ++seed) {
+        HexDominantOptions options = with_length(0.12);
+        options.refinements = 0;
+        options.improve = false;
+        const Quaternions noisy = testing::sample(mesh, [&](const Vector3& x) {
+            const frames::Vector3 noise(normal(random), normal(random), normal(random));
+            return frames::exp(frames::Vector3(0, 0, std::atan2(x.y() - 0.47, x.x() - 0.52) / 4)) *
+                   frames::exp(0.05 * (seed % 4) * noise);
+        });
+        expect_mesh_of(domain, hex_dominant(domain, noisy, options), 1e-9);
+        expect_mesh_of(domain, hex_dominant(domain, testing::random_frames(domain.vertex_count(), seed), options),
+                       1e-9);
     }
 }
 

@@ -232,24 +232,28 @@ TEST(LatticeCells, InterfacesAreSurfacesOfTheCellsOnBothSides) {
     const TetMesh mesh = testing::kuhn_cube(4);
     std::vector<Index> regions;
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) regions.push_back(testing::centroid(mesh, t).x() > 0.5);
-    const Mapped box(TetDomain(mesh, regions), identity, 0.25);
-    const LatticeCells cells = lattice_cells(box.domain, box.map);
-    ASSERT_EQ(cells.hexahedra.rows(), 64);
-    int marked = 0;
-    for (Eigen::Index k = 0; k < 64; ++k) {
-        const Points p = cells.points(cells.hexahedra.row(k), Eigen::all);
-        for (int f = 0; f < 6; ++f) {
-            bool on_wall = true;
-            for (const int c : cell_face[f]) on_wall &= std::abs(p(c, 0) - 0.5) < 1e-6;
-            if (on_wall) {
-                EXPECT_TRUE(cells.on_surface[k] >> f & 1);
+    // Points at vertices, and points in triangles and on edges.
+    for (const int n : {4, 6}) {
+        const Mapped box(TetDomain(mesh, regions), identity, 1.0 / n);
+        const LatticeCells cells = lattice_cells(box.domain, box.map);
+        ASSERT_EQ(cells.hexahedra.rows(), n * n * n);
+        EXPECT_EQ(cells.points.rows(), (n + 1) * (n + 1) * (n + 1));
+        int marked = 0;
+        for (Eigen::Index k = 0; k < cells.hexahedra.rows(); ++k) {
+            const Points p = cells.points(cells.hexahedra.row(k), Eigen::all);
+            for (int f = 0; f < 6; ++f) {
+                bool on_wall = true;
+                for (const int c : cell_face[f]) on_wall &= std::abs(p(c, 0) - 0.5) < 1e-6;
+                if (on_wall) {
+                    EXPECT_TRUE(cells.on_surface[k] >> f & 1);
+                }
+                marked += on_wall;
             }
-            marked += on_wall;
         }
+        EXPECT_EQ(marked, 2 * n * n);
+        const LatticeSurface surface = lattice_surface(box.domain, cells, 1.0 / n);
+        EXPECT_EQ(surface.quads.rows(), 7 * n * n);  // those of the wall once
     }
-    EXPECT_EQ(marked, 32);
-    const LatticeSurface surface = lattice_surface(box.domain, cells, 0.25);
-    EXPECT_EQ(surface.quads.rows(), 6 * 16 + 16);  // those of the wall once
 }
 
 TEST(LatticeCells, OfASingularFieldHaveTheQualityAskedForAndOneFaceInCommonAtMostTwice) {

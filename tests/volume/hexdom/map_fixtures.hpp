@@ -11,9 +11,18 @@
 
 namespace octafield::volume::testing {
 
+// The features of the outer surface; those of interfaces are none.
 inline TetDomain with_detected_features(const TetMesh& mesh, std::vector<Index> regions = {}) {
     const TetDomain plain(mesh, std::move(regions));
-    return plain.with_features(surface::detect_features(plain.boundary().mesh));
+    const auto number = [&](Index v) {  // in surface(), of a vertex of boundary()
+        const std::vector<Index>& map = plain.surface().vertex_map;
+        return static_cast<Index>(std::lower_bound(map.begin(), map.end(), plain.boundary().vertex_map[v]) -
+                                  map.begin());
+    };
+    surface::FeatureGraph features = surface::detect_features(plain.boundary().mesh);
+    for (Index& v : features.edges.reshaped()) v = number(v);
+    for (Index& v : features.corners) v = number(v);
+    return plain.with_features(features);
 }
 
 // The tets with their vertices moved: place(x). Tets must not be turned over.

@@ -52,7 +52,9 @@ struct HexDominantMesh {
 // frames: (n, 4) unit quaternions w x y z at the vertices of the domain. Faces all match, Jacobians are positive at all
 // corners, the surface (and interfaces between regions) are kept up to edge_length's chords, features and corners are
 // edges and vertices. Progress names the phases: "sizes", "periodic map", "lattice", "surface", "tetrahedralize",
-// "recombine", "conform", "improve". Throws InvalidInput, GeometryError, SolverError, Cancelled.
+// "recombine", "conform", "improve". Throws InvalidInput (kinds "wrong_size", "not_unit", "min_scaled_jacobian",
+// "hold_angle", "refinements"; "edge_length": not above 0, or more than 20 million cells), GeometryError, SolverError,
+// Cancelled.
 HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options = {},
                              const Progress& progress = {});
 
