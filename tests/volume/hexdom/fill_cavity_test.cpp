@@ -123,13 +123,15 @@ TEST(FillCavity, TetsInsideAreThoseOnTheInnerSideOrNoneWhereATriangleIsMissing) 
     };
     for (Index& v : cube.triangles.reshaped()) v = same_in_mesh(v);
     cube.vertices = mesh.vertices;
-    const std::vector<std::uint8_t> one_sided(cube.triangles.rows(), 0);
+    std::vector<std::uint8_t> one_sided(cube.triangles.rows(), 0);
     const std::vector<Index> found = tets_inside(mesh, cube, one_sided);
     ASSERT_EQ(found.size(), 6u);
     for (const Index t : found)
         EXPECT_TRUE(mesh.vertices(mesh.tets.row(t), Eigen::all).isApprox(
             mesh.vertices(mesh.tets.row(t), Eigen::all).cwiseMax(1).cwiseMin(2)));
-    cube.triangles.row(0) << 0, 1, 2;
+    cube.triangles.conservativeResize(cube.triangles.rows() + 1, 3);
+    cube.triangles.bottomRows(1) << 0, 1, 2;
+    one_sided.push_back(0);
     EXPECT_TRUE(tets_inside(mesh, cube, one_sided).empty());
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <set>
 
 #include "mixed_grids.hpp"
 #include "octafield/error.hpp"
@@ -67,6 +68,40 @@ TEST(HexDominant, RegionsKeepTheirVolumesWhereTheLatticeCrossesTheInterfaceInsid
         EXPECT_NEAR(sums[0], 108, 3);
         EXPECT_NEAR(sums[1], 108, 3);
     }
+}
+
+TEST(HexDominant, FeaturesInFlatPlacesStayEdges) {
+    const TetMesh mesh = kuhn_grid(6, 6, 3, 1);
+    const TetDomain plain(mesh);
+    const Points& points = plain.surface().mesh.vertices;
+    std::vector<Index> line(7, -1);  // along the middle of the upper side
+    for (Index v = 0; v < points.rows(); ++v)
+        if (points(v, 1) == 3 && points(v, 2) == 3) line[static_cast<std::size_t>(points(v, 0))] = v;
+    surface::FeatureGraph features;
+    features.edges.resize(6, 2);
+    for (int i = 0; i < 6; ++i) features.edges.row(i) << std::min(line[i], line[i + 1]), std::max(line[i], line[i + 1]);
+    features.corners = {std::min(line[0], line[6]), std::max(line[0], line[6])};
+    const TetDomain domain = plain.with_features(surface::ordered_features(features, plain.surface().mesh));
+    HexDominantOptions options = quick(1);
+    options.improve = false;
+    const MixedMesh result =
+        hex_dominant(domain, turned(static_cast<Index>(mesh.vertices.rows()), 0.6), options).mesh;
+    EXPECT_GT(result.hexahedra.rows(), 0);
+    std::set<std::pair<double, double>> pieces;  // edges of faces along the line
+    for (const auto& [ids, use] : testing::faces_of(result)) {
+        const auto on_line = [&](Index v) {
+            return std::abs(result.vertices(v, 1) - 3) < 1e-9 && std::abs(result.vertices(v, 2) - 3) < 1e-9;
+        };
+        for (const Index a : ids)
+            for (const Index b : ids) {
+                const bool across = ids.size() == 4 && use.across.count(b) && a == ids[0];
+                if (a != b && !across && on_line(a) && on_line(b) && result.vertices(a, 0) < result.vertices(b, 0))
+                    pieces.emplace(result.vertices(a, 0), result.vertices(b, 0));
+            }
+    }
+    double length = 0;
+    for (const auto& [from, to] : pieces) length += to - from;
+    EXPECT_NEAR(length, 6, 1e-9);
 }
 
 TEST(HexDominant, MoreCellsThanFitAreRefusedAtOnce) {

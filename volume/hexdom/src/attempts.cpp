@@ -86,6 +86,31 @@ std::vector<Index> unproven_cells(const MixedMesh& mesh, int threads) {
     return cells;
 }
 
+std::pair<Index, Index> ascending(Index a, Index b) { return std::minmax({a, b}); }
+
+// Throws where an edge of a feature is no edge of a cell's face.
+void require_features(const MixedMesh& mesh, const Edges& features) {
+    std::vector<std::uint8_t> at_feature(mesh.vertices.rows(), 0);
+    for (const Index v : features.reshaped()) at_feature[v] = 1;
+    std::vector<std::pair<Index, Index>> edges;
+    detail::for_each_cell(mesh, [&](const detail::Cell& cell) {
+        for (const detail::CellFace& face : cell.shape.faces)
+            for (int k = 0; k < face.corners; ++k) {
+                const Index a = cell.ids[face.local[k]], b = cell.ids[face.local[(k + 1) % face.corners]];
+                if (at_feature[a] && at_feature[b]) edges.push_back(ascending(a, b));
+            }
+    });
+    std::sort(edges.begin(), edges.end());
+    std::vector<Index> lost;
+    for (const auto edge : features.rowwise())
+        if (!std::binary_search(edges.begin(), edges.end(), ascending(edge[0], edge[1])))
+            lost.insert(lost.end(), {edge[0], edge[1]});
+    if (!lost.empty())
+        throw GeometryError("features between vertices " + first_few(lost) +
+                                " of the mesh are no edges of cells; give another edge length",
+                            "lost_feature", lost);
+}
+
 bool good(const MixedMesh& mesh, int threads) {
     return find_cell_defects(mesh).empty() && unproven_cells(mesh, threads).empty();
 }
@@ -150,9 +175,12 @@ MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, Hex
             }
             report_or_throw(progress, "conform", 0, 0);
             counts.pyramids = {};
-            return without_unproven(conform(mesh, &counts.pyramids), options.threads);
+            MixedMesh result = without_unproven(conform(mesh, &counts.pyramids), options.threads);
+            require_features(result, filled.cells.surface.features.edges);
+            return result;
         } catch (const GeometryError& error) {
-            if (error.kind() != "unproven_cell" && round < most_refillings)
+            const bool names_cells = error.kind() != "unproven_cell" && error.kind() != "lost_feature";
+            if (names_cells && round < most_refillings)
                 marked = lattice_hexahedra(error.elements(), mesh, of_lattice);
             if (marked.empty() && !std::exchange(join, false)) {
                 if (of_lattice == 0) throw;

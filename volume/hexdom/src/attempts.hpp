@@ -22,7 +22,8 @@ MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress);
 FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, double edge_length,
                          const Progress& progress);
 
-// Tets joined, and pyramids where quads meet triangles: all faces match, all cells are proven positive. Where a
+// Tets joined, and pyramids where quads meet triangles: all faces match, all cells are proven positive, features are
+// edges. Where a
 // hexahedron cannot be kept it is left out of `filled` and that filled anew; where this does not help, tets are not
 // joined; then no hexahedron stays. Throws GeometryError.
 MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, HexDominantCounts& counts,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <new>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -149,10 +150,8 @@ void require_count(const WorkingField& field, Index most) {
                        "edge_length");
 }
 
-}  // namespace
-
-HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
-                             const Progress& progress) {
+HexDominantMesh mesh_along(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
+                           const Progress& progress) {
     require_options(options);
     require_frames(frames, domain.vertex_count());
     const WorkingField given{domain, frames, wanted_sizes(domain, options)};
@@ -196,6 +195,17 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     require_valid(mesh);
     result.mesh = std::move(mesh);
     return result;
+}
+
+}  // namespace
+
+HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
+                             const Progress& progress) {
+    try {
+        return mesh_along(domain, frames, options, progress);
+    } catch (const std::bad_alloc&) {
+        throw SolverError("memory ran out; give a larger edge length, or smaller most_tets", "out_of_memory");
+    }
 }
 
 }  // namespace octafield::volume
