@@ -262,6 +262,23 @@ def test_a_field_that_is_given_is_followed(box):
         of.compute_hex_dominant(box, field=box.frames)
 
 
+def test_two_regions_meet_in_their_interface(box):
+    """A cube and its mirror image."""
+    points, tets = np.asarray(box.tets.vertices), np.asarray(box.tets.tets)
+    on_plane = points[:, 0] == 0
+    image = np.where(on_plane, np.arange(len(points)), len(points) + np.cumsum(~on_plane) - 1)
+    mirrored = points[~on_plane] * [-1, 1, 1]
+    mesh = of.TetMesh(np.concatenate([points, mirrored]), np.concatenate([tets, image[tets][:, [1, 0, 2, 3]]]))
+    domain = of.TetDomain(mesh, regions=np.repeat([3, 7], len(tets)))
+    result = of.compute_hex_dominant(domain, hex_options=of.HexMeshOptions(edge_length=0.25))
+    require_conforming(result.mesh)
+    assert sorted(set(result.regions)) == [3, 7] and result.record.regions == 2
+    assert result.record.region_volume_error < 1e-9
+    middles = np.concatenate([np.asarray(result.mesh.vertices)[rows].mean(axis=1) for rows in (
+        result.mesh.tets, result.mesh.hexahedra, result.mesh.wedges, result.mesh.pyramids) if len(rows)])  # fmt: skip
+    assert np.array_equal(result.regions == 3, middles[:, 0] > 0)
+
+
 def test_the_record_reads_back_and_the_result_shows_itself(curved, tmp_path):
     from octafield.hexdom.files import write_hex_result
     from octafield.records.record_file import any_record

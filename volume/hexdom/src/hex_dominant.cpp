@@ -150,6 +150,33 @@ void require_count(const WorkingField& field, Index most) {
                        "edge_length");
 }
 
+// Vertices whose cells have been joined or split away: a solver would have unknowns that nothing determines.
+void drop_unused_vertices(HexDominantMesh& result) {
+    MixedMesh& mesh = result.mesh;
+    std::vector<Index> number(mesh.vertices.rows(), -1);
+    const auto for_each_kind = [&](const auto& visit) {
+        visit(mesh.tets);
+        visit(mesh.hexahedra);
+        visit(mesh.wedges);
+        visit(mesh.pyramids);
+    };
+    for_each_kind([&](const auto& cells) {
+        for (const Index v : cells.reshaped()) number[v] = 0;
+    });
+    Index count = 0;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+        if (number[v] < 0) continue;
+        number[v] = count;
+        mesh.vertices.row(count) = mesh.vertices.row(static_cast<Eigen::Index>(v));
+        result.support[count++] = result.support[v];
+    }
+    mesh.vertices.conservativeResize(count, 3);
+    result.support.resize(count);
+    for_each_kind([&](auto& cells) {
+        for (Index& v : cells.reshaped()) v = number[v];
+    });
+}
+
 HexDominantMesh mesh_along(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
                            const Progress& progress) {
     require_options(options);
@@ -194,6 +221,7 @@ HexDominantMesh mesh_along(const TetDomain& domain, const Quaternions& frames, c
     }
     require_valid(mesh);
     result.mesh = std::move(mesh);
+    drop_unused_vertices(result);
     return result;
 }
 
