@@ -53,6 +53,9 @@ class HexMeshOptions:
             raise InvalidInput("the least scaled Jacobian must lie between 0 and 1", "option_out_of_range")
         if not 0 <= self.hold_angle <= math.pi / 2:
             raise InvalidInput("the hold angle must lie between 0 and 90 degrees", "option_out_of_range")
+        for name in ("recombine", "improve"):
+            if not isinstance(getattr(self, name), bool):
+                raise InvalidInput(f"{name} must be true or false, not {getattr(self, name)!r}", "option_out_of_range")
 
     def of_cells(self) -> dict[str, Any]:
         """What octafield.volume.hex_dominant takes as it is here."""

@@ -181,8 +181,7 @@ class FieldOfMesh(Record):
 
 
 class HexDominantFigures(Record):
-    """Of the hex-dominant mesh along a field (HexDominantRecord has them all). Where none could be made there is
-    `error`, and what needs a mesh is absent."""
+    """Of the hex-dominant mesh along a field; where none could be made `error`, and nothing that needs a mesh."""
 
     edge_length: float = Field(description="wanted of the cells, input unit; the same for all runs on an input")
     seconds: float = Field(description="by the clock, of making and judging it")
