@@ -204,8 +204,9 @@ def creases(points: np.ndarray, triangles: np.ndarray, angle: float) -> np.ndarr
 @dataclass
 class Features:
     """length: of the input's curves. kept: share of it within a quarter of the edge length (an edge of a hexagon in a
-    circle leaves 0.13 of its length) of an edge of the mesh whose ends lie on the curves. far: the largest distance there. corners, corners_kept: where not two edges of curves meet,
-    or at more than 45 degrees, and how many are vertices of the mesh."""
+    circle leaves 0.13 of its length) of an edge of the mesh whose ends lie on the curves. far: the largest distance
+    there. corners, corners_kept: where not two edges of curves meet, or at more than 45 degrees, and how many are
+    vertices of the mesh."""
 
     length: float
     kept: float
