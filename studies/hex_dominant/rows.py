@@ -165,7 +165,7 @@ def summary(rows: list[dict]) -> str:
         middle = lambda name: statistics.median(row[name] for row in of)  # noqa: B023, E731
         worst = min(of, key=lambda row: row["hex_volume_share"])
         lines.append(
-            f"{factor:g} of the mean edge, {len(of)} meshes: median hex share {middle('hex_volume_share'):.1%} by"
+            f"- Cells of {factor:g} mean edges, {len(of)} meshes: median hex share {middle('hex_volume_share'):.1%} by"
             f" volume, {middle('hex_number_share'):.1%} by number, worst {worst['hex_volume_share']:.1%}"
             f" ({worst['file']});"
             f" mean scaled Jacobian of hexahedra {middle('hex_sj_mean'):.3f} in the median; largest volume error"
@@ -173,7 +173,7 @@ def summary(rows: list[dict]) -> str:
             f" {max(row['deviation'] for row in of):.2%}."
         )
     head = f"{len(rows)} runs, {len(made)} meshes, {sound} of them conforming and without an inverted cell."
-    return "\n".join([head, *lines])
+    return "\n".join([head, "", *lines])
 
 
 def when(rows: list[dict]) -> str:
