@@ -4,6 +4,7 @@ import csv
 import datetime
 import json
 import os
+import re
 import signal
 import statistics
 import subprocess
@@ -151,7 +152,8 @@ def cells(row: dict) -> list[str]:
 
 
 def clean(text: str) -> str:
-    return text.replace("|", "\\|").replace("\n", " ").replace("/work/", "")
+    """For a cell of a table; of paths the names alone."""
+    return re.sub(r"(?:/[\w.-]+)+/", "", text.replace("|", "\\|").replace("\n", " "))
 
 
 def summary(rows: list[dict]) -> str:

@@ -45,7 +45,8 @@ def corner_jacobians(mesh):
 
 
 def require_conforming(mesh):
-    """Every face belongs to two cells that run it in opposite senses, or lies on the boundary; that closes up. Every vertex is of a cell."""
+    """Every face belongs to two cells that run it in opposite senses, or lies on the boundary; that closes up. Every
+    vertex is of a cell."""
     assert (corner_jacobians(mesh) > 0).all()
     assert np.array_equal(np.unique([v for _, cell in cells_of(mesh) for v in cell]), np.arange(len(mesh.vertices)))
     boundary = Counter()

@@ -109,12 +109,10 @@ TEST(Attempts, WallsThinnerThanTheChordsKeepVerticesUntilTheyDoNotCross) {
 TEST(Attempts, WhereAllOldVerticesStayTheSurfaceIsTheOldOne) {
     const TetDomain domain(bent_wall());
     const surface::TriangleMesh& old = domain.surface().mesh;
-    const CellsOnSurface cells = cells_on_surface(domain, no_cells(), 0.8,
-                                                  std::vector<std::uint8_t>(old.vertices.rows(), 1));
+    const CellsOnSurface cells =
+        cells_on_surface(domain, no_cells(), 0.8, std::vector<std::uint8_t>(old.vertices.rows(), 1));
     EXPECT_EQ(cells.surface.mesh.triangles.rows(), old.triangles.rows());
-    EXPECT_EQ(kind_thrown([&] {
-                  cells_on_surface(domain, no_cells(), 0.8, std::vector<std::uint8_t>(3, 1));
-              }),
+    EXPECT_EQ(kind_thrown([&] { cells_on_surface(domain, no_cells(), 0.8, std::vector<std::uint8_t>(3, 1)); }),
               "wrong_size");
 }
 
@@ -151,8 +149,9 @@ TEST(Attempts, HexahedraThatAreNotProvenPositiveAreFilledAboutAPoint) {
     std::uniform_real_distribution<double> uniform(-0.55, 0.55);
     int seen = 0;
     for (int trial = 0; trial < 20000 && seen < 5; ++trial) {
-        MixedMesh mesh =
-            testing::CubeGrid({1, 1, 1}, [](int, int, int) { return testing::Filled::hexahedron; }, 0, 0).mesh();
+        MixedMesh mesh = testing::CubeGrid(
+                             {1, 1, 1}, [](int, int, int) { return testing::Filled::hexahedron; }, 0, 0)
+                             .mesh();
         for (double& x : mesh.vertices.reshaped()) x += uniform(random);
         if (scaled_jacobians(mesh).minCoeff() < 0.01 || proven_positive(mesh)[0]) continue;
         const double volume = cell_volumes(mesh).sum();
@@ -169,14 +168,17 @@ TEST(Attempts, HexahedraThatAreNotProvenPositiveAreFilledAboutAPoint) {
 }
 
 TEST(Attempts, WhatIsNotPositiveAndCannotBeFilledIsAnErrorWithItsCell) {
-    MixedMesh mesh = testing::CubeGrid({1, 1, 1}, [](int, int, int) { return testing::Filled::hexahedron; }, 0, 0).mesh();
+    MixedMesh mesh = testing::CubeGrid(
+                         {1, 1, 1}, [](int, int, int) { return testing::Filled::hexahedron; }, 0, 0)
+                         .mesh();
     mesh.vertices.row(7) << 2, -1, -1;
     EXPECT_EQ(kind_thrown([&] { without_unproven(mesh, 1); }), "unproven_cell");
 }
 
 TEST(Attempts, MovedVerticesDoNotTakeVolumeAwayWhereNoFeaturesHoldThem) {
-    const TetDomain domain({Eigen::Matrix<double, 4, 3, Eigen::RowMajor>(kuhn_grid(1, 1, 1, 1).vertices({0, 1, 3, 7}, Eigen::all)),
-                            Eigen::RowVector4i(0, 1, 2, 3)});  // its edges are no features
+    const TetDomain domain(
+        {Eigen::Matrix<double, 4, 3, Eigen::RowMajor>(kuhn_grid(1, 1, 1, 1).vertices({0, 1, 3, 7}, Eigen::all)),
+         Eigen::RowVector4i(0, 1, 2, 3)});  // its edges are no features
     const CellsOnSurface cells = cells_on_surface(domain, no_cells(), 1);
     CellsOnSurface same = cells;
     const MixedMesh mesh = filled(same, {});

@@ -113,8 +113,8 @@ TEST(FillCavity, ASurfaceThatIsOpenOrInsideOutIsNotFilled) {
 
 TEST(FillCavity, TetsInsideAreThoseOnTheInnerSideOrNoneWhereATriangleIsMissing) {
     const TetMesh mesh = kuhn_grid(3, 3, 3, 1);
-    const TetMesh inner = kuhn_grid(3, 3, 3, 1, Eigen::Vector3d::Zero(),
-                                    [](int i, int j, int k) { return i == 1 && j == 1 && k == 1; });
+    const TetMesh inner =
+        kuhn_grid(3, 3, 3, 1, Eigen::Vector3d::Zero(), [](int i, int j, int k) { return i == 1 && j == 1 && k == 1; });
     surface::TriangleMesh cube = boundary_surface(inner).mesh;
     const auto same_in_mesh = [&](Index v) {
         for (Index w = 0; w < mesh.vertices.rows(); ++w)
@@ -127,8 +127,8 @@ TEST(FillCavity, TetsInsideAreThoseOnTheInnerSideOrNoneWhereATriangleIsMissing) 
     const std::vector<Index> found = tets_inside(mesh, cube, one_sided);
     ASSERT_EQ(found.size(), 6u);
     for (const Index t : found)
-        EXPECT_TRUE(mesh.vertices(mesh.tets.row(t), Eigen::all).isApprox(
-            mesh.vertices(mesh.tets.row(t), Eigen::all).cwiseMax(1).cwiseMin(2)));
+        EXPECT_TRUE(mesh.vertices(mesh.tets.row(t), Eigen::all)
+                        .isApprox(mesh.vertices(mesh.tets.row(t), Eigen::all).cwiseMax(1).cwiseMin(2)));
     cube.triangles.conservativeResize(cube.triangles.rows() + 1, 3);
     cube.triangles.bottomRows(1) << 0, 1, 2;
     one_sided.push_back(0);

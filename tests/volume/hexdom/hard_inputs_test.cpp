@@ -84,8 +84,7 @@ TEST(HexDominant, FeaturesInFlatPlacesStayEdges) {
     const TetDomain domain = plain.with_features(surface::ordered_features(features, plain.surface().mesh));
     HexDominantOptions options = quick(1);
     options.improve = false;
-    const MixedMesh result =
-        hex_dominant(domain, turned(static_cast<Index>(mesh.vertices.rows()), 0.6), options).mesh;
+    const MixedMesh result = hex_dominant(domain, turned(static_cast<Index>(mesh.vertices.rows()), 0.6), options).mesh;
     EXPECT_GT(result.hexahedra.rows(), 0);
     std::set<std::pair<double, double>> pieces;  // edges of faces along the line
     for (const auto& [ids, use] : testing::faces_of(result)) {

@@ -48,8 +48,8 @@ MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress) {
         } catch (const GeometryError& error) {
             if (error.kind() != "tetgen_failed" || cells.hexahedra.rows() == 0) throw;
         }
-        leave_out(cells, layer < most_layers ? beside_cavity(cells)
-                                             : std::vector<std::uint8_t>(cells.hexahedra.rows(), 1));
+        leave_out(cells,
+                  layer < most_layers ? beside_cavity(cells) : std::vector<std::uint8_t>(cells.hexahedra.rows(), 1));
     }
 }
 
@@ -180,8 +180,7 @@ MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, Hex
             return result;
         } catch (const GeometryError& error) {
             const bool names_cells = error.kind() != "unproven_cell" && error.kind() != "lost_feature";
-            if (names_cells && round < most_refillings)
-                marked = lattice_hexahedra(error.elements(), mesh, of_lattice);
+            if (names_cells && round < most_refillings) marked = lattice_hexahedra(error.elements(), mesh, of_lattice);
             if (marked.empty() && !std::exchange(join, false)) {
                 if (of_lattice == 0) throw;
                 marked = all_hexahedra(filled.mesh);
@@ -224,7 +223,8 @@ MixedMesh improved(const MixedMesh& mesh, const TetDomain& domain, const std::ve
     for (const bool held : {false, true}) {
         VertexSupport where;
         for (const std::uint8_t kind : support)
-            where.kind.push_back(held && kind > 0 ? VertexSupport::Kind::fixed : static_cast<VertexSupport::Kind>(kind));
+            where.kind.push_back(held && kind > 0 ? VertexSupport::Kind::fixed
+                                                  : static_cast<VertexSupport::Kind>(kind));
         ImproveOptions how;
         how.tolerance = 0.1 * edge_length;
         how.good = 0.5;

@@ -20,8 +20,8 @@ struct Way {
     bool inside, refine, turned;
     double tolerance;
 };
-constexpr Way ways[] = {{true, true, false, 0},  {true, true, false, 1e-12}, {true, true, true, 0},
-                        {false, true, false, 0}, {false, true, true, 1e-6},  {false, false, false, 0},
+constexpr Way ways[] = {{true, true, false, 0},     {true, true, false, 1e-12}, {true, true, true, 0},
+                        {false, true, false, 0},    {false, true, true, 1e-6},  {false, false, false, 0},
                         {false, false, true, 1e-12}};
 
 // TetGen's arithmetic is at its best round the origin, at sizes near 1.
@@ -34,8 +34,9 @@ struct Placement {
         const Eigen::RowVector3d low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
         centre = (low + high) / 2;
         scale = (high - low).maxCoeff();
-        turn = turned ? Eigen::AngleAxisd(0.7316, Eigen::Vector3d(0.3713, -0.6127, 0.6977).normalized()).toRotationMatrix()
-                      : Eigen::Matrix3d::Identity();
+        turn = turned
+                   ? Eigen::AngleAxisd(0.7316, Eigen::Vector3d(0.3713, -0.6127, 0.6977).normalized()).toRotationMatrix()
+                   : Eigen::Matrix3d::Identity();
     }
     Points there(const Points& points) const { return (points.rowwise() - centre) / scale * turn.transpose(); }
     Points back(const Points& points) const { return (points * turn * scale).rowwise() + centre; }
@@ -127,16 +128,15 @@ std::vector<Index> tets_inside(const TetMesh& mesh, const surface::TriangleMesh&
         const auto wall = std::lower_bound(walls.begin(), walls.end(), sorted,
                                            [](const Side& x, const auto& key) { return x.sorted < key; });
         const bool is_wall = wall != walls.end() && wall->sorted == sorted;
-        if (!is_wall && table.sides(row, 1) >= 0)
-            parts.join(table.sides(row, 0) / 4, table.sides(row, 1) / 4);
+        if (!is_wall && table.sides(row, 1) >= 0) parts.join(table.sides(row, 0) / 4, table.sides(row, 1) / 4);
         if (!is_wall && table.sides(row, 1) < 0) outer[table.sides(row, 0) / 4] = 1;  // the hull's
         for (int s = 0; is_wall && s < 2; ++s) {
             const Index side = table.sides(row, s);
             if (side < 0) continue;
             const Index tet = side / 4;
             const auto& face = tet_face[side % 4];
-            const bool inward = runs_up(mesh.tets(tet, face[0]), mesh.tets(tet, face[1]), mesh.tets(tet, face[2])) ==
-                                wall->even;
+            const bool inward =
+                runs_up(mesh.tets(tet, face[0]), mesh.tets(tet, face[1]), mesh.tets(tet, face[2])) == wall->even;
             seen[wall->triangle] |= inward ? 1 : 2;
             (inward || two_sided[wall->triangle] ? inner : outer)[tet] = 1;
         }

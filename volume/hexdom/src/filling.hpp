@@ -14,8 +14,8 @@ namespace octafield::volume {
 struct CellsOnSurface {
     PointSurface surface;
     std::vector<std::uint8_t> two_sided;  // per triangle of the surface: between regions
-    Quads quads;            // of vertices, faces of cells on the surface
-    Points vertices;        // the surface's first, then those of hexahedra inside
+    Quads quads;                          // of vertices, faces of cells on the surface
+    Points vertices;                      // the surface's first, then those of hexahedra inside
     Hexahedra hexahedra;
     Points spare;  // points of the lattice inside that no hexahedron has
     double edge_length;

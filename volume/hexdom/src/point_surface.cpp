@@ -29,8 +29,8 @@ bool turns_sharply(const TriangleComplex& complex, Index v) {
 }
 
 // Old vertices but corners; those that turn out to be ends or meetings of curves stay anyway.
-std::vector<std::uint8_t> removable(const detail::PlacedPoints& placed, Index points,
-                                    const std::vector<Index>& corners, const std::vector<std::uint8_t>& stays) {
+std::vector<std::uint8_t> removable(const detail::PlacedPoints& placed, Index points, const std::vector<Index>& corners,
+                                    const std::vector<std::uint8_t>& stays) {
     std::vector<std::uint8_t> result(placed.source.size(), 1);
     std::fill(result.begin(), result.begin() + points, 0);
     for (const Index v : corners)

@@ -22,7 +22,7 @@ struct HexDominantOptions {
     // anew, while the mesh stays within most_tets.
     int refinements = 2;
     Index most_tets = 500000;
-    Index most_hexahedra = 5000000;   // an edge length that asks for more is refused
+    Index most_hexahedra = 5000000;    // an edge length that asks for more is refused
     double min_scaled_jacobian = 0.3;  // of hexahedra of the lattice, and of cells made of tets
     double hold_angle = 0.7;           // of PeriodicMapOptions, radians
     bool recombine = true;             // tets between are joined to hexahedra and wedges
