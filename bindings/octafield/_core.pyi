@@ -2100,6 +2100,7 @@ class HexDominantOptions:
     correction: str
     refinements: int
     most_tets: int
+    most_hexahedra: int
     min_scaled_jacobian: float
     hold_angle: float
     recombine: bool
@@ -2112,6 +2113,7 @@ class HexDominantOptions:
         correction: str = ...,
         refinements: int = ...,
         most_tets: int = ...,
+        most_hexahedra: int = ...,
         min_scaled_jacobian: float = ...,
         hold_angle: float = ...,
         recombine: bool = ...,
@@ -2287,6 +2289,7 @@ def hex_dominant(
     correction: str = ...,
     refinements: int = ...,
     most_tets: int = ...,
+    most_hexahedra: int = ...,
     min_scaled_jacobian: float = ...,
     hold_angle: float = ...,
     recombine: bool = ...,

@@ -36,10 +36,9 @@ void check_map(const PeriodicMap& map, const TetDomain& domain) {
     rows(map.translation.rows(), faces, "translation");
     rows(size(map.joined), faces, "joined");
     const bool known =
-        faces == 0 ||
-        (map.faces.tets.minCoeff() >= 0 && map.faces.tets.maxCoeff() < domain.tet_count() &&
-         map.faces.triangles.minCoeff() >= 0 && map.faces.triangles.maxCoeff() < domain.vertex_count() &&
-         std::all_of(map.faces.matching.begin(), map.faces.matching.end(), [](int o) { return o < 24; }));
+        faces == 0 || (map.faces.tets.minCoeff() >= 0 && map.faces.tets.maxCoeff() < domain.tet_count() &&
+                       map.faces.triangles.minCoeff() >= 0 && map.faces.triangles.maxCoeff() < domain.vertex_count() &&
+                       std::all_of(map.faces.matching.begin(), map.faces.matching.end(), [](int o) { return o < 24; }));
     if (!known)
         throw InvalidInput("map.faces: ids out of range; give what periodic_map made on this domain",
                            "index_out_of_range");
@@ -85,8 +84,8 @@ void bind_lattice(py::module_& m) {
     m.def(
         "refine_tets",
         [](const DomainOrMesh& mesh, const ArrayLike& marked) {
-            RefinedDomain refined = run_interruptible(
-                [mesh, marks = from_python<std::vector<std::uint8_t>>(marked, "marked")](Job&) {
+            RefinedDomain refined =
+                run_interruptible([mesh, marks = from_python<std::vector<std::uint8_t>>(marked, "marked")](Job&) {
                     return refine_tets(domain_of(mesh), marks);
                 });
             return std::tuple<TetDomain, py::array_t<Index>, py::array_t<Index>>(
@@ -165,8 +164,8 @@ void bind_cells_between(py::module_& m) {
         "proven_positive",
         [](const MixedMesh& mesh, int depth, int threads) {
             threads_option(threads);
-            return own(
-                run_interruptible([mesh = mesh, depth, threads](Job&) { return proven_positive(mesh, depth, threads); }));
+            return own(run_interruptible(
+                [mesh = mesh, depth, threads](Job&) { return proven_positive(mesh, depth, threads); }));
         },
         "mesh"_a, py::kw_only(), "depth"_a = 8, "threads"_a = 0,
         "(cells,) uint8, 1: the Jacobian is above 0 everywhere in the cell, proven (Johnen, Remacle, Geuzaine 2013); "
@@ -176,13 +175,12 @@ void bind_cells_between(py::module_& m) {
         [](const MixedMesh& mesh, const ArrayLike& support, const TriangleMesh& surface, const FeatureGraph& features,
            const py::kwargs& given) {
             const auto [options] = options_of<ImproveOptions>("improve_cells", given);
-            return run_interruptible(
-                [mesh = mesh, held = support_of(support), surface = surface, features = features,
-                 options = options](Job&) mutable {
-                    check(surface, false);
-                    check_edges(features.edges, surface, "features.edges");
-                    return improve_cells(std::move(mesh), held, surface, features, options);
-                });
+            return run_interruptible([mesh = mesh, held = support_of(support), surface = surface, features = features,
+                                      options = options](Job&) mutable {
+                check(surface, false);
+                check_edges(features.edges, surface, "features.edges");
+                return improve_cells(std::move(mesh), held, surface, features, options);
+            });
         },
         "mesh"_a, "support"_a, "surface"_a, "features"_a,
         "A MixedMesh with vertices moved for better cells: the lowest scaled Jacobians are raised, then the whole is "

@@ -76,6 +76,7 @@ void bind_options(py::module_& m) {
         .field("refinements", &HexDominantOptions::refinements,
                "Times that tets on which the map is of no use are cut into eight, and the map is made anew.")
         .field("most_tets", &HexDominantOptions::most_tets, "None are cut where the mesh would have more.")
+        .field("most_hexahedra", &HexDominantOptions::most_hexahedra, "An edge length that asks for more is refused.")
         .field("min_scaled_jacobian", &HexDominantOptions::min_scaled_jacobian,
                "Of hexahedra of the lattice, and of cells made of tets; in (0, 1).")
         .field("hold_angle", &HexDominantOptions::hold_angle, "Of PeriodicMapOptions, radians.")
@@ -88,15 +89,13 @@ void bind_options(py::module_& m) {
 }
 
 void bind_map(py::module_& m) {
-    Record<PeriodicMap>(m, "PeriodicMap",
-                        "Coordinates tet by tet whose integer points are the vertices of hexahedra.")
+    Record<PeriodicMap>(m, "PeriodicMap", "Coordinates tet by tet whose integer points are the vertices of hexahedra.")
         .field("frames", &PeriodicMap::frames, "(m, 4) float64 quaternions w x y z whose axes the coordinates follow.")
         .field("coordinates", &PeriodicMap::coordinates,
                "(m, 12) int32, column 3 c + i: coordinate i of corner c, in 1/65536 of a cell.")
         .field("usable", &PeriodicMap::usable,
                "(m,) uint8, 1: the jumps of its edges sum to 0, and it is positively oriented.")
-        .field("faces", &PeriodicMap::faces,
-               "FaceMatchings: x of the first tet is o^-1 x + translation in the second.")
+        .field("faces", &PeriodicMap::faces, "FaceMatchings: x of the first tet is o^-1 x + translation in the second.")
         .field("translation", &PeriodicMap::translation, "(f, 3) int32, in cells.")
         .field("joined", &PeriodicMap::joined, "(f,) uint8, 1: both tets are usable and agree on the triangle.")
         .field("inconsistent", &PeriodicMap::inconsistent, "Tets whose jumps do not sum to 0.")

@@ -6,13 +6,15 @@ from typing import Annotated
 
 import typer
 
+from ..hexdom.options import CORRECTIONS, MESHES, HexMeshOptions
 from ..options import BOUNDARIES, COMPARED, REPRESENTATIONS, FieldOptions, MeshOptions
 from . import console, tables
 from .console import carry_out, log
 from .options import InputFiles, Json, Output, Quiet, Verbose, choices, named_files, with_options
-from .shell_completion import lists
+from .shell_completion import lists, words
 
 # The rest is told by other parameters, or the same for all.
+_CELLS = HexMeshOptions()
 _OF_ALL = ("sampling", "sizes", "seed", "threads", *(option.name for option in fields(MeshOptions)))
 
 
@@ -69,6 +71,28 @@ def compare(
             ),
         ),
     ] = "sh4",
+    mesh: Annotated[
+        str,
+        typer.Option(
+            metavar="|".join(MESHES),
+            autocompletion=words(MESHES),
+            help="A mesh along every field, in the folder of its run; the report ranks them.",
+        ),
+    ] = MESHES[0],
+    cell_edge: Annotated[
+        float, typer.Option(metavar="LENGTH", help="Wanted edge of its cells, input unit; 0: the tets' on the surface.")
+    ] = 0.0,
+    cells: Annotated[
+        int, typer.Option(metavar="N", help="In its place: the edge of N cubes that fill the volume.")
+    ] = 0,
+    correction: Annotated[
+        str,
+        typer.Option(
+            metavar="|".join(CORRECTIONS),
+            autocompletion=words(CORRECTIONS),
+            help="How sizes of cells give way to the turning of the field.",
+        ),
+    ] = _CELLS.correction,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -79,6 +103,7 @@ def compare(
         from ..runs.compare import compare as run_comparison
         from ..runs.compare import default_input
 
+        of_cells = HexMeshOptions(edge_length=cell_edge, cells=cells, correction=correction)
         chosen = COMPARED if representations == "all" else _listed(representations)
         with console.progress_bar(quiet, whole=True) as progress:
             comparison = run_comparison(
@@ -91,6 +116,8 @@ def compare(
                 options=options(),
                 fields=named_files(given or []),
                 energies=energies or [],
+                mesh=mesh,
+                hex_options=None if of_cells == _CELLS else of_cells,
                 progress=progress,
             )
         for record in {row.input: row for row in comparison.rows}.values():

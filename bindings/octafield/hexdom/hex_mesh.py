@@ -217,8 +217,7 @@ def _mesh_along(
 
     domain = field.tets
     volumes = np.asarray(_core.tet_volumes(domain))
-    length = cells.edge_length or (float(np.cbrt(volumes.sum() / cells.cells)) if cells.cells else 0.0)
-    length = length or float(_core.mean_edge_length(domain.surface.mesh))
+    length = cell_length(cells, domain)
     wanted = None if at is None else at(np.asarray(domain.vertices))
     if wanted is not None:
         length = float((wanted[np.asarray(domain.tets)].mean(axis=1) * volumes).sum() / volumes.sum())
@@ -258,6 +257,15 @@ def _mesh_along(
         field=field,
         record=told,
     )
+
+
+def cell_length(cells: HexMeshOptions, domain: TetDomain) -> float:
+    """Wanted edge of the cells, input unit."""
+    if cells.edge_length:
+        return cells.edge_length
+    if cells.cells:
+        return float(np.cbrt(np.asarray(_core.tet_volumes(domain)).sum() / cells.cells))
+    return float(_core.mean_edge_length(domain.surface.mesh))
 
 
 def require_sound(mesh: MixedMesh) -> None:

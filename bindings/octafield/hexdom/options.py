@@ -8,6 +8,7 @@ from .. import _core
 from ..errors import InvalidInput
 from ..options import LARGEST_INT, integer_in, require_one_of
 
+MESHES = ("none", "hex-dominant")  # that comparisons make along each field
 CORRECTIONS = tuple(_core.HexDominantOptions.words["correction"])
 _DEFAULTS = _core.HexDominantOptions()
 
@@ -30,6 +31,7 @@ class HexMeshOptions:
     correction: str = _DEFAULTS.correction
     refinements: int = _DEFAULTS.refinements
     most_tets: int = _DEFAULTS.most_tets
+    most_hexahedra: int = _DEFAULTS.most_hexahedra
     min_scaled_jacobian: float = _DEFAULTS.min_scaled_jacobian
     hold_angle: float = _DEFAULTS.hold_angle
     recombine: bool = _DEFAULTS.recombine
@@ -46,10 +48,14 @@ class HexMeshOptions:
         require_one_of("correction", self.correction, CORRECTIONS)
         integer_in("refinements", self.refinements, 0, 6)
         integer_in("most_tets", self.most_tets, 1, LARGEST_INT)
+        integer_in("most_hexahedra", self.most_hexahedra, 1, LARGEST_INT)
         if not 0 < self.min_scaled_jacobian < 1:
             raise InvalidInput("the least scaled Jacobian must lie between 0 and 1", "option_out_of_range")
         if not 0 <= self.hold_angle <= math.pi / 2:
             raise InvalidInput("the hold angle must lie between 0 and 90 degrees", "option_out_of_range")
+        for name in ("recombine", "improve"):
+            if not isinstance(getattr(self, name), bool):
+                raise InvalidInput(f"{name} must be true or false, not {getattr(self, name)!r}", "option_out_of_range")
 
     def of_cells(self) -> dict[str, Any]:
         """What octafield.volume.hex_dominant takes as it is here."""

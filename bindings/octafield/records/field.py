@@ -7,6 +7,7 @@ from pydantic import Field
 from .base import Record
 from .parts import (
     Angles,
+    HexDominantFigures,
     IntegrabilityFigures,
     LockingCounts,
     Machine,
@@ -145,6 +146,9 @@ class FieldRecord(FieldFigures, VolumeRecord):  # pydantic puts the names of the
     deviation_deg: float | None = Field(default=None, description="largest turn that made its axes orthonormal")
     label: str | None = Field(default=None, description="of the run in its comparison")
     energies: dict[str, float] | None = Field(default=None, description="of the user's own, by name")
+    mesh: HexDominantFigures | None = Field(
+        default=None, description="along the field, where a comparison or study asks for meshes"
+    )
     files: list[str] | None = Field(default=None, description="names of what was written, within the folder")
     folder: str | None = Field(default=None, description="of the run, within its comparison")
 

@@ -180,6 +180,30 @@ class FieldOfMesh(Record):
     edge_length: float = Field(description="mean edge of the surface of the tets, input unit")
 
 
+class HexDominantFigures(Record):
+    """Of the hex-dominant mesh along a field; where none could be made `error`, and nothing that needs a mesh."""
+
+    edge_length: float = Field(description="wanted of the cells, input unit; the same for all runs on an input")
+    seconds: float = Field(description="by the clock, of making and judging it")
+    error: str | None = Field(default=None, description="why there is no mesh")
+    error_kind: str | None = Field(default=None, description="its kind, a word")
+    cells: CellCounts | None = Field(default=None, description="of the mesh that was made")
+    hex_volume_share: float | None = Field(default=None, description="volume of the hexahedra over that of all cells")
+    hex_number_share: float | None = Field(default=None, description="number of the hexahedra over that of all cells")
+    scaled_jacobian: dict[str, JacobianFigures] | None = Field(
+        default=None, description="by kind of cell, where there are any"
+    )
+    inverted: int | None = Field(default=None, description="cells with a scaled Jacobian of 0 or less: 0")
+    nonconforming_faces: int | None = Field(default=None, description="that do not match: 0")
+    volume_error: float | None = Field(
+        default=None, description="difference of the volumes of mesh and input, over the input's"
+    )
+    boundary_deviation: Deviation | None = Field(
+        default=None, description="between the boundaries of mesh and input, over the diagonal of the input's box"
+    )
+    peak_mb: float | None = Field(default=None, description="largest resident memory while it was made, 1e6 bytes")
+
+
 class LostLatticeCells(Record):
     """Cells of the lattice whose middle is in the map and that are no hexahedra, by the first reason."""
 

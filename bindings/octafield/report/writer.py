@@ -8,6 +8,7 @@ from pathlib import Path
 from ..view.plots import standalone
 from .numbers.columns import deviation_table, input_table, run_table, summary_table
 from .numbers.deviations import deviations
+from .numbers.hex_meshes import hex_mesh_table
 from .numbers.integrability import integrability_table
 from .numbers.own_energies import own_energy_table
 from .numbers.profiles import lines
@@ -28,7 +29,8 @@ def write_report(report: Report, folder: Path) -> list[str]:
     methods, sizes = lines(results), integrability_table(results)
     tables = [
         summary_table(results, methods, found), deviation_table(found), input_table(results, anchors_of(results)),
-        run_table(results, results.runs), *(table for table in (sizes, own_energy_table(results)) if table.rows),
+        run_table(results, results.runs),
+        *(table for table in (sizes, own_energy_table(results), hex_mesh_table(results)) if table.rows),
     ]  # fmt: skip
     (folder / TABLES).mkdir(exist_ok=True)
     names = []

@@ -17,6 +17,7 @@ from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField, analyse
 from ..fields.frame_field import FieldProblem, FieldResult, prepare_field, run_field
 from ..files.writing import staged_folder
+from ..hexdom.options import MESHES, HexMeshOptions
 from ..options import (
     BOUNDARIES,
     COMPARED,
@@ -34,6 +35,7 @@ from ..report.numbers.records import INDEPENDENT
 from ..schemes import OwnScheme, name_of
 from ..view.captions import counted
 from ..view.notebook import Facts, ShownInNotebooks
+from . import compared_meshes
 from .fields_to_compare import FieldSource, GivenField, given_fields
 from .own_energies import Energy, energies_of, named_energies
 from .run_folder import write_analysis, write_field_result
@@ -52,7 +54,7 @@ _MOST_CURVES = 3  # pictures of singular curves per boundary treatment
 class _Section:
     """One input: its runs, and pictures: of the surface, then per boundary treatment. folder: of the comparison, with a
     folder per run. drawn: per boundary treatment, the singular graphs that have a picture. given: rows of the fields
-    that were read, by name. energies: of the user's own, by name."""
+    that were read, by name. energies: of the user's own, by name. cells: of the meshes along fields; None: none."""
 
     name: str
     slug: str
@@ -60,6 +62,7 @@ class _Section:
     options: FieldOptions
     several_seeds: bool
     energies: dict[str, Energy]
+    cells: HexMeshOptions | None = None
     rows: list[FieldRecord] = field(default_factory=list)
     pictures: dict[str, list[Picture]] = field(default_factory=dict)
     drawn: dict[str, set[tuple[str, ...]]] = field(default_factory=dict)
@@ -121,6 +124,8 @@ def compare(
     options: FieldOptions = FieldOptions(),
     fields: Mapping[str, FieldSource] = MappingProxyType({}),
     energies: Sequence[Energy] = (),
+    mesh: str = MESHES[0],
+    hex_options: HexMeshOptions | None = None,
     progress: Progress | None = None,
 ) -> Comparison:
     """Every representation with every boundary treatment and `seeds` seeds (options.seed and following) on each input.
@@ -140,6 +145,10 @@ def compare(
     energies: of one's own, by which all fields are judged, too: schemes, functions of a FieldResult that give a number,
     or "FILE.py:NAME" of either. Records have them in `energies`, the report a table with methods ranked by the first.
 
+    mesh: "hex-dominant" makes a mesh along every field (mesh.vtu in the run's folder), with hex_options, whose edge
+    length holds for all fields on an input. Records have its figures, or why there is none, in `mesh`; the report ranks
+    methods by what hexahedra are of the volume, then of the cells.
+
         >>> import octafield
         >>> from octafield.domain.generators import generate
         >>> options = octafield.FieldOptions(edge_length=0.4)
@@ -149,7 +158,7 @@ def compare(
     """
     inputs = [inputs] if isinstance(inputs, Source) else list(inputs)
     _check(inputs, representations, boundaries, starts)
-    judges = named_energies(energies)
+    judges, cells = named_energies(energies), compared_meshes.mesh_options(mesh, hex_options)
     seeds = integer_in("seeds", seeds, 1, LARGEST_SEED - options.seed + 1)
     with staged_folder(output, ROWS_FILE) as folder:
         rows: list[FieldRecord] = []
@@ -166,11 +175,14 @@ def compare(
                 name, _unique([s.slug for s in sections], _slug(source)), folder, options, seeds > 1, judges
             )
             meshed = prepare_mesh(sound[number], options, progress=whole.labelled(name))
+            section.cells = compared_meshes.of_one_length(cells, meshed.volume()) if cells else None
             meshed.notes += [note for one in given for note in one.notes]
             for seed in range(options.seed, options.seed + seeds):
                 problem = prepare_field(meshed, seed, whole.labelled(name))
                 _run_all(problem, section, steps, whole)
                 _add_given(problem, section, boundaries, given)
+            for boundary, picture in compared_meshes.pictures(section.rows, folder):
+                section.pictures.setdefault(boundary, []).append(picture)
             sections.append(section)
             rows += section.rows
         announce(progress, "report")
@@ -238,6 +250,7 @@ def _run_all(problem: FieldProblem, section: _Section, steps: Sequence[_Step], w
         name = section.new_folder(
             f"{step.method}-{step.boundary}" + (f"-seed{problem.seed}" if section.several_seeds else "")
         )
+        compared_meshes.add_mesh(result, section.cells, section.folder / name, report)
         write_field_result(result, section.folder / name, report)
         section.rows.append(_row(result.record, name))
         if first:
@@ -263,6 +276,7 @@ def _add_given(
             result.record = GivenFieldRecord(**result.record).changed(label=one.name, representation=one.name)
             _judge(result, section)
             name = section.new_folder(one.name)
+            compared_meshes.add_mesh(result, section.cells, section.folder / name)
             write_analysis(result, section.folder / name)
             section.given[one.name] = _row(result.record, name)
             section.pictures.setdefault("given", []).extend(_pictures_of_given(one.name, result))

@@ -28,8 +28,9 @@ if TYPE_CHECKING:
     from ..records.field import FieldRecord
     from ..records.surface_field import SurfaceFieldRecord
 
+MESH_FILE = "mesh.vtu"  # of a comparison with meshes
 SURFACE_FILES = ("surface.vtp", "surface_singularities.vtp", "surface_separatrices.vtp")
-FIELD_FILES = ("field.vtu", "singular.vtp", "features.vtp", "streamlines.vtp", *SURFACE_FILES)
+FIELD_FILES = ("field.vtu", "singular.vtp", "features.vtp", "streamlines.vtp", *SURFACE_FILES, MESH_FILE)
 
 
 def write_field_result(result: FieldResult, folder: Path, progress: Progress | None = None) -> None:

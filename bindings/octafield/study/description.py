@@ -22,6 +22,7 @@ from pydantic import (
 
 from ..domain.generators import GENERATORS
 from ..errors import Error, InvalidInput, IoError
+from ..hexdom.options import MESHES, HexMeshOptions
 from ..options import FieldOptions, MeshOptions, did_you_mean
 from ..schemes import in_folder
 from ..view.captions import counted
@@ -29,9 +30,15 @@ from ..view.captions import counted
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
 
-_DEGREES = ("feature_angle", "feature_tolerance")  # radians in the options, degrees in files and on the command line
+_DEGREES = (
+    "feature_angle",
+    "feature_tolerance",
+    "hold_angle",
+)  # radians in the options, degrees in files and on the command line
 _MESH = tuple(f.name for f in dataclasses.fields(MeshOptions))
 _RUN = tuple(f.name for f in dataclasses.fields(FieldOptions) if f.name not in (*_MESH, "seed", "threads"))
+
+_CELLS = tuple(f.name for f in dataclasses.fields(HexMeshOptions))
 
 _MOST_SEEDS = 10_000
 _DEEPEST = 20  # levels of nesting
@@ -90,6 +97,8 @@ class Study(_Strict):
     (angles in degrees). runs: options of octafield.FieldOptions, one value or a list; every combination is run, but
     those that `skip` names. seeds: a list, or how many from 0. repeats: of every run, for timings. limit: seconds after
     which a run is ended and counts as failed; None: none. fields: keep field.vtu and the .vtp files of each run.
+    hex_dominant: options of octafield.HexMeshOptions: a mesh along every field; None: none. `mesh: hex-dominant` stands
+        for default ones.
     folder: that relative paths begin at; text: of the file; origin: its name in messages."""
 
     name: str
@@ -101,6 +110,7 @@ class Study(_Strict):
     repeats: Annotated[int, Field(ge=1, le=1000)] = 1
     limit: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
     fields: bool = True
+    hex_dominant: dict[str, Scalar] | None = None
     folder: Path = Field(default=Path(), exclude=True)
     text: str = Field(default="", exclude=True)
     origin: str = Field(default="study", exclude=True)
@@ -111,6 +121,13 @@ class Study(_Strict):
         repeats = f", {self.repeats} repeats" if self.repeats > 1 else ""
         inputs, seeds = counted(len(self.inputs), "input"), counted(len(self.seeds), "seed")
         return f"Study({self.name}: {inputs}{varied}; {seeds}{repeats})"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _a_word_for_meshes(cls, content: Any) -> Any:
+        if not isinstance(content, dict) or content.get("mesh") != MESHES[1]:
+            return content
+        return {"hex_dominant": {}, **{key: value for key, value in content.items() if key != "mesh"}}
 
     @field_validator("runs", mode="before")
     @classmethod
@@ -189,6 +206,11 @@ def mesh_options(study: Study, entry: FromFile | Generated) -> MeshOptions:
     return MeshOptions(**_converted({**study.mesh, **entry.mesh}))
 
 
+def cell_options(study: Study) -> HexMeshOptions | None:
+    """Of the meshes along fields; None: none are wanted."""
+    return None if study.hex_dominant is None else HexMeshOptions(**_converted(study.hex_dominant))
+
+
 def field_options(mesh: MeshOptions, chosen: dict[str, Scalar], seed: int, threads: int) -> FieldOptions:
     return FieldOptions(**vars(mesh), **_converted(chosen), seed=seed, threads=threads)
 
@@ -200,7 +222,9 @@ def _converted(options: dict[str, Scalar]) -> dict[str, Any]:
 def _check_options(study: Study, tree: yaml.Node, name: str) -> None:
     """Every option by itself: combinations that cannot be run are failures of their runs."""
 
-    def check(loc: Loc, known: tuple[str, ...], options: dict[str, Scalar], make: type[MeshOptions]) -> None:
+    def check(
+        loc: Loc, known: tuple[str, ...], options: dict[str, Scalar], make: type[MeshOptions] | type[HexMeshOptions]
+    ) -> None:
         for key, value in options.items():
             try:
                 if key not in known:
@@ -212,6 +236,11 @@ def _check_options(study: Study, tree: yaml.Node, name: str) -> None:
                 raise InvalidInput(f"{name}:{_line(tree, (*loc, key))}: {error}", "bad_study") from error
 
     check(("mesh",), _MESH, study.mesh, MeshOptions)
+    check(("hex_dominant",), _CELLS, study.hex_dominant or {}, HexMeshOptions)
+    try:
+        cell_options(study)
+    except Error as error:
+        raise InvalidInput(f"{name}:{_line(tree, ('hex_dominant',))}: {error}", "bad_study") from error
     for k, entry in enumerate(study.inputs):
         check(("inputs", k, "mesh"), _MESH, entry.mesh, MeshOptions)
     for key, values in study.runs.items():

@@ -11,12 +11,15 @@ from .plan import Run
 
 _PROCESS_MB = 280.0  # Python, its libraries, small arrays
 _TYPICAL_TETS = 50_000.0  # of an input before any is known
+_MB_PER_TET_MESHED = 0.021  # a mesh along the field, cells about as long as tets: their refinement takes the most
 _TET_SAMPLING = 3.5  # over frames at vertices: there are five to six times as many tets, but fewer neighbours
 
 
 def needed_mb(tets: float, runs: list[Run]) -> float:
     """Megabytes (1e6 bytes) of a process that carries out `runs` on so many tets, its mesher included."""
-    return _PROCESS_MB + tets * max((_mb_per_tet(run.options) for run in runs), default=0.0)
+    fields = [_mb_per_tet(run.options) for run in runs]
+    meshes = [_MB_PER_TET_MESHED for run in runs if run.hex_options]
+    return _PROCESS_MB + tets * max([*fields, *meshes], default=0.0)
 
 
 def _mb_per_tet(options: FieldOptions) -> float:

@@ -13,11 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InvalidInput, IoError
+from ..hexdom.options import HexMeshOptions
 from ..options import FieldOptions
 from ..progress.phases import octafield_version
 from ..schemes import digest_of as scheme_digest
 from ..schemes import is_in_file
-from .description import FromFile, Generated, Study, field_options, mesh_options, place
+from .description import FromFile, Generated, Study, cell_options, field_options, mesh_options, place
 from .digests import Digests, digest_of
 
 Source = str | dict[str, Any]
@@ -28,16 +29,19 @@ class Run:
     """One field to compute. source: a path, or {"generator": name, "with": {...}}. name: of the input, unique in the
     study.
     key: 20 hexadecimal digits of the SHA-256 of the input's content, the options but threads, the repeat and
-        octafield's version."""
+        octafield's version.
+    hex_options: of the mesh along the field; None: none."""
 
     key: str
     name: str
     source: str | dict[str, Any]
     options: FieldOptions
     repeat: int
+    hex_options: HexMeshOptions | None = None
 
     def __repr__(self) -> str:
         again = f", repeat {self.repeat}" if self.repeat else ""
+        again += f", {self.hex_options!r}" if self.hex_options else ""
         return f"Run({self.key}: {self.name}, {self.options!r}{again})"
 
     @property
@@ -47,11 +51,14 @@ class Run:
         return (self.name, json.dumps(mesh, sort_keys=True))
 
     def to_json(self) -> dict[str, Any]:
-        return {**vars(self), "options": dict(vars(self.options))}
+        cells = self.hex_options and dict(vars(self.hex_options))
+        return {**vars(self), "options": dict(vars(self.options)), "hex_options": cells}
 
     @classmethod
     def from_json(cls, content: dict[str, Any]) -> "Run":
-        return cls(**{**content, "options": FieldOptions(**content["options"])})
+        cells = content["hex_options"]
+        made = {"options": FieldOptions(**content["options"]), "hex_options": cells and HexMeshOptions(**cells)}
+        return cls(**{**content, **made})
 
 
 def mesh_of(run: Run) -> Hashable:
@@ -125,7 +132,7 @@ def has_promised_content(run: Run) -> bool:
         digest = digest_of(Path(run.source)) if isinstance(run.source, str) else json.dumps(run.source)
     except OSError:
         return False
-    return _key(digest, run.options, run.repeat) == run.key
+    return _key(digest, run.options, run.repeat, run.hex_options) == run.key
 
 
 def _require_matching_rules(study: Study, names: set[str]) -> None:
@@ -152,7 +159,7 @@ def _runs_on(
     mesh = mesh_options(study, entry)
     rules = [rule for rule in study.skip if fnmatch.fnmatchcase(name, str(rule.get("input", "*")))]
     rules = [{key: value for key, value in rule.items() if key != "input"} for rule in rules]
-    result = []
+    result, cells = [], cell_options(study)
     for seed in study.seeds:
         for values in itertools.product(*study.runs.values()):
             chosen = dict(zip(study.runs, values, strict=True))
@@ -160,17 +167,20 @@ def _runs_on(
                 continue
             options = field_options(mesh, chosen, seed, threads)
             for repeat in range(study.repeats):
-                result.append(Run(_key(digest, options, repeat), name, source, options, repeat))
+                key = _key(digest, options, repeat, cells)
+                result.append(Run(key, name, source, options, repeat, cells))
     return result
 
 
-def _key(digest: str, options: FieldOptions, repeat: int) -> str:
+def _key(digest: str, options: FieldOptions, repeat: int, cells: HexMeshOptions | None) -> str:
     given = options.recorded()
     if isinstance(options.representation, str) and is_in_file(
         options.representation
     ):  # what is in the file counts, not where it lies
         given["representation"] = f"{options.scheme_name} {scheme_digest(options.representation)}"
     content = {k: _RENAMED.get((k, v), v) for k, v in given.items() if k != "threads" and (k, v) not in _LATER}
+    if cells is not None:
+        content["hex_options"] = dict(vars(cells))
     text = json.dumps([digest, content, repeat, octafield_version()], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:20]
 

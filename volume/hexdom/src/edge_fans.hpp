@@ -22,7 +22,7 @@ struct EdgeFan {
     Index a, b;  // a < b
     std::vector<FanTet> tets;
     bool closed;
-    CarriedAxes round;  // closed: the axis of the first tet that its axis i comes back as; else i
+    CarriedAxes round;  // closed: the axis of the first tet that comes back as its axis i; else i
     bool returns(int axis) const { return round[axis] == axis; }
 };
 

@@ -12,7 +12,9 @@ __extension__ typedef __int128 Wide;
 
 using Coordinate = std::array<std::int64_t, 3>;  // in units of the map
 
-inline Coordinate operator-(const Coordinate& a, const Coordinate& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Coordinate operator-(const Coordinate& a, const Coordinate& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 
 inline Wide determinant(const Coordinate& a, const Coordinate& b, const Coordinate& c) {
     const auto minor = [&](int i, int j) { return Wide(b[i]) * c[j] - Wide(b[j]) * c[i]; };

@@ -5,11 +5,10 @@
 #include <map>
 #include <numeric>
 
+#include "fill_cavity.hpp"
 #include "near_grid.hpp"
 #include "octafield/disjoint_sets.hpp"
 #include "octafield/error.hpp"
-#include "octafield/volume/triangle_table.hpp"
-#include "tetgen_run.hpp"
 #include "triangle_tests.hpp"
 
 namespace octafield::volume {
@@ -63,18 +62,21 @@ std::vector<Index> groups_of(const TetDomain& domain) {
     return groups;
 }
 
-// The surface of the cavity: what TetGen fills.
+// The surface of what tets fill.
 struct CavitySurface {
-    surface::TriangleMesh mesh;   // compact
-    std::vector<Index> vertex;    // of all
-    std::vector<Index> cell;      // per triangle: the hexahedron whose face it is of, or -1
+    surface::TriangleMesh mesh;           // compact
+    std::vector<Index> vertex;            // of all
+    std::vector<Index> cell;              // per triangle: the hexahedron whose face it is of, or -1
+    std::vector<Index> triangle;          // per triangle of the surface: its number there, or -1
+    std::vector<std::uint8_t> two_sided;  // per triangle: between regions, no hexahedron on either side
 };
 
-class Cavity {
+class CavityOfCells {
 public:
-    explicit Cavity(CellsOnSurface& cells) : cells_(cells) {
+    explicit CavityOfCells(CellsOnSurface& cells) : cells_(cells) {
         for (Index q = 0; q < cells.quads.rows(); ++q)
-            quads_.push_back({ascending(Quad{cells.quads(q, 0), cells.quads(q, 1), cells.quads(q, 2), cells.quads(q, 3)}), q});
+            quads_.push_back(
+                {ascending(Quad{cells.quads(q, 0), cells.quads(q, 1), cells.quads(q, 2), cells.quads(q, 3)}), q});
         std::sort(quads_.begin(), quads_.end());
         const Triangles& triangles = cells.surface.mesh.triangles;
         for (Index t = 0; t < triangles.rows(); ++t)
@@ -110,7 +112,16 @@ public:
         for (const HexahedronFace& face : faces_of(cells_.hexahedra)) {
             const std::vector<Index> on_surface = quad(face.sorted) < 0 ? std::vector<Index>() : halves(face.round);
             for (const Index t : on_surface) covered[t] = 1;
-            if (face.other >= 0 || !on_surface.empty()) continue;
+            if (face.other >= 0) continue;
+            if (!on_surface.empty()) {
+                // Between regions, with tets on the other side.
+                for (const Index t : on_surface)
+                    if (cells_.two_sided[t]) {
+                        triangles.push_back(inward(t, face.round));
+                        owners.push_back(face.cell);
+                    }
+                continue;
+            }
             const auto& [a, b, c, d] = face.round;
             // Inward of the cavity's other side: the face seen from the cavity. The diagonal that stands out of the
             // hexahedron, so that a pyramid fits on the face.
@@ -136,10 +147,14 @@ public:
             const auto row = cells_.surface.mesh.triangles.row(t);
             all.push_back({local(row[0]), local(row[1]), local(row[2])});
             result.cell.push_back(-1);
+            result.triangle.push_back(t);
+            result.two_sided.push_back(cells_.two_sided[t]);
         }
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             all.push_back({local(triangles[i][0]), local(triangles[i][1]), local(triangles[i][2])});
             result.cell.push_back(owners[i]);
+            result.triangle.push_back(-1);
+            result.two_sided.push_back(0);
         }
         result.mesh.triangles.resize(static_cast<Eigen::Index>(all.size()), 3);
         for (std::size_t i = 0; i < all.size(); ++i)
@@ -160,7 +175,23 @@ public:
         return points;
     }
 
+    // Hexahedra with a face to the cavity.
+    std::vector<std::uint8_t> beside() const {
+        std::vector<std::uint8_t> found(cells_.hexahedra.rows(), 0);
+        for (const Index cell : surface().cell)
+            if (cell >= 0) found[cell] = 1;
+        return found;
+    }
+
 private:
+    // A triangle of the surface that is half of a hexahedron's quad, turned as seen from the other side.
+    Triple inward(Index t, const Quad& round) const {
+        const auto row = cells_.surface.mesh.triangles.row(t);
+        const auto place = [&](int k) { return std::find(round.begin(), round.end(), row[k]) - round.begin(); };
+        const auto a = place(0), b = place(1), c = place(2);
+        const bool outward = (a < b) + (b < c) + (c < a) == 2;
+        return outward ? Triple{row[0], row[2], row[1]} : Triple{row[0], row[1], row[2]};
+    }
     Index quad(const Quad& sorted) const {
         const auto found = std::lower_bound(quads_.begin(), quads_.end(), std::pair(sorted, Index(0)));
         return found != quads_.end() && found->first == sorted ? found->second : -1;
@@ -191,7 +222,7 @@ private:
 };
 
 // Hexahedra whose faces cross something are left out until none does.
-CavitySurface sound_surface(CellsOnSurface& cells, Cavity& cavity) {
+CavitySurface sound_surface(CellsOnSurface& cells, CavityOfCells& cavity) {
     for (;;) {
         CavitySurface surface = cavity.surface();
         const std::vector<Index> crossing = surface::intersecting_triangles(surface.mesh);
@@ -200,50 +231,28 @@ CavitySurface sound_surface(CellsOnSurface& cells, Cavity& cavity) {
         bool any = false;
         for (const Index t : crossing)
             if (surface.cell[t] >= 0) dropped[surface.cell[t]] = 1, any = true;
-        if (!any)
-            throw GeometryError("the surface through the points of the lattice crosses itself at triangles " +
-                                    first_few(crossing) + "; give a smaller edge length",
-                                "self_intersection", crossing);
+        if (!any) {
+            std::vector<Index> old;
+            for (const Index t : crossing) old.push_back(cells.surface.triangle[surface.triangle[t]]);
+            throw GeometryError("the surface through the points of the lattice crosses itself near triangles " +
+                                    first_few(old) + " of the domain's surface; give a smaller edge length there",
+                                "self_intersection", old);
+        }
         cavity.drop(dropped);
     }
 }
 
-TetMesh tets_in(const CavitySurface& surface, const Cavity& cavity, const CellsOnSurface& cells,
-                const Progress& progress) {
-    // Where TetGen fails in one way it may not in another: with points of the lattice inside or without, with bounds on
-    // the tets or without, with another tolerance for what is coplanar.
-    struct Way {
-        bool inside, refine;
-        double tolerance;
-    };
-    static constexpr Way ways[] = {{true, true, 0},   {true, true, 1e-12},  {false, true, 0},
-                                   {false, true, 1e-6}, {false, false, 0}, {false, false, 1e-12}};
-    TetgenParameters parameters;
-    parameters.holes = cavity.holes();
-    parameters.radius_edge_ratio = 1.8;
-    parameters.max_volume = 0.4 * std::pow(cells.edge_length, 3);
-    TetgenOutcome outcome;
-    for (const Way& way : ways) {
-        parameters.inside = way.inside ? cells.spare : Points(0, 3);
-        parameters.refine = way.refine;
-        parameters.tolerance = way.tolerance;
-        outcome = run_tetgen(surface.mesh, parameters, progress);
-        if (outcome.finished && outcome.mesh.tets.rows() > 0) return std::move(outcome.mesh);
-    }
-    throw GeometryError("the space between the hexahedra and the surface could not be filled with tets: " +
-                            outcome.reason + "; give another edge length",
-                        "tetgen_failed");
-}
-
 }  // namespace
 
-CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cells, double edge_length) {
+CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cells, double edge_length,
+                                const std::vector<std::uint8_t>& stays) {
     const LatticeSurface lattice = lattice_surface(domain, cells, edge_length);
     CellsOnSurface result;
     result.edge_length = edge_length;
     result.quads = lattice.quads;
     result.surface = point_surface(domain.surface().mesh, domain.features(), groups_of(domain), lattice.points,
-                                   lattice.quads, edge_length);
+                                   lattice.quads, edge_length, stays);
+    for (const Index t : result.surface.triangle) result.two_sided.push_back(domain.sides()(t, 1) >= 0);
     const Index on_surface = static_cast<Index>(result.surface.mesh.vertices.rows());
     std::vector<Index> number(cells.points.rows(), -1), inner;
     for (std::size_t i = 0; i < lattice.lattice_point.size(); ++i)
@@ -272,24 +281,26 @@ CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cel
     return result;
 }
 
+void leave_out(CellsOnSurface& cells, const std::vector<std::uint8_t>& marked) { CavityOfCells(cells).drop(marked); }
+
+std::vector<std::uint8_t> beside_cavity(CellsOnSurface& cells) { return CavityOfCells(cells).beside(); }
+
 MixedMesh filled(CellsOnSurface& cells, const Progress& progress) {
-    Cavity cavity(cells);
+    CavityOfCells cavity(cells);
     cavity.drop(cavity.without_quad());
     const CavitySurface surface = sound_surface(cells, cavity);
     MixedMesh mesh;
     mesh.vertices = cells.vertices;
     mesh.hexahedra = cells.hexahedra;
     if (surface.mesh.triangles.rows() == 0) return mesh;
-    const TetMesh tets = tets_in(surface, cavity, cells, progress);
+    const TetMesh tets =
+        fill_cavity({surface.mesh, surface.two_sided, cavity.holes(), cells.spare, cells.edge_length}, progress);
     const Eigen::Index known = surface.mesh.vertices.rows(), added = tets.vertices.rows() - known;
     mesh.vertices.conservativeResize(cells.vertices.rows() + added, 3);
     mesh.vertices.bottomRows(added) = tets.vertices.bottomRows(added);
     mesh.tets = tets.tets;
     for (Index& v : mesh.tets.reshaped<Eigen::RowMajor>())
         v = v < known ? surface.vertex[v] : static_cast<Index>(cells.vertices.rows() + v - known);
-    const Eigen::VectorXd volumes = tet_volumes({mesh.vertices, mesh.tets});
-    for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t)
-        if (volumes[t] < 0) std::swap(mesh.tets(t, 2), mesh.tets(t, 3));
     return mesh;
 }
 

@@ -13,19 +13,28 @@ namespace octafield::volume {
 // Hexahedra on vertices that begin with those of a surface through their points.
 struct CellsOnSurface {
     PointSurface surface;
-    Quads quads;            // of vertices, faces of cells on the surface
-    Points vertices;        // the surface's first, then those of hexahedra inside
+    std::vector<std::uint8_t> two_sided;  // per triangle of the surface: between regions
+    Quads quads;                          // of vertices, faces of cells on the surface
+    Points vertices;                      // the surface's first, then those of hexahedra inside
     Hexahedra hexahedra;
-    Points spare;           // points of the lattice inside that no hexahedron has
+    Points spare;  // points of the lattice inside that no hexahedron has
     double edge_length;
-    Index crossing = 0;     // hexahedra left out as their faces crossed others or the surface
+    Index crossing = 0;  // hexahedra left out as their faces crossed others or the surface
 };
 
-CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cells, double edge_length);
+// stays: as in point_surface.
+CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cells, double edge_length,
+                                const std::vector<std::uint8_t>& stays = {});
 
-// Leaves out what is not to be had: hexahedra with a face on the surface that the surface has not, and those the faces of
-// which cross others. Then tets in the rest (TetGen): hexahedra first, their quads met by pairs of triangles.
-// Throws GeometryError, Cancelled, SolverError.
+void leave_out(CellsOnSurface& cells, const std::vector<std::uint8_t>& marked);  // hexahedra
+
+// Hexahedra, marked, with a face where tets will be.
+std::vector<std::uint8_t> beside_cavity(CellsOnSurface& cells);
+
+// Leaves out what is not to be had: hexahedra with a face on the surface that the surface has not, and those the faces
+// of which cross others. Then tets in the rest: hexahedra first, their quads met by pairs of triangles. Throws
+// GeometryError: "self_intersection" (elements: triangles of the domain's surface, near), "tetgen_failed"; Cancelled,
+// SolverError.
 MixedMesh filled(CellsOnSurface& cells, const Progress& progress);
 
 }  // namespace octafield::volume

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <new>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "filling.hpp"
+#include "attempts.hpp"
 #include "mesh_regions.hpp"
 #include "octafield/error.hpp"
-#include "octafield/volume/cell_quality.hpp"
 #include "octafield/volume/integrability.hpp"
 #include "octafield/volume/refine_tets.hpp"
 #include "octafield/volume/sample_frames.hpp"
@@ -31,14 +33,14 @@ struct WorkingField {
 Eigen::VectorXd wanted_sizes(const TetDomain& domain, const HexDominantOptions& options) {
     const Eigen::Index n = domain.vertex_count();
     if (options.sizes.size() == 0) {
-        const double length = options.edge_length > 0 ? options.edge_length
-                                                      : surface::mean_edge_length(domain.surface().mesh);
+        const double length =
+            options.edge_length > 0 ? options.edge_length : surface::mean_edge_length(domain.surface().mesh);
         return Eigen::VectorXd::Constant(n, length);
     }
     if (options.sizes.size() != n)
-        throw InvalidInput("sizes has " + std::to_string(options.sizes.size()) + " entries; give one per vertex, " +
-                               std::to_string(n),
-                           "wrong_size");
+        throw InvalidInput(
+            "sizes has " + std::to_string(options.sizes.size()) + " entries; give one per vertex, " + std::to_string(n),
+            "wrong_size");
     std::vector<Index> bad;
     for (Index v = 0; v < n; ++v)
         if (!(options.sizes[v] > 0) || !std::isfinite(options.sizes[v])) bad.push_back(v);
@@ -49,9 +51,12 @@ Eigen::VectorXd wanted_sizes(const TetDomain& domain, const HexDominantOptions& 
 
 void require_options(const HexDominantOptions& options) {
     if (!(options.edge_length >= 0) || !std::isfinite(options.edge_length))
-        throw InvalidInput("edge_length must be a length above 0, or 0 for the mean edge of the surface", "edge_length");
+        throw InvalidInput("edge_length must be a length above 0, or 0 for the mean edge of the surface",
+                           "edge_length");
     if (!(options.min_scaled_jacobian > 0 && options.min_scaled_jacobian < 1))
         throw InvalidInput("min_scaled_jacobian must be between 0 and 1", "min_scaled_jacobian");
+    if (!(options.hold_angle >= 0 && options.hold_angle <= std::numbers::pi / 2))
+        throw InvalidInput("hold_angle must be from 0 to pi / 2", "hold_angle");
     if (options.refinements < 0 || options.refinements > 6)
         throw InvalidInput("refinements must be from 0 to 6", "refinements");
 }
@@ -131,17 +136,18 @@ PeriodicMap map_of(const WorkingField& field, const HexDominantOptions& options,
     return periodic_map(field.domain, axes.frames, axes.lengths, map_options, progress);
 }
 
-MixedMesh improved(MixedMesh mesh, const TetDomain& domain, const std::vector<std::uint8_t>& support, double length,
-                   int threads) {
-    VertexSupport where;
-    for (const std::uint8_t kind : support) where.kind.push_back(static_cast<VertexSupport::Kind>(kind));
-    ImproveOptions how;
-    how.tolerance = 0.1 * length;
-    how.good = 0.5;
-    how.fit_surface = true;
-    how.hexahedra_first = true;
-    how.threads = threads;
-    return improve_cells(std::move(mesh), where, domain.surface().mesh, domain.features(), how);
+// Before anything is made of it that would not end or not fit.
+void require_count(const WorkingField& field, Index most) {
+    const Eigen::VectorXd volumes = tet_volumes(field.domain.mesh());
+    double count = 0;
+    for (Eigen::Index t = 0; t < volumes.size(); ++t)
+        count += volumes[t] / std::pow(field.sizes(field.domain.mesh().tets.row(t)).mean(), 3);
+    if (count <= most) return;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2g", count);
+    throw InvalidInput("the mesh would have about " + std::string(text) + " hexahedra, more than " +
+                           std::to_string(most) + "; give a larger edge length",
+                       "edge_length");
 }
 
 // Vertices whose cells have been joined or split away: a solver would have unknowns that nothing determines.
@@ -171,13 +177,12 @@ void drop_unused_vertices(HexDominantMesh& result) {
     });
 }
 
-}  // namespace
-
-HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
-                             const Progress& progress) {
+HexDominantMesh mesh_along(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
+                           const Progress& progress) {
     require_options(options);
     require_frames(frames, domain.vertex_count());
     const WorkingField given{domain, frames, wanted_sizes(domain, options)};
+    require_count(given, options.most_hexahedra);
     const double length = given.sizes.mean();
     HexDominantMesh result;
     HexDominantCounts& counts = result.counts;
@@ -201,35 +206,34 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     }
     counts.lost = cells->lost;
     counts.lattice_hexahedra = static_cast<Index>(cells->hexahedra.rows());
-    report_or_throw(progress, "surface", 0, 0);
-    CellsOnSurface placed = cells_on_surface(field.domain, *cells, length);
+    FilledCells filled = filled_cells(field.domain, *cells, length, progress);
     cells.reset();
-    report_or_throw(progress, "tetrahedralize", 0, 0);
-    MixedMesh mesh = filled(placed, progress);
-    counts.crossing = placed.crossing;
-    const Index before = static_cast<Index>(mesh.hexahedra.rows());
-    if (options.recombine && mesh.tets.rows() > 0 && domain.regions().empty()) {
-        report_or_throw(progress, "recombine", 0, 0);
-        RecombineOptions join;
-        join.min_scaled_jacobian = options.min_scaled_jacobian;
-        join.kept_edges = placed.surface.features.edges;
-        join.threads = options.threads;
-        mesh = recombine(mesh, join);
-        counts.recombined_hexahedra = static_cast<Index>(mesh.hexahedra.rows()) - before;
-        counts.recombined_wedges = static_cast<Index>(mesh.wedges.rows());
-    }
-    report_or_throw(progress, "conform", 0, 0);
-    mesh = conform(mesh, &counts.pyramids);
-    result.support = vertex_support(placed.surface, static_cast<Index>(mesh.vertices.rows()));
+    HexDominantOptions how = options;
+    how.recombine = options.recombine && domain.regions().empty();
+    MixedMesh mesh = conforming(filled, how, counts, progress);
+    counts.crossing = filled.cells.crossing;
+    const PointSurface& surface = filled.cells.surface;
+    result.support = vertex_support(surface, static_cast<Index>(mesh.vertices.rows()));
+    if (!domain.regions().empty()) result.regions = cell_regions(field.domain, surface, mesh);
     if (options.improve) {
         report_or_throw(progress, "improve", 0, 0);
-        mesh = improved(std::move(mesh), field.domain, result.support, length, options.threads);
+        mesh = improved(mesh, field.domain, result.support, result.regions, length, options.threads);
     }
     require_valid(mesh);
     result.mesh = std::move(mesh);
-    if (!domain.regions().empty()) result.regions = cell_regions(field.domain, placed.surface, result.mesh);
     drop_unused_vertices(result);
     return result;
+}
+
+}  // namespace
+
+HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
+                             const Progress& progress) {
+    try {
+        return mesh_along(domain, frames, options, progress);
+    } catch (const std::bad_alloc&) {
+        throw SolverError("memory ran out; give a larger edge length, or smaller most_tets", "out_of_memory");
+    }
 }
 
 }  // namespace octafield::volume

@@ -25,8 +25,8 @@ IntegerConstraints::IntegerConstraints(const TetDomain& domain, const Quaternion
     }
     for (const Index v : domain.features().corners) corner_[surface.vertex_map[v]] = 1;
     for (Eigen::Index e = 0; e < domain.features().edges.rows(); ++e)
-        features_.push_back(std::minmax({surface.vertex_map[domain.features().edges(e, 0)],
-                                         surface.vertex_map[domain.features().edges(e, 1)]}));
+        features_.push_back(std::minmax(
+            {surface.vertex_map[domain.features().edges(e, 0)], surface.vertex_map[domain.features().edges(e, 1)]}));
     std::sort(features_.begin(), features_.end());
 }
 

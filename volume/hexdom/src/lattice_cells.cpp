@@ -100,9 +100,8 @@ LatticeCells lattice_cells(const TetDomain& domain, const PeriodicMap& map, doub
     const MapCharts charts(domain, map);
     const LatticePoints points(charts, 0), middles(charts, periodic_unit / 2);
     std::vector<Cell> cells(middles.count());
-    parallel_for(middles.count(), threads, [&](std::int64_t k) {
-        cells[k] = cell_at(charts, points, middles.place(static_cast<Index>(k)));
-    });
+    parallel_for(middles.count(), threads,
+                 [&](std::int64_t k) { cells[k] = cell_at(charts, points, middles.place(static_cast<Index>(k))); });
     LatticeCells result;
     place_points(domain, map, points, result);
     const auto lose = [&](const Cell& cell) {

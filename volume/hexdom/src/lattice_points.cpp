@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -12,13 +13,28 @@
 namespace octafield::volume {
 namespace {
 
-constexpr std::int64_t most_points = 200'000'000;
+constexpr std::int64_t most_cells = 20'000'000;
 
 std::int64_t floor_div(std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+// Before any is listed: one tet may have more of them than there is memory.
+void require_room(const MapCharts& charts) {
+    double cells = 0;
+    for (Index t = 0; t < charts.domain().tet_count(); ++t) {
+        if (!charts.map().usable[t]) continue;
+        const TetCoordinates c = coordinates_of(charts.map(), t);
+        cells += static_cast<double>(orientation(c[0], c[1], c[2], c[3])) / (6 * std::pow(periodic_unit, 3));
+    }
+    if (cells > most_cells)
+        throw InvalidInput(
+            "the mesh would have more than " + std::to_string(most_cells) + " cells; give a larger edge length",
+            "edge_length");
+}
 
 }  // namespace
 
 LatticePoints::LatticePoints(const MapCharts& charts, std::int32_t offset) {
+    require_room(charts);
     enumerate(charts, offset);
     DisjointSets sets(at_.size());
     const TetDomain& domain = charts.domain();
@@ -102,17 +118,14 @@ void LatticePoints::enumerate(const MapCharts& charts, std::int32_t offset) {
                     zero_.push_back(zero);
                     ++begin_[t + 1];
                 }
-        if (begin_[t + 1] > most_points)
-            throw InvalidInput("the mesh would have more than " + std::to_string(most_points / 10) +
-                                   " cells; give a larger edge length",
-                               "edge_length");
     }
 }
 
 std::int64_t LatticePoints::find_node(Index tet, const Coordinate& at) const {
-    for (std::int64_t n = begin_[tet]; n < begin_[tet + 1]; ++n)
-        if (at_[n] == at) return n;
-    return -1;
+    // They are listed in ascending order.
+    const auto first = at_.begin() + begin_[tet], last = at_.begin() + begin_[tet + 1];
+    const auto found = std::lower_bound(first, last, at);
+    return found != last && *found == at ? found - at_.begin() : -1;
 }
 
 Index LatticePoints::find(const Place& place) const {

@@ -104,8 +104,9 @@ LatticeSurface lattice_surface(const TetDomain& domain, const LatticeCells& cell
             if (sorted[0] >= 0) quads.emplace_back(sorted, quad);
         }
     std::stable_sort(quads.begin(), quads.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
-    quads.erase(std::unique(quads.begin(), quads.end(), [](const auto& x, const auto& y) { return x.first == y.first; }),
-                quads.end());
+    quads.erase(
+        std::unique(quads.begin(), quads.end(), [](const auto& x, const auto& y) { return x.first == y.first; }),
+        quads.end());
     result.quads.resize(static_cast<Eigen::Index>(quads.size()), 4);
     for (std::size_t q = 0; q < quads.size(); ++q)
         for (int c = 0; c < 4; ++c) result.quads(static_cast<Eigen::Index>(q), c) = quads[q].second[c];

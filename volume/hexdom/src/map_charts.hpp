@@ -34,7 +34,7 @@ public:
 private:
     const TetDomain& domain_;
     const PeriodicMap& map_;
-    std::vector<Index> face_;             // per row of the triangle table: of map.faces, or -1
+    std::vector<Index> face_;              // per row of the triangle table: of map.faces, or -1
     std::vector<std::uint8_t> interface_;  // per row: between regions
 };
 
@@ -53,8 +53,8 @@ enum class WalkEnd {
 
 struct Walk {
     WalkEnd end;
-    Place place;                   // the goal; of others the tet reached, and the goal in its coordinates
-    Coordinate carried;            // a second point in the coordinates of that tet
+    Place place;         // the goal; of others the tet reached, and the goal in its coordinates
+    Coordinate carried;  // a second point in the coordinates of that tet
 };
 
 // Goes straight from a point inside a tet to another point in the coordinates of that tet.

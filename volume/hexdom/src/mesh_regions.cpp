@@ -54,10 +54,9 @@ std::vector<Index> cell_regions(const TetDomain& domain, const PointSurface& sur
         for (const detail::CellFace& face : cell.shape.faces) {
             std::array<Index, 4> f{-1, -1, -1, -1};
             for (int k = 0; k < face.corners; ++k) f[k] = cell.ids[face.local[k]];
-            const bool on_wall = face.corners == 3
-                                     ? wall(f[0], f[1], f[2])
-                                     : (wall(f[0], f[1], f[2]) && wall(f[0], f[2], f[3])) ||
-                                           (wall(f[0], f[1], f[3]) && wall(f[1], f[2], f[3]));
+            const bool on_wall = face.corners == 3 ? wall(f[0], f[1], f[2])
+                                                   : (wall(f[0], f[1], f[2]) && wall(f[0], f[2], f[3])) ||
+                                                         (wall(f[0], f[1], f[3]) && wall(f[1], f[2], f[3]));
             if (on_wall) continue;
             std::sort(f.begin(), f.end());
             sides.push_back({f, cell.number});

@@ -103,8 +103,8 @@ private:
                 const std::complex<double> turn = wanted.turn[i] / wanted.weight;
                 const bool conjugate = from.sign != to.sign;
                 const bool backwards = to.sign < 0;
-                couplings.push_back({from.unknown, to.unknown, conjugate, wanted.weight,
-                                     backwards ? std::conj(turn) : turn});
+                couplings.push_back(
+                    {from.unknown, to.unknown, conjugate, wanted.weight, backwards ? std::conj(turn) : turn});
             }
         });
         std::vector<std::uint8_t> held(unknowns.count());
@@ -136,8 +136,8 @@ private:
         std::vector<std::int32_t> phase(z.size());
         for (std::size_t k = 0; k < z.size(); ++k) {
             const double turns = std::arg(z[k]) / (2 * pi);
-            phase[k] = static_cast<std::int32_t>(std::lround((turns - std::floor(turns)) * periodic_unit)) %
-                       periodic_unit;
+            phase[k] =
+                static_cast<std::int32_t>(std::lround((turns - std::floor(turns)) * periodic_unit)) % periodic_unit;
         }
         return phase;
     }
@@ -162,12 +162,13 @@ private:
                 const double from = phase_at(unknowns, phase, first, a, i), to = phase_at(unknowns, phase, first, b, i);
                 // Round a singular curve the axes that it exchanges do not change along it.
                 if (!fan.returns(i) && from == 0 && to == 0) continue;
-                jump[i] = std::llround(wanted.mean[i] - (to - from) / periodic_unit);
-                if (std::abs(jump[i]) > most_cells)
+                const double nearest = wanted.mean[i] - (to - from) / periodic_unit;
+                if (!(std::abs(nearest) <= most_cells))
                     throw InvalidInput("the edge of the vertices " + std::to_string(fan.a) + " and " +
-                                           std::to_string(fan.b) + " is " + std::to_string(std::abs(jump[i])) +
+                                           std::to_string(fan.b) + " is more than " + std::to_string(most_cells) +
                                            " cells long; give a larger edge length",
                                        "edge_length", {fan.a, fan.b});
+                jump[i] = std::llround(nearest);
             }
             for (const FanTet& at : fan.tets) {
                 const int from = corner_of(mesh_, at.tet, fan.a), to = corner_of(mesh_, at.tet, fan.b);
@@ -213,8 +214,7 @@ private:
     static double volume_of(const Rows<std::int32_t, 12>& coordinates, Eigen::Index t) {
         Matrix3 edges;
         for (int c = 0; c < 3; ++c)
-            for (int i = 0; i < 3; ++i)
-                edges(i, c) = double(coordinates(t, 3 * (c + 1) + i)) - coordinates(t, i);
+            for (int i = 0; i < 3; ++i) edges(i, c) = double(coordinates(t, 3 * (c + 1) + i)) - coordinates(t, i);
         return edges.determinant() / (double(periodic_unit) * periodic_unit * periodic_unit) - 1e-9;
     }
 
@@ -270,6 +270,9 @@ PeriodicMap periodic_map(const TetDomain& domain, const Quaternions& of_tets, co
                          const PeriodicMapOptions& options, const Progress& progress) {
     require_frames(of_tets, domain.tet_count());
     require_lengths(lengths, domain.tet_count());
+    if (!(options.hold_angle >= 0 && options.hold_angle <= pi / 2))
+        throw InvalidInput("hold_angle must be from 0 to pi / 2", "hold_angle");
+    if (options.rounds < 0) throw InvalidInput("rounds must not be negative", "rounds");
     return MapBuilder(domain, of_tets, lengths, options).run(progress);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flip_edges.hpp"
+#include "octafield/error.hpp"
 #include "place_points.hpp"
 #include "thin_complex.hpp"
 
@@ -28,14 +29,14 @@ bool turns_sharply(const TriangleComplex& complex, Index v) {
 }
 
 // Old vertices but corners; those that turn out to be ends or meetings of curves stay anyway.
-std::vector<std::uint8_t> removable(const detail::PlacedPoints& placed, Index points,
-                                    const std::vector<Index>& corners) {
+std::vector<std::uint8_t> removable(const detail::PlacedPoints& placed, Index points, const std::vector<Index>& corners,
+                                    const std::vector<std::uint8_t>& stays) {
     std::vector<std::uint8_t> result(placed.source.size(), 1);
     std::fill(result.begin(), result.begin() + points, 0);
     for (const Index v : corners)
         if (placed.vertex_of[v] >= 0) result[placed.vertex_of[v]] = 0;
     for (Index v = points; v < static_cast<Index>(result.size()); ++v)
-        if (turns_sharply(placed.complex, v)) result[v] = 0;
+        if (turns_sharply(placed.complex, v) || (!stays.empty() && stays[placed.source[v]])) result[v] = 0;
     return result;
 }
 
@@ -134,13 +135,18 @@ private:
 
 PointSurface point_surface(const surface::TriangleMesh& mesh, const surface::FeatureGraph& given_features,
                            const std::vector<Index>& groups, const SurfacePoints& points, const Quads& quads,
-                           double edge_length) {
+                           double edge_length, const std::vector<std::uint8_t>& stays) {
     detail::require_usable(mesh, groups, points, quads, edge_length);
     const surface::FeatureGraph features = surface::ordered_features(given_features, mesh);
     const Index count = static_cast<Index>(points.triangle.size());
     detail::PlacedPoints placed = detail::place_points(mesh, features, groups, points);
-    redraw(placed.complex, removable(placed, count, features.corners), WantedEdges(quads, count),
-           length_bound(placed.complex, quads, edge_length), edge_length);
+    if (!stays.empty() && static_cast<Eigen::Index>(stays.size()) != mesh.vertices.rows())
+        throw InvalidInput("stays has " + std::to_string(stays.size()) + " entries; give one per vertex of the surface",
+                           "wrong_size");
+    const bool as_it_is = !stays.empty() && std::find(stays.begin(), stays.end(), 0) == stays.end();
+    if (!as_it_is)
+        redraw(placed.complex, removable(placed, count, features.corners, stays), WantedEdges(quads, count),
+               length_bound(placed.complex, quads, edge_length), edge_length);
     PointSurface result = Result(placed, count).surface(features.corners);
     result.quad_found = found_quads(placed.complex, quads);
     return result;

@@ -100,8 +100,8 @@ void cut(const Tet& tet, const std::array<Index, 6>& middle, const Points& point
         return;
     }
     if (bits != all_edges) {
-        const int apex = static_cast<int>(std::find(triangle_edges.begin(), triangle_edges.end(), bits) -
-                                          triangle_edges.begin());
+        const int apex =
+            static_cast<int>(std::find(triangle_edges.begin(), triangle_edges.end(), bits) - triangle_edges.begin());
         Tet inner = tet;
         for (int c = 0; c < 4; ++c) {
             if (c == apex) continue;
@@ -119,16 +119,19 @@ void cut(const Tet& tet, const std::array<Index, 6>& middle, const Points& point
     }
     for (int c = 0; c < 4; ++c) {
         Tet part = tet;
-        for (const int e : edges_at[c]) part[edge_corners[e][0] == c ? edge_corners[e][1] : edge_corners[e][0]] = middle[e];
+        for (const int e : edges_at[c])
+            part[edge_corners[e][0] == c ? edge_corners[e][1] : edge_corners[e][0]] = middle[e];
         parts.push_back(part);
     }
     const auto length = [&](const Diagonal& d) {
         return (points.row(middle[d.from]) - points.row(middle[d.to])).squaredNorm();
     };
-    const Diagonal& shortest = *std::min_element(
-        diagonals.begin(), diagonals.end(), [&](const Diagonal& x, const Diagonal& y) { return length(x) < length(y); });
+    const Diagonal& shortest =
+        *std::min_element(diagonals.begin(), diagonals.end(),
+                          [&](const Diagonal& x, const Diagonal& y) { return length(x) < length(y); });
     for (int i = 0; i < 4; ++i) {
-        Tet part{middle[shortest.from], middle[shortest.to], middle[shortest.ring[i]], middle[shortest.ring[(i + 1) % 4]]};
+        Tet part{middle[shortest.from], middle[shortest.to], middle[shortest.ring[i]],
+                 middle[shortest.ring[(i + 1) % 4]]};
         if (signed_volume(points, part) < 0) std::swap(part[2], part[3]);
         parts.push_back(part);
     }
@@ -157,7 +160,8 @@ surface::FeatureGraph refined_features(const TetDomain& old, const TetDomain& re
     features.edges.resize(static_cast<Eigen::Index>(edges.size()), 2);
     for (std::size_t e = 0; e < edges.size(); ++e)
         features.edges.row(static_cast<Eigen::Index>(e)) << edges[e].first, edges[e].second;
-    for (const Index corner : old.features().corners) features.corners.push_back(number[old.surface().vertex_map[corner]]);
+    for (const Index corner : old.features().corners)
+        features.corners.push_back(number[old.surface().vertex_map[corner]]);
     return surface::ordered_features(std::move(features), refined.surface().mesh);
 }
 

@@ -22,8 +22,8 @@ struct TetgenParameters {
 
 struct TetgenOutcome {
     bool finished = false;
-    TetMesh mesh;         // when finished: the surface's vertices first; tets in either orientation
-    std::string reason;   // why not, otherwise: a clause for messages ("it stopped at a check of its own")
+    TetMesh mesh;        // when finished: the surface's vertices first; tets in either orientation
+    std::string reason;  // why not, otherwise: a clause for messages ("it stopped at a check of its own")
 };
 
 // What TetGen printed before it ended, in words for users: of its texts nothing is passed on, as they hold the names of

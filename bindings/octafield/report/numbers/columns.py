@@ -13,8 +13,10 @@ from .tables import Column, Link, Table
 
 if TYPE_CHECKING:
     from ...records.field import FieldRecord
+    from ...records.parts import HexDominantFigures
 
-_DEG = "alignment, deg"
+_DEG, _HEX = "alignment, deg", "hexahedra"
+_MADE = ("volume, %", "cells, %", "worst")
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,16 @@ def held_alignment(record: FieldRecord) -> float:
     """The largest angle where a frame can serve all faces; of older records, anywhere."""
     angles = record.alignment_deg
     return angles.max if angles.held_max is None else angles.held_max
+
+
+def percent(share: float | None) -> float | None:
+    return None if share is None else 100 * share
+
+
+def worst(mesh: HexDominantFigures) -> float | None:
+    """The least scaled Jacobian of its hexahedra; None without any."""
+    found = (mesh.scaled_jacobian or {}).get("hexahedra")
+    return None if found is None else found.min
 
 
 def field_column(
@@ -109,6 +121,11 @@ RUN_COLUMNS: tuple[RunColumn, ...] = (
         "width on smooth fields; compare on one mesh only",
         "", lambda r: r.integrability and r.integrability.jump_rms, terminal=False,
     ),
+    field_column("volume, %", ".1f", "what hexahedra are of the volume of the hex-dominant mesh along the field", _HEX,
+        lambda r: r.mesh and percent(r.mesh.hex_volume_share)),
+    field_column("cells, %", ".1f", "what they are of the number of its cells", _HEX,
+        lambda r: r.mesh and percent(r.mesh.hex_number_share)),
+    field_column("worst", ".3f", "the least of their scaled Jacobians", _HEX, lambda r: r.mesh and worst(r.mesh)),
     field_column("iterations", "d", "diffusion steps and iterations of smoothing", "", lambda r: r.iterations),
     field_column("smooth, CPU", ".3f", "processor seconds of boundary constraints, start and smoothing, all threads",
         "seconds", lambda r: r.cpu_seconds.smooth, terminal=False),
@@ -131,7 +148,8 @@ def run_table(results: Results, runs: Sequence[Run], *, files: bool = False) -> 
     if files:
         columns.append(Column("files"))
         rows = [[*row, _links(run)] for row, run in zip(rows, runs, strict=True)]
-    return Table("runs", columns, rows).without_dull("repeat", "state", *(["input", "seed"] if files else []))
+    table = Table("runs", columns, rows).without_empty(*_MADE)
+    return table.without_dull("repeat", "state", *(["input", "seed"] if files else []))
 
 
 def _links(run: Run) -> list[Link]:
@@ -141,7 +159,8 @@ def _links(run: Run) -> list[Link]:
 
 def terminal_table(results: Results) -> Table:
     columns = [column for column in RUN_COLUMNS if column.terminal]
-    return Table("terminal", columns, [[column.value(results, run) for column in columns] for run in results.runs])
+    rows = [[column.value(results, run) for column in columns] for run in results.runs]
+    return Table("terminal", columns, rows).without_empty(*_MADE)
 
 
 def input_table(results: Results, anchors: dict[str, str]) -> Table:

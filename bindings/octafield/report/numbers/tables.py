@@ -176,6 +176,15 @@ def flatten(record: Mapping[str, Any]) -> dict[str, Any]:
     for name, value in record.items():
         if name in ("alignment_deg", "feature_alignment_deg", "integrability", "sizes", "wall_seconds", "cpu_seconds"):
             flat |= {f"{name}_{key}": inner for key, inner in value.items()}
+        elif name == "mesh":
+            flat |= _leaves(name, value)
         elif not isinstance(value, (Mapping, list)):
             flat[name] = value
     return flat
+
+
+def _leaves(name: str, value: Any) -> dict[str, Any]:
+    """Of groups within groups."""
+    if not isinstance(value, Mapping):
+        return {name: value}
+    return {path: leaf for key, inner in value.items() for path, leaf in _leaves(f"{name}_{key}", inner).items()}

@@ -5,6 +5,7 @@ import html
 
 from ..numbers.columns import deviation_table, summary_table
 from ..numbers.deviations import Deviations
+from ..numbers.hex_meshes import hex_mesh_table, hex_meshes
 from ..numbers.integrability import integrability
 from ..numbers.own_energies import own_energy_table
 from ..numbers.profiles import Line, Profile, energies, performance_profiles, smoothing_seconds
@@ -41,6 +42,7 @@ def front_blocks(
     return [
         ("", [scope], [], False),
         ("Energy", energy, of("summary", "energies", "ratios", "profiles"), False),
+        ("Hex-dominant meshes", hex_meshes(results, cite("hex_meshes")), of("hex_meshes"), False),
         ("Singular graphs", graphs, [], False),
         ("Integrability", integrability(results, cite("integrability")), [], False),
         ("Distance between fields", distances, of("matrix", "boxes"), len(results.methods) <= MANY),
@@ -68,6 +70,13 @@ def add_front(results: Results, lines: list[Line], found: Deviations, exhibits: 
         exhibits.add("ratios", plot, "Energy and time relative to the best method", _ratio_caption(results))
         if len(results.problems) > 1:
             profiles = _add_profiles(results, exhibits)
+    meshes = hex_mesh_table(results)
+    if meshes.rows:
+        caption = (
+            "One line per boundary treatment and method, over all inputs; the best first. Cells of an input have one"
+        )
+        caption += " wanted edge length, whatever the field."
+        exhibits.add("hex_meshes", meshes, "Hex-dominant meshes", caption)
     if found.pairs():
         kind = "matrix many" if len(results.methods) > MANY else "matrix"
         title = "Angles between the fields of two methods"

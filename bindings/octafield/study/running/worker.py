@@ -25,6 +25,7 @@ from ..store import LOG_FILE, Store, write_failure, write_field
 
 if TYPE_CHECKING:
     from ...fields.frame_field import FieldResult
+    from ...hexdom.options import HexMeshOptions
 
 _QUIET = 0.5  # seconds between reports
 Prepared = Callable[[int], None]  # called with the number of tets before the first field
@@ -47,6 +48,7 @@ def execute(
     result; InputChanged and IoError of the study's folder are raised."""
     from ...domain.meshing import prepare_mesh
     from ...fields.frame_field import prepare_field, run_field
+    from ...runs.compared_meshes import of_one_length
 
     runs = [run for run in runs if not store.is_finished(run.key)]
     if not runs:
@@ -65,6 +67,7 @@ def execute(
             finished(run.key)
         return
     prepared(meshed.volume().tet_count)
+    cells = runs[0].hex_options and of_one_length(runs[0].hex_options, meshed.volume())
     for run in runs:
         begin, result = time.time(), None
         try:
@@ -72,7 +75,7 @@ def execute(
         except Error as raised:
             _write_failure(store, run, raised, begin)
         if result is not None:
-            _write_run(store, run, result, keep_fields, begin)
+            _write_run(store, run, result, keep_fields, begin, cells, progress)
         finished(run.key)
 
 
@@ -82,13 +85,26 @@ def _surface(source: Source) -> str | TriangleMesh:
     return source if isinstance(source, str) else generate(source["generator"], **source["with"])
 
 
-def _write_run(store: Store, run: Run, result: "FieldResult", keep_fields: bool, begin: float) -> None:
+def _write_run(
+    store: Store,
+    run: Run,
+    result: "FieldResult",
+    keep_fields: bool,
+    begin: float,
+    cells: "HexMeshOptions | None",
+    progress: Progress | None,
+) -> None:
+    """cells: of the mesh along the field, which is made first."""
+    from ...runs.compared_meshes import add_mesh
     from ...runs.run_folder import write_field_result
 
     with store.new_run(run) as folder:
+        add_mesh(result, cells, folder if keep_fields else None, progress)
         if keep_fields:
             write_field_result(result, folder)
         notes = [f"{run.name}: {note}" for note in result.record.notes]
+        if result.record.mesh is not None and result.record.mesh.error is not None:
+            notes.append(f"no mesh along the field: {result.record.mesh.error}")
         lines = [*notes, f"{result.record.stop_reason} after {result.record.iterations} iterations"]
         (folder / LOG_FILE).write_text("\n".join(lines) + "\n", encoding="utf-8")
         write_field(folder, run, result.record, began=begin, ended=time.time(), host=os.uname().nodename)

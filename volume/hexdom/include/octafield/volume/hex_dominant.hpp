@@ -15,13 +15,14 @@ namespace octafield::volume {
 enum class SizeCorrection { none, isotropic, axes };
 
 struct HexDominantOptions {
-    double edge_length = 0;  // wanted, input unit; 0: the mean edge of the surface
+    double edge_length = 0;   // wanted, input unit; 0: the mean edge of the surface
     Eigen::VectorXd sizes{};  // (n) wanted at the vertices, in place of edge_length; empty: the same everywhere
     SizeCorrection correction = SizeCorrection::axes;
     // Times that tets on which the map is of no use, and those next to them, are cut into eight and the map is made
     // anew, while the mesh stays within most_tets.
     int refinements = 2;
     Index most_tets = 500000;
+    Index most_hexahedra = 5000000;    // an edge length that asks for more is refused
     double min_scaled_jacobian = 0.3;  // of hexahedra of the lattice, and of cells made of tets
     double hold_angle = 0.7;           // of PeriodicMapOptions, radians
     bool recombine = true;             // tets between are joined to hexahedra and wedges
@@ -31,19 +32,19 @@ struct HexDominantOptions {
 
 // Cells at every step.
 struct HexDominantCounts {
-    Index tets = 0;                    // of the mesh that the map is on
-    Index inconsistent = 0;            // of them, without coordinates: jumps of edges do not sum to 0
-    Index turned_over = 0;             // of them, coordinates turned over or flat
-    LostCells lost;                    // cells of the lattice that are no hexahedra
-    Index lattice_hexahedra = 0;       // taken from the lattice
-    Index crossing = 0;                // of these, left out as their faces cross others or are not in the surface
+    Index tets = 0;               // of the mesh that the map is on
+    Index inconsistent = 0;       // of them, without coordinates: jumps of edges do not sum to 0
+    Index turned_over = 0;        // of them, coordinates turned over or flat
+    LostCells lost;               // cells of the lattice that are no hexahedra
+    Index lattice_hexahedra = 0;  // taken from the lattice
+    Index crossing = 0;           // of these, left out as their faces cross others or are not in the surface
     Index recombined_hexahedra = 0, recombined_wedges = 0;
     ConformReport pyramids;
 };
 
 struct HexDominantMesh {
     MixedMesh mesh;
-    std::vector<Index> regions;       // per cell; empty where the domain has none
+    std::vector<Index> regions;         // per cell; empty where the domain has none
     std::vector<std::uint8_t> support;  // per vertex: 0 inside, 1 on the surface, 2 on a feature curve, 3 a corner
     HexDominantCounts counts;
 };
@@ -51,7 +52,9 @@ struct HexDominantMesh {
 // frames: (n, 4) unit quaternions w x y z at the vertices of the domain. Faces all match, Jacobians are positive at all
 // corners, the surface (and interfaces between regions) are kept up to edge_length's chords, features and corners are
 // edges and vertices. Progress names the phases: "sizes", "periodic map", "lattice", "surface", "tetrahedralize",
-// "recombine", "conform", "improve". Throws InvalidInput, GeometryError, SolverError, Cancelled.
+// "recombine", "conform", "improve". Throws InvalidInput (kinds "wrong_size", "not_unit", "min_scaled_jacobian",
+// "hold_angle", "refinements"; "edge_length": not above 0, or more than 20 million cells), GeometryError, SolverError,
+// Cancelled.
 HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options = {},
                              const Progress& progress = {});
 

@@ -19,11 +19,11 @@ struct LostCells {
 };
 
 struct LatticeCells {
-    Points points;                        // (p, 3)
-    std::vector<Index> tet;               // (p) the lowest tet each is in
-    Rows<double, 4> weights;              // (p, 4) barycentric in it; exactly 0 on triangles, edges and at vertices
-    Hexahedra hexahedra;                  // (k, 8) of points
-    std::vector<std::uint8_t> on_surface; // (k) bit f: its face f (of cell_face) lies on the surface
+    Points points;                         // (p, 3)
+    std::vector<Index> tet;                // (p) the lowest tet each is in
+    Rows<double, 4> weights;               // (p, 4) barycentric in it; exactly 0 on triangles, edges and at vertices
+    Hexahedra hexahedra;                   // (k, 8) of points
+    std::vector<std::uint8_t> on_surface;  // (k) bit f: its face f (of cell_face) lies on the surface
     LostCells lost;
 };
 
@@ -31,7 +31,8 @@ struct LatticeCells {
 inline constexpr std::array<std::array<int, 4>, 6> cell_face{
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
-// min_scaled_jacobian: of the hexahedra taken. Near linear. The same at any thread count.
+// min_scaled_jacobian: of the hexahedra taken. Near linear. The same at any thread count. Throws InvalidInput (kind
+// "edge_length") where the map is of more than 20 million cells.
 LatticeCells lattice_cells(const TetDomain& domain, const PeriodicMap& map, double min_scaled_jacobian = 0.3,
                            int threads = 0);
 

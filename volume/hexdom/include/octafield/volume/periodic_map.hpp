@@ -37,7 +37,8 @@ struct PeriodicMap {
 // w |z_b - exp(2 pi i d) z_a|^2, d the length of the edge along the axis in cells: as complex numbers first, then by
 // rounds of diffusion and normalization. An edge's jump is the integer that makes the phases' difference nearest to d.
 // of_tets: (m, 4) unit quaternions w x y z in the tets; lengths: (m, 3) of a cell along each of their axes, input unit.
-// Near linear. Throws InvalidInput, Cancelled.
+// Near linear. Throws InvalidInput (kinds "wrong_size", "not_unit", "hold_angle", "rounds"; "edge_length": lengths not
+// above 0, or an edge of more than 15000 cells), Cancelled.
 PeriodicMap periodic_map(const TetDomain& domain, const Quaternions& of_tets, const Points& lengths,
                          const PeriodicMapOptions& options = {}, const Progress& progress = {});
 

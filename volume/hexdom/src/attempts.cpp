@@ -1,0 +1,240 @@
+#include "attempts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "cavity.hpp"
+#include "octafield/error.hpp"
+#include "octafield/volume/cell_quality.hpp"
+#include "octafield/volume/recombination.hpp"
+
+namespace octafield::volume {
+namespace {
+
+constexpr int most_layers = 3, most_surfaces = 4, most_refillings = 4, most_rounds = 3;
+
+std::vector<std::uint8_t> all_hexahedra(const MixedMesh& mesh) {
+    return std::vector<std::uint8_t>(mesh.hexahedra.rows(), 1);
+}
+
+// Vertices of the surface within `distance` of corners of the triangles.
+void mark_near(const surface::TriangleMesh& mesh, const std::vector<Index>& triangles, double distance,
+               std::vector<std::uint8_t>& marked) {
+    using Cell = std::array<std::int64_t, 3>;
+    const auto cell_of = [&](const Eigen::RowVector3d& p) {
+        return Cell{static_cast<std::int64_t>(std::floor(p[0] / distance)),
+                    static_cast<std::int64_t>(std::floor(p[1] / distance)),
+                    static_cast<std::int64_t>(std::floor(p[2] / distance))};
+    };
+    std::vector<Cell> near;
+    for (const Index t : triangles)
+        for (const Index v : mesh.triangles.row(t)) {
+            const Cell c = cell_of(mesh.vertices.row(v));
+            for (int k = 0; k < 27; ++k) near.push_back({c[0] + k % 3 - 1, c[1] + k / 3 % 3 - 1, c[2] + k / 9 - 1});
+        }
+    std::sort(near.begin(), near.end());
+    for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
+        if (std::binary_search(near.begin(), near.end(), cell_of(mesh.vertices.row(v)))) marked[v] = 1;
+}
+
+}  // namespace
+
+MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress) {
+    for (int layer = 0;; ++layer) {
+        try {
+            return filled(cells, progress);
+        } catch (const GeometryError& error) {
+            if (error.kind() != "tetgen_failed" || cells.hexahedra.rows() == 0) throw;
+        }
+        leave_out(cells,
+                  layer < most_layers ? beside_cavity(cells) : std::vector<std::uint8_t>(cells.hexahedra.rows(), 1));
+    }
+}
+
+namespace {
+
+MixedMesh joined(const FilledCells& filled, const HexDominantOptions& options, HexDominantCounts& counts) {
+    RecombineOptions join;
+    join.min_scaled_jacobian = options.min_scaled_jacobian;
+    join.kept_edges = filled.cells.surface.features.edges;
+    join.threads = options.threads;
+    MixedMesh mesh = recombine(filled.mesh, join);
+    counts.recombined_hexahedra = static_cast<Index>(mesh.hexahedra.rows() - filled.mesh.hexahedra.rows());
+    counts.recombined_wedges = static_cast<Index>(mesh.wedges.rows());
+    return mesh;
+}
+
+// Hexahedra of the lattice among cells that conform named.
+std::vector<std::uint8_t> lattice_hexahedra(const std::vector<Index>& cells, const MixedMesh& mesh, Index count) {
+    std::vector<std::uint8_t> marked;
+    for (const Index cell : cells) {
+        const Index k = cell - static_cast<Index>(mesh.tets.rows());
+        if (k < 0 || k >= count) continue;
+        marked.resize(count, 0);
+        marked[k] = 1;
+    }
+    return marked;
+}
+
+std::vector<Index> unproven_cells(const MixedMesh& mesh, int threads) {
+    const std::vector<std::uint8_t> proven = proven_positive(mesh, 8, threads);
+    std::vector<Index> cells;
+    for (std::size_t c = 0; c < proven.size(); ++c)
+        if (!proven[c]) cells.push_back(static_cast<Index>(c));
+    return cells;
+}
+
+std::pair<Index, Index> ascending(Index a, Index b) { return std::minmax({a, b}); }
+
+// Throws where an edge of a feature is no edge of a cell's face.
+void require_features(const MixedMesh& mesh, const Edges& features) {
+    std::vector<std::uint8_t> at_feature(mesh.vertices.rows(), 0);
+    for (const Index v : features.reshaped()) at_feature[v] = 1;
+    std::vector<std::pair<Index, Index>> edges;
+    detail::for_each_cell(mesh, [&](const detail::Cell& cell) {
+        for (const detail::CellFace& face : cell.shape.faces)
+            for (int k = 0; k < face.corners; ++k) {
+                const Index a = cell.ids[face.local[k]], b = cell.ids[face.local[(k + 1) % face.corners]];
+                if (at_feature[a] && at_feature[b]) edges.push_back(ascending(a, b));
+            }
+    });
+    std::sort(edges.begin(), edges.end());
+    std::vector<Index> lost;
+    for (const auto edge : features.rowwise())
+        if (!std::binary_search(edges.begin(), edges.end(), ascending(edge[0], edge[1])))
+            lost.insert(lost.end(), {edge[0], edge[1]});
+    if (!lost.empty())
+        throw GeometryError("features between vertices " + first_few(lost) +
+                                " of the mesh are no edges of cells; give another edge length",
+                            "lost_feature", lost);
+}
+
+bool good(const MixedMesh& mesh, int threads) {
+    return find_cell_defects(mesh).empty() && unproven_cells(mesh, threads).empty();
+}
+
+// Regions by number, volumes of each; all together where there are none.
+std::map<Index, double> volumes_of(const Eigen::VectorXd& volumes, const std::vector<Index>& regions) {
+    std::map<Index, double> sums;
+    for (Eigen::Index c = 0; c < volumes.size(); ++c) sums[regions.empty() ? 0 : regions[c]] += volumes[c];
+    return sums;
+}
+
+bool farther(const std::map<Index, double>& moved, const std::map<Index, double>& before,
+             const std::map<Index, double>& wanted) {
+    for (const auto& [region, volume] : wanted) {
+        const auto error = [&](const std::map<Index, double>& sums) {
+            const auto found = sums.find(region);
+            return std::abs((found == sums.end() ? 0 : found->second) / volume - 1);
+        };
+        if (!(error(moved) <= error(before) + 0.005)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, double edge_length,
+                         const Progress& progress) {
+    const surface::TriangleMesh& old = domain.surface().mesh;
+    std::vector<std::uint8_t> stays;
+    for (int round = 0;; ++round) {
+        report_or_throw(progress, "surface", 0, 0);
+        CellsOnSurface cells = cells_on_surface(domain, lattice, edge_length, stays);
+        try {
+            report_or_throw(progress, "tetrahedralize", 0, 0);
+            MixedMesh mesh = filled_by_layers(cells, progress);
+            return {std::move(cells), std::move(mesh)};
+        } catch (const GeometryError& error) {
+            if (round == most_surfaces) throw;
+            stays.resize(old.vertices.rows(), 0);
+            if (error.kind() == "self_intersection" && round + 1 < most_surfaces) {
+                mark_near(old, error.elements(), std::ldexp(edge_length, round), stays);
+            } else {
+                round = most_surfaces - 1;
+                std::fill(stays.begin(), stays.end(), 1);
+            }
+        }
+    }
+}
+
+MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, HexDominantCounts& counts,
+                     const Progress& progress) {
+    bool join = options.recombine;
+    for (int round = 0;; ++round) {
+        MixedMesh mesh = filled.mesh;
+        const Index of_lattice = static_cast<Index>(mesh.hexahedra.rows());
+        counts.recombined_hexahedra = counts.recombined_wedges = 0;
+        std::vector<std::uint8_t> marked;
+        try {
+            if (join && mesh.tets.rows() > 0) {
+                report_or_throw(progress, "recombine", 0, 0);
+                mesh = joined(filled, options, counts);
+            }
+            report_or_throw(progress, "conform", 0, 0);
+            counts.pyramids = {};
+            MixedMesh result = without_unproven(conform(mesh, &counts.pyramids), options.threads);
+            require_features(result, filled.cells.surface.features.edges);
+            return result;
+        } catch (const GeometryError& error) {
+            const bool names_cells = error.kind() != "unproven_cell" && error.kind() != "lost_feature";
+            if (names_cells && round < most_refillings) marked = lattice_hexahedra(error.elements(), mesh, of_lattice);
+            if (marked.empty() && !std::exchange(join, false)) {
+                if (of_lattice == 0) throw;
+                marked = all_hexahedra(filled.mesh);
+            }
+        }
+        if (marked.empty()) continue;
+        leave_out(filled.cells, marked);
+        report_or_throw(progress, "tetrahedralize", 0, 0);
+        filled.mesh = filled_by_layers(filled.cells, progress);
+    }
+}
+
+MixedMesh without_unproven(MixedMesh mesh, int threads) {
+    for (int round = 0;; ++round) {
+        const std::vector<Index> cells = unproven_cells(mesh, threads);
+        if (cells.empty()) return mesh;
+        if (round == most_rounds)
+            throw GeometryError("the Jacobian is not proven to be above 0 all through the cells " + first_few(cells) +
+                                    "; give another edge length",
+                                "unproven_cell", cells);
+        detail::CellComplex complex(mesh);
+        for (const Index cell : cells) {
+            if (!complex.alive(cell) || complex.shape(cell).vertices < 5) continue;
+            detail::Region region;
+            detail::add_to_region(complex, cell, region);
+            Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+            const int corners = complex.shape(cell).vertices;
+            for (int k = 0; k < corners; ++k) centre += complex.point(complex.ids(cell)[k]) / corners;
+            const detail::Filling filling = detail::best_filling(complex, std::move(region), {centre});
+            if (filling.apex.quality > 1e-9) detail::fill(complex, filling);
+        }
+        mesh = complex.mesh(static_cast<Index>(mesh.vertices.rows()));
+    }
+}
+
+MixedMesh improved(const MixedMesh& mesh, const TetDomain& domain, const std::vector<std::uint8_t>& support,
+                   const std::vector<Index>& regions, double edge_length, int threads) {
+    const std::map<Index, double> wanted = volumes_of(tet_volumes(domain.mesh()), domain.regions()),
+                                  before = volumes_of(cell_volumes(mesh), regions);
+    for (const bool held : {false, true}) {
+        VertexSupport where;
+        for (const std::uint8_t kind : support)
+            where.kind.push_back(held && kind > 0 ? VertexSupport::Kind::fixed
+                                                  : static_cast<VertexSupport::Kind>(kind));
+        ImproveOptions how;
+        how.tolerance = 0.1 * edge_length;
+        how.good = 0.5;
+        how.fit_surface = !held;
+        how.hexahedra_first = true;
+        how.threads = threads;
+        MixedMesh moved = improve_cells(mesh, where, domain.surface().mesh, domain.features(), how);
+        if (good(moved, threads) && !farther(volumes_of(cell_volumes(moved), regions), before, wanted)) return moved;
+    }
+    return mesh;
+}
+
+}  // namespace octafield::volume
