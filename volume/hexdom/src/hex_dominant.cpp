@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <new>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -177,8 +176,10 @@ void drop_unused_vertices(HexDominantMesh& result) {
     });
 }
 
-HexDominantMesh mesh_along(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
-                           const Progress& progress) {
+}  // namespace
+
+HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
+                             const Progress& progress) {
     require_options(options);
     require_frames(frames, domain.vertex_count());
     const WorkingField given{domain, frames, wanted_sizes(domain, options)};
@@ -223,17 +224,6 @@ HexDominantMesh mesh_along(const TetDomain& domain, const Quaternions& frames, c
     result.mesh = std::move(mesh);
     drop_unused_vertices(result);
     return result;
-}
-
-}  // namespace
-
-HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
-                             const Progress& progress) {
-    try {
-        return mesh_along(domain, frames, options, progress);
-    } catch (const std::bad_alloc&) {
-        throw SolverError("memory ran out; give a larger edge length, or smaller most_tets", "out_of_memory");
-    }
 }
 
 }  // namespace octafield::volume
