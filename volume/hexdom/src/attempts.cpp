@@ -145,6 +145,13 @@ void require_interfaces(const MixedMesh& mesh, const CellsOnSurface& cells) {
                             "lost_interface", lost);
 }
 
+Triangles walls_of(const CellsOnSurface& cells) {
+    std::vector<Index> walls;
+    for (std::size_t t = 0; t < cells.two_sided.size(); ++t)
+        if (cells.two_sided[t]) walls.push_back(static_cast<Index>(t));
+    return cells.surface.mesh.triangles(walls, Eigen::all);
+}
+
 std::vector<std::uint8_t> hexahedra_at(const std::vector<Index>& vertices, const CellsOnSurface& cells) {
     std::vector<std::uint8_t> at(cells.vertices.rows(), 0), marked;
     for (const Index v : vertices) at[v] = 1;
@@ -221,7 +228,7 @@ MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, Hex
             }
             report_or_throw(progress, "conform", 0, 0);
             counts.pyramids = {};
-            MixedMesh result = without_unproven(conform(mesh, &counts.pyramids), options.threads);
+            MixedMesh result = without_unproven(conform(mesh, &counts.pyramids, walls_of(filled.cells)), options.threads);
             require_features(result, filled.cells.surface.features.edges);
             require_interfaces(result, filled.cells);
             return result;
