@@ -144,6 +144,28 @@ TEST(Attempts, AHexahedronThatCannotBeMetIsLeftOutAndThePlaceFilledAnew) {
     expect_sound(mesh);
 }
 
+TEST(Attempts, ATriangleBetweenRegionsThatIsNoFaceIsAnErrorOnceNoHexahedronIsLeft) {
+    FilledCells given{block_in_cube(4, 1, 3), {}};
+    given.mesh = filled(given.cells, {});
+    HexDominantOptions options;
+    options.recombine = false;
+    HexDominantCounts counts;
+    EXPECT_EQ(kind_thrown([&] {
+                  FilledCells same = given;
+                  conforming(same, options, counts, {});
+              }),
+              "nothing");
+    given.cells.hexahedra.resize(0, 8);
+    given.mesh = filled(given.cells, {});
+    surface::TriangleMesh& mesh = given.cells.surface.mesh;
+    const Index last = static_cast<Index>(mesh.vertices.rows()) - 1;
+    mesh.triangles.conservativeResize(mesh.triangles.rows() + 1, 3);
+    mesh.triangles.bottomRows(1) << 0, last / 2, last;
+    given.cells.two_sided.push_back(1);
+    given.cells.surface.triangle.push_back(0);
+    EXPECT_EQ(kind_thrown([&] { conforming(given, options, counts, {}); }), "lost_interface");
+}
+
 TEST(Attempts, HexahedraThatAreNotProvenPositiveAreFilledAboutAPoint) {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> uniform(-0.55, 0.55);

@@ -111,6 +111,59 @@ void require_features(const MixedMesh& mesh, const Edges& features) {
                             "lost_feature", lost);
 }
 
+// Throws where a triangle between regions is no face of a cell and no half of one: cells reach across. Elements: its
+// vertices.
+void require_interfaces(const MixedMesh& mesh, const CellsOnSurface& cells) {
+    using Triple = std::array<Index, 3>;
+    const auto sorted = [](Triple t) {
+        std::sort(t.begin(), t.end());
+        return t;
+    };
+    std::vector<Triple> walls, found;
+    std::vector<std::uint8_t> at_wall(mesh.vertices.rows(), 0);
+    for (Index t = 0; t < cells.surface.mesh.triangles.rows(); ++t) {
+        if (!cells.two_sided[t]) continue;
+        const auto row = cells.surface.mesh.triangles.row(t);
+        walls.push_back(sorted({row[0], row[1], row[2]}));
+        for (const Index v : row) at_wall[v] = 1;
+    }
+    if (walls.empty()) return;
+    detail::for_each_cell(mesh, [&](const detail::Cell& cell) {
+        for (const detail::CellFace& face : cell.shape.faces)
+            for (int k = 0; k < (face.corners == 3 ? 1 : 4); ++k) {
+                const auto id = [&](int i) { return cell.ids[face.local[(k + i) % face.corners]]; };
+                if (at_wall[id(0)] && at_wall[id(1)] && at_wall[id(2)]) found.push_back(sorted({id(0), id(1), id(2)}));
+            }
+    });
+    std::sort(found.begin(), found.end());
+    std::vector<Index> lost;
+    for (const Triple& wall : walls)
+        if (!std::binary_search(found.begin(), found.end(), wall)) lost.insert(lost.end(), wall.begin(), wall.end());
+    if (!lost.empty())
+        throw GeometryError("cells reach through the interface between regions at vertices " + first_few(lost) +
+                                " of the mesh; give another edge length",
+                            "lost_interface", lost);
+}
+
+Triangles walls_of(const CellsOnSurface& cells) {
+    std::vector<Index> walls;
+    for (std::size_t t = 0; t < cells.two_sided.size(); ++t)
+        if (cells.two_sided[t]) walls.push_back(static_cast<Index>(t));
+    return cells.surface.mesh.triangles(walls, Eigen::all);
+}
+
+std::vector<std::uint8_t> hexahedra_at(const std::vector<Index>& vertices, const CellsOnSurface& cells) {
+    std::vector<std::uint8_t> at(cells.vertices.rows(), 0), marked;
+    for (const Index v : vertices) at[v] = 1;
+    for (Eigen::Index k = 0; k < cells.hexahedra.rows(); ++k)
+        for (const Index v : cells.hexahedra.row(k)) {
+            if (!at[v]) continue;
+            marked.resize(cells.hexahedra.rows(), 0);
+            marked[k] = 1;
+        }
+    return marked;
+}
+
 bool good(const MixedMesh& mesh, int threads) {
     return find_cell_defects(mesh).empty() && unproven_cells(mesh, threads).empty();
 }
@@ -175,11 +228,15 @@ MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, Hex
             }
             report_or_throw(progress, "conform", 0, 0);
             counts.pyramids = {};
-            MixedMesh result = without_unproven(conform(mesh, &counts.pyramids), options.threads);
+            MixedMesh result =
+                without_unproven(conform(mesh, &counts.pyramids, walls_of(filled.cells)), options.threads);
             require_features(result, filled.cells.surface.features.edges);
+            require_interfaces(result, filled.cells);
             return result;
         } catch (const GeometryError& error) {
-            const bool names_cells = error.kind() != "unproven_cell" && error.kind() != "lost_feature";
+            const bool interface = error.kind() == "lost_interface",
+                       names_cells = !interface && error.kind() != "unproven_cell" && error.kind() != "lost_feature";
+            if (interface && round < most_refillings) marked = hexahedra_at(error.elements(), filled.cells);
             if (names_cells && round < most_refillings) marked = lattice_hexahedra(error.elements(), mesh, of_lattice);
             if (marked.empty() && !std::exchange(join, false)) {
                 if (of_lattice == 0) throw;

@@ -99,7 +99,8 @@ Index cell_across_worst(const CellComplex& complex, const Filling& filling) {
         if (faces[f].corners == 4) continue;
         const double quality = cone_quality(faces[f], filling.apex.place);
         if (quality >= worst) continue;
-        const Index cell = complex.cell_across(filling.region.boundary[f]);
+        const FaceCycle& face = filling.region.boundary[f];
+        const Index cell = complex.wall(face) ? -1 : complex.cell_across(face);
         if (cell < 0 || (&complex.shape(cell) != &tet_shape && &complex.shape(cell) != &pyramid_shape)) continue;
         worst = quality;
         across = cell;

@@ -92,4 +92,19 @@ MixedMesh CellComplex::mesh(Index first_new) const {
     return mesh;
 }
 
+void CellComplex::set_walls(const Triangles& walls) {
+    for (const auto row : walls.rowwise()) {
+        walls_.push_back({row[0], row[1], row[2]});
+        std::sort(walls_.back().begin(), walls_.back().end());
+    }
+    std::sort(walls_.begin(), walls_.end());
+}
+
+bool CellComplex::wall(const FaceCycle& face) const {
+    if (walls_.empty() || face.corners() == 4) return false;
+    std::array<Index, 3> ids{face.ids[0], face.ids[1], face.ids[2]};
+    std::sort(ids.begin(), ids.end());
+    return std::binary_search(walls_.begin(), walls_.end(), ids);
+}
+
 }  // namespace octafield::volume::detail

@@ -37,6 +37,10 @@ public:
     Index cell_with(const FaceCycle& face) const;  // that has this outward face; -1: none
     Index cell_across(const FaceCycle& face) const { return cell_with(opposite(face)); }
 
+    // Triangles that cells made anew do not reach through.
+    void set_walls(const Triangles& walls);
+    bool wall(const FaceCycle& face) const;
+
     Index add(const CellShape& shape, std::span<const Index> ids);
     Index add_vertex(const Eigen::Vector3d& point);
     void remove(Index cell);
@@ -52,6 +56,7 @@ private:
         const CellShape* shape;  // null: removed
         std::array<Index, 8> ids;
     };
+    std::vector<std::array<Index, 3>> walls_;  // sorted
     std::vector<Eigen::Vector3d> points_;
     std::vector<LiveCell> cells_;
     std::vector<std::vector<Index>> cells_at_;  // (vertices)

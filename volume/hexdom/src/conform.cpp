@@ -42,8 +42,9 @@ std::vector<std::uint8_t> vertices_of_quads(const MixedMesh& mesh) {
 // many of both and fewer tets: so it ends.
 class Conformer {
 public:
-    explicit Conformer(const MixedMesh& mesh)
+    Conformer(const MixedMesh& mesh, const Triangles& walls)
         : complex_(mesh), input_cells_(mesh.cell_count()), input_vertices_(static_cast<Index>(mesh.vertices.rows())) {
+        complex_.set_walls(walls);
         for (Index tet = 0; tet < mesh.tets.rows(); ++tet)
             if (between_quads(tet)) complex_.remove(tet);
         const std::vector<std::uint8_t> on_quads = vertices_of_quads(mesh);
@@ -275,9 +276,9 @@ private:
 
 }  // namespace
 
-MixedMesh conform(const MixedMesh& mesh, ConformReport* report) {
+MixedMesh conform(const MixedMesh& mesh, ConformReport* report, const Triangles& walls) {
     require_cells(mesh);
-    Conformer conformer(mesh);
+    Conformer conformer(mesh, walls);
     MixedMesh result = conformer.run();
     require_valid(result);
     if (report) *report = conformer.report;

@@ -56,6 +56,19 @@ std::array<Index, 3> ascending(Index a, Index b, Index c) {
     return ids;
 }
 
+double volume_inside(const Cavity& cavity) {
+    const surface::TriangleMesh& mesh = cavity.mesh;
+    double six = 0;
+    for (Index t = 0; t < mesh.triangles.rows(); ++t) {
+        if (cavity.two_sided[t]) continue;
+        const auto p = [&](int k) -> Eigen::Vector3d {
+            return mesh.vertices.row(mesh.triangles(t, k)) - mesh.vertices.row(0);
+        };
+        six += p(0).dot(p(1).cross(p(2)));
+    }
+    return std::abs(six) / 6;
+}
+
 // Vertices from `first` on that no tet has go.
 void drop_unused(TetMesh& mesh, Index first) {
     std::vector<Index> number(mesh.vertices.rows(), -1), kept;
@@ -76,6 +89,10 @@ TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, con
     TetgenParameters parameters;
     parameters.radius_edge_ratio = 1.8;
     parameters.max_volume = 0.4 * std::pow(cavity.edge_length / placement.scale, 3);
+    // Between faces far closer than their edges are long refinement would hardly end.
+    const double cells = volume_inside(cavity) / std::pow(cavity.edge_length, 3);
+    parameters.most_added =
+        static_cast<int>(std::min(1e9, 2000 + 3 * (cells + static_cast<double>(cavity.mesh.vertices.rows()))));
     parameters.refine = way.refine;
     parameters.tolerance = way.tolerance;
     if (way.inside && cavity.inside.rows() > 0) parameters.inside = placement.there(cavity.inside);

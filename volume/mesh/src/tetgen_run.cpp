@@ -41,6 +41,7 @@ tetgenbehavior switches(const TetgenParameters& parameters) {
     b.parse_commandline(text);
     if (parameters.tolerance > 0) b.epsilon = parameters.tolerance;
     b.insertaddpoints = parameters.inside.rows() > 0;
+    if (parameters.most_added > 0) b.steinerleft = parameters.most_added;
     if (!parameters.refine) return b;
     b.quality = 1;
     b.minratio = parameters.radius_edge_ratio;

@@ -16,6 +16,7 @@ struct TetgenParameters {
     double min_dihedral = 0;             // -q, degrees; 0: TetGen's default
     double max_volume = 0;               // -a
     double tolerance = 0;                // -T, for coplanarity; 0: TetGen's default
+    int most_added = 0;                  // -S, vertices; 0: no bound. Refinement ends there
     std::vector<Eigen::Vector3d> holes;  // one point in each cavity
     Points inside{0, 3};                 // points to be vertices; those not inside are left out
 };

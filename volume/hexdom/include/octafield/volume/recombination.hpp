@@ -39,6 +39,7 @@ struct ConformReport {
 // the four vertices of a quad goes where quads or the boundary are on both its sides. Throws GeometryError: a defect of
 // the mesh; kind "mismatched_face" where a quad meets triangles that do not fill it; "unsplittable_cell" where no
 // pyramid fits on a quad and the cell cannot be split.
-MixedMesh conform(const MixedMesh& mesh, ConformReport* report = nullptr);
+// walls: triangles, as between regions, that no cell made here reaches through where it grows over its neighbours.
+MixedMesh conform(const MixedMesh& mesh, ConformReport* report = nullptr, const Triangles& walls = Triangles(0, 3));
 
 }  // namespace octafield::volume
