@@ -145,7 +145,6 @@ def test_a_tet_mesh_with_a_file_of_sizes(tmp_path):
     require_conforming(of.read_cells(tmp_path / "out" / "mesh.vtu"))
 
 
-@pytest.mark.xfail(reason="what lies between its hexahedra and the interface is not filled yet (issue 17)")
 def test_regions_and_the_interface_between_them_are_kept(tmp_path):
     path = shared(SHARED_TETS / "s01b.vtk.gz")
     octafield("hex-dominant", path, "-o", tmp_path / "out", "-q", check=0)
