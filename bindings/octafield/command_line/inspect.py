@@ -100,7 +100,7 @@ def view(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """The singular curves of a field, or a mesh cut open, in a window or a PNG."""
+    """Singular curves of a field, or a mesh cut open, in a window or PNG."""
 
     def work() -> None:
         from ..view.window import view_folder

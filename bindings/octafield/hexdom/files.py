@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
+
 from .. import _core
 from ..domain.cell_files import write_cells
 from ..files.writing import vtu_bytes, write_file
@@ -42,7 +44,7 @@ def write_hex_result(result: HexDominantResult, folder: Path, progress: Progress
 def write_vtu(path: Path, result: HexDominantResult) -> None:
     grid = cell_grid(result.mesh)
     grid.cell_data["scaled_jacobian"] = result.scaled_jacobians
-    grid.cell_data["region"] = 0 if result.regions is None else result.regions
+    grid.cell_data["region"] = np.zeros(grid.n_cells, np.int32) if result.regions is None else result.regions
     grid.point_data["support"] = result.support
     write_file(path, vtu_bytes(grid, _metadata(result.record)))
 

@@ -114,4 +114,4 @@ def recorded_sizes(sizes: object) -> str | None:
         return sizes
     if callable(sizes):
         return f"function {getattr(sizes, '__name__', type(sizes).__name__)}"
-    return f"array {np.shape(sizes)}" if not hasattr(sizes, "__fspath__") else str(sizes)  # type: ignore[arg-type]
+    return str(sizes) if hasattr(sizes, "__fspath__") else f"array {np.asarray(sizes).shape}"

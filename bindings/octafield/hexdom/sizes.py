@@ -68,7 +68,8 @@ def _read(path: Path) -> np.ndarray:
 
             return _numbers(np.load(io.BytesIO(content), allow_pickle=False), str(path))
         lines = content.decode("utf-8").replace(",", " ").splitlines()
-        values: np.ndarray = np.loadtxt(lines, ndmin=2) if any(line.partition("#")[0].strip() for line in lines) else []
+        told = any(line.partition("#")[0].strip() for line in lines)
+        values: np.ndarray = np.loadtxt(lines, ndmin=2) if told else np.empty(0)
     except (ValueError, EOFError, UnicodeDecodeError) as error:
         raise IoError(
             f"{path}: not a file of sizes ({error}); give .npy or text, a number per vertex of the input or rows x y z"

@@ -47,7 +47,7 @@ def _drawn(grid: pyvista.UnstructuredGrid, curves: dict[int, pyvista.PolyData | 
             _skin(kept.extract_cells(hexahedra)),
             scalars="scaled_jacobian",
             clim=(0, 1),
-            cmap=_COLOURS,
+            cmap=_COLOURS,  # type: ignore[arg-type]
             show_edges=True,
             edge_color=scene.INK,
             ambient=0.45,
@@ -75,7 +75,8 @@ def _behind(grid: pyvista.UnstructuredGrid, points: np.ndarray, axes: np.ndarray
     """The cells of the half away from the eye, across the second axis."""
     centres = np.asarray(grid.cell_centers().points) @ axes[1]
     middle = ((points @ axes[1]).max() + (points @ axes[1]).min()) / 2
-    return grid.extract_cells(np.flatnonzero(centres >= middle - 1e-9 * scene.diagonal(points)))
+    kept: pyvista.UnstructuredGrid = grid.extract_cells(centres >= middle - 1e-9 * scene.diagonal(points))
+    return kept
 
 
 def _skin(grid: pyvista.UnstructuredGrid) -> pyvista.PolyData:
