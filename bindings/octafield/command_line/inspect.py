@@ -100,7 +100,7 @@ def view(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Singular curves of a field, or a mesh cut open, in a window or PNG."""
+    """A field's singular curves or a mesh cut open, drawn."""
 
     def work() -> None:
         from ..view.window import view_folder
