@@ -16,7 +16,7 @@ def main() -> None:
     parser.add_argument("--files", default="u", help="rows: kinds of files, of u, c and b")
     parser.add_argument("--only", default="", help="names with commas, as s05u")
     parser.add_argument("--factors", default="1,0.5", help="rows: edge lengths over the mean edge of the boundary")
-    parser.add_argument("--limit", type=float, default=rows.LIMIT, help="seconds of one run")
+    parser.add_argument("--limit", type=float, default=rows.LIMIT, help="CPU seconds of one run")
     a = parser.parse_args()
     only = tuple(filter(None, a.only.split(",")))
     if a.part == "rows":

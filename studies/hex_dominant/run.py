@@ -47,7 +47,12 @@ def measure(path: Path, factor: float, length: float = 0.0, keep: Path | None = 
         result = octafield.compute_hex_dominant(meshed, options, hex_options=octafield.HexMeshOptions(edge_length=edge))
     except octafield.Error as error:
         return row | failure(error) | {"seconds": time.perf_counter() - started}
-    row |= {"seconds": time.perf_counter() - started, "MB": peak_megabytes(), "tets_used": result.counts.tets}
+    row |= {
+        "seconds": time.perf_counter() - started,
+        "cpu": time.process_time(),
+        "MB": peak_megabytes(),
+        "tets_used": result.counts.tets,
+    }
     lost = {name: getattr(result.counts.lost, name) for name in ("outside", "unusable", "degenerate", "poor")}
     steps = ("inconsistent", "turned_over", "lattice_hexahedra", "crossing", "recombined_hexahedra")
     row["steps"] = {name: int(getattr(result.counts, name)) for name in steps} | lost
