@@ -254,8 +254,9 @@ def _corners(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
     return np.array(sorted(found), int)
 
 
-def check(points, cells, given, given_tets, edge_length: float, crease_angle: float) -> dict[str, float]:
-    """Figures of a mesh against the tets of the input, and in "faults" what makes it unfit for use, in words."""
+def check(points, cells, given, given_tets, edge_length: float, curves) -> dict[str, float]:
+    """Figures of a mesh against the tets of the input, and in "faults" what makes it unfit for use, in words. curves:
+    (e, 2) feature edges of the input, by its vertices."""
     cells = {kind: np.asarray(rows, np.int64) for kind, rows in cells.items()}
     volumes = volumes_of(points, cells)
     quality = {kind: scaled_jacobians(points, kind, rows) for kind, rows in cells.items() if len(rows)}
@@ -269,9 +270,7 @@ def check(points, cells, given, given_tets, edge_length: float, crease_angle: fl
     used = given[np.unique(given_tets)]
     scale = float(np.linalg.norm(np.ptp(used, axis=0)))
     deviation = max(distances(surface_samples(made), old).max(), distances(surface_samples(old), made).max())
-    features = features_kept(
-        points, surface, given, creases(given, outside.triangles, crease_angle), edge_length, scale
-    )
+    features = features_kept(points, surface, given, np.asarray(curves), edge_length, scale)
     enclosed = enclosed_volume(points, surface)
     count = sum(len(rows) for rows in cells.values())
     hexahedra = quality.get("hexahedra", np.zeros(0))

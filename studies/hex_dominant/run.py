@@ -21,6 +21,14 @@ VTK_TYPES = {"tets": 10, "hexahedra": 12, "wedges": 13, "pyramids": 14}
 SIZES = {"tets": 4, "hexahedra": 8, "wedges": 6, "pyramids": 5}
 
 
+def curves_of(meshed, given, triangles, options) -> np.ndarray:
+    """Feature edges of the file; where it marks none, creases."""
+    if len(meshed.features.edges):
+        numbers = np.asarray(octafield.volume.boundary_surface(meshed.tets).vertex_map)
+        return numbers[np.asarray(meshed.features.edges)]
+    return checker.creases(given, triangles, options.feature_angle)
+
+
 def mean_edge(points: np.ndarray, triangles: np.ndarray) -> float:
     pairs = np.unique(np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1), axis=0)
     return float(np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1).mean())
@@ -62,7 +70,7 @@ def measure(path: Path, factor: float, length: float = 0.0, keep: Path | None = 
         place.mkdir(parents=True, exist_ok=True)
         write_hex_result(result, place)
         points, cells = cells_of_file(place / "mesh.vtu")
-    row |= checker.check(points, cells, given, tets, edge, options.feature_angle)
+    row |= checker.check(points, cells, given, tets, edge, curves_of(meshed, given, outside.triangles, options))
     told = result.record
     for name, value in (("hex_volume_share", told.hex_volume_share), ("volume_error", told.volume_error)):
         if abs(row[name] - value) > 1e-6:
