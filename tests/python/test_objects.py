@@ -44,6 +44,8 @@ def objects(field, tmp_path_factory):
     boundary = of.volume.boundary_surface(tets)
     combed = of.volume.comb(tets, of.volume.tet_frames(tets, frames))
     of.write_frames(folder / "field.npz", tets, frames)
+    in_them = of.volume.tet_frames(tets, frames)
+    coordinates = of.volume.periodic_map(tets, in_them, np.full((len(in_them), 3), 0.5))
     everything = [
         field, in_tets, meshed, of.prepare_field(meshed), of.compute_surface_field(generate("torus"),
             of.SurfaceFieldOptions(curvature=1)),
@@ -87,6 +89,13 @@ def objects(field, tmp_path_factory):
         of.convert_file(folder / "field.npz", folder / "field.frame"),
         list(of.frame_formats.values()), list(of.mesh_formats.values()),
         of.volume.EmbeddingScheme("own", of.frames.sh4_embed), of.volume.EdgeScheme("turns", of.frames.frame_log),
+        of.compute_hex_dominant(box, hex_options=of.HexMeshOptions(cells=27)), of.HexMeshOptions(cells=27),
+        of.volume.hex_dominant(tets, frames, edge_length=0.6, refinements=0),
+        of.volume.HexDominantOptions(edge_length=0.1), of.volume.ImproveOptions(sweeps=3),
+        of.volume.PeriodicMapOptions(rounds=2), of.volume.RecombineOptions(min_scaled_jacobian=0.2),
+        coordinates, of.volume.lattice_cells(tets, coordinates),
+        of.volume.recombine(of.volume.MixedMesh(tets.vertices, tets=tets.tets)),
+        of.volume.conform(of.volume.MixedMesh(tets.vertices, tets=tets.tets)),
         described, study.plan(described), study.run(described, folder / "study"),
         *(error("what; the remedy", "a_kind", [1, 2]) for error in (of.Error, of.InvalidInput, of.GeometryError,
             of.SolverError, of.IoError, of.Cancelled)),

@@ -254,7 +254,9 @@ def test_written_files_do_not_depend_on_the_thread_count(tmp_path, sphere_proble
         result = run_field(sphere_problem, replace(ROUND, threads=threads))
         write_field_result(result, tmp_path / str(threads))
         assert result.record["options"]["threads"] == threads
-    for name in FIELD_FILES:
+    written = {name for name in FIELD_FILES if (tmp_path / "1" / name).exists()}
+    assert set(FIELD_FILES) - written == {"mesh.vtu"}  # a comparison's, where it is asked for
+    for name in sorted(written):
         assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "2" / name).read_bytes()
 
 
