@@ -11,6 +11,7 @@
 
 #include "field_fixtures.hpp"
 #include "octafield/error.hpp"
+#include "refined_count.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -194,6 +195,17 @@ TEST(RefineTets, MarksAtRandomLeaveEveryTetWholeOrInTwoFourOrEight) {
 }
 
 // Bey: the octahedron is cut along its shortest diagonal, so that four rounds leave the shapes bounded.
+TEST(RefineTets, IsCountedBeforeItIsDone) {
+    std::mt19937 random(5);
+    for (const int one_in : {1, 3, 20, 1000}) {
+        const TetDomain domain = cube_of_two_regions(testing::kuhn_cube(3));
+        std::vector<std::uint8_t> marked(domain.tet_count());
+        for (auto& mark : marked) mark = random() % one_in == 0;
+        EXPECT_EQ(refined_count(domain, marked), refine_tets(domain, marked).domain.tet_count()) << one_in;
+    }
+    EXPECT_THROW(refined_count(cube_of_two_regions(testing::kuhn_cube(1)), {1}), InvalidInput);
+}
+
 TEST(RefineTets, ShapesStayBoundedOverRounds) {
     TetDomain domain(testing::kuhn_cube(1));
     const auto worst = [](const TetMesh& mesh) {

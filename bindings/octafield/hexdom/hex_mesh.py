@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from ..records.hex_dominant import HexDominantRecord
 
 FieldSource = str | Path | ArrayLike
-MOST_CELLS = 5_000_000  # beyond, sizes are more likely a slip than a wish
 
 _SHOWN = ("cells", "hex_volume_share", "hex_number_share", "scaled_jacobian", "volume_error")
 
@@ -221,7 +220,6 @@ def _mesh_along(
     wanted = None if at is None else at(np.asarray(domain.vertices))
     if wanted is not None:
         length = float((wanted[np.asarray(domain.tets)].mean(axis=1) * volumes).sum() / volumes.sum())
-    _require_feasible(domain, volumes, length if wanted is None else wanted)
     meter = PhaseMeter(field.record, progress)
     made = _core.hex_dominant(
         domain,
@@ -275,15 +273,4 @@ def require_sound(mesh: MixedMesh) -> None:
         worst = defects[0]
         raise SolverError(
             f"the hex-dominant mesh is not sound: {worst.message}", worst.kind, [int(c) for c in worst.cells[:100]]
-        )
-
-
-def _require_feasible(domain: TetDomain, volumes: np.ndarray, wanted: float | np.ndarray) -> None:
-    sizes = wanted if isinstance(wanted, float) else wanted[np.asarray(domain.tets)].mean(axis=1)
-    with np.errstate(over="ignore"):
-        count = float((volumes / np.power(sizes, 3.0)).sum())
-    if not count <= MOST_CELLS:
-        raise InvalidInput(
-            f"the edge length asks for about {count:.2g} cells; at most {MOST_CELLS:,} are made: ask for longer edges",
-            "too_many_cells",
         )

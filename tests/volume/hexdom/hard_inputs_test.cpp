@@ -110,7 +110,7 @@ TEST(HexDominant, MoreCellsThanFitAreRefusedAtOnce) {
             hex_dominant(mesh, turned(static_cast<Index>(mesh.vertices.rows()), 0), quick(length));
             FAIL() << length;
         } catch (const InvalidInput& error) {
-            EXPECT_EQ(error.kind(), "edge_length");
+            EXPECT_EQ(error.kind(), "too_many_cells");
             EXPECT_NE(std::string(error.what()).find("larger edge length"), std::string::npos);
         }
     }

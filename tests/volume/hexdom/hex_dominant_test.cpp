@@ -200,6 +200,18 @@ TEST(HexDominant, SizesAtVerticesAreHonoured) {
     EXPECT_GE(lengths.size(), 3u);
 }
 
+TEST(HexDominant, TheWorkingMeshStaysWithinItsBudget) {
+    const TetDomain domain = ball();
+    const Quaternions frames = testing::random_frames(domain.vertex_count(), 1);
+    HexDominantOptions options = with_length(0.3);
+    const Index all = hex_dominant(domain, frames, options).counts.tets;
+    ASSERT_GT(all, domain.tet_count());
+    for (const Index most : {domain.tet_count(), 3 * domain.tet_count(), all - 1}) {
+        options.most_tets = most;
+        EXPECT_LE(hex_dominant(domain, frames, options).counts.tets, most);
+    }
+}
+
 TEST(HexDominant, StepsThatAreSwitchedOffLeaveValidMeshesToo) {
     const TetDomain domain = ball();
     const Quaternions frames = testing::sample(domain.mesh(), testing::along_cylinder);
@@ -275,14 +287,14 @@ TEST(HexDominant, NamesWhatIsWrongWithItsInput) {
 TEST(HexDominant, EdgeLengthsFarTooSmallAreRefusedSoon) {
     const TetDomain domain = testing::with_detected_features(testing::kuhn_cube(2));
     for (const double length : {1e-3, 1e-4, 1e-7, 1e-200}) {
-        EXPECT_EQ(kind_of(domain, constant(domain), with_length(length)), "edge_length") << length;
+        EXPECT_EQ(kind_of(domain, constant(domain), with_length(length)), "too_many_cells") << length;
     }
 }
 
 // With random frames most tets have no coordinates: a bound on the cells of the map does not see them.
 TEST(HexDominant, EdgeLengthsFarTooSmallForTheDomainAreRefusedWithoutAFieldToo) {
     const TetDomain domain = testing::with_detected_features(testing::kuhn_cube(2));
-    EXPECT_EQ(kind_of(domain, testing::random_frames(domain.vertex_count(), 3), with_length(1e-3)), "edge_length");
+    EXPECT_EQ(kind_of(domain, testing::random_frames(domain.vertex_count(), 3), with_length(1e-3)), "too_many_cells");
 }
 
 TEST(HexDominant, EndsInEachOfItsPhasesWhereProgressSaysSo) {

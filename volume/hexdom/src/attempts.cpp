@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cavity.hpp"
+#include "near_grid.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/cell_quality.hpp"
 #include "octafield/volume/recombination.hpp"
@@ -22,21 +23,11 @@ std::vector<std::uint8_t> all_hexahedra(const MixedMesh& mesh) {
 // Vertices of the surface within `distance` of corners of the triangles.
 void mark_near(const surface::TriangleMesh& mesh, const std::vector<Index>& triangles, double distance,
                std::vector<std::uint8_t>& marked) {
-    using Cell = std::array<std::int64_t, 3>;
-    const auto cell_of = [&](const Eigen::RowVector3d& p) {
-        return Cell{static_cast<std::int64_t>(std::floor(p[0] / distance)),
-                    static_cast<std::int64_t>(std::floor(p[1] / distance)),
-                    static_cast<std::int64_t>(std::floor(p[2] / distance))};
-    };
-    std::vector<Cell> near;
+    NearGrid corners(distance);
     for (const Index t : triangles)
-        for (const Index v : mesh.triangles.row(t)) {
-            const Cell c = cell_of(mesh.vertices.row(v));
-            for (int k = 0; k < 27; ++k) near.push_back({c[0] + k % 3 - 1, c[1] + k / 3 % 3 - 1, c[2] + k / 9 - 1});
-        }
-    std::sort(near.begin(), near.end());
+        for (const Index v : mesh.triangles.row(t)) corners.add(v, mesh.vertices.row(v));
     for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
-        if (std::binary_search(near.begin(), near.end(), cell_of(mesh.vertices.row(v)))) marked[v] = 1;
+        if (corners.any(mesh.vertices.row(v), distance)) marked[v] = 1;
 }
 
 }  // namespace

@@ -23,9 +23,8 @@ FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, d
                          const Progress& progress);
 
 // Tets joined, and pyramids where quads meet triangles: all faces match, all cells are proven positive, features are
-// edges. Where a
-// hexahedron cannot be kept it is left out of `filled` and that filled anew; where this does not help, tets are not
-// joined; then no hexahedron stays. Throws GeometryError.
+// edges. Where a hexahedron cannot be kept it is left out of `filled` and that filled anew; where this does not help,
+// tets are not joined; then no hexahedron stays. Throws GeometryError.
 MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, HexDominantCounts& counts,
                      const Progress& progress);
 

@@ -16,6 +16,7 @@
 #include "octafield/volume/refine_tets.hpp"
 #include "octafield/volume/sample_frames.hpp"
 #include "octafield/volume/scaling.hpp"
+#include "refined_count.hpp"
 #include "require_frames.hpp"
 
 namespace octafield::volume {
@@ -144,9 +145,9 @@ void require_count(const WorkingField& field, Index most) {
     if (count <= most) return;
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", count);
-    throw InvalidInput("the mesh would have about " + std::string(text) + " hexahedra, more than " +
-                           std::to_string(most) + "; give a larger edge length",
-                       "edge_length");
+    throw InvalidInput("the edge length asks for about " + std::string(text) + " cells, and at most " +
+                           std::to_string(most) + " are made; give a larger one, or more most_hexahedra",
+                       "too_many_cells");
 }
 
 // Vertices whose cells have been joined or split away: a solver would have unknowns that nothing determines.
@@ -193,8 +194,8 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
         report_or_throw(progress, "sizes", 0, 0);
         const PeriodicMap map = map_of(field, options, progress);
         std::vector<std::uint8_t> marked = tets_to_refine(field, map, level == 0 ? 1 : 2);
-        const std::int64_t count = std::count(marked.begin(), marked.end(), 1);
-        if (count > 0 && level < options.refinements && field.domain.tet_count() + 8 * count <= options.most_tets) {
+        const bool any = std::find(marked.begin(), marked.end(), 1) != marked.end();
+        if (any && level < options.refinements && refined_count(field.domain, marked) <= options.most_tets) {
             field = refined(field, given, std::move(marked), options.threads);
             continue;
         }

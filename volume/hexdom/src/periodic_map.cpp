@@ -13,6 +13,7 @@
 #include "phase_system.hpp"
 #include "phase_unknowns.hpp"
 #include "require_frames.hpp"
+#include "tet_corners.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -56,12 +57,6 @@ public:
     }
 
 private:
-    static int corner_of(const TetMesh& mesh, Index tet, Index vertex) {
-        int k = 0;
-        while (mesh.tets(tet, k) != vertex) ++k;
-        return k;
-    }
-
     EdgeLengths lengths_of(const EdgeFan& fan) const {
         EdgeLengths result;
         const Vector3 edge = (mesh_.vertices.row(fan.b) - mesh_.vertices.row(fan.a)).transpose();

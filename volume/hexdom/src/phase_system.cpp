@@ -59,7 +59,6 @@ PhaseSystem::PhaseSystem(Index count, const std::vector<std::uint8_t>& held, con
             parts.join(b, static_cast<Index>(rows));
         }
     }
-    std::vector<Index> lowest_of(rows + 1, -1);
     const Index held_part = parts.lowest(static_cast<Index>(rows));
     for (Index r = 0; r < static_cast<Index>(rows); ++r)
         if (parts.lowest(r) == r && r != held_part) arbitrary_.push_back(free_[r]);

@@ -2,17 +2,9 @@
 
 #include "axis_numbers.hpp"
 #include "octafield/disjoint_sets.hpp"
+#include "tet_corners.hpp"
 
 namespace octafield::volume {
-namespace {
-
-int corner_of(const TetMesh& mesh, Index tet, Index vertex) {
-    int k = 0;
-    while (mesh.tets(tet, k) != vertex) ++k;
-    return k;
-}
-
-}  // namespace
 
 PhaseUnknowns::PhaseUnknowns(const TetMesh& mesh, const FaceMatchings& faces) : codes_(mesh.tets.rows(), 12) {
     // Member 6 (4 tet + corner) + axis number, of both directions of each axis.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "octafield/error.hpp"
+#include "refined_count.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -62,6 +63,13 @@ bool is_green(int halved) {
            std::find(triangle_edges.begin(), triangle_edges.end(), halved) != triangle_edges.end();
 }
 
+// Edges of the tet that are halved, as bits.
+int halved_bits(const TetEdges& numbers, const std::vector<std::uint8_t>& halved, Eigen::Index tet) {
+    int bits = 0;
+    for (int e = 0; e < 6; ++e) bits |= halved[numbers.of_tets(tet, e)] << e;
+    return bits;
+}
+
 // Halved edges so that each tet is cut into eight, or one of the green ways, or not at all.
 std::vector<std::uint8_t> halved_edges(const TetEdges& numbers, const std::vector<std::uint8_t>& marked) {
     std::vector<std::uint8_t> halved(numbers.edges.size(), 0);
@@ -73,8 +81,7 @@ std::vector<std::uint8_t> halved_edges(const TetEdges& numbers, const std::vecto
     for (bool changed = true; changed;) {
         changed = false;
         for (Eigen::Index t = 0; t < numbers.of_tets.rows(); ++t) {
-            int bits = 0;
-            for (int e = 0; e < 6; ++e) bits |= halved[numbers.of_tets(t, e)] << e;
+            const int bits = halved_bits(numbers, halved, t);
             if (bits == all_edges || is_green(bits)) continue;
             halve_all(t);
             changed = true;
@@ -165,14 +172,30 @@ surface::FeatureGraph refined_features(const TetDomain& old, const TetDomain& re
     return surface::ordered_features(std::move(features), refined.surface().mesh);
 }
 
+void require_marks(const TetDomain& domain, const std::vector<std::uint8_t>& marked) {
+    if (static_cast<Eigen::Index>(marked.size()) != domain.tet_count())
+        throw InvalidInput("marked has " + std::to_string(marked.size()) + " entries; give one per tet, " +
+                               std::to_string(domain.tet_count()),
+                           "wrong_size");
+}
+
 }  // namespace
 
+std::int64_t refined_count(const TetDomain& domain, const std::vector<std::uint8_t>& marked) {
+    require_marks(domain, marked);
+    const TetEdges numbers(domain.mesh().tets);
+    const std::vector<std::uint8_t> halved = halved_edges(numbers, marked);
+    std::int64_t count = 0;
+    for (Eigen::Index t = 0; t < numbers.of_tets.rows(); ++t) {
+        const int bits = halved_bits(numbers, halved, t);
+        count += bits == 0 ? 1 : bits == all_edges ? 8 : std::has_single_bit(unsigned(bits)) ? 2 : 4;
+    }
+    return count;
+}
+
 RefinedDomain refine_tets(const TetDomain& domain, std::vector<std::uint8_t> marked) {
+    require_marks(domain, marked);
     const TetMesh& old = domain.mesh();
-    if (static_cast<Eigen::Index>(marked.size()) != old.tets.rows())
-        throw InvalidInput("marked has " + std::to_string(marked.size()) + " entries; give one per tet, " +
-                               std::to_string(old.tets.rows()),
-                           "wrong_size");
     const TetEdges numbers(old.tets);
     const std::vector<std::uint8_t> halved = halved_edges(numbers, marked);
     const Index n = domain.vertex_count();

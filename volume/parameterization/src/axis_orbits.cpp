@@ -5,17 +5,9 @@
 
 #include "axis_numbers.hpp"
 #include "octafield/disjoint_sets.hpp"
+#include "tet_corners.hpp"
 
 namespace octafield::volume {
-namespace {
-
-int corner_of(const TetMesh& mesh, Index tet, Index vertex) {
-    int k = 0;
-    while (mesh.tets(tet, k) != vertex) ++k;
-    return k;
-}
-
-}  // namespace
 
 AxisOrbits axis_orbits(const TetMesh& mesh, const FaceMatchings& faces) {
     DisjointSets sets(12 * static_cast<std::size_t>(mesh.tets.rows()));

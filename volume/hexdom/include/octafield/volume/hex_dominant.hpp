@@ -21,7 +21,7 @@ struct HexDominantOptions {
     // Times that tets on which the map is of no use, and those next to them, are cut into eight and the map is made
     // anew, while the mesh stays within most_tets.
     int refinements = 2;
-    Index most_tets = 500000;
+    Index most_tets = 1000000;
     Index most_hexahedra = 5000000;    // an edge length that asks for more is refused
     double min_scaled_jacobian = 0.3;  // of hexahedra of the lattice, and of cells made of tets
     double hold_angle = 0.7;           // of PeriodicMapOptions, radians
