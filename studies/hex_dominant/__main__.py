@@ -10,7 +10,7 @@ DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 
 def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m studies.hex_dominant", description=__doc__)
-    parser.add_argument("part", choices=("rows", "gmsh", "poisson", "page"))
+    parser.add_argument("part", choices=("rows", "ways", "gmsh", "poisson", "page"))
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--data", type=Path, default=DATA)
     parser.add_argument("--files", default="u", help="rows: kinds of files, of u, c and b")
@@ -22,6 +22,10 @@ def main() -> None:
     if a.part == "rows":
         factors = [float(word) for word in a.factors.split(",")]
         rows.work(a.data, a.output, a.files, factors, a.limit, only)
+    elif a.part == "ways":
+        from . import ways
+
+        ways.work(a.data, a.output, only)
     elif a.part == "gmsh":
         from . import gmsh_beside
 

@@ -183,6 +183,6 @@ def when(rows: list[dict]) -> str:
     loads = [row["load"] for row in rows]
     return (
         f"{', '.join(sorted({row['date'] for row in rows}))}, {machine()}, 2 threads, load average"
-        f" {min(loads):.1f} to {max(loads):.1f} (others worked there, so that seconds are too high), commits"
+        f" {min(loads):.1f} to {max(loads):.1f}, commits"
         f" {', '.join(dict.fromkeys(row['commit'] for row in rows))}.\n"
     )
