@@ -146,7 +146,7 @@ void require_count(const WorkingField& field, Index most) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g", count);
     throw InvalidInput("the edge length asks for about " + std::string(text) + " cells, and at most " +
-                           std::to_string(most) + " are made; give a larger one, or more most_hexahedra",
+                           std::to_string(most) + " are made; give a larger edge length, or more most_hexahedra",
                        "too_many_cells");
 }
 
