@@ -1,7 +1,6 @@
 """One mesh in a process of its own: python -m studies.hex_dominant.run FILE FACTOR JSON. Writes a row, errors too."""
 
 import json
-import resource
 import sys
 import tempfile
 import time
@@ -58,7 +57,7 @@ def measure(path: Path, factor: float, length: float = 0.0, keep: Path | None = 
     row |= {
         "seconds": time.perf_counter() - started,
         "cpu": time.process_time(),
-        "MB": peak_megabytes(),
+        "MB": result.record.peak_mb,  # the largest of its phases, each measured from its start
         "tets_used": result.counts.tets,
     }
     lost = {name: getattr(result.counts.lost, name) for name in ("outside", "unusable", "degenerate", "poor")}
@@ -83,10 +82,6 @@ def measure(path: Path, factor: float, length: float = 0.0, keep: Path | None = 
 
 def failure(error: BaseException) -> dict:
     return {"error": f"{type(error).__name__}: {error}".splitlines()[0][:400]}
-
-
-def peak_megabytes() -> float:
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
 def main() -> None:

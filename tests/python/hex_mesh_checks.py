@@ -1,22 +1,10 @@
-"""Meshes of mixed cells judged by code of the tests' own: nothing of it asks what octafield says of a mesh."""
+"""Meshes of mixed cells judged by code of the tests' own, with the study's tables of faces and corners: nothing of it
+asks what octafield says of a mesh."""
 
 from collections import Counter, defaultdict
 
 import numpy as np
-
-FACES = {
-    "tets": ["021", "013", "123", "203"],
-    "hexahedra": ["0321", "4567", "0154", "1265", "2376", "3047"],
-    "wedges": ["021", "345", "0143", "1254", "2035"],
-    "pyramids": ["0321", "014", "124", "234", "304"],
-}
-# Of each corner its three neighbours, so that the determinant is positive in a sound cell.
-CORNERS = {
-    "tets": ["0123", "1203", "2013", "3021"],
-    "hexahedra": ["0134", "1205", "2316", "3027", "4750", "5461", "6572", "7643"],
-    "wedges": ["0123", "1204", "2015", "3540", "4351", "5432"],
-    "pyramids": ["0134", "1204", "2314", "3024"],
-}
+from studies.hex_dominant.checker import CORNERS, FACES
 
 
 def cells_of(mesh):

@@ -8,6 +8,7 @@ import octafield as of
 import pytest
 from hex_mesh_checks import require_conforming, volume_of
 from octafield import study
+from octafield.study.memory import needed_mb
 from octafield.domain.generators import generate
 from octafield.runs import compared_meshes
 from octafield.study.plan import Run
@@ -275,6 +276,18 @@ def test_keys_tell_whether_meshes_are_made_and_how_and_those_without_are_as_befo
         assert run.hex_options.hold_angle == pytest.approx(np.pi / 6)
         assert Run.from_json(json.loads(json.dumps(run.to_json()))) == run
         assert "HexMeshOptions" in repr(run)
+
+
+def test_memory_is_reserved_for_the_tets_that_may_be_cut():
+    def more(line, tets=10_000):
+        plain, meshed = (study.plan(study.parse(STUDY + text)) for text in ("", f"hex_dominant: {line}\n"))
+        return needed_mb(tets, meshed) - needed_mb(0, plain)
+
+    assert more("{}") == pytest.approx(0.0011 * 64 * 10_000)
+    assert more("{most_tets: 100000}") == pytest.approx(0.0011 * 100_000)
+    assert more("{}", 1e6) == pytest.approx(
+        max(0.0011 * 1e6, needed_mb(1e6, study.plan(study.parse(STUDY))) - needed_mb(0, []))
+    )
 
 
 def test_a_study_without_kept_fields_keeps_figures_only(tmp_path):

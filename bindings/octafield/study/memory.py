@@ -5,21 +5,27 @@ import math
 from collections.abc import Hashable
 
 from .. import _core
+from ..hexdom.options import HexMeshOptions
 from ..options import FieldOptions
 from ..schemes import EmbeddingScheme, OwnScheme, minimised
 from .plan import Run
 
 _PROCESS_MB = 280.0  # Python, its libraries, small arrays
 _TYPICAL_TETS = 50_000.0  # of an input before any is known
-_MB_PER_TET_MESHED = 0.021  # a mesh along the field, cells about as long as tets: their refinement takes the most
+_MB_PER_WORKING_TET = 0.0011  # a mesh along the field: tets are cut before, within a budget
 _TET_SAMPLING = 3.5  # over frames at vertices: there are five to six times as many tets, but fewer neighbours
 
 
 def needed_mb(tets: float, runs: list[Run]) -> float:
     """Megabytes (1e6 bytes) of a process that carries out `runs` on so many tets, its mesher included."""
     fields = [_mb_per_tet(run.options) for run in runs]
-    meshes = [_MB_PER_TET_MESHED for run in runs if run.hex_options]
-    return _PROCESS_MB + tets * max([*fields, *meshes], default=0.0)
+    meshes = [_MB_PER_WORKING_TET * _working_tets(tets, run.hex_options) for run in runs if run.hex_options]
+    return _PROCESS_MB + max([*(tets * mb for mb in fields), *meshes], default=0.0)
+
+
+def _working_tets(tets: float, options: HexMeshOptions) -> float:
+    """The most that there can be."""
+    return max(tets, min(8**options.refinements * tets, options.most_tets))
 
 
 def _mb_per_tet(options: FieldOptions) -> float:
