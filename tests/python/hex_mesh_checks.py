@@ -4,6 +4,7 @@ asks what octafield says of a mesh."""
 from collections import Counter, defaultdict
 
 import numpy as np
+
 from studies.hex_dominant.checker import CORNERS, FACES
 
 

@@ -8,9 +8,9 @@ import octafield as of
 import pytest
 from hex_mesh_checks import require_conforming, volume_of
 from octafield import study
-from octafield.study.memory import needed_mb
 from octafield.domain.generators import generate
 from octafield.runs import compared_meshes
+from octafield.study.memory import needed_mb
 from octafield.study.plan import Run
 from octafield.view import scene
 from pipeline_fixtures import octafield, write_cube
