@@ -25,7 +25,7 @@ def needed_mb(tets: float, runs: list[Run]) -> float:
 
 def _working_tets(tets: float, options: HexMeshOptions) -> float:
     """The most that there can be."""
-    return max(tets, min(8**options.refinements * tets, options.most_tets))
+    return max(tets, min(8.0**options.refinements * tets, options.most_tets))
 
 
 def _mb_per_tet(options: FieldOptions) -> float:
