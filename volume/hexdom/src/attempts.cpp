@@ -46,10 +46,18 @@ MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress) {
 
 namespace {
 
+Triangles walls_of(const CellsOnSurface& cells) {
+    std::vector<Index> walls;
+    for (std::size_t t = 0; t < cells.two_sided.size(); ++t)
+        if (cells.two_sided[t]) walls.push_back(static_cast<Index>(t));
+    return cells.surface.mesh.triangles(walls, Eigen::all);
+}
+
 MixedMesh joined(const FilledCells& filled, const HexDominantOptions& options, HexDominantCounts& counts) {
     RecombineOptions join;
     join.min_scaled_jacobian = options.min_scaled_jacobian;
     join.kept_edges = filled.cells.surface.features.edges;
+    join.walls = walls_of(filled.cells);
     join.threads = options.threads;
     MixedMesh mesh = recombine(filled.mesh, join);
     counts.recombined_hexahedra = static_cast<Index>(mesh.hexahedra.rows() - filled.mesh.hexahedra.rows());
@@ -134,13 +142,6 @@ void require_interfaces(const MixedMesh& mesh, const CellsOnSurface& cells) {
         throw GeometryError("cells reach through the interface between regions at vertices " + first_few(lost) +
                                 " of the mesh; give another edge length",
                             "lost_interface", lost);
-}
-
-Triangles walls_of(const CellsOnSurface& cells) {
-    std::vector<Index> walls;
-    for (std::size_t t = 0; t < cells.two_sided.size(); ++t)
-        if (cells.two_sided[t]) walls.push_back(static_cast<Index>(t));
-    return cells.surface.mesh.triangles(walls, Eigen::all);
 }
 
 std::vector<std::uint8_t> hexahedra_at(const std::vector<Index>& vertices, const CellsOnSurface& cells) {
