@@ -223,6 +223,41 @@ TEST(RecombineWalls, AWavyWallGetsQuadsOnBothSides) {
     }
 }
 
+// A cube and four tets over it, round the diagonal 4-7 of its upper quad, with a wall between two and two of them: no
+// apex is raised through the wall, so the cube is given up.
+TEST(RecombineWalls, NoPyramidReachesThroughAWallAtTheDiagonal) {
+    MixedMesh mesh = CubeGrid(
+                         {1, 1, 1}, [](int, int, int) { return Filled::hexahedron; }, 0, 0)
+                         .mesh();
+    mesh.vertices.conservativeResize(11, 3);
+    mesh.vertices.bottomRows(3) << 0.8, 0.2, 1.5, 0.2, 0.8, 1.5, 0.5, 0.5, 1.9;
+    mesh.tets.resize(4, 4);
+    mesh.tets << 4, 5, 7, 8, 4, 8, 7, 10, 4, 10, 7, 9, 4, 9, 7, 6;
+    const auto has_wall = [](const MixedMesh& made) { return testing::faces_of(made)[{4, 7, 10}].count == 2; };
+    ConformReport report;
+    EXPECT_FALSE(has_wall(conform(mesh, &report)));
+    EXPECT_EQ(report.raised, 1);
+    Triangles wall(1, 3);
+    wall << 10, 4, 7;
+    const MixedMesh kept = conform(mesh, &report, wall);
+    expect_sound(kept, 1e-3);
+    EXPECT_TRUE(has_wall(kept));
+    EXPECT_EQ(report.raised, 0);
+    EXPECT_EQ(report.split, 1);
+}
+
+TEST(RecombineWalls, ACubeBetweenHexahedraWithAWallInItIsNotJoined) {
+    const MixedMesh mesh =
+        CubeGrid(
+            {1, 1, 3}, [](int, int, int k) { return k == 1 ? Filled::kuhn : Filled::hexahedron; }, 0, 0)
+            .mesh();
+    EXPECT_EQ(recombine(mesh).hexahedra.rows(), 3);
+    RecombineOptions options;
+    options.walls = as_rows(walls_between(mesh, sides(mesh, [](const Vector& x) { return x[0] > x[1]; })));
+    EXPECT_EQ(options.walls.rows(), 2);
+    EXPECT_EQ(recombine(mesh, options).hexahedra.rows(), 2);
+}
+
 TEST(RecombineWalls, WallsOfOtherVerticesAreRefused) {
     RecombineOptions options;
     options.walls.resize(1, 3);
