@@ -48,7 +48,8 @@ def measure(path: Path, factor: float, length: float = 0.0, keep: Path | None = 
     meshed = prepare_mesh(path, options)
     given, tets = np.asarray(meshed.tets.vertices), np.asarray(meshed.tets.tets)
     outside, _ = checker.face_map({"tets": tets.astype(np.int64)})
-    edge = factor * (length or mean_edge(given, outside.triangles))
+    surface = meshed.tets.surface.mesh  # with interfaces: shapes in a box are far finer than its sides
+    edge = factor * (length or mean_edge(np.asarray(surface.vertices), np.asarray(surface.triangles)))
     row = {"file_tets": len(tets), "edge": edge}
     try:
         result = octafield.compute_hex_dominant(meshed, options, hex_options=octafield.HexMeshOptions(edge_length=edge))
@@ -77,6 +78,7 @@ def measure(path: Path, factor: float, length: float = 0.0, keep: Path | None = 
     if abs(row["deviation"] - told.boundary_deviation.max) > 0.1 * row["deviation"] + 1e-6:
         row["faults"] = f"{row['faults']}; the record says deviation {told.boundary_deviation.max:.4g}".strip("; ")
     row["unproven"] = told.unproven
+    row["regions"], row["region_volume_error"] = told.regions, told.region_volume_error
     return row
 
 
