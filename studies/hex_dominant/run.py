@@ -21,11 +21,14 @@ SIZES = {"tets": 4, "hexahedra": 8, "wedges": 6, "pyramids": 5}
 
 
 def curves_of(meshed, given, triangles, options) -> np.ndarray:
-    """Feature edges of the file; where it marks none, creases."""
-    if len(meshed.features.edges):
-        numbers = np.asarray(octafield.volume.boundary_surface(meshed.tets).vertex_map)
-        return numbers[np.asarray(meshed.features.edges)]
-    return checker.creases(given, triangles, options.feature_angle)
+    """Feature edges of the file on the boundary; where it marks none, creases."""
+    edges = np.asarray(meshed.tets.features.edges)
+    if not len(edges):
+        return checker.creases(given, triangles, options.feature_angle)
+    edges = np.sort(np.asarray(meshed.tets.surface.vertex_map)[edges], axis=1)
+    sides = np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    keys = lambda pairs: pairs[:, 0].astype(np.int64) * len(given) + pairs[:, 1]  # noqa: E731
+    return edges[np.isin(keys(edges), keys(sides))]
 
 
 def mean_edge(points: np.ndarray, triangles: np.ndarray) -> float:
