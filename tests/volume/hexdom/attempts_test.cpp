@@ -80,6 +80,20 @@ TEST(Attempts, HexahedraBesideTheCavityAreLeftOutWhereNoTetsCanBeHad) {
     expect_sound(conform(mesh));
 }
 
+// A corner of the block next to nothing above the cube's side: tets between have no volume.
+TEST(Attempts, WhereTetsWithoutVolumeAreLeftOnlyHexahedraThereAreLeftOut) {
+    CellsOnSurface cells = block_in_cube(5, 1, 4);
+    const Index corner = cells.hexahedra(0, 0);
+    ASSERT_EQ(cells.vertices.row(corner), Eigen::RowVector3d(1, 1, 1));
+    cells.vertices.row(corner) << 0.8, 0.7, 1e-13;
+    CellsOnSurface same = cells;
+    EXPECT_EQ(kind_thrown([&] { filled(same, {}); }), "tetgen_failed");
+    const MixedMesh mesh = filled_by_layers(cells, {});
+    EXPECT_EQ(mesh.hexahedra.rows(), 26);
+    expect_fills(mesh, cells);
+    expect_sound(conform(mesh));
+}
+
 TEST(Attempts, WithoutAnyHexahedronAtLastAndThenAnError) {
     CellsOnSurface cells = block_in_cube(4, 1, 3);
     cells.surface.mesh.triangles.conservativeResize(cells.surface.mesh.triangles.rows() - 1, 3);

@@ -293,8 +293,14 @@ MixedMesh filled(CellsOnSurface& cells, const Progress& progress) {
     mesh.vertices = cells.vertices;
     mesh.hexahedra = cells.hexahedra;
     if (surface.mesh.triangles.rows() == 0) return mesh;
-    const TetMesh tets =
-        fill_cavity({surface.mesh, surface.two_sided, cavity.holes(), cells.spare, cells.edge_length}, progress);
+    TetMesh tets;
+    try {
+        tets = fill_cavity({surface.mesh, surface.two_sided, cavity.holes(), cells.spare, cells.edge_length}, progress);
+    } catch (const GeometryError& error) {
+        std::vector<Index> vertices;
+        for (const Index v : error.elements()) vertices.push_back(surface.vertex[v]);
+        throw GeometryError(error.what(), error.kind(), vertices);
+    }
     const Eigen::Index known = surface.mesh.vertices.rows(), added = tets.vertices.rows() - known;
     mesh.vertices.conservativeResize(cells.vertices.rows() + added, 3);
     mesh.vertices.bottomRows(added) = tets.vertices.bottomRows(added);

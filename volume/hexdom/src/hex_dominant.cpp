@@ -210,9 +210,7 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     counts.lattice_hexahedra = static_cast<Index>(cells->hexahedra.rows());
     FilledCells filled = filled_cells(field.domain, *cells, length, progress);
     cells.reset();
-    HexDominantOptions how = options;
-    how.recombine = options.recombine && domain.regions().empty();
-    MixedMesh mesh = conforming(filled, how, counts, progress);
+    MixedMesh mesh = conforming(filled, options, counts, progress);
     counts.crossing = filled.cells.crossing;
     const PointSurface& surface = filled.cells.surface;
     result.support = vertex_support(surface, static_cast<Index>(mesh.vertices.rows()));
