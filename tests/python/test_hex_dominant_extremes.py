@@ -50,3 +50,8 @@ def test_edges_have_the_sizes_wanted_where_these_vary_by_ten():
     told = result.record
     assert told.edge_to_size.p05 > 0.77 and told.edge_to_size.p95 < 1.36
     assert min(figures.min for figures in told.scaled_jacobian.values()) > 0.05
+
+
+def test_a_volume_far_from_the_inputs_is_told(tmp_path):
+    coarse = extremes.mesh_into(EXTREMES["ball_coarse"], tmp_path, tmp_path / "out").record
+    assert coarse.volume_error > 0.05 and any("give a smaller edge length" in note for note in coarse.notes)

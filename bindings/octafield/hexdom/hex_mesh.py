@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 
 FieldSource = str | Path | ArrayLike
 
+_COARSE = 0.05  # difference of the volume that is worth a note
 _SHOWN = ("cells", "hex_volume_share", "hex_number_share", "scaled_jacobian", "volume_error")
 
 
@@ -271,6 +272,12 @@ def _mesh_along(
         meter,
         {**vars(cells), "sizes": record.recorded_sizes(sizes)},
     )
+    if told.volume_error > _COARSE:
+        note = (
+            f"the mesh has another volume than the input, by {told.volume_error:.0%}: the cells are large for how the"
+            " surface bends; give a smaller edge length"
+        )
+        told = told.changed(notes=[*told.notes, note])
     return HexDominantResult(
         mesh=made.mesh,
         regions=regions,

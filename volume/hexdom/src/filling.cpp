@@ -290,7 +290,7 @@ Points apart_from(const surface::TriangleMesh& faces, const CellsOnSurface& cell
     std::vector<Index> kept;
     for (Index p = 0; p < cells.spare.rows(); ++p) {
         const Eigen::Vector3d at = cells.spare.row(p);
-        if ((guide.nearest_on_surface(at).point - at).norm() > 0.35 * cells.spare_length[p]) kept.push_back(p);
+        if ((guide.nearest_on_surface(at).point - at).norm() > 0.25 * cells.spare_length[p]) kept.push_back(p);
     }
     return cells.spare(kept, Eigen::all);
 }
