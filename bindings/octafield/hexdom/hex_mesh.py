@@ -213,6 +213,7 @@ def _tet_length(sound: SoundInput, cells: HexMeshOptions, at: SizeAt | None) -> 
 
 def _volume_and_area(sound: SoundInput) -> tuple[float, float]:
     points = np.asarray(sound.found.surface.vertices)
+    points = points - points[:1]  # far from the origin products would lose all digits
     a, b, c = (points[np.asarray(sound.found.surface.triangles)[:, k]] for k in range(3))
     areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
     return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6, float(areas.sum())
