@@ -59,7 +59,8 @@ def measure(name: str, data: Path) -> dict:
 
 
 def failed(error: octafield.Error) -> dict:
-    """A fault is a message without a kind (but of files), too short to tell cause and remedy, or with a path of a source file."""
+    """A fault is a message without a kind (those of files have none), too short to tell cause and remedy, or with a
+    path of a source file."""
     text = str(error)
     faults = [
         what

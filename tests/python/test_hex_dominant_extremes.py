@@ -52,6 +52,11 @@ def test_edges_have_the_sizes_wanted_where_these_vary_by_ten():
     assert min(figures.min for figures in told.scaled_jacobian.values()) > 0.05
 
 
+def test_sizes_that_edges_do_not_have_are_told(tmp_path):
+    jumping = extremes.mesh_into(EXTREMES["sizes_jump"], tmp_path, tmp_path / "out").record
+    assert jumping.edge_to_size.p95 > 3 and any("sizes that vary less" in note for note in jumping.notes)
+
+
 def test_a_volume_far_from_the_inputs_is_told(tmp_path):
     coarse = extremes.mesh_into(EXTREMES["ball_coarse"], tmp_path, tmp_path / "out").record
     assert coarse.volume_error > 0.05 and any("give a smaller edge length" in note for note in coarse.notes)

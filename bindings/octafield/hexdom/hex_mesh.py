@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 FieldSource = str | Path | ArrayLike
 
 _COARSE = 0.05  # difference of the volume that is worth a note
+_FAR_FROM_SIZES = 3.0
 _SHOWN = ("cells", "hex_volume_share", "hex_number_share", "scaled_jacobian", "volume_error")
 
 
@@ -277,6 +278,12 @@ def _mesh_along(
         note = (
             f"the mesh has another volume than the input, by {told.volume_error:.0%}: the cells are large for how the"
             " surface bends; give a smaller edge length"
+        )
+        told = told.changed(notes=[*told.notes, note])
+    if told.edge_to_size is not None and told.edge_to_size.p95 > _FAR_FROM_SIZES:
+        note = (
+            f"5 % of the edges are more than {told.edge_to_size.p95:.1f} times as long as the sizes wanted there: these"
+            " vary faster than the tets of the field resolve; give smaller tets, or sizes that vary less"
         )
         told = told.changed(notes=[*told.notes, note])
     return HexDominantResult(
