@@ -73,7 +73,8 @@ def wait(child: subprocess.Popen, limit: float) -> float:
     while child.poll() is None:
         try:
             told = psutil.Process(child.pid)
-            peak, used = max(peak, told.memory_info().rss / 2**20), sum(told.cpu_times()[:2])
+            peak, used = max(peak, told.memory_info().rss / 2**20), sum(told.cpu_times()[:4])
+            used += sum(sum(part.cpu_times()[:2]) for part in told.children(recursive=True))  # TetGen's
         except psutil.Error:
             pass
         if used > limit or time.monotonic() - begun > 10 * limit or peak > MOST_MB:

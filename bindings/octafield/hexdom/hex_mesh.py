@@ -40,6 +40,8 @@ if TYPE_CHECKING:
 
 FieldSource = str | Path | ArrayLike
 
+_COARSE = 0.05  # difference of the volume that is worth a note
+_FAR_FROM_SIZES = 3.0
 _SHOWN = ("cells", "hex_volume_share", "hex_number_share", "scaled_jacobian", "volume_error")
 
 
@@ -172,12 +174,32 @@ def _meshed(
     at = None if sizes is None else size_function(sizes, sound.found)
     with naming(sound.found.name):
         length = first.edge_length or _tet_length(sound, cells, at)
+        if sound.found.tets is None:
+            _require_count(sound, cells, cells.edge_length or (length if at is not None else 0.0))
     fitting = replace(options, edge_length=length)
     if sound.found.tets is not None and not sound.found.of_cad:
         return prepare_mesh(sound, options, progress=progress), at
     if sound.found.of_cad and length != first.edge_length:
         sound = read_sound(source, fitting, progress=progress)
     return prepare_mesh(sound, fitting, progress=progress), at
+
+
+def _require_count(sound: SoundInput, cells: HexMeshOptions, length: float) -> None:
+    """Before the surface is made of as small triangles, which would hardly end. A part that is thin all over has few
+    cells but a large surface."""
+    if not length:
+        return
+    volume, area = _volume_and_area(sound)
+    count, triangles = volume / length**3, area / (0.433 * length**2)
+    if count > cells.most_hexahedra:
+        what = f"about {count:.2g} cells, and at most {cells.most_hexahedra} are made"
+    elif triangles > cells.most_hexahedra / 10:
+        what = f"about {triangles:.2g} triangles on the surface, and at most {cells.most_hexahedra // 10} are made"
+    else:
+        return
+    raise InvalidInput(
+        f"the edge length asks for {what}; give a larger edge length, or more most_hexahedra", "too_many_cells"
+    )
 
 
 def _tet_length(sound: SoundInput, cells: HexMeshOptions, at: SizeAt | None) -> float:
@@ -187,9 +209,15 @@ def _tet_length(sound: SoundInput, cells: HexMeshOptions, at: SizeAt | None) -> 
         return float(np.mean(at(points)))
     if not cells.cells:
         return 0.0
+    return float(np.cbrt(_volume_and_area(sound)[0] / cells.cells))
+
+
+def _volume_and_area(sound: SoundInput) -> tuple[float, float]:
+    points = np.asarray(sound.found.surface.vertices)
+    points = points - points[:1]  # far from the origin products would lose all digits
     a, b, c = (points[np.asarray(sound.found.surface.triangles)[:, k]] for k in range(3))
-    volume = abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6
-    return float(np.cbrt(volume / cells.cells))
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6, float(areas.sum())
 
 
 def _sizes_on(sizes: Sizes | None, name: str, domain: TetDomain) -> SizeAt | None:
@@ -246,6 +274,18 @@ def _mesh_along(
         meter,
         {**vars(cells), "sizes": record.recorded_sizes(sizes)},
     )
+    if told.volume_error > _COARSE:
+        note = (
+            f"the mesh has another volume than the input, by {told.volume_error:.0%}: the cells are large for how the"
+            " surface bends; give a smaller edge length"
+        )
+        told = told.changed(notes=[*told.notes, note])
+    if told.edge_to_size is not None and told.edge_to_size.p95 > _FAR_FROM_SIZES:
+        note = (
+            f"5 % of the edges are more than {told.edge_to_size.p95:.1f} times as long as the sizes wanted there: these"
+            " vary faster than the tets of the field resolve; give smaller tets, or sizes that vary less"
+        )
+        told = told.changed(notes=[*told.notes, note])
     return HexDominantResult(
         mesh=made.mesh,
         regions=regions,

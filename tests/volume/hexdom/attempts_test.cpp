@@ -130,6 +130,40 @@ TEST(Attempts, WhereAllOldVerticesStayTheSurfaceIsTheOldOne) {
               "wrong_size");
 }
 
+// Two hexahedra on the corners of a unit cube, each with points of its own there.
+LatticeCells twins(const TetDomain& domain) {
+    LatticeCells cells;
+    cells.points.resize(16, 3);
+    cells.weights.setZero(16, 4);
+    cells.hexahedra.resize(2, 8);
+    cells.on_surface = {63, 63};
+    constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                  {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    for (int p = 0; p < 16; ++p) {
+        cells.points.row(p) << corner[p % 8][0], corner[p % 8][1], corner[p % 8][2];
+        cells.hexahedra(p / 8, p % 8) = p;
+        bool found = false;
+        for (Index t = 0; t < domain.mesh().tets.rows() && !found; ++t)
+            for (int k = 0; k < 4 && !found; ++k)
+                if (domain.mesh().vertices.row(domain.mesh().tets(t, k)) == cells.points.row(p)) {
+                    cells.tet.push_back(t);
+                    cells.weights(p, k) = 1;
+                    found = true;
+                }
+    }
+    return cells;
+}
+
+TEST(Attempts, HexahedraWithPointsAtOnePlaceOfTheSurfaceAreLeftOut) {
+    const TetDomain domain(kuhn_grid(1, 1, 1, 1));
+    const CellsOnSurface cells = cells_on_surface(domain, twins(domain), 1);
+    EXPECT_EQ(cells.hexahedra.rows(), 0);
+    EXPECT_EQ(cells.surface.mesh.vertices.rows(), 8);
+    const FilledCells all = filled_cells(domain, twins(domain), 1, {});
+    expect_sound(all.mesh);
+    EXPECT_NEAR(cell_volumes(all.mesh).sum(), 1, 1e-9);
+}
+
 TEST(Attempts, AHexahedronThatCannotBeMetIsLeftOutAndThePlaceFilledAnew) {
     FilledCells given{block_in_cube(5, 1, 4), {}};
     given.mesh = filled(given.cells, {});

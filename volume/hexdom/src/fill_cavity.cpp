@@ -95,6 +95,8 @@ TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, std
     parameters.most_added =
         static_cast<int>(std::min(1e9, 2000 + 3 * (cells + static_cast<double>(cavity.mesh.vertices.rows()))));
     parameters.refine = way.refine;
+    parameters.most_seconds =
+        20 + static_cast<int>(0.002 * static_cast<double>(cavity.mesh.vertices.rows() + cavity.inside.rows()));
     parameters.tolerance = way.tolerance;
     if (way.inside && cavity.inside.rows() > 0) parameters.inside = placement.there(cavity.inside);
     for (const Eigen::Vector3d& hole : cavity.holes)
@@ -104,6 +106,12 @@ TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, std
     TetMesh& mesh = outcome.mesh;
     const Eigen::Index known = cavity.mesh.vertices.rows();
     reason = outcome.reason;
+    if (outcome.out_of_time)
+        throw SolverError("filling the space between the hexahedra and the surface with tets was stopped after " +
+                              std::to_string(parameters.most_seconds) +
+                              " s: the part is far thinner than the cells are long, or has slivers; give an edge "
+                              "length nearer to the thickness",
+                          "tetgen_time");
     if (!outcome.finished) return {};
     reason = "it did not keep the surface";
     if (mesh.tets.rows() == 0 || mesh.vertices.rows() < known) return {};

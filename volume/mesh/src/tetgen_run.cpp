@@ -91,6 +91,7 @@ TetgenOutcome run_tetgen(const surface::TriangleMesh& mesh, const TetgenParamete
                          const Progress& progress) {
     IsolatedOutcome run = run_isolated(
         [&](const Emit& emit) {
+            if (parameters.most_seconds > 0) end_after(parameters.most_seconds);
             tetgenio in, out, inside;
             fill_input(in, mesh, parameters.holes);
             inside.firstnumber = 0;
@@ -106,6 +107,7 @@ TetgenOutcome run_tetgen(const surface::TriangleMesh& mesh, const TetgenParamete
         "tetrahedralize", progress);
     TetgenOutcome outcome;
     outcome.finished = run.finished;
+    outcome.out_of_time = run.out_of_time;
     if (run.finished)
         outcome.mesh = read_mesh(run.result);
     else
