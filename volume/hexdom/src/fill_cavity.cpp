@@ -96,7 +96,7 @@ TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, std
         static_cast<int>(std::min(1e9, 2000 + 3 * (cells + static_cast<double>(cavity.mesh.vertices.rows()))));
     parameters.refine = way.refine;
     parameters.most_seconds =
-        20 + static_cast<int>(0.002 * static_cast<double>(cavity.mesh.vertices.rows() + cavity.inside.rows()));
+        20 + static_cast<int>(0.0005 * static_cast<double>(cavity.mesh.vertices.rows() + cavity.inside.rows()));
     parameters.tolerance = way.tolerance;
     if (way.inside && cavity.inside.rows() > 0) parameters.inside = placement.there(cavity.inside);
     for (const Eigen::Vector3d& hole : cavity.holes)
