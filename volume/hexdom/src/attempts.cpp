@@ -217,7 +217,8 @@ FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, c
             if (round == most_surfaces) throw;
             stays.resize(old.vertices.rows(), 0);
             if (error.kind() == "self_intersection" && round + 1 < most_surfaces) {
-                mark_near(old, error.elements(), std::ldexp(longest_at(domain, error.elements(), lengths), round), stays);
+                mark_near(old, error.elements(), std::ldexp(longest_at(domain, error.elements(), lengths), round),
+                          stays);
             } else {
                 round = most_surfaces - 1;
                 std::fill(stays.begin(), stays.end(), 1);

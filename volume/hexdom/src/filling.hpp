@@ -20,7 +20,7 @@ struct CellsOnSurface {
     Points spare;                  // points of the lattice inside that no hexahedron has
     Eigen::VectorXd spare_length;  // of edges wanted there
     double edge_length;            // the longest wanted
-    Index crossing = 0;  // hexahedra left out as their faces crossed others or the surface
+    Index crossing = 0;            // hexahedra left out as their faces crossed others or the surface
 };
 
 // Hexahedra two points of which lie at one place of the surface are left out. stays: as in point_surface.
