@@ -2098,6 +2098,7 @@ class HexDominantOptions:
     words: ClassVar[dict[str, list[str]]]
     edge_length: float
     correction: str
+    points: str
     refinements: int
     most_tets: int
     most_hexahedra: int
@@ -2111,6 +2112,7 @@ class HexDominantOptions:
         edge_length: float = ...,
         sizes: ArrayLike = ...,
         correction: str = ...,
+        points: str = ...,
         refinements: int = ...,
         most_tets: int = ...,
         most_hexahedra: int = ...,
@@ -2176,6 +2178,7 @@ class LostCells:
     ) -> None: ...
 
 class LatticeCells:
+    apart: bool
     def __init__(
         self,
         points: ArrayLike = ...,
@@ -2184,6 +2187,7 @@ class LatticeCells:
         hexahedra: ArrayLike = ...,
         on_surface: ArrayLike = ...,
         lost: LostCells = ...,
+        apart: bool = ...,
     ) -> None: ...
     @property
     def points(self) -> Float64s: ...
@@ -2287,6 +2291,7 @@ def hex_dominant(
     edge_length: float = ...,
     sizes: ArrayLike | None = ...,
     correction: str = ...,
+    points: str = ...,
     refinements: int = ...,
     most_tets: int = ...,
     most_hexahedra: int = ...,

@@ -273,7 +273,7 @@ CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cel
     for (Index v = 0; v < result.vertices.rows(); ++v) taken.add(v, result.vertices.row(v));
     std::vector<Index> spare;
     for (Index p = 0; p < cells.points.rows(); ++p) {
-        if (number[p] >= 0 || taken.any(cells.points.row(p), 0.6 * edge_length)) continue;
+        if (number[p] >= 0 || (!cells.apart && taken.any(cells.points.row(p), 0.6 * edge_length))) continue;
         spare.push_back(p);
         taken.add(p, cells.points.row(p));
     }

@@ -1,0 +1,55 @@
+// Points that spread along the axes of a field, each apart from all before.
+#pragma once
+
+#include <boost/geometry/algorithms/intersects.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "front_field.hpp"
+#include "surface_walk.hpp"
+
+namespace octafield::volume {
+
+class PointFront {
+public:
+    // end_level: called after each generation; may throw.
+    PointFront(const FrontField& field, int threads, std::function<void()> end_level);
+
+    const std::vector<FrontPlace>& places() const { return places_; }
+    Index count() const { return static_cast<Index>(places_.size()); }
+
+    // Wherever others are.
+    void add(const std::vector<FrontPlace>& places);
+
+    // The points `level`, then generation by generation those that they led to, each propose six more, a cell's length
+    // along the axes and against them. A step has the direction and length of its middle (midpoint rule), so that it
+    // follows the turning of the axes. A proposal with something in its way, or on the last 0.35 lengths beyond, is
+    // dropped, and so is one nearer than 0.7 lengths to a point that is there, in the maximum norm of its own axes and
+    // lengths (Baudouin, Remacle, Marchandise, Henrotte, Geuzaine 2014). The same at any thread count.
+    void advance(const TetWalker& walker, std::vector<Index> level);
+    void advance(const SurfaceWalker& walker, std::vector<Index> level);
+
+private:
+    template <class Walker>
+    void spread(const Walker& walker, std::vector<Index> level);
+    template <class Walker>
+    std::vector<FrontPlace> proposals(const Walker& walker, const std::vector<Index>& level) const;
+    bool near(const frames::Vector3& at, const LocalAxes& axes) const;
+    void add(const FrontPlace& place, const frames::Vector3& at, const LocalAxes& axes);
+
+    using Point = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+    using Tree = boost::geometry::index::rtree<std::pair<Point, Index>, boost::geometry::index::quadratic<16>>;
+
+    const FrontField& field_;
+    int threads_;
+    std::function<void()> end_level_;
+    std::vector<FrontPlace> places_;
+    std::vector<LocalAxes> axes_;
+    Tree tree_;
+};
+
+}  // namespace octafield::volume
