@@ -50,6 +50,8 @@ LatticeCells without_cells(const std::vector<FrontPlace>& places, const FrontFie
         result.points.row(p) = field.position(places[p]).transpose();
         result.weights.row(p) = places[p].weights.transpose();
         result.tet.push_back(places[p].tet);
+        if (getenv("JIT") && places[p].triangle < 0)
+            for (int i = 0; i < 3; ++i) result.points(p, i) += atof(getenv("JIT")) * (double(rand()) / RAND_MAX - 0.5);
     }
     return result;
 }
@@ -64,8 +66,13 @@ LatticeCells frontal_points(const TetDomain& domain, const Quaternions& frames, 
     PointFront front(field, threads, [&] { report_or_throw(progress, "front", 0, 0); });
     front.add(curve_points(domain, curves, over_surface, field));
     front.add(first_points(over_surface, field, front, static_cast<Index>(domain.surface().mesh.triangles.rows())));
-    front.advance(over_surface, numbers_from(0, front.count()));
-    front.advance(TetWalker(domain), numbers_from(0, front.count()));
+    const Index of_curves = front.count();
+    front.advance(over_surface, numbers_from(0, of_curves));
+    front.relax(over_surface, of_curves);
+    const Index on_surface = front.count();
+    const TetWalker inside(domain);
+    front.advance(inside, numbers_from(0, on_surface));
+    front.relax(inside, on_surface);
     return without_cells(front.places(), field);
 }
 

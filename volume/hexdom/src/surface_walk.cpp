@@ -213,6 +213,10 @@ FrontStep SurfaceWalker::along(const FrontPlace& from, const Vector3& way) const
     return step;
 }
 
+bool SurfaceWalker::free(const FrontPlace& from, const Vector3& way) const {
+    return start(from, way).triangle < 0 || along(from, way).place.tet >= 0;
+}
+
 Vector3 SurfaceWalker::corrected(const FrontStep& half, const Vector3& direction, const Vector3& axis) const {
     const Vector3 normal = normals_.row(half.place.triangle).transpose();
     const double angle =

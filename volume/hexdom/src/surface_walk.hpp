@@ -22,6 +22,9 @@ public:
     // normal is not. Curves are in the way.
     FrontStep along(const FrontPlace& from, const frames::Vector3& way) const;
 
+    // Whether no curve is in the way, or it does not lead over the surface.
+    bool free(const FrontPlace& from, const frames::Vector3& way) const;
+
     // The direction at the start for which the way has `axis` at its middle, where it arrived by `half`.
     frames::Vector3 corrected(const FrontStep& half, const frames::Vector3& direction,
                               const frames::Vector3& axis) const;

@@ -22,6 +22,9 @@ public:
     // The surface, interfaces included, is in the way. Places reached have weights above 0.
     FrontStep along(const FrontPlace& from, const frames::Vector3& way) const;
 
+    // Whether nothing is in the way.
+    bool free(const FrontPlace& from, const frames::Vector3& way) const { return along(from, way).place.tet >= 0; }
+
     // The direction at the start for which the way has `axis` at its middle.
     static frames::Vector3 corrected(const FrontStep&, const frames::Vector3&, const frames::Vector3& axis) {
         return axis;
