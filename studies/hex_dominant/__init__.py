@@ -2,6 +2,7 @@
 
 python -m studies.hex_dominant rows -o DIR [--files u] ...      a row per file and edge length
 python -m studies.hex_dominant ways -o DIR                      a step left out or changed
+python -m studies.hex_dominant extremes -o DIR                  extreme and damaged inputs
 python -m studies.hex_dominant gmsh -o DIR                      beside Gmsh
 python -m studies.hex_dominant poisson -o DIR                   errors of a finite element solution
 python -m studies.hex_dominant page -o DIR                      their tables as one text

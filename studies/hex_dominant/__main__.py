@@ -10,7 +10,7 @@ DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 
 def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m studies.hex_dominant", description=__doc__)
-    parser.add_argument("part", choices=("rows", "ways", "gmsh", "poisson", "page"))
+    parser.add_argument("part", choices=("rows", "ways", "extremes", "gmsh", "poisson", "page"))
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--data", type=Path, default=DATA)
     parser.add_argument("--files", default="u", help="rows: kinds of files, of u, c and b")
@@ -26,6 +26,10 @@ def main() -> None:
         from . import ways
 
         ways.work(a.data, a.output, only)
+    elif a.part == "extremes":
+        from . import extremes
+
+        extremes.work(a.data, a.output, min(a.limit, extremes.LIMIT), only)
     elif a.part == "gmsh":
         from . import gmsh_beside
 

@@ -172,12 +172,25 @@ def _meshed(
     at = None if sizes is None else size_function(sizes, sound.found)
     with naming(sound.found.name):
         length = first.edge_length or _tet_length(sound, cells, at)
+        if sound.found.tets is None:
+            _require_count(sound, cells, cells.edge_length or (length if at is not None else 0.0))
     fitting = replace(options, edge_length=length)
     if sound.found.tets is not None and not sound.found.of_cad:
         return prepare_mesh(sound, options, progress=progress), at
     if sound.found.of_cad and length != first.edge_length:
         sound = read_sound(source, fitting, progress=progress)
     return prepare_mesh(sound, fitting, progress=progress), at
+
+
+def _require_count(sound: SoundInput, cells: HexMeshOptions, length: float) -> None:
+    """Before the surface is made of as small triangles, which would hardly end."""
+    count = _volume(sound) / length**3 if length else 0.0
+    if count > cells.most_hexahedra:
+        raise InvalidInput(
+            f"the edge length asks for about {count:.2g} cells, and at most {cells.most_hexahedra} are made; give a"
+            " larger edge length, or more most_hexahedra",
+            "too_many_cells",
+        )
 
 
 def _tet_length(sound: SoundInput, cells: HexMeshOptions, at: SizeAt | None) -> float:
@@ -187,9 +200,13 @@ def _tet_length(sound: SoundInput, cells: HexMeshOptions, at: SizeAt | None) -> 
         return float(np.mean(at(points)))
     if not cells.cells:
         return 0.0
+    return float(np.cbrt(_volume(sound) / cells.cells))
+
+
+def _volume(sound: SoundInput) -> float:
+    points = np.asarray(sound.found.surface.vertices)
     a, b, c = (points[np.asarray(sound.found.surface.triangles)[:, k]] for k in range(3))
-    volume = abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6
-    return float(np.cbrt(volume / cells.cells))
+    return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6
 
 
 def _sizes_on(sizes: Sizes | None, name: str, domain: TetDomain) -> SizeAt | None:

@@ -180,13 +180,26 @@ bool farther(const std::map<Index, double>& moved, const std::map<Index, double>
 
 }  // namespace
 
-FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, double edge_length,
+namespace {
+
+double longest_at(const TetDomain& domain, const std::vector<Index>& triangles, const EdgeLengths& lengths) {
+    if (!lengths.vary()) return lengths.longest();
+    double longest = 0;
+    for (const Index t : triangles)
+        for (const Index v : domain.surface().mesh.triangles.row(t))
+            longest = std::max(longest, lengths.at(domain.surface().vertex_map[v]));
+    return longest;
+}
+
+}  // namespace
+
+FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, const EdgeLengths& lengths,
                          const Progress& progress) {
     const surface::TriangleMesh& old = domain.surface().mesh;
     std::vector<std::uint8_t> stays;
     for (int round = 0;; ++round) {
         report_or_throw(progress, "surface", 0, 0);
-        CellsOnSurface cells = cells_on_surface(domain, lattice, edge_length, stays);
+        CellsOnSurface cells = cells_on_surface(domain, lattice, lengths, stays);
         try {
             report_or_throw(progress, "tetrahedralize", 0, 0);
             MixedMesh mesh = filled_by_layers(cells, progress);
@@ -195,7 +208,7 @@ FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, d
             if (round == most_surfaces) throw;
             stays.resize(old.vertices.rows(), 0);
             if (error.kind() == "self_intersection" && round + 1 < most_surfaces) {
-                mark_near(old, error.elements(), std::ldexp(edge_length, round), stays);
+                mark_near(old, error.elements(), std::ldexp(longest_at(domain, error.elements(), lengths), round), stays);
             } else {
                 round = most_surfaces - 1;
                 std::fill(stays.begin(), stays.end(), 1);

@@ -19,7 +19,7 @@ MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress);
 
 // Where the surface through the points crosses itself, the old surface's vertices near stay, farther and farther round,
 // at last all. Throws as filled() does when none of this helps.
-FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, double edge_length,
+FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, const EdgeLengths& lengths,
                          const Progress& progress);
 
 // Tets joined, and pyramids where quads meet triangles: all faces match, all cells are proven positive, features are

@@ -15,13 +15,15 @@ namespace octafield::volume {
 namespace {
 
 // Where TetGen fails in one way it may not in another: with points of the lattice inside or without, with bounds on the
-// tets or without, with another tolerance for what is coplanar, turned so that nothing is aligned with the axes.
+// tets or without, with another tolerance for what is coplanar, turned so that nothing is aligned with the axes, points
+// put in by a second run.
 struct Way {
     bool inside, refine, turned;
     double tolerance;
+    bool twice = false;
 };
 constexpr Way ways[] = {{true, true, false, 0},     {true, true, false, 1e-12}, {true, true, true, 0},
-                        {false, true, false, 0},    {false, true, true, 1e-6},  {false, false, false, 0},
+                        {true, true, false, 0, true}, {false, true, false, 0},    {false, true, true, 1e-6},  {false, false, false, 0},
                         {false, false, true, 1e-12}};
 
 // TetGen's arithmetic is at its best round the origin, at sizes near 1.
@@ -93,7 +95,10 @@ TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, con
     const double cells = volume_inside(cavity) / std::pow(cavity.edge_length, 3);
     parameters.most_added =
         static_cast<int>(std::min(1e9, 2000 + 3 * (cells + static_cast<double>(cavity.mesh.vertices.rows()))));
-    parameters.refine = way.refine;
+    parameters.refine = way.refine && (cavity.refine || !way.inside);
+    parameters.inside_later = way.twice;
+    parameters.most_seconds =
+        60 + static_cast<int>(0.005 * static_cast<double>(cavity.mesh.vertices.rows() + cavity.inside.rows()));
     parameters.tolerance = way.tolerance;
     if (way.inside && cavity.inside.rows() > 0) parameters.inside = placement.there(cavity.inside);
     for (const Eigen::Vector3d& hole : cavity.holes)
@@ -103,6 +108,12 @@ TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, con
     TetMesh& mesh = outcome.mesh;
     const Eigen::Index known = cavity.mesh.vertices.rows();
     reason = outcome.reason;
+    if (outcome.out_of_time)
+        throw SolverError("filling the space between the hexahedra and the surface with tets was stopped after " +
+                              std::to_string(parameters.most_seconds) +
+                              " s: the part is far thinner than the cells are long, or has slivers; give an edge "
+                              "length nearer to the thickness",
+                          "tetgen_time");
     if (!outcome.finished) return {};
     reason = "it did not keep the surface";
     if (mesh.tets.rows() == 0 || mesh.vertices.rows() < known) return {};

@@ -16,12 +16,14 @@ struct Cavity {
     std::vector<std::uint8_t> two_sided;  // per triangle: between regions, filled on both sides
     std::vector<Eigen::Vector3d> holes;   // points in parts not to be filled: none is needed, each saves time
     Points inside{0, 3};                  // vertices to be, where they fit
-    double edge_length = 0;               // of the tets, in the mesh's unit
+    bool refine = true;                   // more vertices where tets with those are large or poor
+    double edge_length = 0;               // the longest of the tets, in the mesh's unit
 };
 
 // All tets on the inner side of the triangles, none elsewhere: parts that TetGen fills on their outer side (cavities of
 // the domain) are taken out. Positive, the surface's vertices first with the same bits, then those inside that tets
-// have. Throws GeometryError (kind "tetgen_failed"), Cancelled, SolverError.
+// have. Throws GeometryError (kind "tetgen_failed"), Cancelled, SolverError ("tetgen_time": it took far longer than such a
+// surface should).
 TetMesh fill_cavity(const Cavity& cavity, const Progress& progress);
 
 // The tets on the inner side; empty where the mesh has not all triangles of the surface as its own, each with tets on

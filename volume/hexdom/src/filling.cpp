@@ -9,6 +9,7 @@
 #include "near_grid.hpp"
 #include "octafield/disjoint_sets.hpp"
 #include "octafield/error.hpp"
+#include "surface_guide.hpp"
 #include "triangle_tests.hpp"
 
 namespace octafield::volume {
@@ -244,14 +245,77 @@ CavitySurface sound_surface(CellsOnSurface& cells, CavityOfCells& cavity) {
 
 }  // namespace
 
-CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cells, double edge_length,
+namespace {
+
+// Without hexahedra that have one of the points of the surface.
+LatticeCells without(const LatticeCells& cells, const LatticeSurface& lattice, const std::vector<Index>& points) {
+    std::vector<std::uint8_t> bad(cells.points.rows(), 0);
+    for (const Index i : points) bad[lattice.lattice_point[i]] = 1;
+    std::vector<Index> kept;
+    for (Index k = 0; k < cells.hexahedra.rows(); ++k) {
+        const auto corners = cells.hexahedra.row(k);
+        if (std::none_of(corners.begin(), corners.end(), [&](Index p) { return bad[p]; })) kept.push_back(k);
+    }
+    LatticeCells result = cells;
+    result.hexahedra = cells.hexahedra(kept, Eigen::all);
+    for (std::size_t i = 0; i < kept.size(); ++i) result.on_surface[i] = cells.on_surface[kept[i]];
+    result.on_surface.resize(kept.size());
+    return result;
+}
+
+// Points of the lattice inside that are no vertices, apart from those and from one another.
+void add_spare(CellsOnSurface& result, const TetDomain& domain, const LatticeCells& cells, const EdgeLengths& lengths,
+               const std::vector<Index>& number) {
+    NearGrids taken(0.6 * lengths.shortest(), 0.6 * lengths.longest());
+    for (Index v = 0; v < result.vertices.rows(); ++v) taken.add(v, result.vertices.row(v));
+    std::vector<Index> spare;
+    std::vector<double> length;
+    for (Index p = 0; p < cells.points.rows(); ++p) {
+        if (number[p] >= 0) continue;
+        const double there = lengths.between(domain.mesh().tets.row(cells.tet[p]), cells.weights.row(p));
+        if (!cells.apart && taken.any(cells.points.row(p), 0.6 * there)) continue;
+        spare.push_back(p);
+        length.push_back(there);
+        taken.add(p, cells.points.row(p));
+    }
+    result.spare = cells.points(spare, Eigen::all);
+    result.spare_length = Eigen::Map<const Eigen::VectorXd>(length.data(), static_cast<Eigen::Index>(length.size()));
+}
+
+// Spare points not close to a face of what is filled: these would be corners of slivers, and in a thin part, where most
+// are such, TetGen would take seconds for a thousand of them.
+Points apart_from(const surface::TriangleMesh& faces, const CellsOnSurface& cells) {
+    if (cells.spare.rows() == 0) return cells.spare;
+    const detail::SurfaceGuide guide(faces, {});
+    std::vector<Index> kept;
+    for (Index p = 0; p < cells.spare.rows(); ++p) {
+        const Eigen::Vector3d at = cells.spare.row(p);
+        if ((guide.nearest_on_surface(at).point - at).norm() > 0.35 * cells.spare_length[p]) kept.push_back(p);
+    }
+    return cells.spare(kept, Eigen::all);
+}
+
+}  // namespace
+
+CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cells, const EdgeLengths& lengths,
                                 const std::vector<std::uint8_t>& stays) {
-    const LatticeSurface lattice = lattice_surface(domain, cells, edge_length);
+    const LatticeSurface lattice = lattice_surface(domain, cells, lengths);
     CellsOnSurface result;
-    result.edge_length = edge_length;
+    result.edge_length = lengths.longest();
+    result.apart = cells.apart;
     result.quads = lattice.quads;
-    result.surface = point_surface(domain.surface().mesh, domain.features(), groups_of(domain), lattice.points,
-                                   lattice.quads, edge_length, stays);
+    try {
+        result.surface =
+            point_surface(domain.surface().mesh, domain.features(), groups_of(domain), lattice.points, lattice.quads,
+                          lengths.longest(), stays, lengths.of(domain.surface().vertex_map));
+    } catch (const InvalidInput& error) {
+        if (error.kind() != "coincident_points") throw;
+        const LatticeCells fewer = without(cells, lattice, error.elements());
+        if (fewer.hexahedra.rows() == cells.hexahedra.rows())
+            throw GeometryError("points of the lattice lie at one place of the surface; give another edge length",
+                                "coincident_points");
+        return cells_on_surface(domain, fewer, lengths, stays);
+    }
     for (const Index t : result.surface.triangle) result.two_sided.push_back(domain.sides()(t, 1) >= 0);
     const Index on_surface = static_cast<Index>(result.surface.mesh.vertices.rows());
     std::vector<Index> number(cells.points.rows(), -1), inner;
@@ -268,16 +332,7 @@ CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cel
     result.vertices.resize(on_surface + static_cast<Eigen::Index>(inner.size()), 3);
     result.vertices.topRows(on_surface) = result.surface.mesh.vertices;
     result.vertices.bottomRows(static_cast<Eigen::Index>(inner.size())) = cells.points(inner, Eigen::all);
-
-    NearGrid taken(0.6 * edge_length);
-    for (Index v = 0; v < result.vertices.rows(); ++v) taken.add(v, result.vertices.row(v));
-    std::vector<Index> spare;
-    for (Index p = 0; p < cells.points.rows(); ++p) {
-        if (number[p] >= 0 || (!cells.apart && taken.any(cells.points.row(p), 0.6 * edge_length))) continue;
-        spare.push_back(p);
-        taken.add(p, cells.points.row(p));
-    }
-    result.spare = cells.points(spare, Eigen::all);
+    add_spare(result, domain, cells, lengths, number);
     return result;
 }
 
@@ -293,8 +348,9 @@ MixedMesh filled(CellsOnSurface& cells, const Progress& progress) {
     mesh.vertices = cells.vertices;
     mesh.hexahedra = cells.hexahedra;
     if (surface.mesh.triangles.rows() == 0) return mesh;
-    const TetMesh tets =
-        fill_cavity({surface.mesh, surface.two_sided, cavity.holes(), cells.spare, cells.edge_length}, progress);
+    const TetMesh tets = fill_cavity({surface.mesh, surface.two_sided, cavity.holes(), apart_from(surface.mesh, cells),
+                                      !cells.apart, cells.edge_length},
+                                     progress);
     const Eigen::Index known = surface.mesh.vertices.rows(), added = tets.vertices.rows() - known;
     mesh.vertices.conservativeResize(cells.vertices.rows() + added, 3);
     mesh.vertices.bottomRows(added) = tets.vertices.bottomRows(added);

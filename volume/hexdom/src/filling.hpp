@@ -17,13 +17,15 @@ struct CellsOnSurface {
     Quads quads;                          // of vertices, faces of cells on the surface
     Points vertices;                      // the surface's first, then those of hexahedra inside
     Hexahedra hexahedra;
-    Points spare;  // points of the lattice inside that no hexahedron has
-    double edge_length;
+    Points spare;                  // points of the lattice inside that no hexahedron has
+    Eigen::VectorXd spare_length;  // of edges wanted there
+    bool apart = false;            // of LatticeCells: with spare points tets are as small as they should be
+    double edge_length;            // the longest wanted
     Index crossing = 0;  // hexahedra left out as their faces crossed others or the surface
 };
 
-// stays: as in point_surface.
-CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cells, double edge_length,
+// Hexahedra two points of which lie at one place of the surface are left out. stays: as in point_surface.
+CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cells, const EdgeLengths& lengths,
                                 const std::vector<std::uint8_t>& stays = {});
 
 void leave_out(CellsOnSurface& cells, const std::vector<std::uint8_t>& marked);  // hexahedra

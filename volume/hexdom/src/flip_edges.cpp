@@ -29,9 +29,11 @@ bool flippable(const TriangleComplex& complex, Index a, Index b, Diamond& diamon
     if (complex.curve_edge(a, b) >= 0) return false;
     Index found[2] = {-1, -1};
     int count = 0;
-    for (const Index t : complex.star[a]) {
+    const bool fewer = complex.star[b].size() < complex.star[a].size();
+    const Index other = fewer ? a : b;
+    for (const Index t : complex.star[fewer ? b : a]) {
         const Corners& c = complex.triangles[t];
-        if (c[0] != b && c[1] != b && c[2] != b) continue;
+        if (c[0] != other && c[1] != other && c[2] != other) continue;
         if (count == 2) return false;
         found[count++] = t;
     }

@@ -50,8 +50,6 @@ LatticeCells without_cells(const std::vector<FrontPlace>& places, const FrontFie
         result.points.row(p) = field.position(places[p]).transpose();
         result.weights.row(p) = places[p].weights.transpose();
         result.tet.push_back(places[p].tet);
-        if (getenv("JIT") && places[p].triangle < 0)
-            for (int i = 0; i < 3; ++i) result.points(p, i) += atof(getenv("JIT")) * (double(rand()) / RAND_MAX - 0.5);
     }
     return result;
 }

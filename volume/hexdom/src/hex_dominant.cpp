@@ -207,7 +207,6 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     require_frames(frames, domain.vertex_count());
     const WorkingField given{domain, frames, wanted_sizes(domain, options)};
     require_count(given, options.most_hexahedra);
-    const double length = given.sizes.mean();
     HexDominantMesh result;
     HexDominantCounts& counts = result.counts;
     WorkingField field = given;
@@ -215,7 +214,8 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     counts.tets = field.domain.tet_count();
     counts.lost = cells->lost;
     counts.lattice_hexahedra = static_cast<Index>(cells->hexahedra.rows());
-    FilledCells filled = filled_cells(field.domain, *cells, length, progress);
+    const EdgeLengths lengths(field.sizes);
+    FilledCells filled = filled_cells(field.domain, *cells, lengths, progress);
     cells.reset();
     HexDominantOptions how = options;
     how.recombine = options.recombine && domain.regions().empty();
@@ -226,7 +226,7 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     if (!domain.regions().empty()) result.regions = cell_regions(field.domain, surface, mesh);
     if (options.improve) {
         report_or_throw(progress, "improve", 0, 0);
-        mesh = improved(mesh, field.domain, result.support, result.regions, length, options.threads);
+        mesh = improved(mesh, field.domain, result.support, result.regions, lengths.shortest(), options.threads);
     }
     require_valid(mesh);
     result.mesh = std::move(mesh);

@@ -63,7 +63,7 @@ private:
 
 }  // namespace
 
-LatticeSurface lattice_surface(const TetDomain& domain, const LatticeCells& cells, double edge_length) {
+LatticeSurface lattice_surface(const TetDomain& domain, const LatticeCells& cells, const EdgeLengths& lengths) {
     const SurfaceOfTets surface(domain);
     const Index count = static_cast<Index>(cells.points.rows());
     std::vector<Index> triangle(count);
@@ -77,11 +77,14 @@ LatticeSurface lattice_surface(const TetDomain& domain, const LatticeCells& cell
         number[p] = static_cast<Index>(result.lattice_point.size());
         result.lattice_point.push_back(p);
     };
-    NearGrid taken(edge_length / 2);
+    NearGrids taken(lengths.shortest() / 2, lengths.longest() / 2);
+    const auto half = [&](Index p) {
+        return lengths.between(domain.mesh().tets.row(cells.tet[p]), cells.weights.row(p)) / 2;
+    };
     for (const bool of_cells : {true, false})
         for (Index p = 0; p < count; ++p) {
             if (triangle[p] < 0 || bool(used[p]) != of_cells) continue;
-            if (!of_cells && !cells.apart && taken.any(cells.points.row(p), edge_length / 2)) continue;
+            if (!of_cells && !cells.apart && taken.any(cells.points.row(p), half(p))) continue;
             take(p);
             taken.add(p, cells.points.row(p));
         }

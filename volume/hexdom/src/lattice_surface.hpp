@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "edge_lengths.hpp"
 #include "octafield/volume/lattice_cells.hpp"
 #include "octafield/volume/point_surface.hpp"
 #include "octafield/volume/tet_domain.hpp"
@@ -15,7 +16,7 @@ struct LatticeSurface {
     Quads quads;                       // of points: faces of cells on the surface, each once
 };
 
-// edge_length: others are left out within half of it from those before.
-LatticeSurface lattice_surface(const TetDomain& domain, const LatticeCells& cells, double edge_length);
+// lengths: others are left out within half of that there from those before.
+LatticeSurface lattice_surface(const TetDomain& domain, const LatticeCells& cells, const EdgeLengths& lengths);
 
 }  // namespace octafield::volume

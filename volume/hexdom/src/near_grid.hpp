@@ -59,4 +59,29 @@ private:
     std::unordered_map<std::uint64_t, std::vector<Entry>> boxes_;
 };
 
+// The same for radii from a shortest to a longest, where points are about as dense as the radii there are short: a grid
+// for each power of two between.
+class NearGrids {
+public:
+    NearGrids(double shortest, double longest) {
+        for (double size = longest;; size /= 2) {
+            grids_.emplace_back(size);
+            sizes_.push_back(size);
+            if (!(size / 2 >= shortest) || grids_.size() == 24) break;
+        }
+    }
+    void add(Index id, const Eigen::RowVector3d& at) {
+        for (NearGrid& grid : grids_) grid.add(id, at);
+    }
+    bool any(const Eigen::RowVector3d& at, double radius) const {
+        std::size_t finest = 0;
+        while (finest + 1 < sizes_.size() && sizes_[finest + 1] >= radius) ++finest;
+        return grids_[finest].any(at, radius);
+    }
+
+private:
+    std::vector<NearGrid> grids_;
+    std::vector<double> sizes_;
+};
+
 }  // namespace octafield::volume

@@ -47,9 +47,22 @@ Index recover_edges(TriangleComplex& complex, const WantedEdges& wanted) {
     return count;
 }
 
-// 1.6 edge_length, and at points the longest diagonal of their quads.
-detail::LengthBound length_bound(const TriangleComplex& complex, const Quads& quads, double edge_length) {
-    detail::LengthBound bound{std::vector<double>(complex.star.size(), 1.6 * edge_length)};
+// At each vertex of the complex.
+std::vector<double> lengths_at(const surface::TriangleMesh& mesh, const SurfacePoints& points,
+                               const std::vector<Index>& source, const Eigen::VectorXd& lengths, double edge_length) {
+    std::vector<double> result(source.size(), edge_length);
+    if (lengths.size() == 0) return result;
+    for (std::size_t v = 0; v < source.size(); ++v)
+        result[v] = v < points.triangle.size()
+                        ? points.weights.row(v).dot(lengths(mesh.triangles.row(points.triangle[v])))
+                        : lengths[source[v]];
+    return result;
+}
+
+// 1.6 times the length there, and at points the longest diagonal of their quads.
+detail::LengthBound length_bound(const TriangleComplex& complex, const Quads& quads, std::vector<double> lengths) {
+    detail::LengthBound bound{lengths, std::move(lengths)};
+    for (double& most : bound.at) most *= 1.6;
     for (const auto q : quads.rowwise()) {
         const double longest = 1.001 * std::max(complex.distance(q[0], q[2]), complex.distance(q[1], q[3]));
         for (const Index p : q) bound.at[p] = std::max(bound.at[p], longest);
@@ -58,13 +71,13 @@ detail::LengthBound length_bound(const TriangleComplex& complex, const Quads& qu
 }
 
 void redraw(TriangleComplex& complex, const std::vector<std::uint8_t>& old, const WantedEdges& wanted,
-            const detail::LengthBound& bound, double edge_length) {
+            const detail::LengthBound& bound) {
     const double cos_30 = 0.8660254037844387, cos_60 = 0.5;
     detail::flip_edges(complex, wanted, bound);
     detail::thin(complex, old, bound, {cos_30, 0.3, 0, false});
     detail::flip_edges(complex, wanted, bound);
     for (int round = 0; round < 4; ++round) {
-        const detail::ThinLimits first{cos_60, 0.1, 0, false}, last_resort{cos_60, 0.02, edge_length / 4, true};
+        const detail::ThinLimits first{cos_60, 0.1, 0, false}, last_resort{cos_60, 0.02, 0.25, true};
         Index changes = detail::thin(complex, old, bound, round == 0 ? first : last_resort);
         detail::flip_edges(complex, wanted, bound);
         changes += recover_edges(complex, wanted);
@@ -135,7 +148,7 @@ private:
 
 PointSurface point_surface(const surface::TriangleMesh& mesh, const surface::FeatureGraph& given_features,
                            const std::vector<Index>& groups, const SurfacePoints& points, const Quads& quads,
-                           double edge_length, const std::vector<std::uint8_t>& stays) {
+                           double edge_length, const std::vector<std::uint8_t>& stays, const Eigen::VectorXd& lengths) {
     detail::require_usable(mesh, groups, points, quads, edge_length);
     const surface::FeatureGraph features = surface::ordered_features(given_features, mesh);
     const Index count = static_cast<Index>(points.triangle.size());
@@ -143,10 +156,14 @@ PointSurface point_surface(const surface::TriangleMesh& mesh, const surface::Fea
     if (!stays.empty() && static_cast<Eigen::Index>(stays.size()) != mesh.vertices.rows())
         throw InvalidInput("stays has " + std::to_string(stays.size()) + " entries; give one per vertex of the surface",
                            "wrong_size");
+    if (lengths.size() > 0 && lengths.size() != mesh.vertices.rows())
+        throw InvalidInput(
+            "lengths has " + std::to_string(lengths.size()) + " entries; give one per vertex of the surface",
+            "wrong_size");
     const bool as_it_is = !stays.empty() && std::find(stays.begin(), stays.end(), 0) == stays.end();
     if (!as_it_is)
         redraw(placed.complex, removable(placed, count, features.corners, stays), WantedEdges(quads, count),
-               length_bound(placed.complex, quads, edge_length), edge_length);
+               length_bound(placed.complex, quads, lengths_at(mesh, points, placed.source, lengths, edge_length)));
     PointSurface result = Result(placed, count).surface(features.corners);
     result.quad_found = found_quads(placed.complex, quads);
     return result;

@@ -9,6 +9,7 @@ namespace octafield::volume::detail {
 namespace {
 
 using Vector = Eigen::Vector3d;
+constexpr std::size_t most_round = 64;  // triangles at a vertex that is taken out: the work is their number squared
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The ring as a polygon filled with triangles from one of its vertices.
@@ -42,6 +43,10 @@ public:
 private:
     void enqueue(Index v) {
         if (!removable_[v] || complex_.star[v].empty()) return;
+        if (complex_.star[v].size() > most_round) {  // put in when it has lost enough of them
+            key_[v] = infinity;
+            return;
+        }
         double least = infinity;
         for (const Index t : complex_.star[v])
             for (const Index w : complex_.triangles[t])
@@ -60,7 +65,7 @@ private:
             for (const Index x : page.ring) {
                 const double length = complex_.distance(v, x);
                 longest_ = std::max(longest_, length);
-                if (length < limits_.crowded) stretch_ = 1.5;
+                if (limits_.crowded > 0 && length < limits_.crowded * bound_.length[v]) stretch_ = 1.5;
             }
             for (std::size_t i = 0; i + 1 < page.ring.size(); ++i)
                 longest_ = std::max(longest_, complex_.distance(page.ring[i], page.ring[i + 1]));

@@ -122,6 +122,12 @@ int wait_for(pid_t child, const std::string& phase, const Progress& progress) {
 
 }  // namespace
 
+void end_after(int seconds) {
+    signal(SIGXCPU, SIG_DFL);
+    const rlimit limit{static_cast<rlim_t>(seconds), RLIM_INFINITY};
+    setrlimit(RLIMIT_CPU, &limit);
+}
+
 IsolatedOutcome run_isolated(const std::function<void(const Emit&)>& work, const std::string& phase,
                              const Progress& progress) {
     const MemoryFile result("octafield-result"), printed("octafield-printed");
@@ -138,6 +144,7 @@ IsolatedOutcome run_isolated(const std::function<void(const Emit&)>& work, const
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) throw Cancelled("cancelled during " + phase);
     IsolatedOutcome outcome;
     outcome.finished = WIFEXITED(status) && WEXITSTATUS(status) == done_code;
+    outcome.out_of_time = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
     if (outcome.finished) outcome.result = result.read_all<std::vector<std::byte>>();
     outcome.printed = printed.read_all<std::string>();
     return outcome;

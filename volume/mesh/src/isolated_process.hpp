@@ -12,6 +12,7 @@ namespace octafield::volume {
 
 struct IsolatedOutcome {
     bool finished = false;          // the work returned; else it threw, crashed or was killed
+    bool out_of_time = false;       // it was ended by end_after
     std::vector<std::byte> result;  // what it handed over; empty unless finished
     std::string printed;            // what it wrote to standard output and error
 };
@@ -23,5 +24,8 @@ struct IsolatedOutcome {
 using Emit = std::function<void(const void* bytes, std::size_t count)>;
 IsolatedOutcome run_isolated(const std::function<void(const Emit&)>& work, const std::string& phase,
                              const Progress& progress);
+
+// For the work to call: it is killed when it has used so much processor time, in seconds.
+void end_after(int seconds);
 
 }  // namespace octafield::volume

@@ -35,10 +35,10 @@ void fill_input(tetgenio& in, const surface::TriangleMesh& mesh, const std::vect
     for (std::size_t h = 0; h < holes.size(); ++h) std::copy_n(holes[h].data(), 3, in.holelist + 3 * h);
 }
 
-tetgenbehavior switches(const TetgenParameters& parameters) {
+tetgenbehavior switches(const TetgenParameters& parameters, bool second = false) {
     tetgenbehavior b;
-    char text[] = "pYMBFzQ";
-    b.parse_commandline(text);
+    char first_text[] = "pYMBFzQ", second_text[] = "rYBFzQ";
+    b.parse_commandline(second ? second_text : first_text);
     if (parameters.tolerance > 0) b.epsilon = parameters.tolerance;
     b.insertaddpoints = parameters.inside.rows() > 0;
     if (parameters.most_added > 0) b.steinerleft = parameters.most_added;
@@ -91,6 +91,7 @@ TetgenOutcome run_tetgen(const surface::TriangleMesh& mesh, const TetgenParamete
                          const Progress& progress) {
     IsolatedOutcome run = run_isolated(
         [&](const Emit& emit) {
+            if (parameters.most_seconds > 0) end_after(parameters.most_seconds);
             tetgenio in, out, inside;
             fill_input(in, mesh, parameters.holes);
             inside.firstnumber = 0;
@@ -100,12 +101,25 @@ TetgenOutcome run_tetgen(const surface::TriangleMesh& mesh, const TetgenParamete
                 std::copy_n(parameters.inside.data(), parameters.inside.size(), inside.pointlist);
             }
             tetgenbehavior b = switches(parameters);
+            if (parameters.inside_later) {
+                tetgenio between;
+                tetgenbehavior surface_only;
+                char text[] = "pYMzQ";  // with the faces on the surface, which the second run keeps
+                surface_only.parse_commandline(text);
+                surface_only.epsilon = b.epsilon;
+                ::tetrahedralize(&surface_only, &in, &between);
+                b = switches(parameters, true);
+                ::tetrahedralize(&b, &between, &out, inside.numberofpoints > 0 ? &inside : nullptr);
+                emit_mesh(out, emit);
+                return;
+            }
             ::tetrahedralize(&b, &in, &out, inside.numberofpoints > 0 ? &inside : nullptr);
             emit_mesh(out, emit);
         },
         "tetrahedralize", progress);
     TetgenOutcome outcome;
     outcome.finished = run.finished;
+    outcome.out_of_time = run.out_of_time;
     if (run.finished)
         outcome.mesh = read_mesh(run.result);
     else

@@ -17,12 +17,15 @@ struct TetgenParameters {
     double max_volume = 0;               // -a
     double tolerance = 0;                // -T, for coplanarity; 0: TetGen's default
     int most_added = 0;                  // -S, vertices; 0: no bound. Refinement ends there
+    int most_seconds = 0;                // of processor time; 0: no bound
     std::vector<Eigen::Vector3d> holes;  // one point in each cavity
     Points inside{0, 3};                 // points to be vertices; those not inside are left out
+    bool inside_later = false;           // they are put in by a second run, as the first may crash where it keeps the surface
 };
 
 struct TetgenOutcome {
     bool finished = false;
+    bool out_of_time = false;
     TetMesh mesh;        // when finished: the surface's vertices first; tets in either orientation
     std::string reason;  // why not, otherwise: a clause for messages ("it stopped at a check of its own")
 };

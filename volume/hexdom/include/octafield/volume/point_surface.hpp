@@ -44,11 +44,14 @@ struct PointSurface {
 // stays: (V) 1: this old vertex is not taken out; none given: none such. Where all stay, no edge is changed: the
 // surface is the old one with the points inserted, and crosses nothing the old one does not.
 //
+// lengths: (V) of the lattice at the vertices of `mesh`, above 0, where it is not edge_length everywhere.
+//
 // Throws InvalidInput, whose elements are the ids concerned: "wrong_size", "index_out_of_range", "not_an_edge"
 // (features), "not_finite", "invalid_weights", "repeated_vertex" (of a quad), "coincident_points", "invalid_option";
 // GeometryError: "degenerate_triangle". Near linear.
 PointSurface point_surface(const surface::TriangleMesh& mesh, const surface::FeatureGraph& features,
                            const std::vector<Index>& groups, const SurfacePoints& points, const Quads& quads,
-                           double edge_length, const std::vector<std::uint8_t>& stays = {});
+                           double edge_length, const std::vector<std::uint8_t>& stays = {},
+                           const Eigen::VectorXd& lengths = {});
 
 }  // namespace octafield::volume
