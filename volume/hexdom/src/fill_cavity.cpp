@@ -22,9 +22,9 @@ struct Way {
     double tolerance;
     bool twice = false;
 };
-constexpr Way ways[] = {{true, true, false, 0},     {true, true, false, 1e-12}, {true, true, true, 0},
-                        {true, true, false, 0, true}, {false, true, false, 0},    {false, true, true, 1e-6},  {false, false, false, 0},
-                        {false, false, true, 1e-12}};
+constexpr Way ways[] = {{true, true, false, 0},       {true, true, false, 1e-12}, {true, true, true, 0},
+                        {true, true, false, 0, true}, {false, true, false, 0},    {false, true, true, 1e-6},
+                        {false, false, false, 0},     {false, false, true, 1e-12}};
 
 // TetGen's arithmetic is at its best round the origin, at sizes near 1.
 struct Placement {

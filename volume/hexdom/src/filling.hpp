@@ -21,7 +21,7 @@ struct CellsOnSurface {
     Eigen::VectorXd spare_length;  // of edges wanted there
     bool apart = false;            // of LatticeCells: with spare points tets are as small as they should be
     double edge_length;            // the longest wanted
-    Index crossing = 0;  // hexahedra left out as their faces crossed others or the surface
+    Index crossing = 0;            // hexahedra left out as their faces crossed others or the surface
 };
 
 // Hexahedra two points of which lie at one place of the surface are left out. stays: as in point_surface.
