@@ -14,7 +14,7 @@ namespace bg = boost::geometry;
 
 constexpr double least_distance = 0.7;  // in lengths
 constexpr double least_gap = 0.35;
-constexpr double neighbour_reach = 0.45, damping = 0.7;
+constexpr double neighbour_reach = 0.45, damping = 0.7, least_relaxed = 0.5;
 constexpr int sweeps = 10;
 
 struct Way {
@@ -51,8 +51,8 @@ void PointFront::add(const std::vector<FrontPlace>& places) {
     for (std::size_t i = 0; i < places.size(); ++i) add(places[i], field_.position(places[i]), axes[i]);
 }
 
-bool PointFront::near(const Vector3& at, const LocalAxes& axes) const {
-    const Vector3 reach = least_distance * axes.lengths, half = axes.axes.cwiseAbs() * reach;
+bool PointFront::near(const Vector3& at, const LocalAxes& axes, double distance) const {
+    const Vector3 reach = distance * axes.lengths, half = axes.axes.cwiseAbs() * reach;
     const Vector3 low = at - half, high = at + half;
     const bg::model::box<Point> box(Point(low[0], low[1], low[2]), Point(high[0], high[1], high[2]));
     for (auto found = tree_.qbegin(bg::index::intersects(box)); found != tree_.qend(); ++found) {
@@ -106,7 +106,7 @@ void PointFront::spread(const Walker& walker, std::vector<Index> level) {
         level.clear();
         for (std::size_t i = 0; i < proposed.size(); ++i) {
             const Vector3 at = field_.position(proposed[i]);
-            if (near(at, axes[i]) || !clear(walker, proposed[i], axes[i])) continue;
+            if (near(at, axes[i], least_distance) || !clear(walker, proposed[i], axes[i])) continue;
             level.push_back(count());
             add(proposed[i], at, axes[i]);
         }
@@ -147,6 +147,15 @@ Vector3 PointFront::pull(Index point, const std::vector<Neighbour>& neighbours) 
     return neighbours.empty() ? sum : Vector3(damping * sum / static_cast<double>(neighbours.size()));
 }
 
+void PointFront::drop_crowded(Index first) {
+    const std::vector<FrontPlace> places = std::exchange(places_, {});
+    const std::vector<LocalAxes> axes = std::exchange(axes_, {});
+    const std::vector<Vector3> at = std::exchange(at_, {});
+    tree_.clear();
+    for (std::size_t p = 0; p < places.size(); ++p)
+        if (static_cast<Index>(p) < first || !near(at[p], axes[p], least_relaxed)) add(places[p], at[p], axes[p]);
+}
+
 template <class Walker>
 void PointFront::even_out(const Walker& walker, Index first) {
     const std::int64_t moving = count() - first;
@@ -166,9 +175,7 @@ void PointFront::even_out(const Walker& walker, Index first) {
         }
         axes_ = field_.at(places_);
     }
-    std::vector<std::pair<Point, Index>> all;
-    for (Index p = 0; p < count(); ++p) all.emplace_back(Point(at_[p][0], at_[p][1], at_[p][2]), p);
-    tree_ = Tree(all);
+    drop_crowded(first);
 }
 
 void PointFront::relax(const TetWalker& walker, Index first) { even_out(walker, first); }

@@ -34,7 +34,8 @@ public:
     void advance(const SurfaceWalker& walker, std::vector<Index> level);
 
     // Points from `first` on move towards where the neighbours that they have along the axes, a cell's length away but
-    // for 0.45, would have them: rows that met are evened out.
+    // for 0.45, would have them: rows that met are evened out. Of those that come nearer than 0.5 lengths, where axes
+    // fit nowhere, the later go.
     void relax(const TetWalker& walker, Index first);
     void relax(const SurfaceWalker& walker, Index first);
 
@@ -53,7 +54,8 @@ private:
     std::vector<FrontPlace> proposals(const Walker& walker, const std::vector<Index>& level) const;
     template <class Walker>
     bool clear(const Walker& walker, const FrontPlace& place, const LocalAxes& axes) const;
-    bool near(const frames::Vector3& at, const LocalAxes& axes) const;
+    bool near(const frames::Vector3& at, const LocalAxes& axes, double distance) const;  // in lengths
+    void drop_crowded(Index first);
     void add(const FrontPlace& place, const frames::Vector3& at, const LocalAxes& axes);
 
     using Point = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
