@@ -163,8 +163,8 @@ def test_regions_and_the_interface_between_them_are_kept(tmp_path):
 
 
 def test_points_of_a_front_on_the_command_line(tmp_path):
-    octafield("hex-dominant", write_cube(tmp_path), "-o", tmp_path / "out", "--cells", "64", "--points", "frontal", "-q",
-              check=0)  # fmt: skip
+    wanted = ["--cells", "64", "--points", "frontal"]
+    octafield("hex-dominant", write_cube(tmp_path), "-o", tmp_path / "out", *wanted, "-q", check=0)
     record = json.loads((tmp_path / "out" / "result.json").read_text())
     assert record["options"]["points"] == "frontal" and record["cells"]["hexahedra"] > 40
     require_conforming(of.read_cells(tmp_path / "out" / "mesh.vtu"))
