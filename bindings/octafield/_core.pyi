@@ -2070,12 +2070,17 @@ class RecombineOptions:
         wedges: bool = ...,
         max_boundary_fold: float = ...,
         kept_edges: ArrayLike = ...,
+        walls: ArrayLike = ...,
         threads: int = ...,
     ) -> None: ...
     @property
     def kept_edges(self) -> Int32s: ...
     @kept_edges.setter
     def kept_edges(self, value: ArrayLike) -> None: ...
+    @property
+    def walls(self) -> Int32s: ...
+    @walls.setter
+    def walls(self, value: ArrayLike) -> None: ...
 
 class ImproveOptions:
     sweeps: int
@@ -2327,6 +2332,7 @@ def recombine(
     wedges: bool = ...,
     max_boundary_fold: float = ...,
     kept_edges: ArrayLike | None = ...,
+    walls: ArrayLike | None = ...,
     threads: int = ...,
 ) -> tuple[MixedMesh, RecombineReport]: ...
 def conform(mesh: MixedMesh) -> tuple[MixedMesh, ConformReport]: ...

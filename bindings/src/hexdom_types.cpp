@@ -52,6 +52,8 @@ void bind_options(py::module_& m) {
                "Radians: turn between two triangles of the boundary that become a quad.")
         .field("kept_edges", &RecombineOptions::kept_edges,
                "(k, 2) int32 edges of the boundary whose two triangles no quad replaces (feature curves).")
+        .field("walls", &RecombineOptions::walls,
+               "(w, 3) int32 triangles, as between regions, through which no cell reaches; two may become one quad.")
         .field("threads", &RecombineOptions::threads, "0: all; the result does not depend on it.")
         .finish([](const RecombineOptions& o) { return "min_scaled_jacobian=" + number(o.min_scaled_jacobian); });
     Record<ImproveOptions>(m, "ImproveOptions", "Options of improve_cells: its keyword arguments, with their defaults.")

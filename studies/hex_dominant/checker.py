@@ -42,8 +42,11 @@ class Surface:
     triangles: np.ndarray
     quads: np.ndarray
 
-    def as_triangles(self) -> np.ndarray:
-        return np.concatenate([self.triangles, self.quads[:, [0, 1, 2]], self.quads[:, [0, 2, 3]]])
+    def corners(self, points: np.ndarray) -> np.ndarray:
+        """(t, 3, 3) of triangles; four about the centre of each quad, a point of its bilinear surface."""
+        quads = points[self.quads]
+        fans = [np.stack([quads[:, k], quads[:, (k + 1) % 4], quads.mean(axis=1)], axis=1) for k in range(4)]
+        return np.concatenate([points[self.triangles], *fans])
 
 
 def shape_gradients(at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -266,7 +269,7 @@ def check(points, cells, given, given_tets, edge_length: float, curves) -> dict[
     total = sum(v.sum() for v in volumes.values())
     outside, _ = face_map({"tets": np.asarray(given_tets, np.int64)})
     wanted = float(np.linalg.det(given[given_tets[:, 1:]] - given[given_tets[:, :1]]).sum() / 6)
-    made, old = points[surface.as_triangles()], given[outside.triangles]
+    made, old = surface.corners(points), given[outside.triangles]
     used = given[np.unique(given_tets)]
     scale = float(np.linalg.norm(np.ptp(used, axis=0)))
     deviation = max(distances(surface_samples(made), old).max(), distances(surface_samples(old), made).max())

@@ -87,6 +87,11 @@ def shaken_ball(amount: float) -> octafield.TriangleMesh:
     return surface(points + amount * np.random.default_rng(3).standard_normal(points.shape), triangles)
 
 
+def scaled_ball(radius: float) -> octafield.TriangleMesh:
+    points, triangles = ball(levels=3)
+    return surface(points * radius, triangles)
+
+
 def spiked_ball() -> octafield.TriangleMesh:
     points, triangles = ball(levels=3)
     points[triangles[0, 0]] *= -1.3
@@ -191,8 +196,8 @@ EXTREMES: dict[str, Extreme] = {
     "knot": Extreme("a knotted tube, 500 cells", shape("knot_2_3"), cells=500),
     "gyroid": Extreme("a gyroid, 2000 cells", shape("gyroid"), cells=2000),
     # units and places
-    "huge_units": Extreme("a ball of radius 1e12", lambda data: surface(*ball(1e12, 3)), edge=4e11),
-    "tiny_units": Extreme("a ball of radius 1e-12", lambda data: surface(*ball(1e-12, 3)), edge=4e-13),
+    "huge_units": Extreme("a ball of radius 1e12", made(scaled_ball, 1e12), edge=4e11),
+    "tiny_units": Extreme("a ball of radius 1e-12", made(scaled_ball, 1e-12), edge=4e-13),
     "far_away": Extreme("a cylinder 1e7 from the origin", made(far_cylinder), edge=0.4),
     # sizes
     "sizes_nan": Extreme("a size that is not a number", made(generate, "box"), sizes=at_one_row(np.nan)),

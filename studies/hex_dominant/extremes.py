@@ -59,12 +59,13 @@ def measure(name: str, data: Path) -> dict:
 
 
 def failed(error: octafield.Error) -> dict:
-    """A fault is a message without a kind, too short to tell cause and remedy, or with a path of a source file."""
+    """A fault is a message without a kind (those of files have none), too short to tell cause and remedy, or with a
+    path of a source file."""
     text = str(error)
     faults = [
         what
         for what, there in (
-            ("no kind", not error.kind),
+            ("no kind", not error.kind and not isinstance(error, octafield.IoError)),
             ("the message says little", len(text.split()) < 6),
             ("the message names a source file", any(word in text for word in (".cxx", ".cpp", "/src/"))),
         )
@@ -105,8 +106,8 @@ def read_rows(output: Path) -> list[dict]:
 
 
 def fine(row: dict) -> bool:
-    """A mesh without a fault, or an error with a kind."""
-    return not row.get("faults") and ("cells" in row or bool(row.get("kind")))
+    """A mesh or a typed error, without a fault."""
+    return not row.get("faults") and ("cells" in row or "kind" in row)
 
 
 def outcome(row: dict) -> str:

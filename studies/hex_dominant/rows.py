@@ -28,12 +28,12 @@ MOST_MB = 12000
 COLUMNS = [
     "file", "factor", "edge", "file_tets", "tets_used", "tets", "hexahedra", "wedges", "pyramids", "hex_volume_share",
     "hex_number_share", "hex_sj_min", "hex_sj_mean", "sj_min", "volume_error", "deviation", "nonconforming",
-    "inverted", "features_kept", "corners_lost", "seconds", "MB", "faults", "error", "load", "commit",
+    "inverted", "features_kept", "corners_lost", "seconds", "cpu", "MB", "faults", "error", "load", "commit",
 ]  # fmt: skip
 HEADER = [
     "file", "edge", "working tets", "tets", "hexahedra", "wedges", "pyramids", "hex volume %", "hex number %",
     "hex SJ min", "mean", "SJ min", "volume error %", "deviation %", "noncon-forming", "inverted", "features kept %",
-    "corners lost", "s", "MB", "remarks",
+    "corners lost", "s", "CPU s", "MB", "remarks",
 ]  # fmt: skip
 
 
@@ -73,7 +73,8 @@ def wait(child: subprocess.Popen, limit: float) -> float:
     while child.poll() is None:
         try:
             told = psutil.Process(child.pid)
-            peak, used = max(peak, told.memory_info().rss / 2**20), sum(told.cpu_times()[:2])
+            peak, used = max(peak, told.memory_info().rss / 2**20), sum(told.cpu_times()[:4])
+            used += sum(sum(part.cpu_times()[:2]) for part in told.children(recursive=True))  # TetGen's
         except psutil.Error:
             pass
         if used > limit or time.monotonic() - begun > 10 * limit or peak > MOST_MB:
@@ -141,14 +142,14 @@ def cells(row: dict) -> list[str]:
     name = row["file"] if float(row["factor"]) == 1 else f"{row['file']}, {row['factor']:g} of it"
     if "error" in row:
         edge = f"{row['edge']:.3g}" if "edge" in row else ""
-        return [name, edge, *[""] * 16, f"{row['seconds']:.0f}", f"{row.get('MB', 0):.0f}", clean(row["error"])]
+        return [name, edge, *[""] * 16, f"{row['seconds']:.0f}", "", f"{row.get('MB', 0):.0f}", clean(row["error"])]
     percent = lambda name, digits: f"{100 * row[name]:.{digits}f}"  # noqa: E731
     counts = [f"{row[name]:,}" for name in ("tets_used", "tets", "hexahedra", "wedges", "pyramids")]
     shares = [percent("hex_volume_share", 1), percent("hex_number_share", 1)]
     quality = [f"{row[name]:.{digits}f}" for name, digits in (("hex_sj_min", 2), ("hex_sj_mean", 3), ("sj_min", 3))]
     rest = [percent("volume_error", 3), percent("deviation", 2), str(row["nonconforming"]), str(row["inverted"])]
     kept = [percent("features_kept", 1), f"{row['corners_lost']} of {row['corners']}"]
-    time_and_space = [f"{row['seconds']:.0f}", f"{row['MB']:.0f}"]
+    time_and_space = [f"{row['seconds']:.0f}", f"{row['cpu']:.0f}", f"{row['MB']:.0f}"]
     return [name, f"{row['edge']:.3g}", *counts, *shares, *quality, *rest, *kept, *time_and_space, clean(row["faults"])]
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import octafield
 import pytest
+from docs_blocks import ROOT
 from octafield import _core
 
 STUB = ast.parse(Path(octafield.__file__).with_name("_core.pyi").read_text())
@@ -118,7 +119,8 @@ except octafield.IoError as error:
 
 def test_a_typed_program_passes_mypy_strict(tmp_path):
     (tmp_path / "example.py").write_text(EXAMPLE)
-    command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", "example.py"]
+    cache = f"--cache-dir={ROOT / '.mypy_cache'}"  # shared with the test of the pages
+    command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", cache, "example.py"]
     run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert run.returncode == 0, run.stdout
     wrong = EXAMPLE + '\noctafield.surface.direction_field(domain, epsilon="wide")\n'

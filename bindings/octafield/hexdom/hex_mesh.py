@@ -40,6 +40,8 @@ if TYPE_CHECKING:
 
 FieldSource = str | Path | ArrayLike
 
+_COARSE = 0.05  # difference of the volume that is worth a note
+_FAR_FROM_SIZES = 3.0
 _SHOWN = ("cells", "hex_volume_share", "hex_number_share", "scaled_jacobian", "volume_error")
 
 
@@ -183,14 +185,21 @@ def _meshed(
 
 
 def _require_count(sound: SoundInput, cells: HexMeshOptions, length: float) -> None:
-    """Before the surface is made of as small triangles, which would hardly end."""
-    count = _volume(sound) / length**3 if length else 0.0
+    """Before the surface is made of as small triangles, which would hardly end. A part that is thin all over has few
+    cells but a large surface."""
+    if not length:
+        return
+    volume, area = _volume_and_area(sound)
+    count, triangles = volume / length**3, area / (0.433 * length**2)
     if count > cells.most_hexahedra:
-        raise InvalidInput(
-            f"the edge length asks for about {count:.2g} cells, and at most {cells.most_hexahedra} are made; give a"
-            " larger edge length, or more most_hexahedra",
-            "too_many_cells",
-        )
+        what = f"about {count:.2g} cells, and at most {cells.most_hexahedra} are made"
+    elif triangles > cells.most_hexahedra / 10:
+        what = f"about {triangles:.2g} triangles on the surface, and at most {cells.most_hexahedra // 10} are made"
+    else:
+        return
+    raise InvalidInput(
+        f"the edge length asks for {what}; give a larger edge length, or more most_hexahedra", "too_many_cells"
+    )
 
 
 def _tet_length(sound: SoundInput, cells: HexMeshOptions, at: SizeAt | None) -> float:
@@ -200,13 +209,15 @@ def _tet_length(sound: SoundInput, cells: HexMeshOptions, at: SizeAt | None) -> 
         return float(np.mean(at(points)))
     if not cells.cells:
         return 0.0
-    return float(np.cbrt(_volume(sound) / cells.cells))
+    return float(np.cbrt(_volume_and_area(sound)[0] / cells.cells))
 
 
-def _volume(sound: SoundInput) -> float:
+def _volume_and_area(sound: SoundInput) -> tuple[float, float]:
     points = np.asarray(sound.found.surface.vertices)
+    points = points - points[:1]  # far from the origin products would lose all digits
     a, b, c = (points[np.asarray(sound.found.surface.triangles)[:, k]] for k in range(3))
-    return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6
+    areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)))) / 6, float(areas.sum())
 
 
 def _sizes_on(sizes: Sizes | None, name: str, domain: TetDomain) -> SizeAt | None:
@@ -263,6 +274,18 @@ def _mesh_along(
         meter,
         {**vars(cells), "sizes": record.recorded_sizes(sizes)},
     )
+    if told.volume_error > _COARSE:
+        note = (
+            f"the mesh has another volume than the input, by {told.volume_error:.0%}: the cells are large for how the"
+            " surface bends; give a smaller edge length"
+        )
+        told = told.changed(notes=[*told.notes, note])
+    if told.edge_to_size is not None and told.edge_to_size.p95 > _FAR_FROM_SIZES:
+        note = (
+            f"5 % of the edges are more than {told.edge_to_size.p95:.1f} times as long as the sizes wanted there: these"
+            " vary faster than the tets of the field resolve; give smaller tets, or sizes that vary less"
+        )
+        told = told.changed(notes=[*told.notes, note])
     return HexDominantResult(
         mesh=made.mesh,
         regions=regions,

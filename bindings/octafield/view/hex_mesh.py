@@ -52,7 +52,7 @@ def _drawn(grid: pyvista.UnstructuredGrid, curves: dict[int, pyvista.PolyData | 
             edge_color=scene.INK,
             ambient=0.45,
             specular=0,
-            scalar_bar_args={"title": "scaled Jacobian of hexahedra", "color": scene.INK, "n_labels": 3},
+            scalar_bar_args={"title": "scaled Jacobian of hexahedra", "color": scene.INK, "n_labels": 2},
         )
     if not hexahedra.all():
         shape.add_mesh(
@@ -68,6 +68,9 @@ def _drawn(grid: pyvista.UnstructuredGrid, curves: dict[int, pyvista.PolyData | 
         shape.add_mesh(outline, color=scene.CURVE, line_width=2, lighting=False)
     add_curves(shape, curves, 0.006 * scene.diagonal(points))
     scene.look(shape, points, direction, axes[2])
+    if hexahedra.any():
+        shape.camera.zoom(0.88)
+        shape.camera.SetWindowCenter(0, -0.12)  # above the bar of colours
     return shape
 
 

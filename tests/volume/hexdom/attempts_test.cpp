@@ -80,6 +80,20 @@ TEST(Attempts, HexahedraBesideTheCavityAreLeftOutWhereNoTetsCanBeHad) {
     expect_sound(conform(mesh));
 }
 
+// A corner of the block next to nothing above the cube's side: tets between have no volume.
+TEST(Attempts, WhereTetsWithoutVolumeAreLeftOnlyHexahedraThereAreLeftOut) {
+    CellsOnSurface cells = block_in_cube(5, 1, 4);
+    const Index corner = cells.hexahedra(0, 0);
+    ASSERT_EQ(cells.vertices.row(corner), Eigen::RowVector3d(1, 1, 1));
+    cells.vertices.row(corner) << 0.8, 0.7, 1e-13;
+    CellsOnSurface same = cells;
+    EXPECT_EQ(kind_thrown([&] { filled(same, {}); }), "tetgen_failed");
+    const MixedMesh mesh = filled_by_layers(cells, {});
+    EXPECT_EQ(mesh.hexahedra.rows(), 26);
+    expect_fills(mesh, cells);
+    expect_sound(conform(mesh));
+}
+
 TEST(Attempts, WithoutAnyHexahedronAtLastAndThenAnError) {
     CellsOnSurface cells = block_in_cube(4, 1, 3);
     cells.surface.mesh.triangles.conservativeResize(cells.surface.mesh.triangles.rows() - 1, 3);
@@ -114,6 +128,40 @@ TEST(Attempts, WhereAllOldVerticesStayTheSurfaceIsTheOldOne) {
     EXPECT_EQ(cells.surface.mesh.triangles.rows(), old.triangles.rows());
     EXPECT_EQ(kind_thrown([&] { cells_on_surface(domain, no_cells(), 0.8, std::vector<std::uint8_t>(3, 1)); }),
               "wrong_size");
+}
+
+// Two hexahedra on the corners of a unit cube, each with points of its own there.
+LatticeCells twins(const TetDomain& domain) {
+    LatticeCells cells;
+    cells.points.resize(16, 3);
+    cells.weights.setZero(16, 4);
+    cells.hexahedra.resize(2, 8);
+    cells.on_surface = {63, 63};
+    constexpr int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                  {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    for (int p = 0; p < 16; ++p) {
+        cells.points.row(p) << corner[p % 8][0], corner[p % 8][1], corner[p % 8][2];
+        cells.hexahedra(p / 8, p % 8) = p;
+        bool found = false;
+        for (Index t = 0; t < domain.mesh().tets.rows() && !found; ++t)
+            for (int k = 0; k < 4 && !found; ++k)
+                if (domain.mesh().vertices.row(domain.mesh().tets(t, k)) == cells.points.row(p)) {
+                    cells.tet.push_back(t);
+                    cells.weights(p, k) = 1;
+                    found = true;
+                }
+    }
+    return cells;
+}
+
+TEST(Attempts, HexahedraWithPointsAtOnePlaceOfTheSurfaceAreLeftOut) {
+    const TetDomain domain(kuhn_grid(1, 1, 1, 1));
+    const CellsOnSurface cells = cells_on_surface(domain, twins(domain), 1);
+    EXPECT_EQ(cells.hexahedra.rows(), 0);
+    EXPECT_EQ(cells.surface.mesh.vertices.rows(), 8);
+    const FilledCells all = filled_cells(domain, twins(domain), 1, {});
+    expect_sound(all.mesh);
+    EXPECT_NEAR(cell_volumes(all.mesh).sum(), 1, 1e-9);
 }
 
 TEST(Attempts, AHexahedronThatCannotBeMetIsLeftOutAndThePlaceFilledAnew) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ctime>
 #include <set>
 
+#include "isolated_process.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/tet_domain.hpp"
 #include "tet_fixtures.hpp"
@@ -73,6 +75,19 @@ TEST(FillCavity, TheSameInAnyUnitAndFarFromTheOrigin) {
         EXPECT_NEAR(volume(tets) / (h * h * h), 98, 1e-6);
         EXPECT_EQ(tets.vertices.topRows(cavity.mesh.vertices.rows()), cavity.mesh.vertices);
     }
+}
+
+TEST(FillCavity, WorkThatDoesNotEndIsEnded) {
+    const IsolatedOutcome endless = run_isolated(
+        [](const Emit&) {
+            end_after(1);
+            while (std::clock() >= 0) {
+            }
+        },
+        "", {});
+    EXPECT_TRUE(endless.out_of_time && !endless.finished);
+    const IsolatedOutcome soon = run_isolated([](const Emit&) { end_after(1); }, "", {});
+    EXPECT_TRUE(!soon.out_of_time && soon.finished);
 }
 
 TEST(FillCavity, BothSidesOfATriangleBetweenRegionsAreFilled) {

@@ -142,7 +142,8 @@ double volume_within(const Points& vertices, const Ids& ids, unsigned inner_pair
 std::set<Ids> searched(const MixedMesh& mesh, int corners, double least) {
     const detail::TetTopology topology(mesh.tets, static_cast<Index>(mesh.vertices.rows()));
     const std::vector<std::uint8_t> taken;
-    const detail::TetSearch search{topology, mesh.vertices, mesh.tets, least, taken, 1};
+    const std::vector<std::uint8_t> none;
+    const detail::TetSearch search{topology, mesh.vertices, mesh.tets, least, taken, 1, none};
     const detail::PotentialCells cells =
         corners == 8 ? detail::potential_hexahedra(search) : detail::potential_wedges(search);
     std::set<Ids> found;

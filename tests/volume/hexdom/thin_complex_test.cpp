@@ -123,6 +123,18 @@ TEST(ThinComplex, a_star_none_of_whose_corners_sees_all_is_filled_by_ears) {
     EXPECT_NEAR(area(complex), before, 1e-12);
 }
 
+TEST(ThinComplex, a_hub_of_many_triangles_stays_while_it_has_so_many) {
+    for (const auto& [corners, goes] : {std::pair(64, 1), {65, 0}}) {
+        std::vector<Eigen::Vector2d> ring;
+        for (int i = 0; i < corners; ++i) {
+            const double angle = 6.283185307179586 * i / corners;
+            ring.emplace_back(std::cos(angle), std::sin(angle));
+        }
+        TriangleComplex complex = wheel(ring, {0, 0});
+        EXPECT_EQ(thin_middle(complex, 1e300, {-2, 1e-9, 0, true}), goes) << corners;
+    }
+}
+
 TEST(ThinComplex, a_vertex_goes_where_no_new_edge_is_too_long_or_another_is_too_near) {
     const std::vector<Eigen::Vector2d> square{{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     for (const auto& [longest, crowded, place, goes] : {std::tuple(2.01, 0.0, 0.0, 1),

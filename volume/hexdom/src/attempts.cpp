@@ -14,10 +14,22 @@
 namespace octafield::volume {
 namespace {
 
-constexpr int most_layers = 3, most_surfaces = 4, most_refillings = 4, most_rounds = 3, most_joins = 6;
+constexpr int most_places = 3, most_layers = 3, most_surfaces = 4, most_refillings = 4, most_rounds = 3, most_joins = 6;
 
 std::vector<std::uint8_t> all_hexahedra(const MixedMesh& mesh) {
     return std::vector<std::uint8_t>(mesh.hexahedra.rows(), 1);
+}
+
+std::vector<std::uint8_t> hexahedra_at(const std::vector<Index>& vertices, const CellsOnSurface& cells) {
+    std::vector<std::uint8_t> at(cells.vertices.rows(), 0), marked;
+    for (const Index v : vertices) at[v] = 1;
+    for (Eigen::Index k = 0; k < cells.hexahedra.rows(); ++k)
+        for (const Index v : cells.hexahedra.row(k)) {
+            if (!at[v]) continue;
+            marked.resize(cells.hexahedra.rows(), 0);
+            marked[k] = 1;
+        }
+    return marked;
 }
 
 // Vertices of the surface within `distance` of corners of the triangles.
@@ -33,11 +45,19 @@ void mark_near(const surface::TriangleMesh& mesh, const std::vector<Index>& tria
 }  // namespace
 
 MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress) {
+    int places = 0;
     for (int layer = 0;; ++layer) {
+        std::vector<std::uint8_t> there;
         try {
             return filled(cells, progress);
         } catch (const GeometryError& error) {
             if (error.kind() != "tetgen_failed" || cells.hexahedra.rows() == 0) throw;
+            if (places++ < most_places) there = hexahedra_at(error.elements(), cells);
+        }
+        if (!there.empty()) {
+            leave_out(cells, there);
+            --layer;
+            continue;
         }
         leave_out(cells,
                   layer < most_layers ? beside_cavity(cells) : std::vector<std::uint8_t>(cells.hexahedra.rows(), 1));
@@ -45,6 +65,13 @@ MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress) {
 }
 
 namespace {
+
+Triangles walls_of(const CellsOnSurface& cells) {
+    std::vector<Index> walls;
+    for (std::size_t t = 0; t < cells.two_sided.size(); ++t)
+        if (cells.two_sided[t]) walls.push_back(static_cast<Index>(t));
+    return cells.surface.mesh.triangles(walls, Eigen::all);
+}
 
 // Vertices of cells joined of tets that led to no mesh: tets on four of them, then all at one, are not joined again.
 class NotJoined {
@@ -75,6 +102,7 @@ MixedMesh joined(const FilledCells& filled, const NotJoined& not_joined, const H
     RecombineOptions join;
     join.min_scaled_jacobian = options.min_scaled_jacobian;
     join.kept_edges = filled.cells.surface.features.edges;
+    join.walls = walls_of(filled.cells);
     join.threads = options.threads;
     MixedMesh mesh = filled.mesh;
     std::vector<Index> kept, rest;
@@ -178,25 +206,6 @@ void require_interfaces(const MixedMesh& mesh, const CellsOnSurface& cells) {
         throw GeometryError("cells reach through the interface between regions at vertices " + first_few(lost) +
                                 " of the mesh; give another edge length",
                             "lost_interface", lost);
-}
-
-Triangles walls_of(const CellsOnSurface& cells) {
-    std::vector<Index> walls;
-    for (std::size_t t = 0; t < cells.two_sided.size(); ++t)
-        if (cells.two_sided[t]) walls.push_back(static_cast<Index>(t));
-    return cells.surface.mesh.triangles(walls, Eigen::all);
-}
-
-std::vector<std::uint8_t> hexahedra_at(const std::vector<Index>& vertices, const CellsOnSurface& cells) {
-    std::vector<std::uint8_t> at(cells.vertices.rows(), 0), marked;
-    for (const Index v : vertices) at[v] = 1;
-    for (Eigen::Index k = 0; k < cells.hexahedra.rows(); ++k)
-        for (const Index v : cells.hexahedra.row(k)) {
-            if (!at[v]) continue;
-            marked.resize(cells.hexahedra.rows(), 0);
-            marked[k] = 1;
-        }
-    return marked;
 }
 
 bool good(const MixedMesh& mesh, int threads) {

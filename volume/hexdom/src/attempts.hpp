@@ -14,7 +14,8 @@ struct FilledCells {
     MixedMesh mesh;  // hexahedra and tets, as of filling.hpp
 };
 
-// Where no tets can be had, hexahedra next to them are left out, layer by layer, at last all. Throws as filled() does.
+// Where no tets can be had, hexahedra are left out: a few times those at vertices of tets without volume, then all next
+// to tets, layer by layer, at last all. Throws as filled() does.
 MixedMesh filled_by_layers(CellsOnSurface& cells, const Progress& progress);
 
 // Where the surface through the points crosses itself, the old surface's vertices near stay, farther and farther round,

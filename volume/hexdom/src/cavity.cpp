@@ -170,7 +170,7 @@ std::optional<Region> cells_round_diagonal(const CellComplex& complex, const std
         if (cell < 0 || region.cells.size() > complex.cells_at(a).size()) return std::nullopt;
         region.cells.push_back(cell);
         at = turn_round_edge(complex, cell, a, c, at);
-        if (at < 0) return std::nullopt;
+        if (at < 0 || (at != d && complex.wall(triangle_cycle(a, at, c)))) return std::nullopt;
         cell = complex.cell_across(triangle_cycle(a, at, c));
     }
     const std::vector<Index> cells = std::move(region.cells);

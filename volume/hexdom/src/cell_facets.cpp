@@ -107,7 +107,8 @@ std::optional<CellFacets> cell_facets(const TetTopology& topology, const CellSha
 }
 
 bool find_inner_tets(const TetTopology& topology, const Tets& tets, const CellShape& shape, const Index* ids,
-                     const std::vector<std::uint8_t>& taken, CellFacets& facets, InnerTets& found) {
+                     const std::vector<std::uint8_t>& taken, const std::vector<std::uint8_t>& walls, CellFacets& facets,
+                     InnerTets& found) {
     const int faces = static_cast<int>(shape.faces.size());
     Barriers barriers;
     found.count = 0;
@@ -125,7 +126,7 @@ bool find_inner_tets(const TetTopology& topology, const Tets& tets, const CellSh
             }
             const auto& sides = topology.triangle_tets[triangle];
             const Index across = sides[0] == tet ? sides[1] : sides[0];
-            if (across < 0) return false;
+            if (across < 0 || (!walls.empty() && walls[triangle])) return false;
             const auto end = found.tets.begin() + found.count;
             if (std::find(found.tets.begin(), end, across) != end) continue;
             if (found.count == most_inner_tets) return false;

@@ -39,9 +39,11 @@ struct InnerTets {
 };
 
 // The tets on the cell's vertices that its faces enclose, no flat one on the four vertices of a quad among them; sets
-// `inner`. False where there are others within, or more, or one for which taken[tet] (empty: none is) is not 0.
+// `inner`. False where there are others within, or more, or one for which taken[tet] (empty: none is) is not 0, or
+// between two a triangle for which walls (the same) is not 0.
 bool find_inner_tets(const TetTopology& topology, const Tets& tets, const CellShape& shape, const Index* ids,
-                     const std::vector<std::uint8_t>& taken, CellFacets& facets, InnerTets& found);
+                     const std::vector<std::uint8_t>& taken, const std::vector<std::uint8_t>& walls, CellFacets& facets,
+                     InnerTets& found);
 
 // The tet against the cell's inner pair from outside whose vertices are the quad's, -1: none.
 Index flat_tet_outside(const TetTopology& topology, const CellFacet& facet);

@@ -34,7 +34,8 @@ const std::vector<std::array<int, 2>>& shape_edges(const CellShape& shape) {
 
 }  // namespace
 
-TetSurroundings::TetSurroundings(const MixedMesh& mesh, const TetTopology& topology, const Edges& kept, double max_fold)
+TetSurroundings::TetSurroundings(const MixedMesh& mesh, const TetTopology& topology, const Edges& kept,
+                                 const std::vector<std::uint8_t>& walls, double max_fold)
     : mesh_(mesh),
       topology_(topology),
       least_cosine_(std::cos(max_fold)),
@@ -48,6 +49,14 @@ TetSurroundings::TetSurroundings(const MixedMesh& mesh, const TetTopology& topol
     }
     for (Index t = 0; t < topology.triangle_count(); ++t)
         if (topology.triangle_tets[t][0] < 0 || topology.triangle_tets[t][1] < 0) outside_[t] = Outside::boundary;
+    if (!walls.empty()) {
+        walls_at_.assign(topology.edge_count(), 0);
+        for (Index edge = 0; edge < topology.edge_count(); ++edge)
+            for (Index i = topology.link_start[edge]; i < topology.link_start[edge + 1]; ++i)
+                walls_at_[edge] += walls[topology.link_triangles[i]];
+        for (Index t = 0; t < topology.triangle_count(); ++t)
+            if (walls[t] && outside_[t] == Outside::tets) outside_[t] = Outside::wall;
+    }
     for_each_cell(mesh, [&](const Cell& cell) {
         if (&cell.shape != &tet_shape) add_fixed_faces(cell);
     });
@@ -119,12 +128,13 @@ std::optional<FaceClaim> TetSurroundings::claim(const CellFacet& facet) const {
     const auto& inner = facet.pairs[facet.inner];
     const auto& other = facet.pairs[1 - facet.inner];
     claim.flat = flat_tet_outside(topology_, facet);
+    if (!walls_at_.empty() && !fits_walls(facet, claim.flat)) return std::nullopt;
     claim.count = other[0] < 0 ? 2 : 4;
     claim.triangles = {inner[0], inner[1], other[0], other[1]};
     const int outermost = claim.flat < 0 ? facet.inner : 1 - facet.inner;
     const auto& [first, second] = facet.pairs[outermost];
-    const bool closed = outside_[first] != Outside::tets;
-    if (closed != (outside_[second] != Outside::tets)) return std::nullopt;
+    const bool closed = outside_[first] >= Outside::boundary;
+    if (closed != (outside_[second] >= Outside::boundary)) return std::nullopt;
     if (closed && !may_close(facet, outermost)) return std::nullopt;
     if (!closed) {
         claim.diagonal = topology_.edge(facet.round[outermost], facet.round[outermost + 2]);
@@ -143,6 +153,10 @@ bool TetSurroundings::may_close(const CellFacet& facet, int pair) const {
     const Index beyond = outside_[facet.pairs[pair][0]];
     if (beyond != outside_[facet.pairs[pair][1]]) return false;
     if (beyond >= 0) return true;  // both on one face: it is this quad
+    return may_be_quad(facet, pair);
+}
+
+bool TetSurroundings::may_be_quad(const CellFacet& facet, int pair) const {
     const auto& round = facet.round;
     if (kept_[topology_.edge(round[pair], round[pair + 2])]) return false;
     const auto normal = [&](const std::array<Index, 3>& t) -> Eigen::Vector3d {
@@ -150,6 +164,31 @@ bool TetSurroundings::may_close(const CellFacet& facet, int pair) const {
         return (b - a).cross(c - a).normalized();
     };
     return normal(facet.half(pair, 0)).dot(normal(facet.half(pair, 1))) >= least_cosine_;
+}
+
+TetSurroundings::Lies TetSurroundings::on_wall(const CellFacet& facet, int pair) const {
+    const int halves = facet.pairs[pair][0] < 0 ? 0
+                                                : (outside_[facet.pairs[pair][0]] == Outside::wall) +
+                                                      (outside_[facet.pairs[pair][1]] == Outside::wall);
+    return halves == 2 ? Lies::on : halves == 1 ? Lies::half : Lies::off;
+}
+
+// On a wall with one pair and all of it, or on none. The wall keeps its edges but for the diagonal of that pair: others
+// would be lost with the tets round the diagonal.
+bool TetSurroundings::fits_walls(const CellFacet& facet, Index flat) const {
+    for (int k = 0; k < 2; ++k) {
+        const Lies lies = on_wall(facet, k);
+        if (lies == Lies::half) return false;
+        const Index diagonal = topology_.edge(facet.round[k], facet.round[k + 2]);
+        if (lies == Lies::on && (walls_at_[diagonal] != 2 || !may_be_quad(facet, k))) return false;
+        const bool goes = facet.pairs[k][0] >= 0 && (k == facet.inner || flat >= 0);
+        if (lies == Lies::off && goes && walls_at_[diagonal] > 0 && outside_[facet.pairs[k][0]] < 0) return false;
+    }
+    const int beyond = 1 - facet.inner;
+    if (on_wall(facet, beyond) == Lies::on) return flat >= 0 && on_wall(facet, facet.inner) == Lies::off;
+    // A flat tet between a wall and the boundary or a cell that stays is all there is of its region.
+    return on_wall(facet, facet.inner) == Lies::off || facet.pairs[beyond][0] < 0 ||
+           outside_[facet.pairs[beyond][0]] == Outside::tets;
 }
 
 }  // namespace octafield::volume::detail

@@ -45,19 +45,25 @@ struct CellClaims {
 // What lies outside the tets: of each triangle of one tet, the boundary or a face of another cell.
 class TetSurroundings {
 public:
-    // kept: edges that become no diagonal of a quad on the boundary.
-    TetSurroundings(const MixedMesh& mesh, const TetTopology& topology, const Edges& kept, double max_fold);
+    // kept: edges that become no diagonal of a quad on the boundary. walls: (triangles) 1 between regions; may be
+    // empty.
+    TetSurroundings(const MixedMesh& mesh, const TetTopology& topology, const Edges& kept,
+                    const std::vector<std::uint8_t>& walls, double max_fold);
 
-    // Nothing where the cell cannot stand whatever else does: a quad would lie in part on the boundary or on a cell
-    // that stays, cross one of its quads, or fold the boundary.
+    // Nothing where the cell cannot stand whatever else does: a quad would lie in part on the boundary, on a wall or on
+    // a cell that stays, cross one of its quads, take an edge from a wall, or fold the boundary or a wall.
     std::optional<CellClaims> claims(const CellShape& shape, const Index* ids, unsigned inner_pairs) const;
 
 private:
-    enum Outside : Index { tets = -2, boundary = -1 };  // or the number of a fixed face
+    enum Outside : Index { wall = -3, tets = -2, boundary = -1 };  // or the number of a fixed face
+    enum class Lies { off, half, on };                             // walls
     void add_fixed_faces(const Cell& cell);
     bool add_fixed_face(const std::array<Index, 4>& round, int corners);
     std::optional<FaceClaim> claim(const CellFacet& facet) const;
     bool may_close(const CellFacet& facet, int pair) const;
+    bool may_be_quad(const CellFacet& facet, int pair) const;
+    Lies on_wall(const CellFacet& facet, int pair) const;
+    bool fits_walls(const CellFacet& facet, Index flat) const;
 
     const MixedMesh& mesh_;
     const TetTopology& topology_;
@@ -67,6 +73,7 @@ private:
     std::vector<std::uint8_t> fixed_edges_;  // (edges) 1: of cells that stay
     std::vector<Index> fixed_diagonals_;     // (edges) the face of a cell that stays on which it lies, -1: none
     std::vector<std::uint8_t> kept_;         // (edges)
+    std::vector<Index> walls_at_;            // (edges) triangles of walls; empty without
 };
 
 }  // namespace octafield::volume::detail

@@ -85,8 +85,9 @@ void drop_unused(TetMesh& mesh, Index first) {
     mesh.vertices = mesh.vertices(kept, Eigen::all).eval();
 }
 
-// Empty and a reason, where the way leads nowhere.
-TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, const Progress& progress) {
+// Empty and a reason, where the way leads nowhere. flat: vertices of the surface on tets without volume are added.
+TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, std::vector<Index>& flat,
+                  const Progress& progress) {
     const Placement placement(cavity.mesh.vertices, way.turned);
     TetgenParameters parameters;
     parameters.radius_edge_ratio = 1.8;
@@ -98,7 +99,7 @@ TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, con
     parameters.refine = way.refine && (cavity.refine || !way.inside);
     parameters.inside_later = way.twice;
     parameters.most_seconds =
-        60 + static_cast<int>(0.005 * static_cast<double>(cavity.mesh.vertices.rows() + cavity.inside.rows()));
+        20 + static_cast<int>(0.002 * static_cast<double>(cavity.mesh.vertices.rows() + cavity.inside.rows()));
     parameters.tolerance = way.tolerance;
     if (way.inside && cavity.inside.rows() > 0) parameters.inside = placement.there(cavity.inside);
     for (const Eigen::Vector3d& hole : cavity.holes)
@@ -126,7 +127,11 @@ TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, con
     if (inside.empty()) return {};
     mesh.tets = mesh.tets(inside, Eigen::all).eval();
     reason = "it left tets without volume";
-    if (!flat_tets(mesh, flat_for_tetgen).empty()) return {};
+    const std::vector<Index> without_volume = flat_tets(mesh, flat_for_tetgen);
+    for (const Index tet : without_volume)
+        for (const Index v : mesh.tets.row(tet))
+            if (v < known) flat.push_back(v);
+    if (!without_volume.empty()) return {};
     drop_unused(mesh, static_cast<Index>(known));
     return std::move(mesh);
 }
@@ -187,13 +192,16 @@ std::vector<Index> tets_inside(const TetMesh& mesh, const surface::TriangleMesh&
 
 TetMesh fill_cavity(const Cavity& cavity, const Progress& progress) {
     std::string reason;
+    std::vector<Index> flat;
     for (const Way& way : ways) {
-        TetMesh mesh = filled_in(cavity, way, reason, progress);
+        TetMesh mesh = filled_in(cavity, way, reason, flat, progress);
         if (mesh.tets.rows() > 0) return mesh;
     }
+    std::sort(flat.begin(), flat.end());
+    flat.erase(std::unique(flat.begin(), flat.end()), flat.end());
     throw GeometryError("the space between the hexahedra and the surface could not be filled with tets: " + reason +
                             "; give another edge length",
-                        "tetgen_failed");
+                        "tetgen_failed", flat);
 }
 
 }  // namespace octafield::volume

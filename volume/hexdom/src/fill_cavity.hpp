@@ -22,8 +22,8 @@ struct Cavity {
 
 // All tets on the inner side of the triangles, none elsewhere: parts that TetGen fills on their outer side (cavities of
 // the domain) are taken out. Positive, the surface's vertices first with the same bits, then those inside that tets
-// have. Throws GeometryError (kind "tetgen_failed"), Cancelled, SolverError ("tetgen_time": it took far longer than
-// such a surface should).
+// have. Throws GeometryError (kind "tetgen_failed"; elements: vertices of the triangles on tets without volume that
+// TetGen left, if any), Cancelled, SolverError ("tetgen_time": it took far longer than such a surface should).
 TetMesh fill_cavity(const Cavity& cavity, const Progress& progress);
 
 // The tets on the inner side; empty where the mesh has not all triangles of the surface as its own, each with tets on

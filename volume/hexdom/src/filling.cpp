@@ -290,7 +290,7 @@ Points apart_from(const surface::TriangleMesh& faces, const CellsOnSurface& cell
     std::vector<Index> kept;
     for (Index p = 0; p < cells.spare.rows(); ++p) {
         const Eigen::Vector3d at = cells.spare.row(p);
-        if ((guide.nearest_on_surface(at).point - at).norm() > 0.35 * cells.spare_length[p]) kept.push_back(p);
+        if ((guide.nearest_on_surface(at).point - at).norm() > 0.25 * cells.spare_length[p]) kept.push_back(p);
     }
     return cells.spare(kept, Eigen::all);
 }
@@ -348,9 +348,16 @@ MixedMesh filled(CellsOnSurface& cells, const Progress& progress) {
     mesh.vertices = cells.vertices;
     mesh.hexahedra = cells.hexahedra;
     if (surface.mesh.triangles.rows() == 0) return mesh;
-    const TetMesh tets = fill_cavity({surface.mesh, surface.two_sided, cavity.holes(), apart_from(surface.mesh, cells),
-                                      !cells.apart, cells.edge_length},
-                                     progress);
+    TetMesh tets;
+    try {
+        tets = fill_cavity({surface.mesh, surface.two_sided, cavity.holes(), apart_from(surface.mesh, cells),
+                            !cells.apart, cells.edge_length},
+                           progress);
+    } catch (const GeometryError& error) {
+        std::vector<Index> vertices;
+        for (const Index v : error.elements()) vertices.push_back(surface.vertex[v]);
+        throw GeometryError(error.what(), error.kind(), vertices);
+    }
     const Eigen::Index known = surface.mesh.vertices.rows(), added = tets.vertices.rows() - known;
     mesh.vertices.conservativeResize(cells.vertices.rows() + added, 3);
     mesh.vertices.bottomRows(added) = tets.vertices.bottomRows(added);

@@ -35,8 +35,8 @@ std::vector<std::uint8_t> beside_cavity(CellsOnSurface& cells);
 
 // Leaves out what is not to be had: hexahedra with a face on the surface that the surface has not, and those the faces
 // of which cross others. Then tets in the rest: hexahedra first, their quads met by pairs of triangles. Throws
-// GeometryError: "self_intersection" (elements: triangles of the domain's surface, near), "tetgen_failed"; Cancelled,
-// SolverError.
+// GeometryError: "self_intersection" (elements: triangles of the domain's surface, near), "tetgen_failed" (elements:
+// vertices on tets without volume that TetGen left, if any); Cancelled, SolverError.
 MixedMesh filled(CellsOnSurface& cells, const Progress& progress);
 
 }  // namespace octafield::volume

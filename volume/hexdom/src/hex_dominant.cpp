@@ -217,9 +217,7 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     const EdgeLengths lengths(field.sizes);
     FilledCells filled = filled_cells(field.domain, *cells, lengths, progress);
     cells.reset();
-    HexDominantOptions how = options;
-    how.recombine = options.recombine && domain.regions().empty();
-    MixedMesh mesh = conforming(filled, how, counts, progress);
+    MixedMesh mesh = conforming(filled, options, counts, progress);
     counts.crossing = filled.cells.crossing;
     const PointSurface& surface = filled.cells.surface;
     result.support = vertex_support(surface, static_cast<Index>(mesh.vertices.rows()));

@@ -31,6 +31,7 @@ struct TetSearch {
     double min_quality;                      // scaled Jacobian, > 0
     const std::vector<std::uint8_t>& taken;  // (m) not 0: tets not to be used; may be empty
     int threads;
+    const std::vector<std::uint8_t>& walls;  // (triangles) not 0: between no two tets of a cell; may be empty
 };
 
 // Vertex by vertex, not by patterns (Pellerin, Johnen, Verhetsel, Remacle 2018, "Identifying combinations of tetrahedra

@@ -17,11 +17,13 @@ void require_options(const RecombineOptions& options) {
         throw InvalidInput("max_boundary_fold is an angle in radians, from 0 to below 2", "max_boundary_fold");
 }
 
-void require_cells(const MixedMesh& mesh, const Edges& kept) {
+void require_cells(const MixedMesh& mesh, const Edges& kept, const Triangles& walls) {
     for (const CellDefect& defect : find_cell_defects(mesh))
         if (defect.kind != "mismatched_face") throw GeometryError(defect.message, defect.kind, defect.cells);
     if (kept.size() && (kept.minCoeff() < 0 || kept.maxCoeff() >= mesh.vertices.rows()))
         throw InvalidInput("kept_edges name vertices that do not exist", "index_out_of_range");
+    if (walls.size() && (walls.minCoeff() < 0 || walls.maxCoeff() >= mesh.vertices.rows()))
+        throw InvalidInput("walls name vertices that do not exist", "index_out_of_range");
 }
 
 class Recombiner {
@@ -31,7 +33,8 @@ public:
           options_(options),
           report_(report),
           topology_(mesh.tets, static_cast<Index>(mesh.vertices.rows())),
-          surroundings_(mesh, topology_, options.kept_edges, options.max_boundary_fold),
+          walls_(topology_.marked(options.walls)),
+          surroundings_(mesh, topology_, options.kept_edges, walls_, options.max_boundary_fold),
           table_(topology_),
           taken_(mesh.tets.rows(), 0) {}
 
@@ -54,7 +57,7 @@ public:
 
 private:
     TetSearch search() const {
-        return {topology_, mesh_.vertices, mesh_.tets, options_.min_scaled_jacobian, taken_, options_.threads};
+        return {topology_, mesh_.vertices, mesh_.tets, options_.min_scaled_jacobian, taken_, options_.threads, walls_};
     }
 
     std::vector<Index> choose(const CellShape& shape, const PotentialCells& cells) {
@@ -94,6 +97,7 @@ private:
     const RecombineOptions& options_;
     RecombineReport& report_;
     const TetTopology topology_;
+    const std::vector<std::uint8_t> walls_;
     const TetSurroundings surroundings_;
     ClaimTable table_;
     std::vector<std::uint8_t> taken_;
@@ -103,7 +107,7 @@ private:
 
 MixedMesh recombine(const MixedMesh& mesh, const RecombineOptions& options, RecombineReport* report) {
     require_options(options);
-    require_cells(mesh, options.kept_edges);
+    require_cells(mesh, options.kept_edges, options.walls);
     RecombineReport own;
     return Recombiner(mesh, options, report ? *report = {} : own).run();
 }

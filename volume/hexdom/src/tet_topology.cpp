@@ -113,4 +113,11 @@ Index TetTopology::triangle_at(Index edge, Index third) const {
     return -1;
 }
 
+std::vector<std::uint8_t> TetTopology::marked(const Triangles& given) const {
+    std::vector<std::uint8_t> marks(given.rows() ? triangle_count() : 0, 0);
+    for (const auto row : given.rowwise())
+        if (const Index found = triangle(row[0], row[1], row[2]); found >= 0) marks[found] = 1;
+    return marks;
+}
+
 }  // namespace octafield::volume::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct TetTopology {
     Index edge(Index a, Index b) const;                // -1: none
     Index triangle_at(Index edge, Index third) const;  // -1: none, also of edge -1
     Index triangle(Index a, Index b, Index c) const { return triangle_at(edge(a, b), c); }
+    // Of triangles given by their vertices, (triangles) 1: those that are there; empty where none are given.
+    std::vector<std::uint8_t> marked(const Triangles& given) const;
     Index edge_count() const { return static_cast<Index>(link_start.size()) - 1; }
     Index triangle_count() const { return static_cast<Index>(triangle_tets.size()); }
 

@@ -65,7 +65,7 @@ private:
             for (const Index x : page.ring) {
                 const double length = complex_.distance(v, x);
                 longest_ = std::max(longest_, length);
-                if (limits_.crowded > 0 && length < limits_.crowded * bound_.length[v]) stretch_ = 1.5;
+                if (length < limits_.crowded * bound_.wanted(v)) stretch_ = 1.5;
             }
             for (std::size_t i = 0; i + 1 < page.ring.size(); ++i)
                 longest_ = std::max(longest_, complex_.distance(page.ring[i], page.ring[i + 1]));

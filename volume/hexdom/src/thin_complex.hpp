@@ -12,7 +12,8 @@ namespace octafield::volume::detail {
 // How long a new edge may be, by its ends: longer where the quads wanted there are.
 struct LengthBound {
     std::vector<double> at;        // (V)
-    std::vector<double> length{};  // (V) wanted of edges; used only for what is crowded
+    std::vector<double> length{};  // (V) wanted of edges, for what is crowded; empty: 1
+    double wanted(Index v) const { return length.empty() ? 1 : length[v]; }
     double operator()(Index a, Index b) const { return std::max(at[a], at[b]); }
 };
 

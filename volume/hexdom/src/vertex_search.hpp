@@ -58,7 +58,8 @@ void add_if_filled(const TetSearch& search, const CellShape& shape, const std::a
                    const Quality& quality, PotentialCells& cells) {
     std::optional<CellFacets> facets = cell_facets(search.topology, shape, ids.data());
     InnerTets inner;
-    if (!facets || !find_inner_tets(search.topology, search.tets, shape, ids.data(), search.taken, *facets, inner))
+    if (!facets ||
+        !find_inner_tets(search.topology, search.tets, shape, ids.data(), search.taken, search.walls, *facets, inner))
         return;
     const double found = quality(ids);
     if (!(found >= search.min_quality)) return;

@@ -10,6 +10,9 @@ struct RecombineOptions {
     bool wedges = true;
     double max_boundary_fold = 0.35;  // radians: turn between two triangles of the boundary that become a quad
     Edges kept_edges{0, 2};           // of the boundary: no quad replaces the two triangles at one (feature curves)
+    // (w, 3) triangles, as between regions, through which no cell reaches. As on the boundary two of them may become
+    // one quad: that of the cells on both sides, once there are pyramids.
+    Triangles walls{0, 3};
     int threads = 0;
 };
 
@@ -24,8 +27,8 @@ struct RecombineReport {
 // hexahedra that tets can be joined to are found vertex by vertex (Pellerin, Johnen, Verhetsel, Remacle 2018,
 // "Identifying combinations of tetrahedra into hexahedra"); of these some that can stand together are chosen: the best
 // first, then improved by exchanges as Andrade, Resende, Werneck 2012 do. The same at any number of threads. The
-// boundary may get a quad for two triangles; so a flat tet may go. Throws InvalidInput, and GeometryError with a defect
-// of the mesh.
+// boundary, and a wall, may get a quad for two triangles; so a flat tet may go. Throws InvalidInput, and GeometryError
+// with a defect of the mesh.
 MixedMesh recombine(const MixedMesh& mesh, const RecombineOptions& options = {}, RecombineReport* report = nullptr);
 
 struct ConformReport {
