@@ -7,6 +7,7 @@
 
 #include "cavity.hpp"
 #include "near_grid.hpp"
+#include "not_joined.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/cell_quality.hpp"
 #include "octafield/volume/recombination.hpp"
@@ -72,30 +73,6 @@ Triangles walls_of(const CellsOnSurface& cells) {
         if (cells.two_sided[t]) walls.push_back(static_cast<Index>(t));
     return cells.surface.mesh.triangles(walls, Eigen::all);
 }
-
-// Vertices of cells joined of tets that led to no mesh: tets on four of them, then all at one, are not joined again.
-class NotJoined {
-public:
-    explicit NotJoined(const MixedMesh& filled) : level_(filled.vertices.rows(), 0) {}
-
-    // at_once: tets at one of them, too.
-    void add(const std::vector<Index>& vertices, bool at_once) {
-        const std::vector<std::uint8_t> before = level_;
-        for (const Index v : vertices)
-            if (v < static_cast<Index>(level_.size())) level_[v] = at_once || before[v] ? 2 : 1;
-    }
-    bool has(const Eigen::Matrix<Index, 1, 4>& tet) const {
-        int least = 2, most = 0;
-        for (const Index v : tet) {
-            least = std::min<int>(least, level_[v]);
-            most = std::max<int>(most, level_[v]);
-        }
-        return least > 0 || most > 1;
-    }
-
-private:
-    std::vector<std::uint8_t> level_;
-};
 
 MixedMesh joined(const FilledCells& filled, const NotJoined& not_joined, const HexDominantOptions& options,
                  HexDominantCounts& counts) {
