@@ -9,8 +9,8 @@
 
 namespace octafield::volume {
 
-// Vertices of cells joined of tets that led to no mesh: tets on four of them are not joined again, and where a vertex is
-// named a second time none at it are. Vertices beyond those of `filled` are none of its tets'.
+// Vertices of cells joined of tets that led to no mesh: tets on four of them are not joined again, and where a vertex
+// is named a second time none at it are. Vertices beyond those of `filled` are none of its tets'.
 class NotJoined {
 public:
     explicit NotJoined(const MixedMesh& filled) : level_(filled.vertices.rows(), 0) {}
