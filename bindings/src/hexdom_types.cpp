@@ -75,9 +75,10 @@ void bind_options(py::module_& m) {
         .field("correction", &HexDominantOptions::correction,
                "How sizes give way to the turning of the field, within a factor of two: \"none\", \"isotropic\" (all "
                "axes alike) or \"axes\" (each for itself).")
-        .field("points", &HexDominantOptions::points,
-               "Where vertices come from: \"periodic\", the integers of a periodic_map, or \"frontal\", a front from the "
-               "surface inside along the axes.")
+        .field(
+            "points", &HexDominantOptions::points,
+            "Where vertices come from: \"periodic\", the integers of a periodic_map, or \"frontal\", a front from the "
+            "surface inside along the axes.")
         .field("refinements", &HexDominantOptions::refinements,
                "Times that tets on which the map is of no use are cut into eight, and the map is made anew.")
         .field("most_tets", &HexDominantOptions::most_tets, "None are cut where the mesh would have more.")
@@ -89,8 +90,8 @@ void bind_options(py::module_& m) {
         .field("improve", &HexDominantOptions::improve, "Vertices are moved at the end.")
         .field("threads", &HexDominantOptions::threads, "0: all; the result does not depend on it.")
         .finish([](const HexDominantOptions& o) {
-            return "edge_length=" + number(o.edge_length) + ", correction='" + to_word(o.correction) +
-                   "', points='" + to_word(o.points) + "'";
+            return "edge_length=" + number(o.edge_length) + ", correction='" + to_word(o.correction) + "', points='" +
+                   to_word(o.points) + "'";
         });
 }
 
