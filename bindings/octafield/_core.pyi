@@ -2103,6 +2103,7 @@ class HexDominantOptions:
     words: ClassVar[dict[str, list[str]]]
     edge_length: float
     correction: str
+    points: str
     refinements: int
     most_tets: int
     most_hexahedra: int
@@ -2116,6 +2117,7 @@ class HexDominantOptions:
         edge_length: float = ...,
         sizes: ArrayLike = ...,
         correction: str = ...,
+        points: str = ...,
         refinements: int = ...,
         most_tets: int = ...,
         most_hexahedra: int = ...,
@@ -2181,6 +2183,7 @@ class LostCells:
     ) -> None: ...
 
 class LatticeCells:
+    apart: bool
     def __init__(
         self,
         points: ArrayLike = ...,
@@ -2189,6 +2192,7 @@ class LatticeCells:
         hexahedra: ArrayLike = ...,
         on_surface: ArrayLike = ...,
         lost: LostCells = ...,
+        apart: bool = ...,
     ) -> None: ...
     @property
     def points(self) -> Float64s: ...
@@ -2292,6 +2296,7 @@ def hex_dominant(
     edge_length: float = ...,
     sizes: ArrayLike | None = ...,
     correction: str = ...,
+    points: str = ...,
     refinements: int = ...,
     most_tets: int = ...,
     most_hexahedra: int = ...,

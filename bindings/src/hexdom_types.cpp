@@ -75,6 +75,10 @@ void bind_options(py::module_& m) {
         .field("correction", &HexDominantOptions::correction,
                "How sizes give way to the turning of the field, within a factor of two: \"none\", \"isotropic\" (all "
                "axes alike) or \"axes\" (each for itself).")
+        .field(
+            "points", &HexDominantOptions::points,
+            "Where vertices come from: \"periodic\", the integers of a periodic_map, or \"frontal\", a front from the "
+            "surface inside along the axes.")
         .field("refinements", &HexDominantOptions::refinements,
                "Times that tets on which the map is of no use are cut into eight, and the map is made anew.")
         .field("most_tets", &HexDominantOptions::most_tets, "None are cut where the mesh would have more.")
@@ -86,7 +90,8 @@ void bind_options(py::module_& m) {
         .field("improve", &HexDominantOptions::improve, "Vertices are moved at the end.")
         .field("threads", &HexDominantOptions::threads, "0: all; the result does not depend on it.")
         .finish([](const HexDominantOptions& o) {
-            return "edge_length=" + number(o.edge_length) + ", correction='" + to_word(o.correction) + "'";
+            return "edge_length=" + number(o.edge_length) + ", correction='" + to_word(o.correction) + "', points='" +
+                   to_word(o.points) + "'";
         });
 }
 
@@ -126,6 +131,8 @@ void bind_map(py::module_& m) {
                "(k,) uint8, bit f: face f lies on the surface; corners of faces 0 to 5: 0321, 4567, 0154, 1265, 2376, "
                "3047.")
         .field("lost", &LatticeCells::lost, "LostCells.")
+        .field("apart", &LatticeCells::apart,
+               "Whether points are as far from each other as they should be; lattice_cells does not say so.")
         .finish([](const LatticeCells& cells) { return count(cells.hexahedra.rows(), "hexahedron", "hexahedra"); });
 }
 

@@ -104,6 +104,13 @@ struct Words<volume::SizeCorrection> {
         {{"none", E::none}, {"isotropic", E::isotropic}, {"axes", E::axes}}};
 };
 
+template <>
+struct Words<volume::CellPoints> {
+    using E = volume::CellPoints;
+    static constexpr std::array<std::pair<const char*, E>, 2> list{
+        {{"periodic", E::periodic}, {"frontal", E::frontal}}};
+};
+
 template <class Enum>
 std::string to_word(Enum value) {
     for (const auto& [word, meaning] : Words<Enum>::list)

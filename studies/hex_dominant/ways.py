@@ -19,6 +19,7 @@ WAYS = [
     ("neither cut nor giving way", {"refinements": 0, "correction": "none"}),
     ("tets not joined", {"recombine": False}),
     ("vertices not moved", {"improve": False}),
+    ("points of a front", {"points": "frontal"}),
 ]  # fmt: skip
 HEADER = [
     "file", "way", "working tets", "lattice hexahedra", "hexahedra", "hex volume %", "hex number %", "hex SJ mean",

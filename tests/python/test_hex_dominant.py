@@ -87,8 +87,10 @@ def test_the_number_of_threads_changes_no_bit(curved):
 
 def test_options_are_those_of_the_struct_and_bad_ones_are_named(box):
     assert of.volume.HexDominantOptions.words["correction"] == ["none", "isotropic", "axes"]
+    assert of.volume.HexDominantOptions.words["points"] == ["periodic", "frontal"]
     for wrong, kind in [
         ({"correction": "all"}, "unknown_word"),
+        ({"points": "front"}, "unknown_word"),
         ({"edge_length": -1.0}, "edge_length"),
         ({"edge_length": np.nan}, "not_finite"),
         ({"sizes": np.ones(3)}, "wrong_size"),
@@ -113,6 +115,7 @@ def test_options_are_those_of_the_struct_and_bad_ones_are_named(box):
         {"cells": 2.5},
         {"edge_length": 1.0, "cells": 5},
         {"correction": "axis"},
+        {"points": "lattice"},
         {"min_scaled_jacobian": 0.0},
         {"refinements": 7},
         {"hold_angle": 2.0},
@@ -128,6 +131,19 @@ def test_options_of_the_whole_way_have_the_defaults_of_the_struct():
     for field in dataclasses.fields(ours):
         if field.name != "cells":
             assert getattr(ours, field.name) == getattr(struct, field.name), field.name
+
+
+@pytest.mark.parametrize("shape", ["cylinder", "ball"])
+def test_points_of_a_front_make_a_conforming_mesh_too(shape):
+    wanted = of.HexMeshOptions(cells=400, points="frontal")
+    result = of.compute_hex_dominant(generate(shape), hex_options=wanted)
+    require_conforming(result.mesh)
+    record = result.record
+    assert record.options["points"] == "frontal" and record.steps.lattice_hexahedra == 0
+    assert record.hex_volume_share > 0.5 and record.volume_error < 0.1 and record.inverted == 0
+    assert record.wall_seconds["front"] > 0 and "periodic_map" not in record.wall_seconds
+    assert record.steps.tets == result.field.tets.tet_count
+    assert record.edge_length.median == pytest.approx(record.edge_length.target, rel=0.2)
 
 
 def test_phases_are_named_and_false_stops(box):

@@ -162,6 +162,14 @@ def test_regions_and_the_interface_between_them_are_kept(tmp_path):
     assert len(groups) == record["regions"] and min(groups) >= 1
 
 
+def test_points_of_a_front_on_the_command_line(tmp_path):
+    wanted = ["--cells", "64", "--points", "frontal"]
+    octafield("hex-dominant", write_cube(tmp_path), "-o", tmp_path / "out", *wanted, "-q", check=0)
+    record = json.loads((tmp_path / "out" / "result.json").read_text())
+    assert record["options"]["points"] == "frontal" and record["cells"]["hexahedra"] > 40
+    require_conforming(of.read_cells(tmp_path / "out" / "mesh.vtu"))
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -174,6 +182,7 @@ def test_regions_and_the_interface_between_them_are_kept(tmp_path):
         (["CUBE", "--size", "WORDS"], "not a file of sizes"),
         (["CUBE", "--size", "CUBE", "--cells", "8"], "leave one out"),
         (["CUBE", "--correction", "axis"], "did you mean 'axes'?"),
+        (["CUBE", "--points", "frontl"], "did you mean 'frontal'?"),
         (["CUBE", "--field", "absent.frame"], "absent.frame|holds triangles"),
         (["CUBE", "--representation", "sh5"], "did you mean 'sh4'?"),
         (["absent.stl"], "absent.stl"),

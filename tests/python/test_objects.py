@@ -91,7 +91,7 @@ def objects(field, tmp_path_factory):
         of.volume.EmbeddingScheme("own", of.frames.sh4_embed), of.volume.EdgeScheme("turns", of.frames.frame_log),
         of.compute_hex_dominant(box, hex_options=of.HexMeshOptions(cells=27)), of.HexMeshOptions(cells=27),
         of.volume.hex_dominant(tets, frames, edge_length=0.6, refinements=0),
-        of.volume.HexDominantOptions(edge_length=0.1), of.volume.ImproveOptions(sweeps=3),
+        of.volume.HexDominantOptions(edge_length=0.1, points="frontal"), of.volume.ImproveOptions(sweeps=3),
         of.volume.PeriodicMapOptions(rounds=2), of.volume.RecombineOptions(min_scaled_jacobian=0.2),
         coordinates, of.volume.lattice_cells(tets, coordinates),
         of.volume.recombine(of.volume.MixedMesh(tets.vertices, tets=tets.tets)),

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ..hexdom.options import CORRECTIONS, HexMeshOptions
+from ..hexdom.options import CORRECTIONS, POINTS, HexMeshOptions
 from ..options import FieldOptions
 from . import console, tables
 from .console import carry_out, log
@@ -61,6 +61,14 @@ def hex_dominant(
             help="How sizes give way to the turning of the field: not, alike along all axes, or along each.",
         ),
     ] = _DEFAULTS.correction,
+    points: Annotated[
+        str,
+        typer.Option(
+            metavar="|".join(POINTS),
+            autocompletion=words(POINTS),
+            help="Vertices of cells from a periodic map, or from a front that goes from the surface inside.",
+        ),
+    ] = _DEFAULTS.points,
     options: Callable[[], FieldOptions] = FieldOptions,
     json: Json = None,
     quiet: Quiet = False,
@@ -77,7 +85,7 @@ def hex_dominant(
         from ..records.record_file import RECORD_FILE
 
         chosen = replace(options(), edge_length=tet_length)
-        of_cells = HexMeshOptions(edge_length=edge_length, cells=cells, correction=correction)
+        of_cells = HexMeshOptions(edge_length=edge_length, cells=cells, correction=correction, points=points)
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             result = compute_hex_dominant(input, chosen, progress, hex_options=of_cells, sizes=size, field=field)
             write_hex_result(result, folder, progress)

@@ -10,6 +10,7 @@ from ..options import LARGEST_INT, integer_in, require_one_of
 
 MESHES = ("none", "hex-dominant")  # that comparisons make along each field
 CORRECTIONS = tuple(_core.HexDominantOptions.words["correction"])
+POINTS = tuple(_core.HexDominantOptions.words["points"])
 _DEFAULTS = _core.HexDominantOptions()
 
 
@@ -29,6 +30,7 @@ class HexMeshOptions:
     edge_length: float = 0.0
     cells: int = 0
     correction: str = _DEFAULTS.correction
+    points: str = _DEFAULTS.points
     refinements: int = _DEFAULTS.refinements
     most_tets: int = _DEFAULTS.most_tets
     most_hexahedra: int = _DEFAULTS.most_hexahedra
@@ -46,6 +48,7 @@ class HexMeshOptions:
                 "an edge length decides the number of cells: leave it or the number of cells out", "option_out_of_range"
             )
         require_one_of("correction", self.correction, CORRECTIONS)
+        require_one_of("points", self.points, POINTS)
         integer_in("refinements", self.refinements, 0, 6)
         integer_in("most_tets", self.most_tets, 1, LARGEST_INT)
         integer_in("most_hexahedra", self.most_hexahedra, 1, LARGEST_INT)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mixed_grids.hpp"
+#include "not_joined.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/cell_quality.hpp"
 #include "tet_fixtures.hpp"
@@ -258,6 +259,23 @@ TEST(Attempts, MovedVerticesDoNotTakeVolumeAwayWhereNoFeaturesHoldThem) {
     const MixedMesh moved = improved(mesh, domain, support, {}, 1, 1);
     EXPECT_NEAR(cell_volumes(moved).sum() / before, 1, 0.0051);
     expect_sound(moved);
+}
+
+TEST(Attempts, TetsOfACellThatLedToNoMeshAreNotJoinedAgainAndThenAllRound) {
+    MixedMesh mesh;
+    mesh.vertices.setZero(9, 3);
+    NotJoined not_joined(mesh);
+    using Tet = Eigen::Matrix<Index, 1, 4>;
+    const Tet inside(0, 1, 2, 3), beside(1, 2, 3, 8), apart(4, 5, 6, 8);
+    EXPECT_FALSE(not_joined.has(inside));
+    not_joined.add({0, 1, 2, 3, 3, 12}, false);
+    EXPECT_TRUE(not_joined.has(inside));
+    EXPECT_FALSE(not_joined.has(beside));
+    not_joined.add({3}, false);
+    EXPECT_TRUE(not_joined.has(beside));
+    EXPECT_FALSE(not_joined.has(apart));
+    not_joined.add({5}, true);
+    EXPECT_TRUE(not_joined.has(apart));
 }
 
 }  // namespace

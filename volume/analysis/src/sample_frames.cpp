@@ -109,36 +109,24 @@ void bring_to_mesh(const TetDomain& domain, const Points& points, double toleran
 
 }  // namespace
 
-SampledFrames sample_frames(const TetDomain& domain, const Quaternions& frames, const Points& points,
-                            const SampleOptions& options) {
+InterpolatedFrames interpolate_frames(const TetDomain& domain, const Quaternions& frames, const LocatedPoints& at,
+                                      int threads) {
     const TetMesh& mesh = domain.mesh();
-    require_frames(frames, mesh.vertices.rows());
-    if (std::isnan(options.tolerance)) throw InvalidInput("tolerance is not a number", "option_out_of_range");
-    const double tolerance =
-        options.tolerance >= 0 ? options.tolerance : default_tolerance * surface::bounding_box_diagonal(mesh.vertices);
-    LocatedPoints located = locate_points(domain, points, options.threads);
-    const auto count = static_cast<std::int64_t>(points.rows());
-    SampledFrames result{Quaternions::Constant(count, 4, std::numeric_limits<double>::quiet_NaN()),
-                         std::vector<double>(count, 0),
-                         {},
-                         std::vector<double>(count, 0)};
-    bring_to_mesh(domain, points, tolerance, options.threads, located, result.distance);
-
-    parallel_for((count + together - 1) / together, options.threads,
+    const auto count = static_cast<std::int64_t>(at.tet.size());
+    InterpolatedFrames result{Quaternions::Constant(count, 4, std::numeric_limits<double>::quiet_NaN()),
+                              std::vector<double>(count, 0)};
+    parallel_for((count + together - 1) / together, threads,
                  [&](std::int64_t block) {
                      std::vector<std::int64_t> inside;
                      for (std::int64_t i = block * together; i < std::min((block + 1) * together, count); ++i)
-                         if (located.tet[i] >= 0)
-                             inside.push_back(i);
-                         else
-                             result.distance[i] = infinity;
+                         if (at.tet[i] >= 0) inside.push_back(i);
                      const auto rows = static_cast<Eigen::Index>(inside.size());
                      Rows<double, Sh4::dimension> wanted = Rows<double, Sh4::dimension>::Zero(rows, Sh4::dimension);
                      Quaternions guess(rows, 4), nearest(rows, 4);
                      Eigen::VectorXd distances(rows);
                      for (Eigen::Index k = 0; k < rows; ++k) {
-                         const auto weights = located.weights.row(inside[k]);
-                         const auto corners = mesh.tets.row(located.tet[inside[k]]);
+                         const auto weights = at.weights.row(inside[k]);
+                         const auto corners = mesh.tets.row(at.tet[inside[k]]);
                          Eigen::Index largest;
                          weights.maxCoeff(&largest);
                          guess.row(k) = frames.row(corners[largest]);
@@ -156,8 +144,23 @@ SampledFrames sample_frames(const TetDomain& domain, const Quaternions& frames, 
                                  .transpose();
                  },
                  1);
-    result.tet = std::move(located.tet);
     return result;
+}
+
+SampledFrames sample_frames(const TetDomain& domain, const Quaternions& frames, const Points& points,
+                            const SampleOptions& options) {
+    require_frames(frames, domain.vertex_count());
+    if (std::isnan(options.tolerance)) throw InvalidInput("tolerance is not a number", "option_out_of_range");
+    const double tolerance = options.tolerance >= 0
+                                 ? options.tolerance
+                                 : default_tolerance * surface::bounding_box_diagonal(domain.mesh().vertices);
+    LocatedPoints located = locate_points(domain, points, options.threads);
+    std::vector<double> distance(points.rows(), 0);
+    bring_to_mesh(domain, points, tolerance, options.threads, located, distance);
+    for (std::size_t i = 0; i < distance.size(); ++i)
+        if (located.tet[i] < 0) distance[i] = infinity;
+    InterpolatedFrames found = interpolate_frames(domain, frames, located, options.threads);
+    return {std::move(found.frames), std::move(found.confidence), std::move(located.tet), std::move(distance)};
 }
 
 }  // namespace octafield::volume

@@ -7,6 +7,7 @@
 
 #include "cavity.hpp"
 #include "near_grid.hpp"
+#include "not_joined.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/cell_quality.hpp"
 #include "octafield/volume/recombination.hpp"
@@ -14,7 +15,7 @@
 namespace octafield::volume {
 namespace {
 
-constexpr int most_places = 3, most_layers = 3, most_surfaces = 4, most_refillings = 4, most_rounds = 3;
+constexpr int most_places = 3, most_layers = 3, most_surfaces = 4, most_refillings = 4, most_rounds = 3, most_joins = 6;
 
 std::vector<std::uint8_t> all_hexahedra(const MixedMesh& mesh) {
     return std::vector<std::uint8_t>(mesh.hexahedra.rows(), 1);
@@ -73,13 +74,22 @@ Triangles walls_of(const CellsOnSurface& cells) {
     return cells.surface.mesh.triangles(walls, Eigen::all);
 }
 
-MixedMesh joined(const FilledCells& filled, const HexDominantOptions& options, HexDominantCounts& counts) {
+MixedMesh joined(const FilledCells& filled, const NotJoined& not_joined, const HexDominantOptions& options,
+                 HexDominantCounts& counts) {
     RecombineOptions join;
     join.min_scaled_jacobian = options.min_scaled_jacobian;
     join.kept_edges = filled.cells.surface.features.edges;
     join.walls = walls_of(filled.cells);
     join.threads = options.threads;
-    MixedMesh mesh = recombine(filled.mesh, join);
+    MixedMesh mesh = filled.mesh;
+    std::vector<Index> kept, rest;
+    for (Index t = 0; t < filled.mesh.tets.rows(); ++t)
+        (not_joined.has(filled.mesh.tets.row(t)) ? kept : rest).push_back(t);
+    mesh.tets = filled.mesh.tets(rest, Eigen::all);
+    mesh = recombine(mesh, join);
+    const Eigen::Index others = mesh.tets.rows();
+    mesh.tets.conservativeResize(others + static_cast<Eigen::Index>(kept.size()), 4);
+    mesh.tets.bottomRows(static_cast<Eigen::Index>(kept.size())) = filled.mesh.tets(kept, Eigen::all);
     counts.recombined_hexahedra = static_cast<Index>(mesh.hexahedra.rows() - filled.mesh.hexahedra.rows());
     counts.recombined_wedges = static_cast<Index>(mesh.wedges.rows());
     return mesh;
@@ -95,6 +105,17 @@ std::vector<std::uint8_t> lattice_hexahedra(const std::vector<Index>& cells, con
         marked[k] = 1;
     }
     return marked;
+}
+
+std::vector<Index> vertices_of(const std::vector<Index>& cells, const MixedMesh& mesh) {
+    std::vector<std::uint8_t> named(mesh.cell_count(), 0);
+    for (const Index cell : cells)
+        if (cell >= 0 && cell < mesh.cell_count()) named[cell] = 1;
+    std::vector<Index> vertices;
+    detail::for_each_cell(mesh, [&](const detail::Cell& cell) {
+        if (named[cell.number]) vertices.insert(vertices.end(), cell.ids, cell.ids + cell.shape.vertices);
+    });
+    return vertices;
 }
 
 std::vector<Index> unproven_cells(const MixedMesh& mesh, int threads) {
@@ -230,7 +251,9 @@ FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, c
 MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, HexDominantCounts& counts,
                      const Progress& progress) {
     bool join = options.recombine;
-    for (int round = 0;; ++round) {
+    int joins = 0, refillings = 0;
+    NotJoined not_joined(filled.mesh);
+    for (;;) {
         MixedMesh mesh = filled.mesh;
         const Index of_lattice = static_cast<Index>(mesh.hexahedra.rows());
         counts.recombined_hexahedra = counts.recombined_wedges = 0;
@@ -238,7 +261,7 @@ MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, Hex
         try {
             if (join && mesh.tets.rows() > 0) {
                 report_or_throw(progress, "recombine", 0, 0);
-                mesh = joined(filled, options, counts);
+                mesh = joined(filled, not_joined, options, counts);
             }
             report_or_throw(progress, "conform", 0, 0);
             counts.pyramids = {};
@@ -250,17 +273,25 @@ MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, Hex
         } catch (const GeometryError& error) {
             const bool interface = error.kind() == "lost_interface",
                        names_cells = !interface && error.kind() != "unproven_cell" && error.kind() != "lost_feature";
-            if (interface && round < most_refillings) marked = hexahedra_at(error.elements(), filled.cells);
-            if (names_cells && round < most_refillings) marked = lattice_hexahedra(error.elements(), mesh, of_lattice);
+            if (interface && refillings < most_refillings) marked = hexahedra_at(error.elements(), filled.cells);
+            if (names_cells && refillings < most_refillings)
+                marked = lattice_hexahedra(error.elements(), mesh, of_lattice);
+            if (marked.empty() && join && ++joins < most_joins) {
+                not_joined.add(names_cells ? vertices_of(error.elements(), mesh) : error.elements(),
+                               interface || error.kind() == "lost_feature");
+                continue;
+            }
             if (marked.empty() && !std::exchange(join, false)) {
                 if (of_lattice == 0) throw;
                 marked = all_hexahedra(filled.mesh);
             }
         }
         if (marked.empty()) continue;
+        ++refillings;
         leave_out(filled.cells, marked);
         report_or_throw(progress, "tetrahedralize", 0, 0);
         filled.mesh = filled_by_layers(filled.cells, progress);
+        not_joined = NotJoined(filled.mesh);
     }
 }
 
@@ -269,9 +300,10 @@ MixedMesh without_unproven(MixedMesh mesh, int threads) {
         const std::vector<Index> cells = unproven_cells(mesh, threads);
         if (cells.empty()) return mesh;
         if (round == most_rounds)
-            throw GeometryError("the Jacobian is not proven to be above 0 all through the cells " + first_few(cells) +
-                                    "; give another edge length",
-                                "unproven_cell", cells);
+            throw GeometryError("the Jacobian is not proven to be above 0 all through " + std::to_string(cells.size()) +
+                                    " cells, at vertices " + first_few(vertices_of(cells, mesh)) +
+                                    " of the mesh; give another edge length",
+                                "unproven_cell", vertices_of(cells, mesh));
         detail::CellComplex complex(mesh);
         for (const Index cell : cells) {
             if (!complex.alive(cell) || complex.shape(cell).vertices < 5) continue;

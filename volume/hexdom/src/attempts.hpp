@@ -24,13 +24,15 @@ FilledCells filled_cells(const TetDomain& domain, const LatticeCells& lattice, c
                          const Progress& progress);
 
 // Tets joined, and pyramids where quads meet triangles: all faces match, all cells are proven positive, features are
-// edges. Where a hexahedron cannot be kept it is left out of `filled` and that filled anew; where this does not help,
-// tets are not joined; then no hexahedron stays. Throws GeometryError.
+// edges. Where a hexahedron cannot be kept it is left out of `filled` and that filled anew; where tets that were joined
+// are in the way they are not joined again; where this does not help, no tets are; then no hexahedron stays. Throws
+// GeometryError.
 MixedMesh conforming(FilledCells& filled, const HexDominantOptions& options, HexDominantCounts& counts,
                      const Progress& progress);
 
 // Hexahedra and wedges that are not proven positive: filled about a point inside, where that gives positive cells.
-// Throws GeometryError (kind "unproven_cell"; elements: cells) where some are left after a few rounds.
+// Throws GeometryError (kind "unproven_cell"; elements: vertices of those cells) where some are left after a few
+// rounds.
 MixedMesh without_unproven(MixedMesh mesh, int threads);
 
 // Vertices moved; where that mesh is not valid and proven positive, or the volume of a region is farther from the

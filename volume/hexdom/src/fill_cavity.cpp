@@ -15,14 +15,16 @@ namespace octafield::volume {
 namespace {
 
 // Where TetGen fails in one way it may not in another: with points of the lattice inside or without, with bounds on the
-// tets or without, with another tolerance for what is coplanar, turned so that nothing is aligned with the axes.
+// tets or without, with another tolerance for what is coplanar, turned so that nothing is aligned with the axes, points
+// put in by a second run.
 struct Way {
     bool inside, refine, turned;
     double tolerance;
+    bool twice = false;
 };
-constexpr Way ways[] = {{true, true, false, 0},     {true, true, false, 1e-12}, {true, true, true, 0},
-                        {false, true, false, 0},    {false, true, true, 1e-6},  {false, false, false, 0},
-                        {false, false, true, 1e-12}};
+constexpr Way ways[] = {{true, true, false, 0},       {true, true, false, 1e-12}, {true, true, true, 0},
+                        {true, true, false, 0, true}, {false, true, false, 0},    {false, true, true, 1e-6},
+                        {false, false, false, 0},     {false, false, true, 1e-12}};
 
 // TetGen's arithmetic is at its best round the origin, at sizes near 1.
 struct Placement {
@@ -94,7 +96,8 @@ TetMesh filled_in(const Cavity& cavity, const Way& way, std::string& reason, std
     const double cells = volume_inside(cavity) / std::pow(cavity.edge_length, 3);
     parameters.most_added =
         static_cast<int>(std::min(1e9, 2000 + 3 * (cells + static_cast<double>(cavity.mesh.vertices.rows()))));
-    parameters.refine = way.refine;
+    parameters.refine = way.refine && (cavity.refine || !way.inside);
+    parameters.inside_later = way.twice;
     parameters.most_seconds =
         20 + static_cast<int>(0.0005 * static_cast<double>(cavity.mesh.vertices.rows() + cavity.inside.rows()));
     parameters.tolerance = way.tolerance;

@@ -16,6 +16,7 @@ struct Cavity {
     std::vector<std::uint8_t> two_sided;  // per triangle: between regions, filled on both sides
     std::vector<Eigen::Vector3d> holes;   // points in parts not to be filled: none is needed, each saves time
     Points inside{0, 3};                  // vertices to be, where they fit
+    bool refine = true;                   // more vertices where tets with those are large or poor
     double edge_length = 0;               // the longest of the tets, in the mesh's unit
 };
 

@@ -273,7 +273,7 @@ void add_spare(CellsOnSurface& result, const TetDomain& domain, const LatticeCel
     for (Index p = 0; p < cells.points.rows(); ++p) {
         if (number[p] >= 0) continue;
         const double there = lengths.between(domain.mesh().tets.row(cells.tet[p]), cells.weights.row(p));
-        if (taken.any(cells.points.row(p), 0.6 * there)) continue;
+        if (!cells.apart && taken.any(cells.points.row(p), 0.6 * there)) continue;
         spare.push_back(p);
         length.push_back(there);
         taken.add(p, cells.points.row(p));
@@ -302,6 +302,7 @@ CellsOnSurface cells_on_surface(const TetDomain& domain, const LatticeCells& cel
     const LatticeSurface lattice = lattice_surface(domain, cells, lengths);
     CellsOnSurface result;
     result.edge_length = lengths.longest();
+    result.apart = cells.apart;
     result.quads = lattice.quads;
     try {
         result.surface =
@@ -349,9 +350,9 @@ MixedMesh filled(CellsOnSurface& cells, const Progress& progress) {
     if (surface.mesh.triangles.rows() == 0) return mesh;
     TetMesh tets;
     try {
-        tets = fill_cavity(
-            {surface.mesh, surface.two_sided, cavity.holes(), apart_from(surface.mesh, cells), cells.edge_length},
-            progress);
+        tets = fill_cavity({surface.mesh, surface.two_sided, cavity.holes(), apart_from(surface.mesh, cells),
+                            !cells.apart, cells.edge_length},
+                           progress);
     } catch (const GeometryError& error) {
         std::vector<Index> vertices;
         for (const Index v : error.elements()) vertices.push_back(surface.vertex[v]);

@@ -19,6 +19,7 @@ struct CellsOnSurface {
     Hexahedra hexahedra;
     Points spare;                  // points of the lattice inside that no hexahedron has
     Eigen::VectorXd spare_length;  // of edges wanted there
+    bool apart = false;            // of LatticeCells: with spare points tets are as small as they should be
     double edge_length;            // the longest wanted
     Index crossing = 0;            // hexahedra left out as their faces crossed others or the surface
 };

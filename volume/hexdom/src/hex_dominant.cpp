@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "attempts.hpp"
+#include "frontal_points.hpp"
 #include "mesh_regions.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/integrability.hpp"
@@ -98,11 +99,6 @@ std::vector<std::uint8_t> tets_to_refine(const WorkingField& field, const Period
     return marked;
 }
 
-struct TetAxes {
-    Quaternions frames;  // (m, 4)
-    Points lengths;      // (m, 3) of a cell along each axis
-};
-
 TetAxes tet_axes(const WorkingField& field, const HexDominantOptions& options) {
     const TetMesh& mesh = field.domain.mesh();
     TetAxes result;
@@ -177,6 +173,32 @@ void drop_unused_vertices(HexDominantMesh& result) {
     });
 }
 
+// Along a periodic map; the tets are cut where it is of no use.
+LatticeCells periodic_points(WorkingField& field, const WorkingField& given, const HexDominantOptions& options,
+                             HexDominantCounts& counts, const Progress& progress) {
+    for (int level = 0;; ++level) {
+        report_or_throw(progress, "sizes", 0, 0);
+        const PeriodicMap map = map_of(field, options, progress);
+        std::vector<std::uint8_t> marked = tets_to_refine(field, map, level == 0 ? 1 : 2);
+        const bool any = std::find(marked.begin(), marked.end(), 1) != marked.end();
+        if (any && level < options.refinements && refined_count(field.domain, marked) <= options.most_tets) {
+            field = refined(field, given, std::move(marked), options.threads);
+            continue;
+        }
+        counts.inconsistent = map.inconsistent;
+        counts.turned_over = map.turned_over;
+        report_or_throw(progress, "lattice", 0, 0);
+        return lattice_cells(field.domain, map, options.min_scaled_jacobian, options.threads);
+    }
+}
+
+LatticeCells points_of(WorkingField& field, const WorkingField& given, const HexDominantOptions& options,
+                       HexDominantCounts& counts, const Progress& progress) {
+    if (options.points == CellPoints::periodic) return periodic_points(field, given, options, counts, progress);
+    report_or_throw(progress, "sizes", 0, 0);
+    return frontal_points(field.domain, field.frames, tet_axes(field, options), options.threads, progress);
+}
+
 }  // namespace
 
 HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
@@ -187,24 +209,9 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     require_count(given, options.most_hexahedra);
     HexDominantMesh result;
     HexDominantCounts& counts = result.counts;
-    std::optional<LatticeCells> cells;
     WorkingField field = given;
-    for (int level = 0;; ++level) {
-        report_or_throw(progress, "sizes", 0, 0);
-        const PeriodicMap map = map_of(field, options, progress);
-        std::vector<std::uint8_t> marked = tets_to_refine(field, map, level == 0 ? 1 : 2);
-        const bool any = std::find(marked.begin(), marked.end(), 1) != marked.end();
-        if (any && level < options.refinements && refined_count(field.domain, marked) <= options.most_tets) {
-            field = refined(field, given, std::move(marked), options.threads);
-            continue;
-        }
-        counts.tets = field.domain.tet_count();
-        counts.inconsistent = map.inconsistent;
-        counts.turned_over = map.turned_over;
-        report_or_throw(progress, "lattice", 0, 0);
-        cells = lattice_cells(field.domain, map, options.min_scaled_jacobian, options.threads);
-        break;
-    }
+    std::optional<LatticeCells> cells = points_of(field, given, options, counts, progress);
+    counts.tets = field.domain.tet_count();
     counts.lost = cells->lost;
     counts.lattice_hexahedra = static_cast<Index>(cells->hexahedra.rows());
     const EdgeLengths lengths(field.sizes);

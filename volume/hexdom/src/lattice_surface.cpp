@@ -84,7 +84,7 @@ LatticeSurface lattice_surface(const TetDomain& domain, const LatticeCells& cell
     for (const bool of_cells : {true, false})
         for (Index p = 0; p < count; ++p) {
             if (triangle[p] < 0 || bool(used[p]) != of_cells) continue;
-            if (!of_cells && taken.any(cells.points.row(p), half(p))) continue;
+            if (!of_cells && !cells.apart && taken.any(cells.points.row(p), half(p))) continue;
             take(p);
             taken.add(p, cells.points.row(p));
         }

@@ -35,10 +35,10 @@ void fill_input(tetgenio& in, const surface::TriangleMesh& mesh, const std::vect
     for (std::size_t h = 0; h < holes.size(); ++h) std::copy_n(holes[h].data(), 3, in.holelist + 3 * h);
 }
 
-tetgenbehavior switches(const TetgenParameters& parameters) {
+tetgenbehavior switches(const TetgenParameters& parameters, bool second = false) {
     tetgenbehavior b;
-    char text[] = "pYMBFzQ";
-    b.parse_commandline(text);
+    char first_text[] = "pYMBFzQ", second_text[] = "rYBFzQ";
+    b.parse_commandline(second ? second_text : first_text);
     if (parameters.tolerance > 0) b.epsilon = parameters.tolerance;
     b.insertaddpoints = parameters.inside.rows() > 0;
     if (parameters.most_added > 0) b.steinerleft = parameters.most_added;
@@ -101,6 +101,18 @@ TetgenOutcome run_tetgen(const surface::TriangleMesh& mesh, const TetgenParamete
                 std::copy_n(parameters.inside.data(), parameters.inside.size(), inside.pointlist);
             }
             tetgenbehavior b = switches(parameters);
+            if (parameters.inside_later) {
+                tetgenio between;
+                tetgenbehavior surface_only;
+                char text[] = "pYMzQ";  // with the faces on the surface, which the second run keeps
+                surface_only.parse_commandline(text);
+                surface_only.epsilon = b.epsilon;
+                ::tetrahedralize(&surface_only, &in, &between);
+                b = switches(parameters, true);
+                ::tetrahedralize(&b, &between, &out, inside.numberofpoints > 0 ? &inside : nullptr);
+                emit_mesh(out, emit);
+                return;
+            }
             ::tetrahedralize(&b, &in, &out, inside.numberofpoints > 0 ? &inside : nullptr);
             emit_mesh(out, emit);
         },

@@ -20,6 +20,7 @@ struct TetgenParameters {
     int most_seconds = 0;                // of processor time; 0: no bound
     std::vector<Eigen::Vector3d> holes;  // one point in each cavity
     Points inside{0, 3};                 // points to be vertices; those not inside are left out
+    bool inside_later = false;  // they are put in by a second run, as the first may crash where it keeps the surface
 };
 
 struct TetgenOutcome {

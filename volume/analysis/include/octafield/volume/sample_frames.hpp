@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "octafield/volume/locate_points.hpp"
 #include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
@@ -30,5 +31,14 @@ struct SampleOptions {
 // at the vertices. Throws InvalidInput (points that are not finite, a tolerance that is NaN), GeometryError.
 SampledFrames sample_frames(const TetDomain& domain, const Quaternions& frames, const Points& points,
                             const SampleOptions& options = {});
+
+// The same where it is known already which tets hold the points; frames of rows with tet -1 are NaN, their confidence
+// 0.
+struct InterpolatedFrames {
+    Quaternions frames;              // (k, 4) as in SampledFrames
+    std::vector<double> confidence;  // (k) as there
+};
+InterpolatedFrames interpolate_frames(const TetDomain& domain, const Quaternions& frames, const LocatedPoints& at,
+                                      int threads = 0);
 
 }  // namespace octafield::volume

@@ -14,10 +14,15 @@ namespace octafield::volume {
 // How the sizes of cells give way to the turning of the field (scaling.hpp), within a factor of two.
 enum class SizeCorrection { none, isotropic, axes };
 
+// Where vertices of cells come from: the integers of a periodic map, or a front that goes from the surface inside, a
+// size at a time along the axes (Baudouin, Remacle, Marchandise, Henrotte, Geuzaine 2014).
+enum class CellPoints { periodic, frontal };
+
 struct HexDominantOptions {
     double edge_length = 0;   // wanted, input unit; 0: the mean edge of the surface
     Eigen::VectorXd sizes{};  // (n) wanted at the vertices, in place of edge_length; empty: the same everywhere
     SizeCorrection correction = SizeCorrection::axes;
+    CellPoints points = CellPoints::periodic;
     // Times that tets on which the map is of no use, and those next to them, are cut into eight and the map is made
     // anew, while the mesh stays within most_tets.
     int refinements = 2;

@@ -25,6 +25,7 @@ struct LatticeCells {
     Hexahedra hexahedra;                   // (k, 8) of points
     std::vector<std::uint8_t> on_surface;  // (k) bit f: its face f (of cell_face) lies on the surface
     LostCells lost;
+    bool apart = false;  // points are as far from each other as they should be; else some are left out
 };
 
 // Faces of a hexahedron, outward.
