@@ -31,8 +31,8 @@ COLUMNS = [
     "inverted", "features_kept", "corners_lost", "seconds", "cpu", "MB", "faults", "error", "load", "commit",
 ]  # fmt: skip
 HEADER = [
-    "file", "edge", "working tets", "tets", "hexahedra", "wedges", "pyramids", "hex volume %", "hex number %",
-    "hex SJ min", "mean", "SJ min", "volume error %", "deviation %", "noncon-forming", "inverted", "features kept %",
+    "file", "edge", "working tets", "lattice cells lost", "tets", "hexahedra", "wedges", "pyramids", "hex volume %",
+    "hex number %", "hex SJ min", "mean", "SJ min", "volume error %", "deviation %", "noncon-forming", "inverted", "features kept %",
     "corners lost", "s", "CPU s", "MB", "remarks",
 ]  # fmt: skip
 
@@ -142,15 +142,22 @@ def cells(row: dict) -> list[str]:
     name = row["file"] if float(row["factor"]) == 1 else f"{row['file']}, {row['factor']:g} of it"
     if "error" in row:
         edge = f"{row['edge']:.3g}" if "edge" in row else ""
-        return [name, edge, *[""] * 16, f"{row['seconds']:.0f}", "", f"{row.get('MB', 0):.0f}", clean(row["error"])]
+        return [name, edge, *[""] * 17, f"{row['seconds']:.0f}", "", f"{row.get('MB', 0):.0f}", clean(row["error"])]
     percent = lambda name, digits: f"{100 * row[name]:.{digits}f}"  # noqa: E731
-    counts = [f"{row[name]:,}" for name in ("tets_used", "tets", "hexahedra", "wedges", "pyramids")]
+    counts = [f"{row['tets_used']:,}", lost(row["steps"])]
+    counts += [f"{row[name]:,}" for name in ("tets", "hexahedra", "wedges", "pyramids")]
     shares = [percent("hex_volume_share", 1), percent("hex_number_share", 1)]
     quality = [f"{row[name]:.{digits}f}" for name, digits in (("hex_sj_min", 2), ("hex_sj_mean", 3), ("sj_min", 3))]
     rest = [percent("volume_error", 3), percent("deviation", 2), str(row["nonconforming"]), str(row["inverted"])]
     kept = [percent("features_kept", 1), f"{row['corners_lost']} of {row['corners']}"]
     time_and_space = [f"{row['seconds']:.0f}", f"{row['cpu']:.0f}", f"{row['MB']:.0f}"]
     return [name, f"{row['edge']:.3g}", *counts, *shares, *quality, *rest, *kept, *time_and_space, clean(row["faults"])]
+
+
+def lost(steps: dict[str, int]) -> str:
+    """Those that became no hexahedra, of all."""
+    refused = sum(steps[name] for name in ("outside", "unusable", "degenerate", "poor"))
+    return f"{refused + steps['crossing']:,} of {refused + steps['lattice_hexahedra']:,}"
 
 
 def clean(text: str) -> str:

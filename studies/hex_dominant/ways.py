@@ -8,7 +8,7 @@ from study_output import markdown_table
 from ..benchmarks.pages import when
 from .run import THREADS
 
-FILES = "s02u s04u s07u s10u".split()
+FILES = "s02u s04u s06u s07u s10u s12u".split()
 # What is changed of the default options, in words and as options.
 WAYS = [
     ("the default", {}),
@@ -19,11 +19,13 @@ WAYS = [
     ("neither cut nor giving way", {"refinements": 0, "correction": "none"}),
     ("tets not joined", {"recombine": False}),
     ("vertices not moved", {"improve": False}),
+    ("hexahedra with scaled Jacobians from 0.15", {"min_scaled_jacobian": 0.15}),
+    ("hexahedra with scaled Jacobians from 0.5", {"min_scaled_jacobian": 0.5}),
     ("points of a front", {"points": "frontal"}),
 ]  # fmt: skip
 HEADER = [
     "file", "way", "working tets", "lattice hexahedra", "hexahedra", "hex volume %", "hex number %", "hex SJ mean",
-    "SJ min", "volume error %",
+    "SJ min", "volume error %", "CPU s",
 ]  # fmt: skip
 
 
@@ -34,6 +36,7 @@ def row(name: str, words: str, result: octafield.HexDominantResult) -> list[str]
         name, words, f"{result.counts.tets:,}", f"{result.counts.lattice_hexahedra:,}", f"{told.cells.hexahedra:,}",
         f"{100 * told.hex_volume_share:.1f}", f"{100 * told.hex_number_share:.1f}",
         f"{told.scaled_jacobian['hexahedra'].mean:.3f}", f"{lowest:.3f}", f"{100 * told.volume_error:.3f}",
+        f"{sum(told.cpu_seconds.values()):.1f}",
     ]  # fmt: skip
 
 
