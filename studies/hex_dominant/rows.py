@@ -32,8 +32,8 @@ COLUMNS = [
 ]  # fmt: skip
 HEADER = [
     "file", "edge", "working tets", "lattice cells lost", "tets", "hexahedra", "wedges", "pyramids", "hex volume %",
-    "hex number %", "hex SJ min", "mean", "SJ min", "volume error %", "deviation %", "noncon-forming", "inverted", "features kept %",
-    "corners lost", "s", "CPU s", "MB", "remarks",
+    "hex number %", "hex SJ min", "mean", "SJ min", "volume error %", "deviation %", "noncon-forming", "inverted",
+    "features kept %", "corners lost", "s", "CPU s", "MB", "remarks",
 ]  # fmt: skip
 
 
