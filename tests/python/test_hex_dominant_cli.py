@@ -177,7 +177,7 @@ def test_points_of_a_front_on_the_command_line(tmp_path):
         (["CUBE", "--edge-length", "nan"], "must be positive"),
         (["CUBE", "--cells", "-5"], "cells must be an integer"),
         (["CUBE", "--edge-length", "0.5", "--cells", "8"], "leave it or the number of cells out"),
-        (["CUBE", "--edge-length", "0.00001"], "about 1.39e+11 triangles"),
+        (["CUBE", "--edge-length", "0.00001"], "about 1e+15 cells"),
         (["CUBE", "--size", "absent.txt"], "absent.txt"),
         (["CUBE", "--size", "WORDS"], "not a file of sizes"),
         (["CUBE", "--size", "CUBE", "--cells", "8"], "leave one out"),
