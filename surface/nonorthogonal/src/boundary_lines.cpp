@@ -58,9 +58,9 @@ void require_corners(const std::vector<CornerQuads>& corners, const VertexCharts
                                ", which are not on the boundary of the surface; leave them out",
                            "not_on_boundary", outside);
     if (!twice.empty())
-        throw InvalidInput("corners: quads are given more than once for vertices " + first_few(twice) +
-                               "; keep one of each",
-                           "given_twice", twice);
+        throw InvalidInput(
+            "corners: quads are given more than once for vertices " + first_few(twice) + "; keep one of each",
+            "given_twice", twice);
 }
 
 std::vector<int> corner_quads(const SurfaceDomain& domain, const VertexCharts& charts,

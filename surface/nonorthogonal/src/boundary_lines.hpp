@@ -9,10 +9,10 @@
 namespace octafield::surface::detail {
 
 struct BoundaryLines {
-    std::vector<int> quads;        // (V), 0 inside
-    std::vector<TwoLines> lines;   // (V), in the vertex's chart; `first` follows the boundary; (0, 0) inside
-    std::vector<bool> is_held;     // (V), both lines are given
-    std::vector<Index> next;       // (V) the boundary vertex after it, surface on the left; -1 inside
+    std::vector<int> quads;       // (V), 0 inside
+    std::vector<TwoLines> lines;  // (V), in the vertex's chart; `first` follows the boundary; (0, 0) inside
+    std::vector<bool> is_held;    // (V), both lines are given
+    std::vector<Index> next;      // (V) the boundary vertex after it, surface on the left; -1 inside
 };
 
 // Throws InvalidInput as non_orthogonal_field.

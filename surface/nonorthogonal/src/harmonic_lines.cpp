@@ -22,7 +22,8 @@ std::vector<Index> numbers(const std::vector<bool>& given) {
 }
 
 // Extends values that a transport turns by link.turn^power.
-void extend(const std::vector<VertexLink>& links, const std::vector<Index>& number, int power, Eigen::VectorXcd& values) {
+void extend(const std::vector<VertexLink>& links, const std::vector<Index>& number, int power,
+            Eigen::VectorXcd& values) {
     const Index size = 1 + *std::max_element(number.begin(), number.end());
     std::vector<Eigen::Triplet<Complex>> entries;
     Eigen::VectorXcd right = Eigen::VectorXcd::Zero(size);

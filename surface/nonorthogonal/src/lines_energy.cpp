@@ -25,27 +25,31 @@ std::array<Complex, 2> moved(const VertexLink& link, const std::array<Complex, 2
 }  // namespace
 
 LinesEnergy::LinesEnergy(const std::vector<VertexLink>& links, const BoundaryLines& boundary,
-                         const VertexCharts& charts, const NonOrthogonalFieldOptions& options)
+                         const VertexCharts& charts, double lambda, double least_angle, double freedom)
     : links_(links),
       boundary_(boundary),
-      root_lambda_(std::sqrt(options.lambda)),
-      bound_factor_(1 - 2 * options.least_angle / pi),
-      unknown_(boundary.lines.size(), {-1, -1}) {
+      root_lambda_(std::sqrt(lambda)),
+      unknown_(boundary.lines.size(), {-1, -1}),
+      between_(boundary.lines.size()) {
     for (std::size_t v = 0; v < unknown_.size(); ++v) {
         const auto vertex = static_cast<Index>(v);
         if (!charts.used(vertex)) continue;
         if (!charts.on_boundary(vertex)) {
             unknown_[v] = {size_, size_ + 1};
             size_ += 2;
-        } else if (options.second_line == SecondLine::free && !boundary.is_held[v]) {
+        } else if (freedom > 0 && !boundary.is_held[v]) {
             unknown_[v][1] = size_++;
+            const double given = boundary.lines[v].second - boundary.lines[v].first;
+            const double least = std::min({least_angle, given / 2, (pi - given) / 2});
+            const double low = given + freedom * (least - given), high = given + freedom * (pi - least - given);
+            between_[v] = {(low + high) / 2, (high - low) / 2};
         }
     }
     shift_ = size_ > 0 ? smallest_shift / size_ : 0;
     const double unit = std::numeric_limits<double>::epsilon();
     for (const VertexLink& link : links_) {
         positive_weights_.push_back(std::max(link.weight, -least_part * link.weight));
-        rounding_ += unit * unit * std::abs(link.weight) * (64 * options.lambda + 4);
+        rounding_ += unit * unit * std::abs(link.weight) * (64 * lambda + 4);
     }
 }
 
@@ -58,8 +62,8 @@ LinesEnergy::State LinesEnergy::state_of(const std::vector<TwoLines>& lines) con
             state[second] = lines[v].second;
         } else if (second >= 0) {
             const double between = lines[v].second - lines[v].first, angle = between - pi * std::floor(between / pi);
-            const double part = (angle - pi / 2) / bound_factor_;
-            state[second] = std::tan(std::clamp(part, -0.49 * pi, 0.49 * pi));
+            const double part = (angle - between_[v].middle) / between_[v].half;
+            state[second] = std::tan(pi / 2 * std::clamp(part, -0.98, 0.98));
         }
     }
     return state;
@@ -72,7 +76,8 @@ std::vector<TwoLines> LinesEnergy::lines_of_state(const State& state) const {
         if (first >= 0) {
             lines[v] = {state[first], state[second]};
         } else if (second >= 0) {
-            lines[v].second = lines[v].first + pi / 2 + bound_factor_ * std::atan(state[second]);
+            lines[v].second =
+                lines[v].first + between_[v].middle + 2 / pi * between_[v].half * std::atan(state[second]);
         }
     }
     return lines;
@@ -90,7 +95,7 @@ std::vector<LinesEnergy::VertexLines> LinesEnergy::vertex_lines(const State& sta
             double rate = 1, bend = 0;  // of the angle by the unknown
             if (line.unknown >= 0 && unknown_[v][0] < 0) {
                 const double x = state[line.unknown];
-                rate = bound_factor_ / (1 + x * x);
+                rate = 2 / pi * between_[v].half / (1 + x * x);
                 bend = -2 * x * rate / (1 + x * x);
             }
             for (int c = 0; c < 2; ++c) {

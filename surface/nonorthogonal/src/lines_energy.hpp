@@ -24,11 +24,13 @@ public:
         Eigen::VectorXd gradient;  // (n)
     };
 
-    // Keeps the references. free: second lines on the boundary are unknown where the corner does not give them, the
-    // angle between the lines being
-    //     pi / 2 + (1 - 2 least_angle / pi) atan(x).
+    // Keeps the references. Second lines on the boundary that the corner does not give are unknown; the angle between
+    // the lines stays between low and high,
+    //     (low + high) / 2 + (high - low) / pi atan(x):
+    // least_angle and pi - least_angle where freedom is 1, both the angle that `boundary` has where it is 0, in between
+    // linear. Freedom 0: no such unknowns.
     LinesEnergy(const std::vector<VertexLink>& links, const BoundaryLines& boundary, const VertexCharts& charts,
-                const NonOrthogonalFieldOptions& options);
+                double lambda, double least_angle, double freedom);
 
     Index size() const { return size_; }
     State state_of(const std::vector<TwoLines>& lines) const;
@@ -49,15 +51,19 @@ private:
         Index unknown = -1;
         std::array<Complex, 2> value, change, second_change;
     };
+    struct Range {
+        double middle = 0, half = 0;
+    };
     using VertexLines = std::array<Line, 2>;
     std::vector<VertexLines> vertex_lines(const State& state) const;
     std::vector<std::array<Complex, 2>> forces(const std::vector<VertexLines>& vertices, double& energy) const;
 
     const std::vector<VertexLink>& links_;
     const BoundaryLines& boundary_;
-    double root_lambda_, bound_factor_, rounding_ = 0, shift_ = 0;
+    double root_lambda_, rounding_ = 0, shift_ = 0;
     Index size_ = 0;
     std::vector<std::array<Index, 2>> unknown_;  // (V), of the two lines, -1: given
+    std::vector<Range> between_;                 // (V), of the angle between the lines where only one is unknown
     std::vector<double> positive_weights_;       // of the links
     Matrix matrix_;
 };

@@ -7,6 +7,8 @@
 #include "boundary_lines.hpp"
 #include "definiteness.hpp"
 #include "harmonic_lines.hpp"
+#include "line_matching.hpp"
+#include "line_moves.hpp"
 #include "lines_energy.hpp"
 #include "newton_descent.hpp"
 #include "octafield/disjoint_sets.hpp"
@@ -22,6 +24,7 @@ using detail::BoundaryLines;
 using detail::VertexCharts;
 using detail::VertexLink;
 constexpr double pi = std::numbers::pi;
+constexpr int most_moves = 20;
 constexpr double energy_tolerance = 1e-10;  // gain to be expected from a step, relative to the energy
 // The angle to which lines that coincide in the start are spread (radians): there the energy does not tell them apart.
 constexpr double least_spread = 0.02;
@@ -95,9 +98,8 @@ std::vector<TwoLines> linear_start(const SurfaceDomain& domain, const std::vecto
     using detail::Extended;
     std::vector<TwoLines> lines;
     if (poly_vector) {
-        detail::explaining_failure(domain, [&] {
-            lines = detail::harmonic_lines(links, given, boundary, Extended::coefficients);
-        });
+        detail::explaining_failure(
+            domain, [&] { lines = detail::harmonic_lines(links, given, boundary, Extended::coefficients); });
         return lines;
     }
     try {
@@ -132,7 +134,8 @@ public:
         const std::vector<bool> given = given_vertices(field_.domain, charts_, options_, lines_);
         lines_ = linear_start(field_.domain, links_, given, lines_, options_.method == "poly_vector");
         field_.start_energy = lines_energy(links_, lines_, options_.lambda);
-        if (options_.method == "angles") descend();
+        field_.freedom = options_.second_line == SecondLine::free ? 1 : 0;
+        if (options_.method == "angles") descend_without_inversion();
         if (options_.method == "projected") loop();
         if (options_.method == "poly_vector") field_.converged = true;
         finish();
@@ -143,39 +146,87 @@ private:
     bool told(double energy) {
         ++field_.iterations;
         const double done = static_cast<double>(field_.iterations) / options_.max_iterations;
-        return report(progress_, "non-orthogonal field", std::min(done, 1.0), energy) &&
-               field_.iterations < options_.max_iterations;
+        stopped_ = !report(progress_, "non-orthogonal field", std::min(done, 1.0), energy) ||
+                   field_.iterations >= options_.max_iterations;
+        return !stopped_;
+    }
+
+    // Bounded at every vertex, a free line may still jump from one bound to the other between two: then it is held
+    // nearer to the angle that goes linearly along the side.
+    void descend_without_inversion() {
+        const std::vector<TwoLines> start = lines_;
+        for (const double freedom : {1.0, 0.5, 0.25, 0.0}) {
+            if (freedom > 0 && options_.second_line == SecondLine::fixed) continue;
+            field_.freedom = freedom;
+            lines_ = start;
+            descend();
+            find_inversions();
+            if (field_.inverted.empty() || stopped_) return;
+        }
     }
 
     void descend() {
-        detail::LinesEnergy energy(links_, boundary_, charts_, options_);
+        detail::LinesEnergy energy(links_, boundary_, charts_, options_.lambda, options_.least_angle, field_.freedom);
         field_.converged = energy.size() == 0;
         if (field_.converged) return;
         Eigen::VectorXd state = energy.state_of(lines_);
-        const auto order = detail::SparseCholesky<double>::amd_order(
-            energy.hessian(state, detail::LinesEnergy::Curvature::convex));
+        const auto order =
+            detail::SparseCholesky<double>::amd_order(energy.hessian(state, detail::LinesEnergy::Curvature::convex));
         const std::function<bool(double)> listener = [&](double value) { return told(value); };
         detail::NewtonDescent<detail::LinesEnergy> descent(energy, order, state, options_.seed, listener);
         field_.converged = descent.descend(energy_tolerance);
+        for (int i = 0; i < most_moves && field_.converged && move_points(energy, state); ++i)
+            field_.converged = descent.start_anew() && descent.descend(energy_tolerance);
         lines_ = energy.lines_of_state(state);
     }
 
+    // Whether a singular point has a better place nearby.
+    bool move_points(const detail::LinesEnergy& energy, Eigen::VectorXd& state) {
+        const SurfaceDomain& domain = field_.domain;
+        std::vector<TwoLines> lines = energy.lines_of_state(state), sorted;
+        std::vector<bool> is_free(lines.size());
+        for (Index v = 0; v < domain.vertex_count(); ++v) {
+            sorted.push_back(ordered(lines[v]));
+            is_free[v] = charts_.used(v) && !charts_.on_boundary(v);
+        }
+        const std::vector<int> indices = detail::triangle_indices(domain, charts_, sorted);
+        std::vector<Index> vertices;
+        for (Index t = 0; t < domain.triangle_count(); ++t)
+            if (indices[t] != 0)
+                for (const Index v : domain.mesh().triangles.row(t)) vertices.push_back(v);
+        detail::LineMoves moves(links_, std::move(is_free), options_.lambda);
+        if (moves.improve(vertices, lines) == 0) return false;
+        state = energy.state_of(lines);
+        return true;
+    }
+
     void loop() {
-        const auto result = projected_loop(links_, boundary_, charts_, options_, lines_,
-                                           [&](double value) { return told(value); });
+        const auto result =
+            projected_loop(links_, boundary_, charts_, options_, lines_, [&](double value) { return told(value); });
         field_.converged = result.converged;
     }
 
-    // Free lines that the boundary's direction has overtaken.
+    // The line that the side of the boundary before the vertex, or after it, follows, and the next one
+    // counter-clockwise.
+    TwoLines following_boundary(Index v, bool arriving) const {
+        const TwoLines& lines = lines_[v];
+        const double first = arriving && boundary_.is_held[v] ? lines.second : lines.first;
+        const double other = arriving && boundary_.is_held[v] ? lines.first : lines.second;
+        return {first, other + pi * std::ceil((first - other) / pi)};
+    }
+
+    // Free lines that the boundary's direction has overtaken from one vertex to the next.
     void find_inversions() {
-        const auto from_boundary = [&](Index v) {
-            const double angle = lines_[v].second - lines_[v].first;
-            return angle - pi * std::floor(angle / pi);
-        };
-        for (Index v = 0; v < field_.domain.vertex_count(); ++v) {
+        field_.inverted.clear();
+        const auto& domain = field_.domain;
+        for (Index v = 0; v < domain.vertex_count(); ++v) {
             const Index next = boundary_.next[v];
-            if (next < 0 || boundary_.is_held[v] || boundary_.is_held[next]) continue;
-            if (std::abs(from_boundary(next) - from_boundary(v)) > pi / 2) field_.inverted.push_back(next);
+            if (next < 0) continue;
+            const Index corner = domain.fans().corners[charts_.fan(v).first];
+            const Index e = domain.topology().triangle_edges(corner / 3, corner % 3);
+            const double transport = (v < next ? 1 : -1) * charts_.transport(e);
+            if (detail::line_shift(following_boundary(v, false), following_boundary(next, true), transport) % 2 != 0)
+                field_.inverted.push_back(next);
         }
         std::sort(field_.inverted.begin(), field_.inverted.end());
     }
@@ -204,6 +255,7 @@ private:
     std::vector<VertexLink> links_;
     std::vector<TwoLines> lines_;
     NonOrthogonalField field_;
+    bool stopped_ = false;
 };
 
 }  // namespace

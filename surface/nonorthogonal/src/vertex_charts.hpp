@@ -1,5 +1,5 @@
-// Tangent planes of vertices: angles round each vertex, how directions pass along edges from one vertex to the next, into
-// triangles and into space.
+// Tangent planes of vertices: angles round each vertex, how directions pass along edges from one vertex to the next,
+// into triangles and into space.
 #pragma once
 
 #include <vector>

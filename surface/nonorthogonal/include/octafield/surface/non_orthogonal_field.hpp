@@ -8,8 +8,8 @@
 // parallel transported along the edge (two_lines.hpp). With cotangent weights it is int lambda |grad c2|^2 + |grad
 // c4|^2, whatever the triangles; it does not change when the surface is turned.
 //
-// At the boundary one line follows it; at a corner with an odd number of quads both follow its two edges. So a corner of
-// any angle is met exactly, and singular points appear only where the numbers of quads do not add up: the index of a
+// At the boundary one line follows it; at a corner with an odd number of quads both follow its two edges. So a corner
+// of any angle is met exactly, and singular points appear only where the numbers of quads do not add up: the index of a
 // boundary vertex with v quads is (2 - v) / 4, all indices add up to the Euler characteristic.
 #pragma once
 
@@ -29,10 +29,10 @@ struct NonOrthogonalFieldMethod {
     std::string meaning;  // one clause
 };
 // angles: descent on E_s by the angles themselves to a local minimum, from the harmonic extension of p1 and p2.
-// projected: the loop of Dermine (3.16), minimise over u, v of any length, then scale them to length 1, in turn. It does
-// not minimise E_s over unit vectors. With c4 = u^2 + v^2 in place of (3.12), which depends on how the domain is turned.
-// poly_vector: linear; harmonic extension of the coefficients of PolyVectors (Diamanti, Vaxman, Panozzo, Sorkine-Hornung
-// 2014), then the roots, scaled to length 1.
+// projected: the loop of Dermine (3.16), minimise over u, v of any length, then scale them to length 1, in turn. It
+// does not minimise E_s over unit vectors. With c4 = u^2 + v^2 in place of (3.12), which depends on how the domain is
+// turned. poly_vector: linear; harmonic extension of the coefficients of PolyVectors (Diamanti, Vaxman, Panozzo,
+// Sorkine-Hornung 2014), then the roots, scaled to length 1.
 const std::vector<NonOrthogonalFieldMethod>& non_orthogonal_field_methods();
 
 // The second line of boundary vertices whose corner does not give it.
@@ -62,13 +62,13 @@ struct NonOrthogonalFieldOptions {
     //   2 quads up to pi + corner_angle,                  one line along the mean of the edges (a smooth boundary),
     //   3 quads up to 2 pi - corner_angle,                both along its edges,
     //   4 quads beyond,                                   one along the bisector,
-    // and so on where there is more than 2 pi (Dermine: gamma; his table, bounds going to the smaller number). In (0, pi
-    // / 2). A parallelogram with an acute angle below corner_angle gets two singular points by this rule; give it
+    // and so on where there is more than 2 pi (Dermine: gamma; his table, bounds going to the smaller number). In (0,
+    // pi / 2). A parallelogram with an acute angle below corner_angle gets two singular points by this rule; give it
     // `corners`.
     double corner_angle = 0.78539816339744831;
     std::vector<CornerQuads> corners{};
-    // Free lines stay farther than this from the boundary (radians, in (0, pi / 4)), by a change of variable, so they
-    // cannot pass through it. Method angles.
+    // Free lines stay farther than this from the boundary (radians, in (0, pi / 4)), or half as far as the angle of the
+    // line that goes linearly along the side, if that is less; by a change of variable. Method angles.
     double least_angle = 0.05;
     // Of the descent: steps, at least 1; projected: rounds.
     int max_iterations = 1000;
@@ -82,9 +82,9 @@ struct NonOrthogonalFieldOptions {
 
 struct NonOrthogonalField {
     SurfaceDomain domain;
-    // (V, 2) radians: the two lines in the chart of each vertex (first in [0, pi), second in [first, first + pi)). Angle
-    // 0 is the edge that begins the vertex's fan in domain.fans(): at the boundary, the boundary edge that leaves the
-    // vertex with the surface on its left. Inside, angles round the vertex are scaled to 2 pi. 0 in no triangle.
+    // (V, 2) radians: the two lines in the chart of each vertex (first in [0, pi), second in [first, first + pi)).
+    // Angle 0 is the edge that begins the vertex's fan in domain.fans(): at the boundary, the boundary edge that leaves
+    // the vertex with the surface on its left. Inside, angles round the vertex are scaled to 2 pi. 0 in no triangle.
     Rows<double, 2> angles;
     // (V, 3) unit vectors along the lines, orthogonal to vertex_normals; 0 in no triangle.
     Points first, second;
@@ -94,8 +94,12 @@ struct NonOrthogonalField {
     int iterations = 0;
     bool converged = false;
     double smallest_angle = 0;  // between the two lines of a vertex, radians
-    // Vertices of the boundary where a free line has passed through the boundary's direction since the vertex before:
-    // none unless the method is projected.
+    // Of free lines, of the range of angles they may take, what they had: less than 1 where one passed through the
+    // boundary's direction between two vertices, so that they were held nearer to the angle that goes linearly along
+    // the side (1/2, 1/4, at last 0); 0 where lines are fixed.
+    double freedom = 0;
+    // Vertices of the boundary where a line has passed through the boundary's direction since the vertex before: such a
+    // field has a singular point on the boundary that `quads` does not tell. Method projected with free lines only.
     std::vector<Index> inverted;
 };
 
