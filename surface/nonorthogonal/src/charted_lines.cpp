@@ -6,6 +6,11 @@
 #include "octafield/error.hpp"
 
 namespace octafield::surface::detail {
+namespace {
+
+constexpr int most_quads = 1000;
+
+}  // namespace
 
 ChartedLines::ChartedLines(const NonOrthogonalField& field, const VertexCharts& vertices)
     : Charts(field.domain), corner_sums_(mesh().triangles.rows()) {
@@ -63,6 +68,12 @@ void require_fit(const NonOrthogonalField& field) {
         if (!field.angles.row(v).allFinite()) bad.push_back(v);
     if (!bad.empty())
         throw InvalidInput("the angles at vertices " + first_few(bad) + " are not finite", "not_finite", bad);
+    for (Index v = 0; v < count; ++v)
+        if (field.quads[v] < 0 || field.quads[v] > most_quads) bad.push_back(v);
+    if (!bad.empty())
+        throw InvalidInput(
+            "the numbers of quads at vertices " + first_few(bad) + " are not in 0 .. " + std::to_string(most_quads),
+            "bad_quads", bad);
 }
 
 template class FieldTracer<ChartedLines>;

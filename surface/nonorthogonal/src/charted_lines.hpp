@@ -30,7 +30,8 @@ private:
 
 static_assert(TracedField<ChartedLines>);
 
-// Throws InvalidInput (kinds "wrong_size", "not_finite" with the vertices) where the field does not fit its domain.
+// Throws InvalidInput (kinds "wrong_size", "not_finite" and "bad_quads" with the vertices) where the field does not fit
+// its domain.
 void require_fit(const NonOrthogonalField& field);
 
 using LinesTracer = FieldTracer<ChartedLines>;
