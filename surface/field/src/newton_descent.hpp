@@ -39,8 +39,8 @@ public:
 
     // To a minimum beside the present state: the gradient zero to `tolerance` (gain to be expected from a step,
     // relative to the energy), no direction of negative curvature found. False where the matrix is not definite to
-    // rounding, or when stopped.
-    bool descend(double tolerance);
+    // rounding, when stopped, or after so many rounds of at most steps_per_round steps.
+    bool descend(double tolerance, int most_rounds = 40);
 
     // The state was changed from outside. False when told to stop.
     bool start_anew() {
@@ -52,7 +52,7 @@ public:
     double energy() const { return slope_.energy; }
 
 private:
-    static constexpr int most_rounds = 40, steps_per_round = 8;
+    static constexpr int steps_per_round = 8;
     static constexpr double armijo = 1e-4, least_length = 1e-6;
     // Length of the step that leaves a saddle point, radian, of the unknown that turns most.
     static constexpr double saddle_step = 0.1;
@@ -136,7 +136,7 @@ typename NewtonDescent<Energy>::Saddle NewtonDescent<Energy>::leave_saddle() {
 
 // To a minimum beside the present field. False where the matrix is not definite to rounding, or when stopped.
 template <class Energy>
-bool NewtonDescent<Energy>::descend(double tolerance) {
+bool NewtonDescent<Energy>::descend(double tolerance, int most_rounds) {
     tolerance_ = tolerance;
     for (int i = 0; i < most_rounds && !stopped_; ++i) {
         const bool exact = factorize(Curvature::exact);

@@ -174,9 +174,9 @@ private:
             detail::SparseCholesky<double>::amd_order(energy.hessian(state, detail::LinesEnergy::Curvature::convex));
         const std::function<bool(double)> listener = [&](double value) { return told(value); };
         detail::NewtonDescent<detail::LinesEnergy> descent(energy, order, state, options_.seed, listener);
-        field_.converged = descent.descend(energy_tolerance);
+        field_.converged = descent.descend(energy_tolerance, options_.max_iterations);
         for (int i = 0; i < most_moves && field_.converged && move_points(energy, state); ++i)
-            field_.converged = descent.start_anew() && descent.descend(energy_tolerance);
+            field_.converged = descent.start_anew() && descent.descend(energy_tolerance, options_.max_iterations);
         lines_ = energy.lines_of_state(state);
     }
 
