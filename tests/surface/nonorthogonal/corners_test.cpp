@@ -108,6 +108,21 @@ TEST(CornersOfNonOrthogonalFields, TheEndOfASlitHasFourQuadsAndAStraightField) {
     }
 }
 
+// The line along the slit goes on at its end, whatever the other one's angle.
+TEST(CornersOfNonOrthogonalFields, ASlitAlongASideOfAParallelogramLeavesItsFieldStraight) {
+    const Vector b(0.5, 0.9, 0);
+    const TriangleMesh mesh = moved(grid(
+                                        8, 8, [](int, int) { return true; }, true),
+                                    [&](const Vector& p) { return Vector(p.x() * Vector(1, 0, 0) + p.y() * b); });
+    const NonOrthogonalField field = non_orthogonal_field(mesh);
+    EXPECT_LT(field.energy, 1e-20);
+    const Index end = vertex_at(mesh, 4 * Vector(1, 0, 0) + 4 * b);
+    EXPECT_EQ(field.quads[end], 4);
+    EXPECT_LT(std::min(off(field.first.row(end), {1, 0, 0}), off(field.second.row(end), {1, 0, 0})), 1e-9);
+    EXPECT_LT(std::min(off(field.first.row(end), b), off(field.second.row(end), b)), 1e-9);
+    EXPECT_TRUE(surface_singularities(field).agree);
+}
+
 TEST(CornersOfNonOrthogonalFields, AngleGoesLinearlyAlongSides) {
     const TriangleMesh mesh = right_trapezoid(60 * degree, 0.1);
     const NonOrthogonalField field = non_orthogonal_field(mesh);

@@ -1,5 +1,6 @@
 // Fields on surfaces: what is isometric to a plane domain has its field; closed surfaces have the index sum of theirs.
 #include "lines_fixtures.hpp"
+#include "vertex_charts.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -55,6 +56,24 @@ TEST(NonOrthogonalFieldOnSurfaces, AFoldedPlaneHasTheFieldOfThePlane) {
             EXPECT_TRUE(points.agree);
         }
     }
+}
+
+TEST(VertexChartsOfSurfaces, CurvatureOfTheSphereIsSpreadOverItsTriangles) {
+    const SurfaceDomain sphere(icosphere(2));
+    const detail::VertexCharts charts(sphere);
+    const Eigen::VectorXd areas = triangle_areas(sphere.mesh());
+    double sum = 0;
+    for (Index t = 0; t < sphere.triangle_count(); ++t) {
+        double turn = 0;
+        for (int k = 0; k < 3; ++k) {
+            const Index e = sphere.topology().triangle_edges(t, k);
+            turn += (sphere.topology().edges(e, 0) == sphere.mesh().triangles(t, k) ? 1 : -1) * charts.transport(e);
+        }
+        const double curvature = std::remainder(turn, 2 * pi);
+        EXPECT_NEAR(curvature, 4 * pi * areas[t] / areas.sum(), 0.3 * 4 * pi / sphere.triangle_count());
+        sum += curvature;
+    }
+    EXPECT_NEAR(sum, 4 * pi, 1e-9);
 }
 
 TEST(NonOrthogonalFieldOnSurfaces, ACylinderHasRingsAndStraightLines) {
