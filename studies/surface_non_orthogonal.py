@@ -113,15 +113,24 @@ HEADER = (
 )  # fmt: skip
 
 
-def draw(axes, field, singular, title: str, every: int = 1) -> None:
+def local_length(domain) -> np.ndarray:
+    """(V, 1): the mean length of the edges at each vertex."""
+    edges, length = np.array(domain.edges), np.array(domain.edge_lengths)
+    count = np.bincount(edges.ravel(), minlength=len(domain.vertices))
+    total = sum(np.bincount(edges[:, k], length, len(domain.vertices)) for k in range(2))
+    return (total / np.maximum(count, 1))[:, None]
+
+
+def draw(axes, field, singular, title: str) -> None:
     """Both lines at vertices, separatrices, singular points."""
     points = np.array(field.domain.vertices)[:, :2]
-    arm = 0.32 * field.domain.mean_edge_length * np.sqrt(every)
-    places = points[::every]
-    lines = [np.stack([places - arm * d, places + arm * d], axis=1) for d in
-             (np.array(v)[::every, :2] for v in (field.first, field.second))]  # fmt: skip
+    arm, near = 0.32 * local_length(field.domain), 0.5 * np.array(field.domain.edge_lengths).min()
+    lines = [
+        np.stack([points - arm * d, points + arm * d], axis=1)
+        for d in (np.array(v)[:, :2] for v in (field.first, field.second))
+    ]
     axes.add_collection(LineCollection(np.concatenate(lines), colors=STREAMLINE, linewidths=0.7))
-    add_lines(axes, SURFACE.separatrices(field, singular), SEPARATRIX, 1.2)
+    add_lines(axes, SURFACE.separatrices(field, singular, singular_radius=near), SEPARATRIX, 1.2)
     edges = np.array(field.domain.edges)[np.array(field.domain.edge_triangles).min(axis=1) < 0]
     axes.add_collection(LineCollection(points[edges], colors="black", linewidths=0.9))
     add_points(axes, singular, 5, keep=lambda point: not point.boundary)
@@ -175,14 +184,22 @@ def disks(output: Path, edge: float) -> list[tuple]:
     return rows
 
 
-def one(output: Path, mesh, name: str, file: str, width: float, every: int = 1, window=None, **options) -> list[tuple]:
-    figure, axes = new_figure(width, width)
-    field, singular = solved(mesh, **options)
-    draw(axes, field, singular, "", every)
-    if window:
-        axes.set(xlim=window[:2], ylim=window[2:])
-    save_drawing(figure, output / file)
-    return [row(name, f"angles, {options.get('second_line', 'fixed')}", field, singular)]
+def stars(output: Path, edge: float) -> list[tuple]:
+    figure, axes = new_figure(5.0, 5.0)
+    field, singular = solved(shuriken(edge))
+    draw(axes, field, singular, "")
+    save_drawing(figure, output / "non_orthogonal_shuriken.png")
+    return [row("shuriken", "angles, fixed", field, singular)]
+
+
+def aerofoils(output: Path, edge: float) -> list[tuple]:
+    figure, panels = new_figure(9.0, 4.5, 1, 2)
+    field, singular = solved(aerofoil(edge))
+    for axes, middle, half in ((panels[0], (0, 0), 0.8), (panels[1], (-0.47, 0), 0.05)):
+        draw(axes, field, singular, "")
+        axes.set(xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half))
+    save_drawing(figure, output / "non_orthogonal_aerofoil.png")
+    return [row("NACA 2412 in a square", "angles, fixed", field, singular)]
 
 
 def main() -> None:
@@ -192,10 +209,8 @@ def main() -> None:
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     output, edge = arguments.output, arguments.edge
-    rows = [*trapezoids(output, edge), *diamonds(output, edge / 2), *disks(output, edge)]
-    rows += one(output, shuriken(edge), "shuriken", "non_orthogonal_shuriken.png", 5.0)
-    rows += one(output, aerofoil(edge), "NACA 2412 in a square", "non_orthogonal_aerofoil.png", 5.6, every=2,
-                window=(-1.1, 1.1, -1.1, 1.1))  # fmt: skip
+    rows = [*trapezoids(output, edge), *diamonds(output, 0.9 * edge), *disks(output, edge)]
+    rows += [*stars(output, edge), *aerofoils(output, edge)]
     text = markdown_table(HEADER, rows)
     (output / "summary.md").write_text(text)
     print(text)

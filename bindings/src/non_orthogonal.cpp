@@ -54,7 +54,9 @@ void bind_options(py::module_& m) {
         .field("inertia", &NonOrthogonalFieldOptions::inertia, "Of \"projected\": weight of the change in a round.")
         .field("penalty", &NonOrthogonalFieldOptions::penalty, "Of \"projected\": weight of the lengths of free lines.")
         .field("tolerance", &NonOrthogonalFieldOptions::tolerance, "Of \"projected\": change at which rounds stop.")
-        .finish([](const NonOrthogonalFieldOptions& o) { return "method='" + o.method + "'"; });
+        .finish([](const NonOrthogonalFieldOptions& o) {
+            return "method='" + o.method + "', lambda_=" + number(o.lambda);
+        });
 }
 
 void bind_field(py::module_& m) {
