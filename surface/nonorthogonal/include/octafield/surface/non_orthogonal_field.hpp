@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -65,7 +66,7 @@ struct NonOrthogonalFieldOptions {
     // and so on where there is more than 2 pi (Dermine: gamma; his table, bounds going to the smaller number). In (0,
     // pi / 2). A parallelogram with an acute angle below corner_angle gets two singular points by this rule; give it
     // `corners`.
-    double corner_angle = 0.78539816339744831;
+    double corner_angle = std::numbers::pi / 4;
     std::vector<CornerQuads> corners{};
     // Free lines stay farther than this from the boundary (radians, in (0, pi / 4)), or half as far as the angle of the
     // line that goes linearly along the side, if that is less; by a change of variable. Method angles.
