@@ -421,6 +421,51 @@ class DirectionField:
     @energy_history.setter
     def energy_history(self, value: ArrayLike) -> None: ...
 
+class NonOrthogonalField:
+    energy: float
+    start_energy: float
+    iterations: int
+    converged: bool
+    smallest_angle: float
+    freedom: float
+    def __init__(
+        self,
+        domain: SurfaceDomain = ...,
+        angles: ArrayLike = ...,
+        first: ArrayLike = ...,
+        second: ArrayLike = ...,
+        quads: ArrayLike = ...,
+        energy: float = ...,
+        start_energy: float = ...,
+        iterations: int = ...,
+        converged: bool = ...,
+        smallest_angle: float = ...,
+        freedom: float = ...,
+        inverted: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def domain(self) -> SurfaceDomain: ...
+    @property
+    def angles(self) -> Float64s: ...
+    @angles.setter
+    def angles(self, value: ArrayLike) -> None: ...
+    @property
+    def first(self) -> Float64s: ...
+    @first.setter
+    def first(self, value: ArrayLike) -> None: ...
+    @property
+    def second(self) -> Float64s: ...
+    @second.setter
+    def second(self, value: ArrayLike) -> None: ...
+    @property
+    def quads(self) -> Int32s: ...
+    @quads.setter
+    def quads(self, value: ArrayLike) -> None: ...
+    @property
+    def inverted(self) -> Int32s: ...
+    @inverted.setter
+    def inverted(self, value: ArrayLike) -> None: ...
+
 class PrincipalDirections:
     def __init__(
         self, directions: ArrayLike = ..., curvatures: ArrayLike = ..., anisotropy: ArrayLike = ...
@@ -587,10 +632,31 @@ def direction_field(
     guide: DirectionGuide | None = None,
     progress: Progress | None = None,
 ) -> DirectionField: ...
+def non_orthogonal_field(
+    surface: SurfaceDomain | TriangleMesh,
+    *,
+    method: str = ...,
+    lambda_: float = ...,
+    weights: str = ...,
+    second_line: str = ...,
+    corner_angle: float = ...,
+    corners: ArrayLike | None = None,
+    least_angle: float = ...,
+    max_iterations: int = ...,
+    seed: int = ...,
+    inertia: float = ...,
+    penalty: float = ...,
+    tolerance: float = ...,
+    progress: Progress | None = None,
+) -> NonOrthogonalField: ...
 def vertex_directions(field: DirectionField) -> Float64s: ...
 def triangle_directions(field: DirectionField) -> Float64s: ...
+@overload
 def surface_singularities(field: DirectionField) -> SurfaceSingularities: ...
+@overload
+def surface_singularities(field: NonOrthogonalField) -> SurfaceSingularities: ...
 def principal_directions(surface: SurfaceDomain | TriangleMesh) -> PrincipalDirections: ...
+@overload
 def streamlines(
     field: DirectionField,
     singularities: SurfaceSingularities,
@@ -603,8 +669,32 @@ def streamlines(
     stop_at_features: bool = ...,
     singular_radius: float = ...,
 ) -> list[Streamline]: ...
+@overload
+def streamlines(
+    field: NonOrthogonalField,
+    singularities: SurfaceSingularities,
+    triangles: ArrayLike,
+    directions: ArrayLike,
+    weights: ArrayLike | None = None,
+    *,
+    max_length: float = ...,
+    both_ways: bool = ...,
+    stop_at_features: bool = ...,
+    singular_radius: float = ...,
+) -> list[Streamline]: ...
+@overload
 def separatrices(
     field: DirectionField,
+    singularities: SurfaceSingularities,
+    *,
+    max_length: float = ...,
+    stop_at_features: bool = ...,
+    singular_radius: float = ...,
+    progress: Progress | None = None,
+) -> list[Streamline]: ...
+@overload
+def separatrices(
+    field: NonOrthogonalField,
     singularities: SurfaceSingularities,
     *,
     max_length: float = ...,
@@ -1009,6 +1099,42 @@ class DirectionFieldOptions:
     def constraints(self) -> DirectionConstraints: ...
     @property
     def guide(self) -> DirectionGuide: ...
+
+non_orthogonal_field_methods: dict[str, str]
+"""What each method for non-orthogonal fields is, by its name."""
+
+class NonOrthogonalFieldOptions:
+    words: ClassVar[dict[str, list[str]]]
+    method: str
+    lambda_: float
+    weights: str
+    second_line: str
+    corner_angle: float
+    least_angle: float
+    max_iterations: int
+    seed: int
+    inertia: float
+    penalty: float
+    tolerance: float
+    def __init__(
+        self,
+        method: str = ...,
+        lambda_: float = ...,
+        weights: str = ...,
+        second_line: str = ...,
+        corner_angle: float = ...,
+        corners: ArrayLike = ...,
+        least_angle: float = ...,
+        max_iterations: int = ...,
+        seed: int = ...,
+        inertia: float = ...,
+        penalty: float = ...,
+        tolerance: float = ...,
+    ) -> None: ...
+    @property
+    def corners(self) -> Int32s: ...
+    @corners.setter
+    def corners(self, value: ArrayLike | None) -> None: ...
 
 class BoundaryOptions:
     words: ClassVar[dict[str, list[str]]]

@@ -16,6 +16,8 @@ void bind_surface_domain(pybind11::module_& module);
 void bind_surface(pybind11::module_& module);
 void bind_direction_field_types(pybind11::module_& module);
 void bind_direction_fields(pybind11::module_& module);
+void bind_non_orthogonal_types(pybind11::module_& module);
+void bind_non_orthogonal(pybind11::module_& module);
 void bind_streamlines(pybind11::module_& module);
 void bind_renormalised_energy(pybind11::module_& module);
 void bind_volume_types(pybind11::module_& module);

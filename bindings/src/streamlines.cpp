@@ -5,6 +5,7 @@
 #include "bind.hpp"
 #include "checks.hpp"
 #include "interruptible.hpp"
+#include "octafield/surface/non_orthogonal_streamlines.hpp"
 
 namespace octafield::bindings {
 
@@ -14,12 +15,13 @@ using py::literals::operator""_a;
 namespace {
 
 // What every curve is traced in; owned by the work that traces.
+template <class Field>
 struct Surroundings {
-    DirectionField field;
+    Field field;
     SurfaceSingularities singularities;
 
     void check_all() const {
-        check(field);
+        if constexpr (std::is_same_v<Field, DirectionField>) check(field);  // the other one's own functions do
         check(singularities, field.domain.mesh());
     }
 };
@@ -46,17 +48,37 @@ std::vector<StreamlineSeed> seeds_of(const std::vector<Index>& triangles, const 
     return seeds;
 }
 
-void bind_seeded(py::module_& m) {
+constexpr const char* of_seeds =
+    "One curve along the field per seed, as a list of Streamline. Seed i lies in triangles[i] and takes, of the N "
+    "directions there, the one nearest to directions[i]; weights: (n, 3) barycentric, the centroids if left out. "
+    "max_length: input unit, from the seed each way, 0 means 4 times octafield.surface.shape_size; both_ways: "
+    "against "
+    "the direction as well; singular_radius: a curve ends that near to a singular point, 0 means half the mean "
+    "edge length. Raises InvalidInput naming the seeds that are outside the mesh or have no direction in their "
+    "triangle's plane.";
+constexpr const char* of_seeds_non_orthogonal =
+    "Of a non-orthogonal field: its lines are two families, and each of the four directions at a seed may be given.";
+constexpr const char* of_points =
+    "From every singular point one curve for each direction that runs straight away from it, as a list of "
+    "Streamline: N - k for index k/N inside the surface (3 for index +1/4 and 5 for -1/4 of a cross field), the "
+    "directions between the two boundary edges for a point on the boundary. A feature edge along such a direction "
+    "is that separatrix itself and not traced. Options as for streamlines. Raises InvalidInput, Cancelled.";
+constexpr const char* of_points_non_orthogonal =
+    "Of a non-orthogonal field: 4 - t curves from a point of index t/4 inside the surface, quads - 1 from a boundary "
+    "vertex.";
+
+template <class Field>
+void bind_seeded(py::module_& m, const char* doc) {
     const StreamlineOptions defaults;
     m.def(
         "streamlines",
-        [](const DirectionField& field, const SurfaceSingularities& singularities, const ArrayLike& triangles,
+        [](const Field& field, const SurfaceSingularities& singularities, const ArrayLike& triangles,
            const ArrayLike& directions, const std::optional<ArrayLike>& weights, double max_length, bool both_ways,
            bool stop_at_features, double singular_radius) {
             std::optional<Points> barycentric;
             if (weights) barycentric = from_python<Points>(*weights, "weights");
             return run_interruptible(
-                [on = Surroundings{field, singularities},
+                [on = Surroundings<Field>{field, singularities},
                  seeds = seeds_of(from_python<std::vector<Index>>(triangles, "triangles"),
                                   from_python<Points>(directions, "directions"), barycentric),
                  options = tracing(max_length, both_ways, stop_at_features, singular_radius)](Job&) {
@@ -66,24 +88,18 @@ void bind_seeded(py::module_& m) {
         },
         "field"_a, "singularities"_a, "triangles"_a, "directions"_a, "weights"_a = py::none(), py::kw_only(),
         "max_length"_a = defaults.max_length, "both_ways"_a = defaults.both_ways,
-        "stop_at_features"_a = defaults.stop_at_features, "singular_radius"_a = defaults.singular_radius,
-        "One curve along the field per seed, as a list of Streamline. Seed i lies in triangles[i] and takes, of the N "
-        "directions there, the one nearest to directions[i]; weights: (n, 3) barycentric, the centroids if left out. "
-        "max_length: input unit, from the seed each way, 0 means 4 times octafield.surface.shape_size; both_ways: "
-        "against "
-        "the direction as well; singular_radius: a curve ends that near to a singular point, 0 means half the mean "
-        "edge length. Raises InvalidInput naming the seeds that are outside the mesh or have no direction in their "
-        "triangle's plane.");
+        "stop_at_features"_a = defaults.stop_at_features, "singular_radius"_a = defaults.singular_radius, doc);
 }
 
-void bind_separatrices(py::module_& m) {
+template <class Field>
+void bind_separatrices(py::module_& m, const char* doc) {
     const StreamlineOptions defaults;
     m.def(
         "separatrices",
-        [](const DirectionField& field, const SurfaceSingularities& singularities, double max_length,
-           bool stop_at_features, double singular_radius, const std::optional<ProgressCallable>& progress) {
+        [](const Field& field, const SurfaceSingularities& singularities, double max_length, bool stop_at_features,
+           double singular_radius, const std::optional<ProgressCallable>& progress) {
             return run_interruptible(
-                [on = Surroundings{field, singularities},
+                [on = Surroundings<Field>{field, singularities},
                  options = tracing(max_length, false, stop_at_features, singular_radius)](Job& job) {
                     on.check_all();
                     return separatrices(on.field, on.singularities, options, job.progress());
@@ -92,11 +108,7 @@ void bind_separatrices(py::module_& m) {
         },
         "field"_a, "singularities"_a, py::kw_only(), "max_length"_a = defaults.max_length,
         "stop_at_features"_a = defaults.stop_at_features, "singular_radius"_a = defaults.singular_radius,
-        "progress"_a = py::none(),
-        "From every singular point one curve for each direction that runs straight away from it, as a list of "
-        "Streamline: N - k for index k/N inside the surface (3 for index +1/4 and 5 for -1/4 of a cross field), the "
-        "directions between the two boundary edges for a point on the boundary. A feature edge along such a direction "
-        "is that separatrix itself and not traced. Options as for streamlines. Raises InvalidInput, Cancelled.");
+        "progress"_a = py::none(), doc);
 }
 
 void bind_even(py::module_& m) {
@@ -112,7 +124,7 @@ void bind_even(py::module_& m) {
                 .min_length = finite(min_length, "min_length"),
                 .tracing = tracing(max_length, both_ways, stop_at_features, singular_radius)};
             return run_interruptible(
-                [on = Surroundings{field, singularities}, options](Job& job) {
+                [on = Surroundings<DirectionField>{field, singularities}, options](Job& job) {
                     on.check_all();
                     return even_streamlines(on.field, on.singularities, options, job.progress());
                 },
@@ -134,8 +146,10 @@ void bind_even(py::module_& m) {
 }  // namespace
 
 void bind_streamlines(py::module_& m) {
-    bind_seeded(m);
-    bind_separatrices(m);
+    bind_seeded<DirectionField>(m, of_seeds);
+    bind_seeded<NonOrthogonalField>(m, of_seeds_non_orthogonal);
+    bind_separatrices<DirectionField>(m, of_points);
+    bind_separatrices<NonOrthogonalField>(m, of_points_non_orthogonal);
     bind_even(m);
 }
 

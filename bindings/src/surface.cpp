@@ -275,6 +275,7 @@ void bind_surface(py::module_& m) {
     bind_features(m);
     bind_remesh(m);
     bind_direction_fields(m);
+    bind_non_orthogonal(m);
     bind_streamlines(m);
     bind_renormalised_energy(m);
 }

@@ -10,6 +10,7 @@
 
 #include "octafield/error.hpp"
 #include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/non_orthogonal_field.hpp"
 #include "octafield/surface/streamlines.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/hex_dominant.hpp"
@@ -28,6 +29,18 @@ struct Words<surface::Alignment> {
     using E = surface::Alignment;
     static constexpr std::array<std::pair<const char*, E>, 3> list{
         {{"strong", E::strong}, {"weak", E::weak}, {"none", E::none}}};
+};
+
+template <>
+struct Words<surface::SecondLine> {
+    using E = surface::SecondLine;
+    static constexpr std::array<std::pair<const char*, E>, 2> list{{{"fixed", E::fixed}, {"free", E::free}}};
+};
+
+template <>
+struct Words<surface::EdgeWeights> {
+    using E = surface::EdgeWeights;
+    static constexpr std::array<std::pair<const char*, E>, 2> list{{{"cotangent", E::cotangent}, {"unit", E::unit}}};
 };
 
 template <>

@@ -78,6 +78,7 @@ def objects(field, tmp_path_factory):
         of.volume.SmoothOptions(tolerance=1e-5), of.volume.DiffuseOptions(max_steps=3),
         of.volume.FrameFieldOptions(rounds=1), of.volume.BoundaryOptions(feature_tolerance=0.2),
         of.surface.DirectionFieldOptions(symmetry=6), of.surface.FeatureOptions(angle=0.5),
+        of.surface.non_orthogonal_field(generate("torus")), of.surface.NonOrthogonalFieldOptions(corners=[[0, 1]]),
         of.surface.RemeshOptions(edge_length=0.3), of.surface.SizeFieldOptions(max_cells=1000),
         *of.volume.schemes.values(),
         of.MeshOptions(repair=True), of.FieldOptions(seed=3), of.SurfaceFieldOptions(symmetry=6),

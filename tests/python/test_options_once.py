@@ -22,6 +22,7 @@ STRUCTS = {
     "boundary_constraints": [of.volume.BoundaryOptions],
     "tet_boundary_constraints": [of.volume.BoundaryOptions],
     "direction_field": [of.surface.DirectionFieldOptions],
+    "non_orthogonal_field": [of.surface.NonOrthogonalFieldOptions],
     "detect_features": [of.surface.FeatureOptions],
     "remesh": [of.surface.RemeshOptions],
     "size_field": [of.surface.SizeFieldOptions],
@@ -52,7 +53,7 @@ def test_a_function_refuses_what_is_no_option(function):
     box = generate("box")
     arguments = {
         "detect_features": [box], "remesh": [box, of.FeatureGraph()], "size_field": [box, of.FeatureGraph()],
-        "direction_field": [box],
+        "direction_field": [box], "non_orthogonal_field": [box],
     }  # fmt: skip
     tets = of.volume.tetrahedralize(box)
     given = arguments.get(function) or (

@@ -247,3 +247,19 @@ def test_the_study_of_reliability_tells_right_sums_and_refused_files(tmp_path):
     assert {(line["file"], line["chi"]) for line in table} == {("sphere.obj", "2"), ("torus.ply", "0")}
     (refused,) = rows(tmp_path / "out", 1)
     assert refused["file"] == "bad.obj" and refused["kind"] == "degenerate_triangle"
+
+
+def test_non_orthogonal_crosses_have_the_points_of_the_thesis(tmp_path):
+    run("surface_non_orthogonal.py", tmp_path, "--edge", "0.08")
+    found = {}
+    for row in rows(tmp_path, 0):
+        assert row["sum is chi"] == "yes"
+        if row["method, second line"] == "angles, fixed":
+            found[row["domain"]] = row["points inside"]
+    for degrees in (50, 46, 44, 40, 30, 20):
+        assert found[f"right trapezoid, {degrees} degrees"] == ("none" if degrees > 45 else "1 of t = +1")
+    assert found["diamond, 60 degrees"] == found["diamond, 28.65 degrees, one quad at every corner"] == "none"
+    assert found["diamond, 28.65 degrees, quads by angle"] == "2 of t = +1"
+    assert found["disk"] == "4 of t = +1"
+    for name in ("trapezoids", "diamond", "disk", "shuriken", "aerofoil"):
+        assert is_picture(tmp_path / f"non_orthogonal_{name}.png")

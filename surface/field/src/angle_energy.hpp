@@ -10,6 +10,8 @@ namespace octafield::surface::detail {
 
 class AngleEnergy {
 public:
+    using State = Eigen::VectorXcd;  // f (E)
+
     // Keeps a reference to problem, whose system must not be empty.
     explicit AngleEnergy(const Problem& problem);
 

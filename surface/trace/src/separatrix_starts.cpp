@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "unfolded_patch.hpp"
+#include "walk_straight.hpp"
 
 namespace octafield::surface::detail {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 // Directions at a vertex nearer than this (radians) to a feature edge are the feature's.
 constexpr double feature_width = 0.05;
-constexpr int most_walked = 200;  // triangles
 
 // Round a vertex: g = N times the angle of the field from the edge that leaves it at angle phi, without jumps from one
 // edge to the next; between them it runs from one value to the other. The field points away where g is a multiple of
@@ -74,33 +74,6 @@ std::vector<double> fitted_round(const std::vector<Sample>& samples, int count) 
         sum += weight * std::polar(1.0, samples[i].g + 2 * pi * count * samples[i].phi / total);
     }
     return even_angles(std::arg(sum), count, total);
-}
-
-// From `place` straight ahead for `length`, less where a feature or the boundary is in the way. Moves the place, and
-// adds the end of each segment and its triangle.
-void walk_straight(const ChartedField& field, const DirectionTracer& tracer, double length, Place& place,
-                   std::vector<Eigen::Vector3d>& points, std::vector<Index>& triangles) {
-    int entry = -1;
-    const auto go = [&](Complex to) {
-        place.at = to;
-        points.push_back(field.lift(place.triangle, to));
-        triangles.push_back(place.triangle);
-    };
-    for (int steps = 0; steps < most_walked; ++steps) {
-        const ChartedField::Exit out = field.exit(place.triangle, place.at, place.heading, entry);
-        if (out.side < 0) return;
-        if (out.distance > length) return go(place.at + length * place.heading);
-        const ChartedField::Side here{place.triangle, out.side}, there = field.across(here);
-        if (there.triangle < 0 || tracer.is_feature(field.topology().triangle_edges(place.triangle, out.side)))
-            return go(place.at + out.distance / 2 * place.heading);
-        go(place.at + out.distance * place.heading);
-        length -= out.distance;
-        const Complex along = field.side(here.triangle, here.side);
-        const double fraction = dot(along, place.at - field.corners(here.triangle)[here.side]) / std::norm(along);
-        place = {there.triangle, field.on_side(there.triangle, there.side, 1 - fraction),
-                 field.carried(place.heading, here, there)};
-        entry = there.side;
-    }
 }
 
 }  // namespace

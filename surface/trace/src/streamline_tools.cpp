@@ -9,21 +9,12 @@ namespace octafield::surface::detail {
 namespace {
 
 void check(const DirectionField& field, const SurfaceSingularities& singularities, const StreamlineOptions& options) {
-    const TriangleMesh& mesh = field.domain.mesh();
     if (field.values.size() != field.domain.edge_count())
         throw InvalidInput("the direction field has " + std::to_string(field.values.size()) +
                                " values; give one per edge, " + std::to_string(field.domain.edge_count()),
                            "wrong_size");
     if (!field.values.allFinite()) throw InvalidInput("the direction field is not finite", "not_finite");
-    for (const SurfaceSingularity& point : singularities.points)
-        if (point.triangle >= mesh.triangles.rows() || point.vertex >= mesh.vertices.rows() ||
-            (point.triangle < 0 && point.vertex < 0))
-            throw InvalidInput("a singular point lies in triangle " + std::to_string(point.triangle) + ", vertex " +
-                                   std::to_string(point.vertex) + ", which the mesh does not have",
-                               "wrong_mesh");
-    for (const double length : {options.max_length, options.singular_radius})
-        if (!(length >= 0) || !std::isfinite(length))
-            throw InvalidInput("max_length and singular_radius must be lengths, or 0 for the default");
+    check_tracing(field.domain.mesh(), singularities, options);
 }
 
 std::vector<CornerLink> checked_links(const DirectionField& field, const SurfaceSingularities& singularities,
@@ -41,6 +32,45 @@ DirectionField half_turned(const DirectionField& field) {
 }
 
 }  // namespace
+
+void check_tracing(const TriangleMesh& mesh, const SurfaceSingularities& singularities,
+                   const StreamlineOptions& options) {
+    for (const SurfaceSingularity& point : singularities.points)
+        if (point.triangle >= mesh.triangles.rows() || point.vertex >= mesh.vertices.rows() ||
+            (point.triangle < 0 && point.vertex < 0))
+            throw InvalidInput("a singular point lies in triangle " + std::to_string(point.triangle) + ", vertex " +
+                                   std::to_string(point.vertex) + ", which the mesh does not have",
+                               "wrong_mesh");
+    for (const double length : {options.max_length, options.singular_radius})
+        if (!(length >= 0) || !std::isfinite(length))
+            throw InvalidInput("max_length and singular_radius must be lengths, or 0 for the default");
+}
+
+void prepend(TracedCurve& curve, const SeparatrixStart& start) {
+    for (std::size_t i = 0; i + 1 < start.points.size(); ++i)
+        curve.length += (start.points[i + 1] - start.points[i]).norm();
+    curve.points.insert(curve.points.begin(), start.points.begin(), start.points.end() - 1);
+    curve.triangles.insert(curve.triangles.begin(), start.triangles.begin(), start.triangles.end());
+}
+
+void cut(TracedCurve& curve, double most) {
+    if (curve.length <= most) return;
+    double length = 0;
+    std::size_t last = 0;  // the point reached
+    for (; last + 1 < curve.points.size(); ++last) {
+        const Eigen::Vector3d along = curve.points[last + 1] - curve.points[last];
+        if (length + along.norm() > most) {
+            curve.points[last + 1] = curve.points[last] + (most - length) / along.norm() * along;
+            break;
+        }
+        length += along.norm();
+    }
+    curve.points.resize(std::min(last + 2, curve.points.size()));
+    curve.triangles.resize(curve.points.size() - 1);
+    curve.length = most;
+    curve.end = StreamlineEnd::length;
+    curve.singularity = -1;
+}
 
 Streamline joined(const TracedCurve& back, const TracedCurve& ahead) {
     Streamline line;

@@ -2,13 +2,56 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "direction_tracer.hpp"
+#include "octafield/error.hpp"
+#include "separatrix_starts.hpp"
 
 namespace octafield::surface::detail {
 
 // One polyline of two curves from the same place, `back` against the direction.
 Streamline joined(const TracedCurve& back, const TracedCurve& ahead);
+
+// Puts the straight way from the singular point before the curve that begins at its end.
+void prepend(TracedCurve& curve, const SeparatrixStart& start);
+
+// No longer than `most`.
+void cut(TracedCurve& curve, double most);
+
+// Throws InvalidInput where singular points are not on the mesh (kind "wrong_mesh") and for options that are no
+// lengths.
+void check_tracing(const TriangleMesh& mesh, const SurfaceSingularities& singularities,
+                   const StreamlineOptions& options);
+
+// Throws InvalidInput (kind "bad_seed", elements: places of the seeds).
+template <TracedField Field>
+std::vector<Place> seed_places(const Field& field, const std::vector<StreamlineSeed>& seeds) {
+    const Eigen::Index count = field.mesh().triangles.rows();
+    std::vector<Place> places;
+    std::vector<Index> bad;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+        const StreamlineSeed& seed = seeds[i];
+        const bool usable = seed.triangle >= 0 && seed.triangle < count && seed.weights.minCoeff() >= 0 &&
+                            std::abs(seed.weights.sum() - 1) < 1e-6;
+        const Complex along = usable ? field.lower_vector(seed.triangle, seed.direction.stableNormalized()) : 0;
+        if (!(std::abs(along) > 1e-9)) {
+            bad.push_back(static_cast<Index>(i));
+            continue;
+        }
+        const auto& corners = field.corners(seed.triangle);
+        // A little towards the middle: seeds at vertices and on edges start inside.
+        const Eigen::Vector3d weights = (1 - 1e-6) * seed.weights + Eigen::Vector3d::Constant(1e-6 / 3);
+        const Complex at = weights[1] * corners[1] + weights[2] * corners[2];
+        places.push_back({seed.triangle, at, field.direction(seed.triangle, at, along / std::abs(along))});
+    }
+    if (!bad.empty())
+        throw InvalidInput(std::to_string(bad.size()) + " seeds (" + first_few(bad) +
+                               ") are outside the mesh, which has " + std::to_string(count) +
+                               " triangles, or have no direction in their triangle's plane",
+                           "bad_seed", bad);
+    return places;
+}
 
 class TwoWayTracer {
 public:
