@@ -1,5 +1,5 @@
-// A triangle surface refined by bisection of longest edges (Rivara 1984): the shape stays, angles keep a lower bound,
-// and there are no hanging vertices.
+// A triangle surface with vertices put in given places, refined by bisection of longest edges (Rivara 1984): the shape
+// stays, angles keep a lower bound, and there are no hanging vertices.
 #pragma once
 
 #include <array>
@@ -31,30 +31,38 @@ public:
         std::array<Vector, 3> weights;    // of corner k, barycentric in the origin
     };
 
+    // Throws InvalidInput (kind "coincident_points", elements: places) where two are at the same vertex.
     BisectedMesh(const SurfaceDomain& domain, std::vector<Place> places);
 
     const std::vector<Triangle>& triangles() const { return triangles_; }
-    const std::vector<Vector>& positions() const { return positions_; }
-    const std::vector<Place>& places() const { return places_; }  // in the triangles as they are now
-    Vector position(const Place& place) const;
+    const std::vector<Vector>& positions() const { return positions_; }     // vertices of the input first
+    const std::vector<Index>& centres() const { return centres_; }          // the vertex at each place
+    Index triangle_at(Index vertex) const { return triangle_at_[vertex]; }  // one of those there
     Vector corner(Index t, int k) const { return positions_[triangles_[t].corners[k]]; }
-    double length(Index t, int k) const { return (corner(t, (k + 1) % 3) - corner(t, k)).norm(); }
     double longest(Index t) const { return length(t, longest_side(t)); }
-    int side_to(Index t, Index neighbour,
-                Index from) const;  // the side of t at `neighbour` that starts at vertex `from`
 
-    // Bisects the longest edge at the end of the path from t to ever longer edges: t itself, or something beside it
-    // that has to go before.
-    void bisect(Index t);
+    // Bisects longest edges until t is bisected: first those at the end of the path from t to ever longer ones. With
+    // keep_spokes, triangles at a centre are bisected at the side opposite to it, however long the others are: sizes
+    // beyond the star shrink against it.
+    void bisect(Index t, bool keep_spokes = false);
 
 private:
+    double length(Index t, int k) const { return (corner(t, (k + 1) % 3) - corner(t, k)).norm(); }
     int longest_side(Index t) const;
-    void split_side(Index t, int k, Index middle, Index half);
-    void move_places(Index t, int k, Index half);
+    int bisected_side(Index t, bool keep_spokes) const;
+    int side_to(Index t, Index neighbour, Index from) const;
+    Index add_vertex(Index t, const Vector& weights);
+    void insert(const Place& place);
+    void split_inside(Index t, const Vector& weights);
+    void split_edge(Index t, int k, double fraction);
+    void split_side(Index t, int k, double fraction, Index vertex, Index half);
 
     std::vector<Triangle> triangles_;
     std::vector<Vector> positions_;
-    std::vector<Place> places_;
+    std::vector<Index> triangle_at_;
+    std::vector<Place> waiting_;  // to be inserted, in the triangles as they are; triangle -1: done
+    std::vector<Index> centres_;
+    std::vector<bool> is_centre_;  // (vertices)
 };
 
 }  // namespace octafield::surface::detail

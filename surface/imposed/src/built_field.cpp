@@ -69,7 +69,7 @@ BuiltField built_field(const SurfaceDomain& input, const Imposed& imposed) {
                 throw SolverError("crosses turn by more than an eighth of a turn in triangles " + first_few(origins) +
                                       " however they are refined; remesh the surface there",
                                   "unresolved_turns", origins);
-            for (const Index part : parts) mesh.bisect(part);
+            for (const Index part : parts) mesh.bisect(part, true);
             continue;
         }
         for (std::size_t c = 0; c < turns.size(); ++c)

@@ -16,8 +16,11 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double done = 1e-10, good_enough = 1e-3;  // radians; what is left of it is rotated away
 constexpr double longest_step = 0.1;                // of the surface's size
+constexpr double most_approach = 0.02;              // of two points, as part of their distance
 constexpr int most_halvings = 8;
 constexpr int most_crossed = 100000;
+constexpr const char* move_remedy =
+    "place them nearer to a symmetric pattern, add a pair of valence 3 and 5, or let the field be rotated";
 
 // n x gradient of the form at vertex `centre`: mean over the triangles there, weighted by area.
 std::vector<Vector> turned_gradients(const BuiltField& built, const Eigen::VectorXd& form) {
@@ -105,6 +108,22 @@ Eigen::MatrixXd jacobian(const BuiltField& built, const std::vector<int>& indice
 
 double size_of(const Eigen::VectorXd& rotations) { return rotations.size() ? rotations.cwiseAbs().maxCoeff() : 0; }
 
+// Two points of opposite index that have nearly cancelled each other are no solution.
+void require_apart(const BuiltField& before, const BuiltField& after, std::size_t count) {
+    const auto distance = [&](const BuiltField& built, std::size_t i, std::size_t j) {
+        return (built.domain.mesh().vertices.row(built.ringed.centres[i]) -
+                built.domain.mesh().vertices.row(built.ringed.centres[j]))
+            .norm();
+    };
+    for (std::size_t j = 0; j < count; ++j)
+        for (std::size_t i = 0; i < j; ++i)
+            if (distance(after, i, j) < most_approach * distance(before, i, j))
+                throw SolverError("moving the singular points to make the pattern admissible runs points " +
+                                      std::to_string(i) + " and " + std::to_string(j) + " into one another; " +
+                                      move_remedy,
+                                  "move_failed", {static_cast<Index>(i), static_cast<Index>(j)});
+}
+
 }  // namespace
 
 MovedPoints moved_points(const SurfaceDomain& input, Imposed& imposed, std::size_t count, BuiltField built,
@@ -113,6 +132,7 @@ MovedPoints moved_points(const SurfaceDomain& input, Imposed& imposed, std::size
     std::vector<bool> moves(count);
     for (std::size_t j = 0; j < count; ++j)
         moves[j] = imposed.indices[j] != 0 && !built.structure.on_boundary[built.ringed.centres[j]];
+    const BuiltField first = built;
     std::vector<double> moved(count, 0);
     int steps = 0;
     while (size_of(built.rotations) > done && steps < options.max_steps) {
@@ -149,16 +169,12 @@ MovedPoints moved_points(const SurfaceDomain& input, Imposed& imposed, std::size
     }
     const double rest = size_of(built.rotations);
     if (rest > std::min(good_enough, options.tolerance)) {
-        std::vector<Index> left;
-        for (Eigen::Index i = 0; i < built.rotations.size(); ++i)
-            if (std::abs(built.rotations[i]) > good_enough) left.push_back(static_cast<Index>(i));
-        throw SolverError(
-            "moving the singular points did not make the pattern admissible: after " + std::to_string(steps) +
-                " steps " + std::to_string(rest * 180 / pi) +
-                " degrees are left; place them nearer to a symmetric pattern, add a pair of valence 3 and "
-                "5, or let the field be rotated",
-            "move_failed", left);
+        throw SolverError("moving the singular points did not make the pattern admissible: after " +
+                              std::to_string(steps) + " steps " + std::to_string(rest * 180 / pi) +
+                              " degrees are left; " + move_remedy,
+                          "move_failed");
     }
+    require_apart(first, built, count);
     return {std::move(built), steps, moved.empty() ? 0 : *std::max_element(moved.begin(), moved.end())};
 }
 

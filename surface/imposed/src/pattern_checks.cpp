@@ -103,16 +103,18 @@ void require_index_sums(const Structure& structure, const Imposed& imposed, std:
         if (deficit == 0) continue;
         const std::string part =
             sums.size() > 1 ? " of the part with triangle " + std::to_string(component.triangle) : std::string();
-        throw InvalidInput(
-            "the indices" + part + ", corners included, sum to " + std::to_string(sums[c]) +
-                "/4, but must sum to the Euler characteristic, " + std::to_string(4 * component.euler_characteristic) +
-                "/4: " + std::to_string(std::abs(deficit)) + "/4 too " + (deficit > 0 ? "little" : "much") + "; " +
-                (deficit > 0 ? "add" : "remove") + " " + std::to_string(std::abs(deficit)) +
-                " points of valence 3, or " + (deficit > 0 ? "remove" : "add") + " as many of valence 5" +
-                (component.curves.empty() ? ""
-                 : deficit > 0            ? ", or give corners fewer quads"
-                                          : ", or give corners more quads"),
-            "index_sum", {component.triangle});
+        const std::string count = std::to_string(std::abs(deficit));
+        const std::string points = count + (count == "1" ? " point" : " points");
+        const bool little = deficit > 0;
+        throw InvalidInput("the indices" + part + ", corners included, sum to " + std::to_string(sums[c]) +
+                               "/4, but must sum to the Euler characteristic, " +
+                               std::to_string(4 * component.euler_characteristic) + "/4: " + count + "/4 too " +
+                               (little ? "little; add " : "much; remove ") + points + " of valence 3, or " +
+                               (little ? "remove" : "add") + " as many of valence 5" +
+                               (component.curves.empty() ? ""
+                                : little                 ? ", or give corners fewer quads"
+                                                         : ", or give corners more quads"),
+                           "index_sum", {component.triangle});
     }
 }
 

@@ -51,7 +51,7 @@ private:
     std::vector<Source> sources_;
     std::vector<bool> in_star_;
     std::vector<std::array<Index, 3>> triangles_;
-    std::vector<Index> origins_, parts_, centres_;
+    std::vector<Index> origins_, parts_;
     std::vector<std::pair<Index, Index>> features_;
     std::map<std::pair<Index, Index>, std::vector<Index>> on_edges_;  // from lower to higher vertex
     double widest_ = 0;                                               // farthest end of the star at work
@@ -97,10 +97,11 @@ std::vector<double> Rings::radii(const Star& star, double end) const {
 
 Rings::Spoke Rings::spoke_to(const Star& star, const Star::Part& part, const Vector& end_weights, Index end) {
     Spoke spoke{end, {}};
-    const double length = (positions_[end] - star.centre).norm();
+    const Vector centre = Vector::Unit((part.side + 2) % 3);
+    const double length = (positions_[end] - star.position).norm();
     for (const double radius : radii(star, length)) {
         const double fraction = radius / length;
-        spoke.inner.push_back(add_vertex(part.triangle, (1 - fraction) * part.weights + fraction * end_weights));
+        spoke.inner.push_back(add_vertex(part.triangle, (1 - fraction) * centre + fraction * end_weights));
     }
     return spoke;
 }
@@ -122,9 +123,7 @@ void Rings::add_sector(Index part, Index centre, const Spoke& first, const Spoke
 }
 
 void Rings::add_star(const Star& star, int index) {
-    const Star::Part& any = star.parts.front();
-    const Index centre = star.vertex >= 0 ? star.vertex : add_vertex(any.triangle, any.weights);
-    centres_.push_back(centre);
+    const Index centre = star.centre;
     // The load of the vertex (see size_potential.hpp) turns the field; by an eighth of a turn per sector at most.
     const double load = (star.boundary ? pi : 2 * pi) - star.angle - pi / 2 * index;
     const double round = star.boundary ? 2 * pi : star.angle;
@@ -132,7 +131,7 @@ void Rings::add_star(const Star& star, int index) {
     widest_ = 0;
     for (const Star::Part& part : star.parts)
         for (int k = 0; k < 2; ++k)
-            widest_ = std::max(widest_, (bisected_.corner(part.triangle, (part.side + k) % 3) - star.centre).norm());
+            widest_ = std::max(widest_, (bisected_.corner(part.triangle, (part.side + k) % 3) - star.position).norm());
 
     std::map<Index, Spoke> shared;  // to the ends of the sides
     for (const Star::Part& part : star.parts) {
@@ -146,8 +145,8 @@ void Rings::add_star(const Star& star, int index) {
                             .first;
             return place->second;
         };
-        const Vector a = bisected_.corner(part.triangle, ka) - star.centre;
-        const Vector b = bisected_.corner(part.triangle, kb) - star.centre;
+        const Vector a = bisected_.corner(part.triangle, ka) - star.position;
+        const Vector b = bisected_.corner(part.triangle, kb) - star.position;
         const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
         const int count = std::max(1, static_cast<int>(std::ceil(angle * density - 0.2)));
         std::vector<Index> points;
@@ -242,7 +241,7 @@ RingedMesh Rings::result() && {
     }
     result.origins = std::move(origins_);
     result.parts = std::move(parts_);
-    result.centres = std::move(centres_);
+    result.centres = bisected_.centres();
     return result;
 }
 
@@ -250,7 +249,7 @@ RingedMesh Rings::result() && {
 
 RingedMesh ringed(const BisectedMesh& mesh, const std::vector<int>& indices, const RingOptions& options) {
     Rings rings(mesh, options);
-    for (std::size_t i = 0; i < indices.size(); ++i) rings.add_star(star_of(mesh, mesh.places()[i]), indices[i]);
+    for (std::size_t i = 0; i < indices.size(); ++i) rings.add_star(star_of(mesh, mesh.centres()[i]), indices[i]);
     rings.add_others();
     return std::move(rings).result();
 }

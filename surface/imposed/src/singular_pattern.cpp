@@ -14,6 +14,15 @@ namespace {
 using Vector = Eigen::Vector3d;
 constexpr double farthest = 1e-3;  // of the surface's size
 
+// On an edge, or at a vertex, of the boundary: a point beyond it has its nearest place there.
+bool on_boundary(const SurfaceDomain& domain, const ImposedPoint& point) {
+    for (int k = 0; k < 3; ++k)
+        if (point.weights[(k + 2) % 3] == 0 &&
+            domain.topology().edge_triangles.row(domain.topology().triangle_edges(point.triangle, k)).minCoeff() < 0)
+            return true;
+    return false;
+}
+
 // Barycentric coordinates of the triangle's point nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
 Vector nearest_weights(const Vector& p, const Vector& a, const Vector& b, const Vector& c) {
     const Vector ab = b - a, ac = c - a;
@@ -73,7 +82,9 @@ ImposedPoint imposed_point(const SurfaceDomain& domain, const Eigen::Vector3d& p
         best.weights = weights;
         least = distance;
     }
-    if (best.triangle < 0 || least > farthest * domain.size())
+    double most = farthest * domain.size();
+    if (best.triangle >= 0 && !on_boundary(domain, best)) most = std::max(most, domain.mean_edge_length() / 2);
+    if (best.triangle < 0 || least > most)
         throw InvalidInput("the point (" + short_number(position[0]) + ", " + short_number(position[1]) + ", " +
                                short_number(position[2]) + ") is not on the surface" +
                                (best.triangle < 0 ? std::string(", which has no triangles")

@@ -66,8 +66,7 @@ TEST(ImposedConditions, RotationMakesBothCirclesFollowed) {
     EXPECT_EQ(singularities.points.size(), 8u);
     EXPECT_TRUE(singularities.agree);
     std::map<Index, int> expected;
-    for (std::size_t i = 0; i < 8; ++i)
-        expected[field.point_vertices[i]] = field.pattern.points[i].index_times_four;
+    for (std::size_t i = 0; i < 8; ++i) expected[field.point_vertices[i]] = field.pattern.points[i].index_times_four;
     EXPECT_EQ(found_indices(field.field), expected);
 }
 
@@ -124,7 +123,8 @@ TEST(ImposedConditions, EightPointsRoundTwoHolesAreMoved) {
                 before.conditions[1].angle / degree);
     EXPECT_GT(std::abs(before.conditions[0].angle), degree);
     const ImposedField field = impose_singular_points(domain, pattern, move);
-    std::printf("moved: %d steps, %.4f, left %.2e %.2e\n", field.steps, field.largest_move, field.conditions[0].angle, field.conditions[1].angle);
+    std::printf("moved: %d steps, %.4f, left %.2e %.2e\n", field.steps, field.largest_move, field.conditions[0].angle,
+                field.conditions[1].angle);
     for (const HolonomyCondition& c : field.conditions) {
         EXPECT_TRUE(c.boundary);
         EXPECT_LT(std::abs(c.angle), 1e-6);

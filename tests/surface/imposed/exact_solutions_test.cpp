@@ -19,8 +19,13 @@ TEST(ImposedOnDisk, PotentialConvergesToTheClosedForm) {
         const SurfaceDomain domain(disk(rings));
         const ImposedField field = impose_singular_points(domain, pattern_of(domain, sources));
         const Errors errors = potential_errors(
-            field, [&](const Vector& x) { return disk_potential(sources, {x[0], x[1]}); }, farther(sources, 0.1));
-        std::printf("disk %d vertices: %.2e %.2e closure %.1e\n", domain.vertex_count(), errors.largest, errors.root_mean_square, field.closure);
+            field,
+            [&](const Vector& x) {
+                return disk_potential(sources, {x[0], x[1]});
+            },
+            farther(sources, 0.1));
+        std::printf("disk %d vertices: %.2e %.2e closure %.1e\n", domain.vertex_count(), errors.largest,
+                    errors.root_mean_square, field.closure);
         EXPECT_LT(errors.largest, largest[level]);
         EXPECT_LT(errors.root_mean_square, mean[level]);
         EXPECT_LT(field.closure, 1e-9);
@@ -105,6 +110,41 @@ TEST(ImposedOnAnnulus, WithoutPointsSizeIsTheRadius) {
         EXPECT_LT(errors.largest, largest[level++]);
         ASSERT_EQ(field.conditions.size(), 1u);
         EXPECT_LT(std::abs(field.conditions[0].angle), 1e-9);
+    }
+}
+
+// int exp(-H) ds on the line from a, where the size goes as a power of the distance, to b.
+double parameter_length(const ImposedField& field, Complex a, Complex b) {
+    const SurfaceDomain& domain = field.field.domain;
+    const int samples = 300;
+    double sum = 0;
+    for (int i = 0; i < samples; ++i) {
+        const double s = (i + 0.5) / samples;
+        const ImposedPoint at = imposed_point(domain, in_plane(a + (b - a) * s * s * s), 0);
+        double h = 0;
+        for (int k = 0; k < 3; ++k) h += at.weights[k] * field.log_size[domain.mesh().triangles(at.triangle, k)];
+        sum += std::exp(-h) * 3 * s * s / samples;
+    }
+    return std::abs(b - a) * sum;
+}
+
+// n kites, each conformally a square, for the centre of valence n.
+TEST(ImposedOnPolygons, HalfSideAndApothemAreOfOneLength) {
+    for (const int n : {3, 5, 6, 8}) {
+        const SurfaceDomain domain(polygon(n, 96 / n));
+        SingularPattern pattern;
+        if (n != 4) pattern.points.push_back(imposed_point(domain, Vector::Zero(), 4 - n));
+        for (int i = 0; i < n; ++i) pattern.corners.push_back({0, 1});
+        for (int i = 0; i < n; ++i) {
+            const Vector corner = in_plane(std::polar(1.0, 2 * pi * i / n));
+            for (Index v = 0; v < domain.vertex_count(); ++v)
+                if ((domain.mesh().vertices.row(v).transpose() - corner).norm() < 1e-9) pattern.corners[i].vertex = v;
+        }
+        const ImposedField field = impose_singular_points(domain, pattern);
+        const Complex corner = 1, middle = (corner + std::polar(1.0, 2 * pi / n)) / 2.0;
+        const double ratio = parameter_length(field, corner, middle) / parameter_length(field, 0, middle);
+        std::printf("polygon %d: %.4f\n", n, ratio);
+        EXPECT_NEAR(ratio, 1, 0.015) << n;
     }
 }
 

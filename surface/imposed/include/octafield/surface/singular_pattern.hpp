@@ -48,8 +48,9 @@ struct CornerChoice {
 };
 CornerChoice fewest_points_corner_quads(const SurfaceDomain& domain);
 
-// The nearest place of the surface. Throws InvalidInput (kind "outside_surface") for one farther than 1e-3 of the
-// surface's size (shape_size) from it. Linear in the triangles.
+// The nearest place of the surface. Throws InvalidInput (kind "outside_surface") for a point farther from it than half
+// the mean edge length, or than 1e-3 of the surface's size (shape_size) if that is more or the place is on the
+// boundary. Linear in the triangles.
 ImposedPoint imposed_point(const SurfaceDomain& domain, const Eigen::Vector3d& position, int index_times_four);
 ImposedPoint imposed_at_vertex(const SurfaceDomain& domain, Index vertex, int index_times_four);
 Eigen::Vector3d position(const SurfaceDomain& domain, const ImposedPoint& point);
