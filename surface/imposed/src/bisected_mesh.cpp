@@ -103,6 +103,11 @@ int BisectedMesh::longest_side(Index t) const {
     return best;
 }
 
+bool BisectedMesh::at_centre(Index t) const {
+    return std::any_of(triangles_[t].corners.begin(), triangles_[t].corners.end(),
+                       [&](Index v) { return is_centre_[v]; });
+}
+
 int BisectedMesh::bisected_side(Index t, bool keep_spokes) const {
     for (int k = 0; keep_spokes && k < 3; ++k)
         if (is_centre_[triangles_[t].corners[k]]) return (k + 1) % 3;

@@ -38,6 +38,7 @@ public:
     const std::vector<Vector>& positions() const { return positions_; }     // vertices of the input first
     const std::vector<Index>& centres() const { return centres_; }          // the vertex at each place
     Index triangle_at(Index vertex) const { return triangle_at_[vertex]; }  // one of those there
+    bool at_centre(Index t) const;                                          // whether one is a corner of t
     Vector corner(Index t, int k) const { return positions_[triangles_[t].corners[k]]; }
     double longest(Index t) const { return length(t, longest_side(t)); }
 

@@ -16,6 +16,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double most_turned = 0.9 * pi;  // of 4 theta between two edges of a triangle; from pi on it is lost
 constexpr int most_refinements = 20;
+constexpr std::size_t most_per_point = 20000;  // triangles
 
 // Triangles, of the bisected mesh, where crosses turn too far to be told by their values.
 std::set<Index> unresolved(const RingedMesh& ringed, const std::vector<double>& turns) {
@@ -65,11 +66,14 @@ BuiltField built_field(const SurfaceDomain& input, const Imposed& imposed) {
             const std::vector<Index> parts(coarse.begin(), coarse.end());
             std::vector<Index> origins;
             for (const Index part : parts) origins.push_back(mesh.triangles()[part].origin);
-            if (round == most_refinements)
+            const std::size_t most =
+                20 * static_cast<std::size_t>(input.triangle_count()) + most_per_point * (imposed.places.size() + 1);
+            if (round == most_refinements || mesh.triangles().size() > most)
                 throw SolverError("crosses turn by more than an eighth of a turn in triangles " + first_few(origins) +
                                       " however they are refined; remesh the surface there",
                                   "unresolved_turns", origins);
-            for (const Index part : parts) mesh.bisect(part, true);
+            // A star near another point shrinks; beyond the stars sizes shrink against them.
+            for (const Index part : parts) mesh.bisect(part, !mesh.at_centre(part));
             continue;
         }
         for (std::size_t c = 0; c < turns.size(); ++c)
