@@ -20,6 +20,7 @@ struct FeatureOptions;
 struct RemeshOptions;
 struct SizeFieldOptions;
 struct DirectionFieldOptions;
+struct ImposedFieldOptions;
 }  // namespace octafield::surface
 namespace octafield::volume {
 struct BoundaryOptions;
@@ -42,6 +43,7 @@ void check(const surface::FeatureOptions& options);
 void check(const surface::RemeshOptions& options);
 void check(const surface::SizeFieldOptions& options);
 void check(const surface::DirectionFieldOptions& options);
+void check(const surface::ImposedFieldOptions& options);
 void check(const volume::BoundaryOptions& options);
 void check(const volume::DiffuseOptions& options);
 void check(const volume::SmoothOptions& options);

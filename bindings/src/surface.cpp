@@ -276,6 +276,7 @@ void bind_surface(py::module_& m) {
     bind_remesh(m);
     bind_direction_fields(m);
     bind_streamlines(m);
+    bind_imposed_fields(m);
     bind_renormalised_energy(m);
 }
 

@@ -108,6 +108,7 @@ void bind_surface_types(py::module_& m) {
     bind_results(m);
     bind_surface_domain(m);
     bind_direction_field_types(m);
+    bind_imposed_field_types(m);
 }
 
 }  // namespace octafield::bindings

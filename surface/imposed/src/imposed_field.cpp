@@ -64,6 +64,23 @@ void require_admissible(const std::vector<HolonomyCondition>& conditions, double
         "inadmissible_pattern", vertices);
 }
 
+// As detail::built_field; corners, which are places after the points, are not called points.
+BuiltField first_field(const SurfaceDomain& domain, const detail::Imposed& imposed, std::size_t points) {
+    try {
+        return detail::built_field(domain, imposed);
+    } catch (const InvalidInput& error) {
+        const auto& places = error.elements();
+        if (error.kind() != "coincident_points" || places.size() != 2 || places[1] < static_cast<Index>(points)) throw;
+        if (places[0] >= static_cast<Index>(points))
+            throw InvalidInput("two corners of the boundary are too near to tell apart; remesh the surface there",
+                               error.kind());
+        throw InvalidInput("singular point " + std::to_string(places[0]) +
+                               " is at a corner of the boundary, or too near to tell; give the corner its number of "
+                               "quads instead",
+                           error.kind(), {places[0]});
+    }
+}
+
 DirectionField field_of(const BuiltField& built, double& closure) {
     const auto [angles, open] = detail::rotated(built);
     closure = open;
@@ -109,7 +126,7 @@ ImposedField impose_singular_points(const SurfaceDomain& domain, const SingularP
     detail::Imposed imposed = detail::checked_pattern(domain, structure, pattern, options);
     const std::size_t count = pattern.points.size();
     report_or_throw(progress, "impose", 0, NAN);
-    BuiltField built = detail::built_field(domain, imposed);
+    BuiltField built = first_field(domain, imposed, count);
     ImposedField result;
     const auto largest = built.missed.size() ? built.missed.cwiseAbs().maxCoeff() : 0.0;
     if (options.inadmissible == Inadmissible::fail) require_admissible(conditions_of(domain, built), options.tolerance);

@@ -41,7 +41,7 @@ Vector nearest_weights(const Vector& p, const Vector& a, const Vector& b, const 
     return Vector(va, vb, vc) / (va + vb + vc);
 }
 
-void require_places(const ImposedPoints& points, std::span<const Index> places) {
+void require_places(const std::vector<ImposedPoint>& points, std::span<const Index> places) {
     std::vector<Index> bad, seen;
     for (const Index place : places) {
         if (place < 0 || place >= static_cast<Index>(points.size()) ||
@@ -57,7 +57,7 @@ void require_places(const ImposedPoints& points, std::span<const Index> places) 
 
 }  // namespace
 
-Eigen::Vector3d position(const SurfaceDomain& domain, const ImposedPoint& point) {
+Eigen::Vector3d imposed_position(const SurfaceDomain& domain, const ImposedPoint& point) {
     const TriangleMesh& mesh = domain.mesh();
     if (point.triangle < 0 || point.triangle >= domain.triangle_count())
         throw InvalidInput("there is no triangle " + std::to_string(point.triangle), "outside_surface");
@@ -125,38 +125,41 @@ SingularPattern singular_pattern(const DirectionField& field, const SurfaceSingu
     return pattern;
 }
 
-ImposedPoints moved(const SurfaceDomain& domain, ImposedPoints points, Index place, const Eigen::Vector3d& to) {
-    require_places(points, {&place, 1});
-    points[place] = imposed_point(domain, to, points[place].index_times_four);
-    return points;
+SingularPattern move_singular_point(const SurfaceDomain& domain, SingularPattern pattern, Index place,
+                                    const Eigen::Vector3d& to) {
+    require_places(pattern.points, {&place, 1});
+    pattern.points[place] = imposed_point(domain, to, pattern.points[place].index_times_four);
+    return pattern;
 }
 
-ImposedPoints with_pair(const SurfaceDomain& domain, ImposedPoints points, const Eigen::Vector3d& valence_3,
-                        const Eigen::Vector3d& valence_5) {
-    points.push_back(imposed_point(domain, valence_3, 1));
-    points.push_back(imposed_point(domain, valence_5, -1));
-    return points;
+SingularPattern add_singular_pair(const SurfaceDomain& domain, SingularPattern pattern,
+                                  const Eigen::Vector3d& valence_3, const Eigen::Vector3d& valence_5) {
+    pattern.points.push_back(imposed_point(domain, valence_3, 1));
+    pattern.points.push_back(imposed_point(domain, valence_5, -1));
+    return pattern;
 }
 
-ImposedPoints without(ImposedPoints points, std::span<const Index> places) {
-    require_places(points, places);
-    ImposedPoints kept;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (std::find(places.begin(), places.end(), static_cast<Index>(i)) == places.end()) kept.push_back(points[i]);
-    return kept;
+SingularPattern remove_singular_points(SingularPattern pattern, std::span<const Index> places) {
+    require_places(pattern.points, places);
+    std::vector<ImposedPoint> kept;
+    for (std::size_t i = 0; i < pattern.points.size(); ++i)
+        if (std::find(places.begin(), places.end(), static_cast<Index>(i)) == places.end())
+            kept.push_back(pattern.points[i]);
+    pattern.points = std::move(kept);
+    return pattern;
 }
 
-ImposedPoints merged(const SurfaceDomain& domain, ImposedPoints points, std::span<const Index> places,
-                     const Eigen::Vector3d& to) {
-    require_places(points, places);
+SingularPattern merge_singular_points(const SurfaceDomain& domain, SingularPattern pattern,
+                                      std::span<const Index> places, const Eigen::Vector3d& to) {
+    require_places(pattern.points, places);
     int sum = 0;
-    for (const Index place : places) sum += points[place].index_times_four;
+    for (const Index place : places) sum += pattern.points[place].index_times_four;
     if (sum >= 4)
         throw InvalidInput(
             "merged, the points would have the index " + std::to_string(sum) + "/4: no quad would be left round them",
             "bad_valence", std::vector<Index>(places.begin(), places.end()));
-    ImposedPoints result = without(std::move(points), places);
-    if (sum != 0) result.push_back(imposed_point(domain, to, sum));
+    SingularPattern result = remove_singular_points(std::move(pattern), places);
+    if (sum != 0) result.points.push_back(imposed_point(domain, to, sum));
     return result;
 }
 

@@ -143,12 +143,12 @@ TEST(ImposedBadInputs, OptionsOutOfRange) {
 
 TEST(ImposedBadInputs, EditsOfPointsThatAreNot) {
     const SurfaceDomain domain(disk(6));
-    const ImposedPoints points = four(domain).points;
-    EXPECT_EQ(refusal([&] { moved(domain, points, 4, Vector(0, 0, 0)); }).kind, "index_out_of_range");
+    const SingularPattern pattern = four(domain);
+    EXPECT_EQ(refusal([&] { move_singular_point(domain, pattern, 4, Vector(0, 0, 0)); }).kind, "index_out_of_range");
     const Index twice[] = {1, 1};
-    EXPECT_EQ(refusal([&] { without(points, twice); }).kind, "index_out_of_range");
+    EXPECT_EQ(refusal([&] { remove_singular_points(pattern, twice); }).kind, "index_out_of_range");
     const Index all[] = {0, 1, 2, 3};
-    EXPECT_EQ(refusal([&] { merged(domain, points, all, Vector(0, 0, 0)); }).kind, "bad_valence");
+    EXPECT_EQ(refusal([&] { merge_singular_points(domain, pattern, all, Vector(0, 0, 0)); }).kind, "bad_valence");
     DirectionField hexagonal;
     hexagonal.symmetry = 6;
     EXPECT_EQ(refusal([&] { singular_pattern(hexagonal, {}); }).kind, "wrong_symmetry");
@@ -158,7 +158,7 @@ TEST(ImposedBadInputs, MovingThatCannotSucceedSaysSo) {
     // A torus with one pair: admissible only when the points meet.
     const SurfaceDomain domain(torus(24, 12, 1, 0.5));
     SingularPattern pattern;
-    pattern.points = with_pair(domain, {}, Vector(1.5, 0, 0), Vector(0.5, 0, 0));
+    pattern = add_singular_pair(domain, {}, Vector(1.5, 0, 0), Vector(0.5, 0, 0));
     const Refusal found = imposing(domain, pattern, {.inadmissible = Inadmissible::move});
     EXPECT_EQ(found.kind, "move_failed") << found.message;
     // A quarter turn between the pair is none: no points, nothing to move.

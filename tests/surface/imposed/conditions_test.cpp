@@ -99,7 +99,7 @@ TEST(ImposedConditions, MovingPointsOnAnAnnulusIsAsShortAsItCanBe) {
     // and proportional to 1 / radius: angle_j = c / r_j^2 with sum |k_j| c / r_j^2 = 10 degrees.
     std::vector<Source> now;
     for (const ImposedPoint& p : field.pattern.points) {
-        const Vector x = position(domain, p);
+        const Vector x = imposed_position(domain, p);
         now.push_back({{x[0], x[1]}, p.index_times_four});
     }
     EXPECT_LT(std::abs(annulus_formula(now)), 0.02 * degree);

@@ -35,7 +35,7 @@ void expect_parts_of(const SurfaceDomain& input, const ImposedField& field) {
     EXPECT_LT(((sums - wholes).array() / wholes.array()).abs().maxCoeff(), 1e-9);
     for (Index v = 0; v < fine.vertex_count(); ++v) {
         const ImposedPoint place{field.vertex_triangles[v], field.vertex_weights.row(v), 0};
-        EXPECT_LT((position(input, place) - fine.mesh().vertices.row(v).transpose()).norm(), 1e-12);
+        EXPECT_LT((imposed_position(input, place) - fine.mesh().vertices.row(v).transpose()).norm(), 1e-12);
         EXPECT_GE(place.weights.minCoeff(), -1e-15);
     }
     for (Index v = 0; v < input.vertex_count(); ++v)
@@ -55,7 +55,7 @@ TEST(ImposedPoints, OfFacesEdgesAndVerticesAlike) {
     EXPECT_EQ(field.point_vertices[3], 150);
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_LT((field.field.domain.mesh().vertices.row(field.point_vertices[i]).transpose() -
-                   position(domain, pattern.points[i]))
+                   imposed_position(domain, pattern.points[i]))
                       .norm(),
                   1e-12);
     expect_imposed(field);
@@ -102,7 +102,9 @@ TEST(ImposedPoints, NearEdgesAndVerticesAreWhereTheyWerePut) {
         pattern.points = {{30, {near, 0.4, 0.6 - near}, 1}, {70, {near, near / 3, 1 - near - near / 3}, 3}};
         const ImposedField field = impose_singular_points(domain, pattern);
         for (std::size_t i = 0; i < 2; ++i)
-            EXPECT_LT((position(domain, field.pattern.points[i]) - position(domain, pattern.points[i])).norm(), 1e-12);
+            EXPECT_LT((imposed_position(domain, field.pattern.points[i]) - imposed_position(domain, pattern.points[i]))
+                          .norm(),
+                      1e-12);
         expect_imposed(field);
         expect_parts_of(domain, field);
     }
@@ -194,21 +196,21 @@ TEST(SingularPatterns, OfAComputedFieldCanBeImposedAndEdited) {
     ASSERT_EQ(four.points.size(), 4u);
     expect_imposed(impose_singular_points(round, four));
 
-    const auto at = [&](const ImposedPoint& p) { return position(round, p); };
-    four.points = moved(round, four.points, 2, Vector(0.1, 0.2, 0));
+    const auto at = [&](const ImposedPoint& p) { return imposed_position(round, p); };
+    four = move_singular_point(round, four, 2, Vector(0.1, 0.2, 0));
     EXPECT_LT((at(four.points[2]) - Vector(0.1, 0.2, 0)).norm(), 1e-12);
-    four.points = with_pair(round, four.points, Vector(0.4, -0.3, 0), Vector(-0.4, -0.3, 0));
+    four = add_singular_pair(round, four, Vector(0.4, -0.3, 0), Vector(-0.4, -0.3, 0));
     ASSERT_EQ(four.points.size(), 6u);
     expect_imposed(impose_singular_points(round, four));
     const Index some[] = {0, 2, 4};
-    four.points = merged(round, four.points, some, Vector(-0.1, 0.05, 0));
+    four = merge_singular_points(round, four, some, Vector(-0.1, 0.05, 0));
     ASSERT_EQ(four.points.size(), 4u);
     EXPECT_EQ(four.points.back().index_times_four, 3);
     expect_imposed(impose_singular_points(round, four));
     const Index pair[] = {2, 3};  // of valence 5, and the merged one
-    EXPECT_EQ(merged(round, four.points, pair, Vector(0, 0, 0)).back().index_times_four, 2);
+    EXPECT_EQ(merge_singular_points(round, four, pair, Vector(0, 0, 0)).points.back().index_times_four, 2);
     const Index last[] = {3};
-    EXPECT_EQ(without(four.points, last).size(), 3u);
+    EXPECT_EQ(remove_singular_points(four, last).points.size(), 3u);
 }
 
 TEST(CornerQuads, AreRoundedHalvesDown) {

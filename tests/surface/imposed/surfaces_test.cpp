@@ -93,7 +93,7 @@ double largest_angle(const ImposedField& field) {
 
 ImposedField one_pair(const SurfaceDomain& domain, const Vector& a, const Vector& b) {
     SingularPattern pattern;
-    pattern.points = with_pair(domain, {}, a, b);
+    pattern = add_singular_pair(domain, {}, a, b);
     return impose_singular_points(domain, pattern, rotate);
 }
 
@@ -119,7 +119,7 @@ TEST(ImposedOnTorus, OnePairIsInadmissibleByItsDistanceRound) {
     std::printf("pair on meridian: %.3f %.3f degrees\n", largest_angle(meridian) / degree, 90 * part / all);
     EXPECT_NEAR(largest_angle(meridian), 90 * degree * part / all, 0.05 * degree);
     SingularPattern pattern;
-    pattern.points = with_pair(domain, {}, at(u, 0), at(u, pi / 2));
+    pattern = add_singular_pair(domain, {}, at(u, 0), at(u, pi / 2));
     try {
         impose_singular_points(domain, pattern);
         FAIL() << "no error";

@@ -22,8 +22,8 @@ struct ImposedPoint {
 
 // Quads at a vertex of the boundary, 2 - t.
 struct CornerQuads {
-    Index vertex;
-    int quads;
+    Index vertex = 0;
+    int quads = 2;
 };
 
 struct SingularPattern {
@@ -53,22 +53,23 @@ CornerChoice fewest_points_corner_quads(const SurfaceDomain& domain);
 // boundary. Linear in the triangles.
 ImposedPoint imposed_point(const SurfaceDomain& domain, const Eigen::Vector3d& position, int index_times_four);
 ImposedPoint imposed_at_vertex(const SurfaceDomain& domain, Index vertex, int index_times_four);
-Eigen::Vector3d position(const SurfaceDomain& domain, const ImposedPoint& point);
+Eigen::Vector3d imposed_position(const SurfaceDomain& domain, const ImposedPoint& point);
 
 // The singular points of a cross field, as found by surface_singularities; every corner that the field does not have
 // has 2 quads. Throws InvalidInput for other symmetries than 4 (kind "wrong_symmetry").
 SingularPattern singular_pattern(const DirectionField& field, const SurfaceSingularities& singularities);
 
-// Edits, by place in `points`; each keeps the sum of t, but for `without`. Elements of errors are places.
-using ImposedPoints = std::vector<ImposedPoint>;
-ImposedPoints moved(const SurfaceDomain& domain, ImposedPoints points, Index place, const Eigen::Vector3d& to);
-// A valence 3 and a valence 5 point.
-ImposedPoints with_pair(const SurfaceDomain& domain, ImposedPoints points, const Eigen::Vector3d& valence_3,
-                        const Eigen::Vector3d& valence_5);
-ImposedPoints without(ImposedPoints points, std::span<const Index> places);
+// Edits: the pattern with points, named by their places in `points`, changed. Each keeps the sum of t, but for
+// remove_singular_points. Elements of errors are places.
+SingularPattern move_singular_point(const SurfaceDomain& domain, SingularPattern pattern, Index place,
+                                    const Eigen::Vector3d& to);
+// A valence 3 and a valence 5 point more, in this order.
+SingularPattern add_singular_pair(const SurfaceDomain& domain, SingularPattern pattern,
+                                  const Eigen::Vector3d& valence_3, const Eigen::Vector3d& valence_5);
+SingularPattern remove_singular_points(SingularPattern pattern, std::span<const Index> places);
 // One point of the summed index at `to`, last; none if the sum is 0. Throws InvalidInput (kind "bad_valence") for a sum
 // of 4 or more.
-ImposedPoints merged(const SurfaceDomain& domain, ImposedPoints points, std::span<const Index> places,
-                     const Eigen::Vector3d& to);
+SingularPattern merge_singular_points(const SurfaceDomain& domain, SingularPattern pattern,
+                                      std::span<const Index> places, const Eigen::Vector3d& to);
 
 }  // namespace octafield::surface
