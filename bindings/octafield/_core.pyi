@@ -640,7 +640,7 @@ def non_orthogonal_field(
     weights: str = ...,
     second_line: str = ...,
     corner_angle: float = ...,
-    corners: ArrayLike | None = None,
+    corners: ArrayLike | Sequence[CornerQuads] | None = None,
     least_angle: float = ...,
     max_iterations: int = ...,
     seed: int = ...,
@@ -656,6 +656,162 @@ def surface_singularities(field: DirectionField) -> SurfaceSingularities: ...
 @overload
 def surface_singularities(field: NonOrthogonalField) -> SurfaceSingularities: ...
 def principal_directions(surface: SurfaceDomain | TriangleMesh) -> PrincipalDirections: ...
+
+class ImposedPoint:
+    triangle: int
+    index_times_four: int
+    def __init__(self, triangle: int = ..., weights: ArrayLike = ..., index_times_four: int = ...) -> None: ...
+    @property
+    def weights(self) -> Float64s: ...
+    @weights.setter
+    def weights(self, value: ArrayLike) -> None: ...
+
+class CornerQuads:
+    vertex: int
+    quads: int
+    def __init__(self, vertex: int = ..., quads: int = ...) -> None: ...
+
+class SingularPattern:
+    def __init__(self, points: Sequence[ImposedPoint] = ..., corners: Sequence[CornerQuads] = ...) -> None: ...
+    @property
+    def points(self) -> list[ImposedPoint]: ...
+    @property
+    def corners(self) -> list[CornerQuads]: ...
+
+class CornerChoice:
+    def __init__(
+        self,
+        corners: Sequence[CornerQuads] = ...,
+        changed: ArrayLike = ...,
+        inner_index_before: ArrayLike = ...,
+        inner_index: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def corners(self) -> list[CornerQuads]: ...
+    @property
+    def changed(self) -> Int32s: ...
+    @changed.setter
+    def changed(self, value: ArrayLike) -> None: ...
+    @property
+    def inner_index_before(self) -> Int32s: ...
+    @inner_index_before.setter
+    def inner_index_before(self, value: ArrayLike) -> None: ...
+    @property
+    def inner_index(self) -> Int32s: ...
+    @inner_index.setter
+    def inner_index(self, value: ArrayLike) -> None: ...
+
+class ImposedFieldOptions:
+    words: ClassVar[dict[str, list[str]]]
+    inadmissible: str
+    tolerance: float
+    allow_zero_quads: bool
+    sectors: int
+    rings: int
+    ring_ratio: float
+    max_steps: int
+    def __init__(
+        self,
+        inadmissible: str = ...,
+        tolerance: float = ...,
+        allow_zero_quads: bool = ...,
+        sectors: int = ...,
+        rings: int = ...,
+        ring_ratio: float = ...,
+        max_steps: int = ...,
+    ) -> None: ...
+
+class HolonomyCondition:
+    boundary: bool
+    vertex: int
+    angle: float
+    rotation: float
+    size_factor: float
+    def __init__(
+        self,
+        boundary: bool = ...,
+        vertex: int = ...,
+        angle: float = ...,
+        rotation: float = ...,
+        size_factor: float = ...,
+    ) -> None: ...
+
+class ImposedField:
+    closure: float
+    steps: int
+    largest_move: float
+    def __init__(
+        self,
+        field: DirectionField = ...,
+        log_size: ArrayLike = ...,
+        pattern: SingularPattern = ...,
+        point_vertices: ArrayLike = ...,
+        vertex_triangles: ArrayLike = ...,
+        vertex_weights: ArrayLike = ...,
+        triangle_origins: ArrayLike = ...,
+        conditions: Sequence[HolonomyCondition] = ...,
+        closure: float = ...,
+        steps: int = ...,
+        largest_move: float = ...,
+    ) -> None: ...
+    @property
+    def field(self) -> DirectionField: ...
+    @property
+    def log_size(self) -> Float64s: ...
+    @log_size.setter
+    def log_size(self, value: ArrayLike) -> None: ...
+    @property
+    def pattern(self) -> SingularPattern: ...
+    @property
+    def point_vertices(self) -> Int32s: ...
+    @point_vertices.setter
+    def point_vertices(self, value: ArrayLike) -> None: ...
+    @property
+    def vertex_triangles(self) -> Int32s: ...
+    @vertex_triangles.setter
+    def vertex_triangles(self, value: ArrayLike) -> None: ...
+    @property
+    def vertex_weights(self) -> Float64s: ...
+    @vertex_weights.setter
+    def vertex_weights(self, value: ArrayLike) -> None: ...
+    @property
+    def triangle_origins(self) -> Int32s: ...
+    @triangle_origins.setter
+    def triangle_origins(self, value: ArrayLike) -> None: ...
+    @property
+    def conditions(self) -> list[HolonomyCondition]: ...
+
+def impose_singular_points(
+    surface: SurfaceDomain | TriangleMesh,
+    pattern: SingularPattern,
+    *,
+    inadmissible: str = ...,
+    tolerance: float = ...,
+    allow_zero_quads: bool = ...,
+    sectors: int = ...,
+    rings: int = ...,
+    ring_ratio: float = ...,
+    max_steps: int = ...,
+    progress: Progress | None = None,
+) -> ImposedField: ...
+def default_corner_quads(surface: SurfaceDomain | TriangleMesh) -> list[CornerQuads]: ...
+def fewest_points_corner_quads(surface: SurfaceDomain | TriangleMesh) -> CornerChoice: ...
+def imposed_point(
+    surface: SurfaceDomain | TriangleMesh, position: ArrayLike, index_times_four: int
+) -> ImposedPoint: ...
+def imposed_at_vertex(surface: SurfaceDomain | TriangleMesh, vertex: int, index_times_four: int) -> ImposedPoint: ...
+def imposed_position(surface: SurfaceDomain | TriangleMesh, point: ImposedPoint) -> Float64s: ...
+def singular_pattern(field: DirectionField, singularities: SurfaceSingularities) -> SingularPattern: ...
+def move_singular_point(
+    surface: SurfaceDomain | TriangleMesh, pattern: SingularPattern, place: int, to: ArrayLike
+) -> SingularPattern: ...
+def add_singular_pair(
+    surface: SurfaceDomain | TriangleMesh, pattern: SingularPattern, valence_3: ArrayLike, valence_5: ArrayLike
+) -> SingularPattern: ...
+def remove_singular_points(pattern: SingularPattern, places: ArrayLike) -> SingularPattern: ...
+def merge_singular_points(
+    surface: SurfaceDomain | TriangleMesh, pattern: SingularPattern, places: ArrayLike, to: ArrayLike
+) -> SingularPattern: ...
 @overload
 def streamlines(
     field: DirectionField,

@@ -19,6 +19,8 @@ void bind_direction_fields(pybind11::module_& module);
 void bind_non_orthogonal_types(pybind11::module_& module);
 void bind_non_orthogonal(pybind11::module_& module);
 void bind_streamlines(pybind11::module_& module);
+void bind_imposed_field_types(pybind11::module_& module);
+void bind_imposed_fields(pybind11::module_& module);
 void bind_renormalised_energy(pybind11::module_& module);
 void bind_volume_types(pybind11::module_& module);
 void bind_domain(pybind11::module_& module);

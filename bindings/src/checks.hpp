@@ -21,6 +21,7 @@ struct RemeshOptions;
 struct SizeFieldOptions;
 struct DirectionFieldOptions;
 struct NonOrthogonalFieldOptions;
+struct ImposedFieldOptions;
 }  // namespace octafield::surface
 namespace octafield::volume {
 struct BoundaryOptions;
@@ -44,6 +45,7 @@ void check(const surface::RemeshOptions& options);
 void check(const surface::SizeFieldOptions& options);
 void check(const surface::DirectionFieldOptions& options);
 void check(const surface::NonOrthogonalFieldOptions& options);
+void check(const surface::ImposedFieldOptions& options);
 void check(const volume::BoundaryOptions& options);
 void check(const volume::DiffuseOptions& options);
 void check(const volume::SmoothOptions& options);

@@ -144,6 +144,12 @@ constexpr Example of_surface_fields[] = {
     >>> field = octafield.surface.direction_field(ball)
     >>> len(octafield.surface.separatrices(field, octafield.surface.surface_singularities(field)))
     24)"},
+    {"impose_singular_points", R"(
+    >>> ball = generate("ball")  # any 8 points of valence 3 will do on a sphere
+    >>> pattern = octafield.surface.SingularPattern(
+    ...     [octafield.surface.imposed_at_vertex(ball, v, 1) for v in range(0, 320, 40)])
+    >>> octafield.surface.surface_singularities(octafield.surface.impose_singular_points(ball, pattern).field)
+    SurfaceSingularities(8 points, index sum 2, Euler characteristic 2))"},
     {"vertex_directions", R"(
     >>> torus = generate("torus")
     >>> directions = octafield.surface.vertex_directions(octafield.surface.direction_field(torus))

@@ -1,4 +1,6 @@
 // Non-orthogonal cross fields: their structs, the solver and their singular points. Curves: streamlines.cpp.
+#include <algorithm>
+
 #include "bind.hpp"
 #include "checks.hpp"
 #include "domain.hpp"
@@ -31,6 +33,13 @@ py::object corners_of(const NonOrthogonalFieldOptions& options) {
 void set_corners(NonOrthogonalFieldOptions& options, const py::handle& value) {
     options.corners.clear();
     if (value.is_none()) return;
+    if (py::isinstance<py::list>(value)) {
+        const auto list = py::reinterpret_borrow<py::list>(value);
+        if (std::all_of(list.begin(), list.end(), [](const auto& each) { return py::isinstance<CornerQuads>(each); })) {
+            for (const py::handle each : list) options.corners.push_back(each.cast<CornerQuads>());
+            return;
+        }
+    }
     const auto rows = from_python<Rows<Index, 2>>(value, "corners");
     for (Eigen::Index i = 0; i < rows.rows(); ++i) options.corners.push_back({rows(i, 0), rows(i, 1)});
 }
@@ -46,7 +55,8 @@ void bind_options(py::module_& m) {
                "On the boundary, where no corner gives it: \"fixed\" (linear along the side) or \"free\".")
         .field("corner_angle", &NonOrthogonalFieldOptions::corner_angle,
                "Radians in (0, pi/2): by which a corner differs from straight to have 1 or 3 quads.")
-        .field("corners", corners_of, set_corners, "(n, 2) int32: boundary vertex, number of quads there.")
+        .field("corners", corners_of, set_corners,
+               "(n, 2) int32: boundary vertex, number of quads there; or a list of CornerQuads.")
         .field("least_angle", &NonOrthogonalFieldOptions::least_angle,
                "Radians in (0, pi/4), from free lines to the boundary.")
         .field("max_iterations", &NonOrthogonalFieldOptions::max_iterations, "Steps of the descent, or rounds.")
@@ -108,7 +118,8 @@ void bind_solver(py::module_& m) {
         "(radians) from the boundary.\n\n"
         "corner_angle: g, radians; a boundary vertex of interior angle phi has 1 quad up to pi - g, 2 up to pi + g, 3 "
         "up "
-        "to 2 pi - g, 4 beyond. corners: (n, 2) vertices and their numbers of quads where that is not wanted. "
+        "to 2 pi - g, 4 beyond. corners: (n, 2) vertices and their numbers of quads, or a list of CornerQuads, where "
+        "that is not wanted. "
         "max_iterations: steps, or rounds; seed: of disturbances; inertia, penalty, tolerance: of projected.\n\n"
         "Cancelled by progress, the best state is returned with converged False. Raises InvalidInput, GeometryError, "
         "SolverError.");

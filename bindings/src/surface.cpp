@@ -277,6 +277,7 @@ void bind_surface(py::module_& m) {
     bind_direction_fields(m);
     bind_non_orthogonal(m);
     bind_streamlines(m);
+    bind_imposed_fields(m);
     bind_renormalised_energy(m);
 }
 

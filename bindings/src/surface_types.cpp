@@ -109,6 +109,7 @@ void bind_surface_types(py::module_& m) {
     bind_surface_domain(m);
     bind_direction_field_types(m);
     bind_non_orthogonal_types(m);
+    bind_imposed_field_types(m);
 }
 
 }  // namespace octafield::bindings

@@ -10,6 +10,7 @@
 
 #include "octafield/error.hpp"
 #include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/imposed_field.hpp"
 #include "octafield/surface/non_orthogonal_field.hpp"
 #include "octafield/surface/streamlines.hpp"
 #include "octafield/volume/boundary.hpp"
@@ -65,6 +66,13 @@ struct Words<volume::FrameStreamlineEnd> {
                                                                     {"length", E::length},
                                                                     {"seed", E::seed},
                                                                     {"stuck", E::stuck}}};
+};
+
+template <>
+struct Words<surface::Inadmissible> {
+    using E = surface::Inadmissible;
+    static constexpr std::array<std::pair<const char*, E>, 3> list{
+        {{"fail", E::fail}, {"move", E::move}, {"rotate", E::rotate}}};
 };
 
 template <>

@@ -49,6 +49,8 @@ def test_corners_take_the_place_of_the_rule_of_angles():
     assert sum(p.index for p in points if not p.boundary) == 0.5  # two corners of one quad, two of two
     told = SURFACE.non_orthogonal_field(mesh, corners=[[0, 1], [8, 1], [72, 1], [80, 1]])
     assert told.energy < 1e-7 and all(p.boundary for p in SURFACE.surface_singularities(told).points)
+    quads = [SURFACE.CornerQuads(vertex=v, quads=1) for v in (0, 8, 72, 80)]
+    assert SURFACE.non_orthogonal_field(mesh, corners=quads).energy == told.energy
     assert SURFACE.non_orthogonal_field(mesh, corners=None).energy == by_angle.energy
     options = SURFACE.NonOrthogonalFieldOptions(corners=[[3, 2]])
     assert options.corners.tolist() == [[3, 2]]

@@ -46,6 +46,9 @@ def objects(field, tmp_path_factory):
     of.write_frames(folder / "field.npz", tets, frames)
     in_them = of.volume.tet_frames(tets, frames)
     coordinates = of.volume.periodic_map(tets, in_them, np.full((len(in_them), 3), 0.5))
+    imposed = of.surface.impose_singular_points(
+        generate("torus"), of.surface.SingularPattern([of.surface.imposed_at_vertex(generate("torus"), v, t)
+            for v, t in ((3, 1), (90, -1))]), inadmissible="rotate")  # fmt: skip
     everything = [
         field, in_tets, meshed, of.prepare_field(meshed), of.compute_surface_field(generate("torus"),
             of.SurfaceFieldOptions(curvature=1)),
@@ -77,6 +80,8 @@ def objects(field, tmp_path_factory):
         of.volume.VertexConstraints([3], [1], [[0, 0, 1]]),
         of.volume.SmoothOptions(tolerance=1e-5), of.volume.DiffuseOptions(max_steps=3),
         of.volume.FrameFieldOptions(rounds=1), of.volume.BoundaryOptions(feature_tolerance=0.2),
+        imposed, of.surface.SingularPattern(corners=[of.surface.CornerQuads(1, 3)]),
+        of.surface.ImposedFieldOptions(rings=3), of.surface.fewest_points_corner_quads(open_box),
         of.surface.DirectionFieldOptions(symmetry=6), of.surface.FeatureOptions(angle=0.5),
         of.surface.non_orthogonal_field(generate("torus")), of.surface.NonOrthogonalFieldOptions(corners=[[0, 1]]),
         of.surface.RemeshOptions(edge_length=0.3), of.surface.SizeFieldOptions(max_cells=1000),

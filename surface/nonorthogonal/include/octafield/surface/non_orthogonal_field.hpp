@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "octafield/progress.hpp"
+#include "octafield/surface/corner_quads.hpp"
 #include "octafield/surface/surface_domain.hpp"
 #include "octafield/surface/surface_singularities.hpp"
 #include "octafield/surface/two_lines.hpp"
@@ -45,12 +46,6 @@ enum class SecondLine {
 enum class EdgeWeights {
     cotangent,
     unit,  // 1 (Dermine): depends on the triangles
-};
-
-// How many quads meet at a vertex of the boundary.
-struct CornerQuads {
-    Index vertex;
-    int quads;  // >= 1
 };
 
 struct NonOrthogonalFieldOptions {
