@@ -74,7 +74,6 @@ TEST(ImposedPoints, OfAnyValenceOnACoarseMesh) {
         expect_imposed(field);
         expect_parts_of(domain, field);
         const auto singularities = surface_singularities(field.field);
-        std::printf("t %d: %d vertices\n", t, field.field.domain.vertex_count());
         std::vector<int> leaving(singularities.points.size(), 0);
         for (const Streamline& line : separatrices(field.field, singularities)) ++leaving[line.first_singularity];
         for (std::size_t i = 0; i < leaving.size(); ++i)
@@ -297,7 +296,6 @@ TEST(CornerQuads, GiveTheSizeItsPower) {
             for (int k = 0; k < 3; ++k) h[i] += at.weights[k] * field.log_size[fine.mesh().triangles(at.triangle, k)];
         }
         const double power = 1 - quads * 90 / angle, found = terms.colPivHouseholderQr().solve(h)[1];
-        std::printf("corner %g %d: %.4f %.4f\n", angle, quads, found, power);
         EXPECT_NEAR(found, power, 0.01 + 0.01 * std::abs(power)) << angle;
     }
 }
