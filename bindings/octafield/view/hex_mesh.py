@@ -69,7 +69,7 @@ def _drawn(grid: pyvista.UnstructuredGrid, curves: dict[int, pyvista.PolyData | 
     add_curves(shape, curves, 0.006 * scene.diagonal(points))
     scene.look(shape, points, direction, axes[2])
     if hexahedra.any():
-        shape.camera.zoom(0.88)
+        shape.camera.Zoom(0.88)
         shape.camera.SetWindowCenter(0, -0.12)  # above the bar of colours
     return shape
 
