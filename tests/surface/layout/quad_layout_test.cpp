@@ -1,0 +1,89 @@
+// Cell complexes of layouts: counts and lengths.
+#include "layout_fixtures.hpp"
+#include "octafield/error.hpp"
+#include "octafield/surface/quad_layout.hpp"
+
+namespace octafield::surface {
+namespace {
+
+struct Counts {
+    std::size_t vertices, sides, patches;
+};
+
+void expect_all_quads(const QuadLayout& layout, const Counts& counts) {
+    std::printf("V E F %zu %zu %zu, chords %zu, mismatch %.2e\n", layout.vertices.size(), layout.sides.size(),
+                layout.patches.size(), layout.chords.size(), layout.largest_mismatch);
+    EXPECT_EQ(layout.vertices.size(), counts.vertices);
+    EXPECT_EQ(layout.sides.size(), counts.sides);
+    EXPECT_EQ(layout.patches.size(), counts.patches);
+    for (const LayoutPatch& patch : layout.patches) EXPECT_EQ(patch.kind, PatchKind::quad);
+}
+
+// Sides meet end to end round every patch, and each side has a patch on either side, the boundary's on the left only.
+void expect_complex(const QuadLayout& layout) {
+    std::vector<int> left(layout.sides.size(), 0), right(layout.sides.size(), 0);
+    for (const LayoutPatch& patch : layout.patches)
+        for (const auto& loop : patch.loops)
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const LayoutSide &a = layout.sides[loop[i].side], &b = layout.sides[loop[(i + 1) % loop.size()].side];
+                const bool back = loop[(i + 1) % loop.size()].reversed;
+                EXPECT_EQ(loop[i].reversed ? a.first : a.last, back ? b.last : b.first);
+                ++(loop[i].reversed ? right : left)[loop[i].side];
+            }
+    for (std::size_t s = 0; s < layout.sides.size(); ++s) {
+        EXPECT_EQ(left[s], 1);
+        EXPECT_EQ(right[s], layout.sides[s].curve >= 0 ? 1 : 0);
+        EXPECT_GT(layout.sides[s].length(), 0);
+    }
+}
+
+TEST(QuadLayout, FourPointsInTheDisk) {
+    const auto sources = four_in_disk(0.5, {0, 90, 180, 270});
+    const QuadLayout layout = quad_layout(disk_field(26, sources));
+    expect_all_quads(layout, {8, 12, 5});
+    expect_complex(layout);
+    EXPECT_LT(layout.largest_mismatch, 0.02);
+    EXPECT_EQ(layout.chords.size(), 3u);  // two across the middle, one round it
+}
+
+TEST(QuadLayout, LShapeHasThreePatches) {
+    const QuadLayout layout = quad_layout(l_shape_field(8));
+    expect_all_quads(layout, {8, 10, 3});
+    expect_complex(layout);
+    EXPECT_LT(layout.largest_mismatch, 1e-3);
+    for (const LayoutSide& side : layout.sides) EXPECT_NEAR(side.length(), 0.5, 1e-3);
+}
+
+TEST(QuadLayout, PolygonsHaveAsManyKitesAsCorners) {
+    for (const int n : {3, 5, 6, 8}) {
+        const QuadLayout layout = quad_layout(polygon_field(n, 72 / n));
+        const auto count = static_cast<std::size_t>(n);
+        expect_all_quads(layout, {2 * count + 1, 3 * count, count});
+        expect_complex(layout);
+        EXPECT_LT(layout.largest_mismatch, 0.03);
+    }
+}
+
+TEST(QuadLayout, SquareWithARoundHole) {
+    const QuadLayout layout = quad_layout(holed_field(12));
+    expect_all_quads(layout, {20, 32, 12});
+    expect_complex(layout);
+    EXPECT_LT(layout.largest_mismatch, 0.05);
+}
+
+TEST(QuadLayout, NearMissesThatAreNotJoinedGiveThinPatchesOfTheSameSurface) {
+    const auto sources = four_in_disk(0.85009, {0, 85, 180, 275});
+    const ImposedField field = disk_field(26, sources);
+    LayoutCurveOptions options;
+    options.end_tolerance = 0.03;
+    expect_all_quads(quad_layout(field, options), {8, 12, 5});
+    options.end_tolerance = 0.004;
+    const QuadLayout layout = quad_layout(field, options);
+    expect_complex(layout);
+    std::printf("kite: V E F %zu %zu %zu\n", layout.vertices.size(), layout.sides.size(), layout.patches.size());
+    for (const auto& patch : layout.patches) std::printf("%d/%d ", patch.euler_characteristic, patch.corners);
+    for (const auto& curve : layout.curves.curves) std::printf("%d-%d %.3f\n", curve.first_vertex, curve.last_vertex, curve.points.back().length);
+}
+
+}  // namespace
+}  // namespace octafield::surface
