@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <set>
+#include <unordered_set>
 
 #include "octafield/error.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double sector_part = 0.35;  // of the angle between separatrices: off their own direction
 constexpr int most_shots = 12;
+constexpr double zone = 3;         // tolerances from a point, along edges
 constexpr double clearance = 1e-7;  // of an edge, from its ends
 
 double wrapped(double angle, double period = 2 * pi) { return angle - period * std::round(angle / period); }
@@ -64,7 +66,7 @@ double angle_at(const LocalField& local, const LayoutPoint& point, Index t, int 
 
 struct SeparatrixTracer::Nearest {
     Passing passing;
-    double behind;  // angle, in parameters, between the way back and where it was looked at from
+    double behind = 0;  // angle, in parameters, between the way back and where it was looked at from
 };
 
 void SeparatrixTracer::look_at(const LocalField::Place& at, Complex offset, int k, std::vector<Nearest>& found) const {
@@ -93,16 +95,43 @@ void SeparatrixTracer::look_at(const LocalField::Place& at, Complex offset, int 
     }
 }
 
+SeparatrixTracer::SeparatrixTracer(const LocalField& local, const LayoutPoints& points, double tolerance,
+                                   double max_length)
+    : local_(local), points_(points), tolerance_(tolerance), max_length_(max_length) {
+    const Charts& charts = local.charts();
+    const Triangles& triangles = charts.mesh().triangles;
+    // Distances along edges, which are longer than straight ones, but not by half in triangles that are not thin.
+    std::vector<double> distance(charts.mesh().vertices.rows(), std::numeric_limits<double>::infinity());
+    for (const LayoutPoint& point : points.points) distance[point.vertex] = 0;
+    near_points_.assign(triangles.rows(), false);
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (Index t = 0; t < triangles.rows(); ++t)
+            for (int k = 0; k < 3; ++k) {
+                const Index a = triangles(t, k), b = triangles(t, (k + 1) % 3);
+                const double length = std::abs(charts.side(t, k)) *
+                                      std::exp(-local.log_size(t, charts.on_side(t, k, 0.5)));
+                const double least = std::min(distance[a], distance[b]);
+                if (least > zone * tolerance) continue;
+                near_points_[t] = true;
+                if (std::max(distance[a], distance[b]) <= least + length) continue;
+                (distance[a] > distance[b] ? distance[a] : distance[b]) = least + length;
+                changed = true;
+            }
+    }
+}
+
 // Unfolds the triangles within the tolerance of the curve's part in a triangle, but not round points.
-void SeparatrixTracer::look_round(const Slot&, const LocalField::Place& start, double from, double to,
+void SeparatrixTracer::look_round(const LocalField::Place& start, double from, double to,
                                   std::vector<Nearest>& found) const {
     struct Unfolded {
         LocalField::Place at;
         Complex offset;  // parameters of at.z
     };
+    if (!near_points_[start.t]) return;
     const Charts& charts = local_.charts();
     std::vector<Unfolded> front = {{start, from}};
-    std::set<Index> seen = {start.t};
+    std::unordered_set<Index> seen = {start.t};
     for (std::size_t i = 0; i < front.size(); ++i) {
         const Unfolded at = front[i];
         const auto is_point = [&](int k) { return points_.of_vertex[charts.mesh().triangles(at.at.t, k)] >= 0; };
@@ -110,17 +139,19 @@ void SeparatrixTracer::look_round(const Slot&, const LocalField::Place& start, d
             if (is_point(k)) look_at(at.at, at.offset, k, found);
         for (int k = 0; k < 3; ++k) {
             const Charts::Side over = charts.across({at.at.t, k});
-            if (over.triangle < 0 || is_point(k) || is_point((k + 1) % 3) || seen.contains(over.triangle)) continue;
+            if (over.triangle < 0 || is_point(k) || is_point((k + 1) % 3) || !near_points_[over.triangle] ||
+                seen.contains(over.triangle))
+                continue;
             const Complex a = at.offset + local_.parameters(at.at, charts.corners(at.at.t)[k]);
             const Complex b = at.offset + local_.parameters(at.at, charts.corners(at.at.t)[(k + 1) % 3]);
             if (std::min(a.imag(), b.imag()) > tolerance_ || std::max(a.imag(), b.imag()) < -tolerance_ ||
                 std::min(a.real(), b.real()) > to + tolerance_ || std::max(a.real(), b.real()) < from - tolerance_)
                 continue;
             const Complex middle = charts.on_side(at.at.t, k, 0.5);
-            const double shear = at.at.turn;  // the same branch on both sides, at the middle
-            const double heading = local_.angle(at.at.t, middle) + at.at.turn;
+            const double heading = local_.heading({at.at.t, middle, at.at.turn});
             seen.insert(over.triangle);
-            front.push_back({local_.across({at.at.t, k}, 0.5, heading, shear),
+            // Both sides have the same four directions at the middle.
+            front.push_back({local_.across({at.at.t, k}, 0.5, heading, at.at.turn),
                              at.offset + local_.parameters(at.at, middle)});
         }
     }
@@ -143,6 +174,7 @@ Trace SeparatrixTracer::trace(const Slot& start, double shear, const std::option
     LayoutCurve& curve = trace.curve;
     curve.first_vertex = from.vertex;
     curve.points.push_back({from.vertex, -1, 0, 0});
+    const double longest = target ? std::min(max_length_, target->length + 20 * tolerance_) : max_length_;
     double length = spoke_length(local_, from, spoke.t, spoke.end, spoke.radius);
     Charts::Side side{spoke.t, (spoke.corner + 1) % 3};
     double fraction = spoke.fraction, heading = std::arg(spoke.direction);
@@ -151,7 +183,7 @@ Trace SeparatrixTracer::trace(const Slot& start, double shear, const std::option
         curve.points.push_back(edge_point(charts, side.triangle, side.side, fraction, length));
         const int entry = charts.across(side).side;
         trace.boundary = entry < 0;
-        if (trace.boundary || length > max_length_) break;
+        if (trace.boundary || length > longest) break;
         const LocalField::Place at = local_.across(side, fraction, heading, shear);
         if (target && arrives(*target, at, entry, length)) {
             const LayoutPoint& to = point(target->slot);
@@ -163,7 +195,7 @@ Trace SeparatrixTracer::trace(const Slot& start, double shear, const std::option
             break;
         }
         const LocalField::Exit exit = local_.exit(at, entry);
-        look_round(start, at, length, length + exit.length, found);
+        look_round(at, length, length + exit.length, found);
         length += exit.length;
         side = {at.t, exit.side};
         fraction = exit.fraction;

@@ -30,8 +30,7 @@ struct Trace {
 
 class SeparatrixTracer {
 public:
-    SeparatrixTracer(const LocalField& local, const LayoutPoints& points, double tolerance, double max_length)
-        : local_(local), points_(points), tolerance_(tolerance), max_length_(max_length) {}
+    SeparatrixTracer(const LocalField& local, const LayoutPoints& points, double tolerance, double max_length);
 
     // The straight line in parameters at angle `shear` from the separatrix, until it meets the boundary, is too long,
     // or comes to the triangles at the target's point, by its sector, at more than half the target's length.
@@ -43,13 +42,13 @@ private:
     struct Nearest;
     const LayoutPoint& point(const Slot& slot) const { return points_.points[slot.point]; }
     bool arrives(const Passing& target, const LocalField::Place& at, int entry, double length) const;
-    void look_round(const Slot& start, const LocalField::Place& at, double from, double to,
-                    std::vector<Nearest>& found) const;
+    void look_round(const LocalField::Place& at, double from, double to, std::vector<Nearest>& found) const;
     void look_at(const LocalField::Place& at, Complex offset, int k, std::vector<Nearest>& found) const;
 
     const LocalField& local_;
     const LayoutPoints& points_;
     double tolerance_, max_length_;
+    std::vector<bool> near_points_;  // (F) whether a point may be within the tolerance
 };
 
 // Takes out what leaves a triangle by the side it came in by, and runs along a side of its first or last triangle.
