@@ -18,14 +18,38 @@ double nearest(double angle, double period) { return period * std::round(angle /
 
 // -log(1 - y) / y.
 Complex log_quotient(Complex y) {
-    if (std::abs(y) < 1e-4) return 1.0 + y / 2.0 + y * y / 3.0 + y * y * y / 4.0;
-    return -std::log(1.0 - y) / y;
+    if (std::norm(y) < 1e-8) return 1.0 + y / 2.0 + y * y / 3.0 + y * y * y / 4.0;
+    const Complex w = 1.0 - y;
+    return -Complex(std::log(std::norm(w)) / 2, std::arg(w)) / y;
 }
 
 // (1 - exp(-x)) / x.
 Complex exp_quotient(Complex x) {
-    if (std::abs(x) < 1e-4) return 1.0 - x / 2.0 + x * x / 6.0 - x * x * x / 24.0;
+    if (std::norm(x) < 1e-8) return 1.0 - x / 2.0 + x * x / 6.0 - x * x * x / 24.0;
     return (1.0 - std::exp(-x)) / x;
+}
+
+// Where g, >= 0 at low and < 0 at high, passes 0: regula falsi, with halved values at the end that stays (Illinois).
+template <class Function>
+double root(const Function& g, double low, double high) {
+    double at_low = g(low), at_high = g(high);
+    for (int i = 0; i < 100 && high - low > 1e-14 * high; ++i) {
+        double middle = (low * at_high - high * at_low) / (at_high - at_low);
+        if (!(middle > low && middle < high)) middle = (low + high) / 2;
+        if (middle <= low || middle >= high) break;
+        const double value = g(middle);
+        if (value < 0) {
+            high = middle;
+            at_high = value;
+            at_low /= 2;
+        } else {
+            low = middle;
+            at_low = value;
+            at_high /= 2;
+        }
+        if (value == 0) return middle;
+    }
+    return high;
 }
 
 double longest_side(const Charts& charts, Index t) {
@@ -62,8 +86,7 @@ Complex LocalField::parameters(const Place& from, Complex z) const {
     return exp_quotient(at_[from.t].slope * way) * way / velocity(from);
 }
 
-Complex LocalField::point(const Place& from, double s) const {
-    const Complex way = velocity(from) * s;
+Complex LocalField::point(const Place& from, Complex way) const {
     return from.z + way * log_quotient(at_[from.t].slope * way);
 }
 
@@ -71,7 +94,7 @@ Complex LocalField::point(const Place& from, double s) const {
 double LocalField::first_exit(const Place& from, int side, bool entered) const {
     const Complex e = charts_.side(from.t, side), v = velocity(from);
     const double rate = cross(e, v), bend = std::norm(v) * std::conj(e * at_[from.t].slope).imag();
-    const auto distance = [&](double s) { return cross(e, point(from, s) - charts_.corners(from.t)[side]); };
+    const auto distance = [&](double s) { return cross(e, point(from, v * s) - charts_.corners(from.t)[side]); };
     double low = 0, high = 0;
     const bool turns = bend != 0 && rate / bend > 0;
     if (rate < 0 && !entered && distance(0) <= 0) return 0;
@@ -90,12 +113,7 @@ double LocalField::first_exit(const Place& from, int side, bool entered) const {
             if (distance(high) < 0) break;
         }
     }
-    for (int i = 0; i < 100; ++i) {
-        const double middle = (low + high) / 2;
-        if (middle <= low || middle >= high) break;
-        (distance(middle) < 0 ? high : low) = middle;
-    }
-    return high;
+    return root(distance, low, high);
 }
 
 // Both triangles lead to their common side: along it to its end, and out by the next side.
@@ -115,7 +133,7 @@ LocalField::Exit LocalField::exit(const Place& from, int entry) const {
         throw SolverError("a curve of the layout finds no way out of triangle " + std::to_string(from.t), "stuck",
                           {from.t});
     const Complex e = charts_.side(from.t, found.side);
-    const Complex way = point(from, found.length) - charts_.corners(from.t)[found.side];
+    const Complex way = point(from, velocity(from) * found.length) - charts_.corners(from.t)[found.side];
     found.fraction = std::clamp(dot(e, way) / std::norm(e), inside, 1 - inside);
     return found;
 }

@@ -44,7 +44,7 @@ private:
         Complex centre, slope;  // d log f / dz
         double log_size, angle;
     };
-    Complex point(const Place& from, double s) const;
+    Complex point(const Place& from, Complex way) const;  // way: velocity times length
     double first_exit(const Place& from, int side, bool entered) const;
     Exit along_side(const Place& from, int entry) const;
 

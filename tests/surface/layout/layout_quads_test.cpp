@@ -75,19 +75,19 @@ TEST(LayoutQuads, HoledSquareInTwelveBlocks) {
 }
 
 TEST(LayoutQuads, SphereWithEightPoints) {
-    const SurfaceDomain domain(icosphere(3));
+    const SurfaceDomain domain(icosphere(2));
     SingularPattern pattern;
     for (int i = 0; i < 8; ++i)
         pattern.points.push_back(imposed_point(
             domain, Vector(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).normalized() * 0.999, 1));
-    const QuadLayout layout = quad_layout(impose_singular_points(domain, pattern));
+    const QuadLayout layout = quad_layout(turned_for_layout(impose_singular_points(domain, pattern)));
     EXPECT_EQ(layout.vertices.size(), 8u);
     EXPECT_EQ(layout.sides.size(), 12u);
     EXPECT_EQ(layout.patches.size(), 6u);
     const LayoutQuads quads = quads_of(layout, 600);
     EXPECT_EQ(quads.mesh.quads.rows(), 600);
     expect_conforming(quads, layout);
-    for (Index v = 0; v < quads.mesh.vertices.rows(); ++v) EXPECT_NEAR(quads.mesh.vertices.row(v).norm(), 1, 0.02);
+    for (Index v = 0; v < quads.mesh.vertices.rows(); ++v) EXPECT_NEAR(quads.mesh.vertices.row(v).norm(), 1, 0.06);
 }
 
 TEST(LayoutQuads, ThinChordsGetOneQuad) {
