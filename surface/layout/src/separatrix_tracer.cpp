@@ -13,7 +13,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double sector_part = 0.35;  // of the angle between separatrices: off their own direction
-constexpr int most_shots = 12;
+constexpr int most_shots = 8;
+constexpr std::size_t most_passing = 8;  // what a curve passes later is out of its reach
 constexpr double zone = 3;         // tolerances from a point, along edges
 constexpr double clearance = 1e-7;  // of an edge, from its ends
 
@@ -66,10 +67,12 @@ double angle_at(const LocalField& local, const LayoutPoint& point, Index t, int 
 
 struct SeparatrixTracer::Nearest {
     Passing passing;
-    double behind = 0;  // angle, in parameters, between the way back and where it was looked at from
+    double behind;  // angle, in parameters, between the way back and where it was looked at from
+    double from;    // how far along the curve
 };
 
-void SeparatrixTracer::look_at(const LocalField::Place& at, Complex offset, int k, std::vector<Nearest>& found) const {
+void SeparatrixTracer::look_at(const LocalField::Place& at, Complex offset, int k, double from,
+                               std::vector<Nearest>& found) const {
     const Charts& charts = local_.charts();
     const Index place = points_.of_vertex[charts.mesh().triangles(at.t, k)];
     const LayoutPoint& p = points_.points[place];
@@ -77,19 +80,21 @@ void SeparatrixTracer::look_at(const LocalField::Place& at, Complex offset, int 
     const double radial = std::arg(way) - local_.angle(at.t, middle) - at.turn;
     const double length = spoke_length(local_, p, at.t, middle, std::abs(way));
     const Complex where = offset + local_.parameters(at, middle) - std::polar(length, radial);
-    if (std::abs(where.imag()) > tolerance_ || where.real() < 3 * tolerance_) return;
+    // From behind the point the way round it may be shorter, which ends at another sector.
+    if (std::abs(where.imag()) > tolerance_ || where.real() < 3 * tolerance_ || where.real() < from) return;
     const double back = wrapped(pi - radial);
     const double phi = angle_at(local_, p, at.t, k, middle) + back / p.power;
     const double sector = p.angle / p.quads;
     for (int s = 0; s < static_cast<int>(p.slots.size()); ++s) {
         const double off = p.boundary ? phi - p.slots[s] : wrapped(phi - p.slots[s], p.angle);
         if (std::abs(off) > sector_part * sector || std::abs(back) > 0.6 * pi) continue;
-        const Nearest seen{{{place, s}, where.real(), where.imag()}, std::abs(back)};
-        const auto known =
-            std::find_if(found.begin(), found.end(), [&](const Nearest& n) { return n.passing.slot == seen.passing.slot; });
+        const Nearest seen{{{place, s}, where.real(), where.imag()}, std::abs(back), from};
+        const auto known = std::find_if(found.begin(), found.end(), [&](const Nearest& n) {
+            return n.passing.slot.point == place && std::abs(n.passing.length - where.real()) < 5 * tolerance_;
+        });
         if (known == found.end()) {
             found.push_back(seen);
-        } else if (seen.behind < known->behind) {
+        } else if (from > known->from || seen.behind < known->behind) {  // what is nearer is told better
             *known = seen;
         }
     }
@@ -136,7 +141,7 @@ void SeparatrixTracer::look_round(const LocalField::Place& start, double from, d
         const Unfolded at = front[i];
         const auto is_point = [&](int k) { return points_.of_vertex[charts.mesh().triangles(at.at.t, k)] >= 0; };
         for (int k = 0; k < 3; ++k)
-            if (is_point(k)) look_at(at.at, at.offset, k, found);
+            if (is_point(k)) look_at(at.at, at.offset, k, from, found);
         for (int k = 0; k < 3; ++k) {
             const Charts::Side over = charts.across({at.at.t, k});
             if (over.triangle < 0 || is_point(k) || is_point((k + 1) % 3) || !near_points_[over.triangle] ||
@@ -195,7 +200,7 @@ Trace SeparatrixTracer::trace(const Slot& start, double shear, const std::option
             break;
         }
         const LocalField::Exit exit = local_.exit(at, entry);
-        look_round(at, length, length + exit.length, found);
+        if (found.size() < most_passing) look_round(at, length, length + exit.length, found);
         length += exit.length;
         side = {at.t, exit.side};
         fraction = exit.fraction;
@@ -221,6 +226,7 @@ std::optional<LayoutCurve> SeparatrixTracer::joined(const Slot& start, Passing t
                                        [&](const Passing& p) { return p.slot == target.slot; });
         if (seen == trace.passing.end()) return {};
         target = *seen;
+        if (std::abs(target.offset) < 1e-3 * tolerance_ && shot > 1) return {};  // it goes to another sector
     }
     return {};
 }

@@ -43,7 +43,7 @@ private:
     const LayoutPoint& point(const Slot& slot) const { return points_.points[slot.point]; }
     bool arrives(const Passing& target, const LocalField::Place& at, int entry, double length) const;
     void look_round(const LocalField::Place& at, double from, double to, std::vector<Nearest>& found) const;
-    void look_at(const LocalField::Place& at, Complex offset, int k, std::vector<Nearest>& found) const;
+    void look_at(const LocalField::Place& at, Complex offset, int k, double from, std::vector<Nearest>& found) const;
 
     const LocalField& local_;
     const LayoutPoints& points_;
