@@ -19,7 +19,6 @@ TEST(LayoutCurves, FourPointsInTheDiskGiveEightArcs) {
         int inner = 0;
         for (const LayoutCurve& curve : found.curves) {
             const double length = curve.points.back().length / unit;
-            std::printf("length %.6f offset %.2e\n", length, curve.offset / unit);
             EXPECT_NEAR(length, curve.last_vertex >= 0 ? c.a : c.b, 0.01);
             if (curve.last_vertex < 0) continue;
             ++inner;
@@ -29,12 +28,86 @@ TEST(LayoutCurves, FourPointsInTheDiskGiveEightArcs) {
                 const double sp = (std::conj(ray) * p).imag(), sq = (std::conj(ray) * q).imag();
                 if (sp * sq > 0) continue;
                 const double at = std::abs(p + (q - p) * (sp / (sp - sq)));
-                std::printf("crossing %.6f\n", at);
                 EXPECT_NEAR(at, c.crossing, 2e-3);
             }
         }
         EXPECT_EQ(inner, 4);
     }
+}
+
+// By numerical integration of the closed form: the offsets of one point turned, to either side.
+TEST(LayoutCurves, NearMissesHaveTheOffsetsOfTheClosedForm) {
+    const struct {
+        double turned, first, second;
+    } cases[] = {{5, 6.35e-3, 5.70e-3}, {10, 1.34e-2, 1.08e-2}, {20, 3.03e-2, 1.96e-2}};
+    for (const auto& c : cases) {
+        const auto sources = four_in_disk(0.85009, {c.turned, 90, 180, 270});
+        const ImposedField field = disk_field(40, sources);
+        LayoutCurveOptions options;
+        options.end_tolerance = 0.06;
+        const LayoutCurves found = layout_curves(field, options);
+        const double unit = unit_of(field, sources);
+        ASSERT_EQ(found.curves.size(), 8u);
+        std::vector<double> offsets;
+        for (const LayoutCurve& curve : found.curves)
+            if (curve.first_vertex == field.point_vertices[0] || curve.last_vertex == field.point_vertices[0])
+                if (curve.last_vertex >= 0) offsets.push_back(std::abs(curve.offset) / unit);
+        ASSERT_EQ(offsets.size(), 2u);
+        std::sort(offsets.begin(), offsets.end());
+        std::printf("turned %g: %.2e %.2e\n", c.turned, offsets[1], offsets[0]);
+        EXPECT_NEAR(offsets[1], c.first, 2e-3);
+        EXPECT_NEAR(offsets[0], c.second, 2e-3);
+    }
+}
+
+// Each ends at its own separatrix of the other point: the curves round a point keep their order and directions.
+TEST(LayoutCurves, ValenceEightInTheMiddleReachesItsEightBoundaryPoints) {
+    std::vector<Source> sources = {{0.0, -4}};
+    for (int i = 0; i < 8; ++i) sources.push_back({std::polar(1.0, pi / 4 * i), 1});
+    const ImposedField field = disk_field(32, sources);
+    const LayoutCurves found = layout_curves(field);
+    const double unit = unit_of(field, sources);
+    ASSERT_EQ(found.curves.size(), 8u);
+    for (const LayoutCurve& curve : found.curves) {
+        EXPECT_EQ(curve.first_vertex, field.point_vertices[0]);
+        EXPECT_LT(curve.last_vertex, 0);  // between the points, where the eight squares have their sides
+        EXPECT_NEAR(curve.points.back().length / unit, 0.463518669, 0.01);
+    }
+}
+
+template <class Call>
+std::string kind_of(const Call& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.kind();
+    }
+    return "none";
+}
+
+TEST(LayoutCurves, WhatHasNoCurvesIsTold) {
+    ImposedField field = l_shape_field(4);
+    LayoutCurveOptions options;
+    options.end_tolerance = NAN;
+    EXPECT_EQ(kind_of([&] { layout_curves(field, options); }), "bad_option");
+    options.end_tolerance = -1;
+    EXPECT_EQ(kind_of([&] { layout_curves(field, options); }), "bad_option");
+    options = {};
+    options.max_length = 0.1;
+    EXPECT_EQ(kind_of([&] { layout_curves(field, options); }), "long_separatrix");
+    for (const auto& damage : std::vector<std::function<void(ImposedField&)>>{
+             [](ImposedField& f) { f.log_size.resize(3); }, [](ImposedField& f) { f.field.values.resize(0); },
+             [](ImposedField& f) { f.log_size[2] = NAN; }, [](ImposedField& f) { f.point_vertices = {0}; },
+             [](ImposedField& f) { f.pattern.corners[0].vertex = 1000; }, [](ImposedField& f) { f = {}; }}) {
+        ImposedField damaged = field;
+        damage(damaged);
+        EXPECT_EQ(kind_of([&] { layout_curves(damaged); }), "bad_field");
+    }
+    ImposedField cornered = field;
+    cornered.pattern.corners[0].quads = 0;
+    EXPECT_EQ(kind_of([&] { layout_curves(cornered); }), "infinite_corner");
+    field.conditions.push_back({true, 0, 0.1, 0.1, 2.5});
+    EXPECT_EQ(kind_of([&] { layout_curves(field); }), "rotated_field");
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ struct LayoutCurves {
     double parameter_area = 0;        // int exp(-2 H)
 };
 
-// Throws InvalidInput: kinds "bad_option", "infinite_corner" (points and corners without quads; elements: vertices),
+// Throws InvalidInput: kinds "bad_option", "bad_field", "infinite_corner" (points and corners without quads; elements: vertices),
 // "rotated_field" (sizes disagree by more than 5 % round some loop, so that there are no parameters; see
 // ImposedField::conditions); GeometryError: "long_separatrix" (elements: vertices where those start that are longer
 // than max_length); SolverError: "stuck", "unclear_directions" (elements: vertices); Cancelled.
