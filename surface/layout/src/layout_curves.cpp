@@ -8,6 +8,7 @@
 #include "octafield/error.hpp"
 #include "separatrix_tracer.hpp"
 #include "short_number.hpp"
+#include "split_between_points.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -79,12 +80,14 @@ void require_short(const std::vector<Index>& vertices, double max_length) {
 
 }  // namespace
 
-LayoutCurves layout_curves(const ImposedField& field, const LayoutCurveOptions& options, const Progress& progress) {
+LayoutCurves layout_curves(const ImposedField& given, const LayoutCurveOptions& options, const Progress& progress) {
     if (!(options.end_tolerance >= 0) || !(options.max_length >= 0) || std::isinf(options.end_tolerance))
         throw InvalidInput("the end tolerance and maximum length of layout curves are numbers >= 0", "bad_option");
-    require_field(field);
-    require_parameters(field);
+    require_field(given);
+    require_parameters(given);
+    const ImposedField field = detail::split_between_points(given);
     LayoutCurves result;
+    result.domain = field.field.domain;
     result.parameter_area = area_in_parameters(field);
     const double unit = std::sqrt(result.parameter_area);
     result.end_tolerance = options.end_tolerance > 0 ? options.end_tolerance : default_tolerance * unit;

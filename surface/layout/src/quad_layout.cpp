@@ -6,6 +6,7 @@
 #include "layout_pieces.hpp"
 #include "octafield/disjoint_sets.hpp"
 #include "octafield/error.hpp"
+#include "split_between_points.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -118,10 +119,11 @@ void require_euler(const QuadLayout& layout) {
 
 }  // namespace
 
-QuadLayout quad_layout(const ImposedField& field, const LayoutCurveOptions& options, const Progress& progress) {
+QuadLayout quad_layout(const ImposedField& given, const LayoutCurveOptions& options, const Progress& progress) {
     QuadLayout layout;
-    layout.curves = layout_curves(field, options, progress);
-    layout.domain = field.field.domain;
+    layout.curves = layout_curves(given, options, progress);
+    layout.domain = layout.curves.domain;
+    const ImposedField field = detail::split_between_points(given);
     report_or_throw(progress, "cut", 0.9, NAN);
     const detail::LocalField local(field);
     const detail::LayoutPoints points = detail::layout_points(field, local);

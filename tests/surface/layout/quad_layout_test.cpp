@@ -86,5 +86,18 @@ TEST(QuadLayout, NearMissesThatAreNotJoinedGiveThinPatchesOfTheSameSurface) {
     EXPECT_GT(layout.patches.size(), 12u);
 }
 
+TEST(QuadLayout, CornersThatShareAnEdgeAreJoinedAlongIt) {
+    const auto plus = [](double x, double y) {
+        const auto middle = [](double u) { return u > 1.0 / 3 && u < 2.0 / 3; };
+        return middle(x) || middle(y);
+    };
+    for (const int n : {3, 6, 9}) {
+        const QuadLayout layout = quad_layout(impose_singular_points(SurfaceDomain(plate(n, plus)), {}));
+        expect_all_quads(layout, {12, 16, 5});
+        expect_complex(layout);
+        EXPECT_EQ(layout.curves.curves.size(), 4u);
+    }
+}
+
 }  // namespace
 }  // namespace octafield::surface

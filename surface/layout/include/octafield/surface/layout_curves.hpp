@@ -20,7 +20,7 @@ namespace octafield::surface {
 // Where a curve crosses an edge, or its first or last point at a vertex.
 struct LayoutCurvePoint {
     Index vertex = -1;
-    Index edge = -1;      // of the field's domain, where vertex is -1
+    Index edge = -1;      // of LayoutCurves::domain, where vertex is -1
     double fraction = 0;  // of the edge, from lower to higher vertex id, strictly between 0 and 1
     double length = 0;    // from the start, in parameters
 };
@@ -45,6 +45,9 @@ struct LayoutCurves {
     Index traced = 0;                 // separatrices, before any were joined
     double end_tolerance = 0;         // as used
     double parameter_area = 0;        // int exp(-2 H)
+    // That edges and triangles belong to: the field's, with edges between two singular points or corners halved, if
+    // there are any; vertices keep their numbers.
+    SurfaceDomain domain;
 };
 
 // Throws InvalidInput: kinds "bad_option", "bad_field", "infinite_corner" (points and corners without quads; elements: vertices),

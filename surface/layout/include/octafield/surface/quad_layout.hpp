@@ -66,7 +66,7 @@ struct QuadLayout {
     std::vector<LayoutChord> chords;
     LayoutCurves curves;
     double largest_mismatch = 0;  // of opposite sides' lengths in a quad patch, over their mean
-    SurfaceDomain domain;         // of the field
+    SurfaceDomain domain;         // of the curves
     std::shared_ptr<const detail::LayoutPieces> pieces;  // the surface cut into polygons
 };
 
