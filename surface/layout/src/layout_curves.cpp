@@ -93,7 +93,7 @@ LayoutCurves layout_curves(const ImposedField& given, const LayoutCurveOptions& 
     result.end_tolerance = options.end_tolerance > 0 ? options.end_tolerance : default_tolerance * unit;
     const double max_length = options.max_length > 0 ? options.max_length : default_length * unit;
     const detail::LocalField local(field);
-    const detail::LayoutPoints points = detail::layout_points(field, local);
+    const detail::LayoutPoints points = detail::layout_points(field, local, options.cut_vertices);
     const detail::SeparatrixTracer tracer(local, points, result.end_tolerance, max_length);
 
     std::vector<std::pair<Slot, detail::Trace>> traces;

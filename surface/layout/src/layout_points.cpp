@@ -11,12 +11,13 @@ namespace {
 
 constexpr double quarter = std::numbers::pi / 2;
 
-std::map<Index, int> index_of_vertex(const ImposedField& field) {
+std::map<Index, int> index_of_vertex(const ImposedField& field, const std::vector<Index>& cut_vertices) {
     std::map<Index, int> found;
     for (const CornerQuads& corner : field.pattern.corners) found[corner.vertex] = 2 - corner.quads;
     for (std::size_t i = 0; i < field.point_vertices.size(); ++i)
         found[field.point_vertices[i]] = field.pattern.points[i].index_times_four;
     std::erase_if(found, [](const auto& entry) { return entry.second == 0; });
+    for (const Index v : cut_vertices) found.emplace(v, 0);
     return found;
 }
 
@@ -57,14 +58,18 @@ void add_slots(const ImposedField& field, const LocalField& local, LayoutPoint& 
 
 }  // namespace
 
-LayoutPoints layout_points(const ImposedField& field, const LocalField& local) {
+LayoutPoints layout_points(const ImposedField& field, const LocalField& local, const std::vector<Index>& cut_vertices) {
     LayoutPoints result;
     result.of_vertex.assign(local.domain().vertex_count(), -1);
     std::map<Index, std::size_t> fan_of;
     const VertexFans& fans = local.domain().fans();
     for (std::size_t f = 0; f < fans.fans.size(); ++f) fan_of.emplace(fans.fans[f].vertex, f);
-    for (const auto& [vertex, index] : index_of_vertex(field)) {
-        const VertexFans::Fan& fan = fans.fans[fan_of.at(vertex)];
+    for (const auto& [vertex, index] : index_of_vertex(field, cut_vertices)) {
+        const auto place = fan_of.find(vertex);
+        if (place == fan_of.end() || (index == 0 && fans.fans[place->second].closed))
+            throw InvalidInput("cuts start at vertices of the boundary; vertex " + std::to_string(vertex) + " is none",
+                               "bad_option", {vertex});
+        const VertexFans::Fan& fan = fans.fans[place->second];
         LayoutPoint point{vertex, index, (fan.closed ? 4 : 2) - index, !fan.closed, 0, 0, {}, {}, {}};
         if (point.quads < 1)
             throw InvalidInput("vertex " + std::to_string(vertex) +

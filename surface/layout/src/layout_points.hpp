@@ -22,7 +22,8 @@ struct LayoutPoints {
     std::vector<Index> of_vertex;     // (V), -1: none
 };
 
-// Throws InvalidInput (kind "infinite_corner"), SolverError (kind "unclear_directions").
-LayoutPoints layout_points(const ImposedField& field, const LocalField& local);
+// Throws InvalidInput (kinds "infinite_corner", "bad_option"), SolverError (kind "unclear_directions").
+LayoutPoints layout_points(const ImposedField& field, const LocalField& local,
+                           const std::vector<Index>& cut_vertices = {});
 
 }  // namespace octafield::surface::detail

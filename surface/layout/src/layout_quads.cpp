@@ -34,8 +34,13 @@ void require_quads(const QuadLayout& layout) {
 
 std::vector<int> counts_for(const QuadLayout& layout, double size) {
     std::vector<int> counts;
-    for (const LayoutChord& chord : layout.chords)
-        counts.push_back(static_cast<int>(std::clamp(std::round(chord.length / size), 1.0, 1e6)));
+    for (const LayoutChord& chord : layout.chords) {
+        // A side from a vertex to itself is a polygon of three edges at least.
+        const bool loops = std::any_of(chord.sides.begin(), chord.sides.end(), [&](Index s) {
+            return layout.sides[s].first == layout.sides[s].last;
+        });
+        counts.push_back(static_cast<int>(std::clamp(std::round(chord.length / size), loops ? 3.0 : 1.0, 1e6)));
+    }
     return counts;
 }
 

@@ -21,7 +21,8 @@ std::vector<LayoutVertex> vertices_of(const LayoutPieces& pieces, const detail::
         if (pieces.cut.is_crossing[node]) vertex.kind = LayoutVertexKind::crossing;
         if (is_vertex && points.of_vertex[node] >= 0) {
             const detail::LayoutPoint& point = points.points[points.of_vertex[node]];
-            vertex.kind = point.boundary ? LayoutVertexKind::corner : LayoutVertexKind::singular;
+            if (point.index_times_four != 0)
+                vertex.kind = point.boundary ? LayoutVertexKind::corner : LayoutVertexKind::singular;
             vertex.vertex = node;
             vertex.index_times_four = point.index_times_four;
         }
@@ -119,14 +120,16 @@ void require_euler(const QuadLayout& layout) {
 
 }  // namespace
 
-QuadLayout quad_layout(const ImposedField& given, const LayoutCurveOptions& options, const Progress& progress) {
+namespace {
+
+QuadLayout layout_with(const ImposedField& given, const LayoutCurveOptions& options, const Progress& progress) {
     QuadLayout layout;
     layout.curves = layout_curves(given, options, progress);
     layout.domain = layout.curves.domain;
     const ImposedField field = detail::split_between_points(given);
     report_or_throw(progress, "cut", 0.9, NAN);
     const detail::LocalField local(field);
-    const detail::LayoutPoints points = detail::layout_points(field, local);
+    const detail::LayoutPoints points = detail::layout_points(field, local, options.cut_vertices);
     auto pieces = std::make_shared<LayoutPieces>(
         detail::layout_pieces(field, local.charts(), points, layout.curves.curves));
     layout.vertices = vertices_of(*pieces, points);
@@ -136,6 +139,34 @@ QuadLayout quad_layout(const ImposedField& given, const LayoutCurveOptions& opti
     add_chords(layout);
     require_euler(layout);
     return layout;
+}
+
+// Where the first annulus with a closed curve of the boundary is to be cut; -1: there is none.
+Index cut_vertex(const QuadLayout& layout) {
+    for (const LayoutPatch& patch : layout.patches) {
+        if (patch.kind != PatchKind::annulus) continue;
+        for (const auto& loop : patch.loops) {
+            if (layout.sides[loop[0].side].first >= 0) continue;
+            const auto& nodes = layout.pieces->chains[loop[0].side].nodes;
+            return std::min_element(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) {
+                       return a.node < b.node;
+                   })->node;
+        }
+    }
+    return -1;
+}
+
+}  // namespace
+
+QuadLayout quad_layout(const ImposedField& field, const LayoutCurveOptions& options, bool cut_annuli,
+                       const Progress& progress) {
+    LayoutCurveOptions with_cuts = options;
+    while (true) {
+        QuadLayout layout = layout_with(field, with_cuts, progress);
+        const Index cut = cut_annuli ? cut_vertex(layout) : -1;
+        if (cut < 0) return layout;
+        with_cuts.cut_vertices.push_back(cut);
+    }
 }
 
 }  // namespace octafield::surface

@@ -93,6 +93,9 @@ TEST(LayoutCurves, WhatHasNoCurvesIsTold) {
     options.end_tolerance = -1;
     EXPECT_EQ(kind_of([&] { layout_curves(field, options); }), "bad_option");
     options = {};
+    options.cut_vertices = {1000};
+    EXPECT_EQ(kind_of([&] { layout_curves(field, options); }), "bad_option");
+    options = {};
     options.max_length = 0.1;
     EXPECT_EQ(kind_of([&] { layout_curves(field, options); }), "long_separatrix");
     for (const auto& damage : std::vector<std::function<void(ImposedField&)>>{

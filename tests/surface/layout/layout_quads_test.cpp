@@ -90,6 +90,20 @@ TEST(LayoutQuads, SphereWithEightPoints) {
     for (Index v = 0; v < quads.mesh.vertices.rows(); ++v) EXPECT_NEAR(quads.mesh.vertices.row(v).norm(), 1, 0.06);
 }
 
+TEST(LayoutQuads, AnnulusIsCutOnce) {
+    const QuadLayout layout = quad_layout(impose_singular_points(SurfaceDomain(annulus(0.3, 64, 12)), {}));
+    EXPECT_EQ(layout.vertices.size(), 2u);
+    EXPECT_EQ(layout.sides.size(), 3u);
+    ASSERT_EQ(layout.patches.size(), 1u);
+    EXPECT_EQ(layout.patches[0].kind, PatchKind::quad);
+    // In log r the annulus is log(1 / 0.3) by 2 pi.
+    EXPECT_NEAR(layout.sides[1].length() / layout.sides[0].length(), 2 * pi / std::log(1 / 0.3), 0.02);
+    const LayoutQuads quads = quads_of(layout, 500);
+    expect_conforming(quads, layout);
+    EXPECT_EQ(quads.mesh.quads.rows() % quads.patch_sizes.row(0).maxCoeff(), 0);
+    EXPECT_GT(quads.least_scaled_jacobian, 0.95);
+}
+
 TEST(LayoutQuads, ThinChordsGetOneQuad) {
     LayoutCurveOptions options;
     options.end_tolerance = 0.004;
@@ -114,7 +128,7 @@ std::string kind_of(const Call& call) {
 }
 
 TEST(LayoutQuads, WhatHasNoQuadLayoutIsTold) {
-    const QuadLayout annulus_layout = quad_layout(impose_singular_points(SurfaceDomain(annulus(0.3, 40, 8)), {}));
+    const QuadLayout annulus_layout = quad_layout(impose_singular_points(SurfaceDomain(annulus(0.3, 40, 8)), {}), {}, false);
     ASSERT_EQ(annulus_layout.patches.size(), 1u);
     EXPECT_EQ(annulus_layout.patches[0].kind, PatchKind::annulus);
     EXPECT_EQ(kind_of([&] { quads_of(annulus_layout, 100); }), "no_quad_layout");

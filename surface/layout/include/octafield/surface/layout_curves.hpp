@@ -38,6 +38,8 @@ struct LayoutCurveOptions {
     // hundredth of the square root of the surface's area in parameters.
     double end_tolerance = 0;
     double max_length = 0;  // of a curve, in parameters; 0: 40 times that square root
+    // Vertices of the boundary, with two quads, from which a curve starts at right angles as well: cuts.
+    std::vector<Index> cut_vertices = {};
 };
 
 struct LayoutCurves {
@@ -50,7 +52,7 @@ struct LayoutCurves {
     SurfaceDomain domain;
 };
 
-// Throws InvalidInput: kinds "bad_option", "bad_field", "infinite_corner" (points and corners without quads; elements: vertices),
+// Throws InvalidInput: kinds "bad_option" (elements: cut_vertices that are not on the boundary), "bad_field", "infinite_corner" (points and corners without quads; elements: vertices),
 // "rotated_field" (sizes disagree by more than 5 % round some loop, so that there are no parameters; see
 // ImposedField::conditions); GeometryError: "long_separatrix" (elements: vertices where those start that are longer
 // than max_length); SolverError: "stuck", "unclear_directions" (elements: vertices); Cancelled.

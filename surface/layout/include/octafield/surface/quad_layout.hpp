@@ -73,6 +73,10 @@ struct QuadLayout {
 // V - E + (the sum of the patches' Euler characteristics) is that of the surface; checked. Patches that are no quads are
 // reported by their kind; layout_quads refuses them. Throws as layout_curves, and GeometryError (kind
 // "bad_subdivision").
-QuadLayout quad_layout(const ImposedField& field, const LayoutCurveOptions& options = {}, const Progress& progress = {});
+//
+// A closed curve of the boundary that no separatrix meets bounds an annulus; it is cut by a curve at right angles from its
+// lowest vertex, unless cut_annuli is false.
+QuadLayout quad_layout(const ImposedField& field, const LayoutCurveOptions& options = {}, bool cut_annuli = true,
+                       const Progress& progress = {});
 
 }  // namespace octafield::surface
