@@ -28,9 +28,9 @@ private:
     const std::vector<LayoutCurve>& curves_;
     CutSurface cut_;
     std::vector<Eigen::Vector3d> positions_;
-    std::vector<std::vector<Index>> point_nodes_;       // of each curve's points
-    std::vector<std::vector<Chord>> chords_;            // (F)
-    std::vector<std::vector<CurveNode>> in_between_;    // crossings along each curve, in any order
+    std::vector<std::vector<Index>> point_nodes_;     // of each curve's points
+    std::vector<std::vector<Chord>> chords_;          // (F)
+    std::vector<std::vector<CurveNode>> in_between_;  // crossings along each curve, in any order
 };
 
 void Cutter::place_nodes() {
@@ -66,8 +66,7 @@ void Cutter::place_nodes() {
     for (Index c = 0; c < static_cast<Index>(curves_.size()); ++c)
         for (std::size_t i = 0; i < curves_[c].triangles.size(); ++i)
             chords_[curves_[c].triangles[i]].push_back({c, point_nodes_[c][i], point_nodes_[c][i + 1],
-                                                        curves_[c].points[i].length,
-                                                        curves_[c].points[i + 1].length});
+                                                        curves_[c].points[i].length, curves_[c].points[i + 1].length});
 }
 
 void Cutter::cut_triangles() {
@@ -101,8 +100,8 @@ void Cutter::cut_triangles() {
 }
 
 void Cutter::order_curves() {
-    // cut_triangle gives the crossings of each chord in its order, one chord after another by triangle; those of a curve
-    // are put in place by the lengths at the chords' ends, and kept in order within.
+    // cut_triangle gives the crossings of each chord in its order, one chord after another by triangle; those of a
+    // curve are put in place by the lengths at the chords' ends, and kept in order within.
     cut_.curves.resize(curves_.size());
     for (std::size_t c = 0; c < curves_.size(); ++c) {
         auto& crossings = in_between_[c];
@@ -140,9 +139,9 @@ void Cutter::join_polygons() {
         const Side &a = sides[i], &b = sides[end - 1];
         const bool pair = end - i == 2 && a.forward != b.forward && cut_.is_cut[a.c] == cut_.is_cut[b.c];
         if (!pair && !(end - i == 1 && cut_.is_cut[a.c]))
-            throw GeometryError("the curves of the layout do not cut the surface into polygons, near vertex " +
-                                    std::to_string(a.low),
-                                "bad_subdivision");
+            throw GeometryError(
+                "the curves of the layout do not cut the surface into polygons, near vertex " + std::to_string(a.low),
+                "bad_subdivision");
         if (pair) {
             cut_.mates[a.c] = b.c;
             cut_.mates[b.c] = a.c;

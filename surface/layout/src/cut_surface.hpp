@@ -17,9 +17,9 @@ struct CurveNode {
 struct CutSurface {
     // Nodes: the vertices of the surface, then where curves cross edges, then where they cross one another.
     Points positions;
-    std::vector<bool> is_crossing;                 // (nodes)
-    std::vector<std::vector<CurveNode>> curves;    // all nodes along each curve
-    std::vector<std::vector<Index>> edge_nodes;    // (E) from lower to higher vertex
+    std::vector<bool> is_crossing;               // (nodes)
+    std::vector<std::vector<CurveNode>> curves;  // all nodes along each curve
+    std::vector<std::vector<Index>> edge_nodes;  // (E) from lower to higher vertex
 
     // Polygons, convex, each in one triangle. Corner c of polygon p: first[p] <= c < first[p + 1], counter-clockwise;
     // side c runs to the next corner.

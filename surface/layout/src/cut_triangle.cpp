@@ -164,7 +164,8 @@ std::vector<std::vector<RingNode>> TriangleCutter::polygons() {
                 const bool on_ring = at < size_ && to == (at + 1) % size_ && out == 0;
                 polygon.push_back({nodes_[at], on_ring ? ring_[at].cut_after : true});
                 const auto& around = around_[to];
-                const auto back = static_cast<std::size_t>(std::find(around.begin(), around.end(), at) - around.begin());
+                const auto back =
+                    static_cast<std::size_t>(std::find(around.begin(), around.end(), at) - around.begin());
                 out = (back + around.size() - 1) % around.size();
                 at = to;
             }

@@ -36,8 +36,8 @@ void add_slots(const ImposedField& field, const LocalField& local, LayoutPoint& 
         const Index t = point.corners[i] / 3;
         const int k = point.corners[i] % 3, back = (k + 2) % 3;
         const double angle = charts.domain().corner_angles()(t, k);
-        double next = psi - angle + local.angle(t, charts.on_side(t, back, 0.5)) -
-                      local.angle(t, charts.on_side(t, k, 0.5));
+        double next =
+            psi - angle + local.angle(t, charts.on_side(t, back, 0.5)) - local.angle(t, charts.on_side(t, k, 0.5));
         const double exact = own_angle(t, back);
         next = exact + quarter * std::round((next - exact) / quarter);
         while (static_cast<int>(point.slots.size()) < count && next < level * quarter) {
@@ -51,8 +51,9 @@ void add_slots(const ImposedField& field, const LocalField& local, LayoutPoint& 
     if (static_cast<int>(point.slots.size()) == count - 1 && psi < level * quarter + 1e-6)
         point.slots.push_back(point.angle);
     if (static_cast<int>(point.slots.size()) != count)
-        throw SolverError("of the " + std::to_string(count) + " separatrices at vertex " + std::to_string(point.vertex) +
-                              " only " + std::to_string(point.slots.size()) + " can be told; refine the mesh there",
+        throw SolverError("of the " + std::to_string(count) + " separatrices at vertex " +
+                              std::to_string(point.vertex) + " only " + std::to_string(point.slots.size()) +
+                              " can be told; refine the mesh there",
                           "unclear_directions", {point.vertex});
 }
 

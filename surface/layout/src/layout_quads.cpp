@@ -24,21 +24,21 @@ void require_quads(const QuadLayout& layout) {
         annuli += layout.patches[p].kind == PatchKind::annulus;
     }
     if (bad.empty()) return;
-    throw GeometryError(std::to_string(bad.size()) + " of " + std::to_string(layout.patches.size()) +
-                            " patches of the layout (" + first_few(bad) + ") have no four corners: " +
-                            std::to_string(annuli) + " are annuli, " + std::to_string(polygons) +
-                            " are disks with another number of corners, the others neither. An annulus needs a corner "
-                            "or a singular point on it; for disks change the end tolerance, or move the singular points",
-                        "no_quad_layout", bad);
+    throw GeometryError(
+        std::to_string(bad.size()) + " of " + std::to_string(layout.patches.size()) + " patches of the layout (" +
+            first_few(bad) + ") have no four corners: " + std::to_string(annuli) + " are annuli, " +
+            std::to_string(polygons) +
+            " are disks with another number of corners, the others neither. An annulus needs a corner "
+            "or a singular point on it; for disks change the end tolerance, or move the singular points",
+        "no_quad_layout", bad);
 }
 
 std::vector<int> counts_for(const QuadLayout& layout, double size) {
     std::vector<int> counts;
     for (const LayoutChord& chord : layout.chords) {
         // A side from a vertex to itself is a polygon of three edges at least.
-        const bool loops = std::any_of(chord.sides.begin(), chord.sides.end(), [&](Index s) {
-            return layout.sides[s].first == layout.sides[s].last;
-        });
+        const bool loops = std::any_of(chord.sides.begin(), chord.sides.end(),
+                                       [&](Index s) { return layout.sides[s].first == layout.sides[s].last; });
         counts.push_back(static_cast<int>(std::clamp(std::round(chord.length / size), loops ? 3.0 : 1.0, 1e6)));
     }
     return counts;
@@ -48,8 +48,7 @@ double total(const QuadLayout& layout, const std::vector<int>& counts) {
     double sum = 0;
     for (const LayoutPatch& patch : layout.patches) {
         const auto& loop = patch.loops[0];
-        sum += static_cast<double>(counts[layout.sides[loop[0].side].chord]) *
-               counts[layout.sides[loop[1].side].chord];
+        sum += static_cast<double>(counts[layout.sides[loop[0].side].chord]) * counts[layout.sides[loop[1].side].chord];
     }
     return sum;
 }

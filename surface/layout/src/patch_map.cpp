@@ -217,7 +217,9 @@ Points grid_positions(const PatchMap& map, int n, int m) {
         const Eigen::RowVector2d low = corners.colwise().minCoeff(), high = corners.colwise().maxCoeff();
         const Eigen::RowVector2d u = corners.row(1) - corners.row(0), v = corners.row(2) - corners.row(0);
         const double area = u[0] * v[1] - u[1] * v[0];
-        const auto first = [](double at, double step) { return std::max(1, static_cast<int>(std::ceil(at / step - 1e-6))); };
+        const auto first = [](double at, double step) {
+            return std::max(1, static_cast<int>(std::ceil(at / step - 1e-6)));
+        };
         const auto last = [](double at, double step, int most) {
             return std::min(most - 1, static_cast<int>(std::floor(at / step + 1e-6)));
         };
@@ -229,8 +231,8 @@ Points grid_positions(const PatchMap& map, int n, int m) {
                 const Eigen::Index row = static_cast<Eigen::Index>(j - 1) * (n - 1) + i - 1;
                 if (!(least > best[row])) continue;
                 best[row] = least;
-                result.row(row) = (1 - second - third) * map.positions.row(t[0]) +
-                                  second * map.positions.row(t[1]) + third * map.positions.row(t[2]);
+                result.row(row) = (1 - second - third) * map.positions.row(t[0]) + second * map.positions.row(t[1]) +
+                                  third * map.positions.row(t[2]);
             }
     }
     return result;

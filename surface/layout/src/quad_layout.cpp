@@ -36,7 +36,10 @@ std::vector<LayoutSide> sides_of(const LayoutPieces& pieces) {
     for (const detail::NodeChain& chain : pieces.chains) {
         const auto count = static_cast<Eigen::Index>(chain.nodes.size());
         LayoutSide side{pieces.vertex_of_node[chain.nodes.front().node],
-                        pieces.vertex_of_node[chain.nodes.back().node], chain.curve, -1, Points(count, 3),
+                        pieces.vertex_of_node[chain.nodes.back().node],
+                        chain.curve,
+                        -1,
+                        Points(count, 3),
                         Eigen::VectorXd(count)};
         for (Eigen::Index i = 0; i < count; ++i) {
             side.points.row(i) = pieces.cut.positions.row(chain.nodes[i].node);
@@ -130,8 +133,8 @@ QuadLayout layout_with(const ImposedField& given, const LayoutCurveOptions& opti
     report_or_throw(progress, "cut", 0.9, NAN);
     const detail::LocalField local(field);
     const detail::LayoutPoints points = detail::layout_points(field, local, options.cut_vertices);
-    auto pieces = std::make_shared<LayoutPieces>(
-        detail::layout_pieces(field, local.charts(), points, layout.curves.curves));
+    auto pieces =
+        std::make_shared<LayoutPieces>(detail::layout_pieces(field, local.charts(), points, layout.curves.curves));
     layout.vertices = vertices_of(*pieces, points);
     layout.sides = sides_of(*pieces);
     layout.patches = patches_of(*pieces);
@@ -148,9 +151,9 @@ Index cut_vertex(const QuadLayout& layout) {
         for (const auto& loop : patch.loops) {
             if (layout.sides[loop[0].side].first >= 0) continue;
             const auto& nodes = layout.pieces->chains[loop[0].side].nodes;
-            return std::min_element(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) {
-                       return a.node < b.node;
-                   })->node;
+            return std::min_element(nodes.begin(), nodes.end(),
+                                    [](const auto& a, const auto& b) { return a.node < b.node; })
+                ->node;
         }
     }
     return -1;

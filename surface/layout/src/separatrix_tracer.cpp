@@ -15,8 +15,8 @@ constexpr double pi = std::numbers::pi;
 constexpr double sector_part = 0.35;  // of the angle between separatrices: off their own direction
 constexpr int most_shots = 8;
 constexpr std::size_t most_passing = 8;  // what a curve passes later is out of its reach
-constexpr double zone = 3;         // tolerances from a point, along edges
-constexpr double clearance = 1e-7;  // of an edge, from its ends
+constexpr double zone = 3;               // tolerances from a point, along edges
+constexpr double clearance = 1e-7;       // of an edge, from its ends
 
 double wrapped(double angle, double period = 2 * pi) { return angle - period * std::round(angle / period); }
 
@@ -43,8 +43,7 @@ Spoke spoke_at(const LocalField& local, const LayoutPoint& point, double phi) {
     const Index t = point.corners[i] / 3;
     const int k = point.corners[i] % 3, link = (k + 1) % 3;
     const Complex centre = charts.corners(t)[k], along = charts.side(t, link);
-    const Complex direction =
-        std::polar(1.0, std::arg(charts.side(t, k)) + std::max(0.0, phi - point.starts[i]));
+    const Complex direction = std::polar(1.0, std::arg(charts.side(t, k)) + std::max(0.0, phi - point.starts[i]));
     const Complex way = charts.corners(t)[link] - centre;
     const double fraction = std::clamp(-cross(direction, way) / cross(direction, along), clearance, 1 - clearance);
     const Complex end = charts.on_side(t, link, fraction);
@@ -59,8 +58,7 @@ double spoke_length(const LocalField& local, const LayoutPoint& point, Index t, 
 double angle_at(const LocalField& local, const LayoutPoint& point, Index t, int k, Complex z) {
     const Charts& charts = local.charts();
     const auto found = std::find(point.corners.begin(), point.corners.end(), 3 * t + k);
-    return point.starts[found - point.corners.begin()] +
-           std::arg((z - charts.corners(t)[k]) / charts.side(t, k));
+    return point.starts[found - point.corners.begin()] + std::arg((z - charts.corners(t)[k]) / charts.side(t, k));
 }
 
 }  // namespace
@@ -114,8 +112,8 @@ SeparatrixTracer::SeparatrixTracer(const LocalField& local, const LayoutPoints& 
         for (Index t = 0; t < triangles.rows(); ++t)
             for (int k = 0; k < 3; ++k) {
                 const Index a = triangles(t, k), b = triangles(t, (k + 1) % 3);
-                const double length = std::abs(charts.side(t, k)) *
-                                      std::exp(-local.log_size(t, charts.on_side(t, k, 0.5)));
+                const double length =
+                    std::abs(charts.side(t, k)) * std::exp(-local.log_size(t, charts.on_side(t, k, 0.5)));
                 const double least = std::min(distance[a], distance[b]);
                 if (least > zone * tolerance) continue;
                 near_points_[t] = true;
@@ -156,8 +154,8 @@ void SeparatrixTracer::look_round(const LocalField::Place& start, double from, d
             const double heading = local_.heading({at.at.t, middle, at.at.turn});
             seen.insert(over.triangle);
             // Both sides have the same four directions at the middle.
-            front.push_back({local_.across({at.at.t, k}, 0.5, heading, at.at.turn),
-                             at.offset + local_.parameters(at.at, middle)});
+            front.push_back(
+                {local_.across({at.at.t, k}, 0.5, heading, at.at.turn), at.offset + local_.parameters(at.at, middle)});
         }
     }
 }
@@ -251,7 +249,8 @@ void tighten(LayoutCurve& curve, const Charts& charts) {
         } else if (i == 0 && !last && points[0].vertex >= 0 && points[1].edge >= 0 && touches(points[0], points[1])) {
             erase(points, 1, 1);
             erase(triangles, 0, 1);
-        } else if (i > 0 && last && points[i + 1].vertex >= 0 && points[i].edge >= 0 && touches(points[i + 1], points[i])) {
+        } else if (i > 0 && last && points[i + 1].vertex >= 0 && points[i].edge >= 0 &&
+                   touches(points[i + 1], points[i])) {
             erase(points, i, 1);
             erase(triangles, i, 1);
             i -= 1;

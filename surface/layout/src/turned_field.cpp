@@ -12,11 +12,11 @@ namespace octafield::surface {
 namespace {
 
 constexpr double quarter = std::numbers::pi / 2;
-constexpr int directions = 120;         // looked along, per quarter turn
-constexpr double reach = 1;             // how far, in roots of the area in parameters
-constexpr int most_tried = 8;           // angles
-constexpr double same_angle = 0.004;    // radians
-constexpr double longest = 8;           // curve, in the same roots
+constexpr int directions = 120;       // looked along, per quarter turn
+constexpr double reach = 1;           // how far, in roots of the area in parameters
+constexpr int most_tried = 8;         // angles
+constexpr double same_angle = 0.004;  // radians
+constexpr double longest = 8;         // curve, in the same roots
 
 ImposedField turned(const ImposedField& field, const detail::Structure& structure, Index component, double angle) {
     ImposedField result = field;

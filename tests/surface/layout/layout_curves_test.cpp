@@ -54,7 +54,6 @@ TEST(LayoutCurves, NearMissesHaveTheOffsetsOfTheClosedForm) {
                 if (curve.last_vertex >= 0) offsets.push_back(std::abs(curve.offset) / unit);
         ASSERT_EQ(offsets.size(), 2u);
         std::sort(offsets.begin(), offsets.end());
-        std::printf("turned %g: %.2e %.2e\n", c.turned, offsets[1], offsets[0]);
         EXPECT_NEAR(offsets[1], c.first, 2e-3);
         EXPECT_NEAR(offsets[0], c.second, 2e-3);
     }

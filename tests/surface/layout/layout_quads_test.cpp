@@ -1,7 +1,7 @@
 // Quads of layouts: valid, conforming, on the surface, of the sizes asked for.
+#include "octafield/surface/layout_quads.hpp"
 #include "layout_fixtures.hpp"
 #include "octafield/error.hpp"
-#include "octafield/surface/layout_quads.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -18,11 +18,6 @@ void expect_conforming(const LayoutQuads& quads, const QuadLayout& layout) {
     EXPECT_EQ(static_cast<long>(mesh.vertices.rows()) - static_cast<long>(uses.size()) + mesh.quads.rows(),
               euler_characteristic(layout.domain.mesh()));
     const Eigen::VectorXd eta = quad_angle_quality(mesh);
-    std::printf("quads %d, scaled Jacobian >= %.3f, eta mean %.3f worst %.3f, eta > 0.9: %.1f %%, area %.5f of %.5f, "
-                "mean value maps %d\n",
-                static_cast<int>(mesh.quads.rows()), quads.least_scaled_jacobian, eta.mean(), eta.minCoeff(),
-                100.0 * static_cast<double>((eta.array() > 0.9).count()) / static_cast<double>(eta.size()),
-                total_area(mesh), triangle_areas(layout.domain.mesh()).sum(), quads.mean_value_patches);
     EXPECT_GT(quads.least_scaled_jacobian, 0.3);
 }
 
@@ -78,8 +73,8 @@ TEST(LayoutQuads, SphereWithEightPoints) {
     const SurfaceDomain domain(icosphere(2));
     SingularPattern pattern;
     for (int i = 0; i < 8; ++i)
-        pattern.points.push_back(imposed_point(
-            domain, Vector(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).normalized() * 0.999, 1));
+        pattern.points.push_back(
+            imposed_point(domain, Vector(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).normalized() * 0.999, 1));
     const QuadLayout layout = quad_layout(turned_for_layout(impose_singular_points(domain, pattern)));
     EXPECT_EQ(layout.vertices.size(), 8u);
     EXPECT_EQ(layout.sides.size(), 12u);
@@ -107,12 +102,9 @@ TEST(LayoutQuads, AnnulusIsCutOnce) {
 TEST(LayoutQuads, ThinChordsGetOneQuad) {
     LayoutCurveOptions options;
     options.end_tolerance = 0.004;
-    const QuadLayout layout =
-        quad_layout(disk_field(26, four_in_disk(0.85009, {0, 85, 180, 275})), options);
+    const QuadLayout layout = quad_layout(disk_field(26, four_in_disk(0.85009, {0, 85, 180, 275})), options);
     const LayoutQuads quads = quads_of(layout, 800);
     require_valid(quads.mesh, false);
-    std::printf("kite: %d quads, scaled Jacobian %.3f\n", static_cast<int>(quads.mesh.quads.rows()),
-                quads.least_scaled_jacobian);
     EXPECT_EQ(*std::min_element(quads.chord_counts.begin(), quads.chord_counts.end()), 1);
 }
 
@@ -121,14 +113,14 @@ std::string kind_of(const Call& call) {
     try {
         call();
     } catch (const Error& error) {
-        std::printf("%s\n", error.what());
         return error.kind();
     }
     return "none";
 }
 
 TEST(LayoutQuads, WhatHasNoQuadLayoutIsTold) {
-    const QuadLayout annulus_layout = quad_layout(impose_singular_points(SurfaceDomain(annulus(0.3, 40, 8)), {}), {}, false);
+    const QuadLayout annulus_layout =
+        quad_layout(impose_singular_points(SurfaceDomain(annulus(0.3, 40, 8)), {}), {}, false);
     ASSERT_EQ(annulus_layout.patches.size(), 1u);
     EXPECT_EQ(annulus_layout.patches[0].kind, PatchKind::annulus);
     EXPECT_EQ(kind_of([&] { quads_of(annulus_layout, 100); }), "no_quad_layout");

@@ -1,7 +1,7 @@
 // Cell complexes of layouts: counts and lengths.
+#include "octafield/surface/quad_layout.hpp"
 #include "layout_fixtures.hpp"
 #include "octafield/error.hpp"
-#include "octafield/surface/quad_layout.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -11,8 +11,6 @@ struct Counts {
 };
 
 void expect_all_quads(const QuadLayout& layout, const Counts& counts) {
-    std::printf("V E F %zu %zu %zu, chords %zu, mismatch %.2e\n", layout.vertices.size(), layout.sides.size(),
-                layout.patches.size(), layout.chords.size(), layout.largest_mismatch);
     EXPECT_EQ(layout.vertices.size(), counts.vertices);
     EXPECT_EQ(layout.sides.size(), counts.sides);
     EXPECT_EQ(layout.patches.size(), counts.patches);

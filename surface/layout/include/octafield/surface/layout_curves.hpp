@@ -26,11 +26,12 @@ struct LayoutCurvePoint {
 };
 
 struct LayoutCurve {
-    std::vector<LayoutCurvePoint> points;  // n + 1: the first at a vertex, the last at one or on an edge of the boundary
-    std::vector<Index> triangles;          // n: that hold the parts between the points
-    Index first_vertex = -1;               // singular point or corner, of the field's domain
-    Index last_vertex = -1;                // the same; -1: ends at the boundary
-    double offset = 0;                     // by which the exact separatrix misses last_vertex, parameters, signed
+    std::vector<LayoutCurvePoint>
+        points;                    // n + 1: the first at a vertex, the last at one or on an edge of the boundary
+    std::vector<Index> triangles;  // n: that hold the parts between the points
+    Index first_vertex = -1;       // singular point or corner, of the field's domain
+    Index last_vertex = -1;        // the same; -1: ends at the boundary
+    double offset = 0;             // by which the exact separatrix misses last_vertex, parameters, signed
 };
 
 struct LayoutCurveOptions {
@@ -52,18 +53,19 @@ struct LayoutCurves {
     SurfaceDomain domain;
 };
 
-// Throws InvalidInput: kinds "bad_option" (elements: cut_vertices that are not on the boundary), "bad_field", "infinite_corner" (points and corners without quads; elements: vertices),
-// "rotated_field" (sizes disagree by more than 5 % round some loop, so that there are no parameters; see
-// ImposedField::conditions); GeometryError: "long_separatrix" (elements: vertices where those start that are longer
-// than max_length); SolverError: "stuck", "unclear_directions" (elements: vertices); Cancelled.
+// Throws InvalidInput: kinds "bad_option" (elements: cut_vertices that are not on the boundary), "bad_field",
+// "infinite_corner" (points and corners without quads; elements: vertices), "rotated_field" (sizes disagree by more
+// than 5 % round some loop, so that there are no parameters; see ImposedField::conditions); GeometryError:
+// "long_separatrix" (elements: vertices where those start that are longer than max_length); SolverError: "stuck",
+// "unclear_directions" (elements: vertices); Cancelled.
 LayoutCurves layout_curves(const ImposedField& field, const LayoutCurveOptions& options = {},
                            const Progress& progress = {});
 
 // On closed parts of the surface nothing aligns the field: turned by any one angle it has the same singular points and
 // sizes, but other separatrices. The field with each closed part turned so that separatrices join and are short in all,
 // out of those angles at which one runs straight from a point to another one nearby. Parts with a boundary stay. Throws
-// as layout_curves; GeometryError (kind "no_short_turn", elements: vertices of the points of a part) where no angle tried
-// gives separatrices of finite length.
+// as layout_curves; GeometryError (kind "no_short_turn", elements: vertices of the points of a part) where no angle
+// tried gives separatrices of finite length.
 ImposedField turned_for_layout(const ImposedField& field, const LayoutCurveOptions& options = {},
                                const Progress& progress = {});
 

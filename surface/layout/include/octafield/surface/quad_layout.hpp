@@ -36,9 +36,9 @@ struct LayoutSide {
 };
 
 enum class PatchKind {
-    quad,      // a disk with four corners
-    polygon,   // a disk with another number of corners
-    annulus,   // two boundary curves, genus 0
+    quad,     // a disk with four corners
+    polygon,  // a disk with another number of corners
+    annulus,  // two boundary curves, genus 0
     other,
 };
 
@@ -65,17 +65,17 @@ struct QuadLayout {
     std::vector<LayoutPatch> patches;
     std::vector<LayoutChord> chords;
     LayoutCurves curves;
-    double largest_mismatch = 0;  // of opposite sides' lengths in a quad patch, over their mean
-    SurfaceDomain domain;         // of the curves
+    double largest_mismatch = 0;                         // of opposite sides' lengths in a quad patch, over their mean
+    SurfaceDomain domain;                                // of the curves
     std::shared_ptr<const detail::LayoutPieces> pieces;  // the surface cut into polygons
 };
 
-// V - E + (the sum of the patches' Euler characteristics) is that of the surface; checked. Patches that are no quads are
-// reported by their kind; layout_quads refuses them. Throws as layout_curves, and GeometryError (kind
+// V - E + (the sum of the patches' Euler characteristics) is that of the surface; checked. Patches that are no quads
+// are reported by their kind; layout_quads refuses them. Throws as layout_curves, and GeometryError (kind
 // "bad_subdivision").
 //
-// A closed curve of the boundary that no separatrix meets bounds an annulus; it is cut by a curve at right angles from its
-// lowest vertex, unless cut_annuli is false.
+// A closed curve of the boundary that no separatrix meets bounds an annulus; it is cut by a curve at right angles from
+// its lowest vertex, unless cut_annuli is false.
 QuadLayout quad_layout(const ImposedField& field, const LayoutCurveOptions& options = {}, bool cut_annuli = true,
                        const Progress& progress = {});
 
