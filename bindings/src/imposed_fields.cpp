@@ -74,7 +74,9 @@ void bind_field_types(py::module_& m) {
         .field("rings", &ImposedFieldOptions::rings, "Rings of triangles round a point, at least 1.")
         .field("ring_ratio", &ImposedFieldOptions::ring_ratio, "Above 1: how much wider each ring is.")
         .field("max_steps", &ImposedFieldOptions::max_steps, "Of Newton's method, where points move.")
-        .finish([](const ImposedFieldOptions& o) { return "inadmissible='" + to_word(o.inadmissible) + "'"; });
+        .finish([](const ImposedFieldOptions& o) {
+            return "inadmissible='" + to_word(o.inadmissible) + "', tolerance=" + number(o.tolerance);
+        });
     Record<HolonomyCondition>(m, "HolonomyCondition",
                               "A condition on the places of singular points, beside the sum of their indices.")
         .field("boundary", &HolonomyCondition::boundary,

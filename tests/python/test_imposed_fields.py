@@ -125,7 +125,7 @@ def test_corners_by_angle_and_with_the_fewest_points():
         (lambda d: surface.imposed_at_vertex(d, -3, 1), "outside_surface"),
         (lambda d: surface.imposed_position(d, surface.ImposedPoint(10**6)), "outside_surface"),
         (lambda d: surface.impose_singular_points(d, two_rings(d, 0), inadmissible="bend"), "unknown_word"),
-        (lambda d: surface.impose_singular_points(d, two_rings(d, 0), tolerance=np.nan), "bad_option"),
+        (lambda d: surface.impose_singular_points(d, two_rings(d, 0), tolerance=np.nan), "non_finite"),
         (lambda d: surface.impose_singular_points(d, two_rings(d, 0), sectors=2), "bad_option"),
         (
             lambda d: surface.impose_singular_points(d, surface.SingularPattern(corners=[surface.CornerQuads(200, 1)])),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "charts.hpp"
 #include "octafield/error.hpp"
@@ -50,41 +51,36 @@ std::vector<Vector> turned_gradients(const BuiltField& built, const Eigen::Vecto
     return sums;
 }
 
-// Straight on from the place, by `step` laid in its triangle; up to nine tenths of the way to the boundary.
+// Goes straight on in the charts: up to nine tenths of the way to the boundary.
+void walk(const Charts& charts, Index& t, Complex& at, Complex heading, double length) {
+    int entry = -1;
+    for (int crossed = 0; crossed < most_crossed; ++crossed) {
+        const auto out = charts.exit(t, at, heading, entry);
+        if (out.side < 0) return;
+        const Charts::Side here{t, out.side}, there = charts.across(here);
+        if (out.distance >= length || there.triangle < 0) {
+            at += (there.triangle < 0 ? std::min(length, 0.9 * out.distance) : length) * heading;
+            return;
+        }
+        at += out.distance * heading;
+        length -= out.distance;
+        const Complex along = charts.side(t, out.side);
+        const double fraction = dot(along, at - charts.corners(t)[out.side]) / std::norm(along);
+        heading = charts.carried(heading, here, there);
+        t = there.triangle;
+        at = charts.on_side(t, there.side, 1 - fraction);
+        entry = there.side;
+    }
+}
+
+// From the place by `step`, laid into its triangle.
 Place walked(const Charts& charts, const Place& place, const Vector& step) {
     Index t = place.triangle;
-    Vector position = Vector::Zero();
-    for (int k = 0; k < 3; ++k)
-        position += place.weights[k] * charts.mesh().vertices.row(charts.mesh().triangles(t, k)).transpose();
-    Complex at = charts.lower(t, position);
+    Complex at = 0;
+    for (int k = 0; k < 3; ++k) at += place.weights[k] * charts.corners(t)[k];
     at += 1e-9 * (charts.centroid(t) - at);  // so that the line from it passes no vertex
-    Complex heading = charts.lower_vector(t, step);
-    double length = step.norm();
-    int entry = -1;
-    if (length > 0 && std::abs(heading) > 0) {
-        heading /= std::abs(heading);
-        for (int crossed = 0; crossed < most_crossed; ++crossed) {
-            const auto out = charts.exit(t, at, heading, entry);
-            if (out.side < 0) break;
-            if (out.distance >= length) {
-                at += length * heading;
-                break;
-            }
-            const Charts::Side here{t, out.side}, there = charts.across(here);
-            if (there.triangle < 0) {
-                at += 0.9 * out.distance * heading;
-                break;
-            }
-            at += out.distance * heading;
-            length -= out.distance;
-            const Complex along = charts.side(t, out.side);
-            const double fraction = dot(along, at - charts.corners(t)[out.side]) / std::norm(along);
-            heading = charts.carried(heading, here, there);
-            t = there.triangle;
-            at = charts.on_side(t, there.side, 1 - fraction);
-            entry = there.side;
-        }
-    }
+    const Complex heading = charts.lower_vector(t, step);
+    if (std::abs(heading) > 0) walk(charts, t, at, heading / std::abs(heading), step.norm());
     Vector weights;
     for (int k = 0; k < 3; ++k)
         weights[k] = std::max(0.0, cross(charts.side(t, (k + 1) % 3), at - charts.corners(t)[(k + 1) % 3])) /
@@ -124,6 +120,30 @@ void require_apart(const BuiltField& before, const BuiltField& after, std::size_
                                   "move_failed", {static_cast<Index>(i), static_cast<Index>(j)});
 }
 
+// The field with the points there; none where points meet, reach the boundary, or turn crosses too fast for the mesh.
+std::optional<BuiltField> tried(const SurfaceDomain& input, const Imposed& imposed, const std::vector<bool>& moves) {
+    try {
+        BuiltField built = built_field(input, imposed);
+        for (std::size_t j = 0; j < moves.size(); ++j)
+            if (moves[j] && built.structure.on_boundary[built.ringed.centres[j]]) return {};
+        return built;
+    } catch (const InvalidInput& error) {
+        if (error.kind() != "coincident_points") throw;
+    } catch (const SolverError& error) {
+        if (error.kind() != "unresolved_turns") throw;
+    }
+    return {};
+}
+
+// (3 points) the step of least norm, cut where it is long.
+Eigen::VectorXd newton_step(const BuiltField& built, const std::vector<int>& indices, const std::vector<bool>& moves,
+                            double longest) {
+    Eigen::VectorXd step = -jacobian(built, indices, moves).completeOrthogonalDecomposition().solve(built.rotations);
+    double most = 0;
+    for (Eigen::Index j = 0; j < step.size(); j += 3) most = std::max(most, step.segment<3>(j).norm());
+    return most > longest ? Eigen::VectorXd(step * (longest / most)) : step;
+}
+
 }  // namespace
 
 MovedPoints moved_points(const SurfaceDomain& input, Imposed& imposed, std::size_t count, BuiltField built,
@@ -135,45 +155,31 @@ MovedPoints moved_points(const SurfaceDomain& input, Imposed& imposed, std::size
     const BuiltField first = built;
     std::vector<double> moved(count, 0);
     int steps = 0;
-    while (size_of(built.rotations) > done && steps < options.max_steps) {
+    for (bool better = true; better && size_of(built.rotations) > done && steps < options.max_steps;) {
         report_or_throw(progress, "move", -1, size_of(built.rotations));
-        const Eigen::MatrixXd slope = jacobian(built, imposed.indices, moves);
-        Eigen::VectorXd step = -slope.completeOrthogonalDecomposition().solve(built.rotations);
-        if (!step.allFinite()) break;
-        double longest = 0;
-        for (std::size_t j = 0; j < count; ++j)
-            longest = std::max(longest, step.segment<3>(3 * static_cast<Eigen::Index>(j)).norm());
-        if (longest == 0) break;
-        step *= std::min(1.0, longest_step * input.size() / longest);
-        bool better = false;
+        Eigen::VectorXd step = newton_step(built, imposed.indices, moves, longest_step * input.size());
+        better = false;
+        if (!step.allFinite() || step.isZero(0)) break;
         for (int halving = 0; halving < most_halvings && !better; ++halving, step /= 2) {
+            const auto of_point = [&](std::size_t j) { return step.segment<3>(3 * static_cast<Eigen::Index>(j)); };
             Imposed next = imposed;
             for (std::size_t j = 0; j < count; ++j)
-                if (moves[j])
-                    next.places[j] =
-                        walked(charts, imposed.places[j], step.segment<3>(3 * static_cast<Eigen::Index>(j)));
-            try {
-                BuiltField tried = built_field(input, next);
-                if (size_of(tried.rotations) >= size_of(built.rotations)) continue;
-                for (std::size_t j = 0; j < count; ++j)
-                    moved[j] += step.segment<3>(3 * static_cast<Eigen::Index>(j)).norm();
-                built = std::move(tried);
-                imposed = std::move(next);
-                better = true;
-            } catch (const InvalidInput& error) {
-                if (error.kind() != "coincident_points") throw;
-            }
+                if (moves[j]) next.places[j] = walked(charts, imposed.places[j], of_point(j));
+            std::optional<BuiltField> there = tried(input, next, moves);
+            if (!there || size_of(there->rotations) >= size_of(built.rotations)) continue;
+            for (std::size_t j = 0; j < count; ++j) moved[j] += of_point(j).norm();
+            built = std::move(*there);
+            imposed = std::move(next);
+            better = true;
         }
-        if (!better) break;
-        ++steps;
+        if (better) ++steps;
     }
     const double rest = size_of(built.rotations);
-    if (rest > std::min(good_enough, options.tolerance)) {
+    if (rest > std::min(good_enough, options.tolerance))
         throw SolverError("moving the singular points did not make the pattern admissible: after " +
                               std::to_string(steps) + " steps " + std::to_string(rest * 180 / pi) +
                               " degrees are left; " + move_remedy,
                           "move_failed");
-    }
     require_apart(first, built, count);
     return {std::move(built), steps, moved.empty() ? 0 : *std::max_element(moved.begin(), moved.end())};
 }

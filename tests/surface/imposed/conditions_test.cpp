@@ -33,7 +33,6 @@ TEST(ImposedConditions, AnnulusIsMissedByTheTurnOfItsRings) {
         const ImposedField field =
             impose_singular_points(domain, pattern_of(domain, two_rings(delta * degree)), rotate);
         ASSERT_EQ(field.conditions.size(), 1u);
-        std::printf("delta %g: %.4f\n", delta, field.conditions[0].angle / degree);
         EXPECT_LT(difference(std::abs(field.conditions[0].angle), std::abs(modulo_quarter(delta * degree))),
                   0.02 * degree);
     }
@@ -48,7 +47,6 @@ TEST(ImposedConditions, RandomPatternsAreMissedByTheirFormula) {
         for (const int t : {1, 1, -1, -1, 2, -2}) sources.push_back({std::polar(radius(random), angle(random)), t});
         const ImposedField field = impose_singular_points(domain, pattern_of(domain, sources), rotate);
         const double formula = annulus_formula(sources), angle_found = field.conditions[0].angle;
-        std::printf("random: %.4f %.4f\n", angle_found / degree, formula / degree);
         EXPECT_LT(std::min(difference(angle_found, formula), difference(-angle_found, formula)), 0.02 * degree);
     }
 }
@@ -59,7 +57,6 @@ TEST(ImposedConditions, RotationMakesBothCirclesFollowed) {
     EXPECT_LT(field.closure, 1e-9);
     EXPECT_NEAR(std::abs(field.conditions[0].rotation), 10 * degree, 0.02 * degree);
     // exp(10 degrees * 2 pi / |log 0.3|)
-    std::printf("size factor %.4f\n", field.conditions[0].size_factor);
     EXPECT_NEAR(field.conditions[0].size_factor, 2.487, 3e-3);
     const auto singularities = surface_singularities(field.field);
     EXPECT_LT(singularities.boundary_deviation, 1e-9);
@@ -92,7 +89,6 @@ TEST(ImposedConditions, MovingPointsOnAnAnnulusIsAsShortAsItCanBe) {
     const SurfaceDomain domain(annulus(0.3, 120, 24));
     const auto sources = two_rings(10 * degree);
     const ImposedField field = impose_singular_points(domain, pattern_of(domain, sources), move);
-    std::printf("moved: %d steps, %.4f, left %.2e\n", field.steps, field.largest_move, field.conditions[0].angle);
     EXPECT_LT(std::abs(field.conditions[0].angle), 1e-6);
     EXPECT_LT(field.closure, 1e-9);
     // Independently: the moved places satisfy the closed form; the first-order step of least norm is along the circles
@@ -119,12 +115,8 @@ TEST(ImposedConditions, EightPointsRoundTwoHolesAreMoved) {
     const SingularPattern pattern = pattern_of(domain, sources);
     const ImposedField before = impose_singular_points(domain, pattern, rotate);
     ASSERT_EQ(before.conditions.size(), 2u);
-    std::printf("two holes: %.3f %.3f degrees\n", before.conditions[0].angle / degree,
-                before.conditions[1].angle / degree);
     EXPECT_GT(std::abs(before.conditions[0].angle), degree);
     const ImposedField field = impose_singular_points(domain, pattern, move);
-    std::printf("moved: %d steps, %.4f, left %.2e %.2e\n", field.steps, field.largest_move, field.conditions[0].angle,
-                field.conditions[1].angle);
     for (const HolonomyCondition& c : field.conditions) {
         EXPECT_TRUE(c.boundary);
         EXPECT_LT(std::abs(c.angle), 1e-6);

@@ -24,8 +24,6 @@ TEST(ImposedOnDisk, PotentialConvergesToTheClosedForm) {
                 return disk_potential(sources, {x[0], x[1]});
             },
             farther(sources, 0.1));
-        std::printf("disk %d vertices: %.2e %.2e closure %.1e\n", domain.vertex_count(), errors.largest,
-                    errors.root_mean_square, field.closure);
         EXPECT_LT(errors.largest, largest[level]);
         EXPECT_LT(errors.root_mean_square, mean[level]);
         EXPECT_LT(field.closure, 1e-9);
@@ -54,7 +52,6 @@ TEST(ImposedOnDisk, AnglesAreTheClosedFormsAtEveryEdgeMidpoint) {
     for (const Complex r : ratios) mean += r / static_cast<double>(ratios.size());
     double worst = 0;
     for (const Complex r : ratios) worst = std::max(worst, std::abs(std::arg(r / mean)) / 4);
-    std::printf("angles: %.3f degrees\n", worst / degree);
     EXPECT_LT(worst, 1.0 * degree);
 }
 
@@ -70,7 +67,6 @@ TEST(ImposedOnDisk, EightBoundaryPointsRoundValenceEight) {
             return -std::log(std::abs(z)) + std::log(std::abs(std::pow(z, 8) - 1.0)) / 2;
         },
         farther(sources, 0.1));
-    std::printf("eight: %.2e %.2e\n", errors.largest, errors.root_mean_square);
     EXPECT_LT(errors.largest, 2e-2);
     const auto singularities = surface_singularities(field.field);
     EXPECT_TRUE(singularities.agree);
@@ -106,7 +102,6 @@ TEST(ImposedOnAnnulus, WithoutPointsSizeIsTheRadius) {
         const ImposedField field = impose_singular_points(domain, {});
         const Errors errors = potential_errors(
             field, [](const Vector& x) { return std::log(x.norm()); }, [](const Vector&) { return true; });
-        std::printf("annulus: %.2e\n", errors.largest);
         EXPECT_LT(errors.largest, largest[level++]);
         ASSERT_EQ(field.conditions.size(), 1u);
         EXPECT_LT(std::abs(field.conditions[0].angle), 1e-9);
@@ -143,7 +138,6 @@ TEST(ImposedOnPolygons, HalfSideAndApothemAreOfOneLength) {
         const ImposedField field = impose_singular_points(domain, pattern);
         const Complex corner = 1, middle = (corner + std::polar(1.0, 2 * pi / n)) / 2.0;
         const double ratio = parameter_length(field, corner, middle) / parameter_length(field, 0, middle);
-        std::printf("polygon %d: %.4f\n", n, ratio);
         EXPECT_NEAR(ratio, 1, 0.015) << n;
     }
 }

@@ -74,7 +74,6 @@ TEST(ImposedPoints, OfAnyValenceOnACoarseMesh) {
         expect_imposed(field);
         expect_parts_of(domain, field);
         const auto singularities = surface_singularities(field.field);
-        std::printf("t %d: %d vertices\n", t, field.field.domain.vertex_count());
         std::vector<int> leaving(singularities.points.size(), 0);
         for (const Streamline& line : separatrices(field.field, singularities)) ++leaving[line.first_singularity];
         for (std::size_t i = 0; i < leaving.size(); ++i)
@@ -82,17 +81,28 @@ TEST(ImposedPoints, OfAnyValenceOnACoarseMesh) {
     }
 }
 
-TEST(ImposedPoints, SeveralInOneTriangleAreKeptApart) {
+TEST(ImposedPoints, SeveralInOneTriangleOrOnOneEdgeAreKeptApart) {
     const SurfaceDomain domain(disk(6));
-    SingularPattern pattern;
-    pattern.points = {{30, {0.2, 0.3, 0.5}, 1},
-                      {30, {0.3, 0.3, 0.4}, -1},
-                      {30, {0.6, 0.2, 0.2}, 3},
-                      {30, {0.6, 0.21, 0.19}, -2},
-                      {30, {0.1, 0.001, 0.899}, 3}};
-    const ImposedField field = impose_singular_points(domain, pattern);
-    expect_imposed(field);
-    expect_parts_of(domain, field);
+    SingularPattern in_triangle, on_edge;
+    in_triangle.points = {{30, {0.2, 0.3, 0.5}, 1},
+                          {30, {0.3, 0.3, 0.4}, -1},
+                          {30, {0.6, 0.2, 0.2}, 3},
+                          {30, {0.6, 0.21, 0.19}, -2},
+                          {30, {0.1, 0.001, 0.899}, 3}};
+    on_edge.points = {{30, {0.5, 0.5, 0}, 1},
+                      {30, {0.2, 0.8, 0}, -1},
+                      {30, {0.7, 0.3, 0}, 3},
+                      {30, {0.6, 0.35, 0.05}, -2},
+                      {30, {0.3, 0.45, 0.25}, 3}};
+    for (const SingularPattern& pattern : {in_triangle, on_edge}) {
+        const ImposedField field = impose_singular_points(domain, pattern);
+        for (std::size_t i = 0; i < 5; ++i)
+            EXPECT_LT((imposed_position(domain, field.pattern.points[i]) - imposed_position(domain, pattern.points[i]))
+                          .norm(),
+                      2e-4 * domain.mean_edge_length());
+        expect_imposed(field);
+        expect_parts_of(domain, field);
+    }
 }
 
 TEST(ImposedPoints, NearEdgesAndVerticesAreWhereTheyWerePut) {
@@ -143,6 +153,23 @@ TEST(ImposedPoints, FeaturesAreCarriedOver) {
         length += (fine.mesh().vertices.row(edge[0]) - fine.mesh().vertices.row(edge[1])).norm();
     EXPECT_NEAR(length, 12, 1e-9);
     EXPECT_EQ(fine.features().corners, domain.features().corners);
+}
+
+TEST(ImposedPoints, TheBoundaryIsFollowedExactlyAndStaysAFeature) {
+    const TriangleMesh mesh = plate(10, [](double, double) { return true; });
+    const SurfaceDomain domain(mesh, detect_features(mesh));
+    SingularPattern pattern;
+    pattern.points = {imposed_point(domain, Vector(0.33, 0, 0), 1), imposed_point(domain, Vector(0.5, 0.61, 0), -1)};
+    const ImposedField field = impose_singular_points(domain, pattern);
+    const SurfaceDomain& fine = field.field.domain;
+    double length = 0;
+    for (const auto& edge : fine.features().edges.rowwise())
+        length += (fine.mesh().vertices.row(edge[0]) - fine.mesh().vertices.row(edge[1])).norm();
+    EXPECT_NEAR(length, 4, 1e-9);
+    for (Index e = 0; e < fine.edge_count(); ++e)
+        if (fine.topology().edge_triangles.row(e).minCoeff() < 0) {
+            EXPECT_EQ(field.field.values[e], 1.0);
+        }
 }
 
 TEST(ImposedPoints, SeparateComponentsHaveFieldsOfTheirOwn) {
@@ -269,7 +296,6 @@ TEST(CornerQuads, GiveTheSizeItsPower) {
             for (int k = 0; k < 3; ++k) h[i] += at.weights[k] * field.log_size[fine.mesh().triangles(at.triangle, k)];
         }
         const double power = 1 - quads * 90 / angle, found = terms.colPivHouseholderQr().solve(h)[1];
-        std::printf("corner %g %d: %.4f %.4f\n", angle, quads, found, power);
         EXPECT_NEAR(found, power, 0.01 + 0.01 * std::abs(power)) << angle;
     }
 }

@@ -40,8 +40,6 @@ TEST(ImposedOnSphere, SizeIsTheSumOfLogarithmsOfChords) {
                 return std::all_of(points.begin(), points.end(),
                                    [&](const Vector& p) { return (x - p).norm() > 0.15; });
             });
-        std::printf("sphere %d: %.2e %.2e closure %.1e\n", domain.vertex_count(), errors.largest,
-                    errors.root_mean_square, field.closure);
         EXPECT_LT(errors.largest, largest[level++]);
         EXPECT_LT(field.closure, 1e-9);
         EXPECT_TRUE(field.conditions.empty());
@@ -73,7 +71,6 @@ TEST(ImposedOnTorus, WithoutPointsSizeIsTheDistanceFromTheAxis) {
         const Errors errors = potential_errors(
             field, [](const Vector& x) { return std::log(std::hypot(x[0], x[1])); },
             [](const Vector&) { return true; });
-        std::printf("torus: %.2e\n", errors.largest);
         EXPECT_LT(errors.largest, largest[level++]);
         ASSERT_EQ(field.conditions.size(), 2u);
         for (const auto& c : field.conditions) {
@@ -104,7 +101,6 @@ TEST(ImposedOnTorus, OnePairIsInadmissibleByItsDistanceRound) {
     };
     const double u = 2 * pi * 6 / 120, v = 2 * pi * 9 / 60;
     const ImposedField round = one_pair(domain, at(u, v), at(u + 0.3 * 2 * pi, v));
-    std::printf("pair round: %.3f degrees, closure %.1e\n", largest_angle(round) / degree, round.closure);
     EXPECT_NEAR(largest_angle(round), 27 * degree, 0.05 * degree);
     EXPECT_LT(round.closure, 1e-9);
     EXPECT_EQ(surface_singularities(round.field).points.size(), 2u);
@@ -116,7 +112,6 @@ TEST(ImposedOnTorus, OnePairIsInadmissibleByItsDistanceRound) {
         all += step;
         if (i < 1000) part += step;
     }
-    std::printf("pair on meridian: %.3f %.3f degrees\n", largest_angle(meridian) / degree, 90 * part / all);
     EXPECT_NEAR(largest_angle(meridian), 90 * degree * part / all, 0.05 * degree);
     SingularPattern pattern;
     pattern = add_singular_pair(domain, {}, at(u, 0), at(u, pi / 2));
@@ -141,8 +136,6 @@ TEST(ImposedOnTorus, PointsMoveUntilTheFieldClosesRoundBothGenerators) {
     }
     const ImposedField before = impose_singular_points(domain, pattern, rotate);
     const ImposedField field = impose_singular_points(domain, pattern, {.inadmissible = Inadmissible::move});
-    std::printf("torus moved: %.3f degrees, %d steps, %.4f, left %.2e\n", largest_angle(before) / degree, field.steps,
-                field.largest_move, largest_angle(field));
     EXPECT_GT(largest_angle(before), degree);
     EXPECT_LT(largest_angle(field), 1e-6);
     EXPECT_LT(field.closure, 1e-9);
