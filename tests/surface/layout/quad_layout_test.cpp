@@ -78,6 +78,11 @@ TEST(QuadLayout, NearMissesThatAreNotJoinedGiveThinPatchesOfTheSameSurface) {
     options.end_tolerance = 0.004;
     const QuadLayout layout = quad_layout(field, options);
     expect_complex(layout);
+    const auto loop = std::find_if(layout.curves.curves.begin(), layout.curves.curves.end(),
+                                   [](const LayoutCurve& c) { return c.first_vertex == c.last_vertex; });
+    ASSERT_NE(loop, layout.curves.curves.end());
+    // It bounds a flat cylinder with the circle, so its length is int exp(-H) round that, 6.41265 by quadrature.
+    EXPECT_NEAR(loop->points.back().length / unit_of(field, sources), 6.41265, 0.06);
     // Points 0 and 2 are joined, point 3 to itself: 10 curves, four-cornered patches all the same.
     EXPECT_EQ(layout.curves.curves.size(), 10u);
     for (const LayoutPatch& patch : layout.patches) EXPECT_EQ(patch.kind, PatchKind::quad);
@@ -94,6 +99,32 @@ TEST(QuadLayout, CornersThatShareAnEdgeAreJoinedAlongIt) {
         expect_all_quads(layout, {12, 16, 5});
         expect_complex(layout);
         EXPECT_EQ(layout.curves.curves.size(), 4u);
+    }
+}
+
+// Two disks, one of them alone, and a vertex in no triangle: each part has its own layout.
+TEST(QuadLayout, PartsOfASurfaceAreLaidOutEach) {
+    const auto sources = four_in_disk(0.5, {0, 90, 180, 270});
+    const TriangleMesh one = disk(14);
+    const auto count = static_cast<Index>(one.vertices.rows()), faces = static_cast<Index>(one.triangles.rows());
+    TriangleMesh both{Points(2 * count + 1, 3), Triangles(2 * faces, 3)};
+    both.vertices << Eigen::RowVector3d(9, 9, 9), one.vertices, one.vertices.rowwise() + Eigen::RowVector3d(3, 0, 0);
+    both.triangles << one.triangles.array() + 1, one.triangles.array() + count + 1;
+    const SurfaceDomain domain(both);
+    SingularPattern pattern = pattern_of(domain, sources);
+    for (const Source& s : sources) pattern.points.push_back(imposed_point(domain, in_plane(s.at + 3.0), 1));
+    const QuadLayout layout = quad_layout(impose_singular_points(domain, pattern));
+    expect_all_quads(layout, {16, 24, 10});
+    expect_complex(layout);
+}
+
+TEST(QuadLayout, IsTheSameInEveryRun) {
+    const ImposedField field = holed_field(8);
+    const QuadLayout a = quad_layout(field), b = quad_layout(field);
+    ASSERT_EQ(a.sides.size(), b.sides.size());
+    for (std::size_t s = 0; s < a.sides.size(); ++s) {
+        EXPECT_EQ(a.sides[s].points, b.sides[s].points);
+        EXPECT_EQ(a.sides[s].parameters, b.sides[s].parameters);
     }
 }
 
