@@ -188,6 +188,7 @@ LayoutQuads layout_quads(const QuadLayout& layout, const LayoutQuadsOptions& opt
     }
     LayoutQuads result = std::move(builder).result();
     require_convex(result);
+    require_valid(result.mesh, false);
     return result;
 }
 

@@ -27,7 +27,8 @@ struct LayoutQuads {
 // are shared.
 //
 // Throws InvalidInput (kind "bad_option"); GeometryError (kind "no_quad_layout", elements: patches that are not quads);
-// SolverError: kinds "folded_map" (elements: patches), "inverted_quads" (elements: quads; a smaller size helps).
+// SolverError: kinds "folded_map" (elements: patches), "inverted_quads" (elements: quads; a smaller size
+// helps). The mesh is checked by require_valid.
 LayoutQuads layout_quads(const QuadLayout& layout, const LayoutQuadsOptions& options, const Progress& progress = {});
 
 // Of each quad, max(0, 1 - 2 / pi max |pi / 2 - angle|): 1 for right angles (Remacle et al. 2012).
