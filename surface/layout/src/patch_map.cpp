@@ -1,0 +1,241 @@
+#include "patch_map.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/Sparse>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+namespace octafield::surface::detail {
+namespace {
+
+using Vector = Eigen::Vector3d;
+using Vector2 = Eigen::Vector2d;
+
+class Patch {
+public:
+    Patch(const QuadLayout& layout, Index patch) : layout_(layout), pieces_(*layout.pieces), patch_(patch) {}
+    PatchMap map() &&;
+
+private:
+    void add_boundary();
+    void add_polygons();
+    void split_edges();
+    template <class Solver>
+    bool solve(const std::vector<Eigen::Triplet<double>>& weights);
+    std::vector<Eigen::Triplet<double>> cotangent_weights() const;
+    std::vector<Eigen::Triplet<double>> mean_value_weights() const;
+    Index add_point(const Vector& position);
+    bool on_one_side(Index a, Index b) const { return (sides_[a] & sides_[b]) != 0; }
+    Vector position(Index v) const { return positions_[v]; }
+
+    const QuadLayout& layout_;
+    const LayoutPieces& pieces_;
+    Index patch_;
+    PatchMap result_;
+    std::map<Index, Index> local_;  // of points of the cut surface
+    std::vector<Vector> positions_;
+    std::vector<unsigned> sides_;  // bits of the sides that a point is on; 0: inside
+    std::vector<Vector2> fixed_;
+};
+
+Index Patch::add_point(const Vector& position) {
+    positions_.push_back(position);
+    sides_.push_back(0);
+    fixed_.push_back(Vector2::Zero());
+    return static_cast<Index>(positions_.size() - 1);
+}
+
+void Patch::add_boundary() {
+    const CutSurface& cut = pieces_.cut;
+    const auto& around = layout_.patches[patch_].loops[0];
+    const auto length = [&](int k) { return layout_.sides[around[k].side].length(); };
+    result_.width = (length(0) + length(2)) / 2;
+    result_.height = (length(1) + length(3)) / 2;
+    const Vector2 corners[] = {
+        {0, 0}, {result_.width, 0}, {result_.width, result_.height}, {0, result_.height}, {0, 0}};
+    int k = -1;
+    for (const Index c : pieces_.loops[patch_][0]) {
+        const bool corner = pieces_.vertex_of_node[cut.nodes[c]] >= 0;
+        if (corner) ++k;
+        const LayoutSide& side = layout_.sides[around[k].side];
+        const Index part = pieces_.part_of_side[c] + (pieces_.forward[c] ? 0 : 1);
+        double fraction = side.parameters[part] / side.length();
+        if (around[k].reversed) fraction = 1 - fraction;
+        const Index p = add_point(cut.positions.row(cut.nodes[c]));
+        local_[cut.points[c]] = p;
+        sides_[p] = 1u << k;
+        if (corner) sides_[p] |= 1u << (k + 3) % 4;
+        fixed_[p] = corner ? corners[k] : Vector2(corners[k] + fraction * (corners[k + 1] - corners[k]));
+    }
+}
+
+void Patch::add_polygons() {
+    const CutSurface& cut = pieces_.cut;
+    for (const Index polygon : pieces_.patch_polygons[patch_]) {
+        std::vector<Index> ring;
+        Vector middle = Vector::Zero();
+        for (Index c = cut.first[polygon]; c < cut.first[polygon + 1]; ++c) {
+            auto found = local_.find(cut.points[c]);
+            if (found == local_.end())
+                found = local_.emplace(cut.points[c], add_point(cut.positions.row(cut.nodes[c]))).first;
+            ring.push_back(found->second);
+            middle += positions_[ring.back()];
+        }
+        if (ring.size() == 3) {
+            result_.triangles.push_back({ring[0], ring[1], ring[2]});
+            continue;
+        }
+        const Index centre = add_point(middle / static_cast<double>(ring.size()));
+        for (std::size_t i = 0; i < ring.size(); ++i)
+            result_.triangles.push_back({centre, ring[i], ring[(i + 1) % ring.size()]});
+    }
+}
+
+// Edges inside with both ends on one side of the rectangle would be flat with all triangles behind them.
+void Patch::split_edges() {
+    std::map<std::pair<Index, Index>, int> uses;
+    for (const auto& t : result_.triangles)
+        for (int k = 0; k < 3; ++k)
+            if (on_one_side(t[k], t[(k + 1) % 3])) ++uses[std::minmax(t[k], t[(k + 1) % 3])];
+    std::map<std::pair<Index, Index>, Index> middles;
+    for (const auto& [edge, count] : uses)
+        if (count == 2) middles[edge] = add_point((positions_[edge.first] + positions_[edge.second]) / 2);
+    if (middles.empty()) return;
+    std::vector<std::array<Index, 3>> waiting = std::move(result_.triangles), done;
+    while (!waiting.empty()) {
+        const auto t = waiting.back();
+        waiting.pop_back();
+        int split = -1;
+        for (int k = 0; k < 3 && split < 0; ++k)
+            if (middles.contains(std::minmax(t[k], t[(k + 1) % 3]))) split = k;
+        if (split < 0) {
+            done.push_back(t);
+            continue;
+        }
+        const Index a = t[split], b = t[(split + 1) % 3], c = t[(split + 2) % 3], m = middles[std::minmax(a, b)];
+        waiting.push_back({a, m, c});
+        waiting.push_back({m, b, c});
+    }
+    result_.triangles = std::move(done);
+}
+
+std::vector<Eigen::Triplet<double>> Patch::cotangent_weights() const {
+    std::vector<Eigen::Triplet<double>> weights;
+    for (const auto& t : result_.triangles)
+        for (int k = 0; k < 3; ++k) {
+            const Index a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+            const Vector u = position(a) - position(c), v = position(b) - position(c);
+            const double weight = u.dot(v) / std::max(u.cross(v).norm(), std::numeric_limits<double>::min()) / 2;
+            weights.emplace_back(a, b, weight);
+            weights.emplace_back(b, a, weight);
+        }
+    return weights;
+}
+
+std::vector<Eigen::Triplet<double>> Patch::mean_value_weights() const {
+    std::vector<Eigen::Triplet<double>> weights;
+    for (const auto& t : result_.triangles)
+        for (int k = 0; k < 3; ++k) {
+            const Vector u = position(t[(k + 1) % 3]) - position(t[k]), v = position(t[(k + 2) % 3]) - position(t[k]);
+            const double ul = u.norm(), vl = v.norm();
+            const double half_tangent = u.cross(v).norm() / (ul * vl + u.dot(v));
+            weights.emplace_back(t[k], t[(k + 1) % 3], half_tangent / ul);
+            weights.emplace_back(t[k], t[(k + 2) % 3], half_tangent / vl);
+        }
+    return weights;
+}
+
+// Each point inside is the weighted mean of its neighbours. Whether all triangles keep their sense.
+template <class Solver>
+bool Patch::solve(const std::vector<Eigen::Triplet<double>>& weights) {
+    const auto count = static_cast<Index>(positions_.size());
+    std::vector<Index> row(count, -1);
+    Index inner = 0;
+    for (Index p = 0; p < count; ++p)
+        if (sides_[p] == 0) row[p] = inner++;
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(inner, 2);
+    for (const auto& w : weights) {
+        const Index p = row[w.row()], q = row[w.col()];
+        if (p < 0) continue;
+        entries.emplace_back(p, p, w.value());
+        if (q >= 0) {
+            entries.emplace_back(p, q, -w.value());
+        } else {
+            right.row(p) += w.value() * fixed_[w.col()].transpose();
+        }
+    }
+    Eigen::MatrixX2d found(inner, 2);
+    if (inner > 0) {
+        Eigen::SparseMatrix<double> matrix(inner, inner);
+        matrix.setFromTriplets(entries.begin(), entries.end());
+        Solver solver(matrix);
+        if (solver.info() != Eigen::Success) return false;
+        found = solver.solve(right);
+    }
+    result_.parameters.resize(count, 2);
+    for (Index p = 0; p < count; ++p)
+        result_.parameters.row(p) = row[p] >= 0 ? Eigen::RowVector2d(found.row(row[p])) : fixed_[p].transpose();
+    return std::all_of(result_.triangles.begin(), result_.triangles.end(), [&](const auto& t) {
+        const Eigen::RowVector2d a = result_.parameters.row(t[0]);
+        const Eigen::RowVector2d u = result_.parameters.row(t[1]) - a, v = result_.parameters.row(t[2]) - a;
+        return u[0] * v[1] - u[1] * v[0] > 0;
+    });
+}
+
+PatchMap Patch::map() && {
+    add_boundary();
+    add_polygons();
+    split_edges();
+    if (!solve<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>(cotangent_weights())) {
+        result_.mean_value = true;
+        result_.folded = !solve<Eigen::SparseLU<Eigen::SparseMatrix<double>>>(mean_value_weights());
+    }
+    result_.positions.resize(static_cast<Eigen::Index>(positions_.size()), 3);
+    for (std::size_t p = 0; p < positions_.size(); ++p)
+        result_.positions.row(static_cast<Eigen::Index>(p)) = positions_[p];
+    return std::move(result_);
+}
+
+}  // namespace
+
+PatchMap patch_map(const QuadLayout& layout, Index patch) { return Patch(layout, patch).map(); }
+
+Points grid_positions(const PatchMap& map, int n, int m) {
+    const Eigen::Index count = static_cast<Eigen::Index>(n - 1) * (m - 1);
+    Points result = Points::Constant(count, 3, std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> best(count, -1e-7);  // least weight in the triangle that holds a point
+    const double step_x = map.width / n, step_y = map.height / m;
+    for (const auto& t : map.triangles) {
+        Eigen::Matrix<double, 3, 2> corners;
+        for (int k = 0; k < 3; ++k) corners.row(k) = map.parameters.row(t[k]);
+        const Eigen::RowVector2d low = corners.colwise().minCoeff(), high = corners.colwise().maxCoeff();
+        const Eigen::RowVector2d u = corners.row(1) - corners.row(0), v = corners.row(2) - corners.row(0);
+        const double area = u[0] * v[1] - u[1] * v[0];
+        const auto first = [](double at, double step) {
+            return std::max(1, static_cast<int>(std::ceil(at / step - 1e-6)));
+        };
+        const auto last = [](double at, double step, int most) {
+            return std::min(most - 1, static_cast<int>(std::floor(at / step + 1e-6)));
+        };
+        for (int j = first(low[1], step_y); j <= last(high[1], step_y, m); ++j)
+            for (int i = first(low[0], step_x); i <= last(high[0], step_x, n); ++i) {
+                const Eigen::RowVector2d w = Eigen::RowVector2d(i * step_x, j * step_y) - corners.row(0);
+                const double second = (w[0] * v[1] - w[1] * v[0]) / area, third = (u[0] * w[1] - u[1] * w[0]) / area;
+                const double least = std::min({1 - second - third, second, third});
+                const Eigen::Index row = static_cast<Eigen::Index>(j - 1) * (n - 1) + i - 1;
+                if (!(least > best[row])) continue;
+                best[row] = least;
+                result.row(row) = (1 - second - third) * map.positions.row(t[0]) + second * map.positions.row(t[1]) +
+                                  third * map.positions.row(t[2]);
+            }
+    }
+    return result;
+}
+
+}  // namespace octafield::surface::detail

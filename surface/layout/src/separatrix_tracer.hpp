@@ -1,0 +1,57 @@
+// One separatrix at a time, and what it passes.
+#pragma once
+
+#include <optional>
+
+#include "layout_points.hpp"
+#include "octafield/surface/layout_curves.hpp"
+
+namespace octafield::surface::detail {
+
+struct Slot {
+    Index point;
+    int slot;
+    auto operator<=>(const Slot&) const = default;
+};
+
+// A separatrix that comes back along the traced one.
+struct Passing {
+    Slot slot;
+    double length;  // from the start to the point, in parameters
+    double offset;  // of the point, to the left
+};
+
+struct Trace {
+    LayoutCurve curve;
+    std::vector<Passing> passing;  // by slot
+    bool arrived = false;          // at the target
+    bool boundary = false;
+};
+
+class SeparatrixTracer {
+public:
+    SeparatrixTracer(const LocalField& local, const LayoutPoints& points, double tolerance, double max_length);
+
+    // The straight line in parameters at angle `shear` from the separatrix, until it meets the boundary, is too long,
+    // or comes to the triangles at the target's point, by its sector, at more than half the target's length.
+    Trace trace(const Slot& start, double shear = 0, const std::optional<Passing>& target = {}) const;
+    // The line from one point to the other; none if it goes another way.
+    std::optional<LayoutCurve> joined(const Slot& start, Passing target) const;
+
+private:
+    struct Nearest;
+    const LayoutPoint& point(const Slot& slot) const { return points_.points[slot.point]; }
+    bool arrives(const Passing& target, const LocalField::Place& at, int entry, double length) const;
+    void look_round(const LocalField::Place& at, double from, double to, std::vector<Nearest>& found) const;
+    void look_at(const LocalField::Place& at, Complex offset, int k, double from, std::vector<Nearest>& found) const;
+
+    const LocalField& local_;
+    const LayoutPoints& points_;
+    double tolerance_, max_length_;
+    std::vector<bool> near_points_;  // (F) whether a point may be within the tolerance
+};
+
+// Takes out what leaves a triangle by the side it came in by, and runs along a side of its first or last triangle.
+void tighten(LayoutCurve& curve, const Charts& charts);
+
+}  // namespace octafield::surface::detail
