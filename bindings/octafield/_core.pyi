@@ -1279,7 +1279,7 @@ class NonOrthogonalFieldOptions:
         weights: str = ...,
         second_line: str = ...,
         corner_angle: float = ...,
-        corners: ArrayLike = ...,
+        corners: ArrayLike | Sequence[CornerQuads] = ...,
         least_angle: float = ...,
         max_iterations: int = ...,
         seed: int = ...,
@@ -1290,7 +1290,7 @@ class NonOrthogonalFieldOptions:
     @property
     def corners(self) -> Int32s: ...
     @corners.setter
-    def corners(self, value: ArrayLike | None) -> None: ...
+    def corners(self, value: ArrayLike | Sequence[CornerQuads] | None) -> None: ...
 
 class BoundaryOptions:
     words: ClassVar[dict[str, list[str]]]

@@ -94,18 +94,14 @@ inline TriangleMesh torus(int n_major, int n_minor, double R, double r) {
     return make_mesh(points, triangles);
 }
 
-// The open unit disk in z = 0, seen from +z, of concentric rings: ring k has 6 k vertices, nearly equilateral
-// triangles.
-inline TriangleMesh disk(int rings) {
-    std::vector<Eigen::Vector3d> points = {{0, 0, 0}};
+// Of a vertex in the middle and rings round it, ring k with `sides` k vertices: sectors of triangles.
+inline std::vector<Eigen::Vector3i> concentric_triangles(int sides, int rings) {
     std::vector<Eigen::Vector3i> triangles;
-    const auto vertex = [](int ring, int i) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1) + i % (6 * ring); };
-    for (int ring = 1; ring <= rings; ++ring) {
-        for (int i = 0; i < 6 * ring; ++i) {
-            const double angle = 2 * std::numbers::pi * i / (6 * ring);
-            points.emplace_back(std::cos(angle) * ring / rings, std::sin(angle) * ring / rings, 0);
-        }
-        for (int sector = 0; sector < 6; ++sector)
+    const auto vertex = [=](int ring, int i) {
+        return ring == 0 ? 0 : 1 + sides * ring * (ring - 1) / 2 + i % (sides * ring);
+    };
+    for (int ring = 1; ring <= rings; ++ring)
+        for (int sector = 0; sector < sides; ++sector)
             for (int i = 0; i < ring; ++i) {
                 const int outer = sector * ring + i, inner = sector * (ring - 1) + i;
                 triangles.emplace_back(vertex(ring, outer), vertex(ring, outer + 1), vertex(ring - 1, inner));
@@ -113,8 +109,19 @@ inline TriangleMesh disk(int rings) {
                     triangles.emplace_back(vertex(ring - 1, inner), vertex(ring, outer + 1),
                                            vertex(ring - 1, inner + 1));
             }
-    }
-    return make_mesh(points, triangles);
+    return triangles;
+}
+
+// The open unit disk in z = 0, seen from +z, of concentric rings: ring k has 6 k vertices, nearly equilateral
+// triangles.
+inline TriangleMesh disk(int rings) {
+    std::vector<Eigen::Vector3d> points = {{0, 0, 0}};
+    for (int ring = 1; ring <= rings; ++ring)
+        for (int i = 0; i < 6 * ring; ++i) {
+            const double angle = 2 * std::numbers::pi * i / (6 * ring);
+            points.emplace_back(std::cos(angle) * ring / rings, std::sin(angle) * ring / rings, 0);
+        }
+    return make_mesh(points, concentric_triangles(6, rings));
 }
 
 // Every triangle with its own three vertices.

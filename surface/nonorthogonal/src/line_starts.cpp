@@ -90,15 +90,9 @@ std::vector<SeparatrixStart> starts_of_corner(const ChartedLines& field, const N
     for (const double angle : angles) {
         Index place = fan.first;
         while (place + 1 < fan.last && vertices.leaving(corners[place + 1]) <= angle) ++place;
-        const Index corner = corners[place], t = corner / 3;
-        const int k = corner % 3;
-        const double width = field.domain().corner_angles()(t, k);
-        const double inner = std::clamp(angle - vertices.leaving(corner), 1e-3 * width, (1 - 1e-3) * width);
-        const Complex away = field.side(t, k) / std::abs(field.side(t, k)) * std::polar(1.0, inner);
-        const Complex apex = field.corners(t)[k], opposite = field.side(t, (k + 1) % 3);
-        const double reach = cross(opposite, apex - field.corners(t)[(k + 1) % 3]) / -cross(opposite, away);
-        const Complex at = apex + reach / 2 * away;
-        starts.push_back({{field.lift(t, apex), field.lift(t, at)}, {t}, {t, at, away}});
+        const Index corner = corners[place];
+        const double width = field.domain().corner_angles()(corner / 3, corner % 3);
+        starts.push_back(start_in_corner(field, corner, width, angle - vertices.leaving(corner)));
     }
     return starts;
 }

@@ -10,24 +10,12 @@ namespace {
 
 using detail::ChartedLines;
 using detail::LinesTracer;
-using detail::TracedCurve;
 using detail::VertexCharts;
 
 void check(const NonOrthogonalField& field, const SurfaceSingularities& singularities,
            const StreamlineOptions& options) {
     detail::require_fit(field);
     detail::check_tracing(field.domain.mesh(), singularities, options);
-}
-
-Streamline both_ways(const LinesTracer& tracer, const detail::Place& place, bool back_too) {
-    const TracedCurve ahead = tracer.trace(place);
-    if (ahead.end == StreamlineEnd::closed) {
-        Streamline line = detail::joined({}, ahead);
-        line.first_end = StreamlineEnd::closed;
-        return line;
-    }
-    if (!back_too) return detail::joined({}, ahead);
-    return detail::joined(tracer.trace({place.triangle, place.at, -place.heading}), ahead);
 }
 
 }  // namespace
@@ -39,7 +27,7 @@ std::vector<Streamline> streamlines(const NonOrthogonalField& field, const Surfa
     const LinesTracer tracer(charted, singularities, options);
     std::vector<Streamline> lines;
     for (const detail::Place& place : detail::seed_places(charted, seeds))
-        lines.push_back(both_ways(tracer, place, options.both_ways));
+        lines.push_back(detail::both_ways(tracer, tracer, place, options.both_ways));
     return lines;
 }
 
@@ -59,15 +47,9 @@ std::vector<Streamline> separatrices(const NonOrthogonalField& field, const Surf
         } else if (vertices.on_boundary(point.vertex)) {
             starts = detail::starts_of_corner(charted, field, vertices, point.vertex);
         }
-        for (const auto& start : starts) {
-            TracedCurve curve = tracer.trace(start.place, static_cast<Index>(i));
-            detail::prepend(curve, start);
-            detail::cut(curve, tracer.max_length());
-            Streamline line = detail::joined({}, curve);
-            line.first_end = StreamlineEnd::singularity;
-            line.first_singularity = static_cast<Index>(i);
-            lines.push_back(std::move(line));
-        }
+        const auto number = static_cast<Index>(i);
+        for (const auto& start : starts)
+            lines.push_back(detail::separatrix(start, tracer.trace(start.place, number), tracer.max_length(), number));
     }
     return lines;
 }

@@ -102,6 +102,17 @@ std::vector<SeparatrixStart> starts_in_triangle(const ChartedField& field, const
     return starts;
 }
 
+SeparatrixStart start_in_corner(const Charts& charts, Index corner, double width, double angle) {
+    const Index t = corner / 3;
+    const int k = corner % 3;
+    const double inside = std::clamp(angle, 1e-3 * width, (1 - 1e-3) * width);
+    const Complex away = charts.side(t, k) / std::abs(charts.side(t, k)) * std::polar(1.0, inside);
+    const Complex apex = charts.corners(t)[k], opposite = charts.side(t, (k + 1) % 3);
+    const double reach = cross(opposite, apex - charts.corners(t)[(k + 1) % 3]) / -cross(opposite, away);
+    const Complex at = apex + reach / 2 * away;
+    return {{charts.lift(t, apex), charts.lift(t, at)}, {t}, {t, at, away}};
+}
+
 std::vector<SeparatrixStart> starts_at_vertex(const ChartedField& field, const std::vector<CornerLink>& links,
                                               const Eigen::VectorXcd& values, const VertexFans::Fan& fan,
                                               const DirectionTracer& tracer) {
@@ -133,15 +144,8 @@ std::vector<SeparatrixStart> starts_at_vertex(const ChartedField& field, const s
                         [&](double feature) { return std::abs(angle - feature) < feature_width; }))
             continue;
         while (sector + 2 < samples.size() && samples[sector + 1].phi <= angle) ++sector;
-        const Index corner = fans.corners[fan.first + sector], t = corner / 3;
-        const int k = corner % 3;
-        const double width = links[corner].angle;
-        const double inside = std::clamp(angle - samples[sector].phi, 1e-3 * width, (1 - 1e-3) * width);
-        const Complex away = field.side(t, k) / std::abs(field.side(t, k)) * std::polar(1.0, inside);
-        const Complex apex = field.corners(t)[k], opposite = field.side(t, (k + 1) % 3);
-        const double reach = cross(opposite, apex - field.corners(t)[(k + 1) % 3]) / -cross(opposite, away);
-        const Complex at = apex + reach / 2 * away;
-        starts.push_back({{field.lift(t, apex), field.lift(t, at)}, {t}, {t, at, away}});
+        const Index corner = fans.corners[fan.first + sector];
+        starts.push_back(start_in_corner(field, corner, links[corner].angle, angle - samples[sector].phi));
     }
     return starts;
 }

@@ -24,4 +24,8 @@ std::vector<SeparatrixStart> starts_at_vertex(const ChartedField& field, const s
                                               const Eigen::VectorXcd& values, const VertexFans::Fan& fan,
                                               const DirectionTracer& tracer);
 
+// From the vertex at a corner (3 t + k) of triangle t, `angle` (radians, in the triangle's plane) from the corner's
+// first side, kept off both sides, halfway to the side opposite. `width`: the corner's angle.
+SeparatrixStart start_in_corner(const Charts& charts, Index corner, double width, double angle);
+
 }  // namespace octafield::surface::detail

@@ -31,21 +31,6 @@ DirectionField half_turned(const DirectionField& field) {
     return result;
 }
 
-}  // namespace
-
-void check_tracing(const TriangleMesh& mesh, const SurfaceSingularities& singularities,
-                   const StreamlineOptions& options) {
-    for (const SurfaceSingularity& point : singularities.points)
-        if (point.triangle >= mesh.triangles.rows() || point.vertex >= mesh.vertices.rows() ||
-            (point.triangle < 0 && point.vertex < 0))
-            throw InvalidInput("a singular point lies in triangle " + std::to_string(point.triangle) + ", vertex " +
-                                   std::to_string(point.vertex) + ", which the mesh does not have",
-                               "wrong_mesh");
-    for (const double length : {options.max_length, options.singular_radius})
-        if (!(length >= 0) || !std::isfinite(length))
-            throw InvalidInput("max_length and singular_radius must be lengths, or 0 for the default");
-}
-
 void prepend(TracedCurve& curve, const SeparatrixStart& start) {
     for (std::size_t i = 0; i + 1 < start.points.size(); ++i)
         curve.length += (start.points[i + 1] - start.points[i]).norm();
@@ -72,6 +57,21 @@ void cut(TracedCurve& curve, double most) {
     curve.singularity = -1;
 }
 
+}  // namespace
+
+void check_tracing(const TriangleMesh& mesh, const SurfaceSingularities& singularities,
+                   const StreamlineOptions& options) {
+    for (const SurfaceSingularity& point : singularities.points)
+        if (point.triangle >= mesh.triangles.rows() || point.vertex >= mesh.vertices.rows() ||
+            (point.triangle < 0 && point.vertex < 0))
+            throw InvalidInput("a singular point lies in triangle " + std::to_string(point.triangle) + ", vertex " +
+                                   std::to_string(point.vertex) + ", which the mesh does not have",
+                               "wrong_mesh");
+    for (const double length : {options.max_length, options.singular_radius})
+        if (!(length >= 0) || !std::isfinite(length))
+            throw InvalidInput("max_length and singular_radius must be lengths, or 0 for the default");
+}
+
 Streamline joined(const TracedCurve& back, const TracedCurve& ahead) {
     Streamline line;
     const std::size_t skipped = back.points.empty() ? 0 : back.points.size() - 1;  // the seed is in both
@@ -90,6 +90,15 @@ Streamline joined(const TracedCurve& back, const TracedCurve& ahead) {
     return line;
 }
 
+Streamline separatrix(const SeparatrixStart& start, TracedCurve curve, double most, Index point) {
+    prepend(curve, start);
+    cut(curve, most);
+    Streamline line = joined({}, curve);
+    line.first_end = StreamlineEnd::singularity;
+    line.first_singularity = point;
+    return line;
+}
+
 TwoWayTracer::TwoWayTracer(const DirectionField& field, const SurfaceSingularities& singularities,
                            const StreamlineOptions& options)
     : both_ways_(options.both_ways),
@@ -101,15 +110,7 @@ TwoWayTracer::TwoWayTracer(const DirectionField& field, const SurfaceSingulariti
 }
 
 Streamline TwoWayTracer::trace(const Place& place, const Admit& ahead, const Admit& back) const {
-    const TracedCurve curve = forward_.trace(place, -1, ahead);
-    if (curve.end == StreamlineEnd::closed) {
-        Streamline line = joined({}, curve);
-        line.first_end = StreamlineEnd::closed;
-        return line;
-    }
-    if (!both_ways_) return joined({}, curve);
-    const DirectionTracer& tracer = backward_ ? *backward_ : forward_;
-    return joined(tracer.trace({place.triangle, place.at, -place.heading}, -1, back), curve);
+    return both_ways(forward_, backward_ ? *backward_ : forward_, place, both_ways_, ahead, back);
 }
 
 }  // namespace octafield::surface::detail

@@ -13,11 +13,21 @@ namespace octafield::surface::detail {
 // One polyline of two curves from the same place, `back` against the direction.
 Streamline joined(const TracedCurve& back, const TracedCurve& ahead);
 
-// Puts the straight way from the singular point before the curve that begins at its end.
-void prepend(TracedCurve& curve, const SeparatrixStart& start);
+// The straight way from singular point number `point` with the curve that begins at its end, no longer than `most`.
+Streamline separatrix(const SeparatrixStart& start, TracedCurve curve, double most, Index point);
 
-// No longer than `most`.
-void cut(TracedCurve& curve, double most);
+// From a place ahead and, if `back_too`, against the heading with the other tracer; one curve where it closes.
+template <TracedField Field>
+Streamline both_ways(const FieldTracer<Field>& forward, const FieldTracer<Field>& backward, const Place& place,
+                     bool back_too, const Admit& ahead = {}, const Admit& back = {}) {
+    const TracedCurve curve = forward.trace(place, -1, ahead);
+    if (curve.end == StreamlineEnd::closed || !back_too) {
+        Streamline line = joined({}, curve);
+        if (curve.end == StreamlineEnd::closed) line.first_end = StreamlineEnd::closed;
+        return line;
+    }
+    return joined(backward.trace({place.triangle, place.at, -place.heading}, -1, back), curve);
+}
 
 // Throws InvalidInput where singular points are not on the mesh (kind "wrong_mesh") and for options that are no
 // lengths.

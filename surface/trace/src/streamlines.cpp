@@ -9,7 +9,6 @@ namespace octafield::surface {
 namespace {
 
 using detail::Place;
-using detail::TracedCurve;
 
 // Index of the singular point's vertex among the fans; -1 where several parts of the surface touch.
 const VertexFans::Fan* only_fan(const VertexFans& fans, Index vertex) {
@@ -47,15 +46,10 @@ std::vector<Streamline> separatrices(const DirectionField& field, const SurfaceS
         } else if (const auto* fan = only_fan(field.domain.fans(), point.vertex)) {
             starts = detail::starts_at_vertex(tracer.field(), links, unit_values, *fan, tracer.forward());
         }
-        for (const auto& start : starts) {
-            TracedCurve curve = tracer.forward().trace(start.place, static_cast<Index>(i));
-            detail::prepend(curve, start);
-            detail::cut(curve, tracer.forward().max_length());
-            Streamline line = detail::joined({}, curve);
-            line.first_end = StreamlineEnd::singularity;
-            line.first_singularity = static_cast<Index>(i);
-            lines.push_back(std::move(line));
-        }
+        const auto number = static_cast<Index>(i);
+        for (const auto& start : starts)
+            lines.push_back(detail::separatrix(start, tracer.forward().trace(start.place, number),
+                                               tracer.forward().max_length(), number));
     }
     return lines;
 }

@@ -45,25 +45,14 @@ inline TriangleMesh annulus(double inner, int around, int rings) {
 // The regular n-gon with corners on the unit circle, the first at angle 0.
 inline TriangleMesh polygon(int n, int rings) {
     std::vector<Vector> points = {Vector::Zero()};
-    std::vector<Eigen::Vector3i> triangles;
-    const auto vertex = [n](int ring, int i) { return ring == 0 ? 0 : 1 + n * ring * (ring - 1) / 2 + i % (n * ring); };
-    for (int ring = 1; ring <= rings; ++ring) {
+    for (int ring = 1; ring <= rings; ++ring)
         for (int i = 0; i < n * ring; ++i) {
             const Complex a = std::polar(1.0, 2 * pi * (i / ring) / n),
                           b = std::polar(1.0, 2 * pi * (i / ring + 1) / n);
             points.push_back(
                 in_plane((a + (b - a) * (static_cast<double>(i % ring) / ring)) * (static_cast<double>(ring) / rings)));
         }
-        for (int sector = 0; sector < n; ++sector)
-            for (int i = 0; i < ring; ++i) {
-                const int outer = sector * ring + i, inner = sector * (ring - 1) + i;
-                triangles.emplace_back(vertex(ring, outer), vertex(ring, outer + 1), vertex(ring - 1, inner));
-                if (i + 1 < ring)
-                    triangles.emplace_back(vertex(ring - 1, inner), vertex(ring, outer + 1),
-                                           vertex(ring - 1, inner + 1));
-            }
-    }
-    return make_mesh(points, triangles);
+    return make_mesh(points, testing::concentric_triangles(n, rings));
 }
 
 // The square [-1, 1]^2 with round holes of `radius` in the middle of its left and right halves; 6 n edges per half.

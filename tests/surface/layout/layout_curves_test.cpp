@@ -74,16 +74,6 @@ TEST(LayoutCurves, ValenceEightInTheMiddleReachesItsEightBoundaryPoints) {
     }
 }
 
-template <class Call>
-std::string kind_of(const Call& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.kind();
-    }
-    return "none";
-}
-
 TEST(LayoutCurves, WhatHasNoCurvesIsTold) {
     ImposedField field = l_shape_field(4);
     LayoutCurveOptions options;

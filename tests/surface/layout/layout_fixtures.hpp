@@ -1,10 +1,23 @@
 // Fields for the tests of quad layouts.
 #pragma once
 
+#include <string>
+
 #include "imposed/imposed_fixtures.hpp"
 #include "octafield/surface/layout_curves.hpp"
 
 namespace octafield::surface {
+
+// Of the error that is thrown, "none" without one.
+template <class Call>
+std::string kind_of(const Call& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return error.kind();
+    }
+    return "none";
+}
 
 inline std::vector<Source> four_in_disk(double radius, const std::vector<double>& degrees) {
     std::vector<Source> sources;

@@ -108,16 +108,6 @@ TEST(LayoutQuads, ThinChordsGetOneQuad) {
     EXPECT_EQ(*std::min_element(quads.chord_counts.begin(), quads.chord_counts.end()), 1);
 }
 
-template <class Call>
-std::string kind_of(const Call& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.kind();
-    }
-    return "none";
-}
-
 TEST(LayoutQuads, WhatHasNoQuadLayoutIsTold) {
     const QuadLayout annulus_layout =
         quad_layout(impose_singular_points(SurfaceDomain(annulus(0.3, 40, 8)), {}), {}, false);

@@ -208,10 +208,6 @@ bool farther(const std::map<Index, double>& moved, const std::map<Index, double>
     return false;
 }
 
-}  // namespace
-
-namespace {
-
 double longest_at(const TetDomain& domain, const std::vector<Index>& triangles, const EdgeLengths& lengths) {
     if (!lengths.vary()) return lengths.longest();
     double longest = 0;

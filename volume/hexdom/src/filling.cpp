@@ -243,10 +243,6 @@ CavitySurface sound_surface(CellsOnSurface& cells, CavityOfCells& cavity) {
     }
 }
 
-}  // namespace
-
-namespace {
-
 // Without hexahedra that have one of the points of the surface.
 LatticeCells without(const LatticeCells& cells, const LatticeSurface& lattice, const std::vector<Index>& points) {
     std::vector<std::uint8_t> bad(cells.points.rows(), 0);

@@ -58,8 +58,8 @@ struct HexDominantMesh {
 // corners, the surface (and interfaces between regions) are kept up to edge_length's chords, features and corners are
 // edges and vertices. Progress names the phases: "sizes", "periodic map", "lattice", "surface", "tetrahedralize",
 // "recombine", "conform", "improve". Throws InvalidInput (kinds "wrong_size", "not_unit", "min_scaled_jacobian",
-// "hold_angle", "refinements"; "edge_length": not above 0, or more than 20 million cells), GeometryError, SolverError,
-// Cancelled.
+// "hold_angle", "refinements", "edge_length" (not above 0), "too_many_cells"), GeometryError, SolverError
+// ("tetgen_time": filling what hexahedra leave takes far too long), Cancelled.
 HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options = {},
                              const Progress& progress = {});
 
