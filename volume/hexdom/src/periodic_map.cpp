@@ -116,7 +116,7 @@ private:
     Phases minimised(const PhaseSystem& system, const Progress& progress) const {
         Phases z = system.start();
         report_or_throw(progress, "periodic map", 0, 0);
-        system.diffuse(0, 1e-6, z, options_.threads);
+        system.diffuse(0, 1e-4, z, options_.threads);
         system.normalize(z);
         for (int round = 0; round < options_.rounds; ++round) {
             const double shift = 0.01 * std::pow(100.0, static_cast<double>(round) / std::max(options_.rounds - 1, 1));

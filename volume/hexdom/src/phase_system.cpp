@@ -21,17 +21,37 @@ double dot(const Phases& x, const Phases& y) {
 
 constexpr int most_steps = 400;
 
+// Free unknowns, breadth first from the lowest of each part, so that those that are coupled lie close in memory.
+std::vector<Index> near_order(Index count, const std::vector<std::uint8_t>& held,
+                              const std::vector<PhaseSystem::Coupling>& couplings) {
+    std::vector<std::int64_t> begin(count + 1, 0);
+    for (const PhaseSystem::Coupling& c : couplings)
+        if (!held[c.a] && !held[c.b]) ++begin[c.a + 1], ++begin[c.b + 1];
+    for (Index k = 0; k < count; ++k) begin[k + 1] += begin[k];
+    std::vector<Index> others(begin.back());
+    std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
+    for (const PhaseSystem::Coupling& c : couplings)
+        if (!held[c.a] && !held[c.b]) others[next[c.a]++] = c.b, others[next[c.b]++] = c.a;
+    std::vector<Index> order;
+    std::vector<std::uint8_t> reached = held;
+    const auto reach = [&](Index k) {
+        if (!reached[k]) order.push_back(k);
+        reached[k] = 1;
+    };
+    std::size_t at = 0;
+    for (Index first = 0; first < count; ++first)
+        for (reach(first); at < order.size(); ++at)
+            for (std::int64_t e = begin[order[at]]; e < begin[order[at] + 1]; ++e) reach(others[e]);
+    return order;
+}
+
 }  // namespace
 
 PhaseSystem::PhaseSystem(Index count, const std::vector<std::uint8_t>& held, const std::vector<Coupling>& couplings)
-    : count_(count) {
-    std::vector<Index> row(count, -1);
-    for (Index k = 0; k < count; ++k)
-        if (!held[k]) {
-            row[k] = static_cast<Index>(free_.size());
-            free_.push_back(k);
-        }
+    : free_(near_order(count, held, couplings)), count_(count) {
     const std::size_t rows = free_.size();
+    std::vector<Index> row(count, -1);
+    for (std::size_t r = 0; r < rows; ++r) row[free_[r]] = static_cast<Index>(r);
     begin_.assign(rows + 1, 0);
     diagonal_.assign(rows, 0);
     right_.assign(rows, 0);
@@ -43,13 +63,16 @@ PhaseSystem::PhaseSystem(Index count, const std::vector<std::uint8_t>& held, con
     DisjointSets parts(rows + 1);  // the last: held
     for (const Coupling& c : couplings) {
         // z_b = turn z_a, z_a = conj(turn) z_b; z_b = turn conj(z_a), z_a = turn conj(z_b).
+        const auto entry = [](Index column, bool conjugate, const Complex& value) {
+            return Entry{2 * static_cast<std::uint32_t>(column) + conjugate, std::complex<float>(value)};
+        };
         const Complex forth = c.weight * c.turn, back = c.weight * (c.conjugate ? c.turn : std::conj(c.turn));
         const Index a = row[c.a], b = row[c.b];
         if (a >= 0) diagonal_[a] += c.weight;
         if (b >= 0) diagonal_[b] += c.weight;
         if (a >= 0 && b >= 0) {
-            entries_[next[b]++] = {a, c.conjugate, forth};
-            entries_[next[a]++] = {b, c.conjugate, back};
+            entries_[next[b]++] = entry(a, c.conjugate, forth);
+            entries_[next[a]++] = entry(b, c.conjugate, back);
             parts.join(a, b);
         } else if (a >= 0) {
             right_[a] += back;
@@ -72,12 +95,16 @@ Phases PhaseSystem::start() const {
 
 void PhaseSystem::times(double shift, const Phases& z, Phases& result, int threads) const {
     parallel_for(static_cast<std::int64_t>(z.size()), threads, [&](std::int64_t r) {
-        Complex sum = (1 + shift) * diagonal_[r] * z[r];
-        for (std::int64_t e = begin_[r]; e < begin_[r + 1]; ++e) {
-            const Entry& entry = entries_[e];
-            sum -= entry.value * (entry.conjugate ? std::conj(z[entry.column]) : z[entry.column]);
+        const double own = (1 + shift) * diagonal_[r];
+        double real = own * z[r].real(), imag = own * z[r].imag();
+        for (std::int64_t e = begin_[r]; e < begin_[r + 1]; ++e) {  // Complex's own product looks for infinities
+            const Complex& other = z[entries_[e].code / 2];
+            const double a = entries_[e].value.real(), b = entries_[e].value.imag(), c = other.real(),
+                         d = entries_[e].code % 2 ? -other.imag() : other.imag();
+            real -= a * c - b * d;
+            imag -= a * d + b * c;
         }
-        result[r] = sum;
+        result[r] = {real, imag};
     });
 }
 
