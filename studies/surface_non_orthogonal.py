@@ -1,14 +1,15 @@
 """Non-orthogonal cross fields on the figures of L. Dermine (master thesis, UCLouvain 2024): trapezoids, a diamond, the
 disk, a shuriken and an aerofoil in a square.
 
-    python studies/surface_non_orthogonal.py -o DIR [--edge 0.05]
+    python studies/surface_non_orthogonal.py -o DIR [--edge 0.05] [--cost]
 
 The thesis does not give its geometries: angles, the numbers of corners and of singular points are its own, all else is
 chosen here. DIR gets one picture per figure, and summary.md: energy, singular points and angles of every domain and
-method.
+method. With --cost cost.md alone: CPU seconds by mesh size.
 """
 
 import argparse
+import time
 from pathlib import Path
 
 import numpy as np
@@ -202,13 +203,37 @@ def aerofoils(output: Path, edge: float) -> list[tuple]:
     return [row("NACA 2412 in a square", "angles, fixed", field, singular)]
 
 
+def cost(edges) -> str:
+    """A row per edge length of the trapezoid of 30 degrees, with the exponent of the CPU time in the vertices."""
+    rows, before = [], {}
+    for edge in edges:
+        mesh = right_trapezoid(30, edge)
+        line = [f"{edge:g}", f"{len(mesh.vertices):,}"]
+        for method in ("angles", "poly_vector"):
+            began = time.process_time()
+            SURFACE.non_orthogonal_field(mesh, method=method)
+            took = time.process_time() - began
+            size, seconds = before.get(method, (len(mesh.vertices), took))
+            exponent = np.log(took / seconds) / np.log(len(mesh.vertices) / size) if method in before else None
+            line += [f"{took:.2f}", "" if exponent is None else f"{exponent:.2f}"]
+            before[method] = len(mesh.vertices), took
+        rows.append(line)
+    return markdown_table(("edge", "vertices", "angles, CPU s", "exponent", "poly_vector, CPU s", "exponent"), rows)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--edge", type=float, default=0.05, help="edge length; trapezoids have height 1")
+    parser.add_argument("--cost", nargs="?", const="0.02,0.01,0.005", help="edges; seconds in place of the figures")
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     output, edge = arguments.output, arguments.edge
+    if arguments.cost:
+        text = cost(map(float, arguments.cost.split(",")))
+        (output / "cost.md").write_text(text)
+        print(text)
+        return
     rows = [*trapezoids(output, edge), *diamonds(output, 0.9 * edge), *disks(output, edge)]
     rows += [*stars(output, edge), *aerofoils(output, edge)]
     text = markdown_table(HEADER, rows)

@@ -263,3 +263,11 @@ def test_non_orthogonal_crosses_have_the_points_of_the_thesis(tmp_path):
     assert found["disk"] == "4 of t = +1"
     for name in ("trapezoids", "diamond", "disk", "shuriken", "aerofoil"):
         assert is_picture(tmp_path / f"non_orthogonal_{name}.png")
+
+
+def test_the_cost_of_non_orthogonal_fields_has_a_row_per_edge_length(tmp_path):
+    run("surface_non_orthogonal.py", tmp_path, "--cost", "0.2,0.1")
+    lines = [line.split("|")[1:-1] for line in (tmp_path / "cost.md").read_text().splitlines()[2:]]
+    (coarse, fine) = ([word.strip() for word in line] for line in lines)
+    assert (coarse[0], fine[0]) == ("0.2", "0.1") and 2.5 * int(coarse[1]) < int(fine[1]) < 5 * int(coarse[1])
+    assert coarse[3] == coarse[5] == "" and all(float(fine[k]) >= 0 for k in (2, 4))
