@@ -19,6 +19,8 @@
 #include "octafield/volume/locate_points.hpp"
 #include "octafield/volume/sample_frames.hpp"
 #include "octafield/volume/tetrahedralize.hpp"
+#include "point_front.hpp"
+#include "tet_walk.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -108,6 +110,29 @@ TEST(FrontalPoints, FollowTheTurningOfTheAxes) {
     }
     EXPECT_GT(inside, 80);
     EXPECT_GT(on_circle, 0.9 * inside);
+}
+
+TEST(PointFront, AStepHasTheDirectionOfItsMiddle) {
+    const TetDomain domain = testing::with_detected_features(testing::tube_quarter(8));
+    const Quaternions frames = testing::sample(domain.mesh(), testing::along_cylinder);
+    const TetAxes axes{tet_frames(domain, frames), Points::Constant(domain.tet_count(), 3, 0.4)};
+    const FrontField field(domain, frames, axes, 1);
+    const Vector3 seed(1.5 / std::numbers::sqrt2, 1.5 / std::numbers::sqrt2, 0.5);
+    const LocatedPoints found = locate_points(domain, seed.transpose());
+    struct Done {};
+    int generations = 0;
+    PointFront front(field, 1, [&] {
+        if (++generations == 2) throw Done();
+    });
+    front.add({{found.tet[0], found.weights.row(0).transpose(), -1}});
+    EXPECT_THROW(front.advance(TetWalker(domain), {0}), Done);
+    ASSERT_EQ(front.count(), 3);  // walls are within 0.5 along the other two axes
+    // A chord of the circle; the direction of the start would lead to sqrt(1.5^2 + 0.4^2) = 1.552.
+    for (const Index p : {1, 2}) {
+        const Vector3 at = field.position(front.places()[p]);
+        EXPECT_NEAR(at.head<2>().norm(), 1.5, 0.005);
+        EXPECT_NEAR((at - seed).norm(), 0.4, 1e-6);
+    }
 }
 
 TEST(FrontalPoints, AreApartAndLeaveNoHoles) {
