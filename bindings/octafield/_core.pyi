@@ -2551,11 +2551,13 @@ class HexDominantCounts:
     def pyramids(self) -> ConformReport: ...
 
 class HexDominantMesh:
+    words: ClassVar[dict[str, list[str]]]
     def __init__(
         self,
         mesh: MixedMesh = ...,
         regions: ArrayLike = ...,
         support: ArrayLike = ...,
+        points: str = ...,
         counts: HexDominantCounts = ...,
     ) -> None: ...
     @property
@@ -2568,6 +2570,10 @@ class HexDominantMesh:
     def support(self) -> UInt8s: ...
     @support.setter
     def support(self, value: ArrayLike) -> None: ...
+    @property
+    def points(self) -> str: ...
+    @points.setter
+    def points(self, value: str) -> None: ...
     @property
     def counts(self) -> HexDominantCounts: ...
 

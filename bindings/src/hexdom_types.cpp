@@ -177,6 +177,7 @@ void bind_results(py::module_& m) {
         .field("regions", &HexDominantMesh::regions, "(cells,) int32, or none where the domain has none.")
         .field("support", &HexDominantMesh::support,
                "(n,) uint8 per vertex: 0 inside, 1 on the surface, 2 on a feature curve, 3 a corner.")
+        .field("points", &HexDominantMesh::points, "What they were made by: 'periodic' or 'frontal'.")
         .field("counts", &HexDominantMesh::counts, "HexDominantCounts.")
         .finish([](const HexDominantMesh& result) {
             const MixedMesh& mesh = result.mesh;

@@ -128,8 +128,8 @@ struct Words<volume::SizeCorrection> {
 template <>
 struct Words<volume::CellPoints> {
     using E = volume::CellPoints;
-    static constexpr std::array<std::pair<const char*, E>, 2> list{
-        {{"periodic", E::periodic}, {"frontal", E::frontal}}};
+    static constexpr std::array<std::pair<const char*, E>, 3> list{
+        {{"best", E::best}, {"periodic", E::periodic}, {"frontal", E::frontal}}};
 };
 
 template <class Enum>

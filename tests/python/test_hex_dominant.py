@@ -87,7 +87,7 @@ def test_the_number_of_threads_changes_no_bit(curved):
 
 def test_options_are_those_of_the_struct_and_bad_ones_are_named(box):
     assert of.volume.HexDominantOptions.words["correction"] == ["none", "isotropic", "axes"]
-    assert of.volume.HexDominantOptions.words["points"] == ["periodic", "frontal"]
+    assert of.volume.HexDominantOptions.words["points"] == ["best", "periodic", "frontal"]
     for wrong, kind in [
         ({"correction": "all"}, "unknown_word"),
         ({"points": "front"}, "unknown_word"),
@@ -131,6 +131,25 @@ def test_options_of_the_whole_way_have_the_defaults_of_the_struct():
     for field in dataclasses.fields(ours):
         if field.name != "cells":
             assert getattr(ours, field.name) == getattr(struct, field.name), field.name
+
+
+def test_the_better_of_map_and_front_is_kept_and_recorded():
+    field = of.compute_field(generate("torus"), of.FieldOptions(edge_length=0.4))
+    made = {
+        points: of.compute_hex_dominant(field, hex_options=of.HexMeshOptions(edge_length=0.4, points=points))
+        for points in ("best", "periodic", "frontal")
+    }
+    shares = {points: result.record.hex_volume_share for points, result in made.items()}
+    better = max(("periodic", "frontal"), key=shares.__getitem__)
+    assert shares["periodic"] < 0.98 and shares["best"] == shares[better]
+    assert made["best"].record.points == better
+    assert np.array_equal(made["best"].mesh.vertices, made[better].mesh.vertices)
+    assert {"periodic_map", "front"} <= made["best"].record.wall_seconds.keys()
+
+
+def test_a_front_is_not_tried_where_the_map_leaves_nothing(box):
+    made = of.volume.hex_dominant(box.tets, box.frames, edge_length=0.25)
+    assert made.points == "periodic" and len(made.mesh.tets) == 0
 
 
 @pytest.mark.parametrize("shape", ["cylinder", "ball"])

@@ -66,7 +66,7 @@ def hex_dominant(
         typer.Option(
             metavar="|".join(POINTS),
             autocompletion=words(POINTS),
-            help="Vertices of cells from a periodic map, or from a front that goes from the surface inside.",
+            help="Vertices of cells from a periodic map, a front from the surface inside, or the better of both.",
         ),
     ] = _DEFAULTS.points,
     options: Callable[[], FieldOptions] = FieldOptions,

@@ -265,8 +265,7 @@ def _mesh_along(
     figures = figures_of(made.mesh, regions, domain, at, options.threads)
     meter.end()
     told = record.of_mesh(
-        made.mesh,
-        made.counts,
+        made,
         figures,
         field.record,
         name,

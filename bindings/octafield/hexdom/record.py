@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._core import HexDominantCounts, MixedMesh
+from .._core import HexDominantCounts, HexDominantMesh
 from ..progress.phases import machine, octafield_version, versions
 from ..records.hex_dominant import HexDominantRecord
 from ..records.parts import (
@@ -30,8 +30,7 @@ if TYPE_CHECKING:
 
 
 def of_mesh(
-    mesh: MixedMesh,
-    counts: HexDominantCounts,
+    made: HexDominantMesh,
     figures: MeshFigures,
     field: FieldRecord,
     source: str,
@@ -48,7 +47,8 @@ def of_mesh(
         tets=field.tets,
         regions=field.regions,
         field=of_field(field, source),
-        vertices=len(mesh.vertices),
+        points=made.points,
+        vertices=len(made.mesh.vertices),
         cells=CellCounts(**figures.cells),
         hex_volume_share=figures.hex_volume_share,
         hex_number_share=figures.hex_number_share,
@@ -63,7 +63,7 @@ def of_mesh(
         boundary_deviation=Deviation(max=figures.deviation[0], rms=figures.deviation[1]),
         edge_length=EdgeLengths(target=target, **_quantiles(figures.edges)),
         edge_to_size=None if figures.edges_to_sizes is None else Quantiles(**_quantiles(figures.edges_to_sizes)),
-        steps=of_steps(counts),
+        steps=of_steps(made.counts),
         wall_seconds=meter.wall,
         cpu_seconds=meter.cpu,
         phase_peak_mb=meter.peak_mb,

@@ -28,6 +28,7 @@ class HexDominantRecord(Record):
     tets: int = Field(description="of the mesh that the field is on")
     regions: int = Field(description="how many")
     field: FieldOfMesh = Field(description="that the cells follow")
+    points: str = Field(default="periodic", description="where the vertices come from: periodic or frontal")
     vertices: int = Field(description="of the mesh that was made")
     cells: CellCounts = Field(description="of the mesh that was made")
     hex_volume_share: float = Field(description="volume of the hexahedra over that of all cells")

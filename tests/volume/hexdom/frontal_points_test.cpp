@@ -195,6 +195,33 @@ TEST(FrontalPoints, OfABoxBecomeHexahedra) {
     EXPECT_GT(result.mesh.hexahedra.rows(), 80);
 }
 
+// Of both, or of the one that there is.
+TEST(FrontalPoints, AreKeptWhereTheyLeadToMoreHexahedra) {
+    const TetDomain round = ball();
+    const Quaternions frames = computed_field(round).combed.frames;
+    const auto share = [](const HexDominantMesh& made) {
+        const Eigen::VectorXd volumes = cell_volumes(made.mesh);
+        return volumes.segment(made.mesh.tets.rows(), made.mesh.hexahedra.rows()).sum() / volumes.sum();
+    };
+    int fronts = 0;
+    for (const double length : {0.3, 0.5, 0.7}) {
+        HexDominantOptions options = frontal(length);
+        options.refinements = 0;
+        const HexDominantMesh front = hex_dominant(round, frames, options);
+        options.points = CellPoints::periodic;
+        const HexDominantMesh map = hex_dominant(round, frames, options);
+        options.points = CellPoints::best;
+        const HexDominantMesh best = hex_dominant(round, frames, options);
+        EXPECT_LT(share(map), 0.98);
+        const bool of_front = share(front) > share(map);
+        fronts += of_front;
+        EXPECT_EQ(best.points, of_front ? CellPoints::frontal : CellPoints::periodic);
+        EXPECT_EQ(best.mesh.vertices, (of_front ? front : map).mesh.vertices);
+    }
+    EXPECT_GT(fronts, 0);
+    EXPECT_LT(fronts, 3);
+}
+
 TEST(FrontalPoints, MakeValidMeshesOfAnyField) {
     const TetDomain round = ball();
     const Quaternions frames = computed_field(round).combed.frames;

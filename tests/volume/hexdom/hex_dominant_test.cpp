@@ -77,6 +77,7 @@ TEST(HexDominant, ATubeAlongACylindricalField) {
     // Cells that grow with the radius along the circles leave a map all over; cells of one length do not.
     EXPECT_EQ(result.counts.inconsistent, 0);
     HexDominantOptions options = with_length(0.2);
+    options.points = CellPoints::periodic;
     options.refinements = 0;
     options.correction = SizeCorrection::none;
     EXPECT_GT(
@@ -204,6 +205,7 @@ TEST(HexDominant, TheWorkingMeshStaysWithinItsBudget) {
     const TetDomain domain = ball();
     const Quaternions frames = testing::random_frames(domain.vertex_count(), 1);
     HexDominantOptions options = with_length(0.3);
+    options.points = CellPoints::periodic;
     const Index all = hex_dominant(domain, frames, options).counts.tets;
     ASSERT_GT(all, domain.tet_count());
     for (const Index most : {domain.tet_count(), 3 * domain.tet_count(), all - 1}) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -23,6 +24,7 @@
 namespace octafield::volume {
 namespace {
 
+constexpr double enough = 0.98;           // of the volume in hexahedra: a front is not tried
 constexpr double most_log_scale = 0.693;  // sizes give way by a factor of two
 
 struct WorkingField {
@@ -199,15 +201,9 @@ LatticeCells points_of(WorkingField& field, const WorkingField& given, const Hex
     return frontal_points(field.domain, field.frames, tet_axes(field, options), options.threads, progress);
 }
 
-}  // namespace
-
-HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
-                             const Progress& progress) {
-    require_options(options);
-    require_frames(frames, domain.vertex_count());
-    const WorkingField given{domain, frames, wanted_sizes(domain, options)};
-    require_count(given, options.most_hexahedra);
+HexDominantMesh mesh_along(const WorkingField& given, const HexDominantOptions& options, const Progress& progress) {
     HexDominantMesh result;
+    result.points = options.points;
     HexDominantCounts& counts = result.counts;
     WorkingField field = given;
     std::optional<LatticeCells> cells = points_of(field, given, options, counts, progress);
@@ -221,7 +217,7 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     counts.crossing = filled.cells.crossing;
     const PointSurface& surface = filled.cells.surface;
     result.support = vertex_support(surface, static_cast<Index>(mesh.vertices.rows()));
-    if (!domain.regions().empty()) result.regions = cell_regions(field.domain, surface, mesh);
+    if (!given.domain.regions().empty()) result.regions = cell_regions(field.domain, surface, mesh);
     if (options.improve) {
         report_or_throw(progress, "improve", 0, 0);
         mesh = improved(mesh, field.domain, result.support, result.regions, lengths.shortest(), options.threads);
@@ -230,6 +226,52 @@ HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames,
     result.mesh = std::move(mesh);
     drop_unused_vertices(result);
     return result;
+}
+
+double hexahedra_of_volume(const MixedMesh& mesh) {
+    const Eigen::VectorXd volumes = cell_volumes(mesh);
+    return volumes.segment(mesh.tets.rows(), mesh.hexahedra.rows()).sum() / volumes.sum();
+}
+
+// The mesh, or why there is none.
+struct Attempt {
+    std::optional<HexDominantMesh> mesh;
+    double share = -1;
+    std::exception_ptr error;
+};
+
+Attempt attempt(const WorkingField& given, HexDominantOptions options, CellPoints points, const Progress& progress) {
+    options.points = points;
+    Attempt result;
+    try {
+        result.mesh = mesh_along(given, options, progress);
+        result.share = hexahedra_of_volume(result.mesh->mesh);
+    } catch (const GeometryError&) {
+        result.error = std::current_exception();
+    } catch (const SolverError&) {
+        result.error = std::current_exception();
+    }
+    return result;
+}
+
+HexDominantMesh best_mesh(const WorkingField& given, const HexDominantOptions& options, const Progress& progress) {
+    Attempt map = attempt(given, options, CellPoints::periodic, progress);
+    if (map.share >= enough) return std::move(*map.mesh);
+    Attempt front = attempt(given, options, CellPoints::frontal, progress);
+    if (!map.mesh && !front.mesh) std::rethrow_exception(map.error);
+    return std::move(front.share > map.share ? *front.mesh : *map.mesh);
+}
+
+}  // namespace
+
+HexDominantMesh hex_dominant(const TetDomain& domain, const Quaternions& frames, const HexDominantOptions& options,
+                             const Progress& progress) {
+    require_options(options);
+    require_frames(frames, domain.vertex_count());
+    const WorkingField given{domain, frames, wanted_sizes(domain, options)};
+    require_count(given, options.most_hexahedra);
+    return options.points == CellPoints::best ? best_mesh(given, options, progress)
+                                              : mesh_along(given, options, progress);
 }
 
 }  // namespace octafield::volume

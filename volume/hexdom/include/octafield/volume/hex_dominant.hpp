@@ -15,14 +15,16 @@ namespace octafield::volume {
 enum class SizeCorrection { none, isotropic, axes };
 
 // Where vertices of cells come from: the integers of a periodic map, or a front that goes from the surface inside, a
-// size at a time along the axes (Baudouin, Remacle, Marchandise, Henrotte, Geuzaine 2014).
-enum class CellPoints { periodic, frontal };
+// size at a time along the axes (Baudouin, Remacle, Marchandise, Henrotte, Geuzaine 2014). best: the map, and where it
+// leaves more than 2 % of the volume to other cells than hexahedra, or no mesh, a front as well; of both the mesh with
+// more of the volume in hexahedra.
+enum class CellPoints { best, periodic, frontal };
 
 struct HexDominantOptions {
     double edge_length = 0;   // wanted, input unit; 0: the mean edge of the surface
     Eigen::VectorXd sizes{};  // (n) wanted at the vertices, in place of edge_length; empty: the same everywhere
     SizeCorrection correction = SizeCorrection::axes;
-    CellPoints points = CellPoints::periodic;
+    CellPoints points = CellPoints::best;
     // Times that tets on which the map is of no use, and those next to them, are cut into eight and the map is made
     // anew, while the mesh stays within most_tets.
     int refinements = 2;
@@ -49,7 +51,8 @@ struct HexDominantCounts {
 
 struct HexDominantMesh {
     MixedMesh mesh;
-    std::vector<Index> regions;         // per cell; empty where the domain has none
+    CellPoints points = CellPoints::periodic;  // what they were made by: periodic or frontal
+    std::vector<Index> regions;                // per cell; empty where the domain has none
     std::vector<std::uint8_t> support;  // per vertex: 0 inside, 1 on the surface, 2 on a feature curve, 3 a corner
     HexDominantCounts counts;
 };
