@@ -204,7 +204,7 @@ TEST(FrontalPoints, AreKeptWhereTheyLeadToMoreHexahedra) {
         return volumes.segment(made.mesh.tets.rows(), made.mesh.hexahedra.rows()).sum() / volumes.sum();
     };
     int fronts = 0;
-    for (const double length : {0.3, 0.5, 0.7}) {
+    for (const double length : {0.5, 0.7, 0.9}) {
         HexDominantOptions options = frontal(length);
         options.refinements = 0;
         const HexDominantMesh front = hex_dominant(round, frames, options);
@@ -218,8 +218,7 @@ TEST(FrontalPoints, AreKeptWhereTheyLeadToMoreHexahedra) {
         EXPECT_EQ(best.points, of_front ? CellPoints::frontal : CellPoints::periodic);
         EXPECT_EQ(best.mesh.vertices, (of_front ? front : map).mesh.vertices);
     }
-    EXPECT_GT(fronts, 0);
-    EXPECT_LT(fronts, 3);
+    EXPECT_EQ(fronts, 2);  // neither makes any of the longest
 }
 
 TEST(FrontalPoints, MakeValidMeshesOfAnyField) {
