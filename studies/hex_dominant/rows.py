@@ -155,8 +155,10 @@ def cells(row: dict) -> list[str]:
 
 
 def lost(steps: dict[str, int]) -> str:
-    """Those that became no hexahedra, of all."""
+    """Those that became no hexahedra, of all; a front has none."""
     refused = sum(steps[name] for name in ("outside", "unusable", "degenerate", "poor"))
+    if refused + steps["lattice_hexahedra"] == 0:
+        return "front"
     return f"{refused + steps['crossing']:,} of {refused + steps['lattice_hexahedra']:,}"
 
 
