@@ -15,6 +15,8 @@ from .datasets import polylines, quad_grid, read_vtp
 # Pale, so that edges and points stand out; neighbours never have the same.
 _COLOURS = ("#b9d7ea", "#f6d7a7", "#c8e3c0", "#e9c6d8", "#d6cdea", "#f3efb1", "#cfd6dc", "#f0c4b4")
 
+_EDGES = "#56616d"
+
 
 def quad_scene(
     mesh: QuadMesh,
@@ -60,15 +62,21 @@ def _drawn(grid: pyvista.UnstructuredGrid, sides: pyvista.PolyData | None) -> py
     shape = scene.plotter()
     size = scene.diagonal(points)
     blocks = np.asarray(grid.cell_data["block"])
-    surface = pyvista.PolyData.from_regular_faces(points, quads)
+    width = 1.5 if len(quads) < 3000 else 0.8
     colours = _colours_of(quads, blocks)[blocks]
     for number, colour in enumerate(_COLOURS):
         if (colours == number).any():
             part = pyvista.PolyData.from_regular_faces(points, quads[colours == number])
-            shape.add_mesh(part, color=colour, ambient=0.5, diffuse=0.6, specular=0)
-    edges = surface.extract_all_edges()
-    width = 2.0 if len(quads) < 3000 else 1.0
-    shape.add_mesh(edges, color=scene.GREY, line_width=width, lighting=False)
+            shape.add_mesh(
+                part,
+                color=colour,
+                ambient=0.5,
+                diffuse=0.6,
+                specular=0,
+                show_edges=True,
+                edge_color=_EDGES,
+                line_width=width,
+            )
     lines = _between_blocks(points, quads, blocks) if sides is None else sides
     if lines.n_cells:
         shape.add_mesh(lines.tube(radius=0.0018 * size, n_sides=8), color=scene.INK, lighting=False)

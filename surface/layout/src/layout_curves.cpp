@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "given_field.hpp"
 #include "octafield/error.hpp"
 #include "separatrix_tracer.hpp"
 #include "short_number.hpp"
@@ -28,27 +29,6 @@ void require_parameters(const ImposedField& field) {
                                ": the field was rotated too far to have quad coordinates; move the points instead "
                                "(inadmissible: move)",
                            "rotated_field", vertices);
-}
-
-// Fields may be put together by hand.
-void require_field(const ImposedField& field) {
-    const SurfaceDomain& domain = field.field.domain;
-    const auto fail = [](const std::string& what) {
-        throw InvalidInput("this is no field that impose_singular_points gives: " + what, "bad_field");
-    };
-    if (domain.triangle_count() == 0) fail("its surface has no triangles");
-    if (field.field.symmetry != 4) fail("its symmetry is not 4");
-    if (field.log_size.size() != domain.vertex_count()) fail("log_size has not one number per vertex");
-    if (field.field.values.size() != domain.edge_count()) fail("there is not one direction per edge");
-    if (!field.log_size.allFinite() || !field.field.values.allFinite()) fail("not all of it is finite");
-    if (field.point_vertices.size() != field.pattern.points.size()) fail("its pattern has other points");
-    std::vector<bool> used(domain.vertex_count(), false);
-    for (const VertexFans::Fan& fan : domain.fans().fans) used[fan.vertex] = true;
-    const auto known = [&](Index v) { return v >= 0 && v < domain.vertex_count() && used[v]; };
-    for (const Index v : field.point_vertices)
-        if (!known(v)) fail("a point is at no vertex");
-    for (const CornerQuads& corner : field.pattern.corners)
-        if (!known(corner.vertex)) fail("a corner is at no vertex");
 }
 
 double area_in_parameters(const ImposedField& field) {
@@ -83,7 +63,7 @@ void require_short(const std::vector<Index>& vertices, double max_length) {
 LayoutCurves layout_curves(const ImposedField& given, const LayoutCurveOptions& options, const Progress& progress) {
     if (!(options.end_tolerance >= 0) || !(options.max_length >= 0) || std::isinf(options.end_tolerance))
         throw InvalidInput("the end tolerance and maximum length of layout curves are numbers >= 0", "bad_option");
-    require_field(given);
+    detail::require_field(given);
     require_parameters(given);
     const ImposedField field = detail::split_between_points(given);
     LayoutCurves result;

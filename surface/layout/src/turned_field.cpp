@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "given_field.hpp"
 #include "octafield/error.hpp"
 #include "separatrix_tracer.hpp"
 #include "structure.hpp"
@@ -71,6 +72,7 @@ double total_length(const ImposedField& field, LayoutCurveOptions options, doubl
 }  // namespace
 
 ImposedField turned_for_layout(const ImposedField& field, const LayoutCurveOptions& options, const Progress& progress) {
+    detail::require_field(field);
     const detail::Structure structure(field.field.domain);
     ImposedField result = field;
     for (Index c = 0; c < static_cast<Index>(structure.components.size()); ++c) {
