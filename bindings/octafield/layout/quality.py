@@ -12,6 +12,7 @@ from ..errors import SolverError
 from ..meshes.figures import Spread, spread, surface_deviation
 
 _ON_BOUNDARY = 1e-6  # of the diagonal
+_CHORD = 0.35  # of its length: how far its middle may be from the boundary
 
 
 @dataclass
@@ -57,8 +58,7 @@ def figures_of(mesh: QuadMesh, domain: SurfaceDomain, given: TriangleMesh) -> Qu
     points, quads = np.asarray(mesh.vertices), np.asarray(mesh.quads)
     edges, count, same_sense = edges_of(quads)
     open_edges = edges[count == 1]
-    at_rim = _at_boundary(points, open_edges, domain)
-    stray = open_edges[~at_rim[open_edges].all(axis=1)]
+    stray = open_edges[~_at_boundary(points, open_edges, domain)]
     round_vertex = np.bincount(quads.ravel(), minlength=len(points))
     on_boundary = np.zeros(len(points), bool)
     on_boundary[open_edges] = True
@@ -89,19 +89,22 @@ def edges_of(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
 
 
 def _at_boundary(points: np.ndarray, open_edges: np.ndarray, domain: SurfaceDomain) -> np.ndarray:
-    """(V,) bool: ends of these edges that lie on the boundary of the surface."""
+    """(e,) bool: edges whose ends are on the boundary of the surface and their middles near to it: chords of arcs up
+    to a third of the circle."""
     import pyvista
 
-    at = np.zeros(len(points), bool)
     rim = np.asarray(domain.edges)[np.asarray(domain.edge_triangles).min(axis=1) < 0]
-    ids = np.unique(open_edges)
-    if not len(rim) or not len(ids):
-        return at
+    if not len(rim) or not len(open_edges):
+        return np.zeros(len(open_edges), bool)
     vertices = np.array(domain.vertices)
     lines = pyvista.PolyData(vertices, lines=np.column_stack([np.full(len(rim), 2), rim]).ravel())
-    _, nearest = lines.find_closest_cell(points[ids], return_closest_point=True)  # type: ignore[misc]
-    diagonal = np.linalg.norm(vertices.max(axis=0) - vertices.min(axis=0))
-    at[ids] = np.linalg.norm(nearest - points[ids], axis=1) <= _ON_BOUNDARY * diagonal
+    ends = points[open_edges]
+    places = np.concatenate([ends[:, 0], ends[:, 1], ends.mean(axis=1)])
+    _, nearest = lines.find_closest_cell(places, return_closest_point=True)  # type: ignore[misc]
+    first, second, middle = np.linalg.norm(nearest - places, axis=1).reshape(3, -1)
+    near = _ON_BOUNDARY * np.linalg.norm(vertices.max(axis=0) - vertices.min(axis=0))
+    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    at: np.ndarray = (first <= near) & (second <= near) & (middle <= _CHORD * lengths)
     return at
 
 

@@ -49,8 +49,8 @@ def of_quads(
         euler_characteristic=found.euler_characteristic,
         feature_source=begun.feature_source,
         feature_edges=begun.feature_edges,
-        singularities=pattern.source,
-        corners=pattern.corner_source,
+        point_source=pattern.source,
+        corner_source=pattern.corner_source,
         singular_points=[
             ImposedPointFigures(
                 position=points[vertex].tolist(), index_times_four=four, boundary=bool(on_boundary[vertex])
