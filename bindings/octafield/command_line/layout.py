@@ -87,7 +87,7 @@ def quad_layout(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Quads in blocks on a surface, from the singular points of a cross field. DIR gets mesh.vtu, mesh.msh, layout.vtp,
+    """Quads in blocks, from singular points. DIR gets mesh.vtu, mesh.msh, layout.vtp,
     field.vtp, result.json."""
 
     def work() -> None:

@@ -119,7 +119,10 @@ def _csv(text: str, name: str) -> list[dict[str, Any]]:
         if not any(word.strip() for word in words):
             continue
         if len(words) != len(head):
-            raise IoError(f"{name}: line {lines.line_num} has {len(words)} columns, not {len(head)}", "bad_points")
+            raise IoError(
+                f"{name}: line {lines.line_num} has {len(words)} columns, not {len(head)} as the first; correct it",
+                "bad_points",
+            )
         found: dict[str, Any] = {k: word.strip() for k, word in zip(head, words, strict=True) if word.strip()}
         if {"x", "y"} & set(found):
             found["position"] = [found.pop(axis, "0" if axis == "z" else "") for axis in "xyz"]
