@@ -17,7 +17,8 @@ namespace {
 using detail::Slot;
 
 constexpr double most_size_factor = 1.05;
-constexpr double default_tolerance = 0.01, default_length = 40;  // of the root of the area in parameters
+// Of the root of the area in parameters.
+constexpr double default_tolerance = 0.01, default_length = 40, first_reach = 1.5;
 
 void require_parameters(const ImposedField& field) {
     std::vector<Index> vertices;
@@ -46,6 +47,76 @@ double area_in_parameters(const ImposedField& field) {
 struct Candidate {
     Slot from;
     detail::Passing to;
+    auto key() const { return std::tuple(to.length, from, to.slot); }
+};
+
+// Traces all separatrices and joins them, short ones first: what lies behind a point is not reached through it. So each
+// is traced only as far as it has not been joined.
+class Joiner {
+public:
+    Joiner(const detail::SeparatrixTracer& tracer, const detail::LayoutPoints& points, double max_length)
+        : tracer_(tracer), points_(points), max_length_(max_length) {
+        for (Index p = 0; p < static_cast<Index>(points.points.size()); ++p)
+            for (int s = 0; s < static_cast<int>(points.points[p].slots.size()); ++s) open_.push_back({{p, s}, {}});
+        count_ = static_cast<Index>(open_.size());
+    }
+    Index count() const { return count_; }
+
+    // Those that are not joined yet, up to `reach`. False where all have been traced to their ends.
+    bool trace(double reach, const Progress& progress) {
+        if (traced_ >= max_length_) return false;
+        bool longer = false;
+        for (std::size_t i = 0; i < open_.size(); ++i) {
+            report_or_throw(progress, "trace", 0.9 * i / static_cast<double>(open_.size()), NAN);
+            auto& [slot, trace] = open_[i];
+            if (trace.boundary) continue;
+            trace = tracer_.beginning(slot, reach);
+            longer = true;
+        }
+        traced_ = reach;
+        return longer;
+    }
+
+    // Those that pass one another's points within `reach`.
+    void join(double reach) {
+        std::vector<Candidate> candidates;
+        for (const auto& [slot, trace] : open_)
+            for (const detail::Passing& passing : trace.passing)
+                if (passing.length <= reach || trace.boundary || reach >= max_length_)
+                    candidates.push_back({slot, passing});
+        std::sort(candidates.begin(), candidates.end(),
+                  [](const Candidate& a, const Candidate& b) { return a.key() < b.key(); });
+        for (const Candidate& c : candidates) {
+            if (c.from == c.to.slot || taken_.contains(c.from) || taken_.contains(c.to.slot)) continue;
+            if (!tried_.insert(c.key()).second) continue;
+            auto curve = tracer_.joined(c.from, c.to);
+            if (!curve) continue;
+            taken_.insert({c.from, c.to.slot});
+            joined_.push_back(std::move(*curve));
+        }
+        std::erase_if(open_, [&](const auto& each) { return taken_.contains(each.first); });
+    }
+
+    // Returns where those start that did not end.
+    std::vector<Index> curves(std::vector<LayoutCurve>& result) && {
+        result = std::move(joined_);
+        std::vector<Index> unended;
+        for (auto& [slot, trace] : open_) {
+            if (!trace.boundary) unended.push_back(points_.points[slot.point].vertex);
+            result.push_back(std::move(trace.curve));
+        }
+        return unended;
+    }
+
+private:
+    const detail::SeparatrixTracer& tracer_;
+    const detail::LayoutPoints& points_;
+    double max_length_, traced_ = 0;
+    Index count_ = 0;
+    std::vector<std::pair<Slot, detail::Trace>> open_;
+    std::set<Slot> taken_;
+    std::set<std::tuple<double, Slot, Slot>> tried_;
+    std::vector<LayoutCurve> joined_;
 };
 
 void require_short(const std::vector<Index>& vertices, double max_length) {
@@ -76,34 +147,10 @@ LayoutCurves layout_curves(const ImposedField& given, const LayoutCurveOptions& 
     const detail::LayoutPoints points = detail::layout_points(field, local, options.cut_vertices);
     const detail::SeparatrixTracer tracer(local, points, result.end_tolerance, max_length);
 
-    std::vector<std::pair<Slot, detail::Trace>> traces;
-    std::vector<Candidate> candidates;
-    for (Index p = 0; p < static_cast<Index>(points.points.size()); ++p) {
-        report_or_throw(progress, "trace", 0.9 * p / static_cast<double>(points.points.size()), NAN);
-        for (int s = 0; s < static_cast<int>(points.points[p].slots.size()); ++s) {
-            traces.push_back({{p, s}, tracer.trace({p, s})});
-            for (const auto& passing : traces.back().second.passing) candidates.push_back({{p, s}, passing});
-        }
-    }
-    result.traced = static_cast<Index>(traces.size());
-    // Short ones first: what lies behind a point is not reached through it.
-    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-        return std::tuple(a.to.length, a.from, a.to.slot) < std::tuple(b.to.length, b.from, b.to.slot);
-    });
-    std::set<Slot> taken;
-    for (const Candidate& c : candidates) {
-        if (c.from == c.to.slot || taken.contains(c.from) || taken.contains(c.to.slot)) continue;
-        auto curve = tracer.joined(c.from, c.to);
-        if (!curve) continue;
-        taken.insert({c.from, c.to.slot});
-        result.curves.push_back(std::move(*curve));
-    }
-    std::vector<Index> unended;
-    for (auto& [slot, trace] : traces) {
-        if (taken.contains(slot)) continue;
-        if (!trace.boundary) unended.push_back(points.points[slot.point].vertex);
-        result.curves.push_back(std::move(trace.curve));
-    }
+    Joiner joiner(tracer, points, max_length);
+    for (double reach = first_reach * unit; joiner.trace(reach, progress); reach *= 4) joiner.join(reach);
+    result.traced = joiner.count();
+    std::vector<Index> unended = std::move(joiner).curves(result.curves);
     require_short(unended, max_length);
     for (LayoutCurve& curve : result.curves) detail::tighten(curve, local.charts());
     return result;
