@@ -1,11 +1,17 @@
 #include "given_field.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "octafield/error.hpp"
 
 namespace octafield::surface::detail {
+namespace {
+
+constexpr double most_size_factor = 1.05;
+
+}  // namespace
 
 void require_field(const ImposedField& field) {
     const SurfaceDomain& domain = field.field.domain;
@@ -25,6 +31,30 @@ void require_field(const ImposedField& field) {
         if (!known(v)) fail("a point is at no vertex");
     for (const CornerQuads& corner : field.pattern.corners)
         if (!known(corner.vertex)) fail("a corner is at no vertex");
+}
+
+void require_parameters(const ImposedField& field) {
+    std::vector<Index> vertices;
+    for (const HolonomyCondition& c : field.conditions)
+        if (!(c.size_factor <= most_size_factor)) vertices.push_back(c.vertex);
+    if (!vertices.empty())
+        throw InvalidInput("sizes disagree after one turn round the curves or generators at vertices " +
+                               first_few(vertices) +
+                               ": the field was rotated too far to have quad coordinates; move the points instead "
+                               "(inadmissible: move)",
+                           "rotated_field", vertices);
+}
+
+double parameter_area(const ImposedField& field) {
+    const TriangleMesh& mesh = field.field.domain.mesh();
+    const Eigen::VectorXd areas = triangle_areas(mesh);
+    double sum = 0;
+    for (Index t = 0; t < areas.size(); ++t)
+        for (int k = 0; k < 3; ++k) {  // by the middles of the sides
+            const Index a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);
+            sum += areas[t] / 3 * std::exp(-field.log_size[a] - field.log_size[b]);
+        }
+    return sum;
 }
 
 }  // namespace octafield::surface::detail
