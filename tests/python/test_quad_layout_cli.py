@@ -8,6 +8,8 @@ import octafield as of
 import pytest
 import pyvista
 from octafield.command_line import fields as cli
+from octafield.records.quad_layout import QuadLayoutRecord
+from octafield.records.record_file import any_record
 from pipeline_fixtures import octafield
 from quad_mesh_checks import disk, four_points, irregular, require_conforming
 from surface_fixtures import square
@@ -63,6 +65,15 @@ def test_the_json_has_what_a_table_of_layouts_needs(record, mesh):
     )
     assert max(record["phase_peak_mb"].values()) <= record["peak_mb"]
     assert record["point_source"].endswith("points.json") and record["options"]["quads"] == 200
+
+
+def test_the_record_is_read_back_as_what_it_is(folder, record):
+    path = folder / "out" / "result.json"
+    found = any_record(path)
+    assert isinstance(found, QuadLayoutRecord) and found.to_dict() == record
+    assert list(record) == [name for name in QuadLayoutRecord.order() if name in record]
+    with pytest.raises(of.IoError, match="no record of a frame field, but of a quad layout"):
+        of.read_record(path)
 
 
 def test_vtk_reads_the_quads_with_their_data(folder, mesh, record):

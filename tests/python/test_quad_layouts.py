@@ -137,6 +137,29 @@ def test_the_angle_on_a_sphere_is_turned_so_that_curves_join(sphere_points):
     assert irregular(surface.layout_quads(made, quad_count=96).mesh, 2) == dict.fromkeys(range(8), 1)
 
 
+def test_each_of_two_spheres_is_turned_for_itself(sphere_points):
+    mesh, points = sphere_points
+    away, count = np.array([3.0, 0, 0]), len(mesh.vertices)
+    two = of.TriangleMesh(
+        np.concatenate([mesh.vertices, mesh.vertices + away]), np.concatenate([mesh.triangles, mesh.triangles + count])
+    )
+    there = [{"position": (p["position"] + away).tolist(), "index": p["index"]} for p in points]
+    made = surface.quad_layout(surface.turned_for_layout(imposed(two, [*points, *there])))
+    assert (len(made.vertices), len(made.sides), len(made.patches)) == (16, 24, 12)
+
+
+def test_turning_can_be_cancelled(sphere_points):
+    seen = []
+
+    def stop(phase, fraction, merit):
+        seen.append((phase, fraction))
+        return fraction < 0.2
+
+    with pytest.raises(of.Cancelled):
+        surface.turned_for_layout(imposed(*sphere_points), progress=stop)
+    assert {phase for phase, _ in seen} == {"turn"} and len(seen) > 10
+
+
 @pytest.fixture(scope="module")
 def sphere_points():
     import pyvista

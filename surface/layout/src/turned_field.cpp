@@ -35,10 +35,11 @@ ImposedField turned(const ImposedField& field, const detail::Structure& structur
 
 // Angles at which a separatrix of the part hits a point, those of short ones first.
 std::vector<double> hitting_angles(const ImposedField& field, const detail::Structure& structure, Index component,
-                                   double unit) {
+                                   double unit, const Progress& progress) {
     std::vector<std::pair<double, double>> found;  // length, angle
     const double step = quarter / directions;
     for (int i = 0; i < directions; ++i) {
+        report_or_throw(progress, "turn", 0.5 * i / directions, NAN);
         const ImposedField at = turned(field, structure, component, i * step);
         const detail::LocalField local(at);
         const detail::LayoutPoints points = detail::layout_points(at, local);
@@ -94,13 +95,16 @@ struct Try {
 
 // The angle at which the curves of the part have the least length in all; none where they do not end. All angles are
 // followed together, and given up where they can no longer be the best.
-std::optional<double> best_angle(std::vector<std::unique_ptr<Try>> tries, double unit, double max_length) {
+std::optional<double> best_angle(std::vector<std::unique_ptr<Try>> tries, double unit, double max_length,
+                                 const Progress& progress) {
     std::optional<double> best;
     double least = std::numeric_limits<double>::infinity();
     double before = 0;
     for (double reach = first_reach * unit; !tries.empty(); before = reach, reach *= 2) {
         for (const auto& each : tries) {
             if (each->least_length(before) >= least) continue;
+            report_or_throw(progress, "turn", std::min(0.5 + reach / max_length / 2, 1.0),
+                            std::isinf(least) ? NAN : least);
             each->joiner.trace(reach);
             each->joiner.join(reach);
             if (each->joiner.open() > 0 || each->joiner.joined_length() >= least) continue;
@@ -128,7 +132,6 @@ ImposedField turned_for_layout(const ImposedField& field, const LayoutCurveOptio
         for (const Index v : field.point_vertices)
             if (structure.of_vertex[v] == c) vertices.push_back(v);
         if (!structure.components[c].curves.empty() || vertices.empty()) continue;
-        report_or_throw(progress, "turn", c / static_cast<double>(structure.components.size()), NAN);
         double area = 0;
         const Eigen::VectorXd areas = triangle_areas(field.field.domain.mesh());
         for (Index t = 0; t < areas.size(); ++t) area += structure.of_triangle[t] == c ? areas[t] : 0;
@@ -136,10 +139,10 @@ ImposedField turned_for_layout(const ImposedField& field, const LayoutCurveOptio
         const double max_length =
             options.max_length > 0 ? std::min(options.max_length, longest * unit) : longest * unit;
         std::vector<std::unique_ptr<Try>> tries;
-        for (const double angle : hitting_angles(result, structure, c, unit))
+        for (const double angle : hitting_angles(result, structure, c, unit, progress))
             tries.push_back(
                 std::make_unique<Try>(turned(result, structure, c, angle), angle, structure, c, tolerance, max_length));
-        const auto angle = best_angle(std::move(tries), unit, max_length);
+        const auto angle = best_angle(std::move(tries), unit, max_length, progress);
         if (!angle)
             throw GeometryError("the field on the closed part with singular points at vertices " + first_few(vertices) +
                                     " can be turned in no way tried that makes its separatrices end; move the points",
