@@ -121,6 +121,18 @@ def test_corners_may_have_other_numbers_of_quads_than_by_angle(tmp_path):
         run(skewed, singularities=[])
 
 
+@pytest.mark.parametrize("name", ["quads", "valence"])
+def test_a_point_of_the_boundary_has_two_quads_where_nothing_is_singular(name):
+    inside = [{"position": p, "valence": 3} for p in ([0.3, 0.3, 0], [0.6, 0.7, 0])]
+    found = run(square(10), singularities=[*inside, {"position": [0.5, 0, 0], name: 4}])
+    points = {tuple(np.round(p.position, 9)): p for p in found.record.singular_points}
+    assert points[0.5, 0, 0].index_times_four == -2 and points[0.5, 0, 0].boundary
+    at = int(np.argmin(np.linalg.norm(found.mesh.vertices - [0.5, 0, 0], axis=1)))
+    assert found.valences[at] == 4 and found.record.irregular_boundary_vertices == 5
+    with pytest.raises(of.InvalidInput, match="has a number of quads but is not on the boundary"):
+        run(square(10), singularities=[{"position": [0.5, 0.5, 0], "quads": 3}])
+
+
 def test_remeshing_moves_corners_and_points_with_the_surface():
     """Vertices are those of the input."""
     mesh = square(10)
