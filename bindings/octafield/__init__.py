@@ -41,6 +41,8 @@ from .fields.probes import sample_frames, slice_frames
 from .frame_files import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
 from .hexdom.hex_mesh import HexDominantResult, compute_hex_dominant
 from .hexdom.options import HexMeshOptions
+from .layout.options import QuadLayoutOptions
+from .layout.quad_layout import QuadLayoutResult, compute_quad_layout
 from .meshes.mesh_format import MeshFormat
 from .meshes.registry import mesh_formats, register_mesh_format
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
@@ -71,6 +73,8 @@ __all__ = [
     "MeshedInput",
     "ParameterizationInput",
     "FieldProblem",
+    "QuadLayoutOptions",
+    "QuadLayoutResult",
     "SingularGraph",
     "SolverError",
     "SurfaceFieldOptions",
@@ -83,6 +87,7 @@ __all__ = [
     "compare",
     "compute_field",
     "compute_hex_dominant",
+    "compute_quad_layout",
     "compute_surface_field",
     "convert_file",
     "frame_formats",

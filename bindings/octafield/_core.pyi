@@ -812,6 +812,257 @@ def remove_singular_points(pattern: SingularPattern, places: ArrayLike) -> Singu
 def merge_singular_points(
     surface: SurfaceDomain | TriangleMesh, pattern: SingularPattern, places: ArrayLike, to: ArrayLike
 ) -> SingularPattern: ...
+
+# ---- surface: quad layouts
+
+class LayoutCurveOptions:
+    end_tolerance: float
+    max_length: float
+    def __init__(
+        self,
+        end_tolerance: float = ...,
+        max_length: float = ...,
+        cut_vertices: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def cut_vertices(self) -> Int32s: ...
+    @cut_vertices.setter
+    def cut_vertices(self, value: ArrayLike) -> None: ...
+
+class LayoutQuadsOptions:
+    edge_length: float
+    quad_count: int
+    def __init__(
+        self,
+        edge_length: float = ...,
+        quad_count: int = ...,
+    ) -> None: ...
+
+class LayoutCurve:
+    first_vertex: int
+    last_vertex: int
+    offset: float
+    def __init__(
+        self,
+        vertices: ArrayLike = ...,
+        edges: ArrayLike = ...,
+        fractions: ArrayLike = ...,
+        lengths: ArrayLike = ...,
+        triangles: ArrayLike = ...,
+        first_vertex: int = ...,
+        last_vertex: int = ...,
+        offset: float = ...,
+    ) -> None: ...
+    @property
+    def vertices(self) -> Int32s: ...
+    @vertices.setter
+    def vertices(self, value: ArrayLike) -> None: ...
+    @property
+    def edges(self) -> Int32s: ...
+    @edges.setter
+    def edges(self, value: ArrayLike) -> None: ...
+    @property
+    def fractions(self) -> Float64s: ...
+    @fractions.setter
+    def fractions(self, value: ArrayLike) -> None: ...
+    @property
+    def lengths(self) -> Float64s: ...
+    @lengths.setter
+    def lengths(self, value: ArrayLike) -> None: ...
+    @property
+    def triangles(self) -> Int32s: ...
+    @triangles.setter
+    def triangles(self, value: ArrayLike) -> None: ...
+
+class LayoutCurves:
+    traced: int
+    end_tolerance: float
+    parameter_area: float
+    def __init__(
+        self,
+        curves: Sequence[LayoutCurve] = ...,
+        traced: int = ...,
+        end_tolerance: float = ...,
+        parameter_area: float = ...,
+        domain: SurfaceDomain = ...,
+    ) -> None: ...
+    @property
+    def curves(self) -> list[LayoutCurve]: ...
+    @property
+    def domain(self) -> SurfaceDomain: ...
+
+class LayoutVertex:
+    words: ClassVar[dict[str, list[str]]]
+    kind: str
+    vertex: int
+    index_times_four: int
+    def __init__(
+        self,
+        kind: str = ...,
+        vertex: int = ...,
+        index_times_four: int = ...,
+        position: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def position(self) -> Float64s: ...
+    @position.setter
+    def position(self, value: ArrayLike) -> None: ...
+
+class LayoutSide:
+    first: int
+    last: int
+    curve: int
+    chord: int
+    def __init__(
+        self,
+        first: int = ...,
+        last: int = ...,
+        curve: int = ...,
+        chord: int = ...,
+        points: ArrayLike = ...,
+        parameters: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def points(self) -> Float64s: ...
+    @points.setter
+    def points(self, value: ArrayLike) -> None: ...
+    @property
+    def parameters(self) -> Float64s: ...
+    @parameters.setter
+    def parameters(self, value: ArrayLike) -> None: ...
+
+class LayoutPatch:
+    words: ClassVar[dict[str, list[str]]]
+    kind: str
+    euler_characteristic: int
+    corners: int
+    def __init__(
+        self,
+        kind: str = ...,
+        euler_characteristic: int = ...,
+        corners: int = ...,
+        loops: Sequence[ArrayLike] = ...,
+    ) -> None: ...
+    @property
+    def loops(self) -> list[Int32s]: ...
+    @loops.setter
+    def loops(self, value: Sequence[ArrayLike]) -> None: ...
+
+class LayoutChord:
+    length: float
+    def __init__(
+        self,
+        sides: ArrayLike = ...,
+        length: float = ...,
+    ) -> None: ...
+    @property
+    def sides(self) -> Int32s: ...
+    @sides.setter
+    def sides(self, value: ArrayLike) -> None: ...
+
+class PatchPolygons:
+    def __init__(
+        self,
+        points: ArrayLike = ...,
+        first: ArrayLike = ...,
+        corners: ArrayLike = ...,
+        patches: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def points(self) -> Float64s: ...
+    @points.setter
+    def points(self, value: ArrayLike) -> None: ...
+    @property
+    def first(self) -> Int32s: ...
+    @first.setter
+    def first(self, value: ArrayLike) -> None: ...
+    @property
+    def corners(self) -> Int32s: ...
+    @corners.setter
+    def corners(self, value: ArrayLike) -> None: ...
+    @property
+    def patches(self) -> Int32s: ...
+    @patches.setter
+    def patches(self, value: ArrayLike) -> None: ...
+
+class LayoutQuads:
+    mean_value_patches: int
+    least_scaled_jacobian: float
+    def __init__(
+        self,
+        mesh: QuadMesh = ...,
+        patches: ArrayLike = ...,
+        chord_counts: ArrayLike = ...,
+        patch_sizes: ArrayLike = ...,
+        mean_value_patches: int = ...,
+        least_scaled_jacobian: float = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> QuadMesh: ...
+    @property
+    def patches(self) -> Int32s: ...
+    @patches.setter
+    def patches(self, value: ArrayLike) -> None: ...
+    @property
+    def chord_counts(self) -> Int32s: ...
+    @chord_counts.setter
+    def chord_counts(self, value: ArrayLike) -> None: ...
+    @property
+    def patch_sizes(self) -> Int32s: ...
+    @patch_sizes.setter
+    def patch_sizes(self, value: ArrayLike) -> None: ...
+
+class QuadLayout:
+    def __init__(self, field: ImposedField, options: LayoutCurveOptions = ..., cut_annuli: bool = ...) -> None: ...
+    @property
+    def vertices(self) -> list[LayoutVertex]: ...
+    @property
+    def sides(self) -> list[LayoutSide]: ...
+    @property
+    def patches(self) -> list[LayoutPatch]: ...
+    @property
+    def chords(self) -> list[LayoutChord]: ...
+    @property
+    def curves(self) -> LayoutCurves: ...
+    @property
+    def largest_mismatch(self) -> float: ...
+    @property
+    def field(self) -> ImposedField: ...
+    @property
+    def options(self) -> LayoutCurveOptions: ...
+    @property
+    def cut_annuli(self) -> bool: ...
+
+def layout_curves(
+    field: ImposedField,
+    *,
+    end_tolerance: float = ...,
+    max_length: float = ...,
+    cut_vertices: ArrayLike | None = ...,
+    progress: Progress | None = None,
+) -> LayoutCurves: ...
+def turned_for_layout(
+    field: ImposedField,
+    *,
+    end_tolerance: float = ...,
+    max_length: float = ...,
+    cut_vertices: ArrayLike | None = ...,
+    progress: Progress | None = None,
+) -> ImposedField: ...
+def quad_layout(
+    field: ImposedField,
+    *,
+    end_tolerance: float = ...,
+    max_length: float = ...,
+    cut_vertices: ArrayLike | None = ...,
+    cut_annuli: bool = ...,
+    progress: Progress | None = None,
+) -> QuadLayout: ...
+def patch_polygons(layout: QuadLayout) -> PatchPolygons: ...
+def layout_quads(
+    layout: QuadLayout, *, edge_length: float = ..., quad_count: int = ..., progress: Progress | None = None
+) -> LayoutQuads: ...
+def quad_angle_quality(mesh: QuadMesh) -> Float64s: ...
 @overload
 def streamlines(
     field: DirectionField,

@@ -21,6 +21,8 @@ void bind_non_orthogonal(pybind11::module_& module);
 void bind_streamlines(pybind11::module_& module);
 void bind_imposed_field_types(pybind11::module_& module);
 void bind_imposed_fields(pybind11::module_& module);
+void bind_quad_layout_types(pybind11::module_& module);
+void bind_quad_layouts(pybind11::module_& module);
 void bind_renormalised_energy(pybind11::module_& module);
 void bind_volume_types(pybind11::module_& module);
 void bind_domain(pybind11::module_& module);

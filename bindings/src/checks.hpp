@@ -22,6 +22,8 @@ struct SizeFieldOptions;
 struct DirectionFieldOptions;
 struct NonOrthogonalFieldOptions;
 struct ImposedFieldOptions;
+struct LayoutCurveOptions;
+struct LayoutQuadsOptions;
 }  // namespace octafield::surface
 namespace octafield::volume {
 struct BoundaryOptions;
@@ -46,6 +48,8 @@ void check(const surface::SizeFieldOptions& options);
 void check(const surface::DirectionFieldOptions& options);
 void check(const surface::NonOrthogonalFieldOptions& options);
 void check(const surface::ImposedFieldOptions& options);
+void check(const surface::LayoutCurveOptions& options);
+void check(const surface::LayoutQuadsOptions& options);
 void check(const volume::BoundaryOptions& options);
 void check(const volume::DiffuseOptions& options);
 void check(const volume::SmoothOptions& options);

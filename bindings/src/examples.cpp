@@ -150,6 +150,20 @@ constexpr Example of_surface_fields[] = {
     ...     [octafield.surface.imposed_at_vertex(ball, v, 1) for v in range(0, 320, 40)])
     >>> octafield.surface.surface_singularities(octafield.surface.impose_singular_points(ball, pattern).field)
     SurfaceSingularities(8 points, index sum 2, Euler characteristic 2))"},
+    {"quad_layout", R"(
+    >>> corners = [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]]
+    >>> plate = octafield.TriangleMesh([*corners, [2, 2, 0]], [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    >>> point = octafield.surface.imposed_point
+    >>> pattern = octafield.surface.SingularPattern([point(plate, [1, 2, 0], 1), point(plate, [3, 2, 0], -1)])
+    >>> octafield.surface.quad_layout(octafield.surface.impose_singular_points(plate, pattern))
+    QuadLayout(16 vertices, 24 sides, 9 patches, 6 chords))"},
+    {"layout_quads", R"(
+    >>> corners = [[0, 0, 0], [3, 0, 0], [3, 1, 0], [0, 1, 0]]
+    >>> plate = octafield.TriangleMesh(corners, [[0, 1, 2], [0, 2, 3]])
+    >>> field = octafield.surface.impose_singular_points(plate, octafield.surface.SingularPattern())
+    >>> quads = octafield.surface.layout_quads(octafield.surface.quad_layout(field), edge_length=0.5)
+    >>> len(quads.mesh.quads), quads.patch_sizes.tolist()
+    (12, [[2, 6]]))"},
     {"vertex_directions", R"(
     >>> torus = generate("torus")
     >>> directions = octafield.surface.vertex_directions(octafield.surface.direction_field(torus))

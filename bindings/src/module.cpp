@@ -72,6 +72,8 @@ PYBIND11_MODULE(_core, module) {
     bind_volume_input(module);
     bind_recipe(module);
     bind_cells(module);
+    bind_quad_layout_types(module);
+    bind_quad_layouts(module);
     bind_hexdom(module);
     bind_end();
     add_examples(module);

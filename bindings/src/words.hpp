@@ -12,6 +12,7 @@
 #include "octafield/surface/direction_field.hpp"
 #include "octafield/surface/imposed_field.hpp"
 #include "octafield/surface/non_orthogonal_field.hpp"
+#include "octafield/surface/quad_layout.hpp"
 #include "octafield/surface/streamlines.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/hex_dominant.hpp"
@@ -73,6 +74,20 @@ struct Words<surface::Inadmissible> {
     using E = surface::Inadmissible;
     static constexpr std::array<std::pair<const char*, E>, 3> list{
         {{"fail", E::fail}, {"move", E::move}, {"rotate", E::rotate}}};
+};
+
+template <>
+struct Words<surface::LayoutVertexKind> {
+    using E = surface::LayoutVertexKind;
+    static constexpr std::array<std::pair<const char*, E>, 4> list{
+        {{"singular", E::singular}, {"corner", E::corner}, {"crossing", E::crossing}, {"boundary", E::boundary}}};
+};
+
+template <>
+struct Words<surface::PatchKind> {
+    using E = surface::PatchKind;
+    static constexpr std::array<std::pair<const char*, E>, 4> list{
+        {{"quad", E::quad}, {"polygon", E::polygon}, {"annulus", E::annulus}, {"other", E::other}}};
 };
 
 template <>

@@ -82,6 +82,7 @@ def objects(field, tmp_path_factory):
         of.volume.FrameFieldOptions(rounds=1), of.volume.BoundaryOptions(feature_tolerance=0.2),
         imposed, of.surface.SingularPattern(corners=[of.surface.CornerQuads(1, 3)]),
         of.surface.ImposedFieldOptions(rings=3), of.surface.fewest_points_corner_quads(open_box),
+        *layout_objects(),
         of.surface.DirectionFieldOptions(symmetry=6), of.surface.FeatureOptions(angle=0.5),
         of.surface.non_orthogonal_field(generate("torus")), of.surface.NonOrthogonalFieldOptions(corners=[[0, 1]]),
         of.surface.RemeshOptions(edge_length=0.3), of.surface.SizeFieldOptions(max_cells=1000),
@@ -110,6 +111,18 @@ def objects(field, tmp_path_factory):
     for thing in everything:
         collect(thing, found)
     return found
+
+
+def layout_objects():
+    """An L-shape of three squares: its layout, quads and all there is on the way."""
+    plate = of.surface.split_quads(of.surface.QuadMesh([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0],
+        [2, 1, 0], [0, 2, 0], [1, 2, 0]], quads=[[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6]]))  # fmt: skip
+    layout = of.surface.quad_layout(of.surface.impose_singular_points(plate, of.surface.SingularPattern()))
+    return [
+        layout, of.surface.layout_quads(layout, quad_count=12), of.surface.patch_polygons(layout),
+        of.surface.LayoutCurveOptions(end_tolerance=0.1), of.surface.LayoutQuadsOptions(quad_count=7),
+        of.compute_quad_layout(plate, layout_options=of.QuadLayoutOptions(quads=12)), of.QuadLayoutOptions(quads=12),
+    ]  # fmt: skip
 
 
 def parts(value):

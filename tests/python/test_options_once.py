@@ -26,6 +26,8 @@ STRUCTS = {
     "detect_features": [of.surface.FeatureOptions],
     "remesh": [of.surface.RemeshOptions],
     "size_field": [of.surface.SizeFieldOptions],
+    "layout_curves": [of.surface.LayoutCurveOptions],
+    "quad_layout": [of.surface.LayoutCurveOptions],
 }
 
 
@@ -54,6 +56,7 @@ def test_a_function_refuses_what_is_no_option(function):
     arguments = {
         "detect_features": [box], "remesh": [box, of.FeatureGraph()], "size_field": [box, of.FeatureGraph()],
         "direction_field": [box], "non_orthogonal_field": [box],
+        "layout_curves": [of.surface.ImposedField()], "quad_layout": [of.surface.ImposedField()],
     }  # fmt: skip
     tets = of.volume.tetrahedralize(box)
     given = arguments.get(function) or (

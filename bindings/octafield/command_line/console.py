@@ -24,10 +24,14 @@ from ..progress.phases import Progress as Callback
 if TYPE_CHECKING:
     from ..records.field import InputRecord
     from ..records.hex_dominant import HexDominantRecord
+    from ..records.quad_layout import QuadLayoutRecord
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 # kinds of SolverError that another option or another mesh avoids
-_OPTION_AT_FAULT = ("epsilon_too_large", "thin_triangles", "bad_weights")
+_OPTION_AT_FAULT = (
+    "epsilon_too_large", "thin_triangles", "bad_weights", "move_failed", "unresolved_turns", "unclear_directions",
+    "folded_map", "inverted_quads",
+)  # fmt: skip
 
 log = logging.getLogger("octafield")
 _written: list[str] = []  # targets of --json that have their document
@@ -125,7 +129,7 @@ def _say(message: str) -> None:
     print("octafield: " + " ".join(message.split()), file=sys.stderr, flush=True)
 
 
-def report_notes(record: "InputRecord | HexDominantRecord") -> None:
+def report_notes(record: "InputRecord | HexDominantRecord | QuadLayoutRecord") -> None:
     for note in record.notes:
         log.info("%s: %s", record.input, note)
 

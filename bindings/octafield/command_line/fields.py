@@ -15,6 +15,7 @@ from . import console, tables
 from . import files as files_cli
 from . import hexdom as hexdom_cli
 from . import inspect as cli_inspect
+from . import layout as layout_cli
 from .console import carry_out, log
 from .options import InputFile, Json, Output, Quiet, Verbose, with_options
 from .study import app as studies
@@ -36,6 +37,7 @@ app.add_typer(studies, name="study")
 files_cli.register(app)
 compare_cli.register(app)
 hexdom_cli.register(app)
+layout_cli.register(app)
 
 
 def _show_version(wanted: bool) -> None:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..records.base import Record
     from ..records.field import FieldRecord
     from ..records.hex_dominant import HexDominantRecord
+    from ..records.quad_layout import QuadLayoutRecord
     from ..records.surface_field import SurfaceFieldRecord
 
 
@@ -63,6 +64,30 @@ def show_hex_record(record: HexDominantRecord) -> None:
         ("lost in the lattice", _several(steps.lost, ("d",) * 4)),
         ("left out as crossing", str(steps.crossing)),
         ("pyramids", _several(steps.pyramids, ("d",) * 3)),
+        ("seconds", f"{sum(record.wall_seconds.values()):.1f}"),
+        ("peak_mb", f"{record.peak_mb:.0f}"),
+    ]
+    _facts(record.input, facts)
+
+
+def show_layout_record(record: QuadLayoutRecord) -> None:
+    inside = [point for point in record.singular_points if not point.boundary]
+    missed = [abs(condition.angle_deg) for condition in record.misalignment]
+    facts = [
+        ("singular points inside", f"{len(inside)}"),
+        ("and at corners", f"{len(record.singular_points) - len(inside)}"),
+        ("sum of indices", f"{record.index_sum:g}"),
+        ("largest misalignment, degrees", f"{max(missed, default=0.0):.3g}"),
+        ("patches", f"{record.patches:,}"),
+        ("chords", f"{record.chords:,}"),
+        ("quads", f"{record.quads:,}"),
+        ("irregular vertices", f"{record.irregular_vertices:,}"),
+        ("T-junctions", f"{record.t_junctions}"),
+        ("inverted", f"{record.inverted}"),
+        ("nonconforming edges", f"{record.nonconforming_edges}"),
+        ("scaled Jacobian", _several(record.scaled_jacobian, (".3f",) * 3)),
+        ("edge length", _several(record.edge_length, (".4g",) * 4)),
+        ("deviation from the surface", _several(record.surface_deviation, (".2e",) * 2)),
         ("seconds", f"{sum(record.wall_seconds.values()):.1f}"),
         ("peak_mb", f"{record.peak_mb:.0f}"),
     ]

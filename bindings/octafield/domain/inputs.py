@@ -41,6 +41,7 @@ class Input(OnTets):
     features yet; None for surfaces. touches: the boundary of the tets touches itself at edges or vertices. lines:
     (n, 2) feature edges given by the file, vertex ids of `surface`; None when it has no line cells. creases: the file
     tells that they are. faces: CAD face of each triangle of `surface`, -1 where the file tells none.
+    surface_points: (n,) ids of the vertices of `surface` among the points of the file; None: the same.
     file_points: (n,) ids of the vertices of `tets` among the points_in_file of the file; file_tets: (m,) of the tets
         among those of the file. of_cad: meshed here, at the edge length asked for. notes: what was changed in reading
         (tets turned over, unused points dropped), one sentence each.
@@ -54,6 +55,7 @@ class Input(OnTets):
     creases: bool = False
     touches: bool = False
     faces: np.ndarray | None = None
+    surface_points: np.ndarray | None = None
     file_points: np.ndarray | None = None
     file_tets: np.ndarray | None = None
     points_in_file: int = 0
@@ -259,6 +261,7 @@ def _surface_input(name: str, grid: Grid) -> Input:
     _require_points(grid.cells, len(grid.points))
     points_used, new_id = _compact(grid.points, grid.cells["triangle"])
     found = Input(name, TriangleMesh(points_used, new_id[grid.cells["triangle"]].astype(np.int32)))
+    found.surface_points = np.flatnonzero(new_id >= 0)
     found.faces = grid.faces
     if "line" in grid.cells:
         _take_lines(found, new_id, grid)

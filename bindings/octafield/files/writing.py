@@ -10,7 +10,7 @@ import json
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -110,10 +110,23 @@ def write_file(path: Path, content: bytes) -> None:
         raise IoError(f"{path}: cannot write there ({error.strerror})") from error
 
 
-def vtp_bytes(surface: "pyvista.PolyData") -> bytes:
-    """A .vtp file in memory: VTK's writers of files end the process where the disk is full."""
+def text_array(name: str, texts: Iterable[str]) -> Any:
+    """Of VTK. UTF-8, as in the other files; pyvista's own field data holds ASCII only."""
+    from vtkmodules.vtkCommonCore import vtkStringArray
+
+    array = vtkStringArray()
+    array.SetName(name)
+    for text in texts:
+        array.InsertNextValue(text)
+    return array
+
+
+def vtp_bytes(surface: "pyvista.PolyData", metadata: Mapping[str, str] | None = None) -> bytes:
+    """A .vtp file in memory: VTK's writers of files end the process where the disk is full. metadata: field data."""
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
+    for name, text in (metadata or {}).items():
+        surface.GetFieldData().AddArray(text_array(name, [text]))
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(surface)
     writer.SetDataModeToBinary()

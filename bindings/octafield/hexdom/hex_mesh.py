@@ -239,8 +239,8 @@ def _mesh_along(
     at: SizeAt | None,
     progress: Progress | None,
 ) -> HexDominantResult:
+    from ..progress.meter import PhaseMeter
     from . import record
-    from .meter import PhaseMeter
 
     domain = field.tets
     volumes = np.asarray(_core.tet_volumes(domain))

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._core import HexDominantCounts, HexDominantMesh
+from ..meshes.figures import Spread
+from ..progress.meter import PhaseMeter
 from ..progress.phases import machine, octafield_version, versions
 from ..records.hex_dominant import HexDominantRecord
 from ..records.parts import (
@@ -22,8 +24,7 @@ from ..records.parts import (
     PyramidCounts,
     Quantiles,
 )
-from .meter import PhaseMeter
-from .quality import MeshFigures, Spread
+from .quality import MeshFigures
 
 if TYPE_CHECKING:
     from ..records.field import FieldRecord

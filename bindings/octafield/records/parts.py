@@ -124,6 +124,23 @@ class SingularPoint(Record):
     boundary: bool = Field(description="on the boundary of the surface")
 
 
+class ImposedPointFigures(Record):
+    """A singular point of a cross field, as it was imposed."""
+
+    position: list[float] = Field(description="(3,), input unit")
+    index_times_four: int = Field(description="t: the valence inside is 4 - t; 2 - t quads on the boundary")
+    boundary: bool = Field(description="on the boundary of the surface")
+
+
+class Misalignment(Record):
+    """Of a field from a condition on the places of its singular points."""
+
+    boundary: bool = Field(description="a boundary curve is followed; else, the field comes back to itself")
+    vertex: int = Field(description="the lowest of the boundary curve, or one beside the generator, of the surface")
+    angle_deg: float = Field(description="by which the pattern that was imposed misses it, degrees")
+    size_factor: float = Field(description="1 or more: by what sizes disagree after a turn, where it was rotated away")
+
+
 class CellCounts(Record):
     """Cells of a mesh by kind."""
 

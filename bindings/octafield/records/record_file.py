@@ -16,15 +16,17 @@ if TYPE_CHECKING:
     from .base import Record
     from .field import FieldRecord, RunWithField, RunWithoutField
     from .hex_dominant import HexDominantRecord
+    from .quad_layout import QuadLayoutRecord
     from .surface_field import SurfaceFieldRecord
 
-    AnyRecord = FieldRecord | SurfaceFieldRecord | HexDominantRecord | RunWithField | RunWithoutField
+    AnyRecord = FieldRecord | SurfaceFieldRecord | HexDominantRecord | QuadLayoutRecord | RunWithField | RunWithoutField
 
 RECORD_FILE = "result.json"
 _WHAT = {
     "FieldRecord": "a frame field",
     "GivenFieldRecord": "a frame field",
     "HexDominantRecord": "a hex-dominant mesh",
+    "QuadLayoutRecord": "a quad layout",
     "RunWithField": "a frame field",
     "RunWithoutField": "a run of a study that ended without a field",
     "SurfaceFieldRecord": "a surface field",
@@ -101,7 +103,7 @@ def record_of(content: Any, name: object) -> AnyRecord:
 
 
 def _kind(content: dict[str, Any]) -> type[AnyRecord]:
-    from . import field, hex_dominant, surface_field
+    from . import field, hex_dominant, quad_layout, surface_field
 
     if content.get("state", "done") != "done":
         return field.RunWithoutField
@@ -109,6 +111,8 @@ def _kind(content: dict[str, Any]) -> type[AnyRecord]:
         return field.RunWithField
     if "hex_volume_share" in content:
         return hex_dominant.HexDominantRecord
+    if "index_sum" in content and "patches" in content:
+        return quad_layout.QuadLayoutRecord
     if "symmetry" in content:
         return surface_field.SurfaceFieldRecord
     return field.GivenFieldRecord if "label" in content and "objective" not in content else field.FieldRecord

@@ -7,7 +7,7 @@ import contextlib
 import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from ..fields.analysed import AnalysedField
 from ..fields.direction_field import SurfaceFieldResult
 from ..fields.frame_field import FieldResult
 from ..fields.sizes import sizes_arrays
-from ..files.writing import vtp_bytes, write_file
+from ..files.writing import text_array, vtp_bytes, write_file
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..records.record_file import RECORD_FILE, write_record
 from ..view.datasets import polylines
@@ -119,7 +119,7 @@ def write_streamlines(
         if lines and hasattr(lines[0], name):
             poly.cell_data[name] = np.array([getattr(line, name) for line in lines], np.int32)
     for name in ("first_end", "last_end"):
-        poly.GetCellData().AddArray(_text_array(name, [getattr(line, name) for line in lines]))
+        poly.GetCellData().AddArray(text_array(name, [getattr(line, name) for line in lines]))
     _save(poly, path, metadata)
 
 
@@ -158,20 +158,7 @@ def write_features(path: Path, tets: TetDomain, found: BoundaryMeshability, meta
 
 
 def _save(poly: pyvista.PolyData, path: Path, metadata: dict[str, str]) -> None:
-    for name, text in metadata.items():
-        poly.GetFieldData().AddArray(_text_array(name, [text]))
-    write_file(path, vtp_bytes(poly))
-
-
-def _text_array(name: str, texts: Sequence[str]) -> Any:
-    """UTF-8, as in the other files; pyvista's own field data holds ASCII only."""
-    from vtkmodules.vtkCommonCore import vtkStringArray
-
-    array = vtkStringArray()
-    array.SetName(name)
-    for text in texts:
-        array.InsertNextValue(text)
-    return array
+    write_file(path, vtp_bytes(poly, metadata))
 
 
 def _metadata(record: FieldRecord | SurfaceFieldRecord) -> dict[str, str]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._core import MixedMesh
+from .._core import MixedMesh, QuadMesh
 from ..errors import IoError
 
 if TYPE_CHECKING:
@@ -40,6 +40,16 @@ def cell_grid(mesh: MixedMesh) -> "pyvista.UnstructuredGrid":
         cells.append(np.column_stack([np.full(count, corners), rows]).ravel())
         types.append(np.full(count, kind, np.uint8))
     return pyvista.UnstructuredGrid(np.concatenate(cells), np.concatenate(types), np.array(mesh.vertices))
+
+
+def quad_grid(mesh: QuadMesh) -> "pyvista.UnstructuredGrid":
+    """A surface of quads."""
+    import pyvista
+    from vtkmodules.vtkCommonDataModel import VTK_QUAD
+
+    quads = np.asarray(mesh.quads)
+    cells = np.column_stack([np.full(len(quads), 4), quads]).ravel()
+    return pyvista.UnstructuredGrid(cells, np.full(len(quads), VTK_QUAD, np.uint8), np.array(mesh.vertices))
 
 
 def beginning(points: np.ndarray, length: float) -> np.ndarray:

@@ -44,8 +44,8 @@ def _opens_windows() -> bool:
 
 
 def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
-    """Shows the singular curves that `octafield field` wrote, or the mesh of `octafield hex-dominant`, in a window, or
-    writes a PNG; what it did, for --json."""
+    """Shows the singular curves that `octafield field` wrote, the mesh of `octafield hex-dominant` or the quads
+    of `octafield quad-layout`, in a window, or writes a PNG; what it did, for --json."""
     shape, names = _scene_of(folder)
     record = {"folder": str(folder), "files": names, "picture": picture and str(picture)}
     if picture is None:
@@ -66,6 +66,10 @@ def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
 
 def _scene_of(folder: Path) -> tuple[pyvista.Plotter, list[str]]:
     """With the names of the files it shows."""
+    from . import quad_layout
+
+    if quad_layout.is_layout(folder):
+        return quad_layout.scene_of_folder(folder)
     if (folder / "mesh.vtu").is_file():
         from .hex_mesh import scene_of_folder
 
@@ -75,5 +79,8 @@ def _scene_of(folder: Path) -> tuple[pyvista.Plotter, list[str]]:
     files = folder / "surface.vtp", folder / "singular.vtp"
     missing = next((path for path in files if not path.is_file()), None)
     if missing is not None:
-        raise IoError(f"{missing}: no such file; give the folder of a result of `octafield field` or `hex-dominant`")
+        raise IoError(
+            f"{missing}: no such file; give the folder of a result of `octafield field`, `hex-dominant` or"
+            " `quad-layout`"
+        )
     return scene_from_files(*files), [path.name for path in files]

@@ -160,9 +160,10 @@ Imposed checked_pattern(const SurfaceDomain& domain, const Structure& structure,
         if (places[i].vertex >= 0 && places[i].boundary) give(places[i].vertex, pattern.points[i].index_times_four);
     }
     if (!repeated.empty())
-        throw InvalidInput("vertices " + first_few(repeated) +
-                               " of the boundary have their number of quads given twice, as corners or as points",
-                           "repeated_corner", repeated);
+        throw InvalidInput(
+            "vertices " + first_few(repeated) +
+                " of the boundary have their number of quads given twice, as corners or as points; leave one out",
+            "repeated_corner", repeated);
     // Points at vertices of the boundary count as corners.
     Imposed inside = imposed;
     for (std::size_t i = 0; i < places.size(); ++i)

@@ -29,7 +29,8 @@ void require_quads(const QuadLayout& layout) {
             first_few(bad) + ") have no four corners: " + std::to_string(annuli) + " are annuli, " +
             std::to_string(polygons) +
             " are disks with another number of corners, the others neither. An annulus needs a corner "
-            "or a singular point on it; for disks change the end tolerance, or move the singular points",
+            "or a singular point on it; for disks change the end tolerance, or move the singular points; "
+            "other patches need singular points inside, as a pair of valence 3 and 5",
         "no_quad_layout", bad);
 }
 

@@ -29,10 +29,12 @@ Complex exp_quotient(Complex x) {
     return (1.0 - std::exp(-x)) / x;
 }
 
-// Where g, >= 0 at low and < 0 at high, passes 0: regula falsi, with halved values at the end that stays (Illinois).
+// Where g, >= 0 at low and < 0 at high, passes 0, or is as small as its rounding: regula falsi, with halved values at
+// an end that stays twice (Illinois).
 template <class Function>
-double root(const Function& g, double low, double high) {
+double root(const Function& g, double low, double high, double rounding) {
     double at_low = g(low), at_high = g(high);
+    int kept = 0;  // the end that stayed: 1 low, -1 high
     for (int i = 0; i < 100 && high - low > 1e-14 * high; ++i) {
         double middle = (low * at_high - high * at_low) / (at_high - at_low);
         if (!(middle > low && middle < high)) middle = (low + high) / 2;
@@ -41,13 +43,15 @@ double root(const Function& g, double low, double high) {
         if (value < 0) {
             high = middle;
             at_high = value;
-            at_low /= 2;
+            if (kept == 1) at_low /= 2;
+            kept = 1;
         } else {
             low = middle;
             at_low = value;
-            at_high /= 2;
+            if (kept == -1) at_high /= 2;
+            kept = -1;
         }
-        if (value == 0) return middle;
+        if (std::abs(value) <= rounding) return middle;
     }
     return high;
 }
@@ -91,10 +95,11 @@ Complex LocalField::point(const Place& from, Complex way) const {
 }
 
 // The distance g from the side has one extremum at most: its rate is that of cross(e, F) - s |F|^2 Im(conj(e b)).
-double LocalField::first_exit(const Place& from, int side, bool entered) const {
+double LocalField::first_exit(const Place& from, int side, bool entered, double before) const {
     const Complex e = charts_.side(from.t, side), v = velocity(from);
     const double rate = cross(e, v), bend = std::norm(v) * std::conj(e * at_[from.t].slope).imag();
     const auto distance = [&](double s) { return cross(e, point(from, v * s) - charts_.corners(from.t)[side]); };
+    const double rounding = 1e-15 * std::abs(e) * longest_side(charts_, from.t);
     double low = 0, high = 0;
     const bool turns = bend != 0 && rate / bend > 0;
     if (rate < 0 && !entered && distance(0) <= 0) return 0;
@@ -106,6 +111,10 @@ double LocalField::first_exit(const Place& from, int side, bool entered) const {
             if (!turns) return never;
             low = rate / bend;
         }
+        if (before < never) {  // it falls from `low` on
+            if (low >= before || distance(before) >= 0) return never;
+            return root(distance, low, before, rounding);
+        }
         double step = longest_side(charts_, from.t) / std::abs(v);
         for (int tries = 0;; ++tries, step *= 2) {
             if (tries == 60) return never;
@@ -113,7 +122,7 @@ double LocalField::first_exit(const Place& from, int side, bool entered) const {
             if (distance(high) < 0) break;
         }
     }
-    return root(distance, low, high);
+    return root(distance, low, high, rounding);
 }
 
 // Both triangles lead to their common side: along it to its end, and out by the next side.
@@ -128,7 +137,7 @@ LocalField::Exit LocalField::exit(const Place& from, int entry) const {
     if (entry >= 0 && cross(charts_.side(from.t, entry), velocity(from)) <= 0) return along_side(from, entry);
     Exit found{-1, 0, never};
     for (int k = 0; k < 3; ++k)
-        if (const double s = first_exit(from, k, k == entry); s < found.length) found = {k, 0, s};
+        if (const double s = first_exit(from, k, k == entry, found.length); s < found.length) found = {k, 0, s};
     if (found.side < 0)
         throw SolverError("a curve of the layout finds no way out of triangle " + std::to_string(from.t), "stuck",
                           {from.t});

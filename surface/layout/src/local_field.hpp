@@ -45,7 +45,8 @@ private:
         double log_size, angle;
     };
     Complex point(const Place& from, Complex way) const;  // way: velocity times length
-    double first_exit(const Place& from, int side, bool entered) const;
+    // Through a side, if that is before another one is met.
+    double first_exit(const Place& from, int side, bool entered, double before) const;
     Exit along_side(const Place& from, int entry) const;
 
     Charts charts_;

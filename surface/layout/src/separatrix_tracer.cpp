@@ -169,6 +169,16 @@ bool SeparatrixTracer::arrives(const Passing& target, const LocalField::Place& a
 }
 
 Trace SeparatrixTracer::trace(const Slot& start, double shear, const std::optional<Passing>& target) const {
+    return trace_to(start, shear, target,
+                    target ? std::min(max_length_, target->length + 20 * tolerance_) : max_length_);
+}
+
+Trace SeparatrixTracer::beginning(const Slot& start, double reach) const {
+    return trace_to(start, 0, {}, std::min(reach, max_length_));
+}
+
+Trace SeparatrixTracer::trace_to(const Slot& start, double shear, const std::optional<Passing>& target,
+                                 double longest) const {
     const Charts& charts = local_.charts();
     const LayoutPoint& from = point(start);
     const Spoke spoke = spoke_at(local_, from, from.slots[start.slot] + shear / from.power);
@@ -177,7 +187,6 @@ Trace SeparatrixTracer::trace(const Slot& start, double shear, const std::option
     LayoutCurve& curve = trace.curve;
     curve.first_vertex = from.vertex;
     curve.points.push_back({from.vertex, -1, 0, 0});
-    const double longest = target ? std::min(max_length_, target->length + 20 * tolerance_) : max_length_;
     double length = spoke_length(local_, from, spoke.t, spoke.end, spoke.radius);
     Charts::Side side{spoke.t, (spoke.corner + 1) % 3};
     double fraction = spoke.fraction, heading = std::arg(spoke.direction);

@@ -35,11 +35,14 @@ public:
     // The straight line in parameters at angle `shear` from the separatrix, until it meets the boundary, is too long,
     // or comes to the triangles at the target's point, by its sector, at more than half the target's length.
     Trace trace(const Slot& start, double shear = 0, const std::optional<Passing>& target = {}) const;
+    // The separatrix itself, up to the first side after `reach`. What it passes before is told as by the whole.
+    Trace beginning(const Slot& start, double reach) const;
     // The line from one point to the other; none if it goes another way.
     std::optional<LayoutCurve> joined(const Slot& start, Passing target) const;
 
 private:
     struct Nearest;
+    Trace trace_to(const Slot& start, double shear, const std::optional<Passing>& target, double longest) const;
     const LayoutPoint& point(const Slot& slot) const { return points_.points[slot.point]; }
     bool arrives(const Passing& target, const LocalField::Place& at, int entry, double length) const;
     void look_round(const LocalField::Place& at, double from, double to, std::vector<Nearest>& found) const;

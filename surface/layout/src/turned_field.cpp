@@ -2,10 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <optional>
 
+#include "given_field.hpp"
+#include "joiner.hpp"
 #include "octafield/error.hpp"
 #include "separatrix_tracer.hpp"
+#include "split_between_points.hpp"
 #include "structure.hpp"
 
 namespace octafield::surface {
@@ -17,6 +22,8 @@ constexpr double reach = 1;           // how far, in roots of the area in parame
 constexpr int most_tried = 8;         // angles
 constexpr double same_angle = 0.004;  // radians
 constexpr double longest = 8;         // curve, in the same roots
+constexpr double first_reach = 1.5;   // likewise
+constexpr double default_tolerance = 0.01;
 
 ImposedField turned(const ImposedField& field, const detail::Structure& structure, Index component, double angle) {
     ImposedField result = field;
@@ -28,10 +35,11 @@ ImposedField turned(const ImposedField& field, const detail::Structure& structur
 
 // Angles at which a separatrix of the part hits a point, those of short ones first.
 std::vector<double> hitting_angles(const ImposedField& field, const detail::Structure& structure, Index component,
-                                   double unit) {
+                                   double unit, const Progress& progress) {
     std::vector<std::pair<double, double>> found;  // length, angle
     const double step = quarter / directions;
     for (int i = 0; i < directions; ++i) {
+        report_or_throw(progress, "turn", 0.5 * i / directions, NAN);
         const ImposedField at = turned(field, structure, component, i * step);
         const detail::LocalField local(at);
         const detail::LayoutPoints points = detail::layout_points(at, local);
@@ -56,44 +64,90 @@ std::vector<double> hitting_angles(const ImposedField& field, const detail::Stru
     return angles;
 }
 
-// Of all curves; infinite where some do not end.
-double total_length(const ImposedField& field, LayoutCurveOptions options, double unit) {
-    if (!(options.max_length > 0 && options.max_length < longest * unit)) options.max_length = longest * unit;
-    try {
-        double sum = 0;
-        for (const LayoutCurve& curve : layout_curves(field, options).curves) sum += curve.points.back().length;
-        return sum;
-    } catch (const GeometryError&) {
-        return std::numeric_limits<double>::infinity();
+// The separatrices of one part, at one angle.
+struct Try {
+    double angle;
+    ImposedField field;
+    detail::LocalField local;
+    detail::LayoutPoints points;
+    detail::SeparatrixTracer tracer;
+    detail::Joiner joiner;
+
+    Try(const ImposedField& at, double by, const detail::Structure& structure, Index component, double tolerance,
+        double max_length)
+        : angle(by),
+          field(detail::split_between_points(at)),
+          local(field),
+          points(detail::layout_points(field, local)),
+          tracer(local, points, tolerance, max_length),
+          joiner(tracer, points, max_length, of_component(points, structure, component)) {}
+
+    static std::vector<bool> of_component(const detail::LayoutPoints& points, const detail::Structure& structure,
+                                          Index component) {
+        std::vector<bool> result;
+        for (const detail::LayoutPoint& point : points.points)
+            result.push_back(structure.of_vertex[point.vertex] == component);
+        return result;
     }
+    // All curves have this length in all at least, if those that are not joined are longer than `reach`.
+    double least_length(double reach) const { return joiner.joined_length() + joiner.open() / 2.0 * reach; }
+};
+
+// The angle at which the curves of the part have the least length in all; none where they do not end. All angles are
+// followed together, and given up where they can no longer be the best.
+std::optional<double> best_angle(std::vector<std::unique_ptr<Try>> tries, double unit, double max_length,
+                                 const Progress& progress) {
+    std::optional<double> best;
+    double least = std::numeric_limits<double>::infinity();
+    double before = 0;
+    for (double reach = first_reach * unit; !tries.empty(); before = reach, reach *= 2) {
+        for (const auto& each : tries) {
+            if (each->least_length(before) >= least) continue;
+            report_or_throw(progress, "turn", std::min(0.5 + reach / max_length / 2, 1.0),
+                            std::isinf(least) ? NAN : least);
+            each->joiner.trace(reach);
+            each->joiner.join(reach);
+            if (each->joiner.open() > 0 || each->joiner.joined_length() >= least) continue;
+            least = each->joiner.joined_length();
+            best = each->angle;
+        }
+        std::erase_if(tries, [&](const auto& each) {
+            return each->joiner.open() == 0 || each->least_length(reach) >= least || reach >= max_length;
+        });
+    }
+    return best;
 }
 
 }  // namespace
 
 ImposedField turned_for_layout(const ImposedField& field, const LayoutCurveOptions& options, const Progress& progress) {
+    detail::require_field(field);
+    detail::require_parameters(field);
     const detail::Structure structure(field.field.domain);
+    const double tolerance = options.end_tolerance > 0 ? options.end_tolerance
+                                                       : default_tolerance * std::sqrt(detail::parameter_area(field));
     ImposedField result = field;
     for (Index c = 0; c < static_cast<Index>(structure.components.size()); ++c) {
         std::vector<Index> vertices;
         for (const Index v : field.point_vertices)
             if (structure.of_vertex[v] == c) vertices.push_back(v);
         if (!structure.components[c].curves.empty() || vertices.empty()) continue;
-        report_or_throw(progress, "turn", c / static_cast<double>(structure.components.size()), NAN);
         double area = 0;
         const Eigen::VectorXd areas = triangle_areas(field.field.domain.mesh());
         for (Index t = 0; t < areas.size(); ++t) area += structure.of_triangle[t] == c ? areas[t] : 0;
         const double unit = std::sqrt(area);
-        double best = std::numeric_limits<double>::infinity(), angle = 0;
-        for (const double tried : hitting_angles(result, structure, c, unit))
-            if (const double length = total_length(turned(result, structure, c, tried), options, unit); length < best) {
-                best = length;
-                angle = tried;
-            }
-        if (std::isinf(best))
+        const double max_length =
+            options.max_length > 0 ? std::min(options.max_length, longest * unit) : longest * unit;
+        std::vector<std::unique_ptr<Try>> tries;
+        for (const double angle : hitting_angles(result, structure, c, unit, progress))
+            tries.push_back(
+                std::make_unique<Try>(turned(result, structure, c, angle), angle, structure, c, tolerance, max_length));
+        const auto angle = best_angle(std::move(tries), unit, max_length, progress);
+        if (!angle)
             throw GeometryError("the field on the closed part with singular points at vertices " + first_few(vertices) +
                                     " can be turned in no way tried that makes its separatrices end; move the points",
                                 "no_short_turn", vertices);
-        result = turned(result, structure, c, angle);
+        result = turned(result, structure, c, *angle);
     }
     return result;
 }

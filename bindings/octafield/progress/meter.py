@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 
-from ..progress.phases import PHASES, PeakMemory, Progress
-from ..records.field import FieldRecord
+from ..records.field import InputRecord
+from .phases import PHASES, PeakMemory, Progress
 
 
 class PhaseMeter:
@@ -13,7 +13,7 @@ class PhaseMeter:
     that have a name of one before get "mesh_" before it. `report` is a callback for the core that passes its reports
     on."""
 
-    def __init__(self, before: FieldRecord, progress: Progress | None):
+    def __init__(self, before: InputRecord, progress: Progress | None):
         self.wall: dict[str, float] = {name: float(seconds) for name, seconds in before.wall_seconds.items()}
         self.cpu: dict[str, float] = {name: float(seconds) for name, seconds in before.cpu_seconds.items()}
         self.wall.pop("write", None)

@@ -1,0 +1,122 @@
+"""The command that makes block-structured quads: octafield quad-layout."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..layout.options import INADMISSIBLE, QuadLayoutOptions
+from ..options import SurfaceFieldOptions
+from . import console, tables
+from .console import carry_out, log
+from .options import InputFile, Json, Output, Quiet, Verbose, choices, with_options
+from .shell_completion import words
+
+_DEFAULTS = QuadLayoutOptions()
+# What has another meaning here, or none: lengths of the triangles have a name of their own.
+_WITHOUT = ("edge_length", "symmetry", "boundary_alignment", "interfaces", "split")
+
+
+def register(app: typer.Typer) -> None:
+    app.command("quad-layout")(quad_layout)
+
+
+@with_options(SurfaceFieldOptions, without=_WITHOUT)
+def quad_layout(
+    input: InputFile,
+    output: Output,
+    singularities: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help=(
+                "The singular points, .json or .csv: position (or vertex of INPUT) and index, in turns, or valence of"
+                " each. Default: those of a cross field that is computed."
+            ),
+        ),
+    ] = None,
+    corners: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Corners of the boundary with other numbers of quads than by angle, .json or .csv: vertex and quads.",
+        ),
+    ] = None,
+    quads: Annotated[
+        int, typer.Option(metavar="N", help="Wanted number of quads; made is the nearest that the layout allows.")
+    ] = 0,
+    edge_length: Annotated[
+        float,
+        typer.Option(metavar="LENGTH", help="In its place: their mean edge, input unit; 0: that of the triangles."),
+    ] = 0.0,
+    inadmissible: Annotated[
+        str,
+        typer.Option(
+            metavar=choices(INADMISSIBLE),
+            autocompletion=words(INADMISSIBLE[1:]),
+            help=(
+                "Where no field has the points in these places: refuse them, move them, or rotate the field. Default:"
+                " fail with points of a file, move those of a computed field."
+            ),
+        ),
+    ] = "default",
+    tolerance: Annotated[float, typer.Option(metavar="DEG", help="By how much places may be off, degrees.")] = round(
+        math.degrees(_DEFAULTS.tolerance), 6
+    ),
+    end_tolerance: Annotated[
+        float,
+        typer.Option(
+            metavar="D",
+            help="Separatrices that miss a point by less are joined with its own, quad coordinates; 0: default.",
+        ),
+    ] = _DEFAULTS.end_tolerance,
+    max_length: Annotated[
+        float, typer.Option(metavar="L", help="Longest separatrix, quad coordinates; 0: default.")
+    ] = _DEFAULTS.max_length,
+    triangle_length: Annotated[
+        float,
+        typer.Option(
+            metavar="LENGTH",
+            help="Edge of the triangles that the field is computed on, input unit; 0: lengths that fit the shape.",
+        ),
+    ] = 0.0,
+    options: Callable[[], SurfaceFieldOptions] = SurfaceFieldOptions,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Quads in blocks, from singular points. DIR gets mesh.vtu, mesh.msh, layout.vtp,
+    field.vtp, result.json."""
+
+    def work() -> None:
+        from dataclasses import replace
+
+        from ..files.writing import staged_folder
+        from ..layout.files import write_layout_result
+        from ..layout.quad_layout import compute_quad_layout
+        from ..records.record_file import RECORD_FILE
+
+        chosen = replace(options(), edge_length=triangle_length)
+        of_quads = QuadLayoutOptions(
+            quads=quads,
+            edge_length=edge_length,
+            inadmissible=inadmissible,
+            tolerance=math.radians(tolerance),
+            end_tolerance=end_tolerance,
+            max_length=max_length,
+        )
+        with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
+            result = compute_quad_layout(
+                input, chosen, progress, layout_options=of_quads, singularities=singularities, corners=corners
+            )
+            write_layout_result(result, folder, progress)
+        console.report_notes(result.record)
+        if json:
+            console.put_json(json, result.record.to_dict())
+        if json != "-" and not quiet:
+            tables.show_layout_record(result.record)
+        log.info("wrote %s", output)
+
+    carry_out(work, quiet, verbose, json)

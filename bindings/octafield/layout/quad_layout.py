@@ -1,0 +1,235 @@
+"""From a file to block-structured quads: read, singular points, field, layout, quads, figures.
+
+result = compute_quad_layout("plate.obj", layout_options=QuadLayoutOptions(quads=500), singularities="points.json")
+result.mesh             # octafield.surface.QuadMesh
+result.record.patches   # the figures
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _core
+from .._core import ImposedField, QuadMesh, SingularPattern, SurfaceDomain, TetDomain, TetMesh, TriangleMesh
+from ..domain.inputs import Input, from_mesh, naming, read_input
+from ..domain.meshed_input import MeshedInput
+from ..domain.meshing import Source, prepare_mesh, read_sound
+from ..errors import InvalidInput
+from ..options import SurfaceFieldOptions
+from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
+from ..view.notebook import Facts, ShownInNotebooks
+from .blocks import LayoutParts, quads_of_separatrices
+from .options import MOST_QUADS, QuadLayoutOptions
+from .pattern import Places, pattern_of, places_of
+from .quality import figures_of, require_sound
+
+if TYPE_CHECKING:
+    import pyvista
+
+    from ..records.quad_layout import QuadLayoutRecord
+
+Points = str | Path | SingularPattern | Mapping[str, Any] | Sequence[Mapping[str, Any]] | ArrayLike
+Corners = str | Path | Mapping[str, Any] | Sequence[Mapping[str, Any]] | ArrayLike
+
+_SHOWN = ("patches", "quads", "irregular_vertices", "scaled_jacobian", "surface_deviation")
+
+
+@dataclass(repr=False, kw_only=True)
+class QuadLayoutResult(ShownInNotebooks):
+    """Block-structured quads and what led to them.
+
+    mesh: the quads. blocks: (q,) block of each. chords: (q, 2) row of blocks that it is in, across its first and second
+    pair of sides. scaled_jacobians: (q,). valences: (V,) quads round each vertex; on_boundary: (V,) bool. layout: as
+    arrays, None where the quads come from no layout of curves. field: that they follow, on the surface refined round
+    its singular points. record: all figures, the JSON object of the command line."""
+
+    mesh: QuadMesh
+    blocks: np.ndarray
+    chords: np.ndarray
+    scaled_jacobians: np.ndarray
+    valences: np.ndarray
+    on_boundary: np.ndarray
+    layout: LayoutParts | None
+    field: ImposedField
+    record: QuadLayoutRecord
+
+    def __repr__(self) -> str:
+        r = self.record
+        return (
+            f"QuadLayoutResult({r.input}: {r.quads:,} quads in {r.patches:,} patches, {r.irregular_vertices:,}"
+            f" irregular vertices; least scaled Jacobian {r.scaled_jacobian.min:.3f})"
+        )
+
+    def _facts(self) -> Facts:
+        return str(self.record.input), {name: self.record.to_dict()[name] for name in _SHOWN}
+
+    def scene(self) -> pyvista.Plotter:
+        """A pyvista scene: blocks in colours, the edges of quads, sides of blocks, singular points."""
+        from ..view.window import shown_where_possible
+
+        return shown_where_possible(self._drawn())
+
+    def _drawn(self) -> pyvista.Plotter:
+        from ..view.quad_layout import quad_scene
+
+        sides = None if self.layout is None else self.layout.sides
+        return quad_scene(self.mesh, self.blocks, self.valences, self.on_boundary, sides)
+
+
+def compute_quad_layout(
+    source: Source | SurfaceDomain | MeshedInput,
+    options: SurfaceFieldOptions = SurfaceFieldOptions(),
+    progress: Progress | None = None,
+    *,
+    layout_options: QuadLayoutOptions = QuadLayoutOptions(),
+    singularities: Points | None = None,
+    corners: Corners | None = None,
+) -> QuadLayoutResult:
+    """Block-structured quads on a surface, open or closed, or on the boundary of a tet mesh (paths or meshes in
+    memory), along the cross field that has just the singular points wanted.
+
+    options: of the mesh that the field is computed on, and of the cross field that the singular points come from where
+        none are given. Their edge_length is that of triangles.
+    singularities: a .json or .csv file, or what it holds: dictionaries with position (3,) or vertex (of the input) and
+        index (turns), index_times_four or valence; or (n, 4) rows x y z index. Or a SingularPattern on the surface of
+        the result of prepare_mesh that is the source.
+    corners: likewise, of vertex or position, and quads; or (n, 2) rows of vertex and quads: where other numbers than
+        those by angle are wanted.
+
+    progress(phase, fraction, merit): False cancels. Raises InvalidInput, GeometryError, IoError, SolverError,
+    Cancelled.
+
+        >>> import octafield
+        >>> corners = [[0, 0, 0], [3, 0, 0], [3, 1, 0], [0, 1, 0]]
+        >>> plate = octafield.TriangleMesh(corners, [[0, 1, 2], [0, 2, 3]])
+        >>> result = octafield.compute_quad_layout(plate, layout_options=octafield.QuadLayoutOptions(quads=12))
+        >>> result.record.quads, result.record.patches, result.record.scaled_jacobian.min > 0.99
+        (12, 1, True)
+    """
+    if isinstance(singularities, SingularPattern) and not isinstance(source, (MeshedInput, SurfaceDomain)):
+        raise InvalidInput(
+            "a SingularPattern belongs to the surface the field is on; give that SurfaceDomain, or the result of"
+            " prepare_mesh(source, options, volume=False), or positions instead",
+            "not_meshed",
+        )
+    meshed, places, given = _meshed(source, replace(options, interfaces=False), progress)
+    with naming(meshed.name):
+        return _on(meshed, places, given, options, layout_options, singularities, corners, progress)
+
+
+def _meshed(
+    source: Source | SurfaceDomain | MeshedInput, options: SurfaceFieldOptions, progress: Progress | None
+) -> tuple[MeshedInput, Places, TriangleMesh]:
+    """The surface for the field, the vertices that users number, and the surface that quads are compared with."""
+    if isinstance(source, SurfaceDomain):
+        source = MeshedInput("mesh in memory", "surface", source.mesh, source.features, "file", options=options)
+    if isinstance(source, MeshedInput):
+        return source, Places(np.array(source.surface.vertices), None), source.surface
+    before, memory = time.perf_counter(), PeakMemory()
+    announce(progress, "read")
+    found = _read(source, options, progress)
+    places, seconds, peak = places_of(found), time.perf_counter() - before, memory.megabytes()
+    sound = read_sound(found, options, volume=False, progress=progress)
+    sound.clock.wall["read"] += seconds
+    meshed = prepare_mesh(sound, options, volume=False, progress=progress)
+    meshed.peak_mb = max(meshed.peak_mb, peak)
+    return meshed, places, meshed.surface if found.tets is not None else found.surface
+
+
+def _read(source: Source, options: SurfaceFieldOptions, progress: Progress | None) -> Input:
+    if isinstance(source, (str, Path)):
+        return read_input(source, interfaces=False, edge_length=options.edge_length, progress=progress)
+    if isinstance(source, (TriangleMesh, TetMesh, TetDomain)):
+        return from_mesh(source)
+    raise InvalidInput(
+        f"a path, TriangleMesh, SurfaceDomain, TetMesh or TetDomain is needed, not {type(source).__name__}",
+        "wrong_type",
+    )
+
+
+def _on(
+    meshed: MeshedInput,
+    places: Places,
+    given: TriangleMesh,
+    options: SurfaceFieldOptions,
+    wanted: QuadLayoutOptions,
+    singularities: Points | None,
+    corners: Corners | None,
+    progress: Progress | None,
+) -> QuadLayoutResult:
+    from ..fields.record import of_input
+    from ..progress.meter import PhaseMeter
+    from . import record
+
+    memory, clock = PeakMemory(), PhaseClock(meshed.clock)
+    target = _edge_length(meshed.surface, wanted)
+    with clock.phase("surface"):
+        announce(progress, "surface")
+        domain = SurfaceDomain(meshed.surface, meshed.features)
+        pattern = pattern_of(domain, places, singularities, corners, options, progress)
+    begun = of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes()))
+    begun = begun.changed(notes=[*begun.notes, *pattern.notes, *_of_features(domain)])
+    meter = PhaseMeter(begun, progress)
+    inadmissible = wanted.inadmissible
+    if inadmissible == "default":
+        inadmissible = "move" if singularities is None else "fail"
+    field = _core.impose_singular_points(
+        domain, pattern.pattern, inadmissible=inadmissible, tolerance=wanted.tolerance, progress=meter.report
+    )
+    field, made = quads_of_separatrices(field, wanted, target, meter.report)
+    meter.begin("check")
+    announce(progress, "check")
+    figures = figures_of(made.mesh, field.field.domain, given)
+    require_sound(made.mesh, figures, int(_core.euler_characteristic(meshed.surface)))
+    meter.end()
+    told = record.of_quads(
+        made, figures, field, pattern, begun, len(meshed.surface.triangles), target, inadmissible, meter,
+        dict(vars(wanted)), options.recorded(),
+    )  # fmt: skip
+    return QuadLayoutResult(
+        mesh=made.mesh,
+        blocks=made.blocks,
+        chords=made.chords,
+        scaled_jacobians=figures.scaled_jacobians,
+        valences=figures.quads_round,
+        on_boundary=figures.on_boundary,
+        layout=made.layout,
+        field=field,
+        record=told,
+    )
+
+
+def _edge_length(surface: TriangleMesh, wanted: QuadLayoutOptions) -> float:
+    """Of the quads, input unit. Refuses what would hardly end before any work."""
+    area = float(np.asarray(_core.triangle_areas(surface)).sum())
+    if wanted.quads:
+        return float(np.sqrt(area / wanted.quads))
+    length = wanted.edge_length or float(_core.mean_edge_length(surface))
+    count = area / length**2
+    if count > MOST_QUADS:
+        raise InvalidInput(
+            f"the edge length {length:g} asks for about {count:.2g} quads, and at most {MOST_QUADS:,} are made; give a"
+            " larger edge length",
+            "too_many_cells",
+        )
+    return length
+
+
+def _of_features(domain: SurfaceDomain) -> list[str]:
+    """A note where features inside the surface will not be followed."""
+    features = np.sort(np.asarray(domain.features.edges), axis=1).astype(np.int64)
+    if not len(features):
+        return []
+    rim = np.asarray(domain.edges)[np.asarray(domain.edge_triangles).min(axis=1) < 0].astype(np.int64)
+    count = len(domain.vertices)
+    inside = ~np.isin(features[:, 0] * count + features[:, 1], rim[:, 0] * count + rim[:, 1])
+    if not inside.any():
+        return []
+    return [f"{int(inside.sum())} feature edges inside the surface are not followed: layouts follow its boundary alone"]

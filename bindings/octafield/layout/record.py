@@ -1,0 +1,99 @@
+"""The record of a quad layout. Imported where a record is made: pydantic takes long to import."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import _core
+from .._core import ImposedField
+from ..meshes.figures import Spread
+from ..progress.meter import PhaseMeter
+from ..records.parts import Deviation, EdgeLengths, ImposedPointFigures, JacobianFigures, Misalignment
+from ..records.quad_layout import QuadLayoutRecord
+from .blocks import BlockQuads, imposed_indices
+from .pattern import Pattern
+from .quality import QuadFigures
+
+if TYPE_CHECKING:
+    from ..records.field import InputRecord
+
+
+def of_quads(
+    made: BlockQuads,
+    figures: QuadFigures,
+    field: ImposedField,
+    pattern: Pattern,
+    begun: InputRecord,
+    triangles: int,
+    target: float,
+    inadmissible: str,
+    meter: PhaseMeter,
+    options: dict[str, Any],
+    field_options: dict[str, Any],
+) -> QuadLayoutRecord:
+    """begun: what every record begins with. triangles: of the surface before it was refined. target: edge length."""
+    found = _core.surface_singularities(field.field)
+    layout, domain = made.layout, field.field.domain
+    points, on_boundary = np.asarray(domain.vertices), np.zeros(len(domain.vertices), bool)
+    on_boundary[np.asarray(domain.edges)[np.asarray(domain.edge_triangles).min(axis=1) < 0]] = True
+    return QuadLayoutRecord(
+        input=begun.input,
+        version=begun.version,
+        input_kind=begun.input_kind,
+        mesh_sha256=begun.mesh_sha256,
+        triangles=triangles,
+        field_triangles=len(domain.triangles),
+        euler_characteristic=found.euler_characteristic,
+        feature_source=begun.feature_source,
+        feature_edges=begun.feature_edges,
+        point_source=pattern.source,
+        corner_source=pattern.corner_source,
+        singular_points=[
+            ImposedPointFigures(
+                position=points[vertex].tolist(), index_times_four=four, boundary=bool(on_boundary[vertex])
+            )
+            for vertex, four in imposed_indices(field).items()
+        ],
+        index_sum=found.index_sum,
+        misalignment=[
+            Misalignment(
+                boundary=c.boundary, vertex=c.vertex, angle_deg=math.degrees(c.angle), size_factor=c.size_factor
+            )
+            for c in field.conditions
+        ],
+        inadmissible=inadmissible,
+        largest_move=field.largest_move,
+        separatrices=None if layout is None else layout.separatrices,
+        patches=len(np.unique(made.blocks)),
+        chords=len(np.unique(made.chords)),
+        largest_mismatch=None if layout is None else layout.largest_mismatch,
+        vertices=len(made.mesh.vertices),
+        quads=len(made.mesh.quads),
+        irregular_vertices=figures.irregular_vertices,
+        irregular_boundary_vertices=figures.irregular_boundary_vertices,
+        t_junctions=figures.t_junctions,
+        inverted=figures.inverted,
+        nonconforming_edges=figures.nonconforming_edges,
+        scaled_jacobian=_jacobians(figures.jacobians),
+        angle_quality=_jacobians(figures.angle_quality),
+        edge_length=EdgeLengths(
+            target=target, median=figures.edges.median, p05=figures.edges.p05, p95=figures.edges.p95
+        ),
+        surface_deviation=Deviation(max=figures.deviation[0], rms=figures.deviation[1]),
+        wall_seconds={name: seconds for name, seconds in meter.wall.items() if seconds},
+        cpu_seconds={name: meter.cpu[name] for name, seconds in meter.wall.items() if seconds},
+        phase_peak_mb=meter.peak_mb,
+        peak_mb=max(begun.peak_mb, *meter.peak_mb.values()),
+        notes=list(begun.notes),
+        versions=begun.versions,
+        machine=begun.machine,
+        options=options,
+        field_options=field_options,
+    )
+
+
+def _jacobians(values: Spread) -> JacobianFigures:
+    return JacobianFigures(min=values.min, p05=values.p05, mean=values.mean)

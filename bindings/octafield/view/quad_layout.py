@@ -1,0 +1,144 @@
+"""Block-structured quads on their surface: blocks in colours, edges of quads, sides of blocks, singular points."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pyvista
+
+from .._core import QuadMesh
+from ..errors import IoError
+from ..meshes.vtk.vtu import read_vtu
+from . import scene
+from .datasets import polylines, quad_grid, read_vtp
+
+# Pale, so that edges and points stand out; neighbours never have the same.
+_COLOURS = ("#b9d7ea", "#f6d7a7", "#c8e3c0", "#e9c6d8", "#d6cdea", "#f3efb1", "#cfd6dc", "#f0c4b4")
+
+_EDGES = "#56616d"
+
+
+def quad_scene(
+    mesh: QuadMesh,
+    blocks: np.ndarray,
+    valences: np.ndarray,
+    on_boundary: np.ndarray,
+    sides: Sequence[np.ndarray] | None,
+) -> pyvista.Plotter:
+    """valences: quads round each vertex. sides: polylines of the layout; None: edges between quads of two blocks."""
+    grid = quad_grid(mesh)
+    grid.cell_data["block"] = blocks
+    grid.point_data["quads"], grid.point_data["boundary"] = valences, on_boundary
+    return _drawn(grid, None if sides is None else polylines(sides))
+
+
+def is_layout(folder: Path) -> bool:
+    """Whether it holds the result of octafield quad-layout."""
+    return (folder / "mesh.vtu").is_file() and (folder / "field.vtp").is_file()
+
+
+def scene_of_folder(folder: Path) -> tuple[pyvista.Plotter, list[str]]:
+    """The same from mesh.vtu and layout.vtp of a result, with the names of the files it shows."""
+    path = folder / "mesh.vtu"
+    read_vtu(path.read_bytes(), str(path))  # VTK ends the process where a count is wrong
+    grid = pyvista.read(path)
+    if (
+        not isinstance(grid, pyvista.UnstructuredGrid)
+        or "block" not in grid.cell_data
+        or not {"quads", "boundary"} <= set(grid.point_data)
+    ):
+        raise IoError(f"{path}: no quads in blocks; give a result of octafield quad-layout")
+    if not (folder / "layout.vtp").is_file():
+        return _drawn(grid, None), ["mesh.vtu"]
+    layout = read_vtp(folder / "layout.vtp")
+    if "kind" not in layout.cell_data:
+        raise IoError(f"{folder / 'layout.vtp'}: holds no layout; give a result of octafield quad-layout")
+    lines = pyvista.PolyData(np.array(layout.points), lines=np.array(layout.lines))
+    return _drawn(grid, lines), ["mesh.vtu", "layout.vtp"]
+
+
+def _drawn(grid: pyvista.UnstructuredGrid, sides: pyvista.PolyData | None) -> pyvista.Plotter:
+    points, quads = np.asarray(grid.points), grid.cells.reshape(-1, 5)[:, 1:]
+    shape = scene.plotter()
+    size = scene.diagonal(points)
+    blocks = np.asarray(grid.cell_data["block"])
+    width = 1.5 if len(quads) < 3000 else 0.8
+    colours = _colours_of(quads, blocks)[blocks]
+    for number, colour in enumerate(_COLOURS):
+        if (colours == number).any():
+            part = pyvista.PolyData.from_regular_faces(points, quads[colours == number])
+            shape.add_mesh(
+                part,
+                color=colour,
+                ambient=0.5,
+                diffuse=0.6,
+                specular=0,
+                show_edges=True,
+                edge_color=_EDGES,
+                line_width=width,
+            )
+    lines = _between_blocks(points, quads, blocks) if sides is None else sides
+    if lines.n_cells:
+        shape.add_mesh(lines.tube(radius=0.0018 * size, n_sides=8), color=scene.INK, lighting=False)
+    index = np.where(np.asarray(grid.point_data["boundary"]) > 0, 2, 4) - np.asarray(grid.point_data["quads"])
+    for sign, colour in ((1, scene.VERMILLION), (-1, scene.BLUE)):
+        centres = points[index * sign > 0]
+        if len(centres):
+            balls = pyvista.PolyData(centres).glyph(geom=pyvista.Sphere(radius=0.009 * size), scale=False, orient=False)
+            shape.add_mesh(balls, color=colour, smooth_shading=True, ambient=0.4)
+    if _is_flat(points):
+        scene.look(shape, points, *_from_above(points))
+    else:
+        scene.three_quarter_view(shape, points)
+    return shape
+
+
+def _edges_with_quads(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Edges (e, 2), and for each side of a quad its edge and its quad."""
+    sides = np.sort(np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
+    edges, group = np.unique(sides, axis=0, return_inverse=True)
+    return edges, group.reshape(-1), np.tile(np.arange(len(quads)), 4)
+
+
+def _neighbours(quads: np.ndarray, blocks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Edges, and (e, 2) the lowest and highest block there; -1 and the block at edges of one quad."""
+    edges, group, of_quad = _edges_with_quads(quads)
+    low, high = np.full(len(edges), np.iinfo(np.int64).max), np.full(len(edges), -1)
+    np.minimum.at(low, group, blocks[of_quad])
+    np.maximum.at(high, group, blocks[of_quad])
+    low[np.bincount(group) == 1] = -1
+    return edges, np.column_stack([low, high])
+
+
+def _between_blocks(points: np.ndarray, quads: np.ndarray, blocks: np.ndarray) -> pyvista.PolyData:
+    edges, beside = _neighbours(quads, blocks)
+    kept = edges[beside[:, 0] != beside[:, 1]]
+    return scene.segments(points[kept[:, 0]], points[kept[:, 1]])
+
+
+def _colours_of(quads: np.ndarray, blocks: np.ndarray) -> np.ndarray:
+    """By block: the first colour that no neighbour before it has, or the one that fewest have."""
+    beside: list[set[int]] = [set() for _ in range(int(blocks.max(initial=-1)) + 1)]
+    for a, b in np.unique(_neighbours(quads, blocks)[1], axis=0).tolist():
+        if 0 <= a != b:
+            beside[a].add(b)
+            beside[b].add(a)
+    colours = np.full(len(beside), -1)
+    for block, others in enumerate(beside):
+        used = np.bincount([colours[o] for o in others if colours[o] >= 0], minlength=len(_COLOURS))
+        colours[block] = int(used.argmin())
+    return colours
+
+
+def _is_flat(points: np.ndarray) -> bool:
+    values = np.linalg.eigvalsh(np.cov(points.T))
+    return bool(values[0] < 1e-12 * values[2])
+
+
+def _from_above(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where to look at something flat from, and what is up: coordinate axes where they do."""
+    normal = np.linalg.eigh(np.cov(points.T))[1][:, 0]
+    normal = normal * np.sign(normal[np.abs(normal).argmax()])
+    world = np.eye(3)
+    up = world[1] if abs(normal[1]) < 0.9 else world[2]
+    return normal, up - normal * (normal @ up)
