@@ -1,0 +1,119 @@
+#include "octafield/surface/quantized_quads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "octafield/error.hpp"
+#include "quad_builder.hpp"
+#include "tile_arcs.hpp"
+
+namespace octafield::surface {
+namespace {
+
+constexpr double most_quads = 1e8;
+constexpr int most_sizes = 6;        // tried for a number of quads
+constexpr double near_enough = 0.02;  // of that
+
+struct Chosen {
+    detail::ArcCounts arcs;
+    double size = 0, quads = 0;
+};
+
+class Chooser {
+public:
+    Chooser(const QuadLayout& layout, const QuantizedQuadsOptions& options)
+        : layout_(layout), options_(options), problem_(detail::arc_problem(layout)) {
+        if (!options.coarsest) return;
+        problem_.wanted.assign(layout.sides.size(), 0);
+        problem_.weights.assign(layout.sides.size(), 1);
+        problem_ = detail::split_problem(layout, problem_,
+                                         detail::integer_counts(problem_, options.most_nodes).counts);
+    }
+
+    Chosen at_size(double size) const {
+        detail::ArcProblem problem = problem_;
+        detail::set_size(problem, layout_, size, options_.weights);
+        problem.wanted.resize(problem.least.size(), 1);
+        problem.weights.resize(problem.least.size(), 0);
+        const double most = *std::max_element(problem.wanted.begin(), problem.wanted.end());
+        if (!(most * most <= most_quads))
+            throw InvalidInput("the edge length would give more than 1e8 quads", "bad_option");
+        Chosen result{detail::integer_counts(problem, options_.most_nodes), size, 0};
+        result.arcs.counts.resize(layout_.sides.size());
+        result.quads = detail::total_quads(layout_, result.arcs.counts);
+        return result;
+    }
+
+    // Sizes by the square root of what is missing, between those with too many and too few.
+    Chosen with_quads(double wanted) const {
+        Chosen best;
+        double low = 0, high = std::numeric_limits<double>::infinity();
+        double size = std::sqrt(layout_.curves.parameter_area / wanted);
+        for (int i = 0; i < most_sizes; ++i) {
+            Chosen found = at_size(size);
+            const double quads = found.quads;
+            if (i == 0 || std::abs(quads - wanted) < std::abs(best.quads - wanted)) best = std::move(found);
+            if (std::abs(quads - wanted) <= near_enough * wanted) break;
+            (quads > wanted ? low : high) = size;
+            size *= std::sqrt(quads / wanted);
+            if (size <= low || size >= high) size = std::isinf(high) ? 1.5 * low : low > 0 ? std::sqrt(low * high) : high / 1.5;
+        }
+        return best;
+    }
+
+private:
+    const QuadLayout& layout_;
+    const QuantizedQuadsOptions& options_;
+    detail::ArcProblem problem_;
+};
+
+Chosen choose(const QuadLayout& layout, const QuantizedQuadsOptions& options) {
+    const bool by_length = options.edge_length > 0 && std::isfinite(options.edge_length);
+    if (by_length == (options.quad_count > 0) || !(options.edge_length >= 0) || options.quad_count < 0)
+        throw InvalidInput("give either an edge length or a number of quads, > 0", "bad_option");
+    if (options.most_nodes < 1) throw InvalidInput("branch and bound needs a node at least", "bad_option");
+    const Chooser chooser(layout, options);
+    return by_length ? chooser.at_size(options.edge_length)
+                     : chooser.with_quads(static_cast<double>(options.quad_count));
+}
+
+void set_blocks(QuantizedQuads& result) {
+    result.tiles = std::move(result.patches);
+    BaseComplex complex = base_complex(result.mesh);
+    result.patches = std::move(complex.blocks);
+    result.patch_sizes = complex.block_sizes;
+    result.patch_chords = complex.block_chords;
+    result.chord_counts = std::move(complex.chord_counts);
+    result.irregular = std::move(complex.irregular);
+}
+
+}  // namespace
+
+QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOptions& options,
+                               const Progress& progress) {
+    if (!layout.pieces || layout.patches.empty()) throw InvalidInput("the layout has no patches", "bad_option");
+    detail::require_quads(layout);
+    report_or_throw(progress, "integers", 0, NAN);
+    Chosen chosen = choose(layout, options);
+    if (!(chosen.quads <= most_quads))
+        throw InvalidInput("the size would give more than 1e8 quads", "bad_option");
+    detail::QuadBuilder builder(layout, chosen.arcs.counts);
+    for (Index p = 0; p < static_cast<Index>(layout.patches.size()); ++p) {
+        report_or_throw(progress, "map", p / static_cast<double>(layout.patches.size()), NAN);
+        builder.add_patch(p);
+    }
+    QuantizedQuads result;
+    static_cast<LayoutQuads&>(result) = std::move(builder).result();
+    detail::require_convex(result);
+    require_valid(result.mesh, false);
+    set_blocks(result);
+    for (const LayoutVertex& vertex : layout.vertices) result.t_joints += vertex.kind == LayoutVertexKind::t_joint;
+    result.arc_counts = std::move(chosen.arcs.counts);
+    result.size = chosen.size;
+    result.deviation = chosen.arcs.deviation;
+    result.bound = chosen.arcs.bound;
+    result.optimal = chosen.arcs.optimal;
+    return result;
+}
+
+}  // namespace octafield::surface
