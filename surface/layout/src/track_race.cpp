@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <tuple>
 
@@ -10,6 +11,7 @@ namespace octafield::surface::detail {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double least_sine = 0.5;  // of the angle at which tracks cross
 constexpr double look_on = 3;  // tolerances: how far a track is followed behind its end, for points beside it
 
 // Where a curve meets the border of a triangle: 2 k at corner k, between 2 k and 2 k + 2 on side k.
@@ -103,16 +105,18 @@ private:
         return (b.from > low && b.from < high) != (b.to > low && b.to < high);
     }
 
-    // Lengths along both where they cross, by straight lines.
-    std::pair<double, double> crossing(Index t, const Part& a, const Part& b) const {
+    // Lengths along both where they cross, by straight lines. None if they run side by side: curves of one family do
+    // not meet but for rounding.
+    std::optional<std::pair<double, double>> crossing(Index t, const Part& a, const Part& b) const {
         const Complex p = place_of(charts_, t, a.from), u = place_of(charts_, t, a.to) - p;
         const Complex q = place_of(charts_, t, b.from), v = place_of(charts_, t, b.to) - q;
         const double area = cross(u, v);
+        if (std::abs(area) < least_sine * std::abs(u) * std::abs(v)) return {};
         const auto along = [](const Part& part, double fraction) {
             fraction = fraction > 0 ? std::min(fraction, 1.0) : 0.0;
             return part.first + fraction * (part.last - part.first);
         };
-        return {along(a, cross(q - p, v) / area), along(b, cross(q - p, u) / area)};
+        return std::pair(along(a, cross(q - p, v) / area), along(b, cross(q - p, u) / area));
     }
 
     // The last triangle of its walk is new.
@@ -123,7 +127,9 @@ private:
         const Part own = part(curve, static_cast<Index>(walls_.size()) + track, place);
         for (const Part& other : in_triangle_[t]) {
             if (!cross_one_another(own, other)) continue;
-            const auto [here, there] = crossing(t, own, other);
+            const auto crossed = crossing(t, own, other);
+            if (!crossed) continue;
+            const auto [here, there] = *crossed;
             if (is_wall(other.curve)) {
                 events_.push({here, true, track, place, other.curve, -1});
                 continue;
