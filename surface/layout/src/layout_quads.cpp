@@ -75,7 +75,7 @@ LayoutQuads layout_quads(const QuadLayout& layout, const LayoutQuadsOptions& opt
     const std::vector<int> counts = chord_counts(layout, options);
     std::vector<int> side_counts;
     for (const LayoutSide& side : layout.sides) side_counts.push_back(counts[side.chord]);
-    detail::QuadBuilder builder(layout, side_counts);
+    detail::QuadBuilder builder(layout, detail::side_grids(layout, side_counts));
     for (Index p = 0; p < static_cast<Index>(layout.patches.size()); ++p) {
         report_or_throw(progress, "map", p / static_cast<double>(layout.patches.size()), NAN);
         builder.add_patch(p);

@@ -18,12 +18,13 @@ using Vector2 = Eigen::Vector2d;
 
 class Patch {
 public:
-    Patch(const QuadLayout& layout, Index patch, const std::vector<int>& extents)
-        : layout_(layout), pieces_(*layout.pieces), patch_(patch), extents_(extents) {}
+    Patch(const QuadLayout& layout, Index patch, const std::vector<Eigen::VectorXd>& along)
+        : layout_(layout), pieces_(*layout.pieces), patch_(patch), along_(along) {}
     PatchMap map() &&;
 
 private:
     void add_boundary();
+    double extent(const DirectedSide& side) const { return along_[side.side][along_[side.side].size() - 1]; }
     void add_polygons();
     void split_edges();
     template <class Solver>
@@ -37,7 +38,7 @@ private:
     const QuadLayout& layout_;
     const LayoutPieces& pieces_;
     Index patch_;
-    const std::vector<int>& extents_;
+    const std::vector<Eigen::VectorXd>& along_;
     PatchMap result_;
     std::map<Index, Index> local_;  // of points of the cut surface
     std::vector<Vector> positions_;
@@ -56,29 +57,28 @@ void Patch::add_boundary() {
     const CutSurface& cut = pieces_.cut;
     const auto& around = layout_.patches[patch_].loops[0];
     const auto& first = layout_.patches[patch_].corner_sides;
-    for (Index i = 0; i < first[1]; ++i) result_.width += extents_[around[i].side];
-    for (Index i = first[1]; i < first[2]; ++i) result_.height += extents_[around[i].side];
+    for (Index i = 0; i < first[1]; ++i) result_.width += extent(around[i]);
+    for (Index i = first[1]; i < first[2]; ++i) result_.height += extent(around[i]);
     const Vector2 corners[] = {{0, 0}, {result_.width, 0}, {result_.width, result_.height}, {0, result_.height}};
     const Vector2 ways[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     int k = -1;
     Index place = -1;
-    double before = 0;  // extents of the sides of the layout before this one on the same side of the patch
+    double before = 0;  // lengths of the sides of the layout before this one on the same side of the patch
     for (const Index c : pieces_.loops[patch_][0]) {
         const bool corner = pieces_.turns[c];
         if (pieces_.vertex_of_node[cut.nodes[c]] >= 0) {
-            before = corner ? 0 : before + extents_[around[place].side];
+            before = corner ? 0 : before + extent(around[place]);
             k += corner;
             ++place;
         }
-        const LayoutSide& side = layout_.sides[around[place].side];
         const Index part = pieces_.part_of_side[c] + (pieces_.forward[c] ? 0 : 1);
-        double fraction = side.parameters[part] / side.length();
-        if (around[place].reversed) fraction = 1 - fraction;
+        double at = along_[around[place].side][part];
+        if (around[place].reversed) at = extent(around[place]) - at;
         const Index p = add_point(cut.positions.row(cut.nodes[c]));
         local_[cut.points[c]] = p;
         sides_[p] = 1u << k;
         if (corner) sides_[p] |= 1u << (k + 3) % 4;
-        fixed_[p] = corner ? corners[k] : Vector2(corners[k] + (before + fraction * extents_[around[place].side]) * ways[k]);
+        fixed_[p] = corner ? corners[k] : Vector2(corners[k] + (before + at) * ways[k]);
     }
 }
 
@@ -212,8 +212,8 @@ PatchMap Patch::map() && {
 
 }  // namespace
 
-PatchMap patch_map(const QuadLayout& layout, Index patch, const std::vector<int>& extents) {
-    return Patch(layout, patch, extents).map();
+PatchMap patch_map(const QuadLayout& layout, Index patch, const std::vector<Eigen::VectorXd>& along) {
+    return Patch(layout, patch, along).map();
 }
 
 Points grid_positions(const PatchMap& map, int n, int m) {

@@ -28,34 +28,15 @@ void require_quads(const QuadLayout& layout) {
         "no_quad_layout", bad);
 }
 
-QuadBuilder::QuadBuilder(const QuadLayout& layout, std::vector<int> side_counts)
-    : layout_(layout), counts_(std::move(side_counts)) {
-    for (const LayoutVertex& vertex : layout.vertices) positions_.push_back(vertex.position);
-    for (std::size_t s = 0; s < layout.sides.size(); ++s) add_side(layout.sides[s], counts_[s]);
-}
-
-// Equal steps in parameters.
-void QuadBuilder::add_side(const LayoutSide& side, int count) {
-    std::vector<Index> ids = {side.first};
-    Eigen::Index part = 0;
-    for (int i = 1; i < count; ++i) {
-        const double at = side.length() * i / count;
-        while (part + 2 < side.parameters.size() && side.parameters[part + 1] < at) ++part;
-        const double step = side.parameters[part + 1] - side.parameters[part];
-        const double fraction = step > 0 ? std::clamp((at - side.parameters[part]) / step, 0.0, 1.0) : 0.0;
-        ids.push_back(static_cast<Index>(positions_.size()));
-        positions_.push_back((1 - fraction) * side.points.row(part) + fraction * side.points.row(part + 1));
-    }
-    ids.push_back(side.last);
-    side_vertices_.push_back(std::move(ids));
-}
+QuadBuilder::QuadBuilder(const QuadLayout& layout, SideGrids grids)
+    : layout_(layout), grids_(std::move(grids)), positions_(std::move(grids_.positions)) {}
 
 std::vector<Index> QuadBuilder::along(const LayoutPatch& patch, int k) const {
     const auto& loop = patch.loops[0];
     const Index end = k < 3 ? patch.corner_sides[k + 1] : static_cast<Index>(loop.size());
     std::vector<Index> ids;
     for (Index i = patch.corner_sides[k]; i < end; ++i) {
-        std::vector<Index> part = side_vertices_[loop[i].side];
+        std::vector<Index> part = grids_.vertices[loop[i].side];
         if (loop[i].reversed) std::reverse(part.begin(), part.end());
         ids.insert(ids.end(), part.begin() + (ids.empty() ? 0 : 1), part.end());
     }
@@ -68,7 +49,7 @@ void QuadBuilder::add_patch(Index patch) {
                              left = along(around, 3);
     const auto n = static_cast<int>(bottom.size()) - 1, m = static_cast<int>(right.size()) - 1;
     const auto inner = static_cast<Index>(positions_.size());
-    const PatchMap map = patch_map(layout_, patch, counts_);
+    const PatchMap map = patch_map(layout_, patch, grids_.along);
     result_.mean_value_patches += map.mean_value;
     const Points grid = grid_positions(map, n, m);
     if (map.folded || !grid.allFinite()) folded_.push_back(patch);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "octafield/surface/layout_quads.hpp"
+#include "side_grids.hpp"
 
 namespace octafield::surface::detail {
 
@@ -12,26 +13,24 @@ void require_quads(const QuadLayout& layout);
 // Throws SolverError (kind "inverted_quads"); sets least_scaled_jacobian.
 void require_convex(LayoutQuads& quads);
 
-// Vertices: of the layout, then those inside each side of it, then those inside each patch.
+// Vertices: those of the grids, then those inside each patch.
 class QuadBuilder {
 public:
-    // Quads along each side of the layout, >= 1; equal sums on opposite sides of patches, which are to be quads.
-    QuadBuilder(const QuadLayout& layout, std::vector<int> side_counts);
+    // Equal numbers of quads on opposite sides of patches, which are to be quads.
+    QuadBuilder(const QuadLayout& layout, SideGrids grids);
     void add_patch(Index patch);
     // Without chord_counts. Throws SolverError (kind "folded_map").
     LayoutQuads result() &&;
 
 private:
-    void add_side(const LayoutSide& side, int count);
     std::vector<Index> along(const LayoutPatch& patch, int k) const;  // vertices of its side k
 
     const QuadLayout& layout_;
-    std::vector<int> counts_;
+    SideGrids grids_;
     LayoutQuads result_;
     std::vector<Eigen::Vector3d> positions_;
     std::vector<std::array<Index, 4>> quads_;
     std::vector<std::array<Index, 2>> sizes_;
-    std::vector<std::vector<Index>> side_vertices_;
     std::vector<Index> folded_;
 };
 

@@ -16,29 +16,32 @@ constexpr double near_enough = 0.02;  // of that
 
 struct Chosen {
     detail::ArcCounts arcs;
+    std::vector<int> part_counts{};
     double size = 0, quads = 0;
 };
 
 class Chooser {
 public:
-    Chooser(const QuadLayout& layout, const QuantizedQuadsOptions& options)
-        : layout_(layout), options_(options), problem_(detail::arc_problem(layout)) {
+    Chooser(const QuadLayout& layout, const detail::Seams& seams, const QuantizedQuadsOptions& options)
+        : layout_(layout), seams_(seams), options_(options), problem_(detail::arc_problem(layout, seams)) {
         if (!options.coarsest) return;
-        problem_.wanted.assign(layout.sides.size(), 0);
-        problem_.weights.assign(layout.sides.size(), 1);
-        problem_ = detail::split_problem(layout, problem_,
-                                         detail::integer_counts(problem_, options.most_nodes).counts);
+        detail::ArcProblem fewest = problem_;
+        fewest.wanted.assign(problem_.least.size(), 0);
+        fewest.weights.assign(problem_.least.size(), 1);
+        problem_ = detail::split_problem(layout, seams, problem_,
+                                         detail::integer_counts(fewest, options.most_nodes).counts);
     }
 
     Chosen at_size(double size) const {
         detail::ArcProblem problem = problem_;
-        detail::set_size(problem, layout_, size, options_.weights);
-        problem.wanted.resize(problem.least.size(), 1);
-        problem.weights.resize(problem.least.size(), 0);
+        detail::set_size(problem, layout_, seams_, size, options_.weights);
         const double most = *std::max_element(problem.wanted.begin(), problem.wanted.end());
         if (!(most * most <= most_quads))
             throw InvalidInput("the edge length would give more than 1e8 quads", "bad_option");
-        Chosen result{detail::integer_counts(problem, options_.most_nodes), size, 0};
+        Chosen result{detail::integer_counts(problem, options_.most_nodes), {}, size, 0};
+        result.part_counts.assign(result.arcs.counts.begin() + static_cast<std::ptrdiff_t>(layout_.sides.size()),
+                                  result.arcs.counts.end());
+        result.part_counts.resize(seams_.parts.size());
         result.arcs.counts.resize(layout_.sides.size());
         result.quads = detail::total_quads(layout_, result.arcs.counts);
         return result;
@@ -63,16 +66,17 @@ public:
 
 private:
     const QuadLayout& layout_;
+    const detail::Seams& seams_;
     const QuantizedQuadsOptions& options_;
     detail::ArcProblem problem_;
 };
 
-Chosen choose(const QuadLayout& layout, const QuantizedQuadsOptions& options) {
+Chosen choose(const QuadLayout& layout, const detail::Seams& seams, const QuantizedQuadsOptions& options) {
     const bool by_length = options.edge_length > 0 && std::isfinite(options.edge_length);
     if (by_length == (options.quad_count > 0) || !(options.edge_length >= 0) || options.quad_count < 0)
         throw InvalidInput("give either an edge length or a number of quads, > 0", "bad_option");
     if (options.most_nodes < 1) throw InvalidInput("branch and bound needs a node at least", "bad_option");
-    const Chooser chooser(layout, options);
+    const Chooser chooser(layout, seams, options);
     return by_length ? chooser.at_size(options.edge_length)
                      : chooser.with_quads(static_cast<double>(options.quad_count));
 }
@@ -94,10 +98,16 @@ QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOpt
     if (!layout.pieces || layout.patches.empty()) throw InvalidInput("the layout has no patches", "bad_option");
     detail::require_quads(layout);
     report_or_throw(progress, "integers", 0, NAN);
-    Chosen chosen = choose(layout, options);
+    detail::Seams seams;
+    seams.uses.resize(layout.sides.size());
+    if (!options.origins.empty()) seams = detail::find_seams(layout, options.origins);
+    Chosen chosen = choose(layout, seams, options);
     if (!(chosen.quads <= most_quads))
         throw InvalidInput("the size would give more than 1e8 quads", "bad_option");
-    detail::QuadBuilder builder(layout, chosen.arcs.counts);
+    detail::QuadBuilder builder(layout,
+                                options.origins.empty()
+                                    ? detail::side_grids(layout, chosen.arcs.counts)
+                                    : detail::seamed_grids(layout, seams, chosen.arcs.counts, chosen.part_counts));
     for (Index p = 0; p < static_cast<Index>(layout.patches.size()); ++p) {
         report_or_throw(progress, "map", p / static_cast<double>(layout.patches.size()), NAN);
         builder.add_patch(p);

@@ -4,12 +4,13 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "octafield/disjoint_sets.hpp"
 
 namespace octafield::surface::detail {
 namespace {
+
+constexpr double part_weight = 0.25;  // against 1 of arcs
 
 std::array<std::vector<DirectedSide>, 4> four_sides(const LayoutPatch& patch) {
     std::array<std::vector<DirectedSide>, 4> result;
@@ -27,19 +28,47 @@ std::vector<Index> numbers(const std::vector<DirectedSide>& sides) {
     return result;
 }
 
-// Of the pieces along each arc, from first[arc] on, in the sense of the patch's border.
-std::vector<Index> pieces_along(const std::vector<DirectedSide>& sides, const std::vector<Index>& first,
-                                const std::vector<int>& counts) {
+// Of the pieces that arcs and parts of seams are made of, first[k] on, in the sense of the patch's border.
+std::vector<Index> pieces_along(const std::vector<DirectedSide>& sides, const Seams& seams,
+                                const std::vector<Index>& first, const std::vector<int>& counts) {
+    const auto arcs = static_cast<Index>(seams.uses.size());
     std::vector<Index> result;
-    for (const DirectedSide& s : sides)
-        for (Index i = 0; i < counts[s.side]; ++i)
-            result.push_back(first[s.side] + (s.reversed ? counts[s.side] - 1 - i : i));
+    const auto add = [&](Index k, bool forward) {
+        for (Index i = 0; i < counts[k]; ++i) result.push_back(first[k] + (forward ? i : counts[k] - 1 - i));
+    };
+    for (const DirectedSide& s : sides) {
+        auto uses = seams.uses[s.side];
+        if (s.reversed) std::reverse(uses.begin(), uses.end());
+        for (const SeamUse& use : uses) add(arcs + use.part, use.forward != s.reversed);
+        if (uses.empty()) add(s.side, !s.reversed);
+    }
     return result;
+}
+
+void add_seams(const Seams& seams, Index arcs, ArcProblem& problem) {
+    const auto parts = static_cast<Index>(seams.parts.size());
+    problem.least.resize(arcs + parts, 0);
+    std::map<std::pair<Index, Index>, int> between;
+    const auto ends = [](const Seam& seam) { return std::minmax(seam.stops.front().node, seam.stops.back().node); };
+    for (const Seam& seam : seams.seams) ++between[ends(seam)];
+    for (std::size_t s = 0; s < seams.seams.size(); ++s) {
+        const Seam& seam = seams.seams[s];
+        const auto [a, b] = ends(seam);
+        problem.least.push_back(a == b ? 3 : between[{a, b}] > 1 ? 2 : 1);
+        problem.sums.push_back({{arcs + parts + static_cast<Index>(s)}, {}});
+        for (Index i = 0; i < seam.part_count(); ++i)
+            problem.sums.back().right.push_back(arcs + seam.first_part + i);
+    }
+    for (Index a = 0; a < arcs; ++a) {
+        if (seams.uses[a].empty()) continue;
+        problem.sums.push_back({{a}, {}});
+        for (const SeamUse& use : seams.uses[a]) problem.sums.back().right.push_back(arcs + use.part);
+    }
 }
 
 }  // namespace
 
-ArcProblem arc_problem(const QuadLayout& layout) {
+ArcProblem arc_problem(const QuadLayout& layout, const Seams& seams) {
     ArcProblem problem;
     problem.least.assign(layout.sides.size(), 1);
     std::map<std::pair<Index, Index>, std::vector<Index>> between;
@@ -51,40 +80,51 @@ ArcProblem arc_problem(const QuadLayout& layout) {
         const auto sides = four_sides(patch);
         for (int k = 0; k < 2; ++k) problem.sums.push_back({numbers(sides[k]), numbers(sides[k + 2])});
     }
+    add_seams(seams, static_cast<Index>(layout.sides.size()), problem);
     return problem;
 }
 
-void set_size(ArcProblem& problem, const QuadLayout& layout, double size, ArcWeights weights) {
+void set_size(ArcProblem& problem, const QuadLayout& layout, const Seams& seams, double size, ArcWeights weights) {
     problem.wanted.clear();
     problem.weights.clear();
-    for (const LayoutSide& side : layout.sides) {
-        problem.wanted.push_back(side.length() / size);
-        problem.weights.push_back(weights == ArcWeights::equal ? 1 : 1 / std::max(1.0, problem.wanted.back()));
-    }
+    const auto add = [&](double length, double weight) {
+        problem.wanted.push_back(length / size);
+        problem.weights.push_back(weight / (weights == ArcWeights::equal ? 1 : std::max(1.0, length / size)));
+    };
+    for (const LayoutSide& side : layout.sides) add(side.length(), 1);
+    for (const SeamPart& part : seams.parts) add(part.parameters, part_weight);
+    problem.wanted.resize(problem.least.size(), 1);
+    problem.weights.resize(problem.least.size(), 0);
 }
 
-ArcProblem split_problem(const QuadLayout& layout, const ArcProblem& arcs, const std::vector<int>& counts) {
-    std::vector<Index> first(counts.size() + 1, 0);
-    std::partial_sum(counts.begin(), counts.end(), first.begin() + 1);
+ArcProblem split_problem(const QuadLayout& layout, const Seams& seams, const ArcProblem& arcs,
+                         const std::vector<int>& counts) {
+    const auto arc_count = static_cast<Index>(layout.sides.size());
+    const auto made_of_pieces = arc_count + static_cast<Index>(seams.parts.size());
+    std::vector<Index> first(made_of_pieces + 1, 0);
+    for (Index k = 0; k < made_of_pieces; ++k) {
+        const bool on_seam = k < arc_count && !seams.uses[k].empty();
+        first[k + 1] = first[k] + (on_seam ? 0 : counts[k]);
+    }
     DisjointSets sets(first.back());
     for (const LayoutPatch& patch : layout.patches) {
         const auto sides = four_sides(patch);
         for (int k = 0; k < 2; ++k) {
-            const auto near = pieces_along(sides[k], first, counts), far = pieces_along(sides[k + 2], first, counts);
+            const auto near = pieces_along(sides[k], seams, first, counts);
+            const auto far = pieces_along(sides[k + 2], seams, first, counts);
             for (std::size_t i = 0; i < near.size(); ++i) sets.join(near[i], far[far.size() - 1 - i]);
         }
     }
     Index rows = 0;
     const std::vector<Index> row_of = std::move(sets).numbers(rows);
     ArcProblem problem = arcs;
-    problem.sums.clear();
-    const auto arc_count = static_cast<Index>(counts.size());
-    problem.wanted.resize(arc_count + rows, 1);
-    problem.weights.resize(arc_count + rows, 0);
-    problem.least.resize(arc_count + rows, 1);
-    for (Index a = 0; a < arc_count; ++a) {
-        problem.sums.push_back({{a}, {}});
-        for (Index i = first[a]; i < first[a + 1]; ++i) problem.sums.back().right.push_back(arc_count + row_of[i]);
+    const auto known = static_cast<Index>(arcs.least.size());
+    problem.least.resize(known + rows, 1);
+    std::erase_if(problem.sums, [&](const EqualSums& sum) { return sum.left[0] < arc_count && sum.right[0] < arc_count; });
+    for (Index k = 0; k < made_of_pieces; ++k) {
+        if (k < arc_count && !seams.uses[k].empty()) continue;
+        problem.sums.push_back({{k}, {}});
+        for (Index i = first[k]; i < first[k + 1]; ++i) problem.sums.back().right.push_back(known + row_of[i]);
     }
     return problem;
 }

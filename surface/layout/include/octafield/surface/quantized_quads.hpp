@@ -21,6 +21,9 @@ struct QuantizedQuadsOptions {
     // that structure, so that they follow it less closely.
     bool coarsest = false;
     ArcWeights weights = ArcWeights::equal;
+    // For a surface cut open (FeatureCut::origins): parts of its boundary with the same origins are one curve again,
+    // and get the same vertices on both sides. None: the boundary stays open.
+    std::vector<Index> origins = {};
     int most_nodes = 1000;  // of branch and bound, for each connected part
 };
 
@@ -39,6 +42,10 @@ struct QuantizedQuads : LayoutQuads {
 // Opposite sides of each patch get equal sums, every arc 1 at least, with the least sum of deviations: by a mixed
 // integer programme, stopped by the number of nodes and never by time, so that the result is always the same. Patches
 // are mapped as in layout_quads, sides linear in parameters between whole numbers.
+//
+// On a seam, where two parts of the boundary are one again, arcs of the two sides end at different places: all of these
+// cut the seam into parts, 0 quads at least, whose sums both sides' arcs are. Places without a quad between them become
+// one vertex. What the mesh has to have as vertices: corners, singular points, and where other than two seams meet.
 //
 // Throws as layout_quads, and GeometryError (kind "no_integers", elements: sides of the layout), SolverError (kind
 // "node_limit").
