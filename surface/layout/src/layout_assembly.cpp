@@ -134,16 +134,13 @@ void add_chords(QuadLayout& layout) {
     for (LayoutChord& chord : layout.chords) chord.length /= static_cast<double>(chord.sides.size());
 }
 
-Index boundary_cut(const QuadLayout& layout) {
-    for (const LayoutPatch& patch : layout.patches) {
-        if (patch.kind != PatchKind::annulus) continue;
-        for (const auto& loop : patch.loops) {
-            if (layout.sides[loop[0].side].first >= 0) continue;
-            const auto& nodes = layout.pieces->chains[loop[0].side].nodes;
-            return std::min_element(nodes.begin(), nodes.end(),
-                                    [](const auto& a, const auto& b) { return a.node < b.node; })
-                ->node;
-        }
+Index boundary_cut(const QuadLayout& layout, const LayoutPatch& patch) {
+    if (patch.kind != PatchKind::annulus) return -1;
+    for (const auto& loop : patch.loops) {
+        if (layout.sides[loop[0].side].first >= 0) continue;
+        const auto& nodes = layout.pieces->chains[loop[0].side].nodes;
+        return std::min_element(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.node < b.node; })
+            ->node;
     }
     return -1;
 }

@@ -11,7 +11,7 @@ namespace octafield::surface::detail {
 void assemble(QuadLayout& layout, const LayoutPoints& points, std::shared_ptr<const LayoutPieces> pieces);
 // Needs patches without T-joints.
 void add_chords(QuadLayout& layout);
-// Where the first annulus with a closed curve of the boundary is to be cut; -1: there is none.
-Index boundary_cut(const QuadLayout& layout);
+// Where a patch is to be cut that is an annulus with a closed curve of the boundary; -1: it is none.
+Index boundary_cut(const QuadLayout& layout, const LayoutPatch& patch);
 
 }  // namespace octafield::surface::detail

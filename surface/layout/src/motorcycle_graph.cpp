@@ -129,8 +129,10 @@ QuadLayout graph_with(const detail::LayoutInput& input, const Progress& progress
     return layout;
 }
 
-// A vertex of the surface inside the first patch that is no disk, apart from points; -1: none.
-Index inner_cut(const QuadLayout& layout, const detail::LayoutInput& input) {
+// For each patch that is no disk, a vertex of the surface to cut it from: on the boundary, or inside and apart from
+// points, if there is one.
+std::vector<Index> cuts_for(const QuadLayout& layout, const detail::LayoutInput& input) {
+    std::vector<Index> result;
     const CutSurface& cut = layout.pieces->cut;
     const EdgeTopology& topology = layout.domain.topology();
     std::vector<bool> blocked(layout.domain.vertex_count(), false);
@@ -142,14 +144,19 @@ Index inner_cut(const QuadLayout& layout, const detail::LayoutInput& input) {
         if (cut.is_cut[c] && cut.nodes[c] < static_cast<Index>(blocked.size())) blocked[cut.nodes[c]] = true;
     for (std::size_t p = 0; p < layout.patches.size(); ++p) {
         if (layout.patches[p].euler_characteristic == 1) continue;
+        const Index on_boundary = detail::boundary_cut(layout, layout.patches[p]);
+        if (on_boundary >= 0) {
+            result.push_back(on_boundary);
+            continue;
+        }
         Index lowest = layout.domain.vertex_count();
         for (const Index polygon : layout.pieces->patch_polygons[p])
             for (Index c = cut.first[polygon]; c < cut.first[polygon + 1]; ++c)
                 if (cut.nodes[c] < lowest && !blocked[cut.nodes[c]] && is_point[cut.nodes[c]] < 0)
                     lowest = cut.nodes[c];
-        if (lowest < layout.domain.vertex_count()) return lowest;
+        if (lowest < layout.domain.vertex_count()) result.push_back(lowest);
     }
-    return -1;
+    return result;
 }
 
 }  // namespace
@@ -159,10 +166,9 @@ QuadLayout motorcycle_graph(const ImposedField& field, const LayoutCurveOptions&
     while (true) {
         const detail::LayoutInput input(field, with_cuts, true);
         QuadLayout layout = graph_with(input, progress);
-        Index cut = detail::boundary_cut(layout);
-        if (cut < 0) cut = inner_cut(layout, input);
-        if (cut < 0) return layout;
-        with_cuts.cut_vertices.push_back(cut);
+        const std::vector<Index> cuts = cuts_for(layout, input);
+        if (cuts.empty()) return layout;
+        with_cuts.cut_vertices.insert(with_cuts.cut_vertices.end(), cuts.begin(), cuts.end());
     }
 }
 

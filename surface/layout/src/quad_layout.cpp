@@ -28,9 +28,12 @@ QuadLayout quad_layout(const ImposedField& field, const LayoutCurveOptions& opti
     LayoutCurveOptions with_cuts = options;
     while (true) {
         QuadLayout layout = layout_with(field, with_cuts, progress);
-        const Index cut = cut_annuli ? detail::boundary_cut(layout) : -1;
-        if (cut < 0) return layout;
-        with_cuts.cut_vertices.push_back(cut);
+        const std::size_t before = with_cuts.cut_vertices.size();
+        for (const LayoutPatch& patch : layout.patches) {
+            const Index cut = cut_annuli ? detail::boundary_cut(layout, patch) : -1;
+            if (cut >= 0) with_cuts.cut_vertices.push_back(cut);
+        }
+        if (with_cuts.cut_vertices.size() == before) return layout;
     }
 }
 

@@ -86,7 +86,8 @@ void SeparatrixTracer::look_at(const LocalField::Place& at, Complex offset, int 
         });
         if (known == found.end()) {
             found.push_back(seen);
-        } else if (from > known->from || seen.behind < known->behind) {  // what is nearer is told better
+        } else if (where.real() - from > length && (from > known->from || seen.behind < known->behind)) {
+            // What is nearer is told better, but not from the triangles at the point: the curve may be past it.
             *known = seen;
         }
     }

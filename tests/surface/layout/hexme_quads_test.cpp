@@ -4,6 +4,7 @@
 #include "octafield/error.hpp"
 #include "octafield/surface/feature_cut.hpp"
 #include "octafield/surface/quantized_quads.hpp"
+#include "octafield/surface/corner_pattern.hpp"
 #include <chrono>
 
 namespace octafield::surface {
@@ -22,8 +23,19 @@ TEST(HexmeQuads, Try) {
             const FeatureCut cut = cut_along_features(whole);
             stage = "field";
             const DirectionField direction = direction_field(cut.domain);
-            const SingularPattern pattern = singular_pattern(direction, surface_singularities(direction));
+            const SingularPattern computed = singular_pattern(direction, surface_singularities(direction));
+            std::vector<CornerQuads> corners = computed.corners;
+            for (auto& c : corners) c.quads = std::max(1, c.quads);
+            const SingularPattern pattern = with_corner_quads(cut.domain, computed, std::getenv("ANGLE") ? default_corner_quads(cut.domain) : corners);
             stage = "impose";
+            if (std::getenv("CORN")) {
+                std::map<Index, int> by_angle;
+                for (auto& c : default_corner_quads(cut.domain)) by_angle[c.vertex] = c.quads;
+                std::map<Index, int> found;
+                for (auto& c : singular_pattern(direction, surface_singularities(direction)).corners) found[c.vertex] = c.quads;
+                for (auto& [v, q] : found) if (q != (by_angle.contains(v) ? by_angle[v] : 2)) std::printf("corner %d field %d angle %d\n", v, q, by_angle.contains(v) ? by_angle[v] : 2);
+                for (auto& [v, q] : by_angle) if (!found.contains(v)) std::printf("corner %d field 2 angle %d\n", v, q);
+            }
             ImposedFieldOptions how;
             how.inadmissible = Inadmissible::move;
             ImposedField field;
@@ -41,6 +53,27 @@ TEST(HexmeQuads, Try) {
             if (std::getenv("TOL")) curves.end_tolerance = std::atof(std::getenv("TOL")) * std::sqrt(triangle_areas(cut.domain.mesh()).sum());
             const QuadLayout layout = motorcycle_graph(field, curves);
             const double t2 = sec();
+            if (std::getenv("DBG")) {
+                double worst = 0;
+                for (const auto& c : field.conditions) worst = std::max(worst, c.size_factor);
+                std::printf("way %s mismatch %g size factor %g\n", way, layout.largest_mismatch, worst);
+                for (std::size_t p = 0; p < layout.patches.size(); ++p) {
+                    const auto& patch = layout.patches[p];
+                    if (std::getenv("BAD") && patch.kind == PatchKind::quad) continue;
+                    std::printf("p%zu chi %d corners %d:", p, patch.euler_characteristic, patch.corners);
+                    std::size_t k = 0;
+                    for (const auto& loop : patch.loops) for (std::size_t i = 0; i < loop.size(); ++i) {
+                        if (k < patch.corner_sides.size() && patch.corner_sides[k] == (Index)i) { std::printf(" |"); ++k; }
+                        { const auto& sd = layout.sides[loop[i].side]; const auto& v = layout.vertices[loop[i].reversed ? sd.last : sd.first]; std::printf(" k%d:v%d:t%d-%d(c%d %.4f)", (int)v.kind, v.vertex, v.index_times_four, loop[i].side, sd.curve, sd.length()); }
+                    }
+                    std::puts("");
+                }
+                for (std::size_t s = 0; s < layout.sides.size(); ++s) if (!std::getenv("BAD") && layout.sides[s].curve < 0) {
+                    const auto& v = layout.sides[s];
+                    std::printf("b%zu %d-%d orig %g %g %g -> %g %g %g\n", s, v.first, v.last, v.points(0,0), v.points(0,1), v.points(0,2), v.points(v.points.rows()-1,0), v.points(v.points.rows()-1,1), v.points(v.points.rows()-1,2));
+                }
+                for (auto& pt : pattern.points) { auto x = imposed_position(cut.domain, pt); std::printf("t %d at %g %g %g\n", pt.index_times_four, x[0], x[1], x[2]); }
+            }
             stage = "quads";
             QuantizedQuadsOptions options;
             options.quad_count = std::getenv("QUADS") ? std::atoi(std::getenv("QUADS")) : 2000;
