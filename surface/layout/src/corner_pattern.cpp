@@ -153,4 +153,29 @@ SingularPattern with_corner_quads(const SurfaceDomain& domain, SingularPattern p
     return pattern;
 }
 
+std::vector<CornerQuads> finite_corner_quads(const SurfaceDomain& domain, const SingularPattern& pattern) {
+    std::map<Index, int> by_angle, quads;
+    for (const CornerQuads& c : default_corner_quads(domain)) quads[c.vertex] = by_angle[c.vertex] = c.quads;
+    for (const CornerQuads& c : pattern.corners) quads[c.vertex] = c.quads;
+    const auto angle_quads = [&](Index v) { return by_angle.contains(v) ? by_angle[v] : 2; };
+    const double reach = 4 * domain.mean_edge_length();
+    for (auto& [vertex, count] : quads) {
+        for (; count < 1; ++count) {
+            Index nearest = -1;
+            double least = reach;
+            for (const auto& [other, more] : quads) {
+                const double distance =
+                    (domain.mesh().vertices.row(other) - domain.mesh().vertices.row(vertex)).norm();
+                if (more <= angle_quads(other) || other == vertex || distance >= least) continue;
+                nearest = other;
+                least = distance;
+            }
+            if (nearest >= 0) --quads[nearest];
+        }
+    }
+    std::vector<CornerQuads> result;
+    for (const auto& [vertex, count] : quads) result.push_back({vertex, count});
+    return result;
+}
+
 }  // namespace octafield::surface

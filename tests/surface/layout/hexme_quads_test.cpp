@@ -24,8 +24,7 @@ TEST(HexmeQuads, Try) {
             stage = "field";
             const DirectionField direction = direction_field(cut.domain);
             const SingularPattern computed = singular_pattern(direction, surface_singularities(direction));
-            std::vector<CornerQuads> corners = computed.corners;
-            for (auto& c : corners) c.quads = std::max(1, c.quads);
+            const std::vector<CornerQuads> corners = finite_corner_quads(cut.domain, computed);
             const SingularPattern pattern = with_corner_quads(cut.domain, computed, std::getenv("ANGLE") ? default_corner_quads(cut.domain) : corners);
             stage = "impose";
             if (std::getenv("CORN")) {

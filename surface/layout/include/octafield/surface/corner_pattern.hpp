@@ -15,4 +15,9 @@ namespace octafield::surface {
 SingularPattern with_corner_quads(const SurfaceDomain& domain, SingularPattern pattern,
                                   const std::vector<CornerQuads>& corners);
 
+// The quads that the pattern has at corners, but 1 where it has fewer. Such a corner often comes with one of more quads
+// than its angle has, one or two edges along the boundary, where the computed field made up for it: the nearest within
+// four mean edge lengths gets its quads by the angle.
+std::vector<CornerQuads> finite_corner_quads(const SurfaceDomain& domain, const SingularPattern& pattern);
+
 }  // namespace octafield::surface
