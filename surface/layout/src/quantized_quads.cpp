@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "octafield/error.hpp"
 #include "quad_builder.hpp"
+#include "quad_smoother.hpp"
 #include "tile_arcs.hpp"
 
 namespace octafield::surface {
@@ -75,10 +78,19 @@ Chosen choose(const QuadLayout& layout, const detail::Seams& seams, const Quanti
     const bool by_length = options.edge_length > 0 && std::isfinite(options.edge_length);
     if (by_length == (options.quad_count > 0) || !(options.edge_length >= 0) || options.quad_count < 0)
         throw InvalidInput("give either an edge length or a number of quads, > 0", "bad_option");
+    if (options.smoothing < 0) throw InvalidInput("the number of rounds of smoothing is >= 0", "bad_option");
     if (options.most_nodes < 1) throw InvalidInput("branch and bound needs a node at least", "bad_option");
     const Chooser chooser(layout, seams, options);
     return by_length ? chooser.at_size(options.edge_length)
                      : chooser.with_quads(static_cast<double>(options.quad_count));
+}
+
+// Without any, each vertex is its own.
+std::vector<Index> origins_of(const QuadLayout& layout, const QuantizedQuadsOptions& options) {
+    if (!options.origins.empty()) return options.origins;
+    std::vector<Index> result(layout.domain.vertex_count());
+    std::iota(result.begin(), result.end(), 0);
+    return result;
 }
 
 void set_blocks(QuantizedQuads& result) {
@@ -98,25 +110,25 @@ QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOpt
     if (!layout.pieces || layout.patches.empty()) throw InvalidInput("the layout has no patches", "bad_option");
     detail::require_quads(layout);
     report_or_throw(progress, "integers", 0, NAN);
-    detail::Seams seams;
-    seams.uses.resize(layout.sides.size());
-    if (!options.origins.empty()) seams = detail::find_seams(layout, options.origins);
+    const detail::Seams seams = detail::find_seams(layout, origins_of(layout, options));
     Chosen chosen = choose(layout, seams, options);
     if (!(chosen.quads <= most_quads))
         throw InvalidInput("the size would give more than 1e8 quads", "bad_option");
-    detail::QuadBuilder builder(layout,
-                                options.origins.empty()
-                                    ? detail::side_grids(layout, chosen.arcs.counts)
-                                    : detail::seamed_grids(layout, seams, chosen.arcs.counts, chosen.part_counts));
+    detail::SideGrids grids = detail::seamed_grids(layout, seams, chosen.arcs.counts, chosen.part_counts);
+    const auto on_seams = grids.on_seams;
+    detail::QuadBuilder builder(layout, std::move(grids));
     for (Index p = 0; p < static_cast<Index>(layout.patches.size()); ++p) {
-        report_or_throw(progress, "map", p / static_cast<double>(layout.patches.size()), NAN);
+        report_or_throw(progress, "map", 0.8 * p / static_cast<double>(layout.patches.size()), NAN);
         builder.add_patch(p);
     }
     QuantizedQuads result;
     static_cast<LayoutQuads&>(result) = std::move(builder).result();
+    set_blocks(result);
+    report_or_throw(progress, "smooth", 0.8, NAN);
+    if (options.smoothing > 0)
+        detail::smooth({layout, seams, on_seams, result.tiles, result.irregular}, options.smoothing, result.mesh);
     detail::require_convex(result);
     require_valid(result.mesh, false);
-    set_blocks(result);
     for (const LayoutVertex& vertex : layout.vertices) result.t_joints += vertex.kind == LayoutVertexKind::t_joint;
     result.arc_counts = std::move(chosen.arcs.counts);
     result.size = chosen.size;

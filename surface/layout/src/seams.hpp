@@ -30,6 +30,9 @@ struct Seam {
     Index part_count() const { return static_cast<Index>(stops.size()) - 1; }
 };
 
+// Lengths along a closed seam may go on behind its end, or before its start; others end.
+Eigen::Vector3d position_on(const Seam& seam, double at);
+
 struct SeamUse {
     Index seam, part;  // part of all
     bool forward;

@@ -57,13 +57,18 @@ double place_of(const Seam& seam, double parameters) {
     return seam.length + between_knots(seam, parameters - whole, parameters_at, length_at);
 }
 
-Eigen::Vector3d position_at(const Seam& seam, double at) {
-    if (seam.closed && at > seam.length) at -= seam.length;
+}  // namespace
+
+Eigen::Vector3d position_on(const Seam& seam, double at) {
+    if (seam.closed) at -= seam.length * std::floor(at / seam.length);
     return between_knots(seam, at, length_at, [](const Seam::Knot& k) { return k.position; });
 }
 
+namespace {
+
 // Stops that become one vertex meet at a node, or in their middle.
-SeamGrid lay_out(const Seam& seam, const std::vector<int>& part_counts, SideGrids& grids) {
+SeamGrid lay_out(const Seams& seams, Index number, const std::vector<int>& part_counts, SideGrids& grids) {
+    const Seam& seam = seams.seams[number];
     SeamGrid result;
     result.at_stop = {0};
     for (Index i = 0; i < seam.part_count(); ++i)
@@ -105,9 +110,8 @@ SeamGrid lay_out(const Seam& seam, const std::vector<int>& part_counts, SideGrid
             continue;
         }
         result.ids[i] = static_cast<Index>(grids.positions.size());
-        double at = result.places[i];
-        if (at < 0) at += seam.length;
-        grids.positions.push_back(position_at(seam, at));
+        grids.positions.push_back(position_on(seam, result.places[i]));
+        grids.on_seams.push_back({number, result.places[i]});
     }
     return result;
 }
@@ -165,12 +169,14 @@ SideGrids seamed_grids(const QuadLayout& layout, const Seams& seams, const std::
                        const std::vector<int>& part_counts) {
     SideGrids grids;
     grids.positions = seams.node_positions;
+    grids.on_seams.assign(seams.nodes.size(), {-1, 0});
     grids.vertices.resize(layout.sides.size());
     grids.along.resize(layout.sides.size());
     std::vector<Index> id_of(layout.vertices.size(), -1);
     std::vector<SeamGrid> laid_out;
-    for (const Seam& seam : seams.seams) {
-        laid_out.push_back(lay_out(seam, part_counts, grids));
+    for (std::size_t n = 0; n < seams.seams.size(); ++n) {
+        const Seam& seam = seams.seams[n];
+        laid_out.push_back(lay_out(seams, static_cast<Index>(n), part_counts, grids));
         for (std::size_t i = 0; i < seam.stops.size(); ++i)
             for (const Index v : seam.stops[i].vertices) id_of[v] = laid_out.back().ids[laid_out.back().at_stop[i]];
     }

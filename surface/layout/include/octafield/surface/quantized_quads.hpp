@@ -24,6 +24,9 @@ struct QuantizedQuadsOptions {
     // For a surface cut open (FeatureCut::origins): parts of its boundary with the same origins are one curve again,
     // and get the same vertices on both sides. None: the boundary stays open.
     std::vector<Index> origins = {};
+    // Rounds in which vertices are moved where that raises the least scaled Jacobian of the quads round them, on the
+    // surface, or along the boundary and seams; singular points and corners stay. 0: none.
+    int smoothing = 20;
     int most_nodes = 1000;  // of branch and bound, for each connected part
 };
 
