@@ -15,10 +15,67 @@ namespace {
 using detail::CutSurface;
 using detail::Slot;
 
+// Short joints come first, as what lies behind a point is not reached through it; of points side by side the one that
+// is missed by less.
+double price(const detail::Passing& passing) { return passing.length + 4 * std::abs(passing.offset); }
+
 struct Tracks {
     std::vector<LayoutCurve> walls;
     std::vector<detail::Track> tracks;
 };
+
+// Which separatrix of a point a near one runs along is not always told right from beside it.
+std::vector<Slot> likely_slots(const detail::LayoutPoints& points, const Slot& slot) {
+    const detail::LayoutPoint& point = points.points[slot.point];
+    const auto count = static_cast<int>(point.slots.size());
+    std::vector<Slot> result = {slot};
+    for (const int step : {1, -1}) {
+        const int next = slot.slot + step;
+        if (!point.boundary) result.push_back({slot.point, (next + count) % count});
+        if (point.boundary && next >= 0 && next < count) result.push_back({slot.point, next});
+    }
+    return result;
+}
+
+using Candidate = std::pair<Slot, detail::Passing>;
+
+void sort_candidates(std::vector<Candidate>& candidates) {
+    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return std::tuple(price(a.second), a.first, a.second.slot) <
+               std::tuple(price(b.second), b.first, b.second.slot);
+    });
+}
+
+std::vector<Candidate> passed_points(const std::vector<detail::Track>& tracks) {
+    std::vector<Candidate> result;
+    for (const detail::Track& track : tracks)
+        for (const auto& passing : track.passing) result.emplace_back(track.slot, passing);
+    sort_candidates(result);
+    return result;
+}
+
+// Tracks that end at a third one from its two sides at nearly the same place: each would come to the other's point.
+// Left as they are, they bound strips next to nothing wide, for which there may be no whole numbers.
+std::vector<Candidate> opposite_ends(const std::vector<detail::Track>& tracks, double tolerance) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < tracks.size(); ++i)
+        if (tracks[i].stopped_by >= 0) order.push_back(i);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::tuple(tracks[a].stopped_by, tracks[a].stopped_at, a) <
+               std::tuple(tracks[b].stopped_by, tracks[b].stopped_at, b);
+    });
+    std::vector<Candidate> result;
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t j = i + 1; j < order.size(); ++j) {
+            const detail::Track &a = tracks[order[i]], &b = tracks[order[j]];
+            const double apart = b.stopped_at - a.stopped_at;
+            if (b.stopped_by != a.stopped_by || apart > tolerance) break;
+            if (a.from_left != b.from_left)
+                result.push_back({a.slot, {b.slot, a.length + b.length, a.from_left ? apart : -apart}});
+        }
+    sort_candidates(result);
+    return result;
+}
 
 // Joins what passes a point until nothing more does; what is joined is there from the start of the next race.
 Tracks joined_tracks(const detail::LayoutInput& input, const Progress& progress) {
@@ -35,25 +92,23 @@ Tracks joined_tracks(const detail::LayoutInput& input, const Progress& progress)
                 if (!taken.contains({p, s})) slots.push_back({p, s});
         result.tracks =
             detail::race(input.local, tracer, result.walls, slots, input.end_tolerance, input.max_length);
-        std::vector<std::pair<Slot, detail::Passing>> candidates;
-        for (const detail::Track& track : result.tracks)
-            for (const auto& passing : track.passing) candidates.emplace_back(track.slot, passing);
-        std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-            return std::tie(a.second.length, a.first, a.second.slot) <
-                   std::tie(b.second.length, b.first, b.second.slot);
-        });
-        const std::size_t before = result.walls.size();
-        for (const auto& [from, to] : candidates) {
-            if (from == to.slot || taken.contains(from) || taken.contains(to.slot) ||
-                refused.contains({from, to.slot}))
-                continue;
-            auto curve = tracer.joined(from, to);
-            if (!curve) {
-                refused.insert({from, to.slot});
-                continue;
+        std::size_t before = result.walls.size();
+        for (const auto& candidates : {passed_points(result.tracks), opposite_ends(result.tracks, input.end_tolerance)}) {
+            if (result.walls.size() > before) break;
+            for (const auto& [from, to] : candidates) {
+                if (taken.contains(from) || refused.contains({from, to.slot})) continue;
+                bool joined = false;
+                for (const Slot& slot : likely_slots(input.points, to.slot)) {
+                    if (from == slot || taken.contains(slot)) continue;
+                    auto curve = tracer.joined(from, {slot, to.length, to.offset});
+                    if (!curve) continue;
+                    taken.insert({from, slot});
+                    result.walls.push_back(std::move(*curve));
+                    joined = true;
+                    break;
+                }
+                if (!joined) refused.insert({from, to.slot});
             }
-            taken.insert({from, to.slot});
-            result.walls.push_back(std::move(*curve));
         }
         if (result.walls.size() == before) return result;
     }

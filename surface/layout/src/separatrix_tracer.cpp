@@ -16,6 +16,7 @@ constexpr double sector_part = 0.35;  // of the angle between separatrices: off 
 constexpr int most_shots = 8;
 constexpr std::size_t most_passing = 8;  // what a curve passes later is out of its reach
 constexpr double zone = 3;               // tolerances from a point, along edges
+constexpr double straight = pi / 4;       // off the way back, in parameters
 constexpr double clearance = 1e-7;       // of an edge, from its ends
 
 double wrapped(double angle, double period = 2 * pi) { return angle - period * std::round(angle / period); }
@@ -86,8 +87,10 @@ void SeparatrixTracer::look_at(const LocalField::Place& at, Complex offset, int 
         });
         if (known == found.end()) {
             found.push_back(seen);
-        } else if (where.real() - from > length && (from > known->from || seen.behind < known->behind)) {
-            // What is nearer is told better, but not from the triangles at the point: the curve may be past it.
+        } else if (where.real() - from > length &&
+                   ((from > known->from && seen.behind < straight) || seen.behind < known->behind)) {
+            // What is nearer is told better, but not from the triangles at the point, where the curve may be past it,
+            // nor from beside it.
             *known = seen;
         }
     }

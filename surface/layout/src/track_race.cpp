@@ -47,7 +47,8 @@ public:
             for (Index i = 0; i < static_cast<Index>(walls[w].triangles.size()); ++i)
                 in_triangle_[walls[w].triangles[i]].push_back(part(walls[w], static_cast<Index>(w), i));
         for (const Slot& slot : slots) {
-            tracks_.push_back({slot, {}, -1, 0, false, {}});
+            tracks_.push_back({});
+            tracks_.back().slot = slot;
             stops_.push_back(never);
             last_place_.push_back(-1);
             walks_.push_back(tracer.begin(slot));
@@ -81,7 +82,8 @@ private:
         Index track;
         Index place;  // of the triangle it stops in
         Index other;
-        double other_length;
+        double other_length;  // along the other one
+        bool from_left;
         bool operator<(const Event& b) const {  // the first one is the greatest
             return std::tie(b.time, b.stop, b.track, b.other) < std::tie(time, stop, track, other);
         }
@@ -107,7 +109,11 @@ private:
 
     // Lengths along both where they cross, by straight lines. None if they run side by side: curves of one family do
     // not meet but for rounding.
-    std::optional<std::pair<double, double>> crossing(Index t, const Part& a, const Part& b) const {
+    struct Crossing {
+        double here, there;
+        bool from_left;  // of b, where a comes from
+    };
+    std::optional<Crossing> crossing(Index t, const Part& a, const Part& b) const {
         const Complex p = place_of(charts_, t, a.from), u = place_of(charts_, t, a.to) - p;
         const Complex q = place_of(charts_, t, b.from), v = place_of(charts_, t, b.to) - q;
         const double area = cross(u, v);
@@ -116,7 +122,7 @@ private:
             fraction = fraction > 0 ? std::min(fraction, 1.0) : 0.0;
             return part.first + fraction * (part.last - part.first);
         };
-        return std::pair(along(a, cross(q - p, v) / area), along(b, cross(q - p, u) / area));
+        return Crossing{along(a, cross(q - p, v) / area), along(b, cross(q - p, u) / area), area > 0};
     }
 
     // The last triangle of its walk is new.
@@ -129,21 +135,21 @@ private:
             if (!cross_one_another(own, other)) continue;
             const auto crossed = crossing(t, own, other);
             if (!crossed) continue;
-            const auto [here, there] = *crossed;
+            const auto [here, there, from_left] = *crossed;
             if (is_wall(other.curve)) {
-                events_.push({here, true, track, place, other.curve, -1});
+                events_.push({here, true, track, place, other.curve, there, from_left});
                 continue;
             }
             const Index rival = track_of(other.curve);
             if (std::tie(there, rival) < std::tie(here, track)) {
-                events_.push({here, true, track, place, other.curve, there});
+                events_.push({here, true, track, place, other.curve, there, from_left});
             } else {
-                events_.push({there, true, rival, other.place, own.curve, here});
+                events_.push({there, true, rival, other.place, own.curve, here, !from_left});
             }
         }
         in_triangle_[t].push_back(own);
         if (!walks_[track].trace.boundary && walks_[track].length <= max_length_)
-            events_.push({walks_[track].length, false, track, -1, -1, 0});
+            events_.push({walks_[track].length, false, track, -1, -1, 0, false});
     }
 
     void go_on(Index track) {
@@ -156,6 +162,8 @@ private:
         if (!is_wall(event.other) && event.other_length > stops_[track_of(event.other)]) return;
         stops_[event.track] = event.time;
         tracks_[event.track].stopped_by = event.other;
+        tracks_[event.track].stopped_at = event.other_length;
+        tracks_[event.track].from_left = event.from_left;
         last_place_[event.track] = event.place;
     }
 

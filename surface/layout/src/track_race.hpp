@@ -11,6 +11,8 @@ struct Track {
     Slot slot;
     LayoutCurve curve;             // to the end of the triangle that it stops in
     Index stopped_by = -1;         // wall, or number of walls plus track; -1: ends at the boundary
+    double stopped_at = 0;         // length along that one, from its start
+    bool from_left = false;        // on which side of it this one comes
     double length = 0;             // until it stops, in parameters
     bool ended = false;            // otherwise it is longer than allowed
     std::vector<Passing> passing;  // points passed before, by slot
