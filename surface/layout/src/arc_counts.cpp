@@ -96,8 +96,10 @@ public:
         if (Cbc_isProvenInfeasible(model_.get()))
             throw GeometryError("no whole numbers fit the " + std::to_string(part.arcs.size()) +
                                     " arcs of the T-mesh (" + first_few(part.arcs) +
-                                    "): some patch would have an arc as long as itself and another one; raise the end "
-                                    "tolerance so that near misses are joined",
+                                    ") with a quad at least on each: some arc would have to be as long as itself and "
+                                    "another one. Where separatrices miss one another by little, change the end "
+                                    "tolerance; where faces meet along features, other quads at corners, or other "
+                                    "singular points, are needed for the faces to fit one another",
                                 "no_integers", part.arcs);
         const double* found = Cbc_bestSolution(model_.get());
         if (!found)

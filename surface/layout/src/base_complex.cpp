@@ -32,8 +32,8 @@ private:
     void add_chords();
 
     const Quads& quads_;
-    std::vector<Index> mates_;     // of each side; -1: boundary
-    std::vector<bool> marked_;     // of each side
+    std::vector<Index> mates_;             // of each side; -1: boundary
+    std::vector<bool> marked_;             // of each side
     std::vector<std::vector<Index>> out_;  // sides from each vertex
     BaseComplex result_;
     std::vector<int> turns_;  // of each quad: its side k is side (k + turn) % 4 of the block
@@ -159,9 +159,7 @@ void Complex::add_cut() {
 void Complex::add_chords() {
     const auto blocks = static_cast<Index>(sizes_.size());
     DisjointSets sets(2 * static_cast<std::size_t>(blocks));
-    const auto direction = [&](Index side) {
-        return 2 * result_.blocks[side / 4] + (side % 4 + turns_[side / 4]) % 2;
-    };
+    const auto direction = [&](Index side) { return 2 * result_.blocks[side / 4] + (side % 4 + turns_[side / 4]) % 2; };
     for (Index s = 0; s < static_cast<Index>(mates_.size()); ++s)
         if (marked_[s]) sets.join(direction(s), direction(mates_[s]));
     Index count = 0;

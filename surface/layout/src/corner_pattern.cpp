@@ -164,8 +164,7 @@ std::vector<CornerQuads> finite_corner_quads(const SurfaceDomain& domain, const 
             Index nearest = -1;
             double least = reach;
             for (const auto& [other, more] : quads) {
-                const double distance =
-                    (domain.mesh().vertices.row(other) - domain.mesh().vertices.row(vertex)).norm();
+                const double distance = (domain.mesh().vertices.row(other) - domain.mesh().vertices.row(vertex)).norm();
                 if (more <= angle_quads(other) || other == vertex || distance >= least) continue;
                 nearest = other;
                 least = distance;

@@ -17,7 +17,8 @@ std::vector<LayoutVertex> vertices_of(const LayoutPieces& pieces, const LayoutPo
     for (const Index node : pieces.vertex_nodes) {
         LayoutVertex vertex{LayoutVertexKind::boundary, -1, 0, pieces.cut.positions.row(node)};
         const bool is_vertex = node < static_cast<Index>(points.of_vertex.size());
-        if (pieces.cut.is_crossing[node]) vertex.kind = straight[node] ? LayoutVertexKind::t_joint : LayoutVertexKind::crossing;
+        if (pieces.cut.is_crossing[node])
+            vertex.kind = straight[node] ? LayoutVertexKind::t_joint : LayoutVertexKind::crossing;
         if (is_vertex && points.of_vertex[node] >= 0) {
             const LayoutPoint& point = points.points[points.of_vertex[node]];
             if (point.index_times_four != 0)
@@ -139,7 +140,8 @@ Index boundary_cut(const QuadLayout& layout, const LayoutPatch& patch) {
     for (const auto& loop : patch.loops) {
         if (layout.sides[loop[0].side].first >= 0) continue;
         const auto& nodes = layout.pieces->chains[loop[0].side].nodes;
-        return std::min_element(nodes.begin(), nodes.end(), [](const auto& a, const auto& b) { return a.node < b.node; })
+        return std::min_element(nodes.begin(), nodes.end(),
+                                [](const auto& a, const auto& b) { return a.node < b.node; })
             ->node;
     }
     return -1;

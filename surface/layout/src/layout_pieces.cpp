@@ -105,7 +105,9 @@ void walk_patches(LayoutPieces& pieces) {
     std::vector<bool> done(cut.nodes.size(), false);
     for (Index patch = 0; patch < cut.patch_count; ++patch) {
         // From corners first, then from other vertices of the layout.
-        const auto rank = [&](Index c) { return pieces.turns[c] ? 0 : pieces.vertex_of_node[cut.nodes[c]] >= 0 ? 1 : 2; };
+        const auto rank = [&](Index c) {
+            return pieces.turns[c] ? 0 : pieces.vertex_of_node[cut.nodes[c]] >= 0 ? 1 : 2;
+        };
         std::stable_sort(sides[patch].begin(), sides[patch].end(), [&](Index a, Index b) { return rank(a) < rank(b); });
         for (const Index start : sides[patch]) {
             if (done[start]) continue;

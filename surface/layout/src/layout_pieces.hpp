@@ -20,9 +20,9 @@ struct LayoutPieces {
     std::vector<NodeChain> chains;      // of each side
     // Of each side of a polygon that is cut: which part of which chain. -1: not cut.
     std::vector<Index> chain_of_side, part_of_side;
-    std::vector<bool> forward;                           // of each side of a polygon
-    std::vector<bool> turns;  // of each corner of a polygon: whether it is a corner of the patch
-    std::vector<std::vector<Index>> patch_polygons;      // ascending
+    std::vector<bool> forward;                       // of each side of a polygon
+    std::vector<bool> turns;                         // of each corner of a polygon: whether it is a corner of the patch
+    std::vector<std::vector<Index>> patch_polygons;  // ascending
     std::vector<std::vector<std::vector<Index>>> loops;  // of each patch: sides of polygons along its boundary curves,
                                                          // from a vertex of the layout, if there is one
 };

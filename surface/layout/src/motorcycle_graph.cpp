@@ -90,10 +90,10 @@ Tracks joined_tracks(const detail::LayoutInput& input, const Progress& progress)
         for (Index p = 0; p < static_cast<Index>(input.points.points.size()); ++p)
             for (int s = 0; s < static_cast<int>(input.points.points[p].slots.size()); ++s)
                 if (!taken.contains({p, s})) slots.push_back({p, s});
-        result.tracks =
-            detail::race(input.local, tracer, result.walls, slots, input.end_tolerance, input.max_length);
+        result.tracks = detail::race(input.local, tracer, result.walls, slots, input.end_tolerance, input.max_length);
         std::size_t before = result.walls.size();
-        for (const auto& candidates : {passed_points(result.tracks), opposite_ends(result.tracks, input.end_tolerance)}) {
+        for (const auto& candidates :
+             {passed_points(result.tracks), opposite_ends(result.tracks, input.end_tolerance)}) {
             if (result.walls.size() > before) break;
             for (const auto& [from, to] : candidates) {
                 if (taken.contains(from) || refused.contains({from, to.slot})) continue;

@@ -14,8 +14,9 @@ struct PatchMap {
     bool mean_value = false, folded = false;
 };
 
-// Harmonic, or with mean value weights where that folds; `folded` if both do. `along`: of all sides of the layout, where
-// each of their points goes on the rectangle's border, from 0, increasing; equal sums on opposite sides of the patch.
+// Harmonic, or with mean value weights where that folds; `folded` if both do. `along`: of all sides of the layout,
+// where each of their points goes on the rectangle's border, from 0, increasing; equal sums on opposite sides of the
+// patch.
 PatchMap patch_map(const QuadLayout& layout, Index patch, const std::vector<Eigen::VectorXd>& along);
 
 // Positions at the inner points (i width / n, j height / m), 0 < i < n, 0 < j < m: row (j - 1) (n - 1) + i - 1. Rows

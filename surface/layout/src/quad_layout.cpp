@@ -15,8 +15,8 @@ QuadLayout layout_with(const ImposedField& given, const LayoutCurveOptions& opti
     report_or_throw(progress, "cut", 0.9, NAN);
     const detail::LayoutInput input(given, options);
     detail::assemble(layout, input.points,
-                     std::make_shared<detail::LayoutPieces>(detail::layout_pieces(
-                         input.field, input.local.charts(), input.points, layout.curves.curves)));
+                     std::make_shared<detail::LayoutPieces>(
+                         detail::layout_pieces(input.field, input.local.charts(), input.points, layout.curves.curves)));
     detail::add_chords(layout);
     return layout;
 }

@@ -18,7 +18,9 @@ namespace octafield::surface::detail {
 namespace {
 
 using Vector = Eigen::Vector3d;
-constexpr double good_enough = 0.9;     // scaled Jacobian: vertices with no worse quads stay
+constexpr double good_enough = 0.9;  // scaled Jacobian: vertices with no worse quads stay
+constexpr double bad = 0.3;
+constexpr int most_rings = 4, relaxing_rounds = 20;
 constexpr double least_gain = 1e-4;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
 
@@ -102,7 +104,28 @@ public:
         for (Index q = 0; q < mesh.quads.rows(); ++q) normals_.push_back(surface_normal(q));
     }
 
+    // Optimised vertex by vertex; where that gets stuck, once more from where the vertices round bad quads are at the
+    // means of their neighbours, in growing rings. The better one is kept.
     void run(int rounds) {
+        optimise(rounds);
+        double least = least_quality();
+        for (int ring = 1; ring <= most_rings && least < bad; ++ring) {
+            const Points before = mesh_.vertices;
+            const auto places = places_;
+            relax(ring);
+            optimise(rounds);
+            const double found = least_quality();
+            if (found > least) {
+                least = found;
+                continue;
+            }
+            mesh_.vertices = before;
+            places_ = places;
+        }
+    }
+
+private:
+    void optimise(int rounds) {
         for (int round = 0; round < rounds; ++round) {
             bool moved = false;
             for (Index v = 0; v < static_cast<Index>(around_.size()); ++v)
@@ -111,7 +134,30 @@ public:
         }
     }
 
-private:
+    double least_quality() const {
+        double least = 1;
+        for (Index q = 0; q < mesh_.quads.rows(); ++q) least = std::min(least, quality(q));
+        return least;
+    }
+
+    void relax(int ring) {
+        std::vector<bool> near(around_.size(), false);
+        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+            for (int k = 0; k < 4 && quality(q) < bad; ++k) near[mesh_.quads(q, k)] = true;
+        for (int i = 0; i < ring; ++i) {
+            const std::vector<bool> inner = near;
+            for (std::size_t v = 0; v < near.size(); ++v)
+                for (const Index n : neighbours_[v]) near[v] = near[v] || inner[n];
+        }
+        for (int round = 0; round < relaxing_rounds; ++round)
+            for (Index v = static_cast<Index>(places_.size()); v < static_cast<Index>(near.size()); ++v) {
+                if (!near[v] || fixed_[v] || around_[v].empty()) continue;
+                Vector mean = Vector::Zero();
+                for (const Index n : neighbours_[v]) mean += position(n) / static_cast<double>(neighbours_[v].size());
+                mesh_.vertices.row(v) = parts_.nearest(part_[around_[v][0]], mean).first;
+            }
+    }
+
     Vector position(Index v) const { return mesh_.vertices.row(v); }
     bool on_seam(Index v) const { return v < static_cast<Index>(places_.size()); }
 

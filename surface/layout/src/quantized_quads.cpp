@@ -14,7 +14,7 @@ namespace octafield::surface {
 namespace {
 
 constexpr double most_quads = 1e8;
-constexpr int most_sizes = 6;        // tried for a number of quads
+constexpr int most_sizes = 6;         // tried for a number of quads
 constexpr double near_enough = 0.02;  // of that
 
 struct Chosen {
@@ -31,8 +31,8 @@ public:
         detail::ArcProblem fewest = problem_;
         fewest.wanted.assign(problem_.least.size(), 0);
         fewest.weights.assign(problem_.least.size(), 1);
-        problem_ = detail::split_problem(layout, seams, problem_,
-                                         detail::integer_counts(fewest, options.most_nodes).counts);
+        problem_ =
+            detail::split_problem(layout, seams, problem_, detail::integer_counts(fewest, options.most_nodes).counts);
     }
 
     Chosen at_size(double size) const {
@@ -62,7 +62,8 @@ public:
             if (std::abs(quads - wanted) <= near_enough * wanted) break;
             (quads > wanted ? low : high) = size;
             size *= std::sqrt(quads / wanted);
-            if (size <= low || size >= high) size = std::isinf(high) ? 1.5 * low : low > 0 ? std::sqrt(low * high) : high / 1.5;
+            if (size <= low || size >= high)
+                size = std::isinf(high) ? 1.5 * low : low > 0 ? std::sqrt(low * high) : high / 1.5;
         }
         return best;
     }
@@ -112,8 +113,7 @@ QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOpt
     report_or_throw(progress, "integers", 0, NAN);
     const detail::Seams seams = detail::find_seams(layout, origins_of(layout, options));
     Chosen chosen = choose(layout, seams, options);
-    if (!(chosen.quads <= most_quads))
-        throw InvalidInput("the size would give more than 1e8 quads", "bad_option");
+    if (!(chosen.quads <= most_quads)) throw InvalidInput("the size would give more than 1e8 quads", "bad_option");
     detail::SideGrids grids = detail::seamed_grids(layout, seams, chosen.arcs.counts, chosen.part_counts);
     const auto on_seams = grids.on_seams;
     detail::QuadBuilder builder(layout, std::move(grids));

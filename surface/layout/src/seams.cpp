@@ -16,11 +16,11 @@ constexpr double same_place = 1e-9;  // of a seam's length
 
 // Along one edge of the whole surface, from its lower vertex, on one of its two sides.
 struct Step {
-    double from, to;      // lengths
-    Index side;           // of the layout
+    double from, to;       // lengths
+    Index side;            // of the layout
     double before, after;  // lengths along that side, at from and to
     double parameters;
-    Index first, last;    // vertices of the layout at its ends, -1: none
+    Index first, last;  // vertices of the layout at its ends, -1: none
 };
 
 struct WholeEdge {
@@ -70,7 +70,7 @@ private:
     std::map<std::pair<Index, Index>, Index> edge_of_;
     std::vector<WholeEdge> edges_;
     std::map<Index, std::vector<std::pair<Index, Index>>> around_;  // edges at each vertex, and their other ends
-    std::map<Index, Eigen::Vector3d> position_of_;  // of vertices of the whole surface
+    std::map<Index, Eigen::Vector3d> position_of_;                  // of vertices of the whole surface
     std::map<Index, Index> node_of_;
     std::vector<bool> used_;
     Seams seams_;
@@ -79,8 +79,7 @@ private:
 void Finder::walk_border() {
     std::map<Index, Index> chain_from;
     for (std::size_t c = 0; c < pieces_.chains.size(); ++c)
-        if (pieces_.chains[c].curve < 0)
-            chain_from[pieces_.chains[c].nodes.front().node] = static_cast<Index>(c);
+        if (pieces_.chains[c].curve < 0) chain_from[pieces_.chains[c].nodes.front().node] = static_cast<Index>(c);
     std::set<Index> done;
     for (const auto& [start, chain] : chain_from) {
         if (done.contains(chain)) continue;
@@ -91,7 +90,8 @@ void Finder::walk_border() {
             double length = 0;
             for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
                 loop.push_back({nodes[i].node, at, length, nodes[i].length});
-                length += (pieces_.cut.positions.row(nodes[i + 1].node) - pieces_.cut.positions.row(nodes[i].node)).norm();
+                length +=
+                    (pieces_.cut.positions.row(nodes[i + 1].node) - pieces_.cut.positions.row(nodes[i].node)).norm();
             }
             at = chain_from.at(nodes.back().node);
         }
@@ -235,8 +235,7 @@ void Finder::add_seam(Index start, Index edge) {
 void Finder::add_parts(Seam& seam, const std::vector<std::pair<Index, bool>>& path, const std::vector<double>& starts) {
     const double length = starts.back();
     seam.first_part = static_cast<Index>(seams_.parts.size());
-    for (Index i = 0; i < seam.part_count(); ++i)
-        seams_.parts.push_back({seam.stops[i].at, seam.stops[i + 1].at, 0});
+    for (Index i = 0; i < seam.part_count(); ++i) seams_.parts.push_back({seam.stops[i].at, seam.stops[i + 1].at, 0});
     std::vector<Seam::Knot> slopes;  // by where they begin: parameters per length, and where they end in `position`
     for (std::size_t i = 0; i < path.size(); ++i) {
         const WholeEdge& edge = edges_[path[i].first];

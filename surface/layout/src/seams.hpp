@@ -12,8 +12,8 @@ struct SeamPart {
 };
 
 struct SeamStop {
-    double at;             // length along the seam
-    Index node = -1;       // place in Seams::nodes; -1: none
+    double at;                    // length along the seam
+    Index node = -1;              // place in Seams::nodes; -1: none
     std::vector<Index> vertices;  // of the layout
 };
 

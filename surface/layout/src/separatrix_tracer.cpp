@@ -16,7 +16,7 @@ constexpr double sector_part = 0.35;  // of the angle between separatrices: off 
 constexpr int most_shots = 8;
 constexpr std::size_t most_passing = 8;  // what a curve passes later is out of its reach
 constexpr double zone = 3;               // tolerances from a point, along edges
-constexpr double straight = pi / 4;       // off the way back, in parameters
+constexpr double straight = pi / 4;      // off the way back, in parameters
 constexpr double clearance = 1e-7;       // of an edge, from its ends
 
 double wrapped(double angle, double period = 2 * pi) { return angle - period * std::round(angle / period); }
@@ -207,8 +207,7 @@ bool SeparatrixTracer::step(Walk& walk, bool looking, const std::optional<Passin
         return true;
     }
     const LocalField::Exit exit = local_.exit(at, entry);
-    if (looking && walk.found.size() < most_passing)
-        look_round(at, walk.length, walk.length + exit.length, walk.found);
+    if (looking && walk.found.size() < most_passing) look_round(at, walk.length, walk.length + exit.length, walk.found);
     walk.length += exit.length;
     walk.side = {at.t, exit.side};
     walk.fraction = exit.fraction;

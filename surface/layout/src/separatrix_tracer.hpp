@@ -63,8 +63,8 @@ private:
 };
 
 struct SeparatrixTracer::Walk {
-    Trace trace;      // `passing` is not filled in
-    double length;    // up to the end of the last triangle
+    Trace trace;    // `passing` is not filled in
+    double length;  // up to the end of the last triangle
     double shear;
     Charts::Side side;  // that it ends on
     double fraction, heading;

@@ -135,7 +135,8 @@ void add_seamed(const LayoutSide& side, std::size_t number, const std::vector<Se
         for (int k = 1; k <= high - low; ++k) {
             const int at = use.forward ? low + k : high - k;
             ids.push_back(grid.ids[at]);
-            const double off = use.forward ? grid.places[at] - seam.stops[i].at : seam.stops[i + 1].at - grid.places[at];
+            const double off =
+                use.forward ? grid.places[at] - seam.stops[i].at : seam.stops[i + 1].at - grid.places[at];
             const double x = use.before + off;
             if (x > anchors.back().first + apart && x < whole - apart) anchors.emplace_back(x, before + k);
         }

@@ -12,7 +12,7 @@ struct SideGrids {
         Index seam;  // -1: a node
         double at;   // length along it
     };
-    std::vector<OnSeam> on_seams;  // of the first vertices; the others are inside the surface
+    std::vector<OnSeam> on_seams;        // of the first vertices; the others are inside the surface
     std::vector<Eigen::VectorXd> along;  // of each point of a side: its place, counted in quads; increasing
 };
 

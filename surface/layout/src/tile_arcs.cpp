@@ -56,8 +56,7 @@ void add_seams(const Seams& seams, Index arcs, ArcProblem& problem) {
         const auto [a, b] = ends(seam);
         problem.least.push_back(a == b ? 3 : between[{a, b}] > 1 ? 2 : 1);
         problem.sums.push_back({{arcs + parts + static_cast<Index>(s)}, {}});
-        for (Index i = 0; i < seam.part_count(); ++i)
-            problem.sums.back().right.push_back(arcs + seam.first_part + i);
+        for (Index i = 0; i < seam.part_count(); ++i) problem.sums.back().right.push_back(arcs + seam.first_part + i);
     }
     for (Index a = 0; a < arcs; ++a) {
         if (seams.uses[a].empty()) continue;
@@ -120,7 +119,8 @@ ArcProblem split_problem(const QuadLayout& layout, const Seams& seams, const Arc
     ArcProblem problem = arcs;
     const auto known = static_cast<Index>(arcs.least.size());
     problem.least.resize(known + rows, 1);
-    std::erase_if(problem.sums, [&](const EqualSums& sum) { return sum.left[0] < arc_count && sum.right[0] < arc_count; });
+    std::erase_if(problem.sums,
+                  [&](const EqualSums& sum) { return sum.left[0] < arc_count && sum.right[0] < arc_count; });
     for (Index k = 0; k < made_of_pieces; ++k) {
         if (k < arc_count && !seams.uses[k].empty()) continue;
         problem.sums.push_back({{k}, {}});

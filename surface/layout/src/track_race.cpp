@@ -12,7 +12,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double least_sine = 0.5;  // of the angle at which tracks cross
-constexpr double look_on = 3;  // tolerances: how far a track is followed behind its end, for points beside it
+constexpr double look_on = 3;       // tolerances: how far a track is followed behind its end, for points beside it
 
 // Where a curve meets the border of a triangle: 2 k at corner k, between 2 k and 2 k + 2 on side k.
 double ring_place(const Charts& charts, Index t, const LayoutCurvePoint& at) {

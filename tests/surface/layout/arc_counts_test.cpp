@@ -10,8 +10,7 @@ using detail::EqualSums;
 
 double deviation(const ArcProblem& problem, const std::vector<int>& counts) {
     double sum = 0;
-    for (std::size_t a = 0; a < counts.size(); ++a)
-        sum += problem.weights[a] * std::abs(counts[a] - problem.wanted[a]);
+    for (std::size_t a = 0; a < counts.size(); ++a) sum += problem.weights[a] * std::abs(counts[a] - problem.wanted[a]);
     return sum;
 }
 

@@ -50,7 +50,8 @@ inline SurfaceDomain hexme_surface(const std::string& name) {
         if (size != 4) continue;
         const Eigen::Vector3d a = points[v[0]];
         if ((points[v[1]] - a).cross(points[v[2]] - a).dot(points[v[3]] - a) < 0) std::swap(v[0], v[1]);
-        const std::array<Index, 3> faces[] = {{v[0], v[2], v[1]}, {v[0], v[1], v[3]}, {v[1], v[2], v[3]}, {v[0], v[3], v[2]}};
+        const std::array<Index, 3> faces[] = {
+            {v[0], v[2], v[1]}, {v[0], v[1], v[3]}, {v[1], v[2], v[3]}, {v[0], v[3], v[2]}};
         for (const auto& face : faces) {
             auto key = face;
             std::sort(key.begin(), key.end());

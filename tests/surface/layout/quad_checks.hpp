@@ -8,8 +8,8 @@ namespace octafield::surface {
 
 struct EdgeCounts {
     long edges = 0, boundary = 0;
-    std::vector<int> quads_at;       // of each vertex
-    std::vector<bool> on_boundary;   // of each vertex
+    std::vector<int> quads_at;      // of each vertex
+    std::vector<bool> on_boundary;  // of each vertex
 };
 
 // Each edge has two quads that run it both ways, or is on the boundary.

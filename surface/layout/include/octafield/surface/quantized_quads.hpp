@@ -50,8 +50,9 @@ struct QuantizedQuads : LayoutQuads {
 // cut the seam into parts, 0 quads at least, whose sums both sides' arcs are. Places without a quad between them become
 // one vertex. What the mesh has to have as vertices: corners, singular points, and where other than two seams meet.
 //
-// Throws as layout_quads, and GeometryError (kind "no_integers", elements: sides of the layout), SolverError (kind
-// "node_limit").
+// Throws as layout_quads, and GeometryError (kind "no_integers", elements: sides of the layout, then parts of seams: no
+// whole numbers fit, as near misses leave a strip that closes on itself, or faces that meet along features ask for
+// different numbers there), SolverError (kinds "node_limit", "solver_failed").
 QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOptions& options,
                                const Progress& progress = {});
 
