@@ -1,7 +1,6 @@
 #include "seams.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -27,6 +26,11 @@ struct WholeEdge {
     Index low, high;
     double length = 0;
     std::vector<Step> sides[2];  // by length; [1]: the surface's boundary runs down
+};
+
+// Quad coordinates against lengths between two places of a seam, of one of its sides: over the number of sides.
+struct Slope {
+    double from, to, per_length;
 };
 
 class Finder {
@@ -61,7 +65,7 @@ private:
     void add_seam(Index start, Index edge);
     void add_uses(const Seam& seam, const Step& step, bool forward, double from, double to, int sides);
     void add_knots(Seam& seam, const std::vector<std::pair<Index, bool>>& path, const std::vector<double>& starts,
-                   const std::vector<Seam::Knot>& slopes) const;
+                   const std::vector<Slope>& slopes) const;
     void add_parts(Seam& seam, const std::vector<std::pair<Index, bool>>& path, const std::vector<double>& starts);
 
     const QuadLayout& layout_;
@@ -236,7 +240,7 @@ void Finder::add_parts(Seam& seam, const std::vector<std::pair<Index, bool>>& pa
     const double length = starts.back();
     seam.first_part = static_cast<Index>(seams_.parts.size());
     for (Index i = 0; i < seam.part_count(); ++i) seams_.parts.push_back({seam.stops[i].at, seam.stops[i + 1].at, 0});
-    std::vector<Seam::Knot> slopes;  // by where they begin: parameters per length, and where they end in `position`
+    std::vector<Slope> slopes;
     for (std::size_t i = 0; i < path.size(); ++i) {
         const WholeEdge& edge = edges_[path[i].first];
         const bool up = path[i].second;
@@ -245,7 +249,7 @@ void Finder::add_parts(Seam& seam, const std::vector<std::pair<Index, bool>>& pa
             for (const Step& step : edge.sides[s]) {
                 const double from = up ? starts[i] + step.from : starts[i + 1] - step.to;
                 const double to = up ? starts[i] + step.to : starts[i + 1] - step.from;
-                slopes.push_back({from, step.parameters / sides / std::max(to - from, 1e-300), {to, 0, 0}});
+                slopes.push_back({from, to, step.parameters / sides / std::max(to - from, 1e-300)});
                 for (const double shift : {0.0, length}) {
                     if (shift > 0 && !seam.closed) break;
                     add_uses(seam, step, up == (s == 0), from + shift, to + shift, sides);
@@ -278,9 +282,9 @@ void Finder::add_uses(const Seam& seam, const Step& step, bool forward, double f
 }
 
 void Finder::add_knots(Seam& seam, const std::vector<std::pair<Index, bool>>& path, const std::vector<double>& starts,
-                       const std::vector<Seam::Knot>& slopes) const {
+                       const std::vector<Slope>& slopes) const {
     std::vector<double> places = starts;
-    for (const Seam::Knot& slope : slopes) places.insert(places.end(), {slope.at, slope.position[0]});
+    for (const Slope& slope : slopes) places.insert(places.end(), {slope.from, slope.to});
     std::sort(places.begin(), places.end());
     for (const double at : places) {
         if (!seam.knots.empty() && at - seam.knots.back().at <= same_place * starts.back()) continue;
@@ -292,11 +296,12 @@ void Finder::add_knots(Seam& seam, const std::vector<std::pair<Index, bool>>& pa
         const double fraction = (at - starts[i]) / (starts[i + 1] - starts[i]);
         seam.knots.push_back({at, 0, (1 - fraction) * a + fraction * b});
     }
-    for (const Seam::Knot& slope : slopes) {
-        const auto first = std::lower_bound(seam.knots.begin(), seam.knots.end(), slope.at - same_place * starts.back(),
-                                            [](const Seam::Knot& k, double at) { return k.at < at; });
-        for (auto k = first; k + 1 < seam.knots.end() && k->at < slope.position[0] - same_place * starts.back(); ++k)
-            (k + 1)->parameters += slope.parameters * ((k + 1)->at - k->at);
+    for (const Slope& slope : slopes) {
+        const auto first =
+            std::lower_bound(seam.knots.begin(), seam.knots.end(), slope.from - same_place * starts.back(),
+                             [](const Seam::Knot& k, double at) { return k.at < at; });
+        for (auto k = first; k + 1 < seam.knots.end() && k->at < slope.to - same_place * starts.back(); ++k)
+            (k + 1)->parameters += slope.per_length * ((k + 1)->at - k->at);
     }
     for (std::size_t k = 1; k < seam.knots.size(); ++k) seam.knots[k].parameters += seam.knots[k - 1].parameters;
 }
