@@ -145,6 +145,8 @@ void Complex::add_cut() {
         if (result_.blocks[q] != block) continue;
         for (int k = 0; k < 4; ++k) {
             const Index side = 4 * q + k, v = from(side);
+            const auto& out = out_[v];
+            if (std::none_of(out.begin(), out.end(), [&](Index s) { return mates_[s] >= 0 && !marked_[s]; })) continue;
             const int rank = mates_[side] < 0 ? 0 : marked_[side] ? 1 : 2;
             if (std::tie(rank, v) < std::tie(best_rank, best)) {
                 best_rank = rank;
@@ -152,6 +154,7 @@ void Complex::add_cut() {
             }
         }
     }
+    if (best < 0) throw GeometryError("a block of the quads has no four corners", "bad_blocks", {open_block_});
     ++result_.cut_vertices;
     mark_from(best);
 }

@@ -16,8 +16,8 @@ struct BaseComplex {
     Index cut_vertices = 0;             // regular ones from which lines were added, where blocks were no disks
 };
 
-// Near linear in quads. Throws InvalidInput (kind "not_quads" where there are triangles); GeometryError as
-// require_valid does for edges.
+// Near linear in quads. Throws InvalidInput (kind "not_quads" where there are triangles); GeometryError: kinds
+// "index_out_of_range", "non_manifold_edge" (elements: the edge's vertices), "bad_blocks" (elements: a quad).
 BaseComplex base_complex(const QuadMesh& mesh);
 
 }  // namespace octafield::surface
