@@ -19,6 +19,8 @@ using detail::Slot;
 // is missed by less.
 double price(const detail::Passing& passing) { return passing.length + 4 * std::abs(passing.offset); }
 
+constexpr int most_rounds = 30;  // of cuts: each leaves simpler patches
+
 struct Tracks {
     std::vector<LayoutCurve> walls;
     std::vector<detail::Track> tracks;
@@ -218,11 +220,11 @@ std::vector<Index> cuts_for(const QuadLayout& layout, const detail::LayoutInput&
 
 QuadLayout motorcycle_graph(const ImposedField& field, const LayoutCurveOptions& options, const Progress& progress) {
     LayoutCurveOptions with_cuts = options;
-    while (true) {
+    for (int round = 0;; ++round) {
         const detail::LayoutInput input(field, with_cuts, true);
         QuadLayout layout = graph_with(input, progress);
         const std::vector<Index> cuts = cuts_for(layout, input);
-        if (cuts.empty()) return layout;
+        if (cuts.empty() || round == most_rounds) return layout;
         with_cuts.cut_vertices.insert(with_cuts.cut_vertices.end(), cuts.begin(), cuts.end());
     }
 }
