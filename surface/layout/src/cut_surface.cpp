@@ -16,12 +16,13 @@ constexpr double off_vertices = 1e-4;
 class Cutter {
 public:
     Cutter(const Charts& charts, const std::vector<LayoutCurve>& curves) : charts_(charts), curves_(curves) {}
-    CutSurface result() &&;
+    CutSurface result(const CurveEnds& ends) &&;
 
 private:
     void place_nodes();
     void cut_triangles();
     void order_curves();
+    void drop_tails(const std::vector<std::size_t>& last);
     void join_polygons();
 
     const Charts& charts_;
@@ -116,6 +117,25 @@ void Cutter::order_curves() {
     }
 }
 
+void Cutter::drop_tails(const std::vector<std::size_t>& last) {
+    std::vector<std::pair<Index, Index>> dropped;
+    std::vector<int> uses(cut_.is_crossing.size(), 0);
+    for (std::size_t c = 0; c < cut_.curves.size(); ++c) {
+        auto& nodes = cut_.curves[c];
+        for (std::size_t i = last[c]; i + 1 < nodes.size(); ++i)
+            dropped.push_back(std::minmax(nodes[i].node, nodes[i + 1].node));
+        nodes.resize(last[c] + 1);
+        for (const CurveNode& at : nodes) ++uses[at.node];
+    }
+    for (std::size_t n = 0; n < uses.size(); ++n) cut_.is_crossing[n] = cut_.is_crossing[n] && uses[n] == 2;
+    std::sort(dropped.begin(), dropped.end());
+    for (Index p = 0; p < cut_.polygon_count(); ++p)
+        for (Index c = cut_.first[p]; c < cut_.first[p + 1]; ++c) {
+            const std::pair<Index, Index> side = std::minmax(cut_.nodes[c], cut_.nodes[cut_.next(p, c)]);
+            if (std::binary_search(dropped.begin(), dropped.end(), side)) cut_.is_cut[c] = false;
+        }
+}
+
 void Cutter::join_polygons() {
     struct Side {
         Index low, high;
@@ -157,18 +177,19 @@ void Cutter::join_polygons() {
     cut_.patches = std::move(patches).numbers(cut_.patch_count);
 }
 
-CutSurface Cutter::result() && {
+CutSurface Cutter::result(const CurveEnds& ends) && {
     place_nodes();
     cut_triangles();
     order_curves();
+    if (ends) drop_tails(ends(cut_));
     join_polygons();
     return std::move(cut_);
 }
 
 }  // namespace
 
-CutSurface cut_surface(const Charts& charts, const std::vector<LayoutCurve>& curves) {
-    return Cutter(charts, curves).result();
+CutSurface cut_surface(const Charts& charts, const std::vector<LayoutCurve>& curves, const CurveEnds& ends) {
+    return Cutter(charts, curves).result(ends);
 }
 
 }  // namespace octafield::surface::detail

@@ -3,6 +3,8 @@
 // once per triangle.
 #pragma once
 
+#include <functional>
+
 #include "charts.hpp"
 #include "octafield/surface/layout_curves.hpp"
 
@@ -36,7 +38,12 @@ struct CutSurface {
     Index next(Index polygon, Index c) const { return c + 1 == first[polygon + 1] ? first[polygon] : c + 1; }
 };
 
-// The curves' points on edges are moved off the vertices, by 1e-4 of the edge at most, all in the same way.
-CutSurface cut_surface(const Charts& charts, const std::vector<LayoutCurve>& curves);
+// Of each curve, the place in CutSurface::curves of the last node that it cuts to: a crossing with a curve that goes on
+// there, or its end.
+using CurveEnds = std::function<std::vector<std::size_t>(const CutSurface&)>;
+
+// The curves' points on edges are moved off the vertices, by 1e-4 of the edge at most, all in the same way. With `ends`
+// what is behind them is not cut.
+CutSurface cut_surface(const Charts& charts, const std::vector<LayoutCurve>& curves, const CurveEnds& ends = {});
 
 }  // namespace octafield::surface::detail

@@ -71,6 +71,20 @@ void find_parts(LayoutPieces& pieces) {
         }
 }
 
+// Where a curve ends at another one, the patch on that one's other side goes straight on.
+void find_turns(LayoutPieces& pieces) {
+    const CutSurface& cut = pieces.cut;
+    std::vector<int> corners(cut.point_count, 0);
+    for (const Index point : cut.points) ++corners[point];
+    pieces.turns.resize(cut.nodes.size());
+    for (std::size_t c = 0; c < cut.nodes.size(); ++c) {
+        const Index node = cut.nodes[c];
+        const int count = cut.is_crossing[node] ? corners[cut.points[c]] : 1;  // of the four at a crossing
+        pieces.turns[c] = pieces.vertex_of_node[node] >= 0 && count == 1;
+        if (count > 2) throw GeometryError("a curve of the layout ends at no other", "bad_subdivision");
+    }
+}
+
 void walk_patches(LayoutPieces& pieces) {
     const CutSurface& cut = pieces.cut;
     pieces.patch_polygons.resize(cut.patch_count);
@@ -90,9 +104,11 @@ void walk_patches(LayoutPieces& pieces) {
     pieces.loops.resize(cut.patch_count);
     std::vector<bool> done(cut.nodes.size(), false);
     for (Index patch = 0; patch < cut.patch_count; ++patch) {
-        // From vertices of the layout first.
-        std::stable_partition(sides[patch].begin(), sides[patch].end(),
-                              [&](Index c) { return pieces.vertex_of_node[cut.nodes[c]] >= 0; });
+        // From corners first, then from other vertices of the layout.
+        const auto rank = [&](Index c) {
+            return pieces.turns[c] ? 0 : pieces.vertex_of_node[cut.nodes[c]] >= 0 ? 1 : 2;
+        };
+        std::stable_sort(sides[patch].begin(), sides[patch].end(), [&](Index a, Index b) { return rank(a) < rank(b); });
         for (const Index start : sides[patch]) {
             if (done[start]) continue;
             std::vector<Index> loop;
@@ -110,14 +126,15 @@ void walk_patches(LayoutPieces& pieces) {
 }  // namespace
 
 LayoutPieces layout_pieces(const ImposedField& field, const Charts& charts, const LayoutPoints& points,
-                           const std::vector<LayoutCurve>& curves) {
+                           const std::vector<LayoutCurve>& curves, const CurveEnds& ends) {
     LayoutPieces pieces;
-    pieces.cut = cut_surface(charts, curves);
+    pieces.cut = cut_surface(charts, curves, ends);
     mark_vertices(pieces, points);
     for (Index c = 0; c < static_cast<Index>(curves.size()); ++c) add_chains(pieces, c, pieces.cut.curves[c]);
     const auto starts = [&](Index node) { return pieces.vertex_of_node[node] >= 0; };
     for (const auto& nodes : boundary_nodes(field, charts, points, pieces.cut, starts)) add_chains(pieces, -1, nodes);
     find_parts(pieces);
+    find_turns(pieces);
     walk_patches(pieces);
     return pieces;
 }

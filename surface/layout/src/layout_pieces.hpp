@@ -20,14 +20,15 @@ struct LayoutPieces {
     std::vector<NodeChain> chains;      // of each side
     // Of each side of a polygon that is cut: which part of which chain. -1: not cut.
     std::vector<Index> chain_of_side, part_of_side;
-    std::vector<bool> forward;                           // of each side of a polygon
-    std::vector<std::vector<Index>> patch_polygons;      // ascending
+    std::vector<bool> forward;                       // of each side of a polygon
+    std::vector<bool> turns;                         // of each corner of a polygon: whether it is a corner of the patch
+    std::vector<std::vector<Index>> patch_polygons;  // ascending
     std::vector<std::vector<std::vector<Index>>> loops;  // of each patch: sides of polygons along its boundary curves,
                                                          // from a vertex of the layout, if there is one
 };
 
 // Chains of the curves, then of the boundary. Throws GeometryError (kind "bad_subdivision").
 LayoutPieces layout_pieces(const ImposedField& field, const Charts& charts, const LayoutPoints& points,
-                           const std::vector<LayoutCurve>& curves);
+                           const std::vector<LayoutCurve>& curves, const CurveEnds& ends = {});
 
 }  // namespace octafield::surface::detail

@@ -59,7 +59,8 @@ void add_slots(const ImposedField& field, const LocalField& local, LayoutPoint& 
 
 }  // namespace
 
-LayoutPoints layout_points(const ImposedField& field, const LocalField& local, const std::vector<Index>& cut_vertices) {
+LayoutPoints layout_points(const ImposedField& field, const LocalField& local, const std::vector<Index>& cut_vertices,
+                           bool cuts_inside) {
     LayoutPoints result;
     result.of_vertex.assign(local.domain().vertex_count(), -1);
     std::map<Index, std::size_t> fan_of;
@@ -67,7 +68,7 @@ LayoutPoints layout_points(const ImposedField& field, const LocalField& local, c
     for (std::size_t f = 0; f < fans.fans.size(); ++f) fan_of.emplace(fans.fans[f].vertex, f);
     for (const auto& [vertex, index] : index_of_vertex(field, cut_vertices)) {
         const auto place = fan_of.find(vertex);
-        if (place == fan_of.end() || (index == 0 && fans.fans[place->second].closed))
+        if (place == fan_of.end() || (index == 0 && !cuts_inside && fans.fans[place->second].closed))
             throw InvalidInput("cuts start at vertices of the boundary; vertex " + std::to_string(vertex) + " is none",
                                "bad_option", {vertex});
         const VertexFans::Fan& fan = fans.fans[place->second];

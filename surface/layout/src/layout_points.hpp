@@ -24,6 +24,6 @@ struct LayoutPoints {
 
 // Throws InvalidInput (kinds "infinite_corner", "bad_option"), SolverError (kind "unclear_directions").
 LayoutPoints layout_points(const ImposedField& field, const LocalField& local,
-                           const std::vector<Index>& cut_vertices = {});
+                           const std::vector<Index>& cut_vertices = {}, bool cuts_inside = false);
 
 }  // namespace octafield::surface::detail

@@ -18,11 +18,13 @@ using Vector2 = Eigen::Vector2d;
 
 class Patch {
 public:
-    Patch(const QuadLayout& layout, Index patch) : layout_(layout), pieces_(*layout.pieces), patch_(patch) {}
+    Patch(const QuadLayout& layout, Index patch, const std::vector<Eigen::VectorXd>& along)
+        : layout_(layout), pieces_(*layout.pieces), patch_(patch), along_(along) {}
     PatchMap map() &&;
 
 private:
     void add_boundary();
+    double extent(const DirectedSide& side) const { return along_[side.side][along_[side.side].size() - 1]; }
     void add_polygons();
     void split_edges();
     template <class Solver>
@@ -36,6 +38,7 @@ private:
     const QuadLayout& layout_;
     const LayoutPieces& pieces_;
     Index patch_;
+    const std::vector<Eigen::VectorXd>& along_;
     PatchMap result_;
     std::map<Index, Index> local_;  // of points of the cut surface
     std::vector<Vector> positions_;
@@ -53,24 +56,29 @@ Index Patch::add_point(const Vector& position) {
 void Patch::add_boundary() {
     const CutSurface& cut = pieces_.cut;
     const auto& around = layout_.patches[patch_].loops[0];
-    const auto length = [&](int k) { return layout_.sides[around[k].side].length(); };
-    result_.width = (length(0) + length(2)) / 2;
-    result_.height = (length(1) + length(3)) / 2;
-    const Vector2 corners[] = {
-        {0, 0}, {result_.width, 0}, {result_.width, result_.height}, {0, result_.height}, {0, 0}};
+    const auto& first = layout_.patches[patch_].corner_sides;
+    for (Index i = 0; i < first[1]; ++i) result_.width += extent(around[i]);
+    for (Index i = first[1]; i < first[2]; ++i) result_.height += extent(around[i]);
+    const Vector2 corners[] = {{0, 0}, {result_.width, 0}, {result_.width, result_.height}, {0, result_.height}};
+    const Vector2 ways[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     int k = -1;
+    Index place = -1;
+    double before = 0;  // lengths of the sides of the layout before this one on the same side of the patch
     for (const Index c : pieces_.loops[patch_][0]) {
-        const bool corner = pieces_.vertex_of_node[cut.nodes[c]] >= 0;
-        if (corner) ++k;
-        const LayoutSide& side = layout_.sides[around[k].side];
+        const bool corner = pieces_.turns[c];
+        if (pieces_.vertex_of_node[cut.nodes[c]] >= 0) {
+            before = corner ? 0 : before + extent(around[place]);
+            k += corner;
+            ++place;
+        }
         const Index part = pieces_.part_of_side[c] + (pieces_.forward[c] ? 0 : 1);
-        double fraction = side.parameters[part] / side.length();
-        if (around[k].reversed) fraction = 1 - fraction;
+        double at = along_[around[place].side][part];
+        if (around[place].reversed) at = extent(around[place]) - at;
         const Index p = add_point(cut.positions.row(cut.nodes[c]));
         local_[cut.points[c]] = p;
         sides_[p] = 1u << k;
         if (corner) sides_[p] |= 1u << (k + 3) % 4;
-        fixed_[p] = corner ? corners[k] : Vector2(corners[k] + fraction * (corners[k + 1] - corners[k]));
+        fixed_[p] = corner ? corners[k] : Vector2(corners[k] + (before + at) * ways[k]);
     }
 }
 
@@ -204,7 +212,9 @@ PatchMap Patch::map() && {
 
 }  // namespace
 
-PatchMap patch_map(const QuadLayout& layout, Index patch) { return Patch(layout, patch).map(); }
+PatchMap patch_map(const QuadLayout& layout, Index patch, const std::vector<Eigen::VectorXd>& along) {
+    return Patch(layout, patch, along).map();
+}
 
 Points grid_positions(const PatchMap& map, int n, int m) {
     const Eigen::Index count = static_cast<Eigen::Index>(n - 1) * (m - 1);

@@ -1,162 +1,24 @@
 #include "octafield/surface/quad_layout.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include "layout_pieces.hpp"
-#include "octafield/disjoint_sets.hpp"
-#include "octafield/error.hpp"
-#include "split_between_points.hpp"
+#include "layout_assembly.hpp"
+#include "layout_input.hpp"
 
 namespace octafield::surface {
-namespace {
-
-using detail::LayoutPieces;
-
-std::vector<LayoutVertex> vertices_of(const LayoutPieces& pieces, const detail::LayoutPoints& points) {
-    std::vector<LayoutVertex> result;
-    for (const Index node : pieces.vertex_nodes) {
-        LayoutVertex vertex{LayoutVertexKind::boundary, -1, 0, pieces.cut.positions.row(node)};
-        const bool is_vertex = node < static_cast<Index>(points.of_vertex.size());
-        if (pieces.cut.is_crossing[node]) vertex.kind = LayoutVertexKind::crossing;
-        if (is_vertex && points.of_vertex[node] >= 0) {
-            const detail::LayoutPoint& point = points.points[points.of_vertex[node]];
-            if (point.index_times_four != 0)
-                vertex.kind = point.boundary ? LayoutVertexKind::corner : LayoutVertexKind::singular;
-            vertex.vertex = node;
-            vertex.index_times_four = point.index_times_four;
-        }
-        result.push_back(vertex);
-    }
-    return result;
-}
-
-std::vector<LayoutSide> sides_of(const LayoutPieces& pieces) {
-    std::vector<LayoutSide> result;
-    for (const detail::NodeChain& chain : pieces.chains) {
-        const auto count = static_cast<Eigen::Index>(chain.nodes.size());
-        LayoutSide side{pieces.vertex_of_node[chain.nodes.front().node],
-                        pieces.vertex_of_node[chain.nodes.back().node],
-                        chain.curve,
-                        -1,
-                        Points(count, 3),
-                        Eigen::VectorXd(count)};
-        for (Eigen::Index i = 0; i < count; ++i) {
-            side.points.row(i) = pieces.cut.positions.row(chain.nodes[i].node);
-            side.parameters[i] = chain.nodes[i].length;
-        }
-        result.push_back(std::move(side));
-    }
-    return result;
-}
-
-// Of the patch cut open along the curves.
-int euler_characteristic(const detail::CutSurface& cut, const std::vector<Index>& polygons) {
-    std::vector<Index> points;
-    int twice_sides = 0;
-    for (const Index p : polygons)
-        for (Index c = cut.first[p]; c < cut.first[p + 1]; ++c) {
-            points.push_back(cut.points[c]);
-            twice_sides += cut.is_cut[c] ? 2 : 1;
-        }
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    return static_cast<int>(points.size()) - twice_sides / 2 + static_cast<int>(polygons.size());
-}
-
-PatchKind kind_of(const LayoutPatch& patch) {
-    if (patch.euler_characteristic == 1) return patch.corners == 4 ? PatchKind::quad : PatchKind::polygon;
-    return patch.euler_characteristic == 0 && patch.loops.size() == 2 ? PatchKind::annulus : PatchKind::other;
-}
-
-std::vector<LayoutPatch> patches_of(const LayoutPieces& pieces) {
-    std::vector<LayoutPatch> result;
-    for (std::size_t i = 0; i < pieces.loops.size(); ++i) {
-        LayoutPatch patch{PatchKind::other, euler_characteristic(pieces.cut, pieces.patch_polygons[i]), 0, {}};
-        for (const auto& loop : pieces.loops[i]) {
-            patch.loops.emplace_back();
-            for (std::size_t j = 0; j < loop.size(); ++j) {
-                const bool corner = pieces.vertex_of_node[pieces.cut.nodes[loop[j]]] >= 0;
-                patch.corners += corner;
-                if (corner || j == 0)
-                    patch.loops.back().push_back({pieces.chain_of_side[loop[j]], !pieces.forward[loop[j]]});
-            }
-        }
-        patch.kind = kind_of(patch);
-        result.push_back(std::move(patch));
-    }
-    return result;
-}
-
-void add_chords(QuadLayout& layout) {
-    DisjointSets sets(layout.sides.size());
-    for (const LayoutPatch& patch : layout.patches) {
-        if (patch.kind != PatchKind::quad) continue;
-        for (int k = 0; k < 2; ++k) {
-            const Index a = patch.loops[0][k].side, b = patch.loops[0][k + 2].side;
-            const double la = layout.sides[a].length(), lb = layout.sides[b].length();
-            layout.largest_mismatch = std::max(layout.largest_mismatch, 2 * std::abs(la - lb) / (la + lb));
-            sets.join(a, b);
-        }
-    }
-    Index count = 0;
-    const std::vector<Index> chords = std::move(sets).numbers(count);
-    layout.chords.resize(count, {{}, 0});
-    for (std::size_t s = 0; s < chords.size(); ++s) {
-        layout.sides[s].chord = chords[s];
-        layout.chords[chords[s]].sides.push_back(static_cast<Index>(s));
-        layout.chords[chords[s]].length += layout.sides[s].length();
-    }
-    for (LayoutChord& chord : layout.chords) chord.length /= static_cast<double>(chord.sides.size());
-}
-
-void require_euler(const QuadLayout& layout) {
-    auto sum = static_cast<long>(layout.vertices.size());
-    for (const LayoutSide& side : layout.sides) sum -= side.first >= 0;
-    for (const LayoutPatch& patch : layout.patches) sum += patch.euler_characteristic;
-    const int whole = euler_characteristic(layout.domain.mesh());
-    if (sum != whole)
-        throw GeometryError("the layout's V - E + F is " + std::to_string(sum) + ", the surface's is " +
-                                std::to_string(whole) + ": curves run too near to one another; refine the mesh",
-                            "bad_subdivision");
-}
-
-}  // namespace
-
 namespace {
 
 QuadLayout layout_with(const ImposedField& given, const LayoutCurveOptions& options, const Progress& progress) {
     QuadLayout layout;
     layout.curves = layout_curves(given, options, progress);
     layout.domain = layout.curves.domain;
-    const ImposedField field = detail::split_between_points(given);
     report_or_throw(progress, "cut", 0.9, NAN);
-    const detail::LocalField local(field);
-    const detail::LayoutPoints points = detail::layout_points(field, local, options.cut_vertices);
-    auto pieces =
-        std::make_shared<LayoutPieces>(detail::layout_pieces(field, local.charts(), points, layout.curves.curves));
-    layout.vertices = vertices_of(*pieces, points);
-    layout.sides = sides_of(*pieces);
-    layout.patches = patches_of(*pieces);
-    layout.pieces = std::move(pieces);
-    add_chords(layout);
-    require_euler(layout);
+    const detail::LayoutInput input(given, options);
+    detail::assemble(layout, input.points,
+                     std::make_shared<detail::LayoutPieces>(
+                         detail::layout_pieces(input.field, input.local.charts(), input.points, layout.curves.curves)));
+    detail::add_chords(layout);
     return layout;
-}
-
-// Where the first annulus with a closed curve of the boundary is to be cut; -1: there is none.
-Index cut_vertex(const QuadLayout& layout) {
-    for (const LayoutPatch& patch : layout.patches) {
-        if (patch.kind != PatchKind::annulus) continue;
-        for (const auto& loop : patch.loops) {
-            if (layout.sides[loop[0].side].first >= 0) continue;
-            const auto& nodes = layout.pieces->chains[loop[0].side].nodes;
-            return std::min_element(nodes.begin(), nodes.end(),
-                                    [](const auto& a, const auto& b) { return a.node < b.node; })
-                ->node;
-        }
-    }
-    return -1;
 }
 
 }  // namespace
@@ -166,9 +28,12 @@ QuadLayout quad_layout(const ImposedField& field, const LayoutCurveOptions& opti
     LayoutCurveOptions with_cuts = options;
     while (true) {
         QuadLayout layout = layout_with(field, with_cuts, progress);
-        const Index cut = cut_annuli ? cut_vertex(layout) : -1;
-        if (cut < 0) return layout;
-        with_cuts.cut_vertices.push_back(cut);
+        const std::size_t before = with_cuts.cut_vertices.size();
+        for (const LayoutPatch& patch : layout.patches) {
+            const Index cut = cut_annuli ? detail::boundary_cut(layout, patch) : -1;
+            if (cut >= 0) with_cuts.cut_vertices.push_back(cut);
+        }
+        if (with_cuts.cut_vertices.size() == before) return layout;
     }
 }
 

@@ -16,6 +16,7 @@ constexpr double sector_part = 0.35;  // of the angle between separatrices: off 
 constexpr int most_shots = 8;
 constexpr std::size_t most_passing = 8;  // what a curve passes later is out of its reach
 constexpr double zone = 3;               // tolerances from a point, along edges
+constexpr double straight = pi / 4;      // off the way back, in parameters
 constexpr double clearance = 1e-7;       // of an edge, from its ends
 
 double wrapped(double angle, double period = 2 * pi) { return angle - period * std::round(angle / period); }
@@ -63,12 +64,6 @@ double angle_at(const LocalField& local, const LayoutPoint& point, Index t, int 
 
 }  // namespace
 
-struct SeparatrixTracer::Nearest {
-    Passing passing;
-    double behind;  // angle, in parameters, between the way back and where it was looked at from
-    double from;    // how far along the curve
-};
-
 void SeparatrixTracer::look_at(const LocalField::Place& at, Complex offset, int k, double from,
                                std::vector<Nearest>& found) const {
     const Charts& charts = local_.charts();
@@ -92,7 +87,10 @@ void SeparatrixTracer::look_at(const LocalField::Place& at, Complex offset, int 
         });
         if (known == found.end()) {
             found.push_back(seen);
-        } else if (from > known->from || seen.behind < known->behind) {  // what is nearer is told better
+        } else if (where.real() - from > length &&
+                   ((from > known->from && seen.behind < straight) || seen.behind < known->behind)) {
+            // What is nearer is told better, but not from the triangles at the point, where the curve may be past it,
+            // nor from beside it.
             *known = seen;
         }
     }
@@ -168,6 +166,57 @@ bool SeparatrixTracer::arrives(const Passing& target, const LocalField::Place& a
     return std::abs(p.boundary ? off : wrapped(off, p.angle)) < sector_part * p.angle / p.quads;
 }
 
+std::vector<Passing> SeparatrixTracer::Walk::passing() const {
+    std::vector<Passing> result;
+    for (const Nearest& n : found) result.push_back(n.passing);
+    std::sort(result.begin(), result.end(), [](const Passing& a, const Passing& b) { return a.slot < b.slot; });
+    return result;
+}
+
+SeparatrixTracer::Walk SeparatrixTracer::begin(const Slot& start, double shear) const {
+    const LayoutPoint& from = point(start);
+    const Spoke spoke = spoke_at(local_, from, from.slots[start.slot] + shear / from.power);
+    Walk walk;
+    walk.shear = shear;
+    walk.trace.curve.first_vertex = from.vertex;
+    walk.length = spoke_length(local_, from, spoke.t, spoke.end, spoke.radius);
+    walk.side = {spoke.t, (spoke.corner + 1) % 3};
+    walk.fraction = spoke.fraction;
+    walk.heading = std::arg(spoke.direction);
+    walk.trace.curve.points = {{from.vertex, -1, 0, 0},
+                               edge_point(local_.charts(), spoke.t, walk.side.side, walk.fraction, walk.length)};
+    walk.trace.curve.triangles = {spoke.t};
+    walk.trace.boundary = local_.charts().across(walk.side).triangle < 0;
+    return walk;
+}
+
+bool SeparatrixTracer::step(Walk& walk, bool looking, const std::optional<Passing>& target) const {
+    const Charts& charts = local_.charts();
+    Trace& trace = walk.trace;
+    if (trace.boundary) return false;
+    const int entry = charts.across(walk.side).side;
+    const LocalField::Place at = local_.across(walk.side, walk.fraction, walk.heading, walk.shear);
+    trace.curve.triangles.push_back(at.t);
+    if (target && arrives(*target, at, entry, walk.length)) {
+        const LayoutPoint& to = point(target->slot);
+        const double radius = std::abs(at.z - charts.corners(at.t)[(entry + 2) % 3]);
+        const double length = walk.length + spoke_length(local_, to, at.t, at.z, radius);
+        trace.curve.points.push_back({to.vertex, -1, 0, length});
+        trace.curve.last_vertex = to.vertex;
+        trace.arrived = true;
+        return true;
+    }
+    const LocalField::Exit exit = local_.exit(at, entry);
+    if (looking && walk.found.size() < most_passing) look_round(at, walk.length, walk.length + exit.length, walk.found);
+    walk.length += exit.length;
+    walk.side = {at.t, exit.side};
+    walk.fraction = exit.fraction;
+    walk.heading = local_.heading({at.t, charts.on_side(at.t, exit.side, exit.fraction), at.turn});
+    trace.curve.points.push_back(edge_point(charts, at.t, exit.side, exit.fraction, walk.length));
+    trace.boundary = charts.across(walk.side).triangle < 0;
+    return true;
+}
+
 Trace SeparatrixTracer::trace(const Slot& start, double shear, const std::optional<Passing>& target) const {
     return trace_to(start, shear, target,
                     target ? std::min(max_length_, target->length + 20 * tolerance_) : max_length_);
@@ -179,44 +228,11 @@ Trace SeparatrixTracer::beginning(const Slot& start, double reach) const {
 
 Trace SeparatrixTracer::trace_to(const Slot& start, double shear, const std::optional<Passing>& target,
                                  double longest) const {
-    const Charts& charts = local_.charts();
-    const LayoutPoint& from = point(start);
-    const Spoke spoke = spoke_at(local_, from, from.slots[start.slot] + shear / from.power);
-    Trace trace;
-    std::vector<Nearest> found;
-    LayoutCurve& curve = trace.curve;
-    curve.first_vertex = from.vertex;
-    curve.points.push_back({from.vertex, -1, 0, 0});
-    double length = spoke_length(local_, from, spoke.t, spoke.end, spoke.radius);
-    Charts::Side side{spoke.t, (spoke.corner + 1) % 3};
-    double fraction = spoke.fraction, heading = std::arg(spoke.direction);
-    while (true) {
-        curve.triangles.push_back(side.triangle);
-        curve.points.push_back(edge_point(charts, side.triangle, side.side, fraction, length));
-        const int entry = charts.across(side).side;
-        trace.boundary = entry < 0;
-        if (trace.boundary || length > longest) break;
-        const LocalField::Place at = local_.across(side, fraction, heading, shear);
-        if (target && arrives(*target, at, entry, length)) {
-            const LayoutPoint& to = point(target->slot);
-            const double radius = std::abs(at.z - charts.corners(at.t)[(entry + 2) % 3]);
-            curve.triangles.push_back(at.t);
-            curve.points.push_back({to.vertex, -1, 0, length + spoke_length(local_, to, at.t, at.z, radius)});
-            curve.last_vertex = to.vertex;
-            trace.arrived = true;
-            break;
-        }
-        const LocalField::Exit exit = local_.exit(at, entry);
-        if (found.size() < most_passing) look_round(at, length, length + exit.length, found);
-        length += exit.length;
-        side = {at.t, exit.side};
-        fraction = exit.fraction;
-        heading = local_.heading({at.t, charts.on_side(at.t, exit.side, fraction), at.turn});
+    Walk walk = begin(start, shear);
+    while (!walk.trace.arrived && walk.length <= longest && step(walk, true, target)) {
     }
-    for (const Nearest& n : found) trace.passing.push_back(n.passing);
-    std::sort(trace.passing.begin(), trace.passing.end(),
-              [](const Passing& a, const Passing& b) { return a.slot < b.slot; });
-    return trace;
+    walk.trace.passing = walk.passing();
+    return std::move(walk.trace);
 }
 
 std::optional<LayoutCurve> SeparatrixTracer::joined(const Slot& start, Passing target) const {

@@ -30,6 +30,9 @@ struct Trace {
 
 class SeparatrixTracer {
 public:
+    // A separatrix under way: its trace so far, which ends on a side of the last triangle.
+    struct Walk;
+
     SeparatrixTracer(const LocalField& local, const LayoutPoints& points, double tolerance, double max_length);
 
     // The straight line in parameters at angle `shear` from the separatrix, until it meets the boundary, is too long,
@@ -37,11 +40,19 @@ public:
     Trace trace(const Slot& start, double shear = 0, const std::optional<Passing>& target = {}) const;
     // The separatrix itself, up to the first side after `reach`. What it passes before is told as by the whole.
     Trace beginning(const Slot& start, double reach) const;
+    // The same step by step: as far as the first triangle goes, then one triangle more each time; false, and nothing
+    // done, at the boundary. `looking`: for points that are passed.
+    Walk begin(const Slot& start, double shear = 0) const;
+    bool step(Walk& walk, bool looking = true, const std::optional<Passing>& target = {}) const;
     // The line from one point to the other; none if it goes another way.
     std::optional<LayoutCurve> joined(const Slot& start, Passing target) const;
 
 private:
-    struct Nearest;
+    struct Nearest {
+        Passing passing;
+        double behind;  // angle, in parameters, between the way back and where it was looked at from
+        double from;    // how far along the curve
+    };
     Trace trace_to(const Slot& start, double shear, const std::optional<Passing>& target, double longest) const;
     const LayoutPoint& point(const Slot& slot) const { return points_.points[slot.point]; }
     bool arrives(const Passing& target, const LocalField::Place& at, int entry, double length) const;
@@ -52,6 +63,16 @@ private:
     const LayoutPoints& points_;
     double tolerance_, max_length_;
     std::vector<bool> near_points_;  // (F) whether a point may be within the tolerance
+};
+
+struct SeparatrixTracer::Walk {
+    Trace trace;    // `passing` is not filled in
+    double length;  // up to the end of the last triangle
+    double shear;
+    Charts::Side side;  // that it ends on
+    double fraction, heading;
+    std::vector<Nearest> found;
+    std::vector<Passing> passing() const;  // by slot
 };
 
 // Takes out what leaves a triangle by the side it came in by, and runs along a side of its first or last triangle.

@@ -16,6 +16,7 @@ enum class LayoutVertexKind {
     corner,    // vertex of the boundary, with other than 2 quads
     crossing,  // of two curves
     boundary,  // where a curve ends at the boundary
+    t_joint,   // where a curve ends at another one (motorcycle graphs only)
 };
 
 struct LayoutVertex {
@@ -52,6 +53,8 @@ struct LayoutPatch {
     int euler_characteristic;  // 1 for a disk, 0 for an annulus
     int corners;
     std::vector<std::vector<DirectedSide>> loops;  // its boundary curves, the patch on their left
+    std::vector<Index> corner_sides;  // of each loop in turn, places of the sides that start at a corner of the patch;
+                                      // the others start at a T-joint
 };
 
 struct LayoutChord {

@@ -1,0 +1,59 @@
+// Block-structured quads from a T-mesh: whole numbers of quads along its arcs, chosen all at once (Campen, Bommes,
+// Kobbelt, "Quantized global parametrization", 2015), so that T-joints come to lie on vertices of the mesh.
+#pragma once
+
+#include "octafield/surface/base_complex.hpp"
+#include "octafield/surface/layout_quads.hpp"
+#include "octafield/surface/motorcycle_graph.hpp"
+
+namespace octafield::surface {
+
+enum class ArcWeights {
+    equal,     // of |n - length / size|
+    relative,  // that over length / size, of 1 at least
+};
+
+// Either an edge length or a number of quads is to be given, > 0.
+struct QuantizedQuadsOptions {
+    double edge_length = 0;  // as in LayoutQuadsOptions
+    Index quad_count = 0;    // wanted; sizes are tried until the number is near
+    // Fewest blocks first: the least whole numbers that fit, all arcs 1 at least; then quads of the size wanted within
+    // that structure, so that they follow it less closely.
+    bool coarsest = false;
+    ArcWeights weights = ArcWeights::equal;
+    // For a surface cut open (FeatureCut::origins): parts of its boundary with the same origins are one curve again,
+    // and get the same vertices on both sides. None: the boundary stays open.
+    std::vector<Index> origins = {};
+    // Rounds in which vertices are moved where that raises the least scaled Jacobian of the quads round them, on the
+    // surface, or along the boundary and seams; singular points and corners stay. 0: none.
+    int smoothing = 20;
+    int most_nodes = 1000;  // of branch and bound, for each connected part
+};
+
+// `patches` are the blocks of the mesh's base complex, patch_sizes and chord_counts theirs.
+struct QuantizedQuads : LayoutQuads {
+    Rows<Index, 2> patch_chords{0, 2};  // of each block: chord across its first and second direction
+    std::vector<Index> tiles;           // patch of the T-mesh of each quad
+    std::vector<int> arc_counts;        // quads along each arc (side) of the T-mesh, >= 1
+    Index t_joints = 0;                 // of the T-mesh; the quads have none
+    std::vector<Index> irregular;       // vertices inside with other than four quads, of the boundary with other than 2
+    double size = 0;                    // that lengths were divided by
+    double deviation = 0, bound = 0;    // sum of weights |n - length / size|; what it cannot be below
+    bool optimal = false;               // the two are the same
+};
+
+// Opposite sides of each patch get equal sums, every arc 1 at least, with the least sum of deviations: by a mixed
+// integer programme, stopped by the number of nodes and never by time, so that the result is always the same. Patches
+// are mapped as in layout_quads, sides linear in parameters between whole numbers.
+//
+// On a seam, where two parts of the boundary are one again, arcs of the two sides end at different places: all of these
+// cut the seam into parts, 0 quads at least, whose sums both sides' arcs are. Places without a quad between them become
+// one vertex. What the mesh has to have as vertices: corners, singular points, and where other than two seams meet.
+//
+// Throws as layout_quads, and GeometryError (kind "no_integers", elements: sides of the layout, then parts of seams: no
+// whole numbers fit, as near misses leave a strip that closes on itself, or faces that meet along features ask for
+// different numbers there), SolverError (kinds "node_limit", "solver_failed").
+QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOptions& options,
+                               const Progress& progress = {});
+
+}  // namespace octafield::surface

@@ -1,0 +1,156 @@
+#include "arc_counts.hpp"
+
+#include <coin/Cbc_C_Interface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "octafield/disjoint_sets.hpp"
+#include "octafield/error.hpp"
+
+namespace octafield::surface::detail {
+namespace {
+
+constexpr double most_count = 1e6;
+
+// |n - wanted| at whole n: falls by 1 each to `low`, has its own slope from there to low + 1, then rises by 1 each.
+struct Deviation {
+    int low;
+    double at_low, middle_slope;
+};
+
+Deviation deviation(double wanted, int least) {
+    const int low = std::max(least, static_cast<int>(std::floor(wanted)));
+    return {low, std::abs(low - wanted), std::abs(low + 1 - wanted) - std::abs(low - wanted)};
+}
+
+struct Part {
+    std::vector<Index> arcs, sums;
+};
+
+// Arcs that share sums, by lowest arc.
+std::vector<Part> parts_of(const ArcProblem& problem) {
+    DisjointSets sets(problem.wanted.size());
+    for (const EqualSums& sum : problem.sums) {
+        const Index first = sum.left.front();
+        for (const auto* side : {&sum.left, &sum.right})
+            for (const Index arc : *side) sets.join(first, arc);
+    }
+    Index count = 0;
+    const std::vector<Index> part_of = std::move(sets).numbers(count);
+    std::vector<Part> parts(count);
+    for (std::size_t a = 0; a < part_of.size(); ++a) parts[part_of[a]].arcs.push_back(static_cast<Index>(a));
+    for (std::size_t s = 0; s < problem.sums.size(); ++s)
+        parts[part_of[problem.sums[s].left.front()]].sums.push_back(static_cast<Index>(s));
+    return parts;
+}
+
+// Columns of arc i of a part: 4 i the count, 4 i + 1 below low, 4 i + 2 from there to low + 1, 4 i + 3 above.
+// count + below - middle - above = low.
+class Programme {
+public:
+    Programme(const ArcProblem& problem, const Part& part) : model_(Cbc_newModel(), Cbc_deleteModel) {
+        std::map<Index, int> place;
+        for (std::size_t i = 0; i < part.arcs.size(); ++i) place[part.arcs[i]] = static_cast<int>(i);
+        const auto arcs = static_cast<int>(part.arcs.size());
+        std::vector<std::map<int, double>> columns(4 * static_cast<std::size_t>(arcs));
+        std::vector<double> low, high, cost, right;
+        for (int i = 0; i < arcs; ++i) {
+            const Index arc = part.arcs[i];
+            const Deviation d = deviation(problem.wanted[arc], problem.least[arc]);
+            const double weight = problem.weights[arc];
+            constant_ += weight * d.at_low;
+            for (int k = 0; k < 4; ++k) columns[4 * i + k][i] = k < 2 ? 1 : -1;
+            low.insert(low.end(), {static_cast<double>(problem.least[arc]), 0, 0, 0});
+            high.insert(high.end(), {most_count, most_count, 1, most_count});
+            cost.insert(cost.end(), {0, weight, weight * d.middle_slope, weight});
+            right.push_back(d.low);
+        }
+        for (const Index s : part.sums) {
+            const auto row = static_cast<int>(right.size());
+            for (const Index arc : problem.sums[s].left) columns[4 * place.at(arc)][row] += 1;
+            for (const Index arc : problem.sums[s].right) columns[4 * place.at(arc)][row] -= 1;
+            right.push_back(0);
+        }
+        std::vector<int> starts = {0}, rows;
+        std::vector<double> values;
+        for (const auto& column : columns) {
+            for (const auto& [row, value] : column) {
+                if (value == 0) continue;
+                rows.push_back(row);
+                values.push_back(value);
+            }
+            starts.push_back(static_cast<int>(rows.size()));
+        }
+        Cbc_loadProblem(model_.get(), static_cast<int>(columns.size()), static_cast<int>(right.size()), starts.data(),
+                        rows.data(), values.data(), low.data(), high.data(), cost.data(), right.data(), right.data());
+        for (int i = 0; i < arcs; ++i) Cbc_setInteger(model_.get(), 4 * i);
+        Cbc_setParameter(model_.get(), "log", "0");
+    }
+
+    void solve(int most_nodes, const Part& part, ArcCounts& result) {
+        Cbc_setParameter(model_.get(), "maxNodes", std::to_string(most_nodes).c_str());
+        Cbc_solve(model_.get());
+        if (Cbc_isProvenInfeasible(model_.get()))
+            throw GeometryError("no whole numbers fit the " + std::to_string(part.arcs.size()) +
+                                    " arcs of the T-mesh (" + first_few(part.arcs) +
+                                    ") with a quad at least on each: some arc would have to be as long as itself and "
+                                    "another one. Where separatrices miss one another by little, change the end "
+                                    "tolerance; where faces meet along features, other quads at corners, or other "
+                                    "singular points, are needed for the faces to fit one another",
+                                "no_integers", part.arcs);
+        const double* found = Cbc_bestSolution(model_.get());
+        if (!found)
+            throw SolverError("no whole numbers were found for the arcs of the T-mesh in " +
+                                  std::to_string(most_nodes) + " nodes; allow more",
+                              "node_limit", part.arcs);
+        for (std::size_t i = 0; i < part.arcs.size(); ++i)
+            result.counts[part.arcs[i]] = static_cast<int>(std::lround(found[4 * i]));
+        const bool proven = Cbc_isProvenOptimal(model_.get()) != 0;
+        result.optimal &= proven;
+        const double value = Cbc_getObjValue(model_.get());
+        result.bound += constant_ + (proven ? value : std::min(value, Cbc_getBestPossibleObjValue(model_.get())));
+    }
+
+private:
+    std::unique_ptr<Cbc_Model, void (*)(Cbc_Model*)> model_;
+    double constant_ = 0;
+};
+
+bool sums_agree(const ArcProblem& problem, const std::vector<int>& counts) {
+    return std::all_of(problem.sums.begin(), problem.sums.end(), [&](const EqualSums& sum) {
+        long difference = 0;
+        for (const Index arc : sum.left) difference += counts[arc];
+        for (const Index arc : sum.right) difference -= counts[arc];
+        return difference == 0;
+    });
+}
+
+}  // namespace
+
+ArcCounts integer_counts(const ArcProblem& problem, int most_nodes) {
+    ArcCounts result;
+    result.counts.assign(problem.wanted.size(), 0);
+    for (const Part& part : parts_of(problem)) {
+        if (part.sums.empty()) {
+            const Index arc = part.arcs[0];
+            result.counts[arc] = std::max(problem.least[arc], static_cast<int>(std::lround(problem.wanted[arc])));
+            result.bound += problem.weights[arc] * std::abs(result.counts[arc] - problem.wanted[arc]);
+        } else {
+            Programme(problem, part).solve(most_nodes, part, result);
+        }
+    }
+    for (std::size_t a = 0; a < problem.wanted.size(); ++a) {
+        if (result.counts[a] < problem.least[a])
+            throw SolverError("the solver gave an arc of the T-mesh too few quads", "solver_failed",
+                              {static_cast<Index>(a)});
+        result.deviation += problem.weights[a] * std::abs(result.counts[a] - problem.wanted[a]);
+    }
+    if (!sums_agree(problem, result.counts))
+        throw SolverError("the solver gave whole numbers whose sums do not agree", "solver_failed");
+    return result;
+}
+
+}  // namespace octafield::surface::detail

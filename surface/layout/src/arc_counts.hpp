@@ -1,0 +1,35 @@
+// Whole numbers for the arcs of a T-mesh.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "octafield/arrays.hpp"
+
+namespace octafield::surface::detail {
+
+// Of arcs on two sides; an arc may be named again.
+struct EqualSums {
+    std::vector<Index> left, right;
+};
+
+struct ArcProblem {
+    std::vector<double> wanted;   // of each arc, >= 0
+    std::vector<double> weights;  // >= 0
+    std::vector<int> least;       // >= 0
+    std::vector<EqualSums> sums;
+};
+
+struct ArcCounts {
+    std::vector<int> counts;
+    double deviation = 0;  // sum of weights |count - wanted|
+    double bound = 0;      // that no choice is below
+    bool optimal = true;   // proven; otherwise the limit of nodes was reached
+};
+
+// The least sum of weights |count - wanted|, by branch and bound (Cbc), stopped by a number of nodes and never by time.
+// What shares no sum is solved apart. Throws GeometryError (kind "no_integers", elements: arcs) where there are no such
+// numbers, and SolverError (kind "node_limit") where none are found.
+ArcCounts integer_counts(const ArcProblem& problem, int most_nodes);
+
+}  // namespace octafield::surface::detail

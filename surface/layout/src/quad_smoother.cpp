@@ -1,0 +1,264 @@
+#include "quad_smoother.hpp"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "layout_pieces.hpp"
+#include "octafield/disjoint_sets.hpp"
+
+namespace octafield::surface::detail {
+namespace {
+
+using Vector = Eigen::Vector3d;
+constexpr double good_enough = 0.9;  // scaled Jacobian: vertices with no worse quads stay
+constexpr double bad = 0.3;
+constexpr int most_rings = 4, relaxing_rounds = 20;
+constexpr double least_gain = 1e-4;
+constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
+
+// Nearest points of each connected part of the surface.
+class Parts {
+public:
+    explicit Parts(const QuadLayout& layout) : layout_(layout), mesh_(layout.domain.mesh()) {
+        DisjointSets sets(mesh_.vertices.rows());
+        for (Index t = 0; t < mesh_.triangles.rows(); ++t)
+            for (int k = 1; k < 3; ++k) sets.join(mesh_.triangles(t, 0), mesh_.triangles(t, k));
+        Index count = 0;
+        part_of_ = std::move(sets).numbers(count);
+        triangles_.resize(count);
+        numbers_.resize(count);
+        for (Index t = 0; t < mesh_.triangles.rows(); ++t) {
+            const auto at = [&](int k) {
+                const auto p = mesh_.vertices.row(mesh_.triangles(t, k));
+                return Flat::Point_3(p[0], p[1], p[2]);
+            };
+            const Index part = part_of_[mesh_.triangles(t, 0)];
+            triangles_[part].emplace_back(at(0), at(1), at(2));
+            numbers_[part].push_back(t);
+        }
+        for (const auto& triangles : triangles_)
+            trees_.push_back(triangles.empty() ? nullptr : std::make_unique<Tree>(triangles.begin(), triangles.end()));
+    }
+
+    Index part_of(const LayoutPatch& patch) const {
+        for (const DirectedSide& s : patch.loops[0]) {
+            const Index curve = layout_.sides[s.side].curve;
+            if (curve >= 0) return part_of_[mesh_.triangles(layout_.curves.curves[curve].triangles[0], 0)];
+        }
+        for (const CurveNode& node : layout_.pieces->chains[patch.loops[0][0].side].nodes)
+            if (node.node < mesh_.vertices.rows()) return part_of_[node.node];
+        return 0;
+    }
+
+    std::pair<Vector, Index> nearest(Index part, const Vector& p) const {
+        const auto found = trees_[part]->closest_point_and_primitive(Flat::Point_3(p[0], p[1], p[2]));
+        const auto place = found.second - triangles_[part].begin();
+        return {Vector(found.first.x(), found.first.y(), found.first.z()), numbers_[part][place]};
+    }
+    Vector normal(Index triangle) const { return layout_.domain.normals().row(triangle); }
+
+private:
+    using Flat = CGAL::Simple_cartesian<double>;
+    using Primitive = CGAL::AABB_triangle_primitive<Flat, std::vector<Flat::Triangle_3>::const_iterator>;
+    using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Flat, Primitive>>;
+    const QuadLayout& layout_;
+    const TriangleMesh& mesh_;
+    std::vector<Index> part_of_;
+    std::vector<std::vector<Flat::Triangle_3>> triangles_;
+    std::vector<std::vector<Index>> numbers_;
+    std::vector<std::unique_ptr<Tree>> trees_;
+};
+
+class Smoother {
+public:
+    Smoother(const SmootherInput& input, QuadMesh& mesh) : input_(input), mesh_(mesh), parts_(input.layout) {
+        const auto count = static_cast<std::size_t>(mesh.vertices.rows());
+        around_.resize(count);
+        neighbours_.resize(count);
+        for (Index q = 0; q < mesh.quads.rows(); ++q)
+            for (int k = 0; k < 4; ++k) {
+                around_[mesh.quads(q, k)].push_back(q);
+                neighbours_[mesh.quads(q, k)].push_back(mesh.quads(q, (k + 1) % 4));
+                neighbours_[mesh.quads(q, k)].push_back(mesh.quads(q, (k + 3) % 4));
+            }
+        for (auto& list : neighbours_) {
+            std::sort(list.begin(), list.end());
+            list.erase(std::unique(list.begin(), list.end()), list.end());
+        }
+        places_.assign(input.on_seams.begin(), input.on_seams.end());
+        fixed_.assign(count, false);
+        for (std::size_t v = 0; v < places_.size(); ++v) fixed_[v] = places_[v].seam < 0;
+        for (const Index v : input.fixed)
+            if (v >= static_cast<Index>(places_.size())) fixed_[v] = true;
+        std::vector<Index> part_of_patch;
+        for (const LayoutPatch& patch : input.layout.patches) part_of_patch.push_back(parts_.part_of(patch));
+        for (const Index patch : input.patches) part_.push_back(part_of_patch[patch]);
+        for (Index q = 0; q < mesh.quads.rows(); ++q) normals_.push_back(surface_normal(q));
+    }
+
+    // Optimised vertex by vertex; where that gets stuck, once more from where the vertices round bad quads are at the
+    // means of their neighbours, in growing rings. The better one is kept.
+    void run(int rounds) {
+        optimise(rounds);
+        double least = least_quality();
+        for (int ring = 1; ring <= most_rings && least < bad; ++ring) {
+            const Points before = mesh_.vertices;
+            const auto places = places_;
+            relax(ring);
+            optimise(rounds);
+            const double found = least_quality();
+            if (found > least) {
+                least = found;
+                continue;
+            }
+            mesh_.vertices = before;
+            places_ = places;
+        }
+    }
+
+private:
+    void optimise(int rounds) {
+        for (int round = 0; round < rounds; ++round) {
+            bool moved = false;
+            for (Index v = 0; v < static_cast<Index>(around_.size()); ++v)
+                if (!fixed_[v] && !around_[v].empty()) moved |= improve(v);
+            if (!moved) return;
+        }
+    }
+
+    double least_quality() const {
+        double least = 1;
+        for (Index q = 0; q < mesh_.quads.rows(); ++q) least = std::min(least, quality(q));
+        return least;
+    }
+
+    void relax(int ring) {
+        std::vector<bool> near(around_.size(), false);
+        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+            for (int k = 0; k < 4 && quality(q) < bad; ++k) near[mesh_.quads(q, k)] = true;
+        for (int i = 0; i < ring; ++i) {
+            const std::vector<bool> inner = near;
+            for (std::size_t v = 0; v < near.size(); ++v)
+                for (const Index n : neighbours_[v]) near[v] = near[v] || inner[n];
+        }
+        for (int round = 0; round < relaxing_rounds; ++round)
+            for (Index v = static_cast<Index>(places_.size()); v < static_cast<Index>(near.size()); ++v) {
+                if (!near[v] || fixed_[v] || around_[v].empty()) continue;
+                Vector mean = Vector::Zero();
+                for (const Index n : neighbours_[v]) mean += position(n) / static_cast<double>(neighbours_[v].size());
+                mesh_.vertices.row(v) = parts_.nearest(part_[around_[v][0]], mean).first;
+            }
+    }
+
+    Vector position(Index v) const { return mesh_.vertices.row(v); }
+    bool on_seam(Index v) const { return v < static_cast<Index>(places_.size()); }
+
+    Vector surface_normal(Index q) const {
+        Vector middle = Vector::Zero();
+        for (int k = 0; k < 4; ++k) middle += position(mesh_.quads(q, k)) / 4;
+        return parts_.normal(parts_.nearest(part_[q], middle).second);
+    }
+
+    // Less than -1 where it faces against the surface.
+    double quality(Index q) const {
+        std::array<Vector, 4> p;
+        for (int k = 0; k < 4; ++k) p[k] = position(mesh_.quads(q, k));
+        const Vector normal = (p[2] - p[0]).cross(p[3] - p[1]).normalized();
+        double least = 1;
+        for (int k = 0; k < 4; ++k) {
+            const Vector u = p[(k + 1) % 4] - p[k], v = p[(k + 3) % 4] - p[k];
+            const double lengths = u.norm() * v.norm();
+            least = std::min(least, lengths > 0 ? u.cross(v).dot(normal) / lengths : -1.0);
+        }
+        const double facing = normal.dot(normals_[q]);
+        return facing > 0 ? least : -2 + facing;
+    }
+
+    double quality_round(Index v) const {
+        double least = 1;
+        for (const Index q : around_[v]) least = std::min(least, quality(q));
+        return least;
+    }
+
+    // Moves it there if that is better than `best`.
+    bool try_at(Index v, const Vector& target, double& best) {
+        const Vector before = position(v);
+        mesh_.vertices.row(v) = target;
+        const double found = quality_round(v);
+        if (found > best + least_gain) {
+            best = found;
+            return true;
+        }
+        mesh_.vertices.row(v) = before;
+        return false;
+    }
+
+    bool improve(Index v) {
+        double best = quality_round(v);
+        if (best > good_enough) return false;
+        double edges = 0;
+        Vector mean = Vector::Zero();
+        for (const Index n : neighbours_[v]) {
+            edges += (position(n) - position(v)).norm() / static_cast<double>(neighbours_[v].size());
+            mean += position(n) / static_cast<double>(neighbours_[v].size());
+        }
+        return on_seam(v) ? slide(v, edges, best) : wander(v, mean, edges, best);
+    }
+
+    bool slide(Index v, double edges, double best) {
+        const Seam& seam = input_.seams.seams[places_[v].seam];
+        bool moved = false;
+        for (const double step : steps)
+            for (const double way : {-1.0, 1.0}) {
+                double at = places_[v].at + way * step * edges;
+                if (!seam.closed && !(at > 0 && at < seam.length)) continue;
+                if (!try_at(v, position_on(seam, at), best)) continue;
+                places_[v].at = at;
+                moved = true;
+            }
+        return moved;
+    }
+
+    bool wander(Index v, const Vector& mean, double edges, double best) {
+        const Index part = part_[around_[v][0]];
+        const auto on_surface = [&](const Vector& p) { return parts_.nearest(part, p).first; };
+        bool moved = false;
+        for (const double step : {1.0, 0.5})
+            if (try_at(v, on_surface(position(v) + step * (mean - position(v))), best)) {
+                moved = true;
+                break;
+            }
+        const Vector normal = normals_[around_[v][0]];
+        const Vector u = normal.unitOrthogonal(), w = normal.cross(u);
+        for (const double step : steps)
+            for (int i = 0; i < 8; ++i) {
+                const double angle = i * std::numbers::pi / 4;
+                const Vector way = std::cos(angle) * u + std::sin(angle) * w;
+                moved |= try_at(v, on_surface(position(v) + step * edges * way), best);
+            }
+        return moved;
+    }
+
+    const SmootherInput& input_;
+    QuadMesh& mesh_;
+    Parts parts_;
+    std::vector<std::vector<Index>> around_, neighbours_;
+    std::vector<SideGrids::OnSeam> places_;
+    std::vector<bool> fixed_;
+    std::vector<Index> part_;      // of each quad
+    std::vector<Vector> normals_;  // of the surface at each quad
+};
+
+}  // namespace
+
+void smooth(const SmootherInput& input, int rounds, QuadMesh& mesh) { Smoother(input, mesh).run(rounds); }
+
+}  // namespace octafield::surface::detail

@@ -1,0 +1,24 @@
+// The conditions on whole numbers of a T-mesh's arcs.
+#pragma once
+
+#include "arc_counts.hpp"
+#include "octafield/surface/quantized_quads.hpp"
+#include "seams.hpp"
+
+namespace octafield::surface::detail {
+
+// Equal sums on opposite sides; least: 1, but 2 for arcs between the same two vertices, and 3 for one from a vertex to
+// itself, so that edges of the mesh are different. Behind the arcs the parts of seams, 0 at least, whose sums the arcs
+// on them are, then the seams, 1 at least, 2 between the same two nodes, 3 if closed. set_size: wanted and weights, of
+// parts a quarter, of seams and of what is behind them 0.
+ArcProblem arc_problem(const QuadLayout& layout, const Seams& seams);
+void set_size(ArcProblem& problem, const QuadLayout& layout, const Seams& seams, double size, ArcWeights weights);
+
+// The problem with the given counts, each of whose quads is to be split as all others in its row: a problem in those
+// splits, >= 1, behind the rest.
+ArcProblem split_problem(const QuadLayout& layout, const Seams& seams, const ArcProblem& arcs,
+                         const std::vector<int>& counts);
+
+double total_quads(const QuadLayout& layout, const std::vector<int>& counts);
+
+}  // namespace octafield::surface::detail

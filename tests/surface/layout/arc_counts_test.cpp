@@ -1,0 +1,89 @@
+// Whole numbers for arcs against all that there are.
+#include "arc_counts.hpp"
+#include "layout_fixtures.hpp"
+
+namespace octafield::surface {
+namespace {
+
+using detail::ArcProblem;
+using detail::EqualSums;
+
+double deviation(const ArcProblem& problem, const std::vector<int>& counts) {
+    double sum = 0;
+    for (std::size_t a = 0; a < counts.size(); ++a) sum += problem.weights[a] * std::abs(counts[a] - problem.wanted[a]);
+    return sum;
+}
+
+bool fits(const ArcProblem& problem, const std::vector<int>& counts) {
+    for (const EqualSums& sum : problem.sums) {
+        int difference = 0;
+        for (const Index a : sum.left) difference += counts[a];
+        for (const Index a : sum.right) difference -= counts[a];
+        if (difference != 0) return false;
+    }
+    return true;
+}
+
+// Every choice of 5 numbers up to 6.
+std::optional<double> least_of_all(const ArcProblem& problem) {
+    std::optional<double> best;
+    std::vector<int> counts(5);
+    for (int code = 0; code < 6 * 6 * 6 * 6 * 6; ++code) {
+        int rest = code;
+        bool enough = true;
+        for (int a = 0; a < 5; ++a) {
+            counts[a] = rest % 6 + 1;
+            rest /= 6;
+            enough &= counts[a] >= problem.least[a];
+        }
+        if (!enough || !fits(problem, counts)) continue;
+        const double value = deviation(problem, counts);
+        if (!best || value < *best) best = value;
+    }
+    return best;
+}
+
+TEST(ArcCounts, AreTheBestOfAll) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> length(0.2, 3);
+    std::uniform_int_distribution<Index> arc(0, 4);
+    int solved = 0, refused = 0;
+    for (int round = 0; round < 150; ++round) {
+        ArcProblem problem;
+        for (int a = 0; a < 5; ++a) {
+            problem.wanted.push_back(length(random));
+            problem.weights.push_back(round % 2 ? 1 : 1 / problem.wanted.back());
+            problem.least.push_back(1 + (a == 4 && round % 3 == 0));
+        }
+        for (int s = 0; s < 2; ++s) {
+            EqualSums sum;
+            sum.left = {arc(random), arc(random)};
+            sum.right = {arc(random)};
+            if (round % 5 == 0) sum.right.push_back(arc(random));
+            problem.sums.push_back(sum);
+        }
+        const auto best = least_of_all(problem);
+        if (!best) {
+            EXPECT_EQ(kind_of([&] { detail::integer_counts(problem, 100); }), "no_integers");
+            ++refused;
+            continue;
+        }
+        const detail::ArcCounts found = detail::integer_counts(problem, 100);
+        EXPECT_TRUE(fits(problem, found.counts));
+        EXPECT_TRUE(found.optimal);
+        EXPECT_NEAR(deviation(problem, found.counts), *best, 1e-9);
+        EXPECT_NEAR(found.deviation, *best, 1e-9);
+        EXPECT_NEAR(found.bound, *best, 1e-6);
+        ++solved;
+    }
+    EXPECT_GT(solved, 30);
+    EXPECT_GT(refused, 5);
+}
+
+TEST(ArcCounts, WithoutSumsAreRounded) {
+    const ArcProblem problem{{0.2, 2.4, 2.6}, {1, 1, 1}, {1, 1, 1}, {}};
+    EXPECT_EQ(detail::integer_counts(problem, 10).counts, (std::vector<int>{1, 2, 3}));
+}
+
+}  // namespace
+}  // namespace octafield::surface

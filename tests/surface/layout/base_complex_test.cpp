@@ -1,0 +1,115 @@
+// Blocks of quad meshes that are known.
+#include "octafield/surface/base_complex.hpp"
+#include "layout_fixtures.hpp"
+
+namespace octafield::surface {
+namespace {
+
+QuadMesh quad_mesh(Index vertices, const std::vector<std::array<Index, 4>>& quads) {
+    QuadMesh mesh;
+    mesh.vertices = Points::Zero(vertices, 3);
+    mesh.quads.resize(static_cast<Eigen::Index>(quads.size()), 4);
+    for (std::size_t q = 0; q < quads.size(); ++q)
+        for (int k = 0; k < 4; ++k) mesh.quads(static_cast<Eigen::Index>(q), k) = quads[q][k];
+    return mesh;
+}
+
+// n by m quads; round: joined at the left and right; both: at all sides. hole: one quad in the middle left out.
+QuadMesh grid(int n, int m, bool round, bool both, bool hole = false) {
+    const int columns = round ? n : n + 1, rows = both ? m : m + 1;
+    const auto at = [&](int i, int j) { return static_cast<Index>((j % rows) * columns + i % columns); };
+    std::vector<std::array<Index, 4>> quads;
+    for (int j = 0; j < m; ++j)
+        for (int i = 0; i < n; ++i) {
+            if (hole && i == n / 2 && j == m / 2) continue;
+            quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+            std::rotate(quads.back().begin(), quads.back().begin() + (i + 2 * j) % 4, quads.back().end());
+        }
+    return quad_mesh(columns * rows, quads);
+}
+
+void expect_grids(const QuadMesh& mesh, const BaseComplex& complex) {
+    std::vector<long> counts(complex.block_sizes.rows(), 0);
+    for (const Index b : complex.blocks) ++counts.at(b);
+    for (Eigen::Index b = 0; b < complex.block_sizes.rows(); ++b) {
+        EXPECT_EQ(counts[b], static_cast<long>(complex.block_sizes(b, 0)) * complex.block_sizes(b, 1));
+        for (int d = 0; d < 2; ++d)
+            EXPECT_EQ(complex.block_sizes(b, d), complex.chord_counts.at(complex.block_chords(b, d)));
+    }
+    EXPECT_EQ(static_cast<Eigen::Index>(complex.blocks.size()), mesh.quads.rows());
+}
+
+TEST(BaseComplex, OfAGridIsOneBlock) {
+    const QuadMesh mesh = grid(5, 3, false, false);
+    const BaseComplex complex = base_complex(mesh);
+    expect_grids(mesh, complex);
+    EXPECT_EQ(complex.block_sizes.rows(), 1);
+    EXPECT_EQ(complex.irregular.size(), 4u);
+    EXPECT_EQ(complex.chord_counts.size(), 2u);
+}
+
+TEST(BaseComplex, OfAGridWithAHoleIsEightBlocks) {
+    const QuadMesh mesh = grid(7, 5, false, false, true);
+    const BaseComplex complex = base_complex(mesh);
+    expect_grids(mesh, complex);
+    EXPECT_EQ(complex.block_sizes.rows(), 8);
+    EXPECT_EQ(complex.irregular.size(), 8u);
+    EXPECT_EQ(complex.chord_counts.size(), 8u);  // the hole parts the middle ones
+}
+
+TEST(BaseComplex, OfRingsAndToriIsCut) {
+    const QuadMesh ring = grid(6, 4, true, false), torus = grid(6, 4, true, true);
+    for (const QuadMesh& mesh : {ring, torus}) {
+        const BaseComplex complex = base_complex(mesh);
+        expect_grids(mesh, complex);
+        EXPECT_EQ(complex.block_sizes.rows(), 1);
+        EXPECT_TRUE(complex.irregular.empty());
+        EXPECT_GE(complex.cut_vertices, 1);
+    }
+}
+
+TEST(BaseComplex, OfACubeIsItsFaces) {
+    const int n = 3;
+    std::map<std::array<int, 3>, Index> number;
+    std::vector<std::array<Index, 4>> quads;
+    const auto at = [&](std::array<int, 3> p) {
+        return number.emplace(p, static_cast<Index>(number.size())).first->second;
+    };
+    for (int d = 0; d < 3; ++d)
+        for (int end = 0; end < 2; ++end)
+            for (int i = 0; i < n; ++i)
+                for (int j = 0; j < n; ++j) {
+                    const auto point = [&](int u, int v) {
+                        std::array<int, 3> p{};
+                        p[d] = end * n;
+                        p[(d + 1) % 3] = u;
+                        p[(d + 2) % 3] = v;
+                        return at(p);
+                    };
+                    std::array<Index, 4> quad = {point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)};
+                    if (end == 0) std::swap(quad[1], quad[3]);
+                    quads.push_back(quad);
+                }
+    const QuadMesh mesh = quad_mesh(static_cast<Index>(number.size()), quads);
+    const BaseComplex complex = base_complex(mesh);
+    expect_grids(mesh, complex);
+    EXPECT_EQ(complex.block_sizes.rows(), 6);
+    EXPECT_EQ(complex.irregular.size(), 8u);
+    EXPECT_EQ(complex.chord_counts.size(), 3u);
+    for (Index q = 0; q < mesh.quads.rows(); ++q) EXPECT_EQ(complex.blocks[q], q / (n * n));
+}
+
+TEST(BaseComplex, OfWhatIsNoQuadMeshIsRefused) {
+    QuadMesh mesh = grid(2, 2, false, false);
+    mesh.quads(0, 0) = 100;
+    EXPECT_EQ(kind_of([&] { base_complex(mesh); }), "index_out_of_range");
+    mesh = quad_mesh(8, {{0, 1, 2, 3}, {1, 0, 4, 5}, {1, 0, 6, 7}});
+    EXPECT_EQ(kind_of([&] { base_complex(mesh); }), "non_manifold_edge");
+    mesh = grid(2, 2, false, false);
+    mesh.triangles.resize(1, 3);
+    mesh.triangles << 0, 1, 3;
+    EXPECT_EQ(kind_of([&] { base_complex(mesh); }), "not_quads");
+}
+
+}  // namespace
+}  // namespace octafield::surface

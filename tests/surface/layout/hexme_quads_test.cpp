@@ -1,0 +1,148 @@
+// Quads on the boundaries of real parts, with the features of their files.
+#include <fstream>
+
+#include "hexme_surface.hpp"
+#include "octafield/error.hpp"
+#include "octafield/surface/corner_pattern.hpp"
+#include "octafield/surface/feature_cut.hpp"
+#include "quad_checks.hpp"
+
+namespace octafield::surface {
+namespace {
+
+struct Part {
+    SurfaceDomain whole;
+    FeatureCut cut;
+    SingularPattern pattern;
+};
+
+// Points inside the faces from the computed field, corners by it, at least 1 quad each.
+Part part_of(const SurfaceDomain& whole) {
+    Part part{whole, cut_along_features(whole), {}};
+    const DirectionField field = direction_field(part.cut.domain);
+    const SingularPattern computed = singular_pattern(field, surface_singularities(field));
+    part.pattern = with_corner_quads(part.cut.domain, computed, finite_corner_quads(part.cut.domain, computed));
+    return part;
+}
+
+QuantizedQuads quads_of(const Part& part, Index count) {
+    ImposedFieldOptions how;
+    how.inadmissible = Inadmissible::move;
+    QuantizedQuadsOptions options;
+    options.quad_count = count;
+    options.origins = part.cut.origins;
+    return quantized_quads(motorcycle_graph(impose_singular_points(part.cut.domain, part.pattern, how)), options);
+}
+
+// Irregular vertices that the points inside, and the quads of all faces' corners at each vertex of features, sum up to.
+std::multiset<int> expected_whole(const Part& part) {
+    std::multiset<int> result;
+    for (const ImposedPoint& p : part.pattern.points)
+        if (p.index_times_four != 0) result.insert(-p.index_times_four);
+    std::map<Index, int> quads_of_copy;
+    const EdgeTopology& topology = part.cut.domain.topology();
+    for (Eigen::Index e = 0; e < topology.edges.rows(); ++e)
+        if (topology.edge_triangles.row(e).minCoeff() < 0)
+            for (int k = 0; k < 2; ++k) quads_of_copy[topology.edges(e, k)] = 2;
+    for (const CornerQuads& c : default_corner_quads(part.cut.domain)) quads_of_copy[c.vertex] = c.quads;
+    for (const CornerQuads& c : part.pattern.corners) quads_of_copy[c.vertex] = c.quads;
+    std::map<Index, int> sums;
+    for (const auto& [copy, quads] : quads_of_copy) sums[part.cut.origins[copy]] += quads;
+    for (const auto& [vertex, quads] : sums)
+        if (quads != 4) result.insert(quads - 4);
+    return result;
+}
+
+double volume(const TriangleMesh& mesh) {
+    double sum = 0;
+    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+        const Vector a = mesh.vertices.row(mesh.triangles(t, 0)), b = mesh.vertices.row(mesh.triangles(t, 1)),
+                     c = mesh.vertices.row(mesh.triangles(t, 2));
+        sum += a.dot(b.cross(c)) / 6;
+    }
+    return sum;
+}
+
+void expect_whole(const Part& part, const QuantizedQuads& quads) {
+    expect_conforming(quads, euler_characteristic(part.whole.mesh()));
+    EXPECT_EQ(counted_edges(quads.mesh).boundary, 0);
+    EXPECT_EQ(irregularities(quads.mesh), expected_whole(part));
+    const double exact = volume(part.whole.mesh());
+    EXPECT_NEAR(volume(split_quads(quads.mesh)) / exact, 1, 0.02);
+    // Where other than two features meet, there is a vertex.
+    std::map<Index, int> degree;
+    for (Eigen::Index e = 0; e < part.whole.features().edges.rows(); ++e)
+        for (int k = 0; k < 2; ++k) ++degree[part.whole.features().edges(e, k)];
+    for (const auto& [vertex, count] : degree) {
+        if (count == 2) continue;
+        const auto apart = quads.mesh.vertices.rowwise() - part.whole.mesh().vertices.row(vertex);
+        EXPECT_LT(apart.rowwise().norm().minCoeff(), 1e-9 * part.whole.size());
+    }
+}
+
+SurfaceDomain box(int n) {
+    const TriangleMesh mesh = cube_surface(n);
+    return SurfaceDomain(mesh, detect_features(mesh));
+}
+
+TEST(HexmeQuads, OfACubeAreItsFaces) {
+    const Part part = part_of(box(5));
+    EXPECT_EQ(part.cut.domain.vertex_count(), part.whole.vertex_count() + 8 * 2 + 12 * 4);
+    EXPECT_TRUE(part.pattern.points.empty());
+    const QuantizedQuads quads = quads_of(part, 600);
+    expect_whole(part, quads);
+    EXPECT_EQ(quads.mesh.quads.rows(), 600);
+    EXPECT_EQ(quads.patch_sizes.rows(), 6);
+    EXPECT_EQ(quads.chord_counts.size(), 3u);
+    EXPECT_GT(quads.least_scaled_jacobian, 0.999);
+}
+
+TEST(HexmeQuads, OfParts) {
+    if (!std::filesystem::exists(shared_data() / "hexme")) GTEST_SKIP() << "no data";
+    const struct {
+        const char* name;
+        double least;
+        int most_irregular;
+    } cases[] = {{"s01c", 0.99, 8}, {"s03c", 0.9, 12}, {"s04c", 0.8, 8},  {"s05c", 0.8, 16}, {"s09c", 0.8, 16},
+                 {"s10c", 0.8, 14}, {"s12c", 0.8, 8},  {"s16c", 0.95, 0}, {"i01c", 0.3, 88}, {"i10b", 0.99, 8}};
+    for (const auto& c : cases) {
+        SCOPED_TRACE(c.name);
+        const Part part = part_of(hexme_surface(c.name));
+        const QuantizedQuads quads = quads_of(part, 2000);
+        expect_whole(part, quads);
+        EXPECT_GT(quads.least_scaled_jacobian, c.least);
+        EXPECT_EQ(static_cast<int>(quads.irregular.size()), c.most_irregular);
+        EXPECT_NEAR(quads.mesh.quads.rows(), 2000, 100);
+    }
+}
+
+// The notched cube: a corner of 135 degrees gets one quad, and then the faces' points do not fit one another.
+TEST(HexmeQuads, FacesThatDoNotFitAreTold) {
+    if (!std::filesystem::exists(shared_data() / "hexme")) GTEST_SKIP() << "no data";
+    const Part part = part_of(hexme_surface("s07c"));
+    EXPECT_EQ(kind_of([&] { quads_of(part, 2000); }), "no_integers");
+}
+
+// One row per file, to hexme_quads.txt: not a test (--gtest_also_run_disabled_tests).
+TEST(HexmeQuads, DISABLED_Table) {
+    std::ofstream table("hexme_quads.txt");
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(shared_data() / "hexme"))
+        names.insert(entry.path().filename().string().substr(0, 4));
+    for (const std::string& name : names) {
+        table << name << ' ';
+        try {
+            const Part part = part_of(hexme_surface(name));
+            const QuantizedQuads quads = quads_of(part, 2000);
+            table << part.whole.triangle_count() << " triangles, " << quads.mesh.quads.rows() << " quads, "
+                  << quads.t_joints << " T-joints, " << quads.patch_sizes.rows() << " blocks, "
+                  << quads.irregular.size() << " irregular, " << quads.least_scaled_jacobian << '\n';
+        } catch (const Error& error) {
+            table << error.kind() << '\n';
+        }
+        table.flush();
+    }
+}
+
+}  // namespace
+}  // namespace octafield::surface
