@@ -25,13 +25,23 @@ Part part_of(const SurfaceDomain& whole) {
     return part;
 }
 
-QuantizedQuads quads_of(const Part& part, Index count) {
+ImposedField field_of(const Part& part) {
     ImposedFieldOptions how;
     how.inadmissible = Inadmissible::move;
+    try {
+        return impose_singular_points(part.cut.domain, part.pattern, how);
+    } catch (const SolverError&) {
+        how.inadmissible = Inadmissible::rotate;
+        return impose_singular_points(part.cut.domain, part.pattern, how);
+    }
+}
+
+QuantizedQuads quads_of(const Part& part, Index count, bool coarsest = false) {
     QuantizedQuadsOptions options;
     options.quad_count = count;
+    options.coarsest = coarsest;
     options.origins = part.cut.origins;
-    return quantized_quads(motorcycle_graph(impose_singular_points(part.cut.domain, part.pattern, how)), options);
+    return quantized_quads(motorcycle_graph(field_of(part)), options);
 }
 
 // Irregular vertices that the points inside, and the quads of all faces' corners at each vertex of features, sum up to.
@@ -113,6 +123,20 @@ TEST(HexmeQuads, OfParts) {
         EXPECT_GT(quads.least_scaled_jacobian, c.least);
         EXPECT_EQ(static_cast<int>(quads.irregular.size()), c.most_irregular);
         EXPECT_NEAR(quads.mesh.quads.rows(), 2000, 100);
+    }
+}
+
+// Blocks follow one another across features, so that there are few.
+TEST(HexmeQuads, CoarsestHaveFewerBlocks) {
+    if (!std::filesystem::exists(shared_data() / "hexme")) GTEST_SKIP() << "no data";
+    for (const char* name : {"s05c", "s08c"}) {
+        SCOPED_TRACE(name);
+        const Part part = part_of(hexme_surface(name));
+        const QuantizedQuads plain = quads_of(part, 2000), coarsest = quads_of(part, 2000, true);
+        expect_whole(part, coarsest);
+        EXPECT_LT(coarsest.patch_sizes.rows(), 60);
+        EXPECT_LT(coarsest.patch_sizes.rows(), plain.patch_sizes.rows() / 4);
+        EXPECT_GT(coarsest.least_scaled_jacobian, 0.5);
     }
 }
 
