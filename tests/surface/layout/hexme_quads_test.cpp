@@ -107,6 +107,33 @@ TEST(HexmeQuads, OfACubeAreItsFaces) {
     EXPECT_GT(quads.least_scaled_jacobian, 0.999);
 }
 
+// A line across a plate, and one that ends in it: the mesh follows both, and the boundary stays open.
+TEST(HexmeQuads, OfAPlateWithLinesInside) {
+    for (const double end : {1.0, 0.5}) {
+        const TriangleMesh mesh = plate(8, [](double, double) { return true; });
+        const EdgeTopology topology = edge_topology(mesh);
+        Edges edges(0, 2);
+        for (Eigen::Index e = 0; e < topology.edges.rows(); ++e) {
+            const Vector a = mesh.vertices.row(topology.edges(e, 0)), b = mesh.vertices.row(topology.edges(e, 1));
+            if (std::abs(a[0] - 0.5) > 1e-9 || std::abs(b[0] - 0.5) > 1e-9 || std::max(a[1], b[1]) > end + 1e-9)
+                continue;
+            edges.conservativeResize(edges.rows() + 1, 2);
+            edges.row(edges.rows() - 1) = topology.edges.row(e);
+        }
+        const Part part = part_of(SurfaceDomain(mesh, feature_graph(mesh, edges)));
+        const QuantizedQuads quads = quads_of(part, 300);
+        expect_conforming(quads, 1);
+        EXPECT_EQ(irregularities(quads.mesh), std::multiset<int>({-1, -1, -1, -1}));
+        EXPECT_NEAR(triangle_areas(split_quads(quads.mesh)).sum(), 1, 1e-9);
+        std::set<long> places;  // of vertices on the line
+        for (Index v = 0; v < quads.mesh.vertices.rows(); ++v)
+            if (std::abs(quads.mesh.vertices(v, 0) - 0.5) < 1e-9 && quads.mesh.vertices(v, 1) <= end + 1e-9)
+                places.insert(std::lround(1e6 * quads.mesh.vertices(v, 1)));
+        EXPECT_GE(places.size(), 300 * end * end / 40);
+        EXPECT_TRUE(places.contains(0) && places.contains(std::lround(1e6 * end)));
+    }
+}
+
 TEST(HexmeQuads, OfParts) {
     if (!std::filesystem::exists(shared_data() / "hexme")) GTEST_SKIP() << "no data";
     const struct {
