@@ -105,6 +105,13 @@ public:
         for (Index q = 0; q < mesh.quads.rows(); ++q) normals_.push_back(surface_normal(q));
     }
 
+    std::vector<Index> facing_away() const {
+        std::vector<Index> result;
+        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+            if (quality(q) < -1) result.push_back(q);
+        return result;
+    }
+
     // Optimised vertex by vertex; where that gets stuck, once more from where the vertices round bad quads are at the
     // means of their neighbours, in growing rings, first with all quads round a vertex counting. The better one is
     // kept.
@@ -270,5 +277,9 @@ private:
 }  // namespace
 
 void smooth(const SmootherInput& input, int rounds, QuadMesh& mesh) { Smoother(input, mesh).run(rounds); }
+
+std::vector<Index> facing_away(const SmootherInput& input, QuadMesh& mesh) {
+    return Smoother(input, mesh).facing_away();
+}
 
 }  // namespace octafield::surface::detail
