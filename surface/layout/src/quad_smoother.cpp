@@ -20,6 +20,7 @@ namespace {
 using Vector = Eigen::Vector3d;
 constexpr double good_enough = 0.9;  // scaled Jacobian: vertices with no worse quads stay
 constexpr double bad = 0.3;
+constexpr double softness = 10;
 constexpr int most_rings = 4, relaxing_rounds = 20;
 constexpr double least_gain = 1e-4;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
@@ -104,8 +105,16 @@ public:
         for (Index q = 0; q < mesh.quads.rows(); ++q) normals_.push_back(surface_normal(q));
     }
 
+    std::vector<Index> facing_away() const {
+        std::vector<Index> result;
+        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+            if (quality(q) < -1) result.push_back(q);
+        return result;
+    }
+
     // Optimised vertex by vertex; where that gets stuck, once more from where the vertices round bad quads are at the
-    // means of their neighbours, in growing rings. The better one is kept.
+    // means of their neighbours, in growing rings, first with all quads round a vertex counting. The better one is
+    // kept.
     void run(int rounds) {
         optimise(rounds);
         double least = least_quality();
@@ -113,6 +122,9 @@ public:
             const Points before = mesh_.vertices;
             const auto places = places_;
             relax(ring);
+            soft_ = true;
+            optimise(rounds);
+            soft_ = false;
             optimise(rounds);
             const double found = least_quality();
             if (found > least) {
@@ -183,9 +195,13 @@ private:
     }
 
     double quality_round(Index v) const {
-        double least = 1;
-        for (const Index q : around_[v]) least = std::min(least, quality(q));
-        return least;
+        double least = 1, sum = 0;
+        for (const Index q : around_[v]) {
+            const double found = quality(q);
+            least = std::min(least, found);
+            if (soft_) sum += std::exp(-softness * found);
+        }
+        return soft_ ? -std::log(sum / static_cast<double>(around_[v].size())) / softness : least;
     }
 
     // Moves it there if that is better than `best`.
@@ -248,6 +264,7 @@ private:
     }
 
     const SmootherInput& input_;
+    bool soft_ = false;  // the quads round a vertex count all, the worse the more
     QuadMesh& mesh_;
     Parts parts_;
     std::vector<std::vector<Index>> around_, neighbours_;
@@ -260,5 +277,9 @@ private:
 }  // namespace
 
 void smooth(const SmootherInput& input, int rounds, QuadMesh& mesh) { Smoother(input, mesh).run(rounds); }
+
+std::vector<Index> facing_away(const SmootherInput& input, QuadMesh& mesh) {
+    return Smoother(input, mesh).facing_away();
+}
 
 }  // namespace octafield::surface::detail

@@ -20,4 +20,7 @@ struct SmootherInput {
 // the surface between seams. Ends when nothing moves.
 void smooth(const SmootherInput& input, int rounds, QuadMesh& mesh);
 
+// Quads whose normal is turned by a right angle or more from that of the surface nearest to their middle.
+std::vector<Index> facing_away(const SmootherInput& input, QuadMesh& mesh);
+
 }  // namespace octafield::surface::detail

@@ -125,9 +125,12 @@ QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOpt
     static_cast<LayoutQuads&>(result) = std::move(builder).result();
     set_blocks(result);
     report_or_throw(progress, "smooth", 0.8, NAN);
-    if (options.smoothing > 0)
-        detail::smooth({layout, seams, on_seams, result.tiles, result.irregular}, options.smoothing, result.mesh);
+    const detail::SmootherInput on_surface{layout, seams, on_seams, result.tiles, result.irregular};
+    if (options.smoothing > 0) detail::smooth(on_surface, options.smoothing, result.mesh);
     detail::require_convex(result);
+    if (const auto away = detail::facing_away(on_surface, result.mesh); !away.empty())
+        throw SolverError("quads " + first_few(away) + " face against the surface; ask for smaller ones",
+                          "inverted_quads", away);
     require_valid(result.mesh, false);
     for (const LayoutVertex& vertex : layout.vertices) result.t_joints += vertex.kind == LayoutVertexKind::t_joint;
     result.arc_counts = std::move(chosen.arcs.counts);
