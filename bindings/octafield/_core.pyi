@@ -942,7 +942,12 @@ class LayoutPatch:
         euler_characteristic: int = ...,
         corners: int = ...,
         loops: Sequence[ArrayLike] = ...,
+        corner_sides: ArrayLike = ...,
     ) -> None: ...
+    @property
+    def corner_sides(self) -> Int32s: ...
+    @corner_sides.setter
+    def corner_sides(self, value: ArrayLike) -> None: ...
     @property
     def loops(self) -> list[Int32s]: ...
     @loops.setter
@@ -1012,8 +1017,131 @@ class LayoutQuads:
     @patch_sizes.setter
     def patch_sizes(self, value: ArrayLike) -> None: ...
 
+class QuantizedQuadsOptions:
+    words: ClassVar[dict[str, list[str]]]
+    edge_length: float
+    quad_count: int
+    coarsest: bool
+    weights: str
+    smoothing: int
+    most_nodes: int
+    def __init__(
+        self,
+        edge_length: float = ...,
+        quad_count: int = ...,
+        coarsest: bool = ...,
+        weights: str = ...,
+        origins: ArrayLike = ...,
+        smoothing: int = ...,
+        most_nodes: int = ...,
+    ) -> None: ...
+    @property
+    def origins(self) -> Int32s: ...
+    @origins.setter
+    def origins(self, value: ArrayLike) -> None: ...
+
+class QuantizedQuads:
+    t_joints: int
+    size: float
+    deviation: float
+    bound: float
+    optimal: bool
+    mean_value_patches: int
+    least_scaled_jacobian: float
+    def __init__(
+        self,
+        mesh: QuadMesh = ...,
+        patches: ArrayLike = ...,
+        chord_counts: ArrayLike = ...,
+        patch_sizes: ArrayLike = ...,
+        patch_chords: ArrayLike = ...,
+        tiles: ArrayLike = ...,
+        arc_counts: ArrayLike = ...,
+        t_joints: int = ...,
+        irregular: ArrayLike = ...,
+        size: float = ...,
+        deviation: float = ...,
+        bound: float = ...,
+        optimal: bool = ...,
+        mean_value_patches: int = ...,
+        least_scaled_jacobian: float = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> QuadMesh: ...
+    @property
+    def patches(self) -> Int32s: ...
+    @patches.setter
+    def patches(self, value: ArrayLike) -> None: ...
+    @property
+    def chord_counts(self) -> Int32s: ...
+    @chord_counts.setter
+    def chord_counts(self, value: ArrayLike) -> None: ...
+    @property
+    def patch_sizes(self) -> Int32s: ...
+    @patch_sizes.setter
+    def patch_sizes(self, value: ArrayLike) -> None: ...
+    @property
+    def patch_chords(self) -> Int32s: ...
+    @patch_chords.setter
+    def patch_chords(self, value: ArrayLike) -> None: ...
+    @property
+    def tiles(self) -> Int32s: ...
+    @tiles.setter
+    def tiles(self, value: ArrayLike) -> None: ...
+    @property
+    def arc_counts(self) -> Int32s: ...
+    @arc_counts.setter
+    def arc_counts(self, value: ArrayLike) -> None: ...
+    @property
+    def irregular(self) -> Int32s: ...
+    @irregular.setter
+    def irregular(self, value: ArrayLike) -> None: ...
+
+class BaseComplex:
+    cut_vertices: int
+    def __init__(
+        self,
+        blocks: ArrayLike = ...,
+        block_sizes: ArrayLike = ...,
+        block_chords: ArrayLike = ...,
+        chord_counts: ArrayLike = ...,
+        irregular: ArrayLike = ...,
+        cut_vertices: int = ...,
+    ) -> None: ...
+    @property
+    def blocks(self) -> Int32s: ...
+    @blocks.setter
+    def blocks(self, value: ArrayLike) -> None: ...
+    @property
+    def block_sizes(self) -> Int32s: ...
+    @block_sizes.setter
+    def block_sizes(self, value: ArrayLike) -> None: ...
+    @property
+    def block_chords(self) -> Int32s: ...
+    @block_chords.setter
+    def block_chords(self, value: ArrayLike) -> None: ...
+    @property
+    def chord_counts(self) -> Int32s: ...
+    @chord_counts.setter
+    def chord_counts(self, value: ArrayLike) -> None: ...
+    @property
+    def irregular(self) -> Int32s: ...
+    @irregular.setter
+    def irregular(self, value: ArrayLike) -> None: ...
+
+class FeatureCut:
+    def __init__(self, domain: SurfaceDomain = ..., origins: ArrayLike = ...) -> None: ...
+    @property
+    def domain(self) -> SurfaceDomain: ...
+    @property
+    def origins(self) -> Int32s: ...
+    @origins.setter
+    def origins(self, value: ArrayLike) -> None: ...
+
 class QuadLayout:
-    def __init__(self, field: ImposedField, options: LayoutCurveOptions = ..., cut_annuli: bool = ...) -> None: ...
+    def __init__(
+        self, field: ImposedField, options: LayoutCurveOptions = ..., cut_annuli: bool = ..., t_mesh: bool = ...
+    ) -> None: ...
     @property
     def vertices(self) -> list[LayoutVertex]: ...
     @property
@@ -1032,6 +1160,8 @@ class QuadLayout:
     def options(self) -> LayoutCurveOptions: ...
     @property
     def cut_annuli(self) -> bool: ...
+    @property
+    def t_mesh(self) -> bool: ...
 
 def layout_curves(
     field: ImposedField,
@@ -1062,6 +1192,32 @@ def patch_polygons(layout: QuadLayout) -> PatchPolygons: ...
 def layout_quads(
     layout: QuadLayout, *, edge_length: float = ..., quad_count: int = ..., progress: Progress | None = None
 ) -> LayoutQuads: ...
+def motorcycle_graph(
+    field: ImposedField,
+    *,
+    end_tolerance: float = ...,
+    max_length: float = ...,
+    cut_vertices: ArrayLike | None = ...,
+    progress: Progress | None = None,
+) -> QuadLayout: ...
+def quantized_quads(
+    layout: QuadLayout,
+    *,
+    edge_length: float = ...,
+    quad_count: int = ...,
+    coarsest: bool = ...,
+    weights: str = ...,
+    origins: ArrayLike | None = ...,
+    smoothing: int = ...,
+    most_nodes: int = ...,
+    progress: Progress | None = None,
+) -> QuantizedQuads: ...
+def base_complex(mesh: QuadMesh) -> BaseComplex: ...
+def cut_along_features(surface: SurfaceDomain | TriangleMesh) -> FeatureCut: ...
+def with_corner_quads(
+    surface: SurfaceDomain | TriangleMesh, pattern: SingularPattern, corners: Sequence[CornerQuads]
+) -> SingularPattern: ...
+def finite_corner_quads(surface: SurfaceDomain | TriangleMesh, pattern: SingularPattern) -> list[CornerQuads]: ...
 def quad_angle_quality(mesh: QuadMesh) -> Float64s: ...
 @overload
 def streamlines(

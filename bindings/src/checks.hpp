@@ -24,6 +24,7 @@ struct NonOrthogonalFieldOptions;
 struct ImposedFieldOptions;
 struct LayoutCurveOptions;
 struct LayoutQuadsOptions;
+struct QuantizedQuadsOptions;
 }  // namespace octafield::surface
 namespace octafield::volume {
 struct BoundaryOptions;
@@ -50,6 +51,7 @@ void check(const surface::NonOrthogonalFieldOptions& options);
 void check(const surface::ImposedFieldOptions& options);
 void check(const surface::LayoutCurveOptions& options);
 void check(const surface::LayoutQuadsOptions& options);
+void check(const surface::QuantizedQuadsOptions& options);
 void check(const volume::BoundaryOptions& options);
 void check(const volume::DiffuseOptions& options);
 void check(const volume::SmoothOptions& options);

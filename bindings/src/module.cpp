@@ -74,6 +74,8 @@ PYBIND11_MODULE(_core, module) {
     bind_cells(module);
     bind_quad_layout_types(module);
     bind_quad_layouts(module);
+    bind_t_mesh_types(module);
+    bind_t_meshes(module);
     bind_hexdom(module);
     bind_end();
     add_examples(module);

@@ -161,6 +161,9 @@ void bind_parts(py::module_& m) {
             "loops", loops_of, set_loops,
             "Of each boundary curve, with the patch on its left, (k, 2) int32: sides of the layout, and 1 where a side "
             "is run from its last to its first vertex.")
+        .field(
+            "corner_sides", &LayoutPatch::corner_sides,
+            "int32, of each loop in turn, places of the sides that start at a corner; the others start at a T-joint.")
         .finish([](const LayoutPatch& p) { return to_word(p.kind) + ", " + count(p.corners, "corner"); });
     Record<LayoutChord>(m, "LayoutChord", "Sides of a layout that get the same number of quads.")
         .field("sides", &LayoutChord::sides, "int32, ascending.")
@@ -200,15 +203,15 @@ void bind_layout(py::module_& m) {
     py::class_<BoundLayout> type(
         m, "QuadLayout",
         "A surface cut by separatrices of an imposed field into patches, most of them with four "
-        "corners: what quad_layout makes. Cannot be changed; pickles are of the field and the "
+        "corners: what quad_layout and motorcycle_graph make. Cannot be changed; pickles are of the field and the "
         "options, and are made again when read.");
-    type.def(py::init([](const ImposedField& field, const LayoutCurveOptions& options, bool cut_annuli) {
+    type.def(py::init([](const ImposedField& field, const LayoutCurveOptions& options, bool cut_annuli, bool t_mesh) {
                  check(options);
                  return run_interruptible(
-                     [=](Job& job) { return bound_layout(field, options, cut_annuli, job.progress()); });
+                     [=](Job& job) { return bound_layout(field, options, cut_annuli, t_mesh, job.progress()); });
              }),
              py::arg("field"), py::arg("options") = LayoutCurveOptions{}, py::arg("cut_annuli") = true,
-             "As quad_layout.");
+             py::arg("t_mesh") = false, "As quad_layout, or as motorcycle_graph.");
     const auto part = [&]<class Member>(const char* name, Member QuadLayout::*member, const char* doc) {
         type.def_property_readonly(
             name, [member](const BoundLayout& l) { return (*l.layout).*member; }, doc);
@@ -227,10 +230,13 @@ void bind_layout(py::module_& m) {
         .def_property_readonly(
             "cut_annuli", [](const BoundLayout& l) { return l.cut_annuli; },
             "Whether closed curves of the boundary that no separatrix meets were to get a cut.")
+        .def_property_readonly(
+            "t_mesh", [](const BoundLayout& l) { return l.t_mesh; },
+            "Whether motorcycle_graph made it: sides may end at T-joints.")
         .def("__reduce__",
              [](const py::object& self) {
                  const auto& l = self.cast<const BoundLayout&>();
-                 return py::make_tuple(py::type::of(self), py::make_tuple(l.field, l.options, l.cut_annuli));
+                 return py::make_tuple(py::type::of(self), py::make_tuple(l.field, l.options, l.cut_annuli, l.t_mesh));
              })
         .def("__repr__", [](const BoundLayout& l) {
             const auto size = [](const auto& list) { return static_cast<std::ptrdiff_t>(list.size()); };

@@ -58,9 +58,11 @@ void bind_layout(py::module_& m) {
         [](const ImposedField& field, bool cut_annuli, const std::optional<ProgressCallable>& progress,
            const py::kwargs& given) {
             const auto [options] = options_of<LayoutCurveOptions>("quad_layout", given);
-            return run_interruptible([field, options = options, cut_annuli](
-                                         Job& job) { return bound_layout(field, options, cut_annuli, job.progress()); },
-                                     progress);
+            return run_interruptible(
+                [field, options = options, cut_annuli](Job& job) {
+                    return bound_layout(field, options, cut_annuli, false, job.progress());
+                },
+                progress);
         },
         "field"_a, py::kw_only(), "cut_annuli"_a = true, "progress"_a = py::none(),
         "The surface of an ImposedField cut by its layout_curves into patches, as a QuadLayout. Turn fields on closed "

@@ -12,7 +12,7 @@
 #include "octafield/surface/direction_field.hpp"
 #include "octafield/surface/imposed_field.hpp"
 #include "octafield/surface/non_orthogonal_field.hpp"
-#include "octafield/surface/quad_layout.hpp"
+#include "octafield/surface/quantized_quads.hpp"
 #include "octafield/surface/streamlines.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/hex_dominant.hpp"
@@ -79,8 +79,17 @@ struct Words<surface::Inadmissible> {
 template <>
 struct Words<surface::LayoutVertexKind> {
     using E = surface::LayoutVertexKind;
-    static constexpr std::array<std::pair<const char*, E>, 4> list{
-        {{"singular", E::singular}, {"corner", E::corner}, {"crossing", E::crossing}, {"boundary", E::boundary}}};
+    static constexpr std::array<std::pair<const char*, E>, 5> list{{{"singular", E::singular},
+                                                                    {"corner", E::corner},
+                                                                    {"crossing", E::crossing},
+                                                                    {"boundary", E::boundary},
+                                                                    {"t_joint", E::t_joint}}};
+};
+
+template <>
+struct Words<surface::ArcWeights> {
+    using E = surface::ArcWeights;
+    static constexpr std::array<std::pair<const char*, E>, 2> list{{{"equal", E::equal}, {"relative", E::relative}}};
 };
 
 template <>

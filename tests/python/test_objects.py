@@ -117,8 +117,12 @@ def layout_objects():
     """An L-shape of three squares: its layout, quads and all there is on the way."""
     plate = of.surface.split_quads(of.surface.QuadMesh([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0],
         [2, 1, 0], [0, 2, 0], [1, 2, 0]], quads=[[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6]]))  # fmt: skip
-    layout = of.surface.quad_layout(of.surface.impose_singular_points(plate, of.surface.SingularPattern()))
+    field = of.surface.impose_singular_points(plate, of.surface.SingularPattern())
+    layout, t_mesh = of.surface.quad_layout(field), of.surface.motorcycle_graph(field)
+    quads = of.surface.quantized_quads(t_mesh, quad_count=12)
     return [
+        t_mesh, quads, of.surface.base_complex(quads.mesh), of.surface.cut_along_features(plate),
+        of.surface.QuantizedQuadsOptions(quad_count=7, weights="relative"),
         layout, of.surface.layout_quads(layout, quad_count=12), of.surface.patch_polygons(layout),
         of.surface.LayoutCurveOptions(end_tolerance=0.1), of.surface.LayoutQuadsOptions(quad_count=7),
         of.compute_quad_layout(plate, layout_options=of.QuadLayoutOptions(quads=12)), of.QuadLayoutOptions(quads=12),

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ..layout.options import INADMISSIBLE, QuadLayoutOptions
+from ..layout.options import INADMISSIBLE, LAYOUTS, QuadLayoutOptions
 from ..options import SurfaceFieldOptions
 from . import console, tables
 from .console import carry_out, log
@@ -51,6 +51,20 @@ def quad_layout(
         float,
         typer.Option(metavar="LENGTH", help="In its place: their mean edge, input unit; 0: that of the triangles."),
     ] = 0.0,
+    layout: Annotated[
+        str,
+        typer.Option(
+            metavar=choices(LAYOUTS),
+            autocompletion=words(LAYOUTS),
+            help=(
+                "Separatrices stop at one another and whole numbers fit the quads, along features too; or all of them"
+                " run to their ends."
+            ),
+        ),
+    ] = _DEFAULTS.layout,
+    coarsest: Annotated[bool, typer.Option("--coarsest", help="Fewest blocks first, then quads near the number.")] = (
+        _DEFAULTS.coarsest
+    ),
     inadmissible: Annotated[
         str,
         typer.Option(
@@ -102,6 +116,8 @@ def quad_layout(
         of_quads = QuadLayoutOptions(
             quads=quads,
             edge_length=edge_length,
+            layout=layout,
+            coarsest=coarsest,
             inadmissible=inadmissible,
             tolerance=math.radians(tolerance),
             end_tolerance=end_tolerance,

@@ -8,6 +8,7 @@ from ..errors import InvalidInput
 from ..options import integer_in, require_one_of
 
 INADMISSIBLE = ("default", *_core.ImposedFieldOptions.words["inadmissible"])
+LAYOUTS = ("t-mesh", "separatrices")
 MOST_QUADS = 10_000_000
 _FIELD, _CURVES = _core.ImposedFieldOptions(), _core.LayoutCurveOptions()
 
@@ -16,6 +17,9 @@ _FIELD, _CURVES = _core.ImposedFieldOptions(), _core.LayoutCurveOptions()
 class QuadLayoutOptions:
     """Of the quads: the number wanted, or their edge_length, input unit; 0 and 0: the mean edge of the triangles.
 
+    layout: "t-mesh": separatrices stop at one another, whole numbers put the T-joints on vertices of the quads
+        (octafield.surface.motorcycle_graph, quantized_quads); features are followed with points of a computed field. Or
+        "separatrices": all of them to their ends (quad_layout, layout_quads). coarsest: fewest blocks first (t-mesh).
     inadmissible: what to do where the points are in places that no field has them in (octafield.surface.
         impose_singular_points): "fail", "move" them, "rotate" the field; "default": move points of a computed field,
         fail with points that were given.
@@ -31,6 +35,8 @@ class QuadLayoutOptions:
 
     quads: int = 0
     edge_length: float = 0.0
+    layout: str = "t-mesh"
+    coarsest: bool = False
     inadmissible: str = "default"
     tolerance: float = _FIELD.tolerance
     end_tolerance: float = _CURVES.end_tolerance
@@ -44,6 +50,9 @@ class QuadLayoutOptions:
             raise InvalidInput(
                 "an edge length decides the number of quads: leave it or the number of quads out", "option_out_of_range"
             )
+        require_one_of("layout", self.layout, LAYOUTS)
+        if not isinstance(self.coarsest, bool):
+            raise InvalidInput(f"coarsest must be true or false, not {self.coarsest!r}", "option_out_of_range")
         require_one_of("inadmissible", self.inadmissible, INADMISSIBLE)
         if not 0 < self.tolerance <= math.pi / 4:
             raise InvalidInput("the tolerance of conditions must lie between 0 and 45 degrees", "option_out_of_range")

@@ -21,11 +21,11 @@ from .._core import ImposedField, QuadMesh, SingularPattern, SurfaceDomain, TetD
 from ..domain.inputs import Input, from_mesh, naming, read_input
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source, prepare_mesh, read_sound
-from ..errors import InvalidInput
+from ..errors import InvalidInput, SolverError
 from ..options import SurfaceFieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
-from .blocks import LayoutParts, quads_of_separatrices
+from .blocks import BlockQuads, LayoutParts, quads_of_separatrices, quads_of_t_mesh
 from .options import MOST_QUADS, QuadLayoutOptions
 from .pattern import Places, pattern_of, places_of
 from .quality import figures_of, require_sound
@@ -172,21 +172,28 @@ def _on(
     target = _edge_length(meshed.surface, wanted)
     with clock.phase("surface"):
         announce(progress, "surface")
-        domain = SurfaceDomain(meshed.surface, meshed.features)
+        whole = SurfaceDomain(meshed.surface, meshed.features)
+        domain, origins = _cut(whole, wanted, singularities)
         pattern = pattern_of(domain, places, singularities, corners, options, progress)
+        if wanted.layout == "t-mesh" and singularities is None and corners is None:
+            pattern.pattern = _core.with_corner_quads(
+                domain, pattern.pattern, _core.finite_corner_quads(domain, pattern.pattern)
+            )
     begun = of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes()))
-    begun = begun.changed(notes=[*begun.notes, *pattern.notes, *_of_features(domain)])
+    begun = begun.changed(notes=[*begun.notes, *pattern.notes, *([] if origins is not None else _of_features(whole))])
     meter = PhaseMeter(begun, progress)
     inadmissible = wanted.inadmissible
     if inadmissible == "default":
         inadmissible = "move" if singularities is None else "fail"
-    field = _core.impose_singular_points(
-        domain, pattern.pattern, inadmissible=inadmissible, tolerance=wanted.tolerance, progress=meter.report
-    )
-    field, made = quads_of_separatrices(field, wanted, target, meter.report)
+    field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
+    made: BlockQuads
+    if wanted.layout == "t-mesh":
+        made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
+    else:
+        field, made = quads_of_separatrices(field, wanted, target, meter.report)
     meter.begin("check")
     announce(progress, "check")
-    figures = figures_of(made.mesh, field.field.domain, given)
+    figures = figures_of(made.mesh, whole, given)
     require_sound(made.mesh, figures, int(_core.euler_characteristic(meshed.surface)))
     meter.end()
     told = record.of_quads(
@@ -204,6 +211,41 @@ def _on(
         field=field,
         record=told,
     )
+
+
+def _cut(
+    whole: SurfaceDomain, wanted: QuadLayoutOptions, singularities: Points | None
+) -> tuple[SurfaceDomain, np.ndarray | None]:
+    """The surface for the field: cut open along features inside where these are to be followed, with the vertices of
+    the whole surface. Points that are given are of the surface as a whole."""
+    if wanted.layout != "t-mesh" or singularities is not None or not _inner_features(whole):
+        return whole, None
+    cut = _core.cut_along_features(whole)
+    return cut.domain, np.array(cut.origins)
+
+
+def _imposed(
+    domain: SurfaceDomain,
+    pattern: SingularPattern,
+    inadmissible: str,
+    wanted: QuadLayoutOptions,
+    progress: Progress | None,
+) -> tuple[ImposedField, str]:
+    """T-meshes take rotated fields: where points of a computed field cannot be moved, the field is rotated."""
+    ways = [inadmissible]
+    if wanted.inadmissible == "default" and inadmissible == "move" and wanted.layout == "t-mesh":
+        ways.append("rotate")
+    for way in ways:
+        try:
+            field = _core.impose_singular_points(
+                domain, pattern, inadmissible=way, tolerance=wanted.tolerance, progress=progress
+            )
+        except SolverError:
+            if way == ways[-1]:
+                raise
+        else:
+            return field, way
+    raise AssertionError
 
 
 def _edge_length(surface: TriangleMesh, wanted: QuadLayoutOptions) -> float:
@@ -224,12 +266,20 @@ def _edge_length(surface: TriangleMesh, wanted: QuadLayoutOptions) -> float:
 
 def _of_features(domain: SurfaceDomain) -> list[str]:
     """A note where features inside the surface will not be followed."""
+    count = _inner_features(domain)
+    if not count:
+        return []
+    return [
+        f"{count} feature edges inside the surface are not followed: with points that are given, and by separatrices,"
+        " layouts follow the boundary alone"
+    ]
+
+
+def _inner_features(domain: SurfaceDomain) -> int:
     features = np.sort(np.asarray(domain.features.edges), axis=1).astype(np.int64)
     if not len(features):
-        return []
+        return 0
     rim = np.asarray(domain.edges)[np.asarray(domain.edge_triangles).min(axis=1) < 0].astype(np.int64)
     count = len(domain.vertices)
     inside = ~np.isin(features[:, 0] * count + features[:, 1], rim[:, 0] * count + rim[:, 1])
-    if not inside.any():
-        return []
-    return [f"{int(inside.sum())} feature edges inside the surface are not followed: layouts follow its boundary alone"]
+    return int(inside.sum())

@@ -66,6 +66,8 @@ def of_quads(
         ],
         inadmissible=inadmissible,
         largest_move=field.largest_move,
+        t_joints=made.t_joints,
+        whole_numbers_optimal=made.optimal,
         separatrices=None if layout is None else layout.separatrices,
         patches=len(np.unique(made.blocks)),
         chords=len(np.unique(made.chords)),

@@ -18,9 +18,9 @@ class QuadLayoutRecord(Record):
     mesh_sha256: str = Field(description="of the arrays of the surface, first 16 hexadecimal digits")
     triangles: int = Field(description="of the surface that the points were imposed on")
     field_triangles: int = Field(description="of the surface refined round them")
-    euler_characteristic: int = Field(description="of the surface")
+    euler_characteristic: int = Field(description="of the surface, cut along its features where these are followed")
     feature_source: str = Field(description="file, angle or none: where features come from")
-    feature_edges: int = Field(description="edges of the surface that bend; those inside are not followed")
+    feature_edges: int = Field(description="edges of the surface that bend")
     point_source: str = Field(description="computed, given, or the file: where the singular points come from")
     corner_source: str = Field(description="angle, computed, given, or the file: where the quads at corners come from")
     singular_points: list[ImposedPointFigures] = Field(description="of index other than 0, corners included")
@@ -28,6 +28,12 @@ class QuadLayoutRecord(Record):
     misalignment: list[Misalignment] = Field(description="per further condition on the places of the points")
     inadmissible: str = Field(description="fail, move or rotate: what was to be done where one is missed")
     largest_move: float = Field(description="of a point, input unit, where they were moved")
+    t_joints: int | None = Field(
+        default=None, description="of the T-mesh that the quads come from; the quads have none"
+    )
+    whole_numbers_optimal: bool | None = Field(
+        default=None, description="whether no other whole numbers on the arcs of the T-mesh deviate less"
+    )
     separatrices: int | None = Field(default=None, description="traced, before any were joined")
     patches: int = Field(description="of the layout, each a block of quads")
     chords: int = Field(description="of the layout: rows of blocks")

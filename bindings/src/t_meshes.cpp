@@ -1,0 +1,176 @@
+// T-meshes of imposed fields, whole numbers on their arcs, and what surfaces with features need for them.
+#include "arrays.hpp"
+#include "bind.hpp"
+#include "bound_layout.hpp"
+#include "checks.hpp"
+#include "domain.hpp"
+#include "interruptible.hpp"
+#include "octafield/surface/corner_pattern.hpp"
+#include "octafield/surface/feature_cut.hpp"
+#include "octafield/surface/quantized_quads.hpp"
+#include "options.hpp"
+
+namespace octafield::bindings {
+
+using namespace surface;
+using py::literals::operator""_a;
+
+void check(const QuantizedQuadsOptions& options) { finite(options.edge_length, "edge_length"); }
+
+namespace {
+
+void bind_options(py::module_& m) {
+    Record<QuantizedQuadsOptions>(
+        m, "QuantizedQuadsOptions",
+        "Options of quantized_quads: its keyword arguments. One of edge_length and quad_count "
+        "is to be given.")
+        .field("edge_length", &QuantizedQuadsOptions::edge_length, "As of LayoutQuadsOptions.")
+        .field("quad_count", &QuantizedQuadsOptions::quad_count, "Wanted; sizes are tried until the number is near.")
+        .field("coarsest", &QuantizedQuadsOptions::coarsest,
+               "Fewest blocks first, then quads of the size wanted within that structure, less closely.")
+        .field("weights", &QuantizedQuadsOptions::weights,
+               "Of |n - length / size| in the sum: \"equal\", or \"relative\", over length / size, 1 at least.")
+        .field("origins", &QuantizedQuadsOptions::origins,
+               "Of a surface cut open (FeatureCut.origins): boundaries of the same origins get the same vertices.")
+        .field("smoothing", &QuantizedQuadsOptions::smoothing,
+               "Rounds in which vertices are moved for a larger least scaled Jacobian round them; 0: none.")
+        .field("most_nodes", &QuantizedQuadsOptions::most_nodes, "Of branch and bound, for each connected part.")
+        .finish([](const QuantizedQuadsOptions& o) {
+            return "edge_length=" + number(o.edge_length) + ", quad_count=" + std::to_string(o.quad_count);
+        });
+}
+
+// A member of the base as one of the class.
+template <class Member>
+constexpr Member QuantizedQuads::*own_member(Member LayoutQuads::*member) {
+    return member;
+}
+
+void bind_results(py::module_& m) {
+    Record<QuantizedQuads>(m, "QuantizedQuads", "Block-structured quads of a T-mesh, as quantized_quads makes them.")
+        .field("mesh", own_member(&LayoutQuads::mesh), "QuadMesh.")
+        .field("patches", own_member(&LayoutQuads::patches), "(Q,) int32: block of each quad (base_complex).")
+        .field("chord_counts", own_member(&LayoutQuads::chord_counts), "int32: quads across each chord of the blocks.")
+        .field("patch_sizes", own_member(&LayoutQuads::patch_sizes),
+               "(blocks, 2) int32: quads along the first and second direction of each.")
+        .field("patch_chords", &QuantizedQuads::patch_chords, "(blocks, 2) int32: the chord across each of them.")
+        .field("tiles", &QuantizedQuads::tiles, "(Q,) int32: patch of the T-mesh of each quad.")
+        .field("arc_counts", &QuantizedQuads::arc_counts, "int32, quads along each side of the T-mesh, at least 1.")
+        .field("t_joints", &QuantizedQuads::t_joints, "Of the T-mesh; the quads have none.")
+        .field("irregular", &QuantizedQuads::irregular,
+               "int32 vertices inside with other than four quads, of the boundary with other than two.")
+        .field("size", &QuantizedQuads::size, "That lengths in quad coordinates were divided by.")
+        .field("deviation", &QuantizedQuads::deviation, "Sum of the weights times |n - length / size|.")
+        .field("bound", &QuantizedQuads::bound, "What that sum cannot be below.")
+        .field("optimal", &QuantizedQuads::optimal, "Whether the two are the same.")
+        .field("mean_value_patches", own_member(&LayoutQuads::mean_value_patches),
+               "Mapped with mean value weights, as the harmonic map folded.")
+        .field("least_scaled_jacobian", own_member(&LayoutQuads::least_scaled_jacobian), "Of the quads.")
+        .finish([](const QuantizedQuads& q) {
+            return count(q.mesh.quads.rows(), "quad") + " in " +
+                   count(static_cast<std::ptrdiff_t>(q.patch_sizes.rows()), "block") + ", least scaled Jacobian " +
+                   number(q.least_scaled_jacobian);
+        });
+    Record<BaseComplex>(m, "BaseComplex", "The coarsest block structure of a quad mesh, as base_complex finds it.")
+        .field("blocks", &BaseComplex::blocks, "(Q,) int32: block of each quad.")
+        .field("block_sizes", &BaseComplex::block_sizes, "(B, 2) int32: quads along both directions.")
+        .field("block_chords", &BaseComplex::block_chords, "(B, 2) int32: the chord across each of them.")
+        .field("chord_counts", &BaseComplex::chord_counts, "int32: quads across each chord.")
+        .field("irregular", &BaseComplex::irregular, "int32 vertices, ascending.")
+        .field("cut_vertices", &BaseComplex::cut_vertices,
+               "Regular ones from which lines were added, where blocks were no disks.")
+        .finish([](const BaseComplex& b) {
+            return count(static_cast<std::ptrdiff_t>(b.block_sizes.rows()), "block") + ", " +
+                   count(static_cast<std::ptrdiff_t>(b.irregular.size()), "irregular vertex", "irregular vertices");
+        });
+    Record<FeatureCut>(m, "FeatureCut", "A surface cut open along its feature edges.")
+        .field("domain", &FeatureCut::domain, "SurfaceDomain: triangles as before, a vertex per sector of features.")
+        .field("origins", &FeatureCut::origins, "(V,) int32: vertex of the whole surface of each.")
+        .finish([](const FeatureCut& c) { return count(c.domain.vertex_count(), "vertex", "vertices"); });
+}
+
+void bind_quads(py::module_& m) {
+    m.def(
+        "motorcycle_graph",
+        [](const ImposedField& field, const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+            const auto [options] = options_of<LayoutCurveOptions>("motorcycle_graph", given);
+            return run_interruptible([field, options = options](
+                                         Job& job) { return bound_layout(field, options, true, true, job.progress()); },
+                                     progress);
+        },
+        "field"_a, py::kw_only(), "progress"_a = py::none(),
+        "The T-mesh of an ImposedField, as a QuadLayout: separatrices run at the same time and stop where they meet a "
+        "track that was there before (Eppstein et al. 2008; Campen, Bommes, Kobbelt 2015), so all are finite. Patches "
+        "are rectangles in quad coordinates, with T-joints on their sides. Closed surfaces need no turn, and fields "
+        "may "
+        "be rotated. Raises as quad_layout.");
+    list_options<LayoutCurveOptions>(m, "motorcycle_graph");
+    m.def(
+        "quantized_quads",
+        [](const BoundLayout& layout, const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+            const auto [options] = options_of<QuantizedQuadsOptions>("quantized_quads", given);
+            return run_interruptible([made = layout.layout, options = options](
+                                         Job& job) { return quantized_quads(*made, options, job.progress()); },
+                                     progress);
+        },
+        "layout"_a, py::kw_only(), "progress"_a = py::none(),
+        "Quads of a T-mesh or layout, as QuantizedQuads: opposite sides of each patch get equal whole numbers, every "
+        "arc 1 at least, with the least sum of deviations, by a mixed integer programme that is stopped by its nodes "
+        "and "
+        "never by time; each patch is mapped to a rectangle one to one. Raises InvalidInput; GeometryError (kind "
+        "\"no_integers\": no whole numbers fit); SolverError (\"node_limit\", \"solver_failed\", \"folded_map\", "
+        "\"inverted_quads\"), Cancelled.");
+    list_options<QuantizedQuadsOptions>(m, "quantized_quads");
+    m.def(
+        "base_complex",
+        [](const QuadMesh& mesh) {
+            return run_interruptible([mesh = mesh](Job&) {
+                scaled_jacobians(mesh);  // refuses ids out of range
+                return base_complex(mesh);
+            });
+        },
+        "mesh"_a,
+        "The BaseComplex of a QuadMesh without triangles: blocks cut out by the lines straight over the quads from its "
+        "irregular vertices. Raises InvalidInput (kind \"not_quads\"), GeometryError.");
+}
+
+void bind_features(py::module_& m) {
+    m.def(
+        "cut_along_features",
+        [](const SurfaceOrMesh& surface) {
+            return run_interruptible([surface](Job&) { return cut_along_features(domain_of(surface)); });
+        },
+        "surface"_a,
+        "The surface cut open along its feature edges, as a FeatureCut, so that a field that follows the boundary "
+        "follows features as well.");
+    m.def(
+        "with_corner_quads",
+        [](const SurfaceOrMesh& surface, const SingularPattern& pattern, const std::vector<CornerQuads>& corners) {
+            return run_interruptible([=](Job&) { return with_corner_quads(domain_of(surface), pattern, corners); });
+        },
+        "surface"_a, "pattern"_a, "corners"_a,
+        "The SingularPattern with these CornerQuads and no others; points inside are taken away or added, near the "
+        "corners, so that the sum of indices stays. Raises InvalidInput, GeometryError (kind \"no_room\").");
+    m.def(
+        "finite_corner_quads",
+        [](const SurfaceOrMesh& surface, const SingularPattern& pattern) {
+            return run_interruptible([=](Job&) { return finite_corner_quads(domain_of(surface), pattern); });
+        },
+        "surface"_a, "pattern"_a,
+        "The CornerQuads of a computed field's SingularPattern, 1 at least: a corner without quads is infinitely long "
+        "in quad coordinates. A corner nearby that made up for it gets its quads by the angle.");
+}
+
+}  // namespace
+
+void bind_t_mesh_types(py::module_& m) {
+    bind_options(m);
+    bind_results(m);
+}
+
+void bind_t_meshes(py::module_& m) {
+    bind_quads(m);
+    bind_features(m);
+}
+
+}  // namespace octafield::bindings

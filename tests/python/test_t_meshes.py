@@ -1,0 +1,123 @@
+"""Quads by whole numbers on the arcs of a motorcycle graph, also on surfaces with features."""
+
+from collections import Counter
+
+import numpy as np
+import octafield as of
+import pytest
+from octafield.domain.generators import generate
+from quad_mesh_checks import disk, four_points, irregular, require_conforming
+
+KEPT = of.SurfaceFieldOptions(remesh=False)
+
+
+def made(source, singularities=None, **wanted):
+    return of.compute_quad_layout(
+        source, KEPT, layout_options=of.QuadLayoutOptions(**wanted), singularities=singularities
+    )
+
+
+def cube(n=4):
+    """The surface of the unit cube, 2 n^2 triangles a face."""
+    points, triangles, number = [], [], {}
+
+    def vertex(x):
+        if x not in number:
+            number[x] = len(points)
+            points.append([c / n for c in x])
+        return number[x]
+
+    for axis in range(3):
+        for end in (0, n):
+            for i in range(n):
+                for j in range(n):
+                    corners = []
+                    for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                        at = [0, 0, 0]
+                        at[axis], at[(axis + 1) % 3], at[(axis + 2) % 3] = end, a, b
+                        corners.append(vertex(tuple(at)))
+                    a, b, c, d = corners if end else corners[::-1]
+                    triangles += [[a, b, c], [a, c, d]]
+    return of.TriangleMesh(points, triangles)
+
+
+def test_a_cube_is_followed_along_its_edges():
+    result = made(cube(), quads=600)
+    points = np.asarray(result.mesh.vertices)
+    assert irregular(result.mesh, 2).keys() == set(np.flatnonzero(np.isin(points, (0, 1)).all(axis=1)).tolist())
+    assert result.record.patches == 6 and result.record.quads == 600 and result.record.notes == []
+    assert result.record.scaled_jacobian.min > 0.999 and result.record.surface_deviation.max < 1e-9
+    assert result.record.t_joints == 0 and result.record.whole_numbers_optimal
+    # Twelve sides of 11 vertices along the edges.
+    on_edges = Counter(int(np.isin(side, (0, 1)).sum(axis=1).min()) for side in result.layout.sides)
+    assert on_edges == {2: 12} and {len(side) for side in result.layout.sides} == {11}
+
+
+@pytest.mark.parametrize("name, points, chi", [("disk", four_points(), 1), ("cube", None, 2), ("ball", None, 2)])
+def test_blocks_make_up_a_layout(name, points, chi):
+    source = {"disk": disk, "cube": cube}.get(name, lambda: generate(name))()
+    result = made(source, points, quads=300)
+    layout = result.layout
+    assert len(layout.positions) - len(layout.sides) + result.record.patches == chi
+    require_conforming(result.mesh, chi)
+    assert layout.kinds.count("singular") == result.record.irregular_vertices
+    for side, (first, last) in zip(layout.sides, layout.side_ends, strict=True):
+        assert np.array_equal(side[0], layout.positions[first]) and np.array_equal(side[-1], layout.positions[last])
+    # Each block has four corners, and all its quads are one grid.
+    quads = np.asarray(result.mesh.quads)
+    for block in range(result.record.patches):
+        of_block = quads[result.blocks == block]
+        count = Counter(of_block.ravel().tolist())
+        assert sorted(count.values())[:4] == [1] * 4 and list(count.values()).count(1) == 4
+
+
+def test_quads_of_one_row_of_blocks_have_its_chord():
+    result, by_edge = made(cube(), quads=150), {}
+    for quad, corners in enumerate(np.asarray(result.mesh.quads).tolist()):
+        for k in range(4):
+            edge = frozenset((corners[k], corners[(k + 1) % 4]))
+            by_edge.setdefault(edge, set()).add(int(result.chords[quad, k % 2]))
+    assert {len(chords) for chords in by_edge.values()} == {1}
+    assert result.record.chords == 3
+
+
+def test_a_torus_without_points_is_one_block():
+    surface = of.surface
+    u, v = np.meshgrid(np.arange(40), np.arange(20), indexing="ij")
+    a, b = 2 * np.pi * u.ravel() / 40, 2 * np.pi * v.ravel() / 20
+    points = np.column_stack([(1 + 0.5 * np.cos(b)) * np.cos(a), (1 + 0.5 * np.cos(b)) * np.sin(a), 0.5 * np.sin(b)])
+    at = lambda i, j: 20 * (i % 40) + j % 20
+    triangles = [
+        t
+        for i in range(40)
+        for j in range(20)
+        for t in ([at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)])
+    ]
+    field = surface.impose_singular_points(of.TriangleMesh(points, triangles), surface.SingularPattern())
+    quads = surface.quantized_quads(surface.motorcycle_graph(field), quad_count=400)
+    assert len(quads.patch_sizes) == 1 and len(quads.irregular) == 0 and irregular(quads.mesh, 0) == {}
+
+
+def test_both_ways_have_the_same_irregular_vertices():
+    places = []
+    for layout in ("t-mesh", "separatrices"):
+        result = made(disk(), four_points(), quads=200, layout=layout)
+        vertices = np.asarray(result.mesh.vertices)
+        places.append(sorted(map(tuple, vertices[sorted(irregular(result.mesh, 1))].round(9).tolist())))
+        assert result.record.t_joints is None or layout == "t-mesh"
+    assert places[0] == places[1] and len(places[0]) == 4
+
+
+def test_bad_options_are_named():
+    field = of.surface.impose_singular_points(disk(), of.surface.SingularPattern(
+        [of.surface.imposed_point(disk(), p["position"], 1) for p in four_points()]))  # fmt: skip
+    graph = of.surface.motorcycle_graph(field)
+    for wrong in ({}, {"quad_count": -1}, {"edge_length": 0.1, "quad_count": 5}, {"edge_length": np.inf}):
+        with pytest.raises(of.InvalidInput, match="quad_count|quad count|number of quads|edge_length|edge length"):
+            of.surface.quantized_quads(graph, **wrong)
+    with pytest.raises(of.InvalidInput, match="origins"):
+        of.surface.quantized_quads(graph, quad_count=50, origins=np.arange(10**6))
+    with pytest.raises(of.InvalidInput, match="did you mean 't-mesh'"):
+        of.QuadLayoutOptions(layout="tmesh")
+    with pytest.raises(of.InvalidInput, match="coarsest"):
+        of.QuadLayoutOptions(coarsest=1)
