@@ -178,15 +178,21 @@ def test_places_that_no_field_has_are_refused_moved_or_rotated_too_far():
     assert condition.boundary and abs(condition.angle_deg) < 1e-3 and 0.01 < found.record.largest_move < 0.1
     assert sorted(irregular(found.mesh, 0).values()) == [-1] * 4 + [1] * 4
     with pytest.raises(of.InvalidInput, match="inadmissible: move") as error:
-        run(mesh, quads=of.QuadLayoutOptions(quads=300, inadmissible="rotate"), singularities=points)
+        separatrices = of.QuadLayoutOptions(quads=300, inadmissible="rotate", layout="separatrices")
+        run(mesh, quads=separatrices, singularities=points)
     assert error.value.kind == "rotated_field"
+    with pytest.raises(of.GeometryError, match="no whole numbers fit") as error:
+        run(mesh, quads=of.QuadLayoutOptions(quads=300, inadmissible="rotate"), singularities=points)
+    assert error.value.kind == "no_integers"
 
 
-def test_the_boundary_of_tets_with_a_note_that_edges_inside_are_not_followed(box):
-    found = of.compute_quad_layout(box, layout_options=of.QuadLayoutOptions(quads=150))
+@pytest.mark.parametrize("layout", ["t-mesh", "separatrices"])
+def test_the_boundary_of_tets_with_a_note_where_edges_inside_are_not_followed(box, layout):
+    found = of.compute_quad_layout(box, layout_options=of.QuadLayoutOptions(quads=150, layout=layout))
     assert found.record.input_kind == "tets" and found.record.patches == 6
     assert set(irregular(found.mesh, 2).values()) == {1}
-    assert [note for note in found.record.notes if "feature edges inside the surface are not followed" in note]
+    told = [note for note in found.record.notes if "feature edges inside the surface are not followed" in note]
+    assert bool(told) == (layout == "separatrices")
     assert found.record.surface_deviation.max < 1e-4
 
 

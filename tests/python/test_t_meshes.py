@@ -6,6 +6,7 @@ import numpy as np
 import octafield as of
 import pytest
 from octafield.domain.generators import generate
+from octafield.layout.files import write_layout_result
 from quad_mesh_checks import disk, four_points, irregular, require_conforming
 
 KEPT = of.SurfaceFieldOptions(remesh=False)
@@ -81,7 +82,7 @@ def test_quads_of_one_row_of_blocks_have_its_chord():
     assert result.record.chords == 3
 
 
-def test_a_torus_without_points_is_one_block():
+def test_a_torus_without_points_is_one_block(tmp_path):
     surface = of.surface
     u, v = np.meshgrid(np.arange(40), np.arange(20), indexing="ij")
     a, b = 2 * np.pi * u.ravel() / 40, 2 * np.pi * v.ravel() / 20
@@ -96,6 +97,9 @@ def test_a_torus_without_points_is_one_block():
     field = surface.impose_singular_points(of.TriangleMesh(points, triangles), surface.SingularPattern())
     quads = surface.quantized_quads(surface.motorcycle_graph(field), quad_count=400)
     assert len(quads.patch_sizes) == 1 and len(quads.irregular) == 0 and irregular(quads.mesh, 0) == {}
+    result = made(of.TriangleMesh(points, triangles), [], quads=400)
+    write_layout_result(result, tmp_path)
+    assert result.record.patches == 1 and (tmp_path / "layout.vtp").is_file()
 
 
 def test_both_ways_have_the_same_irregular_vertices():

@@ -91,7 +91,8 @@ def layout_polydata(layout: LayoutParts) -> pyvista.PolyData:
     mesh = pyvista.PolyData()
     mesh.points = np.concatenate([layout.positions, *layout.sides, layout.points])
     mesh.verts = np.column_stack([np.ones(vertices, np.int64), np.arange(vertices)]).ravel()
-    mesh.lines = np.concatenate(lines)
+    if lines:  # a torus in one block has none
+        mesh.lines = np.concatenate(lines)
     mesh.faces = faces
     kinds = (vertices, sides, polygons)
     at_rim = np.array([kind in ("corner", "boundary") for kind in layout.kinds], bool)
