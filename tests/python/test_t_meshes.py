@@ -7,7 +7,7 @@ import octafield as of
 import pytest
 from octafield.domain.generators import generate
 from octafield.layout.files import write_layout_result
-from quad_mesh_checks import disk, four_points, irregular, require_conforming
+from quad_mesh_checks import area_of, disk, four_points, irregular, require_conforming
 
 KEPT = of.SurfaceFieldOptions(remesh=False)
 
@@ -125,3 +125,22 @@ def test_bad_options_are_named():
         of.QuadLayoutOptions(layout="tmesh")
     with pytest.raises(of.InvalidInput, match="coarsest"):
         of.QuadLayoutOptions(coarsest=1)
+
+
+def turned_hole(degrees):
+    """A square of four quads round a square hole that is turned by an angle: no singular points, and no cross field
+    that follows both, with nothing that could be moved."""
+    ring = np.array([[np.cos(t), np.sin(t), 0] for t in np.pi / 4 + np.pi / 2 * np.arange(4)])
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    points = np.concatenate([2 * ring, 0.8 * ring @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])])
+    sides = [(k, (k + 1) % 4) for k in range(4)]
+    return of.TriangleMesh(points, [t for a, b in sides for t in ([a, b, b + 4], [a, b + 4, a + 4])])
+
+
+def test_a_pattern_without_points_cannot_be_moved():
+    plate = turned_hole(10)
+    with pytest.raises(of.SolverError, match="no singular points inside that could be moved") as caught:
+        of.surface.impose_singular_points(plate, of.surface.SingularPattern(), inadmissible="move")
+    assert caught.value.kind == "move_failed"
+    rotated = made(plate, [], quads=200, inadmissible="rotate")
+    assert irregular(rotated.mesh, 0) == {} and area_of(rotated.mesh) == pytest.approx(8 - 2 * 0.8**2, 1e-9)

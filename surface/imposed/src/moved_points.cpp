@@ -152,6 +152,10 @@ MovedPoints moved_points(const SurfaceDomain& input, Imposed& imposed, std::size
     std::vector<bool> moves(count);
     for (std::size_t j = 0; j < count; ++j)
         moves[j] = imposed.indices[j] != 0 && !built.structure.on_boundary[built.ringed.centres[j]];
+    if (std::find(moves.begin(), moves.end(), true) == moves.end())
+        throw SolverError("the pattern is not admissible and has no singular points inside that could be moved; add a "
+                          "pair of valence 3 and 5, or let the field be rotated",
+                          "move_failed");
     const BuiltField first = built;
     std::vector<double> moved(count, 0);
     int steps = 0;
