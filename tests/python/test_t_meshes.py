@@ -6,6 +6,7 @@ import numpy as np
 import octafield as of
 import pytest
 from octafield.domain.generators import generate
+from octafield.layout.causes import told_of_points
 from octafield.layout.files import write_layout_result
 from quad_mesh_checks import area_of, disk, four_points, irregular, require_conforming
 
@@ -144,3 +145,45 @@ def test_a_pattern_without_points_cannot_be_moved():
     assert caught.value.kind == "move_failed"
     rotated = made(plate, [], quads=200, inadmissible="rotate")
     assert irregular(rotated.mesh, 0) == {} and area_of(rotated.mesh) == pytest.approx(8 - 2 * 0.8**2, 1e-9)
+
+
+def refused(source, points=None, corners=None, **wanted):
+    with pytest.raises(of.SolverError) as caught:
+        of.compute_quad_layout(
+            source, KEPT, layout_options=of.QuadLayoutOptions(**wanted), singularities=points, corners=corners
+        )
+    return str(caught.value)
+
+
+def test_points_that_leave_a_quad_180_degrees_are_named():
+    one = [{"position": [0.2, 0, 0], "valence": 1}, {"position": [-0.5, 0, 0], "valence": 3}]
+    assert "1 quad in the 360 degrees at (0.2, 0, 0)" in refused(disk(), one, quads=200)
+    assert "more quads must meet there" in refused(disk(), one, quads=200, layout="separatrices")
+    square = of.TriangleMesh([[0, 0, 0], [1, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]], [[0, 1, 4], [1, 3, 4], [1, 2, 3]])
+    moved = [{"vertex": 1, "quads": 1}, {"vertex": 0, "quads": 2}]
+    assert "1 quad in the 180 degrees at (1, 0, 0)" in refused(square, corners=moved, quads=100)
+
+
+def test_a_map_that_folds_names_the_option_for_shorter_triangles():
+    domain, options = of.surface.SurfaceDomain(disk()), of.QuadLayoutOptions()
+    with pytest.raises(of.SolverError, match="folds; --triangle-length") as caught:
+        with told_of_points(domain, of.surface.SingularPattern(), options):
+            raise of.SolverError("folds", "folded_map", [3])
+    assert (caught.value.kind, list(caught.value.elements)) == ("folded_map", [3])
+    with pytest.raises(of.SolverError, match="^other$"):
+        with told_of_points(domain, of.surface.SingularPattern(), options):
+            raise of.SolverError("other", "no_integers")
+
+
+def test_bad_quads_of_few_blocks_ask_to_leave_coarsest_out():
+    with pytest.raises(of.SolverError, match="or leave coarsest out") as caught:
+        of.compute_quad_layout(generate("nut"), layout_options=of.QuadLayoutOptions(quads=300, coarsest=True))
+    assert caught.value.kind == "inverted_quads"
+
+
+def test_quads_far_from_the_number_wanted_or_from_the_surface_are_noted():
+    few, enough = (made(generate("ball"), quads=n).record for n in (1, 600))
+    assert [note for note in enough.notes if "apart" in note or "wanted" in note] == []
+    assert few.quads > 1 and few.surface_deviation.max > 0.02
+    assert any(note.startswith(f"{few.quads} quads, 1 wanted") for note in few.notes)
+    assert any("% of the diagonal apart" in note for note in few.notes)

@@ -26,6 +26,7 @@ from ..options import SurfaceFieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
 from .blocks import BlockQuads, LayoutParts, quads_of_separatrices, quads_of_t_mesh
+from .causes import told_of_points
 from .options import MOST_QUADS, QuadLayoutOptions
 from .pattern import Places, pattern_of, places_of
 from .quality import figures_of, require_sound
@@ -187,10 +188,11 @@ def _on(
         inadmissible = "move" if singularities is None else "fail"
     field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
     made: BlockQuads
-    if wanted.layout == "t-mesh":
-        made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
-    else:
-        field, made = quads_of_separatrices(field, wanted, target, meter.report)
+    with told_of_points(domain, pattern.pattern, wanted):
+        if wanted.layout == "t-mesh":
+            made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
+        else:
+            field, made = quads_of_separatrices(field, wanted, target, meter.report)
     meter.begin("check")
     announce(progress, "check")
     figures = figures_of(made.mesh, whole, given)

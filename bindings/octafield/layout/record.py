@@ -20,6 +20,9 @@ from .quality import QuadFigures
 if TYPE_CHECKING:
     from ..records.field import InputRecord
 
+_OTHER_NUMBER = 1.5  # times the number of quads wanted
+_FAR = 0.02  # of the diagonal
+
 
 def of_quads(
     made: BlockQuads,
@@ -89,7 +92,7 @@ def of_quads(
         cpu_seconds={name: meter.cpu[name] for name, seconds in meter.wall.items() if seconds},
         phase_peak_mb=meter.peak_mb,
         peak_mb=max(begun.peak_mb, *meter.peak_mb.values()),
-        notes=list(begun.notes),
+        notes=[*begun.notes, *_of_the_quads(len(made.mesh.quads), int(options["quads"]), figures)],
         versions=begun.versions,
         machine=begun.machine,
         options=options,
@@ -99,3 +102,19 @@ def of_quads(
 
 def _jacobians(values: Spread) -> JacobianFigures:
     return JacobianFigures(min=values.min, p05=values.p05, mean=values.mean)
+
+
+def _of_the_quads(made: int, wanted: int, figures: QuadFigures) -> list[str]:
+    """Notes where the quads are far from what was asked for, or from the surface."""
+    notes = []
+    if wanted and not 1 / _OTHER_NUMBER <= made / wanted <= _OTHER_NUMBER:
+        notes.append(
+            f"{made:,} quads, {wanted:,} wanted: each arc of the layout has one at least, and few numbers fit all arcs;"
+            " with coarsest, or fewer singular points, there are fewer arcs"
+        )
+    if figures.deviation[0] > _FAR:
+        notes.append(
+            f"quads and surface are up to {100 * figures.deviation[0]:.2g} % of the diagonal apart: more quads follow"
+            " it more closely, where features are followed"
+        )
+    return notes
