@@ -187,3 +187,36 @@ def test_quads_far_from_the_number_wanted_or_from_the_surface_are_noted():
     assert few.quads > 1 and few.surface_deviation.max > 0.02
     assert any(note.startswith(f"{few.quads} quads, 1 wanted") for note in few.notes)
     assert any("% of the diagonal apart" in note for note in few.notes)
+
+
+def test_corners_that_are_given_change_computed_points_to_fit():
+    angles = np.arange(10) * np.pi / 5
+    tips = np.column_stack([np.cos(angles), np.sin(angles), 0 * angles]) * np.where(np.arange(10) % 2, 0.35, 1)[:, None]
+    star = of.TriangleMesh([*tips.tolist(), [0, 0, 0]], [[10, i, (i + 1) % 10] for i in range(10)])
+
+    def quads_at_tips(corners):
+        mesh = of.compute_quad_layout(star, layout_options=of.QuadLayoutOptions(quads=200), corners=corners).mesh
+        found, _ = require_conforming(mesh, 1)
+        near = [np.linalg.norm(np.asarray(mesh.vertices) - tip, axis=1).argmin() for tip in tips[::2]]
+        return [found[int(v)] for v in near]
+
+    assert quads_at_tips([{"vertex": 0, "quads": 1}]) == [1, 1, 1, 1, 1]
+
+
+def test_a_corner_of_two_quads_that_is_cut_is_noted():
+    points, triangles = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+    plate, wanted = of.TriangleMesh(points, triangles), of.QuadLayoutOptions(quads=100)
+    result = of.compute_quad_layout(plate, layout_options=wanted, corners=[{"vertex": 0, "quads": 2}])
+    away = np.linalg.norm(np.asarray(result.mesh.vertices), axis=1).min()
+    told = [note for note in result.record.notes if "corners of the boundary are no vertices" in note]
+    assert len(told) == (away > 1e-6) and (not told or told[0].startswith("1 "))
+    assert list(irregular(result.mesh, 1).values()) == [1]
+    square = of.compute_quad_layout(plate, layout_options=wanted)
+    assert square.record.notes == []
+
+
+def test_a_corner_on_a_feature_is_refused():
+    message = "is on a feature edge, where faces meet"
+    with pytest.raises(of.InvalidInput, match=message) as caught:
+        of.compute_quad_layout(cube(), KEPT, corners=[{"vertex": 0, "quads": 2}])
+    assert caught.value.kind == "several_faces"

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import numpy as np
 
 from .. import _core
-from .._core import ImposedPoint, SingularPattern, SurfaceDomain
+from .._core import ImposedPoint, QuadMesh, SingularPattern, SurfaceDomain
 from ..errors import GeometryError, SolverError
 from .options import QuadLayoutOptions
 from .pattern import Rim
@@ -17,6 +17,7 @@ from .pattern import Rim
 _BAD_QUADS = ("inverted_quads", "non_manifold_edge", "degenerate_face")
 _SAME = 1e-6  # of the diagonal: a point that is at a vertex
 _STRAIGHT = math.pi - 1e-6
+_BENT = math.radians(30)  # a boundary that turns by more has a corner
 
 
 @contextmanager
@@ -56,6 +57,34 @@ def _wide_corners(domain: SurfaceDomain, pattern: SingularPattern) -> list[str]:
         f" ({', '.join(f'{x:.4g}' for x in at)})"
         for at, angle, quads in found
         if quads >= 1 and angle / quads >= _STRAIGHT
+    ]
+
+
+def cut_corners(mesh: QuadMesh, domain: SurfaceDomain) -> list[str]:
+    """A note where corners of the boundary are no vertices of the quads: where two quads meet nothing holds one."""
+    points = np.asarray(domain.mesh.vertices)
+    rim = np.asarray(domain.edges)[np.asarray(domain.edge_triangles).min(axis=1) < 0]
+    if not len(rim):
+        return []
+    sums, counts = np.zeros(points.shape), np.zeros(len(points), int)
+    along = points[rim[:, 1]] - points[rim[:, 0]]
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    for end, sense in ((0, 1), (1, -1)):
+        np.add.at(sums, rim[:, end], sense * along)
+        np.add.at(counts, rim[:, end], 1)
+    # Unit vectors to both neighbours add up to 2 sin(turn / 2).
+    angles = 2 * np.arcsin(np.clip(np.linalg.norm(sums, axis=1) / 2, 0, 1))
+    corners = points[(counts == 2) & (angles > _BENT)]
+    vertices = np.asarray(mesh.vertices)
+    diagonal = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
+    away = np.array([np.linalg.norm(vertices - corner, axis=1).min() for corner in corners]) / diagonal
+    if not (away > _SAME).any():
+        return []
+    worst = ", ".join(f"{x:.4g}" for x in corners[away.argmax()])
+    return [
+        f"{int((away > _SAME).sum())} corners of the boundary are no vertices of the quads, the farthest by"
+        f" {away.max():.2g} of the diagonal, at ({worst}): two quads meet there; another number of quads at the corner"
+        " (--corners), or more quads, follow it"
     ]
 
 

@@ -16,6 +16,7 @@ from ..progress.phases import Progress, forward
 from .point_files import PointRow, corner_rows, point_rows
 
 _SAME = 1e-6  # of the diagonal: places that are one
+_MOST_QUADS = 16  # at a corner, for points inside that make up for it
 _NEAR = 1e-3  # of the diagonal: how far a corner may be from the boundary
 
 
@@ -67,20 +68,46 @@ def pattern_of(
     corners: Any,
     options: SurfaceFieldOptions,
     progress: Progress | None,
+    fitted: bool = False,
 ) -> Pattern:
     """singularities: a SingularPattern on this surface, what point_rows takes, or None: those of a computed field.
-    corners: what corner_rows takes, in place of those that follow from angles or the computed field."""
+    corners: what corner_rows takes, in place of those that follow from angles or the computed field. fitted: corners of
+    a computed field get a quad at least, and what corners change the sum of indices by is made good inside."""
+    fitted = fitted and singularities is None
     if isinstance(singularities, SingularPattern):
         made = Pattern(singularities, "given", "given" if singularities.corners else "angle")
     elif singularities is None:
-        made = Pattern(_computed(domain, options, progress), "computed", "computed")
+        computed = _computed(domain, options, progress)
+        if fitted:
+            computed = _core.with_corner_quads(domain, computed, _core.finite_corner_quads(domain, computed))
+        made = Pattern(computed, "computed", "computed")
     else:
         made = _given(domain, places, singularities)
     if corners is not None:
         rows = corner_rows(corners)
         replaced = _with_corners(domain, places, made.pattern, rows)
+        if fitted and all(abs(corner.quads) <= _MOST_QUADS for corner in replaced.corners):
+            replaced = _made_good(domain, made.pattern, replaced)
         made = Pattern(replaced, made.source, _name(corners), made.notes)
     return made
+
+
+def _made_good(domain: SurfaceDomain, computed: SingularPattern, wanted: SingularPattern) -> SingularPattern:
+    """The computed pattern with the corners of `wanted`, and points inside for what these change the sum by. wanted has
+    the points of `computed` first, then corners where the boundary has no vertex."""
+    had = {corner.vertex: corner.quads for corner in computed.corners}
+    vertices = np.asarray(domain.vertices)
+    for corner in wanted.corners:
+        at = vertices[corner.vertex]
+        if had.get(corner.vertex) != corner.quads and (vertices == at).all(axis=1).sum() > 1:
+            raise InvalidInput(
+                f"the corner at {at.tolist()} is on a feature edge, where faces meet that have numbers of quads of"
+                " their own; give corners of the boundary away from features, or take no features",
+                "several_faces",
+                [corner.vertex],
+            )
+    fitting = _core.with_corner_quads(domain, computed, wanted.corners)
+    return SingularPattern([*fitting.points, *list(wanted.points)[len(computed.points) :]], fitting.corners)
 
 
 def _computed(domain: SurfaceDomain, options: SurfaceFieldOptions, progress: Progress | None) -> SingularPattern:

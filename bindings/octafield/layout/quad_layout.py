@@ -26,7 +26,7 @@ from ..options import SurfaceFieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
 from .blocks import BlockQuads, LayoutParts, quads_of_separatrices, quads_of_t_mesh
-from .causes import told_of_points
+from .causes import cut_corners, told_of_points
 from .options import MOST_QUADS, QuadLayoutOptions
 from .pattern import Places, pattern_of, places_of
 from .quality import figures_of, require_sound
@@ -175,11 +175,8 @@ def _on(
         announce(progress, "surface")
         whole = SurfaceDomain(meshed.surface, meshed.features)
         domain, origins = _cut(whole, wanted, singularities)
-        pattern = pattern_of(domain, places, singularities, corners, options, progress)
-        if wanted.layout == "t-mesh" and singularities is None and corners is None:
-            pattern.pattern = _core.with_corner_quads(
-                domain, pattern.pattern, _core.finite_corner_quads(domain, pattern.pattern)
-            )
+        fitted = wanted.layout == "t-mesh"
+        pattern = pattern_of(domain, places, singularities, corners, options, progress, fitted)
     begun = of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes()))
     begun = begun.changed(notes=[*begun.notes, *pattern.notes, *([] if origins is not None else _of_features(whole))])
     meter = PhaseMeter(begun, progress)
@@ -197,6 +194,7 @@ def _on(
     announce(progress, "check")
     figures = figures_of(made.mesh, whole, given)
     require_sound(made.mesh, figures, int(_core.euler_characteristic(meshed.surface)))
+    begun = begun.changed(notes=[*begun.notes, *cut_corners(made.mesh, whole)])
     meter.end()
     told = record.of_quads(
         made, figures, field, pattern, begun, len(meshed.surface.triangles), target, inadmissible, meter,

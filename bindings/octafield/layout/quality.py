@@ -44,7 +44,10 @@ def require_sound(mesh: QuadMesh, figures: QuadFigures, euler_characteristic: in
     )
     for kind, count, words in found:
         if count:
-            raise SolverError(f"the quads have {count} {words}", kind)
+            raise SolverError(
+                f"the quads have {count} {words}; ask for more quads, or give corners other numbers of quads",
+                kind,
+            )
     euler = len(mesh.vertices) - len(edges_of(np.asarray(mesh.quads))[0]) + len(mesh.quads)
     if euler != euler_characteristic:
         raise SolverError(
