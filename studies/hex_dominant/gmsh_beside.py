@@ -7,6 +7,7 @@ boundary classified into patches (creases of 40 degrees). Published figures are 
     python -m studies.hex_dominant.gmsh_beside FILE EDGE ALGORITHM JSON     one run of Gmsh
 """
 
+import contextlib
 import json
 import os
 import sys
@@ -129,10 +130,12 @@ def figures(points: np.ndarray, cells: dict[str, np.ndarray]) -> dict[str, float
 
 
 def one() -> None:
-    path, edge, algorithm, out = Path(sys.argv[1]), float(sys.argv[2]), int(sys.argv[3]), Path(sys.argv[4])
+    path, out = Path(sys.argv[1]).absolute(), Path(sys.argv[4]).absolute()
+    edge, algorithm = float(sys.argv[2]), int(sys.argv[3])
     begun = time.perf_counter()
     try:
-        found = figures(*gmsh_mesh(path, edge, algorithm))
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):  # Gmsh leaves new_points.pos
+            found = figures(*gmsh_mesh(path, edge, algorithm))
     except Exception as error:
         found = {"error": f"{type(error).__name__}: {error}"[:200]}
     out.write_text(json.dumps(found | {"seconds": time.perf_counter() - begun}))
