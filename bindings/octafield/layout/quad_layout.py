@@ -25,11 +25,12 @@ from ..errors import InvalidInput, SolverError
 from ..options import SurfaceFieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
-from .blocks import BlockQuads, LayoutParts, quads_of_separatrices, quads_of_t_mesh
+from .blocks import BlockQuads, LayoutParts, quads_of_separatrices
 from .causes import cut_corners, told_of_points
 from .options import MOST_QUADS, QuadLayoutOptions
 from .pattern import Places, pattern_of, places_of
 from .quality import figures_of, require_sound
+from .t_mesh import quads_of_t_mesh
 
 if TYPE_CHECKING:
     import pyvista
