@@ -10,7 +10,7 @@ from ..options import FieldOptions
 from ..schemes import EmbeddingScheme, OwnScheme, minimised
 from .plan import Run
 
-_PROCESS_MB = 300.0  # Python, its libraries, small arrays
+_PROCESS_MB = 295.0  # Python, its libraries, small arrays
 _TYPICAL_TETS = 50_000.0  # of an input before any is known
 _MB_PER_WORKING_TET = 0.0011  # a mesh along the field: tets are cut before, within a budget
 _TET_SAMPLING = 3.5  # over frames at vertices: there are five to six times as many tets, but fewer neighbours
