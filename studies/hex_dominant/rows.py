@@ -144,7 +144,7 @@ def cells(row: dict) -> list[str]:
         edge = f"{row['edge']:.3g}" if "edge" in row else ""
         return [name, edge, *[""] * 17, f"{row['seconds']:.0f}", "", f"{row.get('MB', 0):.0f}", clean(row["error"])]
     percent = lambda name, digits: f"{100 * row[name]:.{digits}f}"  # noqa: E731
-    counts = [f"{row['tets_used']:,}", lost(row["steps"])]
+    counts = [f"{row['tets_used']:,}", "front" if row.get("points") == "frontal" else lost(row["steps"])]
     counts += [f"{row[name]:,}" for name in ("tets", "hexahedra", "wedges", "pyramids")]
     shares = [percent("hex_volume_share", 1), percent("hex_number_share", 1)]
     quality = [f"{row[name]:.{digits}f}" for name, digits in (("hex_sj_min", 2), ("hex_sj_mean", 3), ("sj_min", 3))]
@@ -155,10 +155,8 @@ def cells(row: dict) -> list[str]:
 
 
 def lost(steps: dict[str, int]) -> str:
-    """Those that became no hexahedra, of all; a front has none."""
+    """Those that became no hexahedra, of all."""
     refused = sum(steps[name] for name in ("outside", "unusable", "degenerate", "poor"))
-    if refused + steps["lattice_hexahedra"] == 0:
-        return "front"
     return f"{refused + steps['crossing']:,} of {refused + steps['lattice_hexahedra']:,}"
 
 

@@ -64,6 +64,7 @@ def measure(path: Path, factor: float, length: float = 0.0, keep: Path | None = 
         "cpu": sum(os.times()[:4]),  # TetGen has a process of its own
         "MB": result.record.peak_mb,  # the largest of its phases, each measured from its start
         "tets_used": result.counts.tets,
+        "points": result.record.points,
     }
     lost = {name: getattr(result.counts.lost, name) for name in ("outside", "unusable", "degenerate", "poor")}
     steps = ("inconsistent", "turned_over", "lattice_hexahedra", "crossing", "recombined_hexahedra")

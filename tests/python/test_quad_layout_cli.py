@@ -94,7 +94,8 @@ def test_meshio_and_gmsh_read_the_same_quads_by_block(folder, mesh):
     assert np.array_equal(found.cell_data["gmsh:physical"][0], np.asarray(blocks) + 1)
     chords = [found.cell_data[name][0] for name in ("first_chord", "second_chord")]
     assert np.array_equal(np.column_stack(chords), pyvista.read(folder / "out" / "mesh.vtu").cell_data["chords"])
-    gmsh = pytest.importorskip("gmsh")
+    import gmsh
+
     gmsh.initialize(interruptible=False)
     try:
         gmsh.option.set_number("General.Terminal", 0)
@@ -105,17 +106,31 @@ def test_meshio_and_gmsh_read_the_same_quads_by_block(folder, mesh):
         gmsh.finalize()
 
 
-def test_the_layout_is_in_a_file_of_its_own(folder, record):
-    layout = pyvista.read(folder / "out" / "layout.vtp")
+@pytest.mark.parametrize("way", ["t-mesh", "separatrices"])
+def test_the_layout_is_in_a_file_of_its_own(folder, record, tmp_path, way):
+    place = folder / "out"
+    if way == "separatrices":
+        place = tmp_path / "out"
+        done = run(folder / "disk.obj", "-o", place, "--singularities", folder / "out" / "result.json",
+                   "--quads", "200", "--no-remesh", "--layout", way, "-q")  # fmt: skip
+        assert done.exit_code == 0, done.output
+    layout = pyvista.read(place / "layout.vtp")
     kind, number = layout.cell_data["kind"], layout.cell_data["number"]
     assert [int((kind == k).sum()) for k in (0, 1)] == [8, 12] and layout.n_verts == 8 and layout.n_lines == 12
     assert set(number[kind == 2]) == set(range(record["patches"]))
     assert (layout.cell_data["chord"][kind == 1] >= 0).all() and (layout.cell_data["chord"][kind != 1] == -1).all()
     assert sorted(layout.cell_data["index_times_four"][kind == 0]) == [0] * 4 + [1] * 4
     areas = layout.compute_cell_sizes(length=False, volume=False)["Area"][kind == 2]
-    assert areas.sum() == pytest.approx(np.pi, rel=0.01)
     lines = layout.compute_cell_sizes(area=False, volume=False)["Length"][kind == 1]
-    assert lines[layout.cell_data["boundary"][kind == 1] > 0].sum() == pytest.approx(2 * np.pi, rel=5e-3)
+    rim = lines[layout.cell_data["boundary"][kind == 1] > 0].sum()
+    if way == "separatrices":  # polygons that tile the polygon of 48 sides
+        assert areas.sum() == pytest.approx(24 * np.sin(np.pi / 24), rel=1e-9)
+        assert rim == pytest.approx(2 * np.pi, rel=2e-3)
+    else:  # the quads
+        quads = pyvista.read(place / "mesh.vtu")
+        edges = quads.extract_feature_edges(feature_edges=False, manifold_edges=False)
+        assert areas.sum() == pytest.approx(quads.compute_cell_sizes()["Area"].sum(), rel=1e-9)
+        assert rim == pytest.approx(edges.compute_cell_sizes()["Length"].sum(), rel=1e-9)
 
 
 def test_the_field_is_in_a_file_of_its_own(folder, record):

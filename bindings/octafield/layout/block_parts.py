@@ -6,6 +6,7 @@ import numpy as np
 
 from .._core import QuadMesh
 from .blocks import LayoutParts
+from .quality import quads_round
 
 
 def block_chords(quads: np.ndarray, blocks: np.ndarray, of_blocks: np.ndarray) -> np.ndarray:
@@ -42,11 +43,12 @@ def _pairs(quads: np.ndarray, blocks: np.ndarray) -> tuple[np.ndarray, np.ndarra
 
 
 def parts_of_blocks(
-    mesh: QuadMesh, blocks: np.ndarray, chords: np.ndarray, on_boundary: np.ndarray, round_vertex: np.ndarray
+    mesh: QuadMesh, blocks: np.ndarray, chords: np.ndarray, largest_mismatch: float, separatrices: int
 ) -> LayoutParts:
     """Sides run along edges between blocks and of the boundary, from corner to corner of blocks; those that close on
-    themselves have no ends."""
+    themselves have no ends. largest_mismatch, separatrices: of the T-mesh that the quads come from."""
     points, quads = np.asarray(mesh.vertices), np.asarray(mesh.quads)
+    on_boundary, round_vertex = quads_round(quads, len(points))
     walls, wall_chords, at_rim = _walls(quads, blocks, chords)
     corner = _corners(quads, blocks)
     wall_degree = np.bincount(walls.ravel(), minlength=len(points))
@@ -67,8 +69,8 @@ def parts_of_blocks(
         first=np.arange(0, quads.size + 1, 4),
         corners=quads.ravel(),
         polygon_patches=blocks,
-        largest_mismatch=0.0,
-        separatrices=0,
+        largest_mismatch=largest_mismatch,
+        separatrices=separatrices,
         chords=len(np.unique(chords)),
     )
 

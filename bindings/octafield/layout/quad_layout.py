@@ -233,20 +233,20 @@ def _imposed(
     progress: Progress | None,
 ) -> tuple[ImposedField, str]:
     """T-meshes take rotated fields: where points of a computed field cannot be moved, the field is rotated."""
-    ways = [inadmissible]
-    if wanted.inadmissible == "default" and inadmissible == "move" and wanted.layout == "t-mesh":
-        ways.append("rotate")
-    for way in ways:
-        try:
-            field = _core.impose_singular_points(
-                domain, pattern, inadmissible=way, tolerance=wanted.tolerance, progress=progress
-            )
-        except SolverError:
-            if way == ways[-1]:
-                raise
-        else:
-            return field, way
-    raise AssertionError
+    may_rotate = wanted.inadmissible == "default" and inadmissible == "move" and wanted.layout == "t-mesh"
+
+    def imposed(way: str) -> tuple[ImposedField, str]:
+        field = _core.impose_singular_points(
+            domain, pattern, inadmissible=way, tolerance=wanted.tolerance, progress=progress
+        )
+        return field, way
+
+    try:
+        return imposed(inadmissible)
+    except SolverError:
+        if not may_rotate:
+            raise
+        return imposed("rotate")
 
 
 def _edge_length(surface: TriangleMesh, wanted: QuadLayoutOptions) -> float:

@@ -62,9 +62,7 @@ def figures_of(mesh: QuadMesh, domain: SurfaceDomain, given: TriangleMesh) -> Qu
     edges, count, same_sense = edges_of(quads)
     open_edges = edges[count == 1]
     stray = open_edges[~_at_boundary(points, open_edges, domain)]
-    round_vertex = np.bincount(quads.ravel(), minlength=len(points))
-    on_boundary = np.zeros(len(points), bool)
-    on_boundary[open_edges] = True
+    on_boundary, round_vertex = quads_round(quads, len(points))
     jacobians = np.asarray(_core.scaled_jacobians(mesh))
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
     return QuadFigures(
@@ -81,6 +79,14 @@ def figures_of(mesh: QuadMesh, domain: SurfaceDomain, given: TriangleMesh) -> Qu
         deviation=surface_deviation(points, np.zeros((0, 3), np.int32), quads, given),
         edges=spread(lengths),
     )
+
+
+def quads_round(quads: np.ndarray, vertices: int) -> tuple[np.ndarray, np.ndarray]:
+    """(vertices,) bool whether it is on an edge of one quad, and how many quads it has."""
+    edges, count, _ = edges_of(quads)
+    on_boundary = np.zeros(vertices, bool)
+    on_boundary[edges[count == 1]] = True
+    return on_boundary, np.bincount(quads.ravel(), minlength=vertices)
 
 
 def edges_of(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:

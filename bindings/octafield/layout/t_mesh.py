@@ -10,7 +10,6 @@ from ..progress.phases import Progress
 from .block_parts import block_chords, parts_of_blocks
 from .blocks import BlockQuads
 from .options import QuadLayoutOptions
-from .quality import edges_of
 
 
 def quads_of_t_mesh(
@@ -28,10 +27,5 @@ def quads_of_t_mesh(
     made = _core.quantized_quads(graph, coarsest=options.coarsest, origins=origins, progress=progress, **size)
     quads, blocks = np.asarray(made.mesh.quads), np.array(made.patches)
     chords = block_chords(quads, blocks, np.asarray(made.patch_chords))
-    edges, count, _ = edges_of(quads)
-    round_vertex = np.bincount(quads.ravel(), minlength=len(made.mesh.vertices))
-    on_boundary = np.zeros(len(made.mesh.vertices), bool)
-    on_boundary[edges[count == 1]] = True
-    parts = parts_of_blocks(made.mesh, blocks, chords, on_boundary, round_vertex)
-    parts.separatrices = graph.curves.traced
+    parts = parts_of_blocks(made.mesh, blocks, chords, graph.largest_mismatch, graph.curves.traced)
     return BlockQuads(made.mesh, blocks, chords, parts, t_joints=made.t_joints, optimal=made.optimal)

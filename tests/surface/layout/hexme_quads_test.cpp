@@ -1,6 +1,4 @@
 // Quads on the boundaries of real parts, with the features of their files.
-#include <fstream>
-
 #include "hexme_surface.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/corner_pattern.hpp"
@@ -172,27 +170,6 @@ TEST(HexmeQuads, FacesThatDoNotFitAreTold) {
     if (!std::filesystem::exists(shared_data() / "hexme")) GTEST_SKIP() << "no data";
     const Part part = part_of(hexme_surface("s07c"));
     EXPECT_EQ(kind_of([&] { quads_of(part, 2000); }), "no_integers");
-}
-
-// One row per file, to hexme_quads.txt: not a test (--gtest_also_run_disabled_tests).
-TEST(HexmeQuads, DISABLED_Table) {
-    std::ofstream table("hexme_quads.txt");
-    std::set<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(shared_data() / "hexme"))
-        names.insert(entry.path().filename().string().substr(0, 4));
-    for (const std::string& name : names) {
-        table << name << ' ';
-        try {
-            const Part part = part_of(hexme_surface(name));
-            const QuantizedQuads quads = quads_of(part, 2000);
-            table << part.whole.triangle_count() << " triangles, " << quads.mesh.quads.rows() << " quads, "
-                  << quads.t_joints << " T-joints, " << quads.patch_sizes.rows() << " blocks, "
-                  << quads.irregular.size() << " irregular, " << quads.least_scaled_jacobian << '\n';
-        } catch (const Error& error) {
-            table << error.kind() << '\n';
-        }
-        table.flush();
-    }
 }
 
 }  // namespace
