@@ -265,6 +265,27 @@ def test_non_orthogonal_crosses_have_the_points_of_the_thesis(tmp_path):
         assert is_picture(tmp_path / f"non_orthogonal_{name}.png")
 
 
+def test_quads_of_hexme_have_a_row_per_file_with_the_figures_or_the_error(tmp_path):
+    command = [sys.executable, "-m", "studies.quad_layouts", "-o", tmp_path]
+    data = STUDIES.parents[1] / "shared" / "data"
+    if not (data / "hexme").is_dir():
+        pytest.skip("no data")
+    subprocess.run([*command, "--only", "s01c,s07c", "--quads", "600"], cwd=STUDIES.parent, check=True)
+    text = (tmp_path / "hexme.md").read_text()
+    assert text.startswith("2 surfaces, 1 meshes, 1 of them")
+    cube, notched = ([word.strip() for word in line.split("|")[1:-1]] for line in text.splitlines()[4:])
+    assert cube[0] == "s01c" and cube[4:6] == ["6", "8"] and float(cube[7]) > 0.99 and cube[-1] == ""
+    assert notched[0] == "s07c" and notched[-1] == "no_integers"
+
+
+def test_the_cost_of_quad_layouts_has_a_row_per_sphere(tmp_path):
+    command = [sys.executable, "-m", "studies.quad_layouts", "-o", tmp_path, "--cost", "2,3", "--quads", "150"]
+    subprocess.run(command, cwd=STUDIES.parent, check=True)
+    lines = [line.split("|")[1:-1] for line in (tmp_path / "cost.md").read_text().splitlines()[2:4]]
+    assert [line[0].strip() for line in lines] == ["320", "1,280"]
+    assert all(100 < int(line[1]) < 220 for line in lines)
+
+
 def test_the_cost_of_non_orthogonal_fields_has_a_row_per_edge_length(tmp_path):
     run("surface_non_orthogonal.py", tmp_path, "--cost", "0.2,0.1")
     lines = [line.split("|")[1:-1] for line in (tmp_path / "cost.md").read_text().splitlines()[2:]]
