@@ -70,7 +70,7 @@ def quad_layout(
         typer.Option(
             metavar=choices(AXES),
             autocompletion=words(AXES),
-            help="Of quads: at right angles, or along two lines at any angle, which follow both sides of sharp corners.",
+            help="Of quads: at right angles, or along two lines at any angle, which follow both sides of corners.",
         ),
     ] = _DEFAULTS.axes,
     inadmissible: Annotated[

@@ -10,6 +10,7 @@
 namespace octafield::surface {
 namespace {
 
+constexpr double rounding = 1e-12;       // of lengths
 constexpr double least_angle = 1e-3;     // between the lines, radians
 constexpr double least_area = 0.5;       // of the least by a corner's metric
 constexpr double least_part = 1.0 / 64;  // of a metric; below it is that of space
@@ -45,7 +46,9 @@ public:
         }
         Eigen::VectorXd lengths(domain_.edge_count());
         for (Index e = 0; e < lengths.size(); ++e) lengths[e] = std::sqrt(square(e));
-        result.domain = domain_.with_edge_lengths(std::move(lengths));
+        const Eigen::VectorXd& in_space = domain_.edge_lengths();
+        const bool alike = ((lengths - in_space).array().abs() <= rounding * in_space.array()).all();
+        result.domain = alike ? domain_ : domain_.with_edge_lengths(std::move(lengths));
         return result;
     }
 

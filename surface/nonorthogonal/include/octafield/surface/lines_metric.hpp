@@ -8,7 +8,7 @@
 namespace octafield::surface {
 
 struct LinesMetric {
-    SurfaceDomain domain;       // the field's surface with its own edge lengths
+    SurfaceDomain domain;       // the field's surface measured so
     std::vector<Index> damped;  // vertices whose metric was drawn towards that of space, ascending
     double least_part = 1;      // what is left of it at the worst, an exponent in [0, 1]
 };
@@ -16,7 +16,7 @@ struct LinesMetric {
 // At a vertex with unit vectors F = (d1, d2) along its lines the metric is g = (F F^T)^-1: both have length 1, with a
 // right angle between them. The square of an edge's length is by the mean of g at its ends. So a side that a line
 // follows is as long as in space, and a corner that is followed on both sides has a right angle there. Of an orthogonal
-// field it is the metric of space.
+// field it is that of space, and the domain is the field's as it is.
 //
 // Where lines turn so fast, next to singular points, that the sides of a triangle enclose less than half the area that
 // it has by any of its corners' metrics, the metrics of its vertices are drawn towards that of space: g^s, s = 1/2,
