@@ -154,11 +154,56 @@ TEST_F(LinesMapped, ImposedFieldsAndQuadsAreThoseThereTakenBack) {
     EXPECT_LT((here.field.values - there.field.values).cwiseAbs().maxCoeff(), 1e-8);
     LayoutQuadsOptions options;
     options.quad_count = 300;
-    const QuadMesh of_lines = layout_quads(quad_layout(here), options).mesh;
-    const QuadMesh of_space = layout_quads(quad_layout(there), options).mesh;
+    const QuadLayout by_lines = quad_layout(here), by_space = quad_layout(there);
+    EXPECT_NEAR(by_lines.curves.parameter_area / by_space.curves.parameter_area, 1, 1e-9);
+    const QuadMesh of_lines = layout_quads(by_lines, options).mesh, of_space = layout_quads(by_space, options).mesh;
     EXPECT_NEAR(static_cast<double>(of_space.quads.rows()), 300, 60);
     ASSERT_EQ(of_lines.quads, of_space.quads);
     EXPECT_LT((of_lines.vertices - of_space.vertices * map.transpose()).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+// Of outer radius 1, `around` vertices on each circle.
+TriangleMesh ring_mesh(double inner, int around, int rings) {
+    std::vector<Vector> points;
+    std::vector<Eigen::Vector3i> triangles;
+    for (int j = 0; j <= rings; ++j)
+        for (int i = 0; i < around; ++i) {
+            const double radius = inner + (1 - inner) * j / rings, at = 2 * pi * (i + 0.5 * (j % 2)) / around;
+            points.emplace_back(radius * std::cos(at), radius * std::sin(at), 0);
+        }
+    for (int j = 0; j < rings; ++j)
+        for (int i = 0; i < around; ++i) {
+            const int next = (i + 1) % around, a = j * around, b = a + around;
+            const int skew = j % 2 == 0 ? b + i : b + next;
+            triangles.insert(triangles.end(),
+                             {{a + i, skew, a + next}, {b + i, b + next, j % 2 == 0 ? a + next : a + i}});
+        }
+    return make_mesh(points, triangles);
+}
+
+// Four points of each kind on circles, off the angles that a field needs by ten degrees.
+TEST_F(LinesMapped, PointsMoveUntilTheMetricHasAField) {
+    const TriangleMesh there = ring_mesh(0.3, 48, 10);
+    const TriangleMesh here = moved(there, [&](const Vector& x) -> Vector { return map * x; });
+    const SurfaceDomain space(there);
+    const SurfaceDomain metric = SurfaceDomain(here).with_edge_lengths(space.edge_lengths());
+    SingularPattern pattern;
+    for (int i = 0; i < 8; ++i) {
+        const double radius = i < 4 ? 0.55 : 0.75, at = 0.3 + pi / 2 * i + (i < 4 ? 0 : 10 * degree);
+        pattern.points.push_back(imposed_point(space, radius * Vector(std::cos(at), std::sin(at), 0), i < 4 ? -1 : 1));
+    }
+    for (const CornerQuads& corner : default_corner_quads(metric)) pattern.corners.push_back({corner.vertex, 2});
+    ImposedFieldOptions options;
+    options.inadmissible = Inadmissible::move;
+    for (const SurfaceDomain& domain : {space, metric}) {
+        const ImposedField field = impose_singular_points(domain, pattern, options);
+        ASSERT_EQ(field.conditions.size(), 1u);
+        EXPECT_LT(std::abs(field.conditions[0].angle), 1e-3 * degree);
+        EXPECT_GT(field.steps, 0);
+        EXPECT_LE(field.steps, 6);
+        EXPECT_GT(field.largest_move, 0.02);
+        EXPECT_LT(field.largest_move, 0.15);
+    }
 }
 
 // The metric of crosses at right angles is that of space, however they turn.
@@ -168,6 +213,7 @@ TEST(LinesMetric, OfRightAnglesIsThatOfSpace) {
     const LinesMetric metric = lines_metric(field);
     EXPECT_TRUE(metric.damped.empty());
     EXPECT_EQ(metric.least_part, 1);
+    EXPECT_FALSE(metric.domain.has_own_lengths());
     EXPECT_LT((metric.domain.edge_lengths() - field.domain.edge_lengths()).cwiseAbs().maxCoeff(), 1e-14);
     SingularPattern pattern;
     for (const double at : {0.2, 1.7, 3.5, 4.9})
