@@ -64,7 +64,8 @@ void bind_surface_domain(py::module_& m) {
         "that call alone.");
     type.def(py::init(&made), "mesh"_a = py::none(), "features"_a = py::none(), "edge_lengths"_a = py::none(),
              "mesh: TriangleMesh, edge-manifold and consistently oriented, open or closed; none: no triangles. "
-             "features: FeatureGraph of it. edge_lengths: (E,) as of with_edge_lengths. Raises InvalidInput, and GeometryError naming elements where the mesh is "
+             "features: FeatureGraph of it. edge_lengths: (E,) as of with_edge_lengths. Raises InvalidInput, and "
+             "GeometryError naming elements where the mesh is "
              "unsound.");
     bind_views(type);
     type.def_property_readonly(
@@ -101,10 +102,10 @@ void bind_surface_domain(py::module_& m) {
         .def("__reduce__",
              [](const py::object& self) {
                  const auto& d = self.cast<const SurfaceDomain&>();
-                 if (!d.has_own_lengths())
-                     return py::make_tuple(py::type::of(self), py::make_tuple(d.mesh(), d.features()));
-                 return py::make_tuple(py::type::of(self),
-                                       py::make_tuple(d.mesh(), d.features(), own(d.edge_lengths())));
+                 py::tuple given = py::make_tuple(d.mesh(), d.features());
+                 if (d.has_own_lengths())
+                     given = py::make_tuple(d.mesh(), d.features(), own(Eigen::VectorXd(d.edge_lengths())));
+                 return py::make_tuple(py::type::of(self), given);
              })
         .def("__repr__", [](const SurfaceDomain& d) {
             return "SurfaceDomain(" + count(d.vertex_count(), "vertex", "vertices") + ", " +
