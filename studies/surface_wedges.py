@@ -58,7 +58,7 @@ def parallelogram(degrees: float):
 FAMILIES = {
     "sector": sector,
     "right trapezoid": right_trapezoid,
-    "parallelogram, one quad at every corner": parallelogram,
+    "parallelogram": parallelogram,
 }
 
 
@@ -83,19 +83,22 @@ def quads_of(source, axes: str, corners=None):
 
 
 def off_sides(field, corner) -> float:
-    """Degrees: the largest angle between an edge of the two sides at the corner and the nearest line of its ends."""
+    """Degrees: the largest angle between one of the two sides at the corner and the nearest line of its vertices, but
+    for those at its other end."""
     points = np.array(field.domain.vertices)
     edges = np.array(field.domain.edges)[np.array(field.domain.edge_triangles).min(axis=1) < 0]
+    rim = np.unique(edges)
     at = int(np.argmin(np.linalg.norm(points[:, :2] - corner, axis=1)))
     away = points - points[at]
-    reach = np.linalg.norm(away, axis=1)
     worst = 0.0
     for a, b in edges[(edges == at).any(axis=1)]:
-        side = away[a + b - at] / reach[a + b - at]
-        on_it = np.linalg.norm(away - np.outer(away @ side, side), axis=1) < 1e-9
-        for v in edges[on_it[edges].all(axis=1)].ravel():
-            along = [abs(float(np.array(lines)[v] @ side)) for lines in (field.first, field.second)]
-            worst = max(worst, float(np.degrees(np.arccos(min(1.0, max(along))))))
+        side = away[a + b - at] / np.linalg.norm(away[a + b - at])
+        on_it = rim[np.linalg.norm(away[rim] - np.outer(away[rim] @ side, side), axis=1) < 1e-9]
+        on_it = on_it[np.argsort(away[on_it] @ side)][:-1]
+        across = [
+            np.linalg.norm(np.cross(np.array(lines)[on_it], side), axis=1) for lines in (field.first, field.second)
+        ]
+        worst = max(worst, float(np.degrees(np.arcsin(np.minimum(*across).max()))))
     return worst
 
 
@@ -112,10 +115,25 @@ def _jacobians(result) -> str:
     return f"{found.min:.3f}, {found.p05:.2f}, {found.mean:.3f}"
 
 
+def _told(result, points) -> tuple:
+    """points, quads, edges, scaled Jacobians; the kind of an error."""
+    if isinstance(result, str):
+        return result, "", "", ""
+    lengths = result.record.edge_length
+    return points(result), result.record.quads, f"{lengths.p95 / lengths.p05:.1f}", _jacobians(result)
+
+
 HEADER = (
-    "domain", "angle", "sine of the sharpest corner", "lines off sides, degrees", "points inside, edges away",
-    "quads", "scaled Jacobian: min, p05, mean", "orthogonal: points", "quads", "scaled Jacobian",
+    "domain", "angle", "sine of the sharpest corner", "lines off sides, degrees", "free: points inside, edges away",
+    "quads", "edges p95 / p05", "scaled Jacobian: min, p05, mean", "orthogonal: points", "quads", "edges",
+    "scaled Jacobian",
 )  # fmt: skip
+
+
+def _at(mesh, places):
+    """One quad at each of the places."""
+    points = np.array(mesh.vertices)[:, :2]
+    return None if places is None else [[int(np.argmin(np.linalg.norm(points - p, axis=1))), 1] for p in places]
 
 
 def plane_rows() -> tuple[list[tuple], dict]:
@@ -127,18 +145,9 @@ def plane_rows() -> tuple[list[tuple], dict]:
             corners = None if single is None else [{"position": [*place, 0], "quads": 1} for place in single]
             free, right = (quads_of(domain, axes, corners) for axes in ("free", "orthogonal"))
             results[name, degrees] = free, right
-            told = []
-            for result in (free, right):
-                told += (
-                    (result, "", "")
-                    if isinstance(result, str)
-                    else (
-                        _points(result, corner, domain.mean_edge_length),
-                        result.record.quads,
-                        _jacobians(result),
-                    )
-                )
-            lines = SURFACE.non_orthogonal_field(mesh)
+            points = lambda result, corner=corner, edge=domain.mean_edge_length: _points(result, corner, edge)
+            told = (*_told(free, points), *_told(right, points))
+            lines = SURFACE.non_orthogonal_field(mesh, corners=_at(mesh, single))
             rows.append(
                 (name, degrees, f"{np.sin(np.radians(sharpest)):.3f}", f"{off_sides(lines, corner):.1e}", *told)
             )
@@ -151,17 +160,8 @@ def prism_rows() -> tuple[list[tuple], dict]:
         sharpest = min(degrees, 90 - degrees)
         free, right = (quads_of(prism(degrees), axes) for axes in ("free", "orthogonal"))
         results[degrees] = free, right
-        told = []
-        for result in (free, right):
-            told += (
-                (result, "", "")
-                if isinstance(result, str)
-                else (
-                    sum(not point.boundary for point in result.record.singular_points),
-                    result.record.quads,
-                    _jacobians(result),
-                )
-            )
+        points = lambda result: sum(not point.boundary for point in result.record.singular_points)
+        told = (*_told(free, points), *_told(right, points))
         rows.append(("prism", degrees, f"{np.sin(np.radians(sharpest)):.3f}", "", *told))
     return rows, results
 

@@ -95,7 +95,7 @@ def test_given_points_run_on_the_surface_measured_by_lines():
 
 
 def test_a_surface_keeps_its_own_lengths_where_it_is_copied():
-    domain = surface.lines_metric(surface.non_orthogonal_field(polygon(right_triangle(30)))).domain
+    domain = made(polygon(right_triangle(30))).field.field.domain
     assert domain.has_own_lengths
     again = pickle.loads(pickle.dumps(domain))
     assert again.has_own_lengths
@@ -105,7 +105,7 @@ def test_a_surface_keeps_its_own_lengths_where_it_is_copied():
         surface.direction_field(domain)
     assert caught.value.kind == "own_lengths"
     with pytest.raises(of.GeometryError) as caught:
-        domain.with_edge_lengths([1, 1, 3])
+        surface.SurfaceDomain(polygon(right_triangle(30)), edge_lengths=[1, 1, 3])
     assert caught.value.kind == "no_triangle" and caught.value.elements == [0]
 
 
