@@ -228,7 +228,7 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--edge", type=float, default=0.05, help="edge length; trapezoids have height 1")
     parser.add_argument("--cost", nargs="?", const="0.02,0.01,0.005", help="edges; seconds in place of the figures")
-    parser.add_argument("--wedges", action="store_true", help="quads of wedges in place of the figures")
+    parser.add_argument("--wedges", nargs="?", const="15,30,45,60,75", help="angles; quads of wedges in their place")
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     output, edge = arguments.output, arguments.edge
@@ -238,7 +238,7 @@ def main() -> None:
         print(text)
         return
     if arguments.wedges:
-        print(wedges(output))
+        print(wedges(output, [int(degrees) for degrees in arguments.wedges.split(",")]))
         return
     rows = [*trapezoids(output, edge), *diamonds(output, 0.9 * edge), *disks(output, edge)]
     rows += [*stars(output, edge), *aerofoils(output, edge)]

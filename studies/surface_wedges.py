@@ -13,7 +13,6 @@ from surface_meshes import region, resampled
 from surface_pictures import SIGNS, save_drawing
 
 SURFACE = octafield.surface
-ANGLES = (15, 30, 45, 60, 75)
 QUADS = 400
 
 
@@ -136,10 +135,10 @@ def _at(mesh, places):
     return None if places is None else [[int(np.argmin(np.linalg.norm(points - p, axis=1))), 1] for p in places]
 
 
-def plane_rows() -> tuple[list[tuple], dict]:
+def plane_rows(angles) -> tuple[list[tuple], dict]:
     rows, results = [], {}
     for name, family in FAMILIES.items():
-        for degrees in ANGLES:
+        for degrees in angles:
             mesh, corner, sharpest, single = family(degrees)
             domain = SURFACE.SurfaceDomain(mesh)
             corners = None if single is None else [{"position": [*place, 0], "quads": 1} for place in single]
@@ -154,9 +153,9 @@ def plane_rows() -> tuple[list[tuple], dict]:
     return rows, results
 
 
-def prism_rows() -> tuple[list[tuple], dict]:
+def prism_rows(angles) -> tuple[list[tuple], dict]:
     rows, results = [], {}
-    for degrees in ANGLES:
+    for degrees in angles:
         sharpest = min(degrees, 90 - degrees)
         free, right = (quads_of(prism(degrees), axes) for axes in ("free", "orthogonal"))
         results[degrees] = free, right
@@ -187,8 +186,11 @@ def _draw(axes, result, title: str) -> None:
 
 
 def draw_plane(results: dict, path: Path) -> None:
-    shown = [("sector", 15), ("sector", 30), ("right trapezoid", 30), ("sector", 60)]
-    figure, panels = new_figure(10.4, 4.2, 2, len(shown))
+    wanted = [("sector", 15), ("sector", 30), ("right trapezoid", 30), ("sector", 60)]
+    shown = [key for key in wanted if key in results]
+    if not shown:
+        return
+    figure, panels = new_figure(2.6 * len(shown), 4.2, 2, len(shown), squeeze=False)
     for column, key in enumerate(shown):
         for axes, result, title in zip(panels[:, column], results[key], ("free", "orthogonal"), strict=True):
             if not isinstance(result, str):
@@ -201,8 +203,11 @@ def draw_plane(results: dict, path: Path) -> None:
 def draw_prisms(results: dict, path: Path) -> None:
     from octafield.view import scene
 
-    figure, panels = new_figure(8.0, 3.4, 1, 2)
-    for axes, degrees in zip(panels, (15, 30), strict=True):
+    shown = [degrees for degrees in (15, 30) if degrees in results]
+    if not shown:
+        return
+    figure, panels = new_figure(4.0 * len(shown), 3.4, 1, len(shown), squeeze=False)
+    for axes, degrees in zip(panels[0], shown, strict=True):
         result = results[degrees][0]
         axes.set_axis_off()
         if isinstance(result, str):
@@ -218,9 +223,9 @@ def draw_prisms(results: dict, path: Path) -> None:
     save_drawing(figure, path)
 
 
-def wedges(output: Path) -> str:
-    rows, planes = plane_rows()
-    more, prisms = prism_rows()
+def wedges(output: Path, angles) -> str:
+    rows, planes = plane_rows(angles)
+    more, prisms = prism_rows(angles)
     draw_plane(planes, output / "non_orthogonal_wedges.png")
     draw_prisms(prisms, output / "non_orthogonal_prisms.png")
     text = markdown_table(HEADER, rows + more)

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _core
 from .._core import NonOrthogonalField, SingularPattern, SurfaceDomain
-from ..errors import InvalidInput
+from ..errors import InvalidInput, SolverError
 from ..options import SurfaceFieldOptions
 from ..progress.phases import Progress, forward
 from .pattern import Pattern, Places, given_pattern, name_of, with_corners
@@ -41,14 +41,28 @@ def pattern_of_lines(
     )
     metric = _core.lines_metric(lines)
     if singularities is None:
-        source, found = "computed", _core.singular_pattern(metric.domain, _core.surface_singularities(lines))
-        made = Pattern(found, source, name_of(corners) if corners is not None else source)
+        made = Pattern(
+            _points_of(lines, metric.domain), "computed", "computed" if corners is None else name_of(corners)
+        )
     elif isinstance(singularities, SingularPattern):
         made = Pattern(singularities, "given", "given" if singularities.corners else "computed")
     else:
         made = given_pattern(metric.domain, places, singularities)
     made.notes += _notes(lines, len(metric.damped))
     return metric.domain, made
+
+
+def _points_of(lines: NonOrthogonalField, measured: SurfaceDomain) -> SingularPattern:
+    found = _core.surface_singularities(lines)
+    if not found.agree:
+        raise SolverError(
+            f"the singular points of the lines are of index {found.index_sum:g} in all, where the surface asks for"
+            f" {found.euler_characteristic}: along its boundary lines turn by more than half their angle from vertex to"
+            " vertex; --triangle-length (edge_length of the field's options) gives shorter triangles, or take"
+            " orthogonal axes",
+            "unclear_points",
+        )
+    return _core.singular_pattern(measured, found)
 
 
 def _notes(lines: NonOrthogonalField, damped: int) -> list[str]:
