@@ -179,7 +179,7 @@ def _on(
         domain, origins = _cut(whole, wanted, singularities)
         fitted = wanted.layout == "t-mesh"
         if wanted.axes == "free":
-            domain, pattern = pattern_of_lines(domain, places, singularities, corners, options, progress)
+            domain, pattern = pattern_of_lines(domain, places, singularities, corners, options, progress, fitted)
         else:
             pattern = pattern_of(domain, places, singularities, corners, options, progress, fitted)
     begun = of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes()))
