@@ -6,6 +6,7 @@ import numpy as np
 import octafield as of
 import pytest
 from octafield.command_line import fields as cli
+from octafield.domain.generators import generate
 from quad_mesh_checks import require_conforming
 from typer.testing import CliRunner
 
@@ -146,3 +147,21 @@ def test_the_command_takes_it(tmp_path):
 def test_other_axes_are_refused():
     with pytest.raises(of.InvalidInput, match="axes"):
         of.QuadLayoutOptions(axes="oblique")
+
+
+def test_only_faces_with_oblique_corners_are_measured_by_lines():
+    domain = made(prism(30)).field.field.domain
+    lengths = np.linalg.norm(np.diff(np.array(domain.vertices)[np.array(domain.edges)], axis=1)[:, 0], axis=1)
+    other = abs(np.array(domain.edge_lengths) / lengths - 1) > 1e-6
+    assert other.any()
+    heights = np.array(domain.vertices)[np.array(domain.edges)[other]][..., 2]
+    assert set(np.round(heights.ravel(), 9)) == {0.0, 0.6}  # those of the triangles at both ends
+
+
+def test_without_oblique_corners_quads_are_those_of_right_angles():
+    cylinder = generate("cylinder")
+    free = made(cylinder, quads=300)
+    right = of.compute_quad_layout(cylinder, layout_options=of.QuadLayoutOptions(quads=300))
+    assert np.array_equal(free.mesh.vertices, right.mesh.vertices)
+    assert np.array_equal(free.mesh.quads, right.mesh.quads)
+    assert not free.field.field.domain.has_own_lengths

@@ -21,9 +21,9 @@ class QuadLayoutOptions:
     layout: "t-mesh": separatrices stop at one another, whole numbers put the T-joints on vertices of the quads
         (octafield.surface.motorcycle_graph, quantized_quads); features are followed with points of a computed field. Or
         "separatrices": all of them to their ends (quad_layout, layout_quads). coarsest: fewest blocks first (t-mesh).
-    axes: of quads: "orthogonal", at right angles as far as the points allow; or "free": along two lines at any angle,
-        which follow both sides of corners of any angle (octafield.surface.non_orthogonal_field, lines_metric); points
-        and quads at corners are that field's then, where none are given.
+    axes: of quads: "orthogonal", at right angles as far as the points allow; or "free": along two lines at any angle on
+        faces with corners that right angles do not fit, so that both sides of these are followed (octafield.surface.
+        non_orthogonal_field, lines_metric); points and quads at corners are those lines' there.
     inadmissible: what to do where the points are in places that no field has them in (octafield.surface.
         impose_singular_points): "fail", "move" them, "rotate" the field; "default": move points of a computed field,
         fail with points that were given.
