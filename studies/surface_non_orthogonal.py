@@ -1,11 +1,12 @@
 """Non-orthogonal cross fields on the figures of L. Dermine (master thesis, UCLouvain 2024): trapezoids, a diamond, the
 disk, a shuriken and an aerofoil in a square.
 
-    python studies/surface_non_orthogonal.py -o DIR [--edge 0.05] [--cost]
+    python studies/surface_non_orthogonal.py -o DIR [--edge 0.05] [--cost] [--wedges]
 
 The thesis does not give its geometries: angles, the numbers of corners and of singular points are its own, all else is
 chosen here. DIR gets one picture per figure, and summary.md: energy, singular points and angles of every domain and
-method. With --cost cost.md alone: CPU seconds by mesh size.
+method. With --cost cost.md alone: CPU seconds by mesh size. With --wedges wedges.md and its pictures alone: quads of
+acute corners.
 """
 
 import argparse
@@ -19,6 +20,7 @@ from study_output import markdown_table, new_figure
 from surface_aerofoil import naca
 from surface_meshes import even_disk, region, resampled
 from surface_pictures import SEPARATRIX, STREAMLINE, add_lines, add_points, save_drawing
+from surface_wedges import wedges
 
 SURFACE = octafield.surface
 
@@ -226,6 +228,7 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--edge", type=float, default=0.05, help="edge length; trapezoids have height 1")
     parser.add_argument("--cost", nargs="?", const="0.02,0.01,0.005", help="edges; seconds in place of the figures")
+    parser.add_argument("--wedges", nargs="?", const="15,30,45,60,75", help="angles; quads of wedges in their place")
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     output, edge = arguments.output, arguments.edge
@@ -233,6 +236,9 @@ def main() -> None:
         text = cost(map(float, arguments.cost.split(",")))
         (output / "cost.md").write_text(text)
         print(text)
+        return
+    if arguments.wedges:
+        print(wedges(output, [int(degrees) for degrees in arguments.wedges.split(",")]))
         return
     rows = [*trapezoids(output, edge), *diamonds(output, 0.9 * edge), *disks(output, edge)]
     rows += [*stars(output, edge), *aerofoils(output, edge)]

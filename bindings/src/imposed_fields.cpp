@@ -205,6 +205,17 @@ void bind_edits(py::module_& m) {
         "The singular points of a cross field, as found by surface_singularities, as a SingularPattern; every corner "
         "that the field does not have has 2 quads. Raises InvalidInput for other symmetries than 4.");
     m.def(
+        "singular_pattern",
+        [](const SurfaceDomain& surface, const SurfaceSingularities& singularities) {
+            return run_interruptible([surface, singularities](Job&) {
+                check(singularities, surface.mesh());
+                return singular_pattern(surface, singularities);
+            });
+        },
+        "surface"_a, "singularities"_a,
+        "The same of points found by any field of symmetry 4 on a SurfaceDomain, which may be measured by other "
+        "lengths.");
+    m.def(
         "move_singular_point",
         [](const SurfaceOrMesh& surface, const SingularPattern& pattern, Index place, const ArrayLike& to) {
             return run_interruptible([surface, pattern, place, to = place_of(to, "to")](Job&) {

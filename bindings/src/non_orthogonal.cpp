@@ -5,6 +5,7 @@
 #include "checks.hpp"
 #include "domain.hpp"
 #include "interruptible.hpp"
+#include "octafield/surface/lines_metric.hpp"
 #include "octafield/surface/non_orthogonal_field.hpp"
 #include "options.hpp"
 
@@ -137,13 +138,43 @@ void bind_solver(py::module_& m) {
         "boundary vertices with other than 2 quads (index (2 - quads) / 4).");
 }
 
+void bind_metric_type(py::module_& m) {
+    Record<LinesMetric>(m, "LinesMetric", "A surface measured so that the lines of a field are orthonormal.")
+        .field("domain", &LinesMetric::domain, "SurfaceDomain with its own edge lengths.")
+        .field("damped", &LinesMetric::damped,
+               "int32 ids of the vertices whose metric was drawn towards that of space, where lines turn too fast for "
+               "the triangles.")
+        .field("least_part", &LinesMetric::least_part, "What is left of it at the worst, in [0, 1].")
+        .finish([](const LinesMetric& metric) {
+            return count(metric.domain.triangle_count(), "triangle") + ", " + std::to_string(metric.damped.size()) +
+                   " damped";
+        });
+}
+
+void bind_metric(py::module_& m) {
+    m.def(
+        "lines_metric",
+        [](const NonOrthogonalField& field) {
+            return run_interruptible([field](Job&) { return lines_metric(field); });
+        },
+        "field"_a,
+        "The surface of a non-orthogonal field measured by edge lengths in which its lines are orthonormal (Panozzo et "
+        "al. 2014), as a LinesMetric. With its domain, impose_singular_points, motorcycle_graph and quantized_quads "
+        "make quads along the lines: the quad at a corner of 30 degrees that both lines follow has a right angle "
+        "there, and 30 degrees in space. Raises GeometryError where two lines are next to parallel.");
+}
+
 }  // namespace
 
-void bind_non_orthogonal_types(py::module_& m) { bind_field(m); }
+void bind_non_orthogonal_types(py::module_& m) {
+    bind_field(m);
+    bind_metric_type(m);
+}
 
 void bind_non_orthogonal(py::module_& m) {
     bind_options(m);
     bind_solver(m);
+    bind_metric(m);
 }
 
 }  // namespace octafield::bindings

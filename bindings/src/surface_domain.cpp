@@ -1,6 +1,7 @@
 // SurfaceDomain: arrays are numpy views that cannot be written to and that keep the domain alive.
 #include "octafield/surface/surface_domain.hpp"
 
+#include "arrays.hpp"
 #include "bind.hpp"
 #include "checks.hpp"
 #include "interruptible.hpp"
@@ -13,12 +14,17 @@ using py::literals::operator""_a;
 
 namespace {
 
-SurfaceDomain made(const std::optional<TriangleMesh>& mesh, const std::optional<FeatureGraph>& features) {
+SurfaceDomain made(const std::optional<TriangleMesh>& mesh, const std::optional<FeatureGraph>& features,
+                   const std::optional<ArrayLike>& lengths) {
     if (!mesh) return {};
-    return run_interruptible([mesh = *mesh, features = features.value_or(FeatureGraph{})](Job&) mutable {
-        check(mesh, false);
-        return SurfaceDomain(std::move(mesh), std::move(features));
-    });
+    std::optional<Eigen::VectorXd> own;
+    if (lengths) own = from_python<Eigen::VectorXd>(*lengths, "edge_lengths");
+    return run_interruptible(
+        [mesh = *mesh, features = features.value_or(FeatureGraph{}), own = std::move(own)](Job&) mutable {
+            check(mesh, false);
+            SurfaceDomain domain(std::move(mesh), std::move(features));
+            return own ? domain.with_edge_lengths(std::move(*own)) : domain;
+        });
 }
 
 void bind_views(py::class_<SurfaceDomain>& type) {
@@ -42,10 +48,10 @@ void bind_views(py::class_<SurfaceDomain>& type) {
         "(F, 3) float64 unit normals of the triangles, outward.");
     view_property(
         type, "edge_lengths", [](const SurfaceDomain& d) -> auto& { return d.edge_lengths(); },
-        "(E,) float64, input unit.");
+        "(E,) float64, input unit, or the surface's own.");
     view_property(
         type, "corner_angles", [](const SurfaceDomain& d) -> auto& { return d.corner_angles(); },
-        "(F, 3) float64 interior angles, radians.");
+        "(F, 3) float64 interior angles, radians, by edge_lengths.");
 }
 
 }  // namespace
@@ -56,9 +62,10 @@ void bind_surface_domain(py::module_& m) {
         "A triangle surface with all that is derived from it, made and validated once, then shared and never changed. "
         "Functions that take a SurfaceDomain take a TriangleMesh too, and make a domain without features of it for "
         "that call alone.");
-    type.def(py::init(&made), "mesh"_a = py::none(), "features"_a = py::none(),
+    type.def(py::init(&made), "mesh"_a = py::none(), "features"_a = py::none(), "edge_lengths"_a = py::none(),
              "mesh: TriangleMesh, edge-manifold and consistently oriented, open or closed; none: no triangles. "
-             "features: FeatureGraph of it. Raises InvalidInput, and GeometryError naming elements where the mesh is "
+             "features: FeatureGraph of it. edge_lengths: (E,) as of with_edge_lengths. Raises InvalidInput, and "
+             "GeometryError naming elements where the mesh is "
              "unsound.");
     bind_views(type);
     type.def_property_readonly(
@@ -76,11 +83,29 @@ void bind_surface_domain(py::module_& m) {
                 });
             },
             "features"_a, "The same surface with other features; nothing is copied. Raises InvalidInput.")
+        .def_property_readonly("has_own_lengths", &SurfaceDomain::has_own_lengths,
+                               "bool: whether edge_lengths and corner_angles are other than in space.")
+        .def_property_readonly(
+            "areas", [](const SurfaceDomain& d) { return own(d.areas()); }, "(F,) float64, by edge_lengths.")
+        .def(
+            "with_edge_lengths",
+            [](const SurfaceDomain& domain, const ArrayLike& lengths) {
+                return run_interruptible([domain = domain, own = from_python<Eigen::VectorXd>(lengths, "lengths")](
+                                             Job&) mutable { return domain.with_edge_lengths(std::move(own)); });
+            },
+            "lengths"_a,
+            "The same surface measured by other edge lengths, (E,) above 0: each triangle is the flat one with these "
+            "sides, and angles and areas are theirs; positions stay. Fields with imposed singular points, layouts and "
+            "quads on it have their right angles there, not in space. Raises InvalidInput, and GeometryError where "
+            "sides make no triangle.")
         .def_static("made", &SurfaceDomain::made, "How many surfaces this process has validated so far.")
         .def("__reduce__",
              [](const py::object& self) {
                  const auto& d = self.cast<const SurfaceDomain&>();
-                 return py::make_tuple(py::type::of(self), py::make_tuple(d.mesh(), d.features()));
+                 py::tuple given = py::make_tuple(d.mesh(), d.features());
+                 if (d.has_own_lengths())
+                     given = py::make_tuple(d.mesh(), d.features(), own(Eigen::VectorXd(d.edge_lengths())));
+                 return py::make_tuple(py::type::of(self), given);
              })
         .def("__repr__", [](const SurfaceDomain& d) {
             return "SurfaceDomain(" + count(d.vertex_count(), "vertex", "vertices") + ", " +

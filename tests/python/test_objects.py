@@ -85,6 +85,7 @@ def objects(field, tmp_path_factory):
         *layout_objects(),
         of.surface.DirectionFieldOptions(symmetry=6), of.surface.FeatureOptions(angle=0.5),
         of.surface.non_orthogonal_field(generate("torus")), of.surface.NonOrthogonalFieldOptions(corners=[[0, 1]]),
+        of.surface.lines_metric(of.surface.non_orthogonal_field(open_box)),
         of.surface.RemeshOptions(edge_length=0.3), of.surface.SizeFieldOptions(max_cells=1000),
         *of.volume.schemes.values(),
         of.MeshOptions(repair=True), of.FieldOptions(seed=3), of.SurfaceFieldOptions(symmetry=6),

@@ -292,3 +292,17 @@ def test_the_cost_of_non_orthogonal_fields_has_a_row_per_edge_length(tmp_path):
     (coarse, fine) = ([word.strip() for word in line] for line in lines)
     assert (coarse[0], fine[0]) == ("0.2", "0.1") and 2.5 * int(coarse[1]) < int(fine[1]) < 5 * int(coarse[1])
     assert coarse[3] == coarse[5] == "" and all(float(fine[k]) >= 0 for k in (2, 4))
+
+
+def test_quads_of_wedges_are_as_good_as_their_corners_with_free_axes(tmp_path):
+    run("surface_non_orthogonal.py", tmp_path, "--wedges", "30")
+    lines = [line.split("|")[1:-1] for line in (tmp_path / "wedges.md").read_text().splitlines()[2:]]
+    assert [line[0].strip() for line in lines] == ["sector", "right trapezoid", "parallelogram", "prism"]
+    for line in lines:
+        assert float(line[7].split(",")[0]) > np.sin(np.pi / 6) - 0.05
+        assert abs(int(line[5]) - 400) < 40
+        if "prism" not in line[0]:
+            assert float(line[3]) < 1e-9
+    assert [line[4].strip() for line in lines[2:]] == ["none", "2"]
+    for name in ("wedges", "prisms"):
+        assert is_picture(tmp_path / f"non_orthogonal_{name}.png")

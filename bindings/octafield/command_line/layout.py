@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ..layout.options import INADMISSIBLE, LAYOUTS, QuadLayoutOptions
+from ..layout.options import AXES, INADMISSIBLE, LAYOUTS, QuadLayoutOptions
 from ..options import SurfaceFieldOptions
 from . import console, tables
 from .console import carry_out, log
@@ -65,6 +65,14 @@ def quad_layout(
     coarsest: Annotated[bool, typer.Option("--coarsest", help="Fewest blocks first, then quads near the number.")] = (
         _DEFAULTS.coarsest
     ),
+    axes: Annotated[
+        str,
+        typer.Option(
+            metavar=choices(AXES),
+            autocompletion=words(AXES),
+            help="Of quads: at right angles, or along two lines at any angle, which follow both sides of corners.",
+        ),
+    ] = _DEFAULTS.axes,
     inadmissible: Annotated[
         str,
         typer.Option(
@@ -118,6 +126,7 @@ def quad_layout(
             edge_length=edge_length,
             layout=layout,
             coarsest=coarsest,
+            axes=axes,
             inadmissible=inadmissible,
             tolerance=math.radians(tolerance),
             end_tolerance=end_tolerance,

@@ -115,7 +115,8 @@ def _by_kind(kinds: tuple[int, int, int], kind: int, values: np.ndarray, other: 
 
 
 def field_polydata(result: QuadLayoutResult) -> pyvista.PolyData:
-    """The surface refined round the singular points. Point data: direction (one of the four), log_size (H; exp(H) is
+    """The surface refined round the singular points. Point data: direction (one of the four; with free axes
+    the next one is at any angle from it), log_size (H; exp(H) is
     the edge length of quads there up to one factor), index_times_four."""
     import pyvista
 

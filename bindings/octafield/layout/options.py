@@ -9,6 +9,7 @@ from ..options import integer_in, require_one_of
 
 INADMISSIBLE = ("default", *_core.ImposedFieldOptions.words["inadmissible"])
 LAYOUTS = ("t-mesh", "separatrices")
+AXES = ("orthogonal", "free")
 MOST_QUADS = 10_000_000
 _FIELD, _CURVES = _core.ImposedFieldOptions(), _core.LayoutCurveOptions()
 
@@ -20,6 +21,9 @@ class QuadLayoutOptions:
     layout: "t-mesh": separatrices stop at one another, whole numbers put the T-joints on vertices of the quads
         (octafield.surface.motorcycle_graph, quantized_quads); features are followed with points of a computed field. Or
         "separatrices": all of them to their ends (quad_layout, layout_quads). coarsest: fewest blocks first (t-mesh).
+    axes: of quads: "orthogonal", at right angles as far as the points allow; or "free": along two lines at any angle on
+        faces with corners that right angles do not fit, so that both sides of these are followed (octafield.surface.
+        non_orthogonal_field, lines_metric); points and quads at corners are those lines' there.
     inadmissible: what to do where the points are in places that no field has them in (octafield.surface.
         impose_singular_points): "fail", "move" them, "rotate" the field; "default": move points of a computed field,
         fail with points that were given.
@@ -37,6 +41,7 @@ class QuadLayoutOptions:
     edge_length: float = 0.0
     layout: str = "t-mesh"
     coarsest: bool = False
+    axes: str = "orthogonal"
     inadmissible: str = "default"
     tolerance: float = _FIELD.tolerance
     end_tolerance: float = _CURVES.end_tolerance
@@ -53,6 +58,7 @@ class QuadLayoutOptions:
         require_one_of("layout", self.layout, LAYOUTS)
         if not isinstance(self.coarsest, bool):
             raise InvalidInput(f"coarsest must be true or false, not {self.coarsest!r}", "option_out_of_range")
+        require_one_of("axes", self.axes, AXES)
         require_one_of("inadmissible", self.inadmissible, INADMISSIBLE)
         if not 0 < self.tolerance <= math.pi / 4:
             raise InvalidInput("the tolerance of conditions must lie between 0 and 45 degrees", "option_out_of_range")

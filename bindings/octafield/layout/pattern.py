@@ -82,13 +82,13 @@ def pattern_of(
             computed = _core.with_corner_quads(domain, computed, _core.finite_corner_quads(domain, computed))
         made = Pattern(computed, "computed", "computed")
     else:
-        made = _given(domain, places, singularities)
+        made = given_pattern(domain, places, singularities)
     if corners is not None:
         rows = corner_rows(corners)
-        replaced = _with_corners(domain, places, made.pattern, rows)
+        replaced = with_corners(domain, places, made.pattern, rows)
         if fitted and all(abs(corner.quads) <= _MOST_QUADS for corner in replaced.corners):
             replaced = _made_good(domain, made.pattern, replaced)
-        made = Pattern(replaced, made.source, _name(corners), made.notes)
+        made = Pattern(replaced, made.source, name_of(corners), made.notes)
     return made
 
 
@@ -133,18 +133,18 @@ def _computed(domain: SurfaceDomain, options: SurfaceFieldOptions, progress: Pro
     return _core.singular_pattern(made, _core.surface_singularities(made))
 
 
-def _given(domain: SurfaceDomain, places: Places, singularities: Any) -> Pattern:
+def given_pattern(domain: SurfaceDomain, places: Places, singularities: Any) -> Pattern:
     points, corners = point_rows(singularities)
     rim = Rim(domain)
     placed = [_placed(domain, places, rim, row) for row in points]
     pattern = SingularPattern(placed)
-    source = _name(singularities)
+    source = name_of(singularities)
     if not corners:
         return Pattern(pattern, source, "angle")
-    return Pattern(_with_corners(domain, places, pattern, corners), source, source)
+    return Pattern(with_corners(domain, places, pattern, corners), source, source)
 
 
-def _name(given: Any) -> str:
+def name_of(given: Any) -> str:
     return str(given) if isinstance(given, str) or hasattr(given, "__fspath__") else "given"
 
 
@@ -167,7 +167,7 @@ def _placed(domain: SurfaceDomain, places: Places, rim: Rim, row: PointRow) -> I
     return point
 
 
-def _with_corners(
+def with_corners(
     domain: SurfaceDomain, places: Places, pattern: SingularPattern, rows: list[PointRow]
 ) -> SingularPattern:
     """Each at the vertex of the boundary there or, where remeshing left none, at the point of the boundary."""

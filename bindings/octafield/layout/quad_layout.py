@@ -27,6 +27,7 @@ from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
 from .blocks import BlockQuads, LayoutParts, quads_of_separatrices
 from .causes import cut_corners, told_of_points
+from .free_axes import pattern_of_lines
 from .options import MOST_QUADS, QuadLayoutOptions
 from .pattern import Places, pattern_of, places_of
 from .quality import figures_of, require_sound
@@ -177,7 +178,10 @@ def _on(
         whole = SurfaceDomain(meshed.surface, meshed.features)
         domain, origins = _cut(whole, wanted, singularities)
         fitted = wanted.layout == "t-mesh"
-        pattern = pattern_of(domain, places, singularities, corners, options, progress, fitted)
+        if wanted.axes == "free":
+            domain, pattern = pattern_of_lines(domain, places, singularities, corners, options, progress, fitted)
+        else:
+            pattern = pattern_of(domain, places, singularities, corners, options, progress, fitted)
     begun = of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes()))
     begun = begun.changed(notes=[*begun.notes, *pattern.notes, *([] if origins is not None else _of_features(whole))])
     meter = PhaseMeter(begun, progress)

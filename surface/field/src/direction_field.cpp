@@ -37,6 +37,9 @@ struct Method {
 const Method& method_of(const DirectionFieldOptions& options);  // throws InvalidInput that lists the names
 
 void require_usable(const SurfaceDomain& domain, const DirectionFieldOptions& options) {
+    if (domain.has_own_lengths())
+        throw InvalidInput("direction fields are found on the surface in space, without edge lengths of its own",
+                           "own_lengths");
     const auto is_length = [](double length) { return length >= 0 && std::isfinite(length); };
     if (options.symmetry < 1 || options.symmetry > largest_symmetry)
         throw InvalidInput("the symmetry of a direction field must be at least 1 and at most " +

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "charts.hpp"
 #include "crouzeix_raviart.hpp"
 #include "octafield/surface/directions.hpp"
 
@@ -91,9 +93,29 @@ double direction_angle(const std::vector<Spoke>& spokes, int symmetry, bool corn
     return nearest_of(mean.angle, lowest->tangent_angle, symmetry);
 }
 
+// Where right angles are not those in space nothing is averaged there.
+Points directions_by_own_lengths(const DirectionField& field) {
+    const detail::Charts charts(field.domain);
+    const Points normals = vertex_normals(charts.mesh());
+    Points directions = Points::Zero(charts.mesh().vertices.rows(), 3);
+    for (const auto& fan : field.domain.fans().fans) {
+        if (!directions.row(fan.vertex).isZero(0)) continue;
+        const Index corner = field.domain.fans().corners[fan.first], t = corner / 3;
+        const Index e = charts.topology().triangle_edges(t, corner % 3);
+        const double sign = charts.topology().edges(e, 0) == fan.vertex || field.symmetry % 2 == 0 ? 1 : -1;
+        const detail::Complex along = charts.side(t, corner % 3);
+        const detail::Complex turn = std::polar(1.0, std::arg(sign * field.values[e]) / field.symmetry);
+        const Eigen::RowVector3d lifted = charts.lift_vector(t, along * turn).transpose(),
+                                 normal = normals.row(fan.vertex);
+        directions.row(fan.vertex) = (lifted - lifted.dot(normal) * normal).normalized();
+    }
+    return directions;
+}
+
 }  // namespace
 
 Points vertex_directions(const DirectionField& field) {
+    if (field.domain.has_own_lengths()) return directions_by_own_lengths(field);
     const SurfaceDomain& domain = field.domain;
     const TriangleMesh& mesh = domain.mesh();
     const EdgeTopology& topology = domain.topology();
@@ -142,10 +164,16 @@ Points triangle_directions(const DirectionField& field) {
     const EdgeTopology& topology = field.domain.topology();
     const Points& normals = field.domain.normals();
     const std::vector<detail::CornerLink> links = detail::corner_links(field.domain, field.symmetry);
+    std::optional<detail::Charts> charts;
+    if (field.domain.has_own_lengths()) charts.emplace(field.domain);
     Points directions(mesh.triangles.rows(), 3);
     for (Index t = 0; t < directions.rows(); ++t) {
         const auto values = detail::local_values(links, field.values, t);
         const double angle = std::arg(values[0] + values[1] + values[2]) / field.symmetry;
+        if (charts) {
+            directions.row(t) = charts->lift_vector(t, std::polar(1.0, angle)).normalized();
+            continue;
+        }
         const auto edge = topology.edges.row(topology.triangle_edges(t, 0));
         const Eigen::Vector3d normal = normals.row(t);
         const Eigen::Vector3d x = (mesh.vertices.row(edge[1]) - mesh.vertices.row(edge[0])).normalized();

@@ -38,6 +38,10 @@ BisectedMesh::BisectedMesh(const SurfaceDomain& domain, std::vector<Place> place
     triangle_at_.assign(positions_.size(), -1);
     is_centre_.assign(positions_.size(), false);
     const std::vector<bool> listed = listed_features(domain);
+    if (domain.has_own_lengths()) {
+        const Charts charts(domain);
+        for (Index t = 0; t < domain.triangle_count(); ++t) shapes_.push_back(charts.corners(t));
+    }
     triangles_.resize(domain.triangle_count());
     for (Index t = 0; t < domain.triangle_count(); ++t) {
         Triangle& triangle = triangles_[t];
@@ -84,6 +88,22 @@ int BisectedMesh::side_to(Index t, Index neighbour, Index from) const {
     for (int k = 0; k < 3; ++k)
         if (triangles_[t].neighbours[k] == neighbour && triangles_[t].corners[k] == from) return k;
     return -1;
+}
+
+Vector BisectedMesh::corner(Index t, int k) const {
+    k %= 3;
+    const Triangle& triangle = triangles_[t];
+    if (shapes_.empty()) return positions_[triangle.corners[k]];
+    const auto& shape = shapes_[triangle.origin];
+    const Vector& w = triangle.weights[k];
+    const Complex z = w[0] * shape[0] + w[1] * shape[1] + w[2] * shape[2];
+    return {z.real(), z.imag(), 0};
+}
+
+double BisectedMesh::length(Index t, int k) const {
+    if (const Index beside = triangles_[t].neighbours[k]; !shapes_.empty() && beside >= 0 && beside < t)
+        return length(beside, side_to(beside, t, triangles_[t].corners[(k + 1) % 3]));
+    return (corner(t, k + 1) - corner(t, k)).norm();
 }
 
 // Ties go by vertex ids, alike from both sides.
@@ -133,7 +153,9 @@ void BisectedMesh::bisect(Index t, bool keep_spokes) {
 }
 
 Index BisectedMesh::add_vertex(Index t, const Vector& weights) {
-    positions_.push_back(weights[0] * corner(t, 0) + weights[1] * corner(t, 1) + weights[2] * corner(t, 2));
+    const auto& corners = triangles_[t].corners;
+    positions_.push_back(weights[0] * positions_[corners[0]] + weights[1] * positions_[corners[1]] +
+                         weights[2] * positions_[corners[2]]);
     triangle_at_.push_back(t);
     is_centre_.push_back(false);
     return static_cast<Index>(positions_.size() - 1);

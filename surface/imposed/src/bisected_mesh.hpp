@@ -1,10 +1,12 @@
 // A triangle surface with vertices put in given places, refined by bisection of longest edges (Rivara 1984): the shape
-// stays, angles keep a lower bound, and there are no hanging vertices.
+// stays, angles keep a lower bound, and there are no hanging vertices. Lengths and angles are those of the domain: in
+// space, or by its own edge lengths.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "charts.hpp"
 #include "octafield/surface/singular_pattern.hpp"
 
 namespace octafield::surface::detail {
@@ -39,7 +41,14 @@ public:
     const std::vector<Index>& centres() const { return centres_; }          // the vertex at each place
     Index triangle_at(Index vertex) const { return triangle_at_[vertex]; }  // one of those there
     bool at_centre(Index t) const;                                          // whether one is a corner of t
-    Vector corner(Index t, int k) const { return positions_[triangles_[t].corners[k]]; }
+    // Corners k, k + 1 and k + 2 of t: in space, or in the plane of t's origin where the domain has its own lengths.
+    std::array<Vector, 3> corners_from(Index t, int k) const {
+        return {corner(t, k), corner(t, k + 1), corner(t, k + 2)};
+    }
+    // The place with these weights of t's corners, likewise.
+    Vector place(Index t, const Vector& weights) const {
+        return weights[0] * corner(t, 0) + weights[1] * corner(t, 1) + weights[2] * corner(t, 2);
+    }
     double longest(Index t) const { return length(t, longest_side(t)); }
 
     // Bisects longest edges until t is bisected: first those at the end of the path from t to ever longer ones. With
@@ -48,7 +57,8 @@ public:
     void bisect(Index t, bool keep_spokes = false);
 
 private:
-    double length(Index t, int k) const { return (corner(t, (k + 1) % 3) - corner(t, k)).norm(); }
+    Vector corner(Index t, int k) const;
+    double length(Index t, int k) const;  // the same from both sides
     int longest_side(Index t) const;
     int bisected_side(Index t, bool keep_spokes) const;
     int side_to(Index t, Index neighbour, Index from) const;
@@ -59,6 +69,7 @@ private:
     void split_side(Index t, int k, double fraction, Index vertex, Index half);
 
     std::vector<Triangle> triangles_;
+    std::vector<std::array<Complex, 3>> shapes_;  // corners of the input's triangles in the plane; none: as in space
     std::vector<Vector> positions_;
     std::vector<Index> triangle_at_;
     std::vector<Place> waiting_;  // to be inserted, in the triangles as they are; triangle -1: done

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "inherited_lengths.hpp"
 #include "octafield/error.hpp"
 #include "size_potential.hpp"
 #include "vertex_laplacian.hpp"
@@ -57,7 +58,8 @@ BuiltField built_field(const SurfaceDomain& input, const Imposed& imposed) {
     for (int round = 0;; ++round) {
         separate_stars(mesh);
         RingedMesh rings = ringed(mesh, imposed.indices, imposed.rings);
-        SurfaceDomain domain(rings.mesh, {rings.features, input.features().corners});
+        const SurfaceDomain domain =
+            measured_alike(input, rings, SurfaceDomain(rings.mesh, {rings.features, input.features().corners}));
         const Structure structure(domain);
         Eigen::VectorXd h = size_potential(domain, structure, loads(structure, vertex_indices(rings, imposed)));
         std::vector<double> turns = conjugate_turns(domain, h);

@@ -28,6 +28,7 @@ std::vector<Vector> turned_gradients(const BuiltField& built, const Eigen::Vecto
     const TriangleMesh& mesh = built.domain.mesh();
     const EdgeTopology& topology = built.domain.topology();
     std::vector<Vector> sums(built.ringed.centres.size(), Vector::Zero());
+    const Eigen::VectorXd triangle_areas = built.domain.areas();
     std::vector<double> areas(sums.size(), 0);
     std::map<Index, std::size_t> place_of;
     for (std::size_t i = 0; i < sums.size(); ++i) place_of[built.ringed.centres[i]] = i;
@@ -44,7 +45,7 @@ std::vector<Vector> turned_gradients(const BuiltField& built, const Eigen::Vecto
             };
             // grad u = n x (u_b (a - c) + u_c (b - a)) / (2 area), u_a = 0; turned once more, n x n x v = -v.
             sums[place->second] -= (along(0) * (a - c) - along(2) * (b - a)) / 2;
-            areas[place->second] += (b - a).cross(c - a).norm() / 2;
+            areas[place->second] += triangle_areas[t];
         }
     }
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= areas[i];
@@ -80,7 +81,8 @@ Place walked(const Charts& charts, const Place& place, const Vector& step) {
     for (int k = 0; k < 3; ++k) at += place.weights[k] * charts.corners(t)[k];
     at += 1e-9 * (charts.centroid(t) - at);  // so that the line from it passes no vertex
     const Complex heading = charts.lower_vector(t, step);
-    if (std::abs(heading) > 0) walk(charts, t, at, heading / std::abs(heading), step.norm());
+    const double length = charts.domain().has_own_lengths() ? std::abs(heading) : step.norm();
+    if (std::abs(heading) > 0) walk(charts, t, at, heading / std::abs(heading), length);
     Vector weights;
     for (int k = 0; k < 3; ++k)
         weights[k] = std::max(0.0, cross(charts.side(t, (k + 1) % 3), at - charts.corners(t)[(k + 1) % 3])) /
@@ -153,9 +155,10 @@ MovedPoints moved_points(const SurfaceDomain& input, Imposed& imposed, std::size
     for (std::size_t j = 0; j < count; ++j)
         moves[j] = imposed.indices[j] != 0 && !built.structure.on_boundary[built.ringed.centres[j]];
     if (std::find(moves.begin(), moves.end(), true) == moves.end())
-        throw SolverError("the pattern is not admissible and has no singular points inside that could be moved; add a "
-                          "pair of valence 3 and 5, or let the field be rotated",
-                          "move_failed");
+        throw SolverError(
+            "the pattern is not admissible and has no singular points inside that could be moved; add a "
+            "pair of valence 3 and 5, or let the field be rotated",
+            "move_failed");
     const BuiltField first = built;
     std::vector<double> moved(count, 0);
     int steps = 0;

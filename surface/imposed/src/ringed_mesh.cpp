@@ -32,8 +32,13 @@ public:
 private:
     using Source = std::pair<Index, Vector>;
     struct Spoke {
-        Index end;                 // on the star's side
-        std::vector<Index> inner;  // from the centre outwards
+        Index end;                  // on the star's side
+        std::vector<Index> inner;   // from the centre outwards
+        std::vector<double> parts;  // of the way to the end, of each
+    };
+
+    struct Sector {
+        Vector centre, first, second;  // and the ends of its spokes, in one plane
     };
 
     Index add_vertex(Index triangle, const Vector& weights);
@@ -42,7 +47,7 @@ private:
     void add_chain(Index centre, const Spoke& spoke);
     Spoke spoke_to(const Star& star, const Star::Part& part, const Vector& end_weights, Index end);
     std::vector<double> radii(const Star& star, double end) const;
-    void add_sector(Index part, Index centre, const Spoke& first, const Spoke& second);
+    void add_sector(Index part, Index centre, const Spoke& first, const Spoke& second, const Sector& sector);
     std::vector<Index> side_points(Index t, int k) const;
 
     const BisectedMesh& bisected_;
@@ -61,7 +66,7 @@ Index Rings::add_vertex(Index t, const Vector& weights) {
     const auto& triangle = bisected_.triangles()[t];
     Vector position = Vector::Zero(), source = Vector::Zero();
     for (int k = 0; k < 3; ++k) {
-        position += weights[k] * bisected_.corner(t, k);
+        position += weights[k] * positions_[triangle.corners[k]];
         source += weights[k] * triangle.weights[k];
     }
     positions_.push_back(position);
@@ -96,23 +101,32 @@ std::vector<double> Rings::radii(const Star& star, double end) const {
 }
 
 Rings::Spoke Rings::spoke_to(const Star& star, const Star::Part& part, const Vector& end_weights, Index end) {
-    Spoke spoke{end, {}};
+    Spoke spoke{end, {}, {}};
     const Vector centre = Vector::Unit((part.side + 2) % 3);
-    const double length = (positions_[end] - star.position).norm();
+    const double length = (bisected_.place(part.triangle, end_weights) - bisected_.place(part.triangle, centre)).norm();
     for (const double radius : radii(star, length)) {
         const double fraction = radius / length;
         spoke.inner.push_back(add_vertex(part.triangle, (1 - fraction) * centre + fraction * end_weights));
+        spoke.parts.push_back(fraction);
     }
     return spoke;
 }
 
-void Rings::add_sector(Index part, Index centre, const Spoke& first, const Spoke& second) {
+void Rings::add_sector(Index part, Index centre, const Spoke& first, const Spoke& second, const Sector& sector) {
     add_triangle(part, centre, first.inner.front(), second.inner.front());
+    const auto at = [](double fraction, const Vector& from, const Vector& end) -> Vector {
+        return (1 - fraction) * from + fraction * end;
+    };
+    const auto diagonal = [&](double on_first, double on_second) {
+        return (at(on_first, sector.centre, sector.first) - at(on_second, sector.centre, sector.second)).norm();
+    };
     for (std::size_t j = 0; j < first.inner.size(); ++j) {
         const bool last = j + 1 == first.inner.size();
         const Index p = first.inner[j], q = second.inner[j];
         const Index s = last ? first.end : first.inner[j + 1], r = last ? second.end : second.inner[j + 1];
-        if ((positions_[p] - positions_[r]).norm() < (1 - 1e-9) * (positions_[q] - positions_[s]).norm()) {
+        const double here = first.parts[j], there = second.parts[j];
+        const double next_here = last ? 1 : first.parts[j + 1], next_there = last ? 1 : second.parts[j + 1];
+        if (diagonal(here, next_there) < (1 - 1e-9) * diagonal(next_here, there)) {
             add_triangle(part, p, s, r);
             add_triangle(part, p, r, q);
         } else {
@@ -129,9 +143,10 @@ void Rings::add_star(const Star& star, int index) {
     const double round = star.boundary ? 2 * pi : star.angle;
     const double density = std::max(options_.sectors / round, 8 * std::abs(load) / (pi * star.angle));
     widest_ = 0;
-    for (const Star::Part& part : star.parts)
-        for (int k = 0; k < 2; ++k)
-            widest_ = std::max(widest_, (bisected_.corner(part.triangle, (part.side + k) % 3) - star.position).norm());
+    for (const Star::Part& part : star.parts) {
+        const auto [first, second, middle] = bisected_.corners_from(part.triangle, part.side);
+        widest_ = std::max({widest_, (first - middle).norm(), (second - middle).norm()});
+    }
 
     std::map<Index, Spoke> shared;  // to the ends of the sides
     for (const Star::Part& part : star.parts) {
@@ -145,27 +160,31 @@ void Rings::add_star(const Star& star, int index) {
                             .first;
             return place->second;
         };
-        const Vector a = bisected_.corner(part.triangle, ka) - star.position;
-        const Vector b = bisected_.corner(part.triangle, kb) - star.position;
+        const auto [end_a, end_b, middle] = bisected_.corners_from(part.triangle, ka);
+        const Vector a = end_a - middle, b = end_b - middle;
         const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
         const int count = std::max(1, static_cast<int>(std::ceil(angle * density - 0.2)));
         std::vector<Index> points;
+        Vector last_end = end_a;
         Spoke last = to_corner(ka);
         if (part.first_is_feature) add_chain(centre, last);
         for (int i = 1; i <= count; ++i) {
             Spoke next;
+            Vector next_end = end_b;
             if (i < count) {
                 const double turned = angle * i / count;
                 const double second = std::sin(turned) * a.norm(), first = std::sin(angle - turned) * b.norm();
                 const Vector weights = (first * Vector::Unit(ka) + second * Vector::Unit(kb)) / (first + second);
                 points.push_back(add_vertex(part.triangle, weights));
                 next = spoke_to(star, part, weights, points.back());
+                next_end = bisected_.place(part.triangle, weights);
             } else {
                 next = to_corner(kb);
             }
             if (triangle.is_feature[ka]) add_feature(last.end, next.end);
-            add_sector(part.triangle, centre, last, next);
+            add_sector(part.triangle, centre, last, next, {middle, last_end, next_end});
             last = std::move(next);
+            last_end = next_end;
         }
         if (part.second_is_feature) add_chain(centre, last);
         const Index from = triangle.corners[ka], to = triangle.corners[kb];

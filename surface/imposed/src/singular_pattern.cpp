@@ -109,16 +109,20 @@ SingularPattern singular_pattern(const DirectionField& field, const SurfaceSingu
         throw InvalidInput("singular points can be imposed on cross fields, of symmetry 4; this field has " +
                                std::to_string(field.symmetry),
                            "wrong_symmetry");
+    return singular_pattern(field.domain, singularities);
+}
+
+SingularPattern singular_pattern(const SurfaceDomain& domain, const SurfaceSingularities& singularities) {
     SingularPattern pattern;
     std::map<Index, int> quads;
-    for (const CornerQuads& corner : default_corner_quads(field.domain)) quads[corner.vertex] = 2;
+    for (const CornerQuads& corner : default_corner_quads(domain)) quads[corner.vertex] = 2;
     for (const SurfaceSingularity& point : singularities.points) {
         if (point.boundary) {
             quads[point.vertex] = 2 - point.index_times_symmetry;
         } else if (point.vertex >= 0) {
-            pattern.points.push_back(imposed_at_vertex(field.domain, point.vertex, point.index_times_symmetry));
+            pattern.points.push_back(imposed_at_vertex(domain, point.vertex, point.index_times_symmetry));
         } else {
-            pattern.points.push_back(imposed_point(field.domain, point.position, point.index_times_symmetry));
+            pattern.points.push_back(imposed_point(domain, point.position, point.index_times_symmetry));
         }
     }
     for (const auto& [vertex, count] : quads) pattern.corners.push_back({vertex, count});

@@ -17,7 +17,7 @@ void set_mean_size(const SurfaceDomain& domain, const Structure& structure, Eige
     const std::size_t count = structure.components.size();
     std::vector<double> least(count, std::numeric_limits<double>::infinity()), sum(count, 0), area(count, 0);
     const Triangles& triangles = domain.mesh().triangles;
-    const Eigen::VectorXd areas = triangle_areas(domain.mesh());
+    const Eigen::VectorXd areas = domain.areas();
     for (Index v = 0; v < h.size(); ++v)
         if (const Index c = structure.of_vertex[v]; c >= 0) least[c] = std::min(least[c], h[v]);
     for (Index t = 0; t < domain.triangle_count(); ++t) {

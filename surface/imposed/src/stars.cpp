@@ -52,9 +52,9 @@ void measure(const BisectedMesh& mesh, Star& star) {
     star.angle = star.longest = 0;
     star.inner_radius = std::numeric_limits<double>::infinity();
     for (const Star::Part& part : star.parts) {
-        const Vector a = mesh.corner(part.triangle, part.side), b = mesh.corner(part.triangle, (part.side + 1) % 3);
-        star.angle += angle_between(a - star.position, b - star.position);
-        star.inner_radius = std::min(star.inner_radius, distance_to_segment(star.position, a, b));
+        const auto [a, b, centre] = mesh.corners_from(part.triangle, part.side);
+        star.angle += angle_between(a - centre, b - centre);
+        star.inner_radius = std::min(star.inner_radius, distance_to_segment(centre, a, b));
         const double length = mesh.longest(part.triangle);
         if (length <= star.longest) continue;
         star.longest = length;
@@ -92,7 +92,7 @@ std::set<Index> overlaps(const BisectedMesh& mesh, std::vector<Index>& places) {
 }  // namespace
 
 Star star_of(const BisectedMesh& mesh, Index vertex) {
-    Star star{vertex, mesh.positions()[vertex], {}, false, 0, 0, 0, -1};
+    Star star{vertex, {}, false, 0, 0, 0, -1};
     add_fan(mesh, star);
     measure(mesh, star);
     return star;

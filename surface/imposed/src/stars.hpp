@@ -15,7 +15,6 @@ struct Star {
         bool first_is_feature, second_is_feature;  // the edges from the centre to the ends of the side
     };
     Index centre;  // vertex
-    Vector position;
     std::vector<Part> parts;
     bool boundary;
     double angle;         // sum of the parts' angles

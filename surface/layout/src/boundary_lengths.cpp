@@ -64,7 +64,8 @@ private:
 
     void add_edge(Index e, std::vector<CurveNode>& nodes) const {
         const auto [a, b] = ends(e);
-        const double start = nodes.back().length, whole = charts_.domain().edge_lengths()[e];
+        const double start = nodes.back().length;
+        const double whole = (cut_.positions.row(b) - cut_.positions.row(a)).norm();  // in space
         const auto& inner = cut_.edge_nodes[e];
         for (std::size_t i = 0; i < inner.size(); ++i) {
             const Index node = forward(e) ? inner[i] : inner[inner.size() - 1 - i];

@@ -91,6 +91,7 @@ void Cutter::cut_triangles() {
                 cut_.is_cut.push_back(corner.cut_after);
             }
             cut_.first.push_back(static_cast<Index>(cut_.nodes.size()));
+            cut_.triangles.push_back(t);
         }
     }
     cut_.is_crossing.assign(positions_.size(), false);

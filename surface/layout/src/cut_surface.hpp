@@ -25,6 +25,7 @@ struct CutSurface {
 
     // Polygons, convex, each in one triangle. Corner c of polygon p: first[p] <= c < first[p + 1], counter-clockwise;
     // side c runs to the next corner.
+    std::vector<Index> triangles;  // of each polygon
     std::vector<Index> first;
     std::vector<Index> nodes;   // of each corner
     std::vector<Index> mates;   // side of the polygon across; -1: boundary

@@ -47,7 +47,7 @@ void require_parameters(const ImposedField& field) {
 
 double parameter_area(const ImposedField& field) {
     const TriangleMesh& mesh = field.field.domain.mesh();
-    const Eigen::VectorXd areas = triangle_areas(mesh);
+    const Eigen::VectorXd areas = field.field.domain.areas();
     double sum = 0;
     for (Index t = 0; t < areas.size(); ++t)
         for (int k = 0; k < 3; ++k) {  // by the middles of the sides

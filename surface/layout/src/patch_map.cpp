@@ -10,11 +10,20 @@
 #include <map>
 #include <tuple>
 
+#include "charts.hpp"
+
 namespace octafield::surface::detail {
 namespace {
 
 using Vector = Eigen::Vector3d;
 using Vector2 = Eigen::Vector2d;
+
+// A vector in the plane of triangle t, as long and at such angles as the surface measures it.
+Vector measured(const SurfaceDomain& domain, Index t, const Vector& vector) {
+    if (!domain.has_own_lengths()) return vector;
+    const Complex z = vector_by_own_lengths(domain, t, vector);
+    return {z.real(), z.imag(), 0};
+}
 
 class Patch {
 public:
@@ -33,7 +42,7 @@ private:
     std::vector<Eigen::Triplet<double>> mean_value_weights() const;
     Index add_point(const Vector& position);
     bool on_one_side(Index a, Index b) const { return (sides_[a] & sides_[b]) != 0; }
-    Vector position(Index v) const { return positions_[v]; }
+    std::array<Vector, 2> sides_from(std::size_t triangle, int k) const;
 
     const QuadLayout& layout_;
     const LayoutPieces& pieces_;
@@ -41,6 +50,7 @@ private:
     const std::vector<Eigen::VectorXd>& along_;
     PatchMap result_;
     std::map<Index, Index> local_;  // of points of the cut surface
+    std::vector<Index> origins_;    // of each triangle, that of the surface
     std::vector<Vector> positions_;
     std::vector<unsigned> sides_;  // bits of the sides that a point is on; 0: inside
     std::vector<Vector2> fixed_;
@@ -96,11 +106,13 @@ void Patch::add_polygons() {
         }
         if (ring.size() == 3) {
             result_.triangles.push_back({ring[0], ring[1], ring[2]});
+            origins_.push_back(cut.triangles[polygon]);
             continue;
         }
         const Index centre = add_point(middle / static_cast<double>(ring.size()));
         for (std::size_t i = 0; i < ring.size(); ++i)
             result_.triangles.push_back({centre, ring[i], ring[(i + 1) % ring.size()]});
+        origins_.resize(result_.triangles.size(), cut.triangles[polygon]);
     }
 }
 
@@ -115,29 +127,43 @@ void Patch::split_edges() {
         if (count == 2) middles[edge] = add_point((positions_[edge.first] + positions_[edge.second]) / 2);
     if (middles.empty()) return;
     std::vector<std::array<Index, 3>> waiting = std::move(result_.triangles), done;
+    std::vector<Index> waiting_origins = std::move(origins_), done_origins;
     while (!waiting.empty()) {
         const auto t = waiting.back();
+        const Index origin = waiting_origins.back();
         waiting.pop_back();
+        waiting_origins.pop_back();
         int split = -1;
         for (int k = 0; k < 3 && split < 0; ++k)
             if (middles.contains(std::minmax(t[k], t[(k + 1) % 3]))) split = k;
         if (split < 0) {
             done.push_back(t);
+            done_origins.push_back(origin);
             continue;
         }
         const Index a = t[split], b = t[(split + 1) % 3], c = t[(split + 2) % 3], m = middles[std::minmax(a, b)];
         waiting.push_back({a, m, c});
         waiting.push_back({m, b, c});
+        waiting_origins.resize(waiting.size(), origin);
     }
     result_.triangles = std::move(done);
+    origins_ = std::move(done_origins);
+}
+
+// Of a triangle, from its corner k to the next one and to the last one, as the surface measures them.
+std::array<Vector, 2> Patch::sides_from(std::size_t triangle, int k) const {
+    const auto& t = result_.triangles[triangle];
+    const Vector& from = positions_[t[k]];
+    return {measured(layout_.domain, origins_[triangle], positions_[t[(k + 1) % 3]] - from),
+            measured(layout_.domain, origins_[triangle], positions_[t[(k + 2) % 3]] - from)};
 }
 
 std::vector<Eigen::Triplet<double>> Patch::cotangent_weights() const {
     std::vector<Eigen::Triplet<double>> weights;
-    for (const auto& t : result_.triangles)
+    for (std::size_t i = 0; i < result_.triangles.size(); ++i)
         for (int k = 0; k < 3; ++k) {
-            const Index a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
-            const Vector u = position(a) - position(c), v = position(b) - position(c);
+            const Index a = result_.triangles[i][k], b = result_.triangles[i][(k + 1) % 3];
+            const auto [u, v] = sides_from(i, (k + 2) % 3);
             const double weight = u.dot(v) / std::max(u.cross(v).norm(), std::numeric_limits<double>::min()) / 2;
             weights.emplace_back(a, b, weight);
             weights.emplace_back(b, a, weight);
@@ -147,9 +173,10 @@ std::vector<Eigen::Triplet<double>> Patch::cotangent_weights() const {
 
 std::vector<Eigen::Triplet<double>> Patch::mean_value_weights() const {
     std::vector<Eigen::Triplet<double>> weights;
-    for (const auto& t : result_.triangles)
+    for (std::size_t i = 0; i < result_.triangles.size(); ++i)
         for (int k = 0; k < 3; ++k) {
-            const Vector u = position(t[(k + 1) % 3]) - position(t[k]), v = position(t[(k + 2) % 3]) - position(t[k]);
+            const auto& t = result_.triangles[i];
+            const auto [u, v] = sides_from(i, k);
             const double ul = u.norm(), vl = v.norm();
             const double half_tangent = u.cross(v).norm() / (ul * vl + u.dot(v));
             weights.emplace_back(t[k], t[(k + 1) % 3], half_tangent / ul);

@@ -75,17 +75,21 @@ ImposedField split_between_points(const ImposedField& field) {
     }
     for (std::size_t t = 0; t < parts.size(); ++t)
         for (int k = 0; k < 3; ++k) mesh.triangles(static_cast<Eigen::Index>(t), k) = parts[t].corners[k];
-    const SurfaceDomain domain(std::move(mesh));
+    SurfaceDomain domain(std::move(mesh));
     const EdgeTopology& topology = domain.topology();
     result.field.values.resize(domain.edge_count());
+    Eigen::VectorXd lengths(domain.edge_count());
     for (Index e = 0; e < domain.edge_count(); ++e) {
         const auto beside = topology.edge_triangles.row(e);
         const Index t = parts[beside.maxCoeff()].origin;
         const Eigen::Vector3d a = domain.mesh().vertices.row(topology.edges(e, 0));
         const Eigen::Vector3d b = domain.mesh().vertices.row(topology.edges(e, 1));
-        const double angle = local.angle(t, charts.lower(t, (a + b) / 2)) - std::arg(charts.lower_vector(t, b - a));
+        const Complex along = charts.lower_vector(t, b - a);
+        const double angle = local.angle(t, charts.lower(t, (a + b) / 2)) - std::arg(along);
         result.field.values[e] = beside.minCoeff() < 0 ? 1.0 : std::polar(1.0, 4 * angle);
+        lengths[e] = std::abs(along);
     }
+    if (charts.domain().has_own_lengths()) domain = domain.with_edge_lengths(std::move(lengths));
     result.field.domain = domain;
     return result;
 }

@@ -133,7 +133,7 @@ ImposedField turned_for_layout(const ImposedField& field, const LayoutCurveOptio
             if (structure.of_vertex[v] == c) vertices.push_back(v);
         if (!structure.components[c].curves.empty() || vertices.empty()) continue;
         double area = 0;
-        const Eigen::VectorXd areas = triangle_areas(field.field.domain.mesh());
+        const Eigen::VectorXd areas = field.field.domain.areas();
         for (Index t = 0; t < areas.size(); ++t) area += structure.of_triangle[t] == c ? areas[t] : 0;
         const double unit = std::sqrt(area);
         const double max_length =

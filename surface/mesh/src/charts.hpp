@@ -10,8 +10,13 @@ namespace octafield::surface::detail {
 inline double cross(Complex a, Complex b) { return (std::conj(a) * b).imag(); }
 inline double dot(Complex a, Complex b) { return (std::conj(a) * b).real(); }
 
+// A vector in the plane of triangle t as the domain's edge lengths measure it: coordinates in the flat triangle with
+// these sides, real axis from corner 0 to corner 1.
+Complex vector_by_own_lengths(const SurfaceDomain& domain, Index t, const Eigen::Vector3d& vector);
+
 // Coordinates of triangle t: origin at its corner 0, real axis along its edge 0 from lower to higher vertex id,
-// imaginary axis a quarter turn counter-clockwise. Side k runs from corner k to corner k + 1.
+// imaginary axis a quarter turn counter-clockwise. Side k runs from corner k to corner k + 1. On a surface with its own
+// edge lengths the coordinates are those of the triangles with these sides, taken to space and back by affine maps.
 class Charts {
 public:
     explicit Charts(SurfaceDomain domain);

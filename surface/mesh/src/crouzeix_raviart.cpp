@@ -26,7 +26,7 @@ std::vector<CornerLink> corner_links(const SurfaceDomain& domain, int symmetry) 
 
 Eigen::VectorXd edge_masses(const SurfaceDomain& domain) {
     const EdgeTopology& topology = domain.topology();
-    const Eigen::VectorXd areas = triangle_areas(domain.mesh());
+    const Eigen::VectorXd areas = domain.areas();
     Eigen::VectorXd masses = Eigen::VectorXd::Zero(topology.edges.rows());
     for (Index t = 0; t < areas.size(); ++t)
         for (int k = 0; k < 3; ++k) masses[topology.triangle_edges(t, k)] += areas[t] / 3;

@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -108,6 +110,56 @@ CornerAngles angles_and_cotangents(const TriangleMesh& mesh) {
     return result;
 }
 
+void require_lengths(const Eigen::VectorXd& lengths, Index edges) {
+    if (lengths.size() != edges)
+        throw InvalidInput("edge lengths are one number per edge, " + std::to_string(edges) + ", not " +
+                               std::to_string(lengths.size()),
+                           "bad_lengths");
+    std::vector<Index> bad;
+    for (Index e = 0; e < edges; ++e)
+        if (!(lengths[e] > 0) || !std::isnormal(lengths[e] * lengths[e])) bad.push_back(e);
+    if (!bad.empty())
+        throw InvalidInput("the lengths of " + std::to_string(bad.size()) + " edges (" + first_few(bad) +
+                               ") are not above 0, or their squares beyond double precision",
+                           "bad_lengths", bad);
+}
+
+// Four times the area of the triangle with these sides; 0 or no number where there is none (Kahan, "Miscalculating
+// area and angles of a needle-like triangle", 2014).
+double four_areas(std::array<double, 3> sides) {
+    std::sort(sides.begin(), sides.end(), std::greater<>());
+    const auto [a, b, c] = sides;
+    return std::sqrt((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)));
+}
+
+CornerAngles angles_and_cotangents(const Eigen::VectorXd& lengths, const EdgeTopology& topology) {
+    CornerAngles result;
+    result.angles.resize(topology.triangle_edges.rows(), 3);
+    result.cotangents.resize(topology.triangle_edges.rows(), 3);
+    std::vector<Index> bad;
+    for (Index t = 0; t < topology.triangle_edges.rows(); ++t) {
+        std::array<double, 3> sides{};
+        for (int k = 0; k < 3; ++k) sides[k] = lengths[topology.triangle_edges(t, k)];
+        const double area = four_areas(sides);
+        bool flat = false;
+        for (int k = 0; k < 3; ++k) {
+            const double a = sides[k], b = sides[(k + 2) % 3], across = sides[(k + 1) % 3];
+            const double cosine = a * a + b * b - across * across;
+            flat = flat || !(area > 2 * smallest_sine * a * b);
+            result.angles(t, k) = std::atan2(area, cosine);
+            result.cotangents(t, k) = cosine / area;
+        }
+        if (flat) bad.push_back(t);
+    }
+    if (!bad.empty())
+        throw GeometryError("with the edge lengths given, " + std::to_string(bad.size()) + " triangles (" +
+                                first_few(bad) +
+                                ") have a side as long as the other two: lengths change too fast there; remesh the "
+                                "surface with shorter edges",
+                            "no_triangle", bad);
+    return result;
+}
+
 std::vector<bool> feature_flags(const FeatureGraph& ordered, const EdgeTopology& topology) {
     std::vector<bool> is_feature(topology.edges.rows());
     Index next = 0;  // both lists are in lexicographic order
@@ -121,26 +173,27 @@ std::vector<bool> feature_flags(const FeatureGraph& ordered, const EdgeTopology&
 
 }  // namespace
 
-std::shared_ptr<const SurfaceDomain::Topology> SurfaceDomain::topology_of(TriangleMesh mesh) {
+SurfaceDomain::Parts SurfaceDomain::parts_of(TriangleMesh mesh) {
     require_arrays(mesh);
     if (mesh.triangles.rows() > 0) ++domains_made;
     const auto topology = std::make_shared<Topology>();
+    const auto metric = std::make_shared<Metric>();
     topology->mesh = std::move(mesh);
     const TriangleMesh& kept = topology->mesh;
     topology->edges = detail::oriented_topology(kept);
     CornerAngles corners = angles_and_cotangents(kept);
-    topology->corner_angles = std::move(corners.angles);
-    topology->cotangents = std::move(corners.cotangents);
+    metric->corner_angles = std::move(corners.angles);
+    metric->cotangents = std::move(corners.cotangents);
     topology->fans = vertex_fans(kept, topology->edges);
     topology->normals = triangle_normals(kept);
     const Edges& edges = topology->edges.edges;
-    topology->edge_lengths.resize(edges.rows());
+    metric->edge_lengths.resize(edges.rows());
     double sum = 0;
     for (Index e = 0; e < edges.rows(); ++e)
-        sum += topology->edge_lengths[e] = (kept.vertices.row(edges(e, 0)) - kept.vertices.row(edges(e, 1))).norm();
+        sum += metric->edge_lengths[e] = (kept.vertices.row(edges(e, 0)) - kept.vertices.row(edges(e, 1))).norm();
     topology->mean_edge_length = edges.rows() > 0 ? sum / static_cast<double>(edges.rows()) : 0;
     topology->size = shape_size(kept);
-    return topology;
+    return {topology, metric};
 }
 
 SurfaceDomain::SurfaceDomain()
@@ -150,16 +203,40 @@ SurfaceDomain::SurfaceDomain()
       }()) {}
 
 SurfaceDomain::SurfaceDomain(TriangleMesh mesh, FeatureGraph features)
-    : SurfaceDomain(topology_of(std::move(mesh)), std::move(features)) {}
+    : SurfaceDomain(parts_of(std::move(mesh)), std::move(features)) {}
 
-SurfaceDomain::SurfaceDomain(std::shared_ptr<const Topology> topology, FeatureGraph features)
-    : topology_(std::move(topology)) {
+SurfaceDomain::SurfaceDomain(Parts parts, FeatureGraph features)
+    : topology_(std::move(parts.topology)), metric_(std::move(parts.metric)) {
     FeatureGraph ordered = ordered_features(std::move(features), mesh());
     std::vector<bool> flags = feature_flags(ordered, this->topology());
     features_ = std::make_shared<const Features>(Features{std::move(ordered), std::move(flags)});
 }
 
-SurfaceDomain SurfaceDomain::with_features(FeatureGraph features) const { return {topology_, std::move(features)}; }
+SurfaceDomain SurfaceDomain::with_features(FeatureGraph features) const {
+    return {Parts{topology_, metric_}, std::move(features)};
+}
+
+SurfaceDomain SurfaceDomain::with_edge_lengths(Eigen::VectorXd lengths) const {
+    require_lengths(lengths, edge_count());
+    const auto metric = std::make_shared<Metric>();
+    CornerAngles corners = angles_and_cotangents(lengths, topology());
+    metric->corner_angles = std::move(corners.angles);
+    metric->cotangents = std::move(corners.cotangents);
+    metric->edge_lengths = std::move(lengths);
+    metric->own = true;
+    SurfaceDomain result = *this;
+    result.metric_ = metric;
+    return result;
+}
+
+Eigen::VectorXd SurfaceDomain::areas() const {
+    if (!has_own_lengths()) return triangle_areas(mesh());
+    Eigen::VectorXd result(triangle_count());
+    for (Index t = 0; t < triangle_count(); ++t)
+        result[t] = edge_lengths()[topology().triangle_edges(t, 0)] * edge_lengths()[topology().triangle_edges(t, 2)] *
+                    std::sin(corner_angles()(t, 0)) / 2;
+    return result;
+}
 
 long long SurfaceDomain::made() { return domains_made; }
 

@@ -54,6 +54,9 @@ void check(const NonOrthogonalFieldOptions& options) {
 
 void check(const SurfaceDomain& domain) {
     if (domain.triangle_count() == 0) throw GeometryError("the surface has no triangles", "empty");
+    if (domain.has_own_lengths())
+        throw InvalidInput("non-orthogonal fields are found on the surface in space, without edge lengths of its own",
+                           "own_lengths");
     std::vector<Index> inside;
     for (Index e = 0; e < domain.edge_count(); ++e)
         if (domain.is_feature()[e] && domain.topology().edge_triangles.row(e).minCoeff() >= 0) inside.push_back(e);

@@ -106,10 +106,11 @@ struct DirectionField {
 // direction follows the boundary, surface on its left, and features inside the surface are refused: they have no sense
 // to run in. Where nothing aligns a component, the methods gl and mbo also descend from the principal directions (even
 // N) and give the field of lower E. Cancelling through progress keeps the best state (converged = false). Throws
-// InvalidInput; GeometryError (kind "empty") without triangles; SolverError when the descent ends with |f| < 0.1 on all
-// free edges of a component (kind "epsilon_too_large", elements its triangles): such a field has no directions;
-// SolverError where triangles are too thin for double precision (kind "thin_triangles", elements; angles far below 1e-6
-// radians) or weights too small to count (kind "bad_weights").
+// InvalidInput (kind "own_lengths" where the domain has edge lengths of its own); GeometryError (kind "empty") without
+// triangles; SolverError when the descent ends with |f| < 0.1 on all free edges of a component (kind
+// "epsilon_too_large", elements its triangles): such a field has no directions; SolverError where triangles are too
+// thin for double precision (kind "thin_triangles", elements; angles far below 1e-6 radians) or weights too small to
+// count (kind "bad_weights").
 DirectionField direction_field(const SurfaceDomain& domain, const DirectionFieldOptions& options = {},
                                const Progress& progress = {});
 

@@ -11,7 +11,8 @@ namespace octafield::surface {
 // follows (f = 1 there, as strong alignment makes it) decide at their vertices: at a vertex of one such edge the
 // direction follows it; at a vertex of a curve, the curve's tangent; at a corner, the mean of its edges' crosses or,
 // where they contradict each other, the first of the edges. Edges that are followed weakly or not at all count like any
-// other. At a vertex in no triangle the row is zero.
+// other. At a vertex in no triangle the row is zero. On a surface with its own edge lengths the one of an edge at the
+// vertex, of the boundary where there is one: the four directions are not at right angles in space.
 Points vertex_directions(const DirectionField& field);
 
 // One representative direction per triangle: (F, 3) unit rows in the triangle's plane, from the value at the centroid.

@@ -53,6 +53,8 @@ Eigen::Vector3d imposed_position(const SurfaceDomain& domain, const ImposedPoint
 // The singular points of a cross field, as found by surface_singularities; every corner that the field does not have
 // has 2 quads. Throws InvalidInput for other symmetries than 4 (kind "wrong_symmetry").
 SingularPattern singular_pattern(const DirectionField& field, const SurfaceSingularities& singularities);
+// The same of points found by any field of symmetry 4 on the surface, which may be measured by other lengths.
+SingularPattern singular_pattern(const SurfaceDomain& domain, const SurfaceSingularities& singularities);
 
 // Edits: the pattern with points, named by their places in `points`, changed. Each keeps the sum of t, but for
 // remove_singular_points. Elements of errors are places.

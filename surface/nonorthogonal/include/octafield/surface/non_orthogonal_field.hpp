@@ -103,7 +103,8 @@ struct NonOrthogonalField {
 // progress keeps the best state (converged = false). Throws InvalidInput: kinds "bad_option"; "not_on_boundary",
 // "given_twice" and "bad_corner" (elements: vertices of `corners`; the last where no two lines of the interior angle
 // have that number of quads between them); "features_inside" (elements: edges) for feature edges within the surface,
-// which are not followed. GeometryError: "empty", "non_manifold_vertex". SolverError: "thin_triangles".
+// which are not followed; "own_lengths" where the domain has edge lengths of its own. GeometryError: "empty",
+// "non_manifold_vertex". SolverError: "thin_triangles".
 NonOrthogonalField non_orthogonal_field(const SurfaceDomain& domain, const NonOrthogonalFieldOptions& options = {},
                                         const Progress& progress = {});
 
