@@ -251,6 +251,18 @@ TEST(Scales, NeverAddCurlAndAgreeWithIntegrabilityBefore) {
     EXPECT_GE(three.after.curl_rms, unscaled.twist_rms);  // no scale takes the twist away
 }
 
+// Large enough for several threads to assemble and multiply.
+TEST(Scales, HaveTheSameBitsAtAnyThreadCount) {
+    const TetMesh mesh = testing::jittered_cube(20, 0.2, 3);
+    const Quaternions field = testing::smooth_field(mesh);
+    const IsotropicScale one = isotropic_scale(mesh, field, 1);
+    const AxisScales three = axis_scales(mesh, field, {0.1, 1});
+    for (const int threads : {2, 3}) {
+        EXPECT_EQ(isotropic_scale(mesh, field, threads).log_scale, one.log_scale);
+        EXPECT_EQ(axis_scales(mesh, field, {0.1, threads}).values, three.values);
+    }
+}
+
 TEST(Scales, ChangeWithTheUnitAsDensitiesDo) {
     TetMesh mesh = kuhn_cube(4);
     const Quaternions field = testing::smooth_field(mesh);

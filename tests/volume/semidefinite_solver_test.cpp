@@ -29,7 +29,7 @@ Eigen::VectorXd random_right(Eigen::Index size, std::uint64_t seed) {
 
 SemidefiniteSolution solve(const TetMesh& mesh, const Eigen::VectorXd& right) {
     const Parts parts(mesh.tets, static_cast<Index>(mesh.vertices.rows()));
-    return solve_semidefinite(stiffness(mesh), right, parts, mesh.tets, tet_volumes(mesh));
+    return solve_semidefinite(stiffness(mesh), right, parts, mesh.tets, tet_volumes(mesh), 2);
 }
 
 // With the first unknown of each part held at 0, as sparse Cholesky has it; then both less the mean over vertices.

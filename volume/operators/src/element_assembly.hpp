@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "octafield/parallel.hpp"
 #include "octafield/volume/operators.hpp"
 
 namespace octafield::volume {
@@ -23,37 +25,86 @@ struct Corners {
     }
 };
 
+// Columns [first, last) of a matrix that is being assembled.
+struct ColumnBlock {
+    std::vector<Index> rows;
+    std::vector<double> values;
+    std::vector<SparseMatrix::StorageIndex> sizes;  // of each column
+
+    template <class ElementColumn>
+    void fill(const Tets& elements, const Corners& corners, Index first, Index last,
+              const ElementColumn& element_column) {
+        const std::size_t count = corners.begin.size() - 1;
+        std::vector<double> sum(count, 0);
+        std::vector<Index> stamp(count, -1), found;
+        sizes.reserve(last - first);
+        for (Index column = first; column < last; ++column) {
+            found.clear();
+            for (std::int64_t c = corners.begin[column]; c < corners.begin[column + 1]; ++c) {
+                const Index element = static_cast<Index>(corners.corner[c] / 4);
+                const Eigen::Vector4d local = element_column(element, static_cast<int>(corners.corner[c] % 4));
+                for (int k = 0; k < 4; ++k) {
+                    const Index row = elements(element, k);
+                    if (stamp[row] != column) {
+                        stamp[row] = column;
+                        sum[row] = 0;
+                        found.push_back(row);
+                    }
+                    sum[row] += local[k];
+                }
+            }
+            std::sort(found.begin(), found.end());
+            rows.insert(rows.end(), found.begin(), found.end());
+            for (const Index row : found) values.push_back(sum[row]);
+            sizes.push_back(static_cast<SparseMatrix::StorageIndex>(found.size()));
+        }
+    }
+};
+
 // (count, count): sums the columns element_column(element, k) of the symmetric element matrices. Column by column, so
 // that no list of 16 triplets per element is ever held; both halves sum the same numbers in the same order, so the
-// result is exactly symmetric where the element matrices are.
+// result is exactly symmetric where the element matrices are. The same bits at any thread count.
 template <class ElementColumn>
-SparseMatrix assemble(const Tets& elements, Index count, const ElementColumn& element_column) {
+SparseMatrix assemble(const Tets& elements, Index count, int threads, const ElementColumn& element_column) {
+    constexpr std::int64_t least_columns = 4096;  // a block's own arrays are as long as all columns
     const Corners corners(elements, count);
+    const std::int64_t parts = std::clamp<std::int64_t>(count / least_columns, 1, thread_count(threads));
+    std::vector<ColumnBlock> blocks(parts);
+    const auto first = [&](std::int64_t b) { return static_cast<Index>(count * b / parts); };
+    parallel_for(
+        parts, threads,
+        [&](std::int64_t b) { blocks[b].fill(elements, corners, first(b), first(b + 1), element_column); }, 1);
+
     SparseMatrix matrix(count, count);
-    matrix.reserve(count + 14 * static_cast<std::int64_t>(count));  // a vertex has about 14 neighbours
-    std::vector<double> value(count, 0);
-    std::vector<Index> stamp(count, -1), rows;
-    for (Index column = 0; column < count; ++column) {
-        rows.clear();
-        for (std::int64_t c = corners.begin[column]; c < corners.begin[column + 1]; ++c) {
-            const Index element = static_cast<Index>(corners.corner[c] / 4);
-            const Eigen::Vector4d local = element_column(element, static_cast<int>(corners.corner[c] % 4));
-            for (int k = 0; k < 4; ++k) {
-                const Index row = elements(element, k);
-                if (stamp[row] != column) {
-                    stamp[row] = column;
-                    value[row] = 0;
-                    rows.push_back(row);
-                }
-                value[row] += local[k];
-            }
-        }
-        std::sort(rows.begin(), rows.end());
-        matrix.startVec(column);
-        for (const Index row : rows) matrix.insertBack(row, column) = value[row];
-    }
-    matrix.finalize();
+    auto* begin = matrix.outerIndexPtr();
+    for (std::int64_t b = 0; b < parts; ++b)
+        for (std::size_t c = 0; c < blocks[b].sizes.size(); ++c)
+            begin[first(b) + c + 1] = begin[first(b) + c] + blocks[b].sizes[c];
+    matrix.resizeNonZeros(begin[count]);
+    parallel_for(
+        parts, threads,
+        [&](std::int64_t b) {
+            const ColumnBlock block = std::move(blocks[b]);
+            std::copy(block.rows.begin(), block.rows.end(), matrix.innerIndexPtr() + begin[first(b)]);
+            std::copy(block.values.begin(), block.values.end(), matrix.valuePtr() + begin[first(b)]);
+        },
+        1);
     return matrix;
+}
+
+// matrix * x. Symmetric, so that column v serves as row v, and threads share the unknowns: the same bits at any count
+// of them.
+inline Eigen::VectorXd symmetric_product(const SparseMatrix& matrix, const Eigen::VectorXd& x, int threads) {
+    Eigen::VectorXd product(x.size());
+    parallel_for(
+        x.size(), threads,
+        [&](std::int64_t v) {
+            double sum = 0;
+            for (SparseMatrix::InnerIterator entry(matrix, v); entry; ++entry) sum += entry.value() * x[entry.row()];
+            product[v] = sum;
+        },
+        8192);
+    return product;
 }
 
 // Rows: gradients of the four hat functions of a tet. With E its edges from vertex 0 as columns, those of 1 to 3 are

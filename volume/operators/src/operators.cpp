@@ -26,7 +26,7 @@ Eigen::Matrix3d tet_edges(const TetMesh& mesh, Eigen::Index t) {
 
 SparseMatrix stiffness(const TetDomain& domain) {
     const TetMesh& mesh = domain.mesh();
-    return assemble(mesh.tets, static_cast<Index>(mesh.vertices.rows()), [&](Index tet, int k) -> Eigen::Vector4d {
+    return assemble(mesh.tets, static_cast<Index>(mesh.vertices.rows()), 1, [&](Index tet, int k) -> Eigen::Vector4d {
         const Eigen::Matrix3d e = tet_edges(mesh, tet);
         const Gradients g = hat_gradients(e);
         const Eigen::Vector4d dots = g * g.row(k).transpose();  // before scaling: exact symmetry
@@ -36,7 +36,7 @@ SparseMatrix stiffness(const TetDomain& domain) {
 
 SparseMatrix mass(const TetDomain& domain) {
     const TetMesh& mesh = domain.mesh();
-    return assemble(mesh.tets, static_cast<Index>(mesh.vertices.rows()), [&](Index tet, int k) -> Eigen::Vector4d {
+    return assemble(mesh.tets, static_cast<Index>(mesh.vertices.rows()), 1, [&](Index tet, int k) -> Eigen::Vector4d {
         const double volume = tet_edges(mesh, tet).determinant() / 6;
         return (Eigen::Vector4d::Ones() + Eigen::Vector4d::Unit(k)) * (volume / 20);
     });

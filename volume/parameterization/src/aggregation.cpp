@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "element_assembly.hpp"
 #include "octafield/disjoint_sets.hpp"
 #include "octafield/error.hpp"
 
@@ -88,22 +89,22 @@ Groups groups_of(const Couplings& couplings, Index unknowns) {
 }
 
 // Of D^-1 matrix.
-double largest_eigenvalue(const SparseMatrix& matrix, const VectorXd& inverse) {
+double largest_eigenvalue(const SparseMatrix& matrix, const VectorXd& inverse, int threads) {
     VectorXd x(matrix.cols());
     for (Eigen::Index v = 0; v < x.size(); ++v) x[v] = std::sin(1.7 * static_cast<double>(v) + 1);
     double value = 1;
     for (int k = 0; k < power_steps; ++k) {
-        x = inverse.cwiseProduct(matrix * (x / x.norm()).eval()).eval();
+        x = inverse.cwiseProduct(symmetric_product(matrix, x / x.norm(), threads)).eval();
         value = x.norm();
     }
     return value;
 }
 
 // (1 - omega D^-1 matrix) times the indicator functions, omega = 4/3 over the largest eigenvalue of D^-1 matrix.
-SparseMatrix smoothed_groups(const SparseMatrix& matrix, const VectorXd& inverse, double least_strength) {
+SparseMatrix smoothed_groups(const SparseMatrix& matrix, const VectorXd& inverse, double least_strength, int threads) {
     const Index unknowns = static_cast<Index>(matrix.cols());
     const Groups groups = groups_of(Couplings(matrix, inverse, least_strength), unknowns);
-    const double omega = 4.0 / 3 / largest_eigenvalue(matrix, inverse);
+    const double omega = 4.0 / 3 / largest_eigenvalue(matrix, inverse, threads);
     SparseMatrix indicators(groups.count, unknowns);
     indicators.reserve(unknowns);
     for (Index v = 0; v < unknowns; ++v) {
@@ -140,12 +141,12 @@ SparseMatrix pinned(SparseMatrix matrix) {
 
 }  // namespace
 
-Aggregation::Aggregation(const SparseMatrix& given) : first_(given) {
+Aggregation::Aggregation(const SparseMatrix& given, int threads) : first_(given), threads_(threads) {
     double strength = least;
     for (; matrix(coarser_.size()).cols() > few; strength /= 2) {
         const SparseMatrix& fine = matrix(coarser_.size());
         VectorXd inverse = inverse_diagonal(fine);
-        SparseMatrix groups = smoothed_groups(fine, inverse, strength);
+        SparseMatrix groups = smoothed_groups(fine, inverse, strength, threads);
         if (10 * groups.cols() > 9 * groups.rows()) break;  // nearly all are alone
         inverse_.push_back(std::move(inverse));
         const SparseMatrix images = fine * groups;
@@ -162,7 +163,7 @@ VectorXd Aggregation::cycle(std::size_t level, const VectorXd& right) const {
     if (level == coarser_.size()) return last_.solve(right);
     VectorXd x = VectorXd::Zero(right.size());
     sweep(matrix(level), inverse_[level], right, x, true);
-    const VectorXd left = prolongation_[level].transpose() * (right - matrix(level) * x);
+    const VectorXd left = prolongation_[level].transpose() * (right - symmetric_product(matrix(level), x, threads_));
     x += prolongation_[level] * cycle(level + 1, left);
     sweep(matrix(level), inverse_[level], right, x, false);
     return x;

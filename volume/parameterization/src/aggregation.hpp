@@ -12,11 +12,11 @@ namespace octafield::volume {
 // Smoothed aggregation (Vanek, Mandel, Brezina, Computing 56, 1996): unknowns that are strongly coupled form groups; a
 // step of Jacobi's method makes the groups' indicator functions smoother, and the matrix between these is that of the
 // next level, until few are left, which are solved directly. The steps of conjugate gradients that it preconditions
-// hardly grow with the mesh. Serial, near linear.
+// hardly grow with the mesh. Near linear; the same bits at any thread count.
 class Aggregation {
 public:
     // matrix: symmetric, positive semidefinite, rows of sum 0; it must outlive this. Throws SolverError.
-    explicit Aggregation(const SparseMatrix& matrix);
+    Aggregation(const SparseMatrix& matrix, int threads);
 
     // One symmetric cycle from 0 towards x with matrix x = right; right must be in the range of the matrix.
     Eigen::VectorXd cycle(const Eigen::VectorXd& right) const { return cycle(0, right); }
@@ -26,6 +26,7 @@ private:
     Eigen::VectorXd cycle(std::size_t level, const Eigen::VectorXd& right) const;
 
     const SparseMatrix& first_;
+    int threads_;
     std::vector<SparseMatrix> coarser_;       // matrices of the levels above 0
     std::vector<SparseMatrix> prolongation_;  // from each of these to the level below
     std::vector<Eigen::VectorXd> inverse_;    // of the diagonals, of all levels but the last

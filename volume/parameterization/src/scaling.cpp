@@ -106,7 +106,7 @@ IsotropicScale isotropic_scale(const TetDomain& domain, const Quaternions& frame
     const Index count = static_cast<Index>(vertices.size());
 
     // 2 |grad H|^2 - 2 grad H . sum_i (n_i . grad) n_i, halved twice.
-    const SparseMatrix matrix = assemble(elements, count, [&](Index t, int k) -> Eigen::Vector4d {
+    const SparseMatrix matrix = assemble(elements, count, threads, [&](Index t, int k) -> Eigen::Vector4d {
         const Gradients g = gradients_of(mesh, t);
         return volumes[t] * (g * g.row(k).transpose());
     });
@@ -115,7 +115,8 @@ IsotropicScale isotropic_scale(const TetDomain& domain, const Quaternions& frame
         right(elements.row(t)) += volumes[t] / 2 * (gradients_of(mesh, t) * field.turns(t).rowwise().sum());
 
     const Parts parts(elements, count);
-    const SemidefiniteSolution solution = solve_semidefinite(matrix, std::move(right), parts, elements, volumes);
+    const SemidefiniteSolution solution =
+        solve_semidefinite(matrix, std::move(right), parts, elements, volumes, threads);
     IsotropicScale result;
     result.parts = parts.count;
     result.iterations = solution.iterations;
@@ -156,14 +157,16 @@ AxisScales axis_scales(const TetDomain& domain, const Quaternions& frames, const
             for (int k = 0; k < 4; ++k) right[elements(3 * t + i, k)] += loads(k, i);
         }
     }
-    const SparseMatrix matrix = assemble(elements, orbits.count, [&](Index e, int k) -> Eigen::Vector4d {
-        const Gradients g = gradients_of(mesh, e / 3);
-        const Eigen::Vector4d along = g * field.axes(e / 3).col(e % 3);
-        return volumes[e / 3] * (g * g.row(k).transpose() - (1 - options.along) * along[k] * along);
-    });
+    const SparseMatrix matrix =
+        assemble(elements, orbits.count, options.threads, [&](Index e, int k) -> Eigen::Vector4d {
+            const Gradients g = gradients_of(mesh, e / 3);
+            const Eigen::Vector4d along = g * field.axes(e / 3).col(e % 3);
+            return volumes[e / 3] * (g * g.row(k).transpose() - (1 - options.along) * along[k] * along);
+        });
 
     const Parts parts(elements, orbits.count);
-    SemidefiniteSolution solution = solve_semidefinite(matrix, std::move(right), parts, elements, weights);
+    SemidefiniteSolution solution =
+        solve_semidefinite(matrix, std::move(right), parts, elements, weights, options.threads);
     AxisScales result;
     result.parts = parts.count;
     result.iterations = solution.iterations;

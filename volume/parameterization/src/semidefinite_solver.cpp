@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "aggregation.hpp"
+#include "element_assembly.hpp"
 #include "octafield/disjoint_sets.hpp"
 #include "octafield/error.hpp"
 
@@ -34,8 +35,8 @@ private:
 };
 
 // From 0.
-SemidefiniteSolution conjugate_gradients(const SparseMatrix& matrix, Eigen::VectorXd residual) {
-    const Aggregation preconditioner(matrix);
+SemidefiniteSolution conjugate_gradients(const SparseMatrix& matrix, Eigen::VectorXd residual, int threads) {
+    const Aggregation preconditioner(matrix, threads);
     const double small = tolerance * residual.norm();
     Eigen::VectorXd x = Eigen::VectorXd::Zero(residual.size()), direction = x;
     double before = 1;
@@ -45,7 +46,7 @@ SemidefiniteSolution conjugate_gradients(const SparseMatrix& matrix, Eigen::Vect
         const double now = residual.dot(near);
         direction = near + now / before * direction;
         before = now;
-        const Eigen::VectorXd image = matrix * direction;
+        const Eigen::VectorXd image = symmetric_product(matrix, direction, threads);
         const double curvature = direction.dot(image);
         if (iterations == most_iterations || !(curvature > 0))
             throw SolverError("the scaling did not converge; look for degenerate tets (octafield info)", "scaling");
@@ -65,12 +66,12 @@ Parts::Parts(const Tets& elements, Index unknowns) {
 }
 
 SemidefiniteSolution solve_semidefinite(const SparseMatrix& matrix, Eigen::VectorXd right, const Parts& parts,
-                                        const Tets& elements, const Eigen::VectorXd& weights) {
+                                        const Tets& elements, const Eigen::VectorXd& weights, int threads) {
     Means rounding(parts);  // the right-hand side must be in the range of the matrix
     for (Index v = 0; v < right.size(); ++v) rounding.add(v, right[v], 1);
     rounding.subtract_from(right);
 
-    SemidefiniteSolution result = conjugate_gradients(matrix, right);
+    SemidefiniteSolution result = conjugate_gradients(matrix, right, threads);
 
     Means means(parts);
     for (Eigen::Index e = 0; e < elements.rows(); ++e)

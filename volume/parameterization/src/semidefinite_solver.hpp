@@ -21,8 +21,8 @@ struct SemidefiniteSolution {
 };
 
 // x with matrix x = right up to what is constant in a part; the matrix is symmetric, positive semidefinite, and 0 on
-// those. Conjugate gradients with aggregation.hpp: serial. Throws SolverError.
+// those. Conjugate gradients with aggregation.hpp: the same bits at any thread count. Throws SolverError.
 SemidefiniteSolution solve_semidefinite(const SparseMatrix& matrix, Eigen::VectorXd right, const Parts& parts,
-                                        const Tets& elements, const Eigen::VectorXd& weights);
+                                        const Tets& elements, const Eigen::VectorXd& weights, int threads);
 
 }  // namespace octafield::volume
