@@ -12,7 +12,7 @@ using namespace volume;
 
 namespace {
 
-void bind_meshes(py::module_& m) {
+void bind_tet_mesh_types(py::module_& m) {
     Record<TetMesh>(m, "TetMesh",
                     "A tetrahedral mesh: arrays of positions and of vertex ids. Nothing is checked until it is used.")
         .field("vertices", &TetMesh::vertices, "(n, 3) float64 positions, the input's length unit.")
@@ -33,7 +33,7 @@ void bind_meshes(py::module_& m) {
         });
 }
 
-void bind_boundary(py::module_& m) {
+void bind_boundary_types(py::module_& m) {
     Record<BoundaryConstraints>(m, "BoundaryConstraints",
                                 "What holds the frame at each vertex of a tet mesh, or in each tet.")
         .field("kind", &BoundaryConstraints::kind,
@@ -63,7 +63,7 @@ void bind_boundary(py::module_& m) {
         .finish([](const SectorNormals& s) { return count(s.normal.rows(), "sector"); });
 }
 
-void bind_results(py::module_& m) {
+void bind_field_results(py::module_& m) {
     Record<SmoothResult>(m, "SmoothResult", "A smoothed frame field and how it was reached.")
         .field("frames", &SmoothResult::frames, "(n, 4) float64 unit quaternions w x y z.")
         .field("energy", &SmoothResult::energy, "dirichlet_energy of the frames, input length unit.")
@@ -139,9 +139,9 @@ void bind_results(py::module_& m) {
 }  // namespace
 
 void bind_volume_types(py::module_& m) {
-    bind_meshes(m);
-    bind_boundary(m);
-    bind_results(m);
+    bind_tet_mesh_types(m);
+    bind_boundary_types(m);
+    bind_field_results(m);
 }
 
 }  // namespace octafield::bindings
