@@ -43,7 +43,7 @@ void bind_requests(py::module_& m) {
         });
 }
 
-void bind_field(py::module_& m) {
+void bind_direction_field_type(py::module_& m) {
     Record<DirectionField>(
         m, "DirectionField",
         "An N-direction field with one complex value exp(i N theta) per edge, theta the angle of the direction "
@@ -139,7 +139,7 @@ void bind_streamline(py::module_& m) {
 
 void bind_direction_field_types(py::module_& m) {
     bind_requests(m);
-    bind_field(m);
+    bind_direction_field_type(m);
     bind_singularities(m);
     bind_streamline(m);
 }

@@ -49,7 +49,7 @@ void bind_views(py::class_<TetDomain>& type) {
         "(F,) int32, per triangle of the surface: its row in triangles.");
 }
 
-void bind_parts(py::class_<TetDomain>& type) {
+void bind_domain_parts(py::class_<TetDomain>& type) {
     type.def_property_readonly(
             "mesh", [](const TetDomain& d) { return d.mesh(); }, "TetMesh, a copy that may be changed.")
         .def_property_readonly(
@@ -82,7 +82,7 @@ void bind_domain(py::module_& m) {
              "mesh: TetMesh; regions: (m,) an id per tet, or none; features: FeatureGraph of the surface. Raises "
              "InvalidInput, and GeometryError naming tets where the mesh is unsound.");
     bind_views(type);
-    bind_parts(type);
+    bind_domain_parts(type);
     type.def(
             "with_features",
             [](const TetDomain& domain, const FeatureGraph& features) {

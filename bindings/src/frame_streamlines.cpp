@@ -19,7 +19,7 @@ using py::literals::operator""_a;
 
 namespace {
 
-void bind_points(py::module_& m) {
+void bind_streamline_points(py::module_& m) {
     m.def(
         "locate_points",
         [](const DomainOrMesh& mesh, const ArrayLike& points, int threads) {
@@ -142,7 +142,7 @@ void bind_frame_streamline_types(py::module_& m) {
 }
 
 void bind_frame_streamlines(py::module_& m) {
-    bind_points(m);
+    bind_streamline_points(m);
     bind_lines(m);
 }
 

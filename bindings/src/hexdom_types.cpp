@@ -36,7 +36,7 @@ void check(const HexDominantOptions& options) {
 
 namespace {
 
-void bind_options(py::module_& m) {
+void bind_hexdom_options(py::module_& m) {
     Record<PeriodicMapOptions>(m, "PeriodicMapOptions",
                                "Options of periodic_map: its keyword arguments, with their defaults.")
         .field("hold_angle", &PeriodicMapOptions::hold_angle,
@@ -136,7 +136,7 @@ void bind_map(py::module_& m) {
         .finish([](const LatticeCells& cells) { return count(cells.hexahedra.rows(), "hexahedron", "hexahedra"); });
 }
 
-void bind_results(py::module_& m) {
+void bind_hexdom_results(py::module_& m) {
     Record<RecombineReport>(m, "RecombineReport", "What recombine found and made.")
         .field("potential_hexahedra", &RecombineReport::potential_hexahedra, "Found.")
         .field("potential_wedges", &RecombineReport::potential_wedges, "Found among the tets that hexahedra left.")
@@ -189,9 +189,9 @@ void bind_results(py::module_& m) {
 }  // namespace
 
 void bind_hexdom_types(py::module_& m) {
-    bind_options(m);
+    bind_hexdom_options(m);
     bind_map(m);
-    bind_results(m);
+    bind_hexdom_results(m);
 }
 
 }  // namespace octafield::bindings

@@ -45,7 +45,7 @@ void set_corners(NonOrthogonalFieldOptions& options, const py::handle& value) {
     for (Eigen::Index i = 0; i < rows.rows(); ++i) options.corners.push_back({rows(i, 0), rows(i, 1)});
 }
 
-void bind_options(py::module_& m) {
+void bind_line_options(py::module_& m) {
     Record<NonOrthogonalFieldOptions>(m, "NonOrthogonalFieldOptions",
                                       "Options of non_orthogonal_field: its keyword arguments, with their defaults.")
         .field("method", &NonOrthogonalFieldOptions::method, "A key of non_orthogonal_field_methods.")
@@ -70,7 +70,7 @@ void bind_options(py::module_& m) {
         });
 }
 
-void bind_field(py::module_& m) {
+void bind_line_field(py::module_& m) {
     Record<NonOrthogonalField>(m, "NonOrthogonalField", "Two lines per vertex of a surface, at any angle.")
         .field("domain", &NonOrthogonalField::domain, "SurfaceDomain the field lives on.")
         .field(
@@ -167,12 +167,12 @@ void bind_metric(py::module_& m) {
 }  // namespace
 
 void bind_non_orthogonal_types(py::module_& m) {
-    bind_field(m);
+    bind_line_field(m);
     bind_metric_type(m);
 }
 
 void bind_non_orthogonal(py::module_& m) {
-    bind_options(m);
+    bind_line_options(m);
     bind_solver(m);
     bind_metric(m);
 }

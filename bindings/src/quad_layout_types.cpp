@@ -22,7 +22,7 @@ void check(const LayoutQuadsOptions& options) { finite(options.edge_length, "edg
 
 namespace {
 
-void bind_options(py::module_& m) {
+void bind_layout_options(py::module_& m) {
     Record<LayoutCurveOptions>(m, "LayoutCurveOptions",
                                "Options of layout_curves, turned_for_layout and quad_layout: keyword arguments of "
                                "these, with their defaults.")
@@ -68,7 +68,7 @@ auto set_column(const char* name, Member LayoutCurvePoint::*member) {
     };
 }
 
-void bind_curves(py::module_& m) {
+void bind_curve_types(py::module_& m) {
     using Ids = std::vector<Index>;
     using Numbers = Eigen::VectorXd;
     Record<LayoutCurve>(m, "LayoutCurve", "A separatrix of an imposed field, or two of them joined.")
@@ -127,7 +127,7 @@ void set_loops(LayoutPatch& patch, const py::handle& value) {
     }
 }
 
-void bind_parts(py::module_& m) {
+void bind_part_types(py::module_& m) {
     Record<LayoutVertex>(m, "LayoutVertex", "A vertex of a quad layout.")
         .field("kind", &LayoutVertex::kind,
                "\"singular\" (inside, of index other than 0), \"corner\" (of the boundary, with other than 2 quads), "
@@ -181,7 +181,7 @@ void bind_parts(py::module_& m) {
         .finish([](const PatchPolygons& p) { return count(static_cast<std::ptrdiff_t>(p.patches.size()), "polygon"); });
 }
 
-void bind_quads(py::module_& m) {
+void bind_quad_types(py::module_& m) {
     Record<LayoutQuads>(m, "LayoutQuads", "Block-structured quads, as layout_quads makes them.")
         .field("mesh", &LayoutQuads::mesh, "QuadMesh, vertices of the layout first.")
         .field("patches", &LayoutQuads::patches, "(Q,) int32: patch of each quad.")
@@ -199,7 +199,7 @@ void bind_quads(py::module_& m) {
 }
 
 // What made it is kept: a copy that was pickled is made again, as the surface cut into pieces is not stored.
-void bind_layout(py::module_& m) {
+void bind_layout_type(py::module_& m) {
     py::class_<BoundLayout> type(
         m, "QuadLayout",
         "A surface cut by separatrices of an imposed field into patches, most of them with four "
@@ -249,11 +249,11 @@ void bind_layout(py::module_& m) {
 }  // namespace
 
 void bind_quad_layout_types(py::module_& m) {
-    bind_options(m);
-    bind_curves(m);
-    bind_parts(m);
-    bind_quads(m);
-    bind_layout(m);
+    bind_layout_options(m);
+    bind_curve_types(m);
+    bind_part_types(m);
+    bind_quad_types(m);
+    bind_layout_type(m);
 }
 
 }  // namespace octafield::bindings

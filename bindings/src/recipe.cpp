@@ -80,7 +80,7 @@ void bind_compute(py::module_& m, const char* name, Function function, const cha
     list_options<BoundaryOptions, FrameFieldOptions, DiffuseOptions, SmoothOptions>(m, name);
 }
 
-void bind_parts(py::module_& m) {
+void bind_recipe_parts(py::module_& m) {
     m.def(
         "sheet_domain",
         [](const DomainOrMesh& mesh) {
@@ -140,7 +140,7 @@ void bind_recipe(py::module_& m) {
     bind_analyses(m);
     bind_computed<ComputedField>(m, "ComputedField", "A frame field at the vertices, and what led to it.");
     bind_computed<ComputedTetField>(m, "ComputedTetField", "A frame field in the tets, and what led to it.");
-    bind_parts(m);
+    bind_recipe_parts(m);
     bind_compute(
         m, "computed_field", &computed_field,
         "From a domain to a frame field with its analysis, as a ComputedField: cross field on the surface, "

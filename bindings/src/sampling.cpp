@@ -94,7 +94,7 @@ void bind_samplings(py::module_& m) {
         "each vertex. of_tets: (m, 4). tet_frames goes the other way.");
 }
 
-void bind_boundary(py::module_& m) {
+void bind_sampled_boundary(py::module_& m) {
     m.def(
         "tet_boundary_constraints",
         [](const DomainOrMesh& mesh, const ArrayLike& directions, const py::kwargs& given) {
@@ -215,7 +215,7 @@ void bind_sampling_types(py::module_& m) {
 
 void bind_sampling(py::module_& m) {
     bind_samplings(m);
-    bind_boundary(m);
+    bind_sampled_boundary(m);
 }
 
 }  // namespace octafield::bindings

@@ -71,7 +71,7 @@ void bind_elementary(py::module_& m) {
         "points"_a, "Length of the bounding box's diagonal of (n, 3) points, n at least 1.");
 }
 
-void bind_files(py::module_& m) {
+void bind_surface_files(py::module_& m) {
     m.def(
         "read_surface",
         [](const std::filesystem::path& path) {
@@ -190,7 +190,7 @@ void bind_validation(py::module_& m) {
         "least are assumed); else 8 roundings of doubles. 0 without points.");
 }
 
-void bind_features(py::module_& m) {
+void bind_surface_features(py::module_& m) {
     const FeatureOptions defaults;
     m.def(
         "detect_features",
@@ -270,9 +270,9 @@ void bind_remesh(py::module_& m) {
 
 void bind_surface(py::module_& m) {
     bind_elementary(m);
-    bind_files(m);
+    bind_surface_files(m);
     bind_validation(m);
-    bind_features(m);
+    bind_surface_features(m);
     bind_remesh(m);
     bind_direction_fields(m);
     bind_non_orthogonal(m);

@@ -21,7 +21,7 @@ std::string repr_features(const FeatureGraph& features) {
            count(static_cast<std::ptrdiff_t>(features.corners.size()), "corner");
 }
 
-void bind_meshes(py::module_& m) {
+void bind_surface_meshes(py::module_& m) {
     Record<TriangleMesh>(m, "TriangleMesh",
                          "A triangle mesh: arrays of positions and of vertex ids. Nothing is checked until it is used.")
         .field("vertices", &TriangleMesh::vertices, "(V, 3) float64 positions, the input's length unit.")
@@ -46,7 +46,7 @@ void bind_meshes(py::module_& m) {
         .finish(repr_features);
 }
 
-void bind_results(py::module_& m) {
+void bind_surface_results(py::module_& m) {
     Record<Defect>(m, "Defect", "One thing wrong with a triangle mesh.")
         .field("kind", &Defect::kind, "Stable word, for example \"not_closed\"; find_defects lists them.")
         .field("element", &Defect::element, "What the ids number: \"triangle\", \"vertex\" or \"edge\".")
@@ -104,8 +104,8 @@ void bind_results(py::module_& m) {
 }  // namespace
 
 void bind_surface_types(py::module_& m) {
-    bind_meshes(m);
-    bind_results(m);
+    bind_surface_meshes(m);
+    bind_surface_results(m);
     bind_surface_domain(m);
     bind_direction_field_types(m);
     bind_non_orthogonal_types(m);

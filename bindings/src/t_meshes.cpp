@@ -19,7 +19,7 @@ void check(const QuantizedQuadsOptions& options) { finite(options.edge_length, "
 
 namespace {
 
-void bind_options(py::module_& m) {
+void bind_t_mesh_options(py::module_& m) {
     Record<QuantizedQuadsOptions>(
         m, "QuantizedQuadsOptions",
         "Options of quantized_quads: its keyword arguments. One of edge_length and quad_count "
@@ -46,7 +46,7 @@ constexpr Member QuantizedQuads::*own_member(Member LayoutQuads::*member) {
     return member;
 }
 
-void bind_results(py::module_& m) {
+void bind_t_mesh_results(py::module_& m) {
     Record<QuantizedQuads>(m, "QuantizedQuads", "Block-structured quads of a T-mesh, as quantized_quads makes them.")
         .field("mesh", own_member(&LayoutQuads::mesh), "QuadMesh.")
         .field("patches", own_member(&LayoutQuads::patches), "(Q,) int32: block of each quad (base_complex).")
@@ -89,7 +89,7 @@ void bind_results(py::module_& m) {
         .finish([](const FeatureCut& c) { return count(c.domain.vertex_count(), "vertex", "vertices"); });
 }
 
-void bind_quads(py::module_& m) {
+void bind_quantized_quads(py::module_& m) {
     m.def(
         "motorcycle_graph",
         [](const ImposedField& field, const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
@@ -134,7 +134,7 @@ void bind_quads(py::module_& m) {
         "irregular vertices. Raises InvalidInput (kind \"not_quads\"), GeometryError.");
 }
 
-void bind_features(py::module_& m) {
+void bind_cut_features(py::module_& m) {
     m.def(
         "cut_along_features",
         [](const SurfaceOrMesh& surface) {
@@ -164,13 +164,13 @@ void bind_features(py::module_& m) {
 }  // namespace
 
 void bind_t_mesh_types(py::module_& m) {
-    bind_options(m);
-    bind_results(m);
+    bind_t_mesh_options(m);
+    bind_t_mesh_results(m);
 }
 
 void bind_t_meshes(py::module_& m) {
-    bind_quads(m);
-    bind_features(m);
+    bind_quantized_quads(m);
+    bind_cut_features(m);
 }
 
 }  // namespace octafield::bindings

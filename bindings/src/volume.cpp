@@ -60,7 +60,7 @@ void def_of_domain(py::module_& m, const char* name, Function function, const ch
         m.def(name, call, "domain"_a, doc);
 }
 
-void bind_meshes(py::module_& m) {
+void bind_tet_meshes(py::module_& m) {
     const TetrahedralizeOptions defaults;
     m.def(
         "tetrahedralize",
@@ -135,7 +135,7 @@ void bind_operators(py::module_& m) {
         "count.");
 }
 
-void bind_boundary(py::module_& m) {
+void bind_tet_boundary(py::module_& m) {
     def_of_domain(m, "sector_normals", sector_normals,
                          "One unit normal per vertex of the domain's surface and smooth sector, the triangles round it "
                          "between feature edges, weighted by area, as SectorNormals.");
@@ -189,7 +189,7 @@ void bind_analysis(py::module_& m) {
         "thread count.");
 }
 
-void bind_files(py::module_& m) {
+void bind_tet_files(py::module_& m) {
     m.def(
         "write_field",
         [](const std::filesystem::path& path, const DomainOrMesh& mesh, const ArrayLike& frames, const Metadata& metadata,
@@ -255,11 +255,11 @@ void bind_files(py::module_& m) {
 }  // namespace
 
 void bind_volume(py::module_& m) {
-    bind_meshes(m);
+    bind_tet_meshes(m);
     bind_operators(m);
-    bind_boundary(m);
+    bind_tet_boundary(m);
     bind_analysis(m);
-    bind_files(m);
+    bind_tet_files(m);
 }
 
 }  // namespace octafield::bindings

@@ -12,7 +12,7 @@ using namespace volume;
 
 namespace {
 
-void bind_meshes(py::module_& m) {
+void bind_tet_mesh_types(py::module_& m) {
     Record<TetMesh>(m, "TetMesh",
                     "A tetrahedral mesh: arrays of positions and of vertex ids. Nothing is checked until it is used.")
         .field("vertices", &TetMesh::vertices, "(n, 3) float64 positions, the input's length unit.")
@@ -33,7 +33,7 @@ void bind_meshes(py::module_& m) {
         });
 }
 
-void bind_boundary(py::module_& m) {
+void bind_boundary_surface_types(py::module_& m) {
     Record<BoundaryConstraints>(m, "BoundaryConstraints",
                                 "What holds the frame at each vertex of a tet mesh, or in each tet.")
         .field("kind", &BoundaryConstraints::kind,
@@ -63,7 +63,7 @@ void bind_boundary(py::module_& m) {
         .finish([](const SectorNormals& s) { return count(s.normal.rows(), "sector"); });
 }
 
-void bind_results(py::module_& m) {
+void bind_field_results(py::module_& m) {
     Record<SmoothResult>(m, "SmoothResult", "A smoothed frame field and how it was reached.")
         .field("frames", &SmoothResult::frames, "(n, 4) float64 unit quaternions w x y z.")
         .field("energy", &SmoothResult::energy, "dirichlet_energy of the frames, input length unit.")
@@ -73,8 +73,9 @@ void bind_results(py::module_& m) {
         .field("converged", &SmoothResult::converged,
                "Whether the last step lowered the energy by less than the tolerance.")
         .field("message", &SmoothResult::message, "Why the solver stopped.")
-        .field("energy_history", &SmoothResult::energy_history,
-               "float64 energies (of sh4, whatever was minimised) at the start and after each accepted or rejected step.")
+        .field(
+            "energy_history", &SmoothResult::energy_history,
+            "float64 energies (of sh4, whatever was minimised) at the start and after each accepted or rejected step.")
         .field("objective_history", &SmoothResult::objective_history,
                "float64 objectives at the same steps; of frame_field, where something else than sh4's energy is "
                "minimised, of that last part only, the last steps of energy_history.")
@@ -103,7 +104,8 @@ void bind_results(py::module_& m) {
         .field("holonomy", &SingularTriangle::holonomy,
                "Element number of the octahedral group, in the frame of vertex a.")
         .field("quarter_turns", &SingularTriangle::quarter_turns,
-               "Quarter turns about the curve, modulo 8: +1 valence 3, -1 valence 5, +2 valence 2, -2 valence 6, 0 complex (in "
+               "Quarter turns about the curve, modulo 8: +1 valence 3, -1 valence 5, +2 valence 2, -2 valence 6, 0 "
+               "complex (in "
                "no hex mesh).")
         .field("boundary", &SingularTriangle::boundary, "Whether it lies on the boundary of the mesh.")
         .field("point", &SingularTriangle::point, "(3,) float64: where the linear sh4 interpolant is shortest.")
@@ -139,9 +141,9 @@ void bind_results(py::module_& m) {
 }  // namespace
 
 void bind_volume_types(py::module_& m) {
-    bind_meshes(m);
-    bind_boundary(m);
-    bind_results(m);
+    bind_tet_mesh_types(m);
+    bind_boundary_surface_types(m);
+    bind_field_results(m);
 }
 
 }  // namespace octafield::bindings

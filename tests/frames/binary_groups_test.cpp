@@ -25,7 +25,7 @@ bool contains(BinaryGroup group, const Quaternion& q) {
 Quaternion power(const Quaternion& q, int n) { return n == 0 ? Quaternion::Identity() : q * power(q, n - 1); }
 
 // Quaternions of any norm about 1: the forms are homogeneous, not only defined on the sphere.
-std::vector<Quaternion> samples() {
+std::vector<Quaternion> scaled_samples() {
     std::vector<Quaternion> list = nasty_frames();
     const Quaternions rotations = random_rotations(50, 31);
     for (Eigen::Index i = 0; i < rotations.rows(); ++i)
@@ -75,14 +75,14 @@ TEST_P(BinaryGroups, GeneratorsObeyTheRelationsAndGenerateTheGroup) {
 }
 
 TEST_P(BinaryGroups, InvariantsAreUnchangedByTheGroupOnTheRight) {
-    for (const Quaternion& q : samples())
+    for (const Quaternion& q : scaled_samples())
         for (const Quaternion& o : elements(GetParam()))
             EXPECT_LT((invariants(GetParam(), q * o) - invariants(GetParam(), q)).norm(), 1e-12);
 }
 
 TEST_P(BinaryGroups, InvariantsAreHomogeneousOfTheirDegrees) {
     const auto degrees = invariant_degrees(GetParam());
-    for (const Quaternion& q : samples()) {
+    for (const Quaternion& q : scaled_samples()) {
         const Complex3 f = invariants(GetParam(), q);
         const Complex3 scaled = invariants(GetParam(), Quaternion(1.1 * q.coeffs()));
         for (int i = 0; i < 3; ++i) EXPECT_LT(std::abs(scaled[i] - std::pow(1.1, degrees[i]) * f[i]), 1e-12);
@@ -90,7 +90,7 @@ TEST_P(BinaryGroups, InvariantsAreHomogeneousOfTheirDegrees) {
 }
 
 TEST_P(BinaryGroups, InvariantsObeyTheRelation) {
-    for (const Quaternion& q : samples()) {
+    for (const Quaternion& q : scaled_samples()) {
         EXPECT_LT(std::abs(relation_residual(GetParam(), invariants(GetParam(), q))), 1e-11);
     }
     // Not identically zero: moved points leave the surface.
@@ -171,7 +171,7 @@ TEST(BinaryGroup, IcosahedralFormsAreTheProductsOverTheAxes) {
         }
         ASSERT_EQ(axes.size(), counts[f]);
         Complex ratio = 0;
-        for (const Quaternion& q : samples()) {
+        for (const Quaternion& q : scaled_samples()) {
             Complex product = 1;
             for (const Vector3& n : axes) product *= axis_form(n, q);
             const Complex form = invariants(BinaryGroup::icosahedral, q)[f];

@@ -9,8 +9,6 @@ namespace octafield::frames {
 namespace {
 
 using std::numbers::pi;
-constexpr double degree = pi / 180;
-
 TEST(Quaternion, ExpOfLogIsTheRotation) {
     const Quaternions samples = random_rotations(200, 21);
     for (Eigen::Index i = 0; i < samples.rows(); ++i) {

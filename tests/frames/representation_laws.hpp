@@ -18,6 +18,8 @@
 
 namespace octafield::frames {
 
+constexpr double degree = std::numbers::pi / 180;
+
 inline Quaternion row_quaternion(const Quaternions& rows, Eigen::Index i) {
     return from_wxyz(Vector4(rows.row(i).transpose()));
 }

@@ -1,4 +1,4 @@
-// The map from invariants back to quaternions, at and near every point where the thesis's formulas branch.
+// The map from invariants back to quaternions, at and near every point_of where the thesis's formulas branch.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace octafield::frames {
 namespace {
 
-Complex3 point(const Quaternion& q) { return Su2::invariants({q.w(), q.x()}, {q.y(), q.z()}); }
+Complex3 point_of(const Quaternion& q) { return Su2::invariants({q.w(), q.x()}, {q.y(), q.z()}); }
 Quaternion scaled(double factor, const Quaternion& q) { return Quaternion(factor * q.coeffs()); }
 
 struct Branch {
@@ -36,7 +36,7 @@ std::vector<Branch> branches() {
 struct Errors {
     double angle = 0, norm = 0;
     void add(const Quaternion& q) {
-        const Complex3 h = point(q);
+        const Complex3 h = point_of(q);
         const Quaternion back = Su2::inverse(h)[0];
         angle = std::max(angle, distance(back.normalized(), q.normalized()));
         norm = std::max(norm, std::abs(back.norm() / q.norm() - 1));
@@ -90,11 +90,11 @@ TEST(Su2Inverse, All48QuaternionsAreDistinctAndHaveTheInvariants) {
     std::vector<Quaternion> frames = nasty_frames();
     for (const Branch& branch : branches()) frames.push_back(branch.frame);
     for (const Quaternion& q : frames) {
-        const Complex3 h = point(q);
+        const Complex3 h = point_of(q);
         const auto all = Su2::inverse(h);
         double nearest = 2;
         for (std::size_t i = 0; i < all.size(); ++i) {
-            EXPECT_LT((point(all[i]) - h).norm(), 1e-14);
+            EXPECT_LT((point_of(all[i]) - h).norm(), 1e-14);
             nearest = std::min(nearest, (all[i].coeffs() - q.coeffs()).norm());
             for (std::size_t j = 0; j < i; ++j) EXPECT_GT((all[i].coeffs() - all[j].coeffs()).norm(), 0.7);
         }
@@ -118,7 +118,7 @@ TEST(Su2Inverse, TheOtherSignOfTheLastInvariantIsAnotherFrame) {
     const Quaternions samples = random_rotations(200, 56);
     for (Eigen::Index i = 0; i < samples.rows(); ++i) {
         const Quaternion q = row_quaternion(samples, i);
-        Complex3 h = point(q);
+        Complex3 h = point_of(q);
         h[2] = -h[2];
         const Quaternion back = Su2::inverse_frame(h);
         EXPECT_LT(distance(back, exp({std::numbers::pi, 0, 0}) * q), 1e-14);
@@ -129,7 +129,7 @@ TEST(Su2Inverse, PointsOffTheSurfaceAreRefusedWithTheResidual) {
     const Quaternions samples = random_rotations(100, 57);
     for (Eigen::Index i = 0; i < samples.rows(); ++i)
         for (int c = 0; c < 3; ++c) {
-            Complex3 h = point(row_quaternion(samples, i));
+            Complex3 h = point_of(row_quaternion(samples, i));
             // The direction in C^3 across the surface: orthogonal to both columns of the Jacobian.
             const Quaternion q = row_quaternion(samples, i);
             const Su2::Jacobian j = Su2::jacobian({q.w(), q.x()}, {q.y(), q.z()});
@@ -152,7 +152,7 @@ TEST(Su2Inverse, PointsOffTheSurfaceAreRefusedWithTheResidual) {
 }
 
 TEST(Su2Inverse, ToleranceMustBePositiveAndFinite) {
-    const Complex3 h = point(exp({0.3, -1.1, 0.7}));
+    const Complex3 h = point_of(exp({0.3, -1.1, 0.7}));
     for (const double bad : {std::nan(""), 0.0, -1e-6, std::numeric_limits<double>::infinity()}) try {
             Su2::inverse_frame(h, bad);
             ADD_FAILURE() << "accepted " << bad;
@@ -164,7 +164,7 @@ TEST(Su2Inverse, ToleranceMustBePositiveAndFinite) {
 
 // All three scaled alike, which is not how invariants scale.
 TEST(Su2Inverse, PointsScaledFarDownAreRefusedWithoutANaN) {
-    const Complex3 h = point(exp({0.3, -1.1, 0.7}));
+    const Complex3 h = point_of(exp({0.3, -1.1, 0.7}));
     for (int k = 1; k <= 307; ++k) try {
             Su2::inverse(std::pow(10.0, -k) * h);
             ADD_FAILURE() << "accepted at 1e-" << k;
@@ -181,7 +181,7 @@ TEST(Su2Inverse, ZeroNaNAndInfinityAreTypedErrors) {
     for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
         for (int c = 0; c < 3; ++c)
             for (const Complex& value : {Complex(bad, 0), Complex(0, bad)}) {
-                Complex3 h = point(exp({0.3, -1.1, 0.7}));
+                Complex3 h = point_of(exp({0.3, -1.1, 0.7}));
                 h[c] = value;
                 EXPECT_THROW(Su2::inverse(h), InvalidInput);
                 EXPECT_THROW(Su2::inverse_frame(h), InvalidInput);
@@ -195,7 +195,7 @@ TEST(Su2Inverse, SquaredNormAgreesWithTheThesis) {
     const Quaternions samples = random_rotations(200, 58);
     for (Eigen::Index i = 0; i < samples.rows(); ++i) {
         const Quaternion q = scaled(0.7 + 0.003 * static_cast<double>(i), row_quaternion(samples, i));
-        const Complex3 h = point(q);
+        const Complex3 h = point_of(q);
         for (const Quaternion& o : {Quaternion(1, 0, 0, 0), binary_octahedral_group()[16]}) {
             const Quaternion p = q * o;
             const Complex x = std::pow(Complex(p.w(), p.x()) * Complex(p.y(), p.z()), 2);

@@ -7,13 +7,10 @@
 #include <numbers>
 
 #include "representation_laws.hpp"
+#include "su2_points.hpp"
 
 namespace octafield::frames {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-
-Complex3 point(const Quaternion& q) { return Su2::complex(Su2::embed(q)); }
 
 using Distance = double (*)(const Quaternion&, const Quaternion&);
 

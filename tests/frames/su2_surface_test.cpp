@@ -13,10 +13,8 @@
 namespace octafield::frames {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
 // Random frames, and those with axes along x and on its diagonals, where roots of the cubic of Su2 vanish or meet.
-std::vector<Quaternion> samples() {
+std::vector<Quaternion> surface_samples() {
     const Quaternions random = random_rotations(400, 71);
     std::vector<Quaternion> list;
     for (Eigen::Index i = 0; i < random.rows(); ++i) list.push_back(row_quaternion(random, i));
@@ -29,7 +27,7 @@ Quaternion turned(const Quaternion& q, const Vector3& w) { return (exp(w) * q).n
 Su2::Vector nearest(const Su2::Vector& h) { return Su2::embed(Su2::inverse_frame(Su2::complex(h))); }
 
 TEST(Su2Surface, ItsEquationsHoldOnFramesAndNowhereBeside) {
-    for (const Quaternion& q : samples()) {
+    for (const Quaternion& q : surface_samples()) {
         const Su2::Vector h = Su2::embed(q);
         EXPECT_LT(su2_surface::residual(h).norm(), 1e-14);
         // Of a quaternion of norm 1 + e: F stays, P grows by 0.386 to 0.911 times 2 e.
@@ -45,13 +43,13 @@ TEST(Su2Surface, ItsEquationsHoldOnFramesAndNowhereBeside) {
 
 // Oracle: the derivative in (u, v), which the surface's own tangents do not use.
 TEST(Su2Surface, TangentsAreTheMotionsOfFrames) {
-    for (const Quaternion& q : samples())
+    for (const Quaternion& q : surface_samples())
         EXPECT_LT((su2_surface::point(Su2::embed(q)).turns - Su2::differential(q)).norm(), 2e-14);
 }
 
 TEST(Su2Surface, PointsBesideItAreRestoredByTheShortestWayToFirstOrder) {
     const Quaternions random = random_rotations(10, 72);
-    for (const Quaternion& q : samples()) {
+    for (const Quaternion& q : surface_samples()) {
         const auto at = su2_surface::point(Su2::embed(q));
         for (Eigen::Index k = 0; k < random.rows(); ++k) {
             Su2::Vector aside;
@@ -69,7 +67,7 @@ TEST(Su2Surface, PointsBesideItAreRestoredByTheShortestWayToFirstOrder) {
 
 TEST(Su2Surface, RetractionStaysOnItAndFollowsGeodesicsToSecondOrder) {
     double worst[2] = {0, 0};
-    const auto frames = samples();
+    const auto frames = surface_samples();
     for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
         const Su2::Vector h = Su2::embed(frames[i]);
         const Vector3 direction = (frames[i + 1].vec() + Vector3(0.01, 0, 0)).normalized();
@@ -94,7 +92,7 @@ TEST(Su2Surface, RetractionStaysOnItAndFollowsGeodesicsToSecondOrder) {
 
 // Oracle: the rotation that made the second frame.
 TEST(Su2Surface, LogIsTheRotationVectorOfTheShortestGeodesic) {
-    const auto frames = samples();
+    const auto frames = surface_samples();
     for (const double angle : {0.0, 1e-5, 1.0, 5.0, 12.0, 15.0, 20.0, 30.0, 39.0, 41.0, 60.0}) {
         int found = 0, asked = 0;
         for (std::size_t i = 0; i + 1 < frames.size(); i += angle > 12 ? 4 : 1) {

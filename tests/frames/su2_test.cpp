@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "representation_laws.hpp"
+#include "su2_points.hpp"
 
 namespace octafield::frames {
 
@@ -12,7 +13,6 @@ namespace {
 
 using std::numbers::pi;
 
-Complex3 point(const Quaternion& q) { return Su2::complex(Su2::embed(q)); }
 Vector3 unit_vector(std::mt19937_64& g) { return Vector3(normal01(g), normal01(g), normal01(g)).normalized(); }
 
 // Smallest angle between n and an axis of the frame.

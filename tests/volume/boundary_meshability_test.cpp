@@ -14,10 +14,9 @@ namespace {
 
 using frames::Quaternion;
 using frames::Vector3;
+using testing::degree;
 using testing::kuhn_grid;
 using testing::sample;
-
-constexpr double degree = std::numbers::pi / 180;
 
 BoundaryMeshability check_field(const TetMesh& mesh, const Quaternions& frames, double angle = 40 * degree) {
     const TetDomain domain(mesh);

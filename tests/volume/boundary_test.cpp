@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "../surface/mesh_fixtures.hpp"
+#include "alignment.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/octahedral_group.hpp"
-#include "alignment.hpp"
 #include "surface_constraints.hpp"
 #include "tet_fixtures.hpp"
 
@@ -20,8 +20,7 @@ using frames::Quaternion;
 using frames::Vector3;
 using surface::FeatureGraph;
 using surface::TriangleMesh;
-
-constexpr double degree = std::numbers::pi / 180;
+using testing::degree;
 
 // Boundary vertices are the tet mesh's vertices: enough where no tets are needed.
 BoundarySurface as_boundary(const TriangleMesh& mesh) {
@@ -37,7 +36,7 @@ Points everywhere(const BoundarySurface& boundary, const Vector3& direction) {
 
 Quaternion frame_at(const BoundaryConstraints& c, Index v) { return frames::from_wxyz(c.frames.row(v)); }
 
-struct Cube {
+struct CubeBoundary {
     TetMesh tets = testing::kuhn_cube(4);
     BoundarySurface boundary = boundary_surface(tets);
     FeatureGraph features = surface::detect_features(boundary.mesh);
@@ -51,7 +50,7 @@ struct Cube {
 };
 
 TEST(SectorNormals, OfACubeAreItsSidesNormals) {
-    const Cube cube;
+    const CubeBoundary cube;
     const SectorNormals normals = sector_normals(cube.domain);
     std::vector<int> count(cube.boundary.mesh.vertices.rows(), 0);
     for (std::size_t i = 0; i < normals.vertex.size(); ++i) {
@@ -74,10 +73,9 @@ TEST(SectorNormals, WithoutFeaturesThereIsOnePerVertex) {
 }
 
 TEST(BoundaryConstraints, OfACubeFixTheEdgesAndLeaveTheSidesTheirTwist) {
-    const Cube cube;
+    const CubeBoundary cube;
     const Points directions = everywhere(cube.boundary, {0.3, 0.5, 0.8});
-    const auto c =
-        boundary_constraints(cube.domain, directions);
+    const auto c = boundary_constraints(cube.domain, directions);
     EXPECT_TRUE(c.released_corners.empty());
     EXPECT_EQ(std::accumulate(c.on_boundary.begin(), c.on_boundary.end(), 0), cube.boundary.mesh.vertices.rows());
     for (Index b = 0; b < cube.boundary.mesh.vertices.rows(); ++b) {
@@ -115,7 +113,7 @@ TEST(BoundaryConstraints, FixedModeHoldsTheCrossFieldToo) {
 }
 
 TEST(BoundaryConstraints, ModeNoneConstrainsNothingButKeepsTheStart) {
-    const Cube cube;
+    const CubeBoundary cube;
     const Points directions = everywhere(cube.boundary, {0.3, 0.5, 0.8});
     const auto none = boundary_constraints(cube.domain, directions, {.mode = BoundaryMode::none});
     const auto aligned = boundary_constraints(cube.domain, directions);
@@ -230,7 +228,8 @@ TEST(BoundaryConstraints, AFrameOnACurveIsTheBestWeightedFitAboutItsTangent) {
         FeatureGraph features;
         features.edges.resize(2, 2);
         features.edges << 0, 3, 3, 6;
-        const auto c = constraints_on_surface(9, roof, features, everywhere(roof, {1, 0, 0}), {.feature_tolerance = 0.7});
+        const auto c =
+            constraints_on_surface(9, roof, features, everywhere(roof, {1, 0, 0}), {.feature_tolerance = 0.7});
         ASSERT_EQ(c.kind[3], VertexConstraint::fixed);
         const auto merit = [&](const Quaternion& q) {
             const SectorNormals normals = sector_normals_of(roof.mesh, features);
@@ -313,7 +312,7 @@ TEST(AlignmentAngles, AreExactForSmallAndLargeAngles) {
 }
 
 TEST(BoundaryConstraints, BadInputIsRefusedWithItsKind) {
-    const Cube cube;
+    const CubeBoundary cube;
     const Points directions = everywhere(cube.boundary, {1, 0, 0});
     const auto kind_of = [](const auto& call) -> std::string {
         try {

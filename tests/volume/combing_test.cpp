@@ -24,15 +24,8 @@ using frames::Vector3;
 using testing::jittered_cube;
 using testing::kuhn_cube;
 using testing::kuhn_grid;
+using testing::mixed_representatives;
 using testing::sample_in_tets;
-
-Quaternions mixed_representatives(Quaternions frames) {
-    for (Eigen::Index t = 0; t < frames.rows(); ++t)
-        frames.row(t) = frames::to_wxyz(frames::from_wxyz(frames::Vector4(frames.row(t).transpose())) *
-                                        frames::binary_octahedral_group()[(7 * t + 3) % 48])
-                            .transpose();
-    return frames;
-}
 
 Quaternions constant(const TetMesh& mesh) {
     return mixed_representatives(sample_in_tets(mesh, [](const Vector3&) { return frames::exp({0.3, 0.2, -0.4}); }));

@@ -13,7 +13,7 @@ using frames::Vector3;
 using testing::kuhn_cube;
 using testing::sample;
 
-struct Cube {
+struct CubeFeatures {
     TetMesh mesh = kuhn_cube(4);
     BoundarySurface boundary = boundary_surface(mesh);
     surface::FeatureGraph features = surface::detect_features(boundary.mesh);
@@ -24,7 +24,7 @@ struct Cube {
 };
 
 TEST(FeatureAlignment, TangentsRunAlongTheEdgesOfACube) {
-    const Cube cube;
+    const CubeFeatures cube;
     const FeatureTangents found = feature_tangents(cube.domain);
     EXPECT_EQ(found.vertex.size(), 12u * 3 + 8 * 3);  // 3 vertices inside each edge, 3 edges at each corner
     EXPECT_TRUE(std::is_sorted(found.vertex.begin(), found.vertex.end()));
@@ -33,7 +33,7 @@ TEST(FeatureAlignment, TangentsRunAlongTheEdgesOfACube) {
 }
 
 TEST(FeatureAlignment, IsTheAngleFromTheTangentToTheNearestAxis) {
-    const Cube cube;
+    const CubeFeatures cube;
     const FeatureTangents found = feature_tangents(cube.domain);
     for (const double angle : {0.0, 1e-9, 0.1, 0.7, 1.5}) {
         const Eigen::VectorXd angles = feature_alignment_angles(cube.domain, cube.turned(angle));
@@ -45,12 +45,12 @@ TEST(FeatureAlignment, IsTheAngleFromTheTangentToTheNearestAxis) {
 }
 
 TEST(FeatureAlignment, OfASmoothSurfaceThereIsNone) {
-    const Cube cube;
+    const CubeFeatures cube;
     EXPECT_EQ(feature_alignment_angles(cube.mesh, cube.turned(0.3)).size(), 0);
 }
 
 TEST(FeatureAlignment, BadInputIsRefused) {
-    const Cube cube;
+    const CubeFeatures cube;
     EXPECT_THROW(feature_alignment_angles(cube.domain, Quaternions::Zero(3, 4)), InvalidInput);
 }
 

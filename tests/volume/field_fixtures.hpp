@@ -10,6 +10,15 @@
 
 namespace octafield::volume::testing {
 
+// The same crosses by other ones of their 48 quaternions.
+inline Quaternions mixed_representatives(Quaternions frames) {
+    for (Eigen::Index v = 0; v < frames.rows(); ++v)
+        frames.row(v) = frames::to_wxyz(frames::from_wxyz(frames::Vector4(frames.row(v).transpose())) *
+                                        frames::binary_octahedral_group()[(5 * v + 1) % 48])
+                            .transpose();
+    return frames;
+}
+
 // Interior vertices displaced by up to `amount` grid steps: obtuse tets, negative cotangents.
 inline TetMesh jittered_cube(int n, double amount, std::uint64_t seed) {
     TetMesh mesh = kuhn_cube(n);

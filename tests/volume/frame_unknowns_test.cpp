@@ -17,10 +17,7 @@ namespace {
 using frames::Quaternion;
 using frames::Su2;
 using frames::Vector3;
-
-Quaternion row(const Quaternions& q, Eigen::Index v) {
-    return frames::from_wxyz(frames::Vector4(q.row(v).transpose()));
-}
+using testing::row;
 
 // All of Ceres' but the derivative of Minus off the surface, where Minus has no meaning.
 template <class Manifold>

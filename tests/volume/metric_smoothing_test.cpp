@@ -21,16 +21,12 @@ namespace {
 using frames::Quaternion;
 using frames::Vector3;
 using testing::constraints_on;
+using testing::degree;
 using testing::jittered_cube;
 using testing::kuhn_cube;
 using testing::largest_distance;
+using testing::row;
 using testing::smooth_field;
-
-constexpr double degree = std::numbers::pi / 180;
-
-Quaternion row(const Quaternions& q, Eigen::Index v) {
-    return frames::from_wxyz(frames::Vector4(q.row(v).transpose()));
-}
 
 Quaternions in_random_representatives(Quaternions field, std::uint64_t seed) {
     std::mt19937_64 generator(seed);
@@ -209,8 +205,7 @@ TEST_P(EveryDescendingMetric, NeverRaisesItsObjectiveAndHoldsConstraintsExactly)
         EXPECT_NEAR(result.energy, dirichlet_energy(mesh, result.frames), 1e-12 * result.energy);
         for (Eigen::Index v = 0; v < start.rows(); ++v) {
             if (constraints.kind[v] != VertexConstraint::axis) continue;
-            const Vector3 in_frame =
-                row(result.frames, v).conjugate() * Vector3(constraints.axis.row(v).transpose());
+            const Vector3 in_frame = row(result.frames, v).conjugate() * Vector3(constraints.axis.row(v).transpose());
             EXPECT_NEAR(in_frame.cwiseAbs().maxCoeff(), 1, 1e-13);
         }
     }
@@ -334,8 +329,7 @@ TEST(MetricSmoothing, SaysWhatItCannotDo) {
         smooth(mesh, constraints, field, options);
         FAIL();
     } catch (const InvalidInput& error) {
-        for (const Scheme& each : schemes())
-            EXPECT_NE(std::string(error.what()).find(each.name), std::string::npos);
+        for (const Scheme& each : schemes()) EXPECT_NE(std::string(error.what()).find(each.name), std::string::npos);
     }
 }
 

@@ -19,6 +19,7 @@ using frames::Quaternion;
 using frames::Vector3;
 using testing::constraints_on;
 using testing::jittered_cube;
+using testing::row;
 using testing::smooth_field;
 
 SmoothOptions with_lengths(SmoothSolver solver = SmoothSolver::levenberg_marquardt) {
@@ -28,10 +29,6 @@ SmoothOptions with_lengths(SmoothSolver solver = SmoothSolver::levenberg_marquar
     options.tolerance = 1e-12;
     options.max_iterations = 1000;
     return options;
-}
-
-Quaternion row(const Quaternions& q, Eigen::Index v) {
-    return frames::from_wxyz(frames::Vector4(q.row(v).transpose()));
 }
 
 Odeco::Vector tensor(const SmoothResult& result, Eigen::Index v) {

@@ -86,8 +86,7 @@ TEST(TetSampling, OfOneTetHasNoNeighboursAndSolversLeaveItAlone) {
     const TetMesh mesh{kuhn_cube(1).vertices, kuhn_cube(1).tets.topRows(1)};
     const Sampling sampling = tet_sampling(mesh);
     const BoundarySurface surface = boundary_surface(mesh);
-    const BoundaryConstraints c =
-        tet_boundary_constraints(mesh, tangents(surface), {.mode = BoundaryMode::none});
+    const BoundaryConstraints c = tet_boundary_constraints(mesh, tangents(surface), {.mode = BoundaryMode::none});
     const Quaternions start = frames::random_rotations(1, 3);
     EXPECT_EQ(dirichlet_energy(sampling, start), 0);
     EXPECT_LT(largest_distance(frame_field(sampling, c).smooth.frames, initial_frames(sampling, c)), 1e-7);
@@ -224,9 +223,7 @@ TEST(TetBoundary, FollowsTheModes) {
     const TetMesh mesh = kuhn_cube(3);
     const BoundarySurface surface = boundary_surface(mesh);
     const Points directions = tangents(surface);
-    const auto with = [&](BoundaryMode mode) {
-        return tet_boundary_constraints(mesh, directions, {.mode = mode});
-    };
+    const auto with = [&](BoundaryMode mode) { return tet_boundary_constraints(mesh, directions, {.mode = mode}); };
     const BoundaryConstraints fixed = with(BoundaryMode::fixed), none = with(BoundaryMode::none);
     EXPECT_EQ(fixed.frames, none.frames);
     for (Eigen::Index t = 0; t < mesh.tets.rows(); ++t) {
@@ -252,8 +249,7 @@ TEST(TetBoundary, ReleasesTetsWhoseNormalsFitNoFrameUntilTheyAreSplit) {
     const BoundaryConstraints c = tet_boundary_constraints(mesh, tangents(surface));
     EXPECT_FALSE(c.released_corners.empty());
     for (const Index t : c.released_corners) EXPECT_EQ(c.kind[t], VertexConstraint::free);
-    const BoundaryConstraints loose =
-        tet_boundary_constraints(mesh, tangents(surface), {.feature_tolerance = 0.5});
+    const BoundaryConstraints loose = tet_boundary_constraints(mesh, tangents(surface), {.feature_tolerance = 0.5});
     EXPECT_TRUE(loose.released_corners.empty());
 
     const TetMesh split = split_locking(mesh).mesh;

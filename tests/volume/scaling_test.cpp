@@ -22,15 +22,8 @@ using frames::Quaternion;
 using frames::Vector3;
 using testing::kuhn_cube;
 using testing::kuhn_grid;
+using testing::mixed_representatives;
 using testing::sample;
-
-Quaternions mixed_representatives(Quaternions frames) {
-    for (Eigen::Index v = 0; v < frames.rows(); ++v)
-        frames.row(v) = frames::to_wxyz(frames::from_wxyz(frames::Vector4(frames.row(v).transpose())) *
-                                        frames::binary_octahedral_group()[(5 * v + 1) % 48])
-                            .transpose();
-    return frames;
-}
 
 // A map with orthogonal gradients h_i n_i on the image of the unit cube.
 struct Known {

@@ -90,7 +90,8 @@ Quaternions turned(const std::array<double, 4>& degrees) {
 TEST(SingularTriangles, AreUndecidedWhereOneOfTheirEdgesHasTwoSmallestSteps) {
     // 45 degrees from the first to the second, 22.5 on to the third and 22.5 back: a quarter turn, or none.
     for (const double sign : {1.0, -1.0})
-        for (const std::array<int, 3> order : {std::array{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}})
+        for (const std::array<int, 3> order :
+             {std::array{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}})
             for (const double off : {0.0, 0.001}) {  // degrees
                 std::array<double, 4> degrees{};
                 degrees[order[0]] = 0, degrees[order[1]] = sign * (45 - off), degrees[order[2]] = sign * 67.5;
@@ -122,7 +123,8 @@ TEST(SingularTriangles, SignIsThatOfTheTurnAboutTheirPositiveNormal) {
 }
 
 TEST(SingularTriangles, AreTheSameHoweverVerticesAndTetsAreNumbered) {
-    // The sign goes by the geometry: about the curve from the base up, or down where vertices are numbered the other way.
+    // The sign goes by the geometry: about the curve from the base up, or down where vertices are numbered the other
+    // way.
     std::array<int, 4> order{0, 1, 2, 3};
     const TetMesh base = one_tet();
     const Quaternions frames = turned({0, 30, 60, 0});

@@ -99,7 +99,7 @@ Quaternions fan(const Vector3& axis, double step) {
     return frames;
 }
 
-TetMesh one_tet() {
+TetMesh tet_of_fan() {
     TetMesh mesh{Points(4, 3), Tets(1, 4)};
     mesh.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2, 0.2, 1;
     mesh.tets << 0, 1, 2, 3;
@@ -108,7 +108,7 @@ TetMesh one_tet() {
 
 TEST(Singularities, AThirdTurnRoundATriangleIsComplex) {
     // A third turn about (1,1,1) is a symmetry of the frame, so three steps of 40 degrees return to the first frame.
-    const SingularGraph graph = singular_graph(one_tet(), fan({1, 1, 1}, 2 * std::numbers::pi / 9));
+    const SingularGraph graph = singular_graph(tet_of_fan(), fan({1, 1, 1}, 2 * std::numbers::pi / 9));
     ASSERT_FALSE(graph.triangles.empty());
     EXPECT_EQ(graph.triangles[0].quarter_turns, 0);
     EXPECT_EQ(frames::octahedral_class(graph.triangles[0].holonomy), frames::OctahedralClass::third_turn);
@@ -118,7 +118,7 @@ TEST(Singularities, AThirdTurnRoundATriangleIsComplex) {
 
 TEST(Singularities, HolonomyIsTheTurnOfTheFrameCarriedRoundTheTriangle) {
     // Steps of 30 degrees about z: carried on they make a quarter turn about +z, in the frame of the lowest vertex.
-    const SingularGraph graph = singular_graph(one_tet(), fan({0, 0, 1}, std::numbers::pi / 6));
+    const SingularGraph graph = singular_graph(tet_of_fan(), fan({0, 0, 1}, std::numbers::pi / 6));
     ASSERT_EQ(graph.triangles.size(), 2u);
     EXPECT_EQ(graph.triangles[0].a, 0);
     EXPECT_EQ(graph.triangles[0].b, 1);
@@ -131,7 +131,7 @@ TEST(Singularities, HolonomyIsTheTurnOfTheFrameCarriedRoundTheTriangle) {
 TEST(Singularities, PointIsWhereTheInterpolatedFieldVanishesInItsTurningPart) {
     // About z the sh4 vector is a constant plus a unit circle in (a_-4, a_4); thirds of the circle balance at the
     // centroid.
-    const SingularGraph graph = singular_graph(one_tet(), fan({0, 0, 1}, std::numbers::pi / 6));
+    const SingularGraph graph = singular_graph(tet_of_fan(), fan({0, 0, 1}, std::numbers::pi / 6));
     EXPECT_LT((graph.triangles[0].point - Vector3(1.0 / 3, 1.0 / 3, 0)).norm(), 1e-12);
 }
 

@@ -4,11 +4,25 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "octafield/frames/quaternion.hpp"
 #include "octafield/volume/tet_mesh.hpp"
 
 namespace octafield::volume::testing {
+
+constexpr double degree = std::numbers::pi / 180;
+
+inline frames::Quaternion row(const Quaternions& q, Eigen::Index v) {
+    return frames::from_wxyz(frames::Vector4(q.row(v).transpose()));
+}
+
+// -1 where the tet has no such vertex.
+inline int corner_of(const TetMesh& mesh, Index tet, Index vertex) {
+    for (int k = 0; k < 4; ++k)
+        if (mesh.tets(tet, k) == vertex) return k;
+    return -1;
+}
 
 // Kuhn subdivision (six tets per cell round the diagonal) of the cells of a grid for which keep(i, j, k) holds.
 // Vertex (i, j, k) is at origin + h (i, j, k); vertices in no kept cell are left out.

@@ -59,7 +59,8 @@ TEST(TetMeshability, AnAlignedCubeHasOneHexahedronAtItsEdgesAndCornersAndAllIsMe
 }
 
 TEST(TetMeshability, ANotchHasThreeHexahedraAtItsReentrantEdges) {
-    const Judged part(kuhn_grid(4, 4, 2, 0.5, Vector3::Zero(), [](int i, int j, int) { return i < 2 || j < 2; }), constant);
+    const Judged part(kuhn_grid(4, 4, 2, 0.5, Vector3::Zero(), [](int i, int j, int) { return i < 2 || j < 2; }),
+                      constant);
     int reentrant = 0;
     for (const FeatureWedge& w : part.at_boundary.wedges) {
         EXPECT_EQ(w.hexahedra_a, w.angle > 3 ? 3 : 1);
@@ -90,9 +91,10 @@ class CurveThrough : public ::testing::TestWithParam<int> {};
 // A curve along z through a box: it ends on the top and the bottom, about their normals.
 TEST_P(CurveThrough, EndsOnTheSurfaceAboutItsNormal) {
     const int n = 7;
-    const Judged box(kuhn_grid(n, n, n, 1.0 / n, Vector3(-0.5 + 0.137 / n, -0.5 + 0.071 / n, -0.5)), [](const Vector3& x) {
-        return frames::exp({0, 0, GetParam() * std::atan2(x.y(), x.x()) / 4});
-    });
+    const Judged box(kuhn_grid(n, n, n, 1.0 / n, Vector3(-0.5 + 0.137 / n, -0.5 + 0.071 / n, -0.5)),
+                     [](const Vector3& x) {
+                         return frames::exp({0, 0, GetParam() * std::atan2(x.y(), x.x()) / 4});
+                     });
     ASSERT_EQ(box.singular.graph.curves.size(), 1u);
     ASSERT_EQ(box.found.vertices.size(), 2u);
     for (const SingularVertex& v : box.found.vertices) {
@@ -110,9 +112,10 @@ TEST_P(CurveThrough, EndsOnTheSurfaceAboutItsNormal) {
 // Tilted by more than 45 degrees, the axis of its turn is no longer the one on the normal.
 TEST_P(CurveThrough, IsNotMeshableWhereItTurnsAboutATangent) {
     const int n = 7;
-    const Judged box(kuhn_grid(n, n, n, 1.0 / n, Vector3(-0.5 + 0.137 / n, -0.5 + 0.071 / n, -0.5)), [](const Vector3& x) {
-        return frames::exp({1.0, 0, 0}) * frames::exp({0, 0, GetParam() * std::atan2(x.y(), x.x()) / 4});
-    });
+    const Judged box(
+        kuhn_grid(n, n, n, 1.0 / n, Vector3(-0.5 + 0.137 / n, -0.5 + 0.071 / n, -0.5)), [](const Vector3& x) {
+            return frames::exp({1.0, 0, 0}) * frames::exp({0, 0, GetParam() * std::atan2(x.y(), x.x()) / 4});
+        });
     EXPECT_EQ(box.found.boundary_ends, 2);
     EXPECT_EQ(box.found.boundary_ends_about_normal, 0);
     EXPECT_EQ(box.found.non_meshable_vertices, 2);

@@ -58,13 +58,15 @@ TEST_P(LineInTets, IsOneCurveOfEdgesWithTheIndexOfTheField) {
 
 TEST_P(LineInTets, HasTheHolonomyOfTheLoopRightHandedRoundTheEdge) {
     const TetMesh mesh = kuhn_grid(4, 4, 4, 0.25, Vector3(-0.5 + 0.03, -0.5 + 0.02, -0.5));
-    const SingularEdges found = singular_edges(mesh, sample_in_tets(mesh, [&](const Vector3& x) {
-                                                   return frames::exp({0, 0, GetParam() * std::atan2(x.y(), x.x()) / 4});
-                                               }));
+    const SingularEdges found =
+        singular_edges(mesh, sample_in_tets(mesh, [&](const Vector3& x) {
+                           return frames::exp({0, 0, GetParam() * std::atan2(x.y(), x.x()) / 4});
+                       }));
     ASSERT_FALSE(found.edges.empty());
     for (const SingularEdge& e : found.edges) {
         const double up = mesh.vertices(e.b, 2) - mesh.vertices(e.a, 2);
-        const Quaternion expected = frames::exp({0, 0, std::copysign(GetParam() * std::numbers::pi / 2, GetParam() * up)});
+        const Quaternion expected =
+            frames::exp({0, 0, std::copysign(GetParam() * std::numbers::pi / 2, GetParam() * up)});
         const Quaternion h = frames::octahedral_group()[e.holonomy];
         EXPECT_NEAR(std::abs(h.dot(expected)), 1, 1e-12);
     }
@@ -224,8 +226,8 @@ TEST(SingularEdges, AreUndecidedWhereAStepIsATie) {
     EXPECT_EQ(sure.undecided_edges, 0);
     // One tet's frame is turned to 45 degrees from a neighbour's: two matchings across their triangle are equally near.
     const Index tet = 5, beside = 8;
-    f.frames.row(beside) = frames::to_wxyz(frames::from_wxyz(f.frames.row(tet)) * frames::exp({0, 0, std::numbers::pi / 4}))
-                               .transpose();
+    f.frames.row(beside) =
+        frames::to_wxyz(frames::from_wxyz(f.frames.row(tet)) * frames::exp({0, 0, std::numbers::pi / 4})).transpose();
     const SingularEdges found = singular_edges(f.mesh, f.frames);
     EXPECT_GE(found.tied_triangles, 1);
     EXPECT_GE(found.undecided_edges, 1);
@@ -242,8 +244,9 @@ TEST(SingularEdges, OfRandomFieldsAreTheSameWhateverTheNamesAndOrdersOfVertices)
     const SingularEdges found = singular_edges(mesh, field);
     Quaternions renamed = field;
     for (Eigen::Index t = 0; t < renamed.rows(); ++t)
-        renamed.row(t) = frames::to_wxyz(frames::from_wxyz(field.row(t)) * frames::binary_octahedral_group()[(11 * t) % 48])
-                             .transpose();
+        renamed.row(t) =
+            frames::to_wxyz(frames::from_wxyz(field.row(t)) * frames::binary_octahedral_group()[(11 * t) % 48])
+                .transpose();
     TetMesh reversed = mesh;
     const Index last = static_cast<Index>(mesh.vertices.rows()) - 1;
     reversed.vertices = mesh.vertices.colwise().reverse();

@@ -13,7 +13,7 @@ namespace {
 using frames::Quaternion;
 using frames::Vector3;
 
-struct Cube {
+struct CubeConstraints {
     TetMesh mesh = testing::kuhn_cube(4);
     BoundarySurface boundary = boundary_surface(mesh);
     surface::FeatureGraph features = surface::detect_features(boundary.mesh);
@@ -37,7 +37,7 @@ std::string kind_of(const BoundaryConstraints& base, const VertexConstraints& gi
 }
 
 TEST(VertexConstraints, HoldInsideTheVolume) {
-    const Cube cube;
+    const CubeConstraints cube;
     const Index a = cube.at(0.5, 0.5, 0.5), b = cube.at(0.25, 0.5, 0.75);
     const Quaternion turned = frames::exp({0.2, -0.3, 0.1});
     const Vector3 axis = Vector3(1, 2, 3).normalized();
@@ -60,7 +60,7 @@ TEST(VertexConstraints, HoldInsideTheVolume) {
 }
 
 TEST(VertexConstraints, TakeThePlaceOfThoseOfTheBoundary) {
-    const Cube cube;
+    const CubeConstraints cube;
     BoundaryConstraints base = cube.base;
     const Index corner = cube.at(0, 0, 0), side = cube.at(0.5, 0.5, 0);
     base.kind[corner] = VertexConstraint::free;
@@ -78,7 +78,7 @@ TEST(VertexConstraints, TakeThePlaceOfThoseOfTheBoundary) {
 }
 
 TEST(VertexConstraints, BadOnesAreRefusedWithTheirKind) {
-    const Cube cube;
+    const CubeConstraints cube;
     const auto axis = VertexConstraint::axis, fixed = VertexConstraint::fixed, free = VertexConstraint::free;
     EXPECT_EQ(kind_of(cube.base, {{0, 1}, {free}, {}, {}}), "wrong_size");
     EXPECT_EQ(kind_of(cube.base, {{125}, {free}, {}, {}}), "index_out_of_range");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "kind_thrown.hpp"
 #include "mixed_grids.hpp"
 #include "not_joined.hpp"
 #include "octafield/error.hpp"
@@ -15,6 +16,7 @@ namespace octafield::volume {
 namespace {
 
 using testing::expect_sound;
+using testing::kind_thrown;
 using testing::kuhn_grid;
 
 LatticeCells no_cells() {
@@ -47,16 +49,6 @@ CellsOnSurface block_in_cube(int n, int low, int high) {
     for (std::size_t c = 0; c < all.size(); ++c)
         for (int k = 0; k < 8; ++k) cells.hexahedra(static_cast<Eigen::Index>(c), k) = all[c][k];
     return cells;
-}
-
-template <class Call>
-std::string kind_thrown(const Call& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.kind();
-    }
-    return "nothing";
 }
 
 void expect_fills(const MixedMesh& mesh, const CellsOnSurface& cells) {

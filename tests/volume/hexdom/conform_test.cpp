@@ -1,6 +1,7 @@
 // conform: pyramids where quads meet triangles.
 #include <gtest/gtest.h>
 
+#include "kind_thrown.hpp"
 #include "mixed_grids.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/recombination.hpp"
@@ -12,6 +13,7 @@ namespace {
 using testing::CubeGrid;
 using testing::expect_sound;
 using testing::Filled;
+using testing::kind_thrown;
 using testing::outside;
 using Vector = Eigen::Vector3d;
 
@@ -46,16 +48,6 @@ void orient(MixedMesh& mesh, Eigen::Index tet) {
         return mesh.vertices.row(mesh.tets(tet, k)) - mesh.vertices.row(mesh.tets(tet, 0));
     };
     if (p(1).cross(p(2)).dot(p(3)) < 0) std::swap(mesh.tets(tet, 2), mesh.tets(tet, 3));
-}
-
-template <class Call>
-std::string kind_thrown(const Call& call) {
-    try {
-        call();
-    } catch (const GeometryError& error) {
-        return error.kind();
-    }
-    return "nothing";
 }
 
 TEST(Conform, TwoTetsWithOneApexBecomeAPyramidAndNothingElseChanges) {
@@ -233,7 +225,7 @@ TEST(Conform, TetsBetweenTwoQuadsOfTheSameVerticesAreNamed) {
     mesh.tets.resize(4, 4);
     mesh.tets << 4, 5, 6, 12, 4, 5, 7, 12, 4, 6, 7, 12, 5, 6, 7, 12;
     for (Eigen::Index t = 0; t < 4; ++t) orient(mesh, t);
-    EXPECT_EQ(kind_thrown([&] { conform(mesh); }), "mismatched_face");
+    EXPECT_EQ(kind_thrown<GeometryError>([&] { conform(mesh); }), "mismatched_face");
 }
 
 TEST(Conform, AFlatTetOnTheBoundaryGoes) {
@@ -292,17 +284,17 @@ TEST(Conform, DefectsAreNamed) {
     }
     half.tets = mesh.tets(rows, Eigen::all);
     ASSERT_LT(half.tets.rows(), mesh.tets.rows());
-    EXPECT_EQ(kind_thrown([&] { conform(half); }), "mismatched_face");
+    EXPECT_EQ(kind_thrown<GeometryError>([&] { conform(half); }), "mismatched_face");
     MixedMesh bad = mesh;
     bad.tets(0, 0) = 1000;
-    EXPECT_EQ(kind_thrown([&] { conform(bad); }), "index_out_of_range");
+    EXPECT_EQ(kind_thrown<GeometryError>([&] { conform(bad); }), "index_out_of_range");
     bad = mesh;
     bad.vertices(3, 1) = std::nan("");
-    EXPECT_EQ(kind_thrown([&] { conform(bad); }), "non_finite_vertex");
+    EXPECT_EQ(kind_thrown<GeometryError>([&] { conform(bad); }), "non_finite_vertex");
     bad = mesh;
     std::swap(bad.tets(0, 0), bad.tets(0, 1));
-    EXPECT_EQ(kind_thrown([&] { conform(bad); }), "inverted_cell");
-    EXPECT_EQ(kind_thrown([&] { conform(MixedMesh{}); }), "empty");
+    EXPECT_EQ(kind_thrown<GeometryError>([&] { conform(bad); }), "inverted_cell");
+    EXPECT_EQ(kind_thrown<GeometryError>([&] { conform(MixedMesh{}); }), "empty");
 }
 
 }  // namespace

@@ -25,18 +25,14 @@
 namespace octafield::volume {
 namespace {
 
+using testing::ball;
+using testing::constant;
 using Vector3 = Eigen::Vector3d;
 
 LatticeCells points_of(const TetDomain& domain, const Quaternions& frames, double length, int threads = 0) {
     TetAxes axes{tet_frames(domain, frames), Points::Constant(domain.tet_count(), 3, length)};
     return frontal_points(domain, frames, axes, threads, {});
 }
-
-Quaternions constant(const TetDomain& domain, const frames::Quaternion& q = frames::Quaternion::Identity()) {
-    return testing::sample(domain.mesh(), [&](const Vector3&) { return q; });
-}
-
-TetDomain ball() { return TetDomain(tetrahedralize(surface::testing::icosphere(2))); }
 
 Index zeros(const LatticeCells& cells, Index point) {
     return static_cast<Index>((cells.weights.row(point).array() == 0).count());

@@ -20,11 +20,9 @@
 namespace octafield::volume {
 namespace {
 
+using testing::ball;
+using testing::constant;
 using Vector3 = Eigen::Vector3d;
-
-Quaternions constant(const TetDomain& domain, const frames::Quaternion& q = frames::Quaternion::Identity()) {
-    return testing::sample(domain.mesh(), [&](const Vector3&) { return q; });
-}
 
 HexDominantOptions with_length(double length) {
     HexDominantOptions options;
@@ -113,8 +111,6 @@ TEST(HexDominant, RegionsAreKeptAndTheirInterfaceIsExactlyAPlane) {
         EXPECT_NEAR(volumes[5], 0.75, 1e-12);
     }
 }
-
-TetDomain ball() { return TetDomain(tetrahedralize(surface::testing::icosphere(2))); }
 
 bool same(const HexDominantMesh& x, const HexDominantMesh& y) {
     return x.mesh.vertices == y.mesh.vertices && x.mesh.tets == y.mesh.tets && x.mesh.hexahedra == y.mesh.hexahedra &&

@@ -4,12 +4,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "../../surface/mesh_fixtures.hpp"
 #include "field_fixtures.hpp"
 #include "octafield/surface/features.hpp"
 #include "octafield/volume/periodic_map.hpp"
 #include "octafield/volume/tet_domain.hpp"
+#include "octafield/volume/tetrahedralize.hpp"
 
 namespace octafield::volume::testing {
+
+inline Quaternions constant(const TetDomain& domain, const frames::Quaternion& q = frames::Quaternion::Identity()) {
+    return testing::sample(domain.mesh(), [&](const Vector3&) { return q; });
+}
+
+inline TetDomain ball() { return TetDomain(tetrahedralize(surface::testing::icosphere(2))); }
 
 // The features of the outer surface; those of interfaces are none.
 inline TetDomain with_detected_features(const TetMesh& mesh, std::vector<Index> regions = {}) {

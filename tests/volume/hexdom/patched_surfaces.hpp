@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -251,6 +252,14 @@ inline std::vector<Map> cylinder_maps() {
             return Eigen::Vector3d(s * (2 * w - 1), s * (2 * v - 1), z);
         });
     return maps;
+}
+
+// All triangles in one.
+inline std::vector<Index> one_group(const Patched& p) { return std::vector<Index>(p.groups.size(), 0); }
+
+// Quads of the lattice that the surface has.
+inline int found(const PointSurface& s) {
+    return static_cast<int>(std::count(s.quad_found.begin(), s.quad_found.end(), 1));
 }
 
 }  // namespace octafield::volume::testing

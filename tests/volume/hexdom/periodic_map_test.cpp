@@ -13,17 +13,12 @@
 namespace octafield::volume {
 namespace {
 
+using testing::corner_of;
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 using frames::Quaternion;
 
 Points equal_lengths(const TetDomain& domain, double length) { return Points::Constant(domain.tet_count(), 3, length); }
-
-int corner_of(const TetMesh& mesh, Index tet, Index vertex) {
-    for (int k = 0; k < 4; ++k)
-        if (mesh.tets(tet, k) == vertex) return k;
-    return -1;
-}
 
 Vector3 coordinate(const PeriodicMap& map, Index tet, int corner) {
     return Vector3(map.coordinates(tet, 3 * corner), map.coordinates(tet, 3 * corner + 1),

@@ -14,6 +14,7 @@
 namespace octafield::volume {
 namespace {
 
+using testing::corner_of;
 using Complex = std::complex<double>;
 using Coupling = PhaseSystem::Coupling;
 
@@ -144,12 +145,6 @@ struct Turning {
         faces = face_matchings(domain, frames);
     }
 };
-
-int corner_of(const TetMesh& mesh, Index tet, Index vertex) {
-    for (int k = 0; k < 4; ++k)
-        if (mesh.tets(tet, k) == vertex) return k;
-    return -1;
-}
 
 // The axes of the tets of a fan, carried to its first, are where geometry has them: within 45 degrees.
 TEST(EdgeFans, CarryAxesToThoseThatPointTheSameWay) {

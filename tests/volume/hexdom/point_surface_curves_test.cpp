@@ -6,13 +6,11 @@
 namespace octafield::volume {
 namespace {
 
+using testing::found;
+using testing::one_group;
 using namespace testing;
 
-std::vector<Index> one_group(const Patched& p) { return std::vector<Index>(p.groups.size(), 0); }
-
 surface::FeatureGraph box_features(const Patched& p) { return surface::detect_features(p.mesh); }
-
-int found(const PointSurface& s) { return static_cast<int>(std::count(s.quad_found.begin(), s.quad_found.end(), 1)); }
 
 void keep_points(Patched& p, const std::function<bool(const Eigen::Vector3d&)>& wanted) {
     std::vector<Index> kept, triangle;

@@ -9,9 +9,8 @@
 namespace octafield::volume {
 namespace {
 
+using testing::one_group;
 using namespace testing;
-
-std::vector<Index> one_group(const Patched& p) { return std::vector<Index>(p.groups.size(), 0); }
 
 Patched without_points(const std::vector<Map>& maps, int cells) {
     Patched p = patched_surface(maps, {cells, 1});

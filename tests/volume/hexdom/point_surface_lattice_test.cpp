@@ -6,9 +6,9 @@
 namespace octafield::volume {
 namespace {
 
+using testing::found;
+using testing::one_group;
 using namespace testing;
-
-std::vector<Index> one_group(const Patched& p) { return std::vector<Index>(p.groups.size(), 0); }
 
 std::set<std::set<Index>> triangle_sets(const surface::TriangleMesh& mesh) {
     std::set<std::set<Index>> sets;
@@ -24,8 +24,6 @@ int quads_of_two_triangles(const surface::TriangleMesh& mesh, const Quads& quads
                  (sets.count({q[1], q[2], q[3]}) && sets.count({q[1], q[3], q[0]}));
     return count;
 }
-
-int found(const PointSurface& s) { return static_cast<int>(std::count(s.quad_found.begin(), s.quad_found.end(), 1)); }
 
 struct Shape {
     const char* name;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "delaunay_mesh.hpp"
+#include "kind_thrown.hpp"
 #include "mixed_grids.hpp"
 #include "octafield/error.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 using testing::CubeGrid;
 using testing::expect_sound;
 using testing::Filled;
+using testing::kind_thrown;
 using Vector = Eigen::Vector3d;
 
 MixedMesh kuhn(int n, double jitter, unsigned seed) {
@@ -282,16 +284,6 @@ TEST(Recombine, ThreadsChangeNothing) {
     EXPECT_EQ(one.hexahedra, four.hexahedra);
     EXPECT_EQ(one.wedges, four.wedges);
     EXPECT_EQ(one.tets, four.tets);
-}
-
-template <class Thrown, class Call>
-std::string kind_thrown(const Call& call) {
-    try {
-        call();
-    } catch (const Thrown& error) {
-        return error.kind();
-    }
-    return "nothing";
 }
 
 TEST(Recombine, DefectsAreNamed) {
