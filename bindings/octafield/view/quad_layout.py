@@ -13,7 +13,7 @@ from . import scene
 from .datasets import polylines, quad_grid, read_vtp
 
 # Pale, so that edges and points stand out; neighbours never have the same.
-_COLOURS = ("#b9d7ea", "#f6d7a7", "#c8e3c0", "#e9c6d8", "#d6cdea", "#f3efb1", "#cfd6dc", "#f0c4b4")
+COLOURS = ("#b9d7ea", "#f6d7a7", "#c8e3c0", "#e9c6d8", "#d6cdea", "#f3efb1", "#cfd6dc", "#f0c4b4")
 
 _EDGES = "#56616d"
 
@@ -63,8 +63,8 @@ def _drawn(grid: pyvista.UnstructuredGrid, sides: pyvista.PolyData | None) -> py
     size = scene.diagonal(points)
     blocks = np.asarray(grid.cell_data["block"])
     width = 1.5 if len(quads) < 3000 else 0.8
-    colours = _colours_of(quads, blocks)[blocks]
-    for number, colour in enumerate(_COLOURS):
+    colours = colours_of(quads, blocks)[blocks]
+    for number, colour in enumerate(COLOURS):
         if (colours == number).any():
             part = pyvista.PolyData.from_regular_faces(points, quads[colours == number])
             shape.add_mesh(
@@ -116,7 +116,7 @@ def _between_blocks(points: np.ndarray, quads: np.ndarray, blocks: np.ndarray) -
     return scene.segments(points[kept[:, 0]], points[kept[:, 1]])
 
 
-def _colours_of(quads: np.ndarray, blocks: np.ndarray) -> np.ndarray:
+def colours_of(quads: np.ndarray, blocks: np.ndarray) -> np.ndarray:
     """By block: the first colour that no neighbour before it has, or the one that fewest have."""
     beside: list[set[int]] = [set() for _ in range(int(blocks.max(initial=-1)) + 1)]
     for a, b in np.unique(_neighbours(quads, blocks)[1], axis=0).tolist():
@@ -125,7 +125,7 @@ def _colours_of(quads: np.ndarray, blocks: np.ndarray) -> np.ndarray:
             beside[b].add(a)
     colours = np.full(len(beside), -1)
     for block, others in enumerate(beside):
-        used = np.bincount([colours[o] for o in others if colours[o] >= 0], minlength=len(_COLOURS))
+        used = np.bincount([colours[o] for o in others if colours[o] >= 0], minlength=len(COLOURS))
         colours[block] = int(used.argmin())
     return colours
 
