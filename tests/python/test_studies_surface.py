@@ -251,16 +251,19 @@ def test_the_study_of_reliability_tells_right_sums_and_refused_files(tmp_path):
 
 def test_non_orthogonal_crosses_have_the_points_of_the_thesis(tmp_path):
     run("surface_non_orthogonal.py", tmp_path, "--edge", "0.08")
-    found = {}
+    found, corners = {}, {}
     for row in rows(tmp_path, 0):
         assert row["sum is chi"] == "yes"
         if row["method, second line"] == "angles, fixed":
-            found[row["domain"]] = row["points inside"]
+            found[row["domain"]], corners[row["domain"]] = row["points inside"], row["corners"]
     for degrees in (50, 46, 44, 40, 30, 20):
         assert found[f"right trapezoid, {degrees} degrees"] == ("none" if degrees > 45 else "1 of t = +1")
     assert found["diamond, 60 degrees"] == found["diamond, 28.65 degrees, one quad at every corner"] == "none"
     assert found["diamond, 28.65 degrees, quads by angle"] == "2 of t = +1"
     assert found["disk"] == "4 of t = +1"
+    assert (corners["shuriken"], found["shuriken"]) == ("15 of t = +1", "11 of t = -1")
+    assert corners["NACA 2412 in a square"] == "1 of t = -2, 4 of t = +1"
+    assert found["NACA 2412 in a square"] == "2 of t = -1"
     for name in ("trapezoids", "diamond", "disk", "shuriken", "aerofoil"):
         assert is_picture(tmp_path / f"non_orthogonal_{name}.png")
 
