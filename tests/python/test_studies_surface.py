@@ -295,3 +295,17 @@ def test_the_cost_of_non_orthogonal_fields_has_a_row_per_edge_length(tmp_path):
     (coarse, fine) = ([word.strip() for word in line] for line in lines)
     assert (coarse[0], fine[0]) == ("0.2", "0.1") and 2.5 * int(coarse[1]) < int(fine[1]) < 5 * int(coarse[1])
     assert coarse[3] == coarse[5] == "" and all(float(fine[k]) >= 0 for k in (2, 4))
+
+
+def test_gmsh_quads_are_judged_beside_ours(tmp_path):
+    pytest.importorskip("gmsh")
+    command = [sys.executable, "-m", "studies.quad_layouts", "-o", tmp_path, "--gmsh", "--only", "s01u"]
+    if not (STUDIES.parents[1] / "shared" / "data" / "hexme").is_dir():
+        pytest.skip("no data")
+    subprocess.run([*command, "--quads", "300"], cwd=STUDIES.parent, check=True)
+    lines = [line.split("|")[1:-1] for line in (tmp_path / "gmsh.md").read_text().splitlines()[2:]]
+    gmsh, ours = ([word.strip() for word in line] for line in lines)
+    assert (gmsh[1], ours[1]) == ("Gmsh, CAD", "octafield") and gmsh[-1] == ours[-1] == ""
+    assert abs(int(gmsh[2]) - 300) < 90 and abs(int(ours[2]) - int(gmsh[2])) < 60
+    for row in (gmsh, ours):  # a cube in squares, however it is turned
+        assert row[3:7] == ["0"] * 4 and row[7] == "1.00" and float(row[9]) == 0
