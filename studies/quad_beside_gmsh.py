@@ -4,8 +4,9 @@ surfaces of HexMe, one process each. Part of studies.quad_layouts, which makes t
     python -m studies.quad_beside_gmsh gmsh FILE QUADS JSON
     python -m studies.quad_beside_gmsh octafield FILE QUADS JSON
 
-Gmsh gets the CAD model where that is a box, cylinder, torus or sphere, made anew by Open CASCADE with the size of the
-file; of the others the boundary of the file's tets, classified into patches (creases of 40 degrees). Its edge length
+Gmsh gets the CAD model where the file is one, or where it is a box, cylinder, torus or sphere, made anew by Open
+CASCADE with the size of the file; of the others the boundary of the file's tets, classified into patches (creases of
+40 degrees). Its edge length
 is tried until the number of quads is within 10 % of the one wanted, CPU seconds are those of the last try; octafield
 then gets that number. Both meshes are judged here, against the boundary in the file.
 """
@@ -27,7 +28,7 @@ from .hex_dominant.gmsh_beside import SHAPES, boundary, set_geometry
 from .hex_dominant.rows import markdown_table, run_words
 
 FILES = (
-    "s01u", "s15u", "s16u", "s17u", "s05u",
+    "s01u", "s15u", "s16u", "s17u", "holder.stp", "s02u", "s04u", "s09u", "s14u", "s05u",
     "i01c", "i02c", "i03c", "i04c", "i05c", "i06c", "i07c", "i09c", "i10c", "i11c", "i12c", "i16c",
 )  # fmt: skip
 LIMIT = 120.0  # seconds of CPU time
@@ -47,7 +48,7 @@ HEADER = (
 
 def figures(points: np.ndarray, quads: np.ndarray, triangles: np.ndarray, path: Path) -> dict:
     meshed = prepare_mesh(path, octafield.SurfaceFieldOptions(remesh=False), volume=False)
-    given = octafield.TriangleMesh(*boundary(path))
+    given = octafield.TriangleMesh(*surface_of(path))
     jacobians = np.asarray(octafield.surface.scaled_jacobians(octafield.surface.QuadMesh(points, quads=quads)))
     edges = [np.sort(cells[:, [k, (k + 1) % n]], axis=1) for cells, n in ((quads, 4), (triangles, 3)) for k in range(n)]
     count = np.unique(np.concatenate(edges), axis=0, return_counts=True)[1]
@@ -63,6 +64,14 @@ def figures(points: np.ndarray, quads: np.ndarray, triangles: np.ndarray, path: 
         "mean": float(jacobians.mean()),
         "deviation": surface_deviation(points, triangles.astype(np.int32), quads.astype(np.int32), given)[0],
     }
+
+
+def surface_of(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Of CAD models as octafield reads them: edges of 36 to a turn."""
+    if path.suffix != ".stp":
+        return boundary(path)
+    mesh = prepare_mesh(path, octafield.SurfaceFieldOptions(remesh=False), volume=False).surface
+    return np.asarray(mesh.vertices), np.asarray(mesh.triangles)
 
 
 def near_features(points: np.ndarray, vertices: np.ndarray, edges: np.ndarray) -> np.ndarray:
@@ -88,7 +97,7 @@ def own(path: Path, quads: int) -> dict:
 
 
 def other(path: Path, quads: int) -> dict:
-    points, triangles = boundary(path)
+    points, triangles = surface_of(path)
     area = np.linalg.norm(np.cross(*(points[triangles[:, k]] - points[triangles[:, 0]] for k in (1, 2))), axis=1).sum()
     edge, best = COARSER * np.sqrt(area / 2 / quads), None
     for _ in range(TRIES):
@@ -111,7 +120,11 @@ def quadqs(path: Path, edge: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]
 
     gmsh.initialize(["-nt", "2", "-v", "1"])
     try:
-        set_geometry(path)
+        if path.suffix == ".stp":
+            gmsh.model.occ.importShapes(str(path))
+            gmsh.model.occ.synchronize()
+        else:
+            set_geometry(path)
         for name, value in {"Algorithm": 11, "MeshSizeMin": edge, "MeshSizeMax": edge}.items():
             gmsh.option.setNumber(f"Mesh.{name}", value)
         gmsh.model.mesh.generate(2)
@@ -152,7 +165,8 @@ def work(data: Path, output: Path, only: list[str], quads: int) -> None:
     for name in FILES:
         if name in {row["file"] for row in rows} or (only and name not in only):
             continue
-        file, number = str(data / "hexme" / f"{name}.vtk.gz"), quads
+        at = data / "wild" / name if name.endswith(".stp") else data / "hexme" / f"{name}.vtk.gz"
+        file, number = str(at), quads
         for by in ("gmsh", "octafield"):
             row = {"file": name, "by": by} | run_words(["studies.quad_beside_gmsh", by, file, str(number)], LIMIT)
             number = row.get("quads", number)
@@ -165,7 +179,11 @@ def work(data: Path, output: Path, only: list[str], quads: int) -> None:
 
 
 def cells_of(row: dict) -> list[str]:
-    by = row["by"] if row["by"] == "octafield" else "Gmsh, " + ("CAD" if row["file"] in SHAPES else "triangles")
+    by = (
+        row["by"]
+        if row["by"] == "octafield"
+        else "Gmsh, " + ("CAD" if row["file"] in SHAPES or row["file"].endswith(".stp") else "triangles")
+    )
     if "error" in row:
         return [row["file"], by, *[""] * (len(HEADER) - 3), row["error"]]
     counts = [f"{row[name]:,}" for name in ("quads", "others", "irregular", "open", "inverted")]
