@@ -2,10 +2,12 @@
 
     python -m studies.quad_layouts -o DIR [--only s05u,i02c] [--data ../shared/data] [--quads 2000]
     python -m studies.quad_layouts -o DIR --cost 5,6,7
+    python -m studies.quad_layouts -o DIR --gmsh [--only s16u,i01c]
 
 The first takes the boundary and the feature edges of every file and the singular points of a computed cross field;
 each in a process of its own that is stopped at 120 s of CPU time. DIR gets rows.jsonl, hexme.md and when.md. The second
-puts the eight points of the cube on spheres of 20 * 4^n triangles: cost.md. Figures are those of the records.
+puts the eight points of the cube on spheres of 20 * 4^n triangles: cost.md. Figures are those of the records. The third
+has Gmsh's quasi-structured quads beside ours, on the files that it may take: gmsh.md (studies/quad_beside_gmsh.py).
 """
 
 import argparse
@@ -16,6 +18,7 @@ from pathlib import Path
 
 import octafield
 
+from . import quad_beside_gmsh
 from .benchmarks.pages import when
 from .hex_dominant.rows import markdown_table, run_words
 
@@ -112,13 +115,18 @@ def main() -> None:
     parser.add_argument("--only", default="", help="names with commas")
     parser.add_argument("--quads", type=int, default=0, help="0: 2,000; of spheres 10,000")
     parser.add_argument("--cost", help="times that the triangles of an icosahedron are cut into four")
+    parser.add_argument("--gmsh", action="store_true", help="Gmsh's quads beside them (gmsh of requirements-test.txt)")
     given = parser.parse_args()
     given.output.mkdir(parents=True, exist_ok=True)
     if given.cost:
         text = cost([int(word) for word in given.cost.split(",")], given.quads or 10_000)
         (given.output / "cost.md").write_text(text + "\n" + when())
         return
-    hexme(given.data, given.output, [word for word in given.only.split(",") if word], given.quads or 2_000)
+    only = [word for word in given.only.split(",") if word]
+    if given.gmsh:
+        quad_beside_gmsh.work(given.data, given.output, only, given.quads or 2_000)
+        return
+    hexme(given.data, given.output, only, given.quads or 2_000)
 
 
 if __name__ == "__main__":

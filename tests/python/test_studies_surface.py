@@ -251,16 +251,19 @@ def test_the_study_of_reliability_tells_right_sums_and_refused_files(tmp_path):
 
 def test_non_orthogonal_crosses_have_the_points_of_the_thesis(tmp_path):
     run("surface_non_orthogonal.py", tmp_path, "--edge", "0.08")
-    found = {}
+    found, corners = {}, {}
     for row in rows(tmp_path, 0):
         assert row["sum is chi"] == "yes"
         if row["method, second line"] == "angles, fixed":
-            found[row["domain"]] = row["points inside"]
+            found[row["domain"]], corners[row["domain"]] = row["points inside"], row["corners"]
     for degrees in (50, 46, 44, 40, 30, 20):
         assert found[f"right trapezoid, {degrees} degrees"] == ("none" if degrees > 45 else "1 of t = +1")
     assert found["diamond, 60 degrees"] == found["diamond, 28.65 degrees, one quad at every corner"] == "none"
     assert found["diamond, 28.65 degrees, quads by angle"] == "2 of t = +1"
     assert found["disk"] == "4 of t = +1"
+    assert (corners["shuriken"], found["shuriken"]) == ("15 of t = +1", "11 of t = -1")
+    assert corners["NACA 2412 in a square"] == "1 of t = -2, 4 of t = +1"
+    assert found["NACA 2412 in a square"] == "2 of t = -1"
     for name in ("trapezoids", "diamond", "disk", "shuriken", "aerofoil"):
         assert is_picture(tmp_path / f"non_orthogonal_{name}.png")
 
@@ -306,3 +309,17 @@ def test_quads_of_wedges_are_as_good_as_their_corners_with_free_axes(tmp_path):
     assert [line[4].strip() for line in lines[2:]] == ["none", "2"]
     for name in ("wedges", "prisms"):
         assert is_picture(tmp_path / f"non_orthogonal_{name}.png")
+
+
+def test_gmsh_quads_are_judged_beside_ours(tmp_path):
+    pytest.importorskip("gmsh")
+    command = [sys.executable, "-m", "studies.quad_layouts", "-o", tmp_path, "--gmsh", "--only", "s01u"]
+    if not (STUDIES.parents[1] / "shared" / "data" / "hexme").is_dir():
+        pytest.skip("no data")
+    subprocess.run([*command, "--quads", "300"], cwd=STUDIES.parent, check=True)
+    lines = [line.split("|")[1:-1] for line in (tmp_path / "gmsh.md").read_text().splitlines()[2:]]
+    gmsh, ours = ([word.strip() for word in line] for line in lines)
+    assert (gmsh[1], ours[1]) == ("Gmsh, CAD", "octafield") and gmsh[-1] == ours[-1] == ""
+    assert abs(int(gmsh[2]) - 300) < 90 and abs(int(ours[2]) - int(gmsh[2])) < 60
+    for row in (gmsh, ours):  # a cube in squares, however it is turned
+        assert row[3:7] == ["0"] * 4 and row[7] == "1.00" and float(row[9]) == 0

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..errors import InvalidInput
 from ..files.process import run_supervised
+from ..layout.options import INADMISSIBLE
 from ..options import FieldOptions, SurfaceFieldOptions
 from . import compare as compare_cli
 from . import console, tables
@@ -17,10 +19,12 @@ from . import hexdom as hexdom_cli
 from . import inspect as cli_inspect
 from . import layout as layout_cli
 from .console import carry_out, log
-from .options import InputFile, Json, Output, Quiet, Verbose, with_options
+from .options import InputFile, Json, Output, Quiet, Verbose, choices, with_options
+from .shell_completion import words
 from .study import app as studies
 
 if TYPE_CHECKING:
+    from ..fields.direction_field import SurfaceFieldResult
     from ..records.field import FieldRecord
     from ..records.surface_field import SurfaceFieldRecord
 
@@ -98,6 +102,34 @@ def surface_field(
     input: InputFile,
     output: Output,
     options: Callable[[], SurfaceFieldOptions],
+    imposed: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help=(
+                "The cross field that has just these singular points, .json or .csv: position (or vertex of INPUT) and"
+                " index, in turns, or valence of each. Options of fields that are computed are refused."
+            ),
+        ),
+    ] = None,
+    corners: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="With --imposed: corners with other numbers of quads than by angle, .json or .csv: vertex and quads.",
+        ),
+    ] = None,
+    inadmissible: Annotated[
+        str,
+        typer.Option(
+            metavar=choices(INADMISSIBLE[1:]),
+            autocompletion=words(INADMISSIBLE[1:]),
+            help=(
+                "With --imposed: where no field has the points in these places, refuse them, move them, or rotate the"
+                " field."
+            ),
+        ),
+    ] = INADMISSIBLE[1],
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -106,14 +138,26 @@ def surface_field(
     separatrices, result.json."""
 
     def work() -> None:
-        from ..fields.direction_field import compute_surface_field
         from ..files.writing import staged_folder
         from ..records.record_file import RECORD_FILE
         from ..runs.run_folder import write_surface_result
 
         chosen = options()
+        if imposed is None and (corners is not None or inadmissible != INADMISSIBLE[1]):
+            raise InvalidInput("corners and inadmissible belong to points that are imposed: add --imposed FILE",
+                               "ignored_options")  # fmt: skip
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
-            result = compute_surface_field(input, chosen, progress)
+            result: "SurfaceFieldResult"
+            if imposed is None:
+                from ..fields.direction_field import compute_surface_field
+
+                result = compute_surface_field(input, chosen, progress)
+            else:
+                from ..layout.imposed import compute_imposed_field
+
+                result = compute_imposed_field(
+                    input, chosen, progress, singularities=imposed, corners=corners, inadmissible=inadmissible
+                )
             write_surface_result(result, folder, progress)
         _finish(result.record, json, quiet, output)
 

@@ -21,6 +21,7 @@ _WITHOUT = ("edge_length", "symmetry", "boundary_alignment", "interfaces", "spli
 
 def register(app: typer.Typer) -> None:
     app.command("quad-layout")(quad_layout)
+    app.command("report")(report)
 
 
 @with_options(SurfaceFieldOptions, without=_WITHOUT)
@@ -143,5 +144,25 @@ def quad_layout(
         if json != "-" and not quiet:
             tables.show_layout_record(result.record)
         log.info("wrote %s", output)
+
+    carry_out(work, quiet, verbose, json)
+
+
+def report(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that `quad-layout` wrote.")],
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """A page about a quad layout: its blocks and quads drawn, its record as tables. DIR gets
+    report.html, figures/, tables/. Reports of studies: octafield study report."""
+
+    def work() -> None:
+        from ..report.quad_layout import write_layout_report
+
+        page = write_layout_report(folder)
+        if json:
+            console.put_json(json, {"folder": str(folder), "report": str(page)})
+        log.info("wrote %s", page)
 
     carry_out(work, quiet, verbose, json)

@@ -59,6 +59,11 @@ class SurfaceFieldResult(ShownInNotebooks):
             f"{len(self.singularities.points):,} singular points, index sum {self.singularities.index_sum:g})"
         )
 
+    @property
+    def vertex_data(self) -> dict[str, np.ndarray]:
+        """What is known at the vertices beside the directions."""
+        return {}
+
     def _facts(self) -> Facts:
         """For notebooks."""
         return facts_of_record(self.record, _SHOWN)

@@ -133,6 +133,8 @@ def _csv(text: str, name: str) -> list[dict[str, Any]]:
 def _list_in(content: Any, what: str, name: str, remedy: str) -> Any:
     if not isinstance(content, dict):
         return content
+    if what == "points" and isinstance(content.get("imposed"), dict):
+        content = content["imposed"]  # of a record: as they were given, not as they were found
     for key in _LISTS[what]:
         if key in content:
             return content[key]

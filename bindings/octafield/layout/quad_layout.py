@@ -116,18 +116,22 @@ def compute_quad_layout(
         >>> result.record.quads, result.record.patches, result.record.scaled_jacobian.min > 0.99
         (12, 1, True)
     """
+    require_own_surface(source, singularities)
+    meshed, places, given = meshed_with_places(source, replace(options, interfaces=False), progress)
+    with naming(meshed.name):
+        return _on(meshed, places, given, options, layout_options, singularities, corners, progress)
+
+
+def require_own_surface(source: object, singularities: Points | None) -> None:
     if isinstance(singularities, SingularPattern) and not isinstance(source, (MeshedInput, SurfaceDomain)):
         raise InvalidInput(
             "a SingularPattern belongs to the surface the field is on; give that SurfaceDomain, or the result of"
             " prepare_mesh(source, options, volume=False), or positions instead",
             "not_meshed",
         )
-    meshed, places, given = _meshed(source, replace(options, interfaces=False), progress)
-    with naming(meshed.name):
-        return _on(meshed, places, given, options, layout_options, singularities, corners, progress)
 
 
-def _meshed(
+def meshed_with_places(
     source: Source | SurfaceDomain | MeshedInput, options: SurfaceFieldOptions, progress: Progress | None
 ) -> tuple[MeshedInput, Places, TriangleMesh]:
     """The surface for the field, the vertices that users number, and the surface that quads are compared with."""
@@ -223,7 +227,7 @@ def _cut(
 ) -> tuple[SurfaceDomain, np.ndarray | None]:
     """The surface for the field: cut open along features inside where these are to be followed, with the vertices of
     the whole surface. Points that are given are of the surface as a whole."""
-    if wanted.layout != "t-mesh" or singularities is not None or not _inner_features(whole):
+    if wanted.layout != "t-mesh" or singularities is not None or not inner_features(whole):
         return whole, None
     cut = _core.cut_along_features(whole)
     return cut.domain, np.array(cut.origins)
@@ -271,7 +275,7 @@ def _edge_length(surface: TriangleMesh, wanted: QuadLayoutOptions) -> float:
 
 def _of_features(domain: SurfaceDomain) -> list[str]:
     """A note where features inside the surface will not be followed."""
-    count = _inner_features(domain)
+    count = inner_features(domain)
     if not count:
         return []
     return [
@@ -280,7 +284,7 @@ def _of_features(domain: SurfaceDomain) -> list[str]:
     ]
 
 
-def _inner_features(domain: SurfaceDomain) -> int:
+def inner_features(domain: SurfaceDomain) -> int:
     features = np.sort(np.asarray(domain.features.edges), axis=1).astype(np.int64)
     if not len(features):
         return 0

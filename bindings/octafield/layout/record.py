@@ -40,8 +40,6 @@ def of_quads(
     """begun: what every record begins with. triangles: of the surface before it was refined. target: edge length."""
     found = _core.surface_singularities(field.field)
     layout, domain = made.layout, field.field.domain
-    points, on_boundary = np.asarray(domain.vertices), np.zeros(len(domain.vertices), bool)
-    on_boundary[np.asarray(domain.edges)[np.asarray(domain.edge_triangles).min(axis=1) < 0]] = True
     return QuadLayoutRecord(
         input=begun.input,
         version=begun.version,
@@ -54,19 +52,9 @@ def of_quads(
         feature_edges=begun.feature_edges,
         point_source=pattern.source,
         corner_source=pattern.corner_source,
-        singular_points=[
-            ImposedPointFigures(
-                position=points[vertex].tolist(), index_times_four=four, boundary=bool(on_boundary[vertex])
-            )
-            for vertex, four in imposed_indices(field).items()
-        ],
+        singular_points=points_of(field),
         index_sum=found.index_sum,
-        misalignment=[
-            Misalignment(
-                boundary=c.boundary, vertex=c.vertex, angle_deg=math.degrees(c.angle), size_factor=c.size_factor
-            )
-            for c in field.conditions
-        ],
+        misalignment=misalignment_of(field),
         inadmissible=inadmissible,
         largest_move=field.largest_move,
         t_joints=made.t_joints,
@@ -98,6 +86,24 @@ def of_quads(
         options=options,
         field_options=field_options,
     )
+
+
+def points_of(field: ImposedField) -> list[ImposedPointFigures]:
+    """Of index other than 0, corners included."""
+    domain = field.field.domain
+    points, on_boundary = np.asarray(domain.vertices), np.zeros(len(domain.vertices), bool)
+    on_boundary[np.asarray(domain.edges)[np.asarray(domain.edge_triangles).min(axis=1) < 0]] = True
+    return [
+        ImposedPointFigures(position=points[vertex].tolist(), index_times_four=four, boundary=bool(on_boundary[vertex]))
+        for vertex, four in imposed_indices(field).items()
+    ]
+
+
+def misalignment_of(field: ImposedField) -> list[Misalignment]:
+    return [
+        Misalignment(boundary=c.boundary, vertex=c.vertex, angle_deg=math.degrees(c.angle), size_factor=c.size_factor)
+        for c in field.conditions
+    ]
 
 
 def _jacobians(values: Spread) -> JacobianFigures:

@@ -141,6 +141,19 @@ class Misalignment(Record):
     size_factor: float = Field(description="1 or more: by what sizes disagree after a turn, where it was rotated away")
 
 
+class ImposedFigures(Record):
+    """How the singular points of a cross field were imposed."""
+
+    point_source: str = Field(description="given, or the file: where the singular points come from")
+    corner_source: str = Field(description="angle, given, or the file: where the quads at corners come from")
+    points: list[ImposedPointFigures] = Field(description="of index other than 0, corners included")
+    misalignment: list[Misalignment] = Field(description="per further condition on the places of the points")
+    inadmissible: str = Field(description="fail, move or rotate: what was to be done where one is missed")
+    largest_move: float = Field(description="of a point, input unit, where they were moved")
+    closure: float = Field(description="largest angle by which edges disagree with their triangles, radians: rounding")
+    input_triangles: int = Field(description="of the surface before it was refined round the points")
+
+
 class CellCounts(Record):
     """Cells of a mesh by kind."""
 

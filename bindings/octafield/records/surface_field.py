@@ -5,7 +5,7 @@ from typing import Any
 from pydantic import Field
 
 from .field import InputRecord
-from .parts import SingularPoint
+from .parts import ImposedFigures, SingularPoint
 
 
 class SurfaceFieldRecord(InputRecord):
@@ -14,7 +14,7 @@ class SurfaceFieldRecord(InputRecord):
     vertices: int = Field(description="of the surface")
     triangles: int = Field(description="of the surface")
     symmetry: int = Field(description="directions at a point, N")
-    method: str = Field(description="as the option says")
+    method: str = Field(description="as the option says; imposed where the singular points were given")
     seed: int = Field(description="of the random start")
     euler_characteristic: int = Field(description="of the surface")
     index_sum: float = Field(description="of the singular points, turns")
@@ -28,5 +28,6 @@ class SurfaceFieldRecord(InputRecord):
     stopped: bool = Field(description="by the caller's progress")
     residual: float = Field(description="of the last step, relative")
     constraints: int = Field(description="edges and vertices whose directions the caller gave")
+    imposed: ImposedFigures | None = Field(default=None, description="where the singular points were given")
     options: dict[str, Any] = Field(description="`octafield.SurfaceFieldOptions(**record.options)` makes them again")
     files: list[str] | None = Field(default=None, description="names of what was written, within the folder")

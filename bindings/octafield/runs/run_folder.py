@@ -81,6 +81,20 @@ def write_surface_result(result: SurfaceFieldResult, folder: Path, progress: Pro
     metadata = _metadata(result.record)
     with _telling(result, folder, SURFACE_FILES):
         _write_surface_files(result, folder, metadata)
+        if result.vertex_data:
+            _save(_with_vertex_data(result), folder / SURFACE_FILES[0], metadata)
+
+
+def _with_vertex_data(result: SurfaceFieldResult) -> pyvista.PolyData:
+    import pyvista
+
+    surface: pyvista.PolyData = pyvista.PolyData.from_regular_faces(
+        np.array(result.surface.vertices), np.array(result.surface.triangles, int)
+    )
+    surface.point_data["direction"] = result.directions
+    for name, values in result.vertex_data.items():
+        surface.point_data[name] = values
+    return surface
 
 
 def _write_surface_files(result: FieldResult | SurfaceFieldResult, folder: Path, metadata: dict[str, str]) -> None:

@@ -13,7 +13,7 @@ from . import scene
 from .datasets import polylines, quad_grid, read_vtp
 
 # Pale, so that edges and points stand out; neighbours never have the same.
-_COLOURS = ("#b9d7ea", "#f6d7a7", "#c8e3c0", "#e9c6d8", "#d6cdea", "#f3efb1", "#cfd6dc", "#f0c4b4")
+COLOURS = ("#b9d7ea", "#f6d7a7", "#c8e3c0", "#e9c6d8", "#d6cdea", "#f3efb1", "#cfd6dc", "#f0c4b4")
 
 _EDGES = "#56616d"
 
@@ -39,22 +39,52 @@ def is_layout(folder: Path) -> bool:
 
 def scene_of_folder(folder: Path) -> tuple[pyvista.Plotter, list[str]]:
     """The same from mesh.vtu and layout.vtp of a result, with the names of the files it shows."""
+    grid, lines = _read(folder)
+    return _drawn(grid, lines), ["mesh.vtu"] if lines is None else ["mesh.vtu", "layout.vtp"]
+
+
+def jacobian_scene_of_folder(folder: Path) -> pyvista.Plotter:
+    """Quads by their scaled Jacobian, from mesh.vtu of a result."""
+    grid, _ = _read(folder)
+    shape = scene.plotter()
+    shape.add_mesh(
+        grid,
+        scalars="scaled_jacobian",
+        clim=(0, 1),
+        cmap="viridis",
+        show_edges=True,
+        edge_color=_EDGES,
+        line_width=_edge_width(grid),
+        lighting=not _is_flat(np.asarray(grid.points)),
+        ambient=0.45,
+        specular=0,
+        scalar_bar_args={
+            "title": "scaled Jacobian", "color": scene.INK, "n_labels": 3, "fmt": "%.1f", "vertical": True,
+            "position_x": 0.93, "position_y": 0.2, "width": 0.05, "height": 0.6,
+        },
+    )  # fmt: skip
+    _look(shape, np.asarray(grid.points))
+    shape.camera.zoom(0.84)  # type: ignore[no-untyped-call]  # room for the scale
+    return shape
+
+
+def _read(folder: Path) -> tuple[pyvista.UnstructuredGrid, pyvista.PolyData | None]:
+    """The quads and the sides of blocks."""
     path = folder / "mesh.vtu"
     read_vtu(path.read_bytes(), str(path))  # VTK ends the process where a count is wrong
     grid = pyvista.read(path)
     if (
         not isinstance(grid, pyvista.UnstructuredGrid)
-        or "block" not in grid.cell_data
+        or not {"block", "scaled_jacobian"} <= set(grid.cell_data)
         or not {"quads", "boundary"} <= set(grid.point_data)
     ):
         raise IoError(f"{path}: no quads in blocks; give a result of octafield quad-layout")
     if not (folder / "layout.vtp").is_file():
-        return _drawn(grid, None), ["mesh.vtu"]
+        return grid, None
     layout = read_vtp(folder / "layout.vtp")
     if "kind" not in layout.cell_data:
         raise IoError(f"{folder / 'layout.vtp'}: holds no layout; give a result of octafield quad-layout")
-    lines = pyvista.PolyData(np.array(layout.points), lines=np.array(layout.lines))
-    return _drawn(grid, lines), ["mesh.vtu", "layout.vtp"]
+    return grid, pyvista.PolyData(np.array(layout.points), lines=np.array(layout.lines))
 
 
 def _drawn(grid: pyvista.UnstructuredGrid, sides: pyvista.PolyData | None) -> pyvista.Plotter:
@@ -62,9 +92,9 @@ def _drawn(grid: pyvista.UnstructuredGrid, sides: pyvista.PolyData | None) -> py
     shape = scene.plotter()
     size = scene.diagonal(points)
     blocks = np.asarray(grid.cell_data["block"])
-    width = 1.5 if len(quads) < 3000 else 0.8
-    colours = _colours_of(quads, blocks)[blocks]
-    for number, colour in enumerate(_COLOURS):
+    width = _edge_width(grid)
+    colours = colours_of(quads, blocks)[blocks]
+    for number, colour in enumerate(COLOURS):
         if (colours == number).any():
             part = pyvista.PolyData.from_regular_faces(points, quads[colours == number])
             shape.add_mesh(
@@ -86,11 +116,19 @@ def _drawn(grid: pyvista.UnstructuredGrid, sides: pyvista.PolyData | None) -> py
         if len(centres):
             balls = pyvista.PolyData(centres).glyph(geom=pyvista.Sphere(radius=0.009 * size), scale=False, orient=False)
             shape.add_mesh(balls, color=colour, smooth_shading=True, ambient=0.4)
+    _look(shape, points)
+    return shape
+
+
+def _edge_width(grid: pyvista.UnstructuredGrid) -> float:
+    return 1.5 if grid.n_cells < 3000 else 0.8
+
+
+def _look(shape: pyvista.Plotter, points: np.ndarray) -> None:
     if _is_flat(points):
         scene.look(shape, points, *_from_above(points))
     else:
         scene.three_quarter_view(shape, points)
-    return shape
 
 
 def _edges_with_quads(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -116,7 +154,7 @@ def _between_blocks(points: np.ndarray, quads: np.ndarray, blocks: np.ndarray) -
     return scene.segments(points[kept[:, 0]], points[kept[:, 1]])
 
 
-def _colours_of(quads: np.ndarray, blocks: np.ndarray) -> np.ndarray:
+def colours_of(quads: np.ndarray, blocks: np.ndarray) -> np.ndarray:
     """By block: the first colour that no neighbour before it has, or the one that fewest have."""
     beside: list[set[int]] = [set() for _ in range(int(blocks.max(initial=-1)) + 1)]
     for a, b in np.unique(_neighbours(quads, blocks)[1], axis=0).tolist():
@@ -125,7 +163,7 @@ def _colours_of(quads: np.ndarray, blocks: np.ndarray) -> np.ndarray:
             beside[b].add(a)
     colours = np.full(len(beside), -1)
     for block, others in enumerate(beside):
-        used = np.bincount([colours[o] for o in others if colours[o] >= 0], minlength=len(_COLOURS))
+        used = np.bincount([colours[o] for o in others if colours[o] >= 0], minlength=len(COLOURS))
         colours[block] = int(used.argmin())
     return colours
 

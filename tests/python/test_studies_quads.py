@@ -1,0 +1,50 @@
+"""The figures of quad layouts: their layouts have the published counts, and what is refused says by how much."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+STUDIES = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def figures(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("figures")
+    names = "holed_5,holed_6,l_shape,annulus_fail,annulus_rotate,kite,trapezoid_50,trapezoid_40,diamond"
+    command = [sys.executable, "-m", "studies.quad_figures", "-o", folder, "--only", names]
+    done = subprocess.run(command, cwd=STUDIES, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    lines = [[cell.strip() for cell in line.strip("|").split("|")] for line in (folder / "summary.md").open()]
+    return folder, {line[0]: dict(zip(lines[0], line, strict=False)) for line in lines[2:]}
+
+
+@pytest.mark.parametrize(
+    ("figure", "counts", "irregular"),
+    [
+        ("square less a disk, valence 5", "20, 32, 12", "4"),  # closed form of the combinatorics
+        ("square less a disk, valence 6", "14, 22, 8", "2"),
+        ("L", "8, 10, 3", "0"),
+        ("kite, separatrices", "8, 12, 5", "4"),
+        ("turned by 5, field rotated", "32, 56, 24", "8"),
+        ("right trapezoid, 50 degrees", "4, 4, 1", "0"),
+        ("right trapezoid, 40 degrees", "7, 9, 3", "1"),
+        ("diamond, 28.65 degrees", "4, 4, 1", "0"),
+    ],
+)
+def test_figures_have_the_layouts_that_follow_from_their_points(figures, figure, counts, irregular):
+    row = figures[1][figure]
+    assert (row["V, E, F"], row["irregular"]) == (counts, irregular)
+    assert float(row["SJ min"]) > 0.45
+
+
+def test_rings_that_are_turned_are_refused_with_the_angle(figures):
+    row = figures[1]["turned by 20 degrees"]
+    assert row["V, E, F"] == "`inadmissible_pattern`" and row["misalignment"] == "20 degrees"
+
+
+def test_sheets_are_small_pictures(figures):
+    for sheet in ("blocks", "rings", "cycles", "corners"):
+        content = (figures[0] / f"quad_figures_{sheet}.png").read_bytes()
+        assert content[:8] == b"\x89PNG\r\n\x1a\n" and 3_000 < len(content) < 100_000
