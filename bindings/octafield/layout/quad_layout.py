@@ -21,7 +21,7 @@ from .._core import ImposedField, QuadMesh, SingularPattern, SurfaceDomain, TetD
 from ..domain.inputs import Input, from_mesh, naming, read_input
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source, prepare_mesh, read_sound
-from ..errors import InvalidInput, SolverError
+from ..errors import GeometryError, InvalidInput, SolverError
 from ..options import SurfaceFieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
@@ -30,7 +30,7 @@ from .causes import cut_corners, told_of_points
 from .options import MOST_QUADS, QuadLayoutOptions
 from .pattern import Places, pattern_of, places_of
 from .quality import figures_of, require_sound
-from .t_mesh import quads_of_t_mesh
+from .t_mesh import MENDED, fitted_points, quads_of_t_mesh
 
 if TYPE_CHECKING:
     import pyvista
@@ -188,7 +188,15 @@ def _on(
     made: BlockQuads
     with told_of_points(domain, pattern.pattern, wanted):
         if wanted.layout == "t-mesh":
-            made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
+            try:
+                made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
+            except GeometryError as error:
+                if pattern.source != "computed" or error.kind not in MENDED:
+                    raise
+                pattern = fitted_points(domain, pattern, origins, inadmissible, wanted, error, meter.report)
+                begun = begun.changed(notes=[*begun.notes, pattern.notes[-1]])
+                field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
+                made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
         else:
             field, made = quads_of_separatrices(field, wanted, target, meter.report)
     meter.begin("check")

@@ -68,18 +68,31 @@ void add_seams(const Seams& seams, Index arcs, ArcProblem& problem) {
 }  // namespace
 
 ArcProblem arc_problem(const QuadLayout& layout, const Seams& seams) {
+    return arc_problem(std::vector<const QuadLayout*>{&layout}, seams);
+}
+
+ArcProblem arc_problem(const std::vector<const QuadLayout*>& layouts, const Seams& seams) {
     ArcProblem problem;
-    problem.least.assign(layout.sides.size(), 1);
-    std::map<std::pair<Index, Index>, std::vector<Index>> between;
-    for (std::size_t s = 0; s < layout.sides.size(); ++s)
-        between[std::minmax(layout.sides[s].first, layout.sides[s].last)].push_back(static_cast<Index>(s));
-    for (const auto& [ends, arcs] : between)
-        for (const Index arc : arcs) problem.least[arc] = ends.first == ends.second ? 3 : arcs.size() > 1 ? 2 : 1;
-    for (const LayoutPatch& patch : layout.patches) {
-        const auto sides = four_sides(patch);
-        for (int k = 0; k < 2; ++k) problem.sums.push_back({numbers(sides[k]), numbers(sides[k + 2])});
+    for (const QuadLayout* layout : layouts) {
+        const auto first = static_cast<Index>(problem.least.size());
+        const auto all = [&](const std::vector<DirectedSide>& sides) {
+            std::vector<Index> result = numbers(sides);
+            for (Index& side : result) side += first;
+            return result;
+        };
+        std::map<std::pair<Index, Index>, std::vector<Index>> between;
+        for (std::size_t s = 0; s < layout->sides.size(); ++s)
+            between[std::minmax(layout->sides[s].first, layout->sides[s].last)].push_back(static_cast<Index>(s));
+        problem.least.resize(problem.least.size() + layout->sides.size(), 1);
+        for (const auto& [ends, arcs] : between)
+            for (const Index arc : arcs)
+                problem.least[first + arc] = ends.first == ends.second ? 3 : arcs.size() > 1 ? 2 : 1;
+        for (const LayoutPatch& patch : layout->patches) {
+            const auto sides = four_sides(patch);
+            for (int k = 0; k < 2; ++k) problem.sums.push_back({all(sides[k]), all(sides[k + 2])});
+        }
     }
-    add_seams(seams, static_cast<Index>(layout.sides.size()), problem);
+    add_seams(seams, static_cast<Index>(problem.least.size()), problem);
     return problem;
 }
 
