@@ -180,19 +180,23 @@ void bind_features(py::module_& m) {
     m.def(
         "fitted_pattern",
         [](const SurfaceOrMesh& surface, const SingularPattern& pattern, const std::vector<Index>& origins,
-           const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+           double edge_length, const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+            FittingOptions fitting;
+            fitting.size = finite(edge_length, "edge_length");
             const auto [imposing, curves] =
                 options_of<ImposedFieldOptions, LayoutCurveOptions>("fitted_pattern", given);
             return run_interruptible(
                 [=, imposing = imposing, curves = curves](Job& job) {
-                    return fitted_pattern(domain_of(surface), pattern, origins, imposing, curves, {}, job.progress());
+                    return fitted_pattern(domain_of(surface), pattern, origins, imposing, curves, fitting,
+                                          job.progress());
                 },
                 progress);
         },
-        "surface"_a, "pattern"_a, "origins"_a, py::kw_only(), "progress"_a = py::none(),
+        "surface"_a, "pattern"_a, "origins"_a, py::kw_only(), "edge_length"_a, "progress"_a = py::none(),
         "The SingularPattern of a surface cut along features (FeatureCut: domain, origins), changed face by face until "
         "whole numbers fit its T-mesh, as a FittedPattern: a point is moved, or a pair of valence 3 and 5 added, in "
-        "one of a few places all over the face. Raises as impose_singular_points and motorcycle_graph.");
+        "one of a few places all over the face. Of those that fit, one is taken that deviates little for quads of this "
+        "edge length. Raises as impose_singular_points and motorcycle_graph.");
     list_options<ImposedFieldOptions, LayoutCurveOptions>(m, "fitted_pattern");
     m.def(
         "finite_corner_quads",

@@ -193,7 +193,7 @@ def _on(
             except GeometryError as error:
                 if pattern.source != "computed" or error.kind not in MENDED:
                     raise
-                pattern = fitted_points(domain, pattern, origins, inadmissible, wanted, error, meter.report)
+                pattern = fitted_points(domain, pattern, origins, inadmissible, wanted, target, error, meter.report)
                 begun = begun.changed(notes=[*begun.notes, pattern.notes[-1]])
                 field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
                 made = quads_of_t_mesh(field, wanted, target, origins, meter.report)

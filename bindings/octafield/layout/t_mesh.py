@@ -44,15 +44,17 @@ def fitted_points(
     origins: np.ndarray | None,
     inadmissible: str,
     options: QuadLayoutOptions,
+    edge_length: float,
     error: GeometryError,
     progress: Progress | None,
 ) -> Pattern:
-    """The pattern with points of faces moved, or pairs added, so that whole numbers fit, and a note that says so. error:
+    """The pattern with points moved or pairs added, so that whole numbers fit, and a note that says so. error:
     raised, with what was tried, where that was not enough."""
     found = _core.fitted_pattern(
         domain,
         pattern.pattern,
         np.arange(len(domain.vertices), dtype=np.int32) if origins is None else origins,
+        edge_length=edge_length,
         inadmissible=inadmissible,
         tolerance=options.tolerance,
         end_tolerance=options.end_tolerance,
@@ -73,7 +75,8 @@ def fitted_points(
 def _told(found: _core.FittedPattern) -> str:
     pairs = sum(change.added for change in found.changes)
     moved = len(found.changes) - pairs
-    words = [f"{pairs} pairs of valence 3 and 5 added"] * (pairs > 0) + [f"{moved} moved"] * (moved > 0)
+    words = [f"{pairs} pair{'s' * (pairs > 1)} of valence 3 and 5 added"] * (pairs > 0)
+    words += [f"{moved} moved"] * (moved > 0)
     places = [np.asarray(change.positions)[0] for change in found.changes[:_TOLD]]
     where = "; ".join(", ".join(f"{x:.4g}" for x in place) for place in places)
     return (

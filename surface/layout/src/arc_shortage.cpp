@@ -54,7 +54,7 @@ std::vector<double> arc_shortages(const ArcProblem& problem) {
     }
     const std::unique_ptr<Cbc_Model, void (*)(Cbc_Model*)> model(Cbc_newModel(), Cbc_deleteModel);
     Cbc_setParameter(model.get(), "log", "0");
-    Cbc_setParameter(model.get(), "slog", "0");
+    Cbc_setLogLevel(model.get(), 0);
     Cbc_loadProblem(model.get(), 2 * arcs, sums + arcs, columns.starts.data(), columns.rows.data(),
                     columns.values.data(), low.data(), high.data(), cost.data(), below.data(), above.data());
     Cbc_solve(model.get());

@@ -1,5 +1,7 @@
 #include "face_layouts.hpp"
 
+#include <numeric>
+
 #include "arc_shortage.hpp"
 #include "octafield/disjoint_sets.hpp"
 #include "octafield/surface/motorcycle_graph.hpp"
@@ -61,7 +63,7 @@ QuadLayout traced(const Face& face, SingularPattern& pattern, const FaceTracing&
     return layout;
 }
 
-std::vector<double> shortages(const std::vector<Face>& faces, const QuadLayout* other, std::size_t place) {
+Fit fit_of(const std::vector<Face>& faces, double size, const QuadLayout* other, std::size_t place) {
     std::vector<LayoutPart> parts;
     std::vector<const QuadLayout*> layouts;
     std::size_t sides = 0;
@@ -70,9 +72,15 @@ std::vector<double> shortages(const std::vector<Face>& faces, const QuadLayout* 
         parts.push_back({layouts.back(), &faces[f].origins});
         sides += layouts.back()->sides.size();
     }
-    std::vector<double> result = arc_shortages(arc_problem(layouts, find_seams(parts)));
-    result.resize(sides);
-    return result;
+    const Seams seams = find_seams(parts);
+    ArcProblem problem = arc_problem(layouts, seams);
+    Fit fit{arc_shortages(problem)};
+    fit.missing = std::accumulate(fit.shortages.begin(), fit.shortages.end(), 0.0);
+    fit.shortages.resize(sides);
+    if (fit.missing > 0) return fit;
+    set_size(problem, layouts, seams, size, ArcWeights::equal);
+    fit.deviation = least_deviation(problem);
+    return fit;
 }
 
 }  // namespace octafield::surface::detail

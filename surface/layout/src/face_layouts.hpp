@@ -28,7 +28,13 @@ std::vector<Face> faces_of(const SurfaceDomain& domain, const SingularPattern& p
 // layout_quads where a patch is no quad.
 QuadLayout traced(const Face& face, SingularPattern& pattern, const FaceTracing& tracing, const Progress& progress);
 
-// Of each side of the layouts in turn; `other` takes the place of one face's layout.
-std::vector<double> shortages(const std::vector<Face>& faces, const QuadLayout* other = nullptr, std::size_t place = 0);
+struct Fit {
+    std::vector<double> shortages;  // arc_shortages, of each side of the layouts in turn
+    double missing = 0;             // their sum
+    double deviation = 0;           // least_deviation at the size, where nothing is missing
+};
+
+// `other` takes the place of one face's layout.
+Fit fit_of(const std::vector<Face>& faces, double size, const QuadLayout* other = nullptr, std::size_t place = 0);
 
 }  // namespace octafield::surface::detail

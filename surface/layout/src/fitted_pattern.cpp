@@ -17,8 +17,6 @@ using detail::Face;
 constexpr double nothing = 1e-6;  // of quads
 const Eigen::Vector3d middle = Eigen::Vector3d::Constant(1.0 / 3);
 
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
 // Points on the boundary stay: a corner is there.
 bool on_boundary(const SurfaceDomain& domain, const ImposedPoint& point) {
     for (int k = 0; k < 3; ++k) {
@@ -41,18 +39,15 @@ public:
         : faces_(faces), tracing_(tracing), options_(options), progress_(progress) {}
 
     void run(FittedPattern& result) {
-        std::vector<double> missing = detail::shortages(faces_);
-        result.before = result.left = sum(missing);
-        while (result.left > nothing && improve(missing, result)) {
-            missing = detail::shortages(faces_);
-            result.left = sum(missing);
-        }
-        if (result.left <= nothing) result.left = 0;
+        now_ = detail::fit_of(faces_, options_.size);
+        result.before = now_.missing;
+        while (now_.missing > 0 && improve(result)) now_ = detail::fit_of(faces_, options_.size);
+        result.left = now_.missing;
         result.tried = tried_;
     }
 
 private:
-    bool improve(const std::vector<double>& missing, FittedPattern& result);
+    bool improve(FittedPattern& result);
     bool improve_face(std::size_t f, double share, FittedPattern& result);
     std::vector<Candidate> candidates(const Face& face) const;
     std::optional<QuadLayout> layout_of(const Face& face, SingularPattern& pattern) const;
@@ -62,14 +57,15 @@ private:
     const detail::FaceTracing& tracing_;
     const FittingOptions& options_;
     const Progress& progress_;
+    detail::Fit now_;
     int tried_ = 0;
     double triangles_ = 0;
 };
 
 // A change of the first face that has one, by part of the shortage.
-bool Fitter::improve(const std::vector<double>& missing, FittedPattern& result) {
+bool Fitter::improve(FittedPattern& result) {
     std::vector<std::pair<double, std::size_t>> order;
-    auto at = missing.begin();
+    auto at = now_.shortages.begin();
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         const auto end = at + static_cast<std::ptrdiff_t>(faces_[f].layout.sides.size());
         const double share = std::accumulate(at, end, 0.0);
@@ -81,25 +77,29 @@ bool Fitter::improve(const std::vector<double>& missing, FittedPattern& result) 
                        [&](const auto& face) { return improve_face(face.second, -face.first, result); });
 }
 
-// The first that ends the face's own part of the shortage, or the best of all.
+// The change that leaves least missing and then deviates least, up to a few after the first one that ends the face's
+// own part of the shortage.
 bool Fitter::improve_face(std::size_t f, double share, FittedPattern& result) {
     Face& face = faces_[f];
-    double least = result.left - nothing;
+    double missing = now_.missing - 2 * nothing, deviation = 0;
     std::optional<QuadLayout> best;
     Candidate taken;
+    int more = options_.more_tried;
     for (Candidate& candidate : candidates(face)) {
-        if (enough()) break;
-        report_or_throw(progress_, "fit", -1, least);
+        const bool ended = best && missing <= now_.missing - share + nothing;
+        if (enough() || (ended && more-- == 0)) break;
+        report_or_throw(progress_, "fit", -1, missing);
         ++tried_;
         triangles_ += face.domain.triangle_count();
         std::optional<QuadLayout> layout = layout_of(face, candidate.pattern);
         if (!layout) continue;
-        const double left = sum(detail::shortages(faces_, &*layout, f));
-        if (left >= least) continue;
-        least = left - nothing;
+        const detail::Fit fit = detail::fit_of(faces_, options_.size, &*layout, f);
+        if (fit.missing > missing + nothing) continue;
+        if (best && fit.missing > missing - nothing && fit.deviation >= deviation) continue;
+        missing = fit.missing;
+        deviation = fit.deviation;
         best = std::move(layout);
         taken = std::move(candidate);
-        if (left <= result.left - share + nothing) break;
     }
     if (!best) return false;
     face.layout = std::move(*best);
@@ -153,8 +153,9 @@ FittedPattern fitted_pattern(const SurfaceDomain& domain, const SingularPattern&
     if (static_cast<Index>(origins.size()) != domain.vertex_count())
         throw InvalidInput("each vertex of the surface needs an origin", "bad_option");
     if (!curves.cut_vertices.empty()) throw InvalidInput("fitting takes no cuts of its own", "bad_option");
-    if (options.places < 1 || options.most_tried < 0 || !(options.most_triangles >= 0))
-        throw InvalidInput("fitting needs a place at least, and numbers of patterns and triangles of at least 0",
+    if (!(options.size > 0) || options.places < 1 || options.most_tried < 0 || options.more_tried < 0 ||
+        !(options.most_triangles >= 0))
+        throw InvalidInput("fitting needs a size above 0, a place at least, and numbers to be tried of at least 0",
                            "bad_option");
     // Refuses points and corners that are not on the surface; sizes as of the whole.
     const ImposedField whole = impose_singular_points(domain, pattern, imposing, progress);

@@ -97,13 +97,19 @@ ArcProblem arc_problem(const std::vector<const QuadLayout*>& layouts, const Seam
 }
 
 void set_size(ArcProblem& problem, const QuadLayout& layout, const Seams& seams, double size, ArcWeights weights) {
+    set_size(problem, std::vector<const QuadLayout*>{&layout}, seams, size, weights);
+}
+
+void set_size(ArcProblem& problem, const std::vector<const QuadLayout*>& layouts, const Seams& seams, double size,
+              ArcWeights weights) {
     problem.wanted.clear();
     problem.weights.clear();
     const auto add = [&](double length, double weight) {
         problem.wanted.push_back(length / size);
         problem.weights.push_back(weight / (weights == ArcWeights::equal ? 1 : std::max(1.0, length / size)));
     };
-    for (const LayoutSide& side : layout.sides) add(side.length(), 1);
+    for (const QuadLayout* layout : layouts)
+        for (const LayoutSide& side : layout->sides) add(side.length(), 1);
     for (const SeamPart& part : seams.parts) add(part.parameters, part_weight);
     problem.wanted.resize(problem.least.size(), 1);
     problem.weights.resize(problem.least.size(), 0);

@@ -8,8 +8,8 @@
 namespace octafield::surface {
 
 struct PatternChange {
-    Index triangle;                          // lowest of the face
-    bool added;                              // a pair of points of valence 3 and 5; otherwise a point was moved
+    Index triangle;    // lowest of the face
+    bool added;        // a pair of points of valence 3 and 5; otherwise a point was moved
     Points positions;  // (1, 3) where the point is now, or (2, 3)
 };
 
@@ -21,15 +21,18 @@ struct FittedPattern {
 };
 
 struct FittingOptions {
-    int places = 6;         // tried in a face, all over it
-    int most_tried = 1000;  // patterns; or, of the triangles of their faces, most_triangles
-    double most_triangles = 1e6;
+    double size = 1;              // of quads, in quad coordinates, > 0: about their edge length
+    int places = 6;               // tried in a face, all over it
+    int more_tried = 4;           // after the first that ends a face's shortage, for less deviation
+    int most_tried = 1000;        // patterns, of as many triangles as
+    double most_triangles = 1e6;  // in all
 };
 
 // domain: connected parts are faces; origins: as QuantizedQuadsOptions has them. The face with the largest part of the
 // shortage first: one of its points is moved to one of a few places all over it or, where that does not end its
 // shortage, a pair of points of valence 3 and 5 is added there, which frees the numbers along its sides from one
-// another; the least change that helps most is kept, until nothing is short, nothing helps, or enough was tried.
+// another. What leaves least missing is kept, and of those that leave nothing, what deviates least from the lengths
+// wanted; until nothing is missing, nothing helps, or enough was tried.
 // Corners stay. Always the same result for the same input. Throws as impose_singular_points and motorcycle_graph for
 // the pattern that is given.
 FittedPattern fitted_pattern(const SurfaceDomain& domain, const SingularPattern& pattern,
