@@ -7,6 +7,7 @@
 #include "interruptible.hpp"
 #include "octafield/surface/corner_pattern.hpp"
 #include "octafield/surface/feature_cut.hpp"
+#include "octafield/surface/feature_needles.hpp"
 #include "octafield/surface/fitted_pattern.hpp"
 #include "octafield/surface/quantized_quads.hpp"
 #include "options.hpp"
@@ -169,6 +170,19 @@ void bind_features(py::module_& m) {
         "surface"_a,
         "The surface cut open along its feature edges, as a FeatureCut, so that a field that follows the boundary "
         "follows features as well.");
+    m.def(
+        "blunted_features",
+        [](const SurfaceOrMesh& surface, double least_angle) {
+            finite(least_angle, "least_angle");
+            return run_interruptible([=](Job&) {
+                BluntedFeatures made = blunted_features(domain_of(surface), least_angle);
+                return std::pair(std::move(made.domain), std::move(made.tips));
+            });
+        },
+        "surface"_a, "least_angle"_a = 10 * std::numbers::pi / 180,
+        "The SurfaceDomain with needles between features blunted, and their tips, int32 vertex ids: where two feature "
+        "edges leave a vertex at less than the angle (radians), the opposite sides of the triangles between them are "
+        "features in place of the shorter one.");
     m.def(
         "with_corner_quads",
         [](const SurfaceOrMesh& surface, const SingularPattern& pattern, const std::vector<CornerQuads>& corners) {

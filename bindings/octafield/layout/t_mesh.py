@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +16,7 @@ from .blocks import BlockQuads
 from .options import QuadLayoutOptions
 from .pattern import Pattern
 
-MENDED = ("no_integers",)  # kinds of errors that other singular points may mend
+MENDED = ("no_integers", "no_quad_layout")  # kinds of errors that other singular points may mend
 _TOLD = 3  # places
 
 
@@ -62,10 +63,10 @@ def fitted_points(
         progress=progress,
     )
     if found.left > 0:
+        rest = f"{found.left:g} quads missing on arcs" if math.isfinite(found.left) else "a face without quads"
         raise GeometryError(
-            f"{error.args[0]}. Of {found.tried} other patterns of points none fits: {len(found.changes)} changes leave"
-            f" {found.left:g} of {found.before:g} quads missing on arcs. Give points (--singularities), or take fewer"
-            " features",
+            f"{error.args[0]}. Of {found.tried} other patterns of points tried in faces none fits, {len(found.changes)}"
+            f" changes leave {rest}; give points (--singularities), or take fewer features",
             error.kind,
             error.elements,
         ) from error
@@ -82,5 +83,5 @@ def _told(found: _core.FittedPattern) -> str:
     return (
         f"singular points of the computed field changed, {' and '.join(words)}, at ({where})"
         f"{' and other places' if len(found.changes) > _TOLD else ''}: with those that were found, faces ask for"
-        " numbers of quads that contradict one another"
+        " numbers of quads that contradict one another, or have patches without four corners"
     )

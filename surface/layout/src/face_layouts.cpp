@@ -68,7 +68,8 @@ Fit fit_of(const std::vector<Face>& faces, double size, const QuadLayout* other,
     std::vector<const QuadLayout*> layouts;
     std::size_t sides = 0;
     for (std::size_t f = 0; f < faces.size(); ++f) {
-        layouts.push_back(other && f == place ? other : &faces[f].layout);
+        if (!faces[f].layout && !(other && f == place)) continue;
+        layouts.push_back(other && f == place ? other : &*faces[f].layout);
         parts.push_back({layouts.back(), &faces[f].origins});
         sides += layouts.back()->sides.size();
     }

@@ -12,7 +12,7 @@ struct Face {
     std::vector<Index> triangles, vertices;  // of the whole surface, ascending
     std::vector<Index> origins;
     SingularPattern pattern;  // on the face
-    QuadLayout layout;
+    std::optional<QuadLayout> layout;  // none where its curves make no quads
 };
 
 struct FaceTracing {
@@ -34,7 +34,7 @@ struct Fit {
     double deviation = 0;           // least_deviation at the size, where nothing is missing
 };
 
-// `other` takes the place of one face's layout.
+// Of the faces with a layout. `other` takes the place of one face's.
 Fit fit_of(const std::vector<Face>& faces, double size, const QuadLayout* other = nullptr, std::size_t place = 0);
 
 }  // namespace octafield::surface::detail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "face_layouts.hpp"
@@ -39,11 +40,22 @@ public:
         : faces_(faces), tracing_(tracing), options_(options), progress_(progress) {}
 
     void run(FittedPattern& result) {
+        constexpr double infinite = std::numeric_limits<double>::infinity();
+        bool broken = false;
+        for (std::size_t f = 0; f < faces_.size(); ++f) {
+            if (faces_[f].layout || (faces_[f].layout = layout_of(faces_[f], faces_[f].pattern))) continue;
+            result.before = infinite;
+            broken = true;
+        }
+        for (std::size_t f = 0; f < faces_.size() && broken; ++f) {
+            if (faces_[f].layout) continue;
+            now_.missing = result.left = infinite;
+            if (!improve_face(f, 0, result)) return;
+        }
         now_ = detail::fit_of(faces_, options_.size);
-        result.before = now_.missing;
+        if (!broken) result.before = now_.missing;
         while (now_.missing > 0 && improve(result)) now_ = detail::fit_of(faces_, options_.size);
         result.left = now_.missing;
-        result.tried = tried_;
     }
 
 private:
@@ -67,7 +79,7 @@ bool Fitter::improve(FittedPattern& result) {
     std::vector<std::pair<double, std::size_t>> order;
     auto at = now_.shortages.begin();
     for (std::size_t f = 0; f < faces_.size(); ++f) {
-        const auto end = at + static_cast<std::ptrdiff_t>(faces_[f].layout.sides.size());
+        const auto end = at + static_cast<std::ptrdiff_t>(faces_[f].layout->sides.size());
         const double share = std::accumulate(at, end, 0.0);
         if (share > nothing) order.emplace_back(-share, f);
         at = end;
@@ -86,10 +98,10 @@ bool Fitter::improve_face(std::size_t f, double share, FittedPattern& result) {
     Candidate taken;
     int more = options_.more_tried;
     for (Candidate& candidate : candidates(face)) {
-        const bool ended = best && missing <= now_.missing - share + nothing;
+        const bool ended = best && (!face.layout || missing <= now_.missing - share + nothing);
         if (enough() || (ended && more-- == 0)) break;
         report_or_throw(progress_, "fit", -1, missing);
-        ++tried_;
+        result.tried = ++tried_;
         triangles_ += face.domain.triangle_count();
         std::optional<QuadLayout> layout = layout_of(face, candidate.pattern);
         if (!layout) continue;
@@ -102,7 +114,7 @@ bool Fitter::improve_face(std::size_t f, double share, FittedPattern& result) {
         taken = std::move(candidate);
     }
     if (!best) return false;
-    face.layout = std::move(*best);
+    face.layout = std::move(best);
     face.pattern = std::move(taken.pattern);
     PatternChange change{face.triangles[0], taken.added, Points(taken.added ? 2 : 1, 3)};
     for (Eigen::Index i = 0; i < change.positions.rows(); ++i)
@@ -164,7 +176,6 @@ FittedPattern fitted_pattern(const SurfaceDomain& domain, const SingularPattern&
     const detail::LayoutInput sizes(whole, curves, true);
     tracing.curves.end_tolerance = sizes.end_tolerance;
     tracing.curves.max_length = sizes.max_length;
-    for (Face& face : faces) face.layout = detail::traced(face, face.pattern, tracing, progress);
     FittedPattern result;
     Fitter(faces, tracing, options, progress).run(result);
     for (const Face& face : faces) {

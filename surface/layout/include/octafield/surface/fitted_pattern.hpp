@@ -16,8 +16,9 @@ struct PatternChange {
 struct FittedPattern {
     SingularPattern pattern;             // points of each face in turn
     std::vector<PatternChange> changes;  // in their order
-    double before = 0, left = 0;         // sum of arc_shortages: 0 where whole numbers fit
-    int tried = 0;                       // patterns of a face
+    double before = 0, left = 0;  // sum of arc_shortages: 0 where whole numbers fit; infinite where the curves of
+                                  // a face make no quads
+    int tried = 0;                // patterns of a face
 };
 
 struct FittingOptions {
@@ -25,7 +26,7 @@ struct FittingOptions {
     int places = 6;               // tried in a face, all over it
     int more_tried = 4;           // after the first that ends a face's shortage, for less deviation
     int most_tried = 1000;        // patterns, of as many triangles as
-    double most_triangles = 1e6;  // in all
+    double most_triangles = 1e5;  // in all
 };
 
 // domain: connected parts are faces; origins: as QuantizedQuadsOptions has them. The face with the largest part of the
