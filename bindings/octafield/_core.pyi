@@ -1248,7 +1248,6 @@ def fitted_pattern(
     pattern: SingularPattern,
     origins: ArrayLike,
     *,
-    edge_length: float,
     inadmissible: str = ...,
     tolerance: float = ...,
     allow_zero_quads: bool = ...,
@@ -1259,6 +1258,7 @@ def fitted_pattern(
     end_tolerance: float = ...,
     max_length: float = ...,
     cut_vertices: ArrayLike | None = ...,
+    edge_length: float,
     progress: Progress | None = None,
 ) -> FittedPattern: ...
 def base_complex(mesh: QuadMesh) -> BaseComplex: ...

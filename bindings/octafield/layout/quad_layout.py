@@ -175,18 +175,25 @@ def _on(
     with clock.phase("surface"):
         announce(progress, "surface")
         whole = SurfaceDomain(meshed.surface, meshed.features)
-        domain, origins, blunted = _cut(whole, wanted, singularities)
+        domain, origins = _cut(whole, wanted, singularities)
         fitted = wanted.layout == "t-mesh"
         pattern = pattern_of(domain, places, singularities, corners, options, progress, fitted)
     begun = of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes()))
-    begun = begun.changed(
-        notes=[*begun.notes, *blunted, *pattern.notes, *([] if origins is not None else _of_features(whole))]
-    )
+    begun = begun.changed(notes=[*begun.notes, *pattern.notes, *([] if origins is not None else _of_features(whole))])
     meter = PhaseMeter(begun, progress)
     inadmissible = wanted.inadmissible
     if inadmissible == "default":
         inadmissible = "move" if singularities is None else "fail"
-    field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
+    try:
+        field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
+    except SolverError as error:
+        blunted, notes = _blunted(whole) if origins is not None else (whole, [])
+        if error.kind != "unresolved_turns" or not notes:
+            raise
+        domain, origins = _cut(blunted, wanted, singularities)
+        pattern = pattern_of(domain, places, singularities, corners, options, progress, fitted)
+        begun = begun.changed(notes=[*begun.notes, *notes])
+        field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
     made: BlockQuads
     with told_of_points(domain, pattern.pattern, wanted):
         if wanted.layout == "t-mesh":
@@ -226,21 +233,25 @@ def _on(
 
 def _cut(
     whole: SurfaceDomain, wanted: QuadLayoutOptions, singularities: Points | None
-) -> tuple[SurfaceDomain, np.ndarray | None, list[str]]:
+) -> tuple[SurfaceDomain, np.ndarray | None]:
     """The surface for the field: cut open along features inside where these are to be followed, with the vertices of
-    the whole surface; and a note where needles between features end blunt. Points that are given are of the surface as
-    a whole."""
+    the whole surface. Points that are given are of the surface as a whole."""
     if wanted.layout != "t-mesh" or singularities is not None or not _inner_features(whole):
-        return whole, None, []
+        return whole, None
+    cut = _core.cut_along_features(whole)
+    return cut.domain, np.array(cut.origins)
+
+
+def _blunted(whole: SurfaceDomain) -> tuple[SurfaceDomain, list[str]]:
+    """With needles between features that end a triangle before their tips, and a note; none where there are none."""
     blunted, tips = _core.blunted_features(whole)
-    cut, notes = _core.cut_along_features(blunted), []
-    if len(tips):
-        at = ", ".join(f"{x:.4g}" for x in np.asarray(whole.vertices)[tips[0]])
-        notes = [
-            f"{len(tips)} feature edges are not followed up to where they meet another one at less than 10 degrees, the"
-            f" first at ({at}), but to a triangle before: quads in needles would be as flat as these"
-        ]
-    return cut.domain, np.array(cut.origins), notes
+    if not len(tips):
+        return whole, []
+    at = ", ".join(f"{x:.4g}" for x in np.asarray(whole.vertices)[tips[0]])
+    return blunted, [
+        f"{len(tips)} feature edges are not followed up to where they meet another one at less than 10 degrees, the"
+        f" first at ({at}), but to a triangle before: no cross field follows both on triangles of that size"
+    ]
 
 
 def _imposed(

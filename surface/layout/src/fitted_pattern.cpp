@@ -15,7 +15,8 @@ namespace {
 
 using detail::Face;
 
-constexpr double nothing = 1e-6;  // of quads
+constexpr double nothing = 1e-6;     // of quads
+constexpr double short_part = 0.25;  // of the length curves may have: those that run round and round are no help
 const Eigen::Vector3d middle = Eigen::Vector3d::Constant(1.0 / 3);
 
 // Points on the boundary stay: a corner is there.
@@ -43,7 +44,7 @@ public:
         constexpr double infinite = std::numeric_limits<double>::infinity();
         bool broken = false;
         for (std::size_t f = 0; f < faces_.size(); ++f) {
-            if (faces_[f].layout || (faces_[f].layout = layout_of(faces_[f], faces_[f].pattern))) continue;
+            if (faces_[f].layout || (faces_[f].layout = as_given(faces_[f]))) continue;
             result.before = infinite;
             broken = true;
         }
@@ -62,7 +63,8 @@ private:
     bool improve(FittedPattern& result);
     bool improve_face(std::size_t f, double share, FittedPattern& result);
     std::vector<Candidate> candidates(const Face& face) const;
-    std::optional<QuadLayout> layout_of(const Face& face, SingularPattern& pattern) const;
+    std::optional<QuadLayout> as_given(Face& face) const { return layout_of(face, face.pattern, 1); }
+    std::optional<QuadLayout> layout_of(const Face& face, SingularPattern& pattern, double part) const;
     bool enough() const { return tried_ >= options_.most_tried || triangles_ > options_.most_triangles; }
 
     std::vector<Face>& faces_;
@@ -103,7 +105,7 @@ bool Fitter::improve_face(std::size_t f, double share, FittedPattern& result) {
         report_or_throw(progress_, "fit", -1, missing);
         result.tried = ++tried_;
         triangles_ += face.domain.triangle_count();
-        std::optional<QuadLayout> layout = layout_of(face, candidate.pattern);
+        std::optional<QuadLayout> layout = layout_of(face, candidate.pattern, short_part);
         if (!layout) continue;
         const detail::Fit fit = detail::fit_of(faces_, options_.size, &*layout, f);
         if (fit.missing > missing + nothing) continue;
@@ -146,9 +148,11 @@ std::vector<Candidate> Fitter::candidates(const Face& face) const {
 }
 
 // None where no field has the points there, or its curves make no quads.
-std::optional<QuadLayout> Fitter::layout_of(const Face& face, SingularPattern& pattern) const {
+std::optional<QuadLayout> Fitter::layout_of(const Face& face, SingularPattern& pattern, double part) const {
     try {
-        return detail::traced(face, pattern, tracing_, {});
+        detail::FaceTracing quick = tracing_;
+        quick.curves.max_length *= part;
+        return detail::traced(face, pattern, quick, {});
     } catch (const InvalidInput&) {
     } catch (const GeometryError&) {
     } catch (const SolverError&) {

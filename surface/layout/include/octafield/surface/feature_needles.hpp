@@ -1,5 +1,5 @@
 // Faces that end in a needle, where two feature curves meet at a tangent: a cross field turns by nearly a right angle
-// across the few degrees there, and a quad at the tip is as flat as the needle.
+// across the few degrees there, which may be too much for any triangles.
 #pragma once
 
 #include <numbers>
