@@ -89,7 +89,7 @@ void bind_results(py::module_& m) {
         .field("domain", &FeatureCut::domain, "SurfaceDomain: triangles as before, a vertex per sector of features.")
         .field("origins", &FeatureCut::origins, "(V,) int32: vertex of the whole surface of each.")
         .finish([](const FeatureCut& c) { return count(c.domain.vertex_count(), "vertex", "vertices"); });
-    Record<PatternChange>(m, "PatternChange", "What fitted_pattern changed.")
+    Record<PatternChange>(m, "PatternChange", "What fitted_pattern changed in a face, and where.")
         .field("triangle", &PatternChange::triangle, "The lowest of the face, a connected part of the surface.")
         .field("added", &PatternChange::added, "A pair of points of valence 3 and 5; otherwise a point was moved.")
         .field("positions", &PatternChange::positions, "(1, 3) or (2, 3) float64: where it is now, or where they are.")

@@ -15,6 +15,7 @@ namespace {
 
 using detail::Face;
 
+constexpr int most_steps = 6;        // of Newton's method, for points that are tried
 constexpr double nothing = 1e-6;     // of quads
 constexpr double short_part = 0.25;  // of the length curves may have: those that run round and round are no help
 const Eigen::Vector3d middle = Eigen::Vector3d::Constant(1.0 / 3);
@@ -152,6 +153,7 @@ std::optional<QuadLayout> Fitter::layout_of(const Face& face, SingularPattern& p
     try {
         detail::FaceTracing quick = tracing_;
         quick.curves.max_length *= part;
+        if (part < 1) quick.imposing.max_steps = std::min(quick.imposing.max_steps, most_steps);
         return detail::traced(face, pattern, quick, {});
     } catch (const InvalidInput&) {
     } catch (const GeometryError&) {
