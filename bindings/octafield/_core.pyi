@@ -1162,6 +1162,36 @@ class FeatureCut:
     @origins.setter
     def origins(self, value: ArrayLike) -> None: ...
 
+class PatternChange:
+    def __init__(self, triangle: int = ..., added: bool = ..., positions: ArrayLike = ...) -> None: ...
+    triangle: int
+    added: bool
+    @property
+    def positions(self) -> Float64s: ...
+    @positions.setter
+    def positions(self, value: ArrayLike) -> None: ...
+
+class FittedPattern:
+    def __init__(
+        self,
+        pattern: SingularPattern = ...,
+        changes: Sequence[PatternChange] = ...,
+        before: float = ...,
+        left: float = ...,
+        tried: int = ...,
+    ) -> None: ...
+    @property
+    def pattern(self) -> SingularPattern: ...
+    @pattern.setter
+    def pattern(self, value: SingularPattern) -> None: ...
+    @property
+    def changes(self) -> list[PatternChange]: ...
+    @changes.setter
+    def changes(self, value: Sequence[PatternChange]) -> None: ...
+    before: float
+    left: float
+    tried: int
+
 class QuadLayout:
     def __init__(
         self, field: ImposedField, options: LayoutCurveOptions = ..., cut_annuli: bool = ..., t_mesh: bool = ...
@@ -1236,8 +1266,30 @@ def quantized_quads(
     most_nodes: int = ...,
     progress: Progress | None = None,
 ) -> QuantizedQuads: ...
+def arc_shortages(layout: QuadLayout, origins: ArrayLike = ...) -> Float64s: ...
+def fitted_pattern(
+    surface: SurfaceDomain | TriangleMesh,
+    pattern: SingularPattern,
+    origins: ArrayLike,
+    *,
+    inadmissible: str = ...,
+    tolerance: float = ...,
+    allow_zero_quads: bool = ...,
+    sectors: int = ...,
+    rings: int = ...,
+    ring_ratio: float = ...,
+    max_steps: int = ...,
+    end_tolerance: float = ...,
+    max_length: float = ...,
+    cut_vertices: ArrayLike | None = ...,
+    edge_length: float,
+    progress: Progress | None = None,
+) -> FittedPattern: ...
 def base_complex(mesh: QuadMesh) -> BaseComplex: ...
 def cut_along_features(surface: SurfaceDomain | TriangleMesh) -> FeatureCut: ...
+def blunted_features(
+    surface: SurfaceDomain | TriangleMesh, least_angle: float = ...
+) -> tuple[SurfaceDomain, list[int]]: ...
 def with_corner_quads(
     surface: SurfaceDomain | TriangleMesh, pattern: SingularPattern, corners: Sequence[CornerQuads]
 ) -> SingularPattern: ...

@@ -7,6 +7,8 @@
 #include "interruptible.hpp"
 #include "octafield/surface/corner_pattern.hpp"
 #include "octafield/surface/feature_cut.hpp"
+#include "octafield/surface/feature_needles.hpp"
+#include "octafield/surface/fitted_pattern.hpp"
 #include "octafield/surface/quantized_quads.hpp"
 #include "options.hpp"
 
@@ -87,6 +89,23 @@ void bind_t_mesh_results(py::module_& m) {
         .field("domain", &FeatureCut::domain, "SurfaceDomain: triangles as before, a vertex per sector of features.")
         .field("origins", &FeatureCut::origins, "(V,) int32: vertex of the whole surface of each.")
         .finish([](const FeatureCut& c) { return count(c.domain.vertex_count(), "vertex", "vertices"); });
+    Record<PatternChange>(m, "PatternChange", "What fitted_pattern changed in a face, and where.")
+        .field("triangle", &PatternChange::triangle, "The lowest of the face, a connected part of the surface.")
+        .field("added", &PatternChange::added, "A pair of points of valence 3 and 5; otherwise a point was moved.")
+        .field("positions", &PatternChange::positions, "(1, 3) or (2, 3) float64: where it is now, or where they are.")
+        .finish([](const PatternChange& c) {
+            return std::string(c.added ? "pair added" : "point moved") + " in the face of triangle " +
+                   std::to_string(c.triangle);
+        });
+    Record<FittedPattern>(m, "FittedPattern", "Singular points that whole numbers fit, as fitted_pattern makes them.")
+        .field("pattern", &FittedPattern::pattern, "SingularPattern.")
+        .field("changes", &FittedPattern::changes, "List of PatternChange.")
+        .field("before", &FittedPattern::before, "Sum of arc_shortages of the pattern that was given.")
+        .field("left", &FittedPattern::left, "Of this one: 0 where whole numbers fit.")
+        .field("tried", &FittedPattern::tried, "How many patterns of a face were tried.")
+        .finish([](const FittedPattern& f) {
+            return count(static_cast<std::ptrdiff_t>(f.changes.size()), "change") + ", shortage " + number(f.left);
+        });
 }
 
 void bind_quantized_quads(py::module_& m) {
@@ -122,6 +141,14 @@ void bind_quantized_quads(py::module_& m) {
         "\"inverted_quads\"), Cancelled.");
     list_options<QuantizedQuadsOptions>(m, "quantized_quads");
     m.def(
+        "arc_shortages",
+        [](const BoundLayout& layout, const std::vector<Index>& origins) {
+            return run_interruptible([made = layout.layout, origins](Job&) { return arc_shortages(*made, origins); });
+        },
+        "layout"_a, "origins"_a = std::vector<Index>(),
+        "Of each side of a T-mesh that no whole numbers fit, by how much it is below the least number that it has to "
+        "have where these shortages sum to the least; all 0 where numbers fit. origins: as of quantized_quads.");
+    m.def(
         "base_complex",
         [](const QuadMesh& mesh) {
             return run_interruptible([mesh = mesh](Job&) {
@@ -144,6 +171,19 @@ void bind_cut_features(py::module_& m) {
         "The surface cut open along its feature edges, as a FeatureCut, so that a field that follows the boundary "
         "follows features as well.");
     m.def(
+        "blunted_features",
+        [](const SurfaceOrMesh& surface, double least_angle) {
+            finite(least_angle, "least_angle");
+            return run_interruptible([=](Job&) {
+                BluntedFeatures made = blunted_features(domain_of(surface), least_angle);
+                return std::pair(std::move(made.domain), std::move(made.tips));
+            });
+        },
+        "surface"_a, "least_angle"_a = 10 * std::numbers::pi / 180,
+        "The SurfaceDomain with needles between features blunted, and their tips, int32 vertex ids: where two feature "
+        "edges leave a vertex at less than the angle (radians), the opposite sides of the triangles between them are "
+        "features in place of the shorter one.");
+    m.def(
         "with_corner_quads",
         [](const SurfaceOrMesh& surface, const SingularPattern& pattern, const std::vector<CornerQuads>& corners) {
             return run_interruptible([=](Job&) { return with_corner_quads(domain_of(surface), pattern, corners); });
@@ -151,6 +191,27 @@ void bind_cut_features(py::module_& m) {
         "surface"_a, "pattern"_a, "corners"_a,
         "The SingularPattern with these CornerQuads and no others; points inside are taken away or added, near the "
         "corners, so that the sum of indices stays. Raises InvalidInput, GeometryError (kind \"no_room\").");
+    m.def(
+        "fitted_pattern",
+        [](const SurfaceOrMesh& surface, const SingularPattern& pattern, const std::vector<Index>& origins,
+           double edge_length, const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+            FittingOptions fitting;
+            fitting.size = finite(edge_length, "edge_length");
+            const auto [imposing, curves] =
+                options_of<ImposedFieldOptions, LayoutCurveOptions>("fitted_pattern", given);
+            return run_interruptible(
+                [=, imposing = imposing, curves = curves](Job& job) {
+                    return fitted_pattern(domain_of(surface), pattern, origins, imposing, curves, fitting,
+                                          job.progress());
+                },
+                progress);
+        },
+        "surface"_a, "pattern"_a, "origins"_a, py::kw_only(), "edge_length"_a, "progress"_a = py::none(),
+        "The SingularPattern of a surface cut along features (FeatureCut: domain, origins), changed face by face until "
+        "whole numbers fit its T-mesh, as a FittedPattern: a point is moved, or a pair of valence 3 and 5 added, in "
+        "one of a few places all over the face. Of those that fit, one is taken that deviates little for quads of this "
+        "edge length. Raises as impose_singular_points and motorcycle_graph.");
+    list_options<ImposedFieldOptions, LayoutCurveOptions>(m, "fitted_pattern");
     m.def(
         "finite_corner_quads",
         [](const SurfaceOrMesh& surface, const SingularPattern& pattern) {

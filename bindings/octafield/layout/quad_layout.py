@@ -21,7 +21,7 @@ from .._core import ImposedField, QuadMesh, SingularPattern, SurfaceDomain, TetD
 from ..domain.inputs import Input, from_mesh, naming, read_input
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source, prepare_mesh, read_sound
-from ..errors import InvalidInput, SolverError
+from ..errors import GeometryError, InvalidInput, SolverError
 from ..options import SurfaceFieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
@@ -31,7 +31,7 @@ from .free_axes import pattern_of_lines
 from .options import MOST_QUADS, QuadLayoutOptions
 from .pattern import Places, pattern_of, places_of
 from .quality import figures_of, require_sound
-from .t_mesh import quads_of_t_mesh
+from .t_mesh import MENDED, fitted_points, quads_of_t_mesh
 
 if TYPE_CHECKING:
     import pyvista
@@ -192,11 +192,28 @@ def _on(
     inadmissible = wanted.inadmissible
     if inadmissible == "default":
         inadmissible = "move" if singularities is None else "fail"
-    field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
+    try:
+        field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
+    except SolverError as error:
+        blunted, notes = _blunted(whole) if origins is not None else (whole, [])
+        if error.kind != "unresolved_turns" or not notes:
+            raise
+        domain, origins = _cut(blunted, wanted, singularities)
+        pattern = pattern_of(domain, places, singularities, corners, options, progress, fitted)
+        begun = begun.changed(notes=[*begun.notes, *notes])
+        field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
     made: BlockQuads
     with told_of_points(domain, pattern.pattern, wanted):
         if wanted.layout == "t-mesh":
-            made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
+            try:
+                made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
+            except GeometryError as error:
+                if pattern.source != "computed" or error.kind not in MENDED:
+                    raise
+                pattern = fitted_points(domain, pattern, origins, inadmissible, wanted, target, error, meter.report)
+                begun = begun.changed(notes=[*begun.notes, pattern.notes[-1]])
+                field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
+                made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
         else:
             field, made = quads_of_separatrices(field, wanted, target, meter.report)
     meter.begin("check")
@@ -231,6 +248,18 @@ def _cut(
         return whole, None
     cut = _core.cut_along_features(whole)
     return cut.domain, np.array(cut.origins)
+
+
+def _blunted(whole: SurfaceDomain) -> tuple[SurfaceDomain, list[str]]:
+    """With needles between features that end a triangle before their tips, and a note; none where there are none."""
+    blunted, tips = _core.blunted_features(whole)
+    if not len(tips):
+        return whole, []
+    at = ", ".join(f"{x:.4g}" for x in np.asarray(whole.vertices)[tips[0]])
+    return blunted, [
+        f"{len(tips)} feature edges are not followed up to where they meet another one at less than 10 degrees, the"
+        f" first at ({at}), but to a triangle before: no cross field follows both on triangles of that size"
+    ]
 
 
 def _imposed(

@@ -66,8 +66,9 @@ BuiltField built_field(const SurfaceDomain& input, const Imposed& imposed) {
         const std::set<Index> coarse = unresolved(rings, turns);
         if (!coarse.empty()) {
             const std::vector<Index> parts(coarse.begin(), coarse.end());
-            std::vector<Index> origins;
-            for (const Index part : parts) origins.push_back(mesh.triangles()[part].origin);
+            std::set<Index> of_input;
+            for (const Index part : parts) of_input.insert(mesh.triangles()[part].origin);
+            const std::vector<Index> origins(of_input.begin(), of_input.end());
             const std::size_t most =
                 20 * static_cast<std::size_t>(input.triangle_count()) + most_per_point * (imposed.places.size() + 1);
             if (round == most_refinements || mesh.triangles().size() > most)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -51,7 +52,8 @@ std::vector<Part> parts_of(const ArcProblem& problem) {
 // count + below - middle - above = low.
 class Programme {
 public:
-    Programme(const ArcProblem& problem, const Part& part) : model_(Cbc_newModel(), Cbc_deleteModel) {
+    Programme(const ArcProblem& problem, const Part& part, bool whole = true)
+        : model_(Cbc_newModel(), Cbc_deleteModel) {
         std::map<Index, int> place;
         for (std::size_t i = 0; i < part.arcs.size(); ++i) place[part.arcs[i]] = static_cast<int>(i);
         const auto arcs = static_cast<int>(part.arcs.size());
@@ -86,8 +88,9 @@ public:
         }
         Cbc_loadProblem(model_.get(), static_cast<int>(columns.size()), static_cast<int>(right.size()), starts.data(),
                         rows.data(), values.data(), low.data(), high.data(), cost.data(), right.data(), right.data());
-        for (int i = 0; i < arcs; ++i) Cbc_setInteger(model_.get(), 4 * i);
+        for (int i = 0; i < arcs && whole; ++i) Cbc_setInteger(model_.get(), 4 * i);
         Cbc_setParameter(model_.get(), "log", "0");
+        Cbc_setLogLevel(model_.get(), 0);
     }
 
     void solve(int most_nodes, const Part& part, ArcCounts& result) {
@@ -112,6 +115,13 @@ public:
         result.optimal &= proven;
         const double value = Cbc_getObjValue(model_.get());
         result.bound += constant_ + (proven ? value : std::min(value, Cbc_getBestPossibleObjValue(model_.get())));
+    }
+
+    // Of numbers that need not be whole; infinite where there are none.
+    double least_deviation() {
+        Cbc_solve(model_.get());
+        if (Cbc_isProvenInfeasible(model_.get())) return std::numeric_limits<double>::infinity();
+        return constant_ + Cbc_getObjValue(model_.get());
     }
 
 private:
@@ -150,6 +160,13 @@ ArcCounts integer_counts(const ArcProblem& problem, int most_nodes) {
     }
     if (!sums_agree(problem, result.counts))
         throw SolverError("the solver gave whole numbers whose sums do not agree", "solver_failed");
+    return result;
+}
+
+double least_deviation(const ArcProblem& problem) {
+    double result = 0;
+    for (const Part& part : parts_of(problem))
+        if (!part.sums.empty()) result += Programme(problem, part, false).least_deviation();
     return result;
 }
 

@@ -32,4 +32,7 @@ struct ArcCounts {
 // numbers, and SolverError (kind "node_limit") where none are found.
 ArcCounts integer_counts(const ArcProblem& problem, int most_nodes);
 
+// That sum where numbers need not be whole, without arcs that share no sum: a bound of it. Infinite where none fit.
+double least_deviation(const ArcProblem& problem);
+
 }  // namespace octafield::surface::detail

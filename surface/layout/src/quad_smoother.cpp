@@ -21,7 +21,7 @@ using Vector = Eigen::Vector3d;
 constexpr double good_enough = 0.9;  // scaled Jacobian: vertices with no worse quads stay
 constexpr double bad = 0.3;
 constexpr double softness = 10;
-constexpr int most_rings = 4, relaxing_rounds = 20;
+constexpr int rings[] = {1, 2, 3, 4, 8, 16}, relaxing_rounds = 20;
 constexpr double least_gain = 1e-4;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
 
@@ -98,7 +98,16 @@ public:
         fixed_.assign(count, false);
         for (std::size_t v = 0; v < places_.size(); ++v) fixed_[v] = places_[v].seam < 0;
         for (const Index v : input.fixed)
-            if (v >= static_cast<Index>(places_.size())) fixed_[v] = true;
+            if (v >= static_cast<Index>(places_.size())) {
+                fixed_[v] = true;
+                held_.push_back(v);
+            }
+        along_.resize(input.seams.seams.size());
+        for (std::size_t v = 0; v < places_.size(); ++v)
+            if (places_[v].seam >= 0 && !around_[v].empty()) along_[places_[v].seam].push_back(static_cast<Index>(v));
+        for (auto& vertices : along_)
+            std::stable_sort(vertices.begin(), vertices.end(),
+                             [&](Index a, Index b) { return places_[a].at < places_[b].at; });
         std::vector<Index> part_of_patch;
         for (const LayoutPatch& patch : input.layout.patches) part_of_patch.push_back(parts_.part_of(patch));
         for (const Index patch : input.patches) part_.push_back(part_of_patch[patch]);
@@ -114,11 +123,25 @@ public:
 
     // Optimised vertex by vertex; where that gets stuck, once more from where the vertices round bad quads are at the
     // means of their neighbours, in growing rings, first with all quads round a vertex counting. The better one is
-    // kept.
+    // kept. Singular points inside are held first, and released where bad quads are left.
     void run(int rounds) {
         optimise(rounds);
+        rescue(rounds);
+        if (least_quality() >= bad || !release()) return;
+        optimise(rounds);
+        rescue(rounds);
+    }
+
+private:
+    bool release() {
+        for (const Index v : held_) fixed_[v] = false;
+        return !held_.empty();
+    }
+
+    void rescue(int rounds) {
         double least = least_quality();
-        for (int ring = 1; ring <= most_rings && least < bad; ++ring) {
+        for (const int ring : rings) {
+            if (least >= bad) break;
             const Points before = mesh_.vertices;
             const auto places = places_;
             relax(ring);
@@ -136,7 +159,6 @@ public:
         }
     }
 
-private:
     void optimise(int rounds) {
         for (int round = 0; round < rounds; ++round) {
             bool moved = false;
@@ -161,13 +183,35 @@ private:
             for (std::size_t v = 0; v < near.size(); ++v)
                 for (const Index n : neighbours_[v]) near[v] = near[v] || inner[n];
         }
-        for (int round = 0; round < relaxing_rounds; ++round)
+        for (int round = 0; round < relaxing_rounds; ++round) {
+            relax_seams(near);
             for (Index v = static_cast<Index>(places_.size()); v < static_cast<Index>(near.size()); ++v) {
                 if (!near[v] || fixed_[v] || around_[v].empty()) continue;
                 Vector mean = Vector::Zero();
                 for (const Index n : neighbours_[v]) mean += position(n) / static_cast<double>(neighbours_[v].size());
                 mesh_.vertices.row(v) = parts_.nearest(part_[around_[v][0]], mean).first;
             }
+        }
+    }
+
+    // To halfway between the neighbours along the seam.
+    void relax_seams(const std::vector<bool>& near) {
+        for (std::size_t s = 0; s < along_.size(); ++s) {
+            const Seam& seam = input_.seams.seams[s];
+            const auto count = along_[s].size();
+            for (std::size_t i = 0; i < count; ++i) {
+                const Index v = along_[s][i];
+                if (!near[v]) continue;
+                const double before = i > 0         ? places_[along_[s][i - 1]].at
+                                      : seam.closed ? places_[along_[s].back()].at - seam.length
+                                                    : 0;
+                const double after = i + 1 < count ? places_[along_[s][i + 1]].at
+                                     : seam.closed ? places_[along_[s].front()].at + seam.length
+                                                   : seam.length;
+                places_[v].at = (before + after) / 2;
+                mesh_.vertices.row(v) = position_on(seam, places_[v].at);
+            }
+        }
     }
 
     Vector position(Index v) const { return mesh_.vertices.row(v); }
@@ -269,7 +313,9 @@ private:
     Parts parts_;
     std::vector<std::vector<Index>> around_, neighbours_;
     std::vector<SideGrids::OnSeam> places_;
+    std::vector<std::vector<Index>> along_;  // vertices of each seam, in their order
     std::vector<bool> fixed_;
+    std::vector<Index> held_;      // of these, singular points inside
     std::vector<Index> part_;      // of each quad
     std::vector<Vector> normals_;  // of the surface at each quad
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "arc_shortage.hpp"
 #include "octafield/error.hpp"
 #include "quad_builder.hpp"
 #include "quad_smoother.hpp"
@@ -87,8 +88,8 @@ Chosen choose(const QuadLayout& layout, const detail::Seams& seams, const Quanti
 }
 
 // Without any, each vertex is its own.
-std::vector<Index> origins_of(const QuadLayout& layout, const QuantizedQuadsOptions& options) {
-    if (!options.origins.empty()) return options.origins;
+std::vector<Index> origins_of(const QuadLayout& layout, const std::vector<Index>& origins) {
+    if (!origins.empty()) return origins;
     std::vector<Index> result(layout.domain.vertex_count());
     std::iota(result.begin(), result.end(), 0);
     return result;
@@ -111,7 +112,7 @@ QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOpt
     if (!layout.pieces || layout.patches.empty()) throw InvalidInput("the layout has no patches", "bad_option");
     detail::require_quads(layout);
     report_or_throw(progress, "integers", 0, NAN);
-    const detail::Seams seams = detail::find_seams(layout, origins_of(layout, options));
+    const detail::Seams seams = detail::find_seams(layout, origins_of(layout, options.origins));
     Chosen chosen = choose(layout, seams, options);
     if (!(chosen.quads <= most_quads)) throw InvalidInput("the size would give more than 1e8 quads", "bad_option");
     detail::SideGrids grids = detail::seamed_grids(layout, seams, chosen.arcs.counts, chosen.part_counts);
@@ -138,6 +139,15 @@ QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOpt
     result.deviation = chosen.arcs.deviation;
     result.bound = chosen.arcs.bound;
     result.optimal = chosen.arcs.optimal;
+    return result;
+}
+
+std::vector<double> arc_shortages(const QuadLayout& layout, const std::vector<Index>& origins) {
+    if (!layout.pieces || layout.patches.empty()) throw InvalidInput("the layout has no patches", "bad_option");
+    detail::require_quads(layout);
+    const detail::Seams seams = detail::find_seams(layout, origins_of(layout, origins));
+    std::vector<double> result = detail::arc_shortages(detail::arc_problem(layout, seams));
+    result.resize(layout.sides.size());
     return result;
 }
 

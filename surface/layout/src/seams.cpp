@@ -35,12 +35,17 @@ struct Slope {
 
 class Finder {
 public:
-    Finder(const QuadLayout& layout, const std::vector<Index>& origins)
-        : layout_(layout), pieces_(*layout.pieces), origins_(origins) {}
+    explicit Finder(const std::vector<LayoutPart>& parts) : parts_(parts) {}
 
     Seams result() && {
-        walk_border();
+        for (const LayoutPart& part : parts_) {
+            part_ = &part;
+            walk_border();
+            first_side_ += static_cast<Index>(part.layout->sides.size());
+            first_vertex_ += static_cast<Index>(part.layout->vertices.size());
+        }
         find_nodes();
+        seams_.uses.resize(first_side_);
         for (Index n = 0; n < static_cast<Index>(seams_.nodes.size()); ++n)
             for (const auto& [edge, other] : around_[seams_.nodes[n]])
                 if (!used_[edge]) add_seam(seams_.nodes[n], edge);
@@ -57,7 +62,9 @@ private:
         double length, parameters;
     };
 
-    bool is_original(Index node) const { return node < static_cast<Index>(origins_.size()); }
+    const LayoutPieces& pieces() const { return *part_->layout->pieces; }
+    const std::vector<Index>& origins() const { return *part_->origins; }
+    bool is_original(Index node) const { return node < static_cast<Index>(origins().size()); }
     void walk_border();
     void add_loop(const std::vector<Node>& loop);
     void add_edge(const std::vector<Node>& nodes);
@@ -68,9 +75,9 @@ private:
                    const std::vector<Slope>& slopes) const;
     void add_parts(Seam& seam, const std::vector<std::pair<Index, bool>>& path, const std::vector<double>& starts);
 
-    const QuadLayout& layout_;
-    const LayoutPieces& pieces_;
-    const std::vector<Index>& origins_;
+    const std::vector<LayoutPart>& parts_;
+    const LayoutPart* part_ = nullptr;         // whose border is walked
+    Index first_side_ = 0, first_vertex_ = 0;  // of it, among those of all parts
     std::map<std::pair<Index, Index>, Index> edge_of_;
     std::vector<WholeEdge> edges_;
     std::map<Index, std::vector<std::pair<Index, Index>>> around_;  // edges at each vertex, and their other ends
@@ -82,20 +89,20 @@ private:
 
 void Finder::walk_border() {
     std::map<Index, Index> chain_from;
-    for (std::size_t c = 0; c < pieces_.chains.size(); ++c)
-        if (pieces_.chains[c].curve < 0) chain_from[pieces_.chains[c].nodes.front().node] = static_cast<Index>(c);
+    for (std::size_t c = 0; c < pieces().chains.size(); ++c)
+        if (pieces().chains[c].curve < 0) chain_from[pieces().chains[c].nodes.front().node] = static_cast<Index>(c);
     std::set<Index> done;
     for (const auto& [start, chain] : chain_from) {
         if (done.contains(chain)) continue;
         std::vector<Node> loop;
         Index at = chain;
         while (done.insert(at).second) {
-            const auto& nodes = pieces_.chains[at].nodes;
+            const auto& nodes = pieces().chains[at].nodes;
             double length = 0;
             for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
                 loop.push_back({nodes[i].node, at, length, nodes[i].length});
                 length +=
-                    (pieces_.cut.positions.row(nodes[i + 1].node) - pieces_.cut.positions.row(nodes[i].node)).norm();
+                    (pieces().cut.positions.row(nodes[i + 1].node) - pieces().cut.positions.row(nodes[i].node)).norm();
             }
             at = chain_from.at(nodes.back().node);
         }
@@ -119,9 +126,9 @@ void Finder::add_loop(const std::vector<Node>& loop) {
 }
 
 void Finder::add_edge(const std::vector<Node>& nodes) {
-    const Index a = origins_[nodes.front().node], b = origins_[nodes.back().node];
-    position_of_.emplace(a, pieces_.cut.positions.row(nodes.front().node));
-    position_of_.emplace(b, pieces_.cut.positions.row(nodes.back().node));
+    const Index a = origins()[nodes.front().node], b = origins()[nodes.back().node];
+    position_of_.emplace(a, pieces().cut.positions.row(nodes.front().node));
+    position_of_.emplace(b, pieces().cut.positions.row(nodes.back().node));
     const auto [found, is_new] = edge_of_.emplace(std::minmax(a, b), static_cast<Index>(edges_.size()));
     if (is_new) {
         edges_.push_back({std::min(a, b), std::max(a, b), 0, {}});
@@ -136,15 +143,19 @@ void Finder::add_edge(const std::vector<Node>& nodes) {
                            "bad_option", {a, b});
     double at = 0;
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-        const auto& chain = pieces_.chains[nodes[i].side].nodes;
+        const auto& chain = pieces().chains[nodes[i].side].nodes;
         const double length =
-            (pieces_.cut.positions.row(nodes[i + 1].node) - pieces_.cut.positions.row(nodes[i].node)).norm();
+            (pieces().cut.positions.row(nodes[i + 1].node) - pieces().cut.positions.row(nodes[i].node)).norm();
         const double last = nodes[i + 1].side == nodes[i].side && nodes[i + 1].parameters > nodes[i].parameters
                                 ? nodes[i + 1].parameters
                                 : chain.back().length;
-        edge.sides[down].push_back({at, at + length, nodes[i].side, nodes[i].length, nodes[i].length + length,
-                                    last - nodes[i].parameters, pieces_.vertex_of_node[nodes[i].node],
-                                    pieces_.vertex_of_node[nodes[i + 1].node]});
+        const auto vertex = [&](Index node) {
+            const Index found = pieces().vertex_of_node[node];
+            return found < 0 ? -1 : first_vertex_ + found;
+        };
+        edge.sides[down].push_back({at, at + length, first_side_ + nodes[i].side, nodes[i].length,
+                                    nodes[i].length + length, last - nodes[i].parameters, vertex(nodes[i].node),
+                                    vertex(nodes[i + 1].node)});
         at += length;
     }
     edge.length = at;
@@ -164,17 +175,17 @@ void Finder::find_nodes() {
     std::set<Index> nodes;
     for (const auto& [vertex, edges] : around_)
         if (edges.size() != 2) nodes.insert(vertex);
-    for (const LayoutVertex& vertex : layout_.vertices)
-        if (vertex.vertex >= 0 && is_original(vertex.vertex) && vertex.index_times_four != 0 &&
-            around_.contains(origins_[vertex.vertex]))
-            nodes.insert(origins_[vertex.vertex]);
+    for (const LayoutPart& part : parts_)
+        for (const LayoutVertex& vertex : part.layout->vertices)
+            if (vertex.vertex >= 0 && vertex.vertex < static_cast<Index>(part.origins->size()) &&
+                vertex.index_times_four != 0 && around_.contains((*part.origins)[vertex.vertex]))
+                nodes.insert((*part.origins)[vertex.vertex]);
     for (const Index node : nodes) {
         node_of_[node] = static_cast<Index>(seams_.nodes.size());
         seams_.nodes.push_back(node);
         seams_.node_positions.push_back(position_of_.at(node));
     }
     used_.assign(edges_.size(), false);
-    seams_.uses.resize(layout_.sides.size());
 }
 
 // To the next node, or round.
@@ -309,9 +320,14 @@ void Finder::add_knots(Seam& seam, const std::vector<std::pair<Index, bool>>& pa
 }  // namespace
 
 Seams find_seams(const QuadLayout& layout, const std::vector<Index>& origins) {
-    if (static_cast<Index>(origins.size()) > layout.domain.vertex_count())
-        throw InvalidInput("there are more origins than vertices", "bad_option");
-    return Finder(layout, origins).result();
+    return find_seams(std::vector<LayoutPart>{{&layout, &origins}});
+}
+
+Seams find_seams(const std::vector<LayoutPart>& parts) {
+    for (const LayoutPart& part : parts)
+        if (static_cast<Index>(part.origins->size()) > part.layout->domain.vertex_count())
+            throw InvalidInput("there are more origins than vertices", "bad_option");
+    return Finder(parts).result();
 }
 
 }  // namespace octafield::surface::detail

@@ -51,4 +51,11 @@ struct Seams {
 // (kind "bad_option") where they do not fit the surface.
 Seams find_seams(const QuadLayout& layout, const std::vector<Index>& origins);
 
+// The same of a surface whose parts have layouts of their own: sides and vertices are counted on from part to part.
+struct LayoutPart {
+    const QuadLayout* layout;
+    const std::vector<Index>* origins;
+};
+Seams find_seams(const std::vector<LayoutPart>& parts);
+
 }  // namespace octafield::surface::detail

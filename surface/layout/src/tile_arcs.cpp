@@ -68,29 +68,48 @@ void add_seams(const Seams& seams, Index arcs, ArcProblem& problem) {
 }  // namespace
 
 ArcProblem arc_problem(const QuadLayout& layout, const Seams& seams) {
+    return arc_problem(std::vector<const QuadLayout*>{&layout}, seams);
+}
+
+ArcProblem arc_problem(const std::vector<const QuadLayout*>& layouts, const Seams& seams) {
     ArcProblem problem;
-    problem.least.assign(layout.sides.size(), 1);
-    std::map<std::pair<Index, Index>, std::vector<Index>> between;
-    for (std::size_t s = 0; s < layout.sides.size(); ++s)
-        between[std::minmax(layout.sides[s].first, layout.sides[s].last)].push_back(static_cast<Index>(s));
-    for (const auto& [ends, arcs] : between)
-        for (const Index arc : arcs) problem.least[arc] = ends.first == ends.second ? 3 : arcs.size() > 1 ? 2 : 1;
-    for (const LayoutPatch& patch : layout.patches) {
-        const auto sides = four_sides(patch);
-        for (int k = 0; k < 2; ++k) problem.sums.push_back({numbers(sides[k]), numbers(sides[k + 2])});
+    for (const QuadLayout* layout : layouts) {
+        const auto first = static_cast<Index>(problem.least.size());
+        const auto all = [&](const std::vector<DirectedSide>& sides) {
+            std::vector<Index> result = numbers(sides);
+            for (Index& side : result) side += first;
+            return result;
+        };
+        std::map<std::pair<Index, Index>, std::vector<Index>> between;
+        for (std::size_t s = 0; s < layout->sides.size(); ++s)
+            between[std::minmax(layout->sides[s].first, layout->sides[s].last)].push_back(static_cast<Index>(s));
+        problem.least.resize(problem.least.size() + layout->sides.size(), 1);
+        for (const auto& [ends, arcs] : between)
+            for (const Index arc : arcs)
+                problem.least[first + arc] = ends.first == ends.second ? 3 : arcs.size() > 1 ? 2 : 1;
+        for (const LayoutPatch& patch : layout->patches) {
+            const auto sides = four_sides(patch);
+            for (int k = 0; k < 2; ++k) problem.sums.push_back({all(sides[k]), all(sides[k + 2])});
+        }
     }
-    add_seams(seams, static_cast<Index>(layout.sides.size()), problem);
+    add_seams(seams, static_cast<Index>(problem.least.size()), problem);
     return problem;
 }
 
 void set_size(ArcProblem& problem, const QuadLayout& layout, const Seams& seams, double size, ArcWeights weights) {
+    set_size(problem, std::vector<const QuadLayout*>{&layout}, seams, size, weights);
+}
+
+void set_size(ArcProblem& problem, const std::vector<const QuadLayout*>& layouts, const Seams& seams, double size,
+              ArcWeights weights) {
     problem.wanted.clear();
     problem.weights.clear();
     const auto add = [&](double length, double weight) {
         problem.wanted.push_back(length / size);
         problem.weights.push_back(weight / (weights == ArcWeights::equal ? 1 : std::max(1.0, length / size)));
     };
-    for (const LayoutSide& side : layout.sides) add(side.length(), 1);
+    for (const QuadLayout* layout : layouts)
+        for (const LayoutSide& side : layout->sides) add(side.length(), 1);
     for (const SeamPart& part : seams.parts) add(part.parameters, part_weight);
     problem.wanted.resize(problem.least.size(), 1);
     problem.weights.resize(problem.least.size(), 0);

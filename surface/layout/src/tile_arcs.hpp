@@ -12,7 +12,10 @@ namespace octafield::surface::detail {
 // on them are, then the seams, 1 at least, 2 between the same two nodes, 3 if closed. set_size: wanted and weights, of
 // parts a quarter, of seams and of what is behind them 0.
 ArcProblem arc_problem(const QuadLayout& layout, const Seams& seams);
+ArcProblem arc_problem(const std::vector<const QuadLayout*>& layouts, const Seams& seams);  // of parts, in turn
 void set_size(ArcProblem& problem, const QuadLayout& layout, const Seams& seams, double size, ArcWeights weights);
+void set_size(ArcProblem& problem, const std::vector<const QuadLayout*>& layouts, const Seams& seams, double size,
+              ArcWeights weights);
 
 // The problem with the given counts, each of whose quads is to be split as all others in its row: a problem in those
 // splits, >= 1, behind the rest.

@@ -1,5 +1,6 @@
 // Whole numbers for arcs against all that there are.
 #include "arc_counts.hpp"
+#include "arc_shortage.hpp"
 #include "layout_fixtures.hpp"
 
 namespace octafield::surface {
@@ -63,6 +64,13 @@ TEST(ArcCounts, AreTheBestOfAll) {
             problem.sums.push_back(sum);
         }
         const auto best = least_of_all(problem);
+        const std::vector<double> missing = detail::arc_shortages(problem);
+        const double sum = std::accumulate(missing.begin(), missing.end(), 0.0);
+        if (best) {
+            EXPECT_EQ(sum, 0);
+            const double bound = detail::least_deviation(problem);
+            EXPECT_LE(bound, *best + 1e-9);
+        }
         if (!best) {
             EXPECT_EQ(kind_of([&] { detail::integer_counts(problem, 100); }), "no_integers");
             ++refused;
@@ -83,6 +91,23 @@ TEST(ArcCounts, AreTheBestOfAll) {
 TEST(ArcCounts, WithoutSumsAreRounded) {
     const ArcProblem problem{{0.2, 2.4, 2.6}, {1, 1, 1}, {1, 1, 1}, {}};
     EXPECT_EQ(detail::integer_counts(problem, 10).counts, (std::vector<int>{1, 2, 3}));
+}
+
+// 0 + 1 = 0 leaves nothing for 1; 2 = 3 has no part in it.
+TEST(ArcShortages, NameTheArcsInTheWay) {
+    const ArcProblem problem{{1, 1, 1, 1}, {1, 1, 1, 1}, {1, 2, 1, 1}, {{{0, 1}, {0}}, {{2}, {3}}}};
+    const std::vector<double> missing = detail::arc_shortages(problem);
+    ASSERT_EQ(missing.size(), 4u);
+    EXPECT_EQ(missing[0], 0);
+    EXPECT_NEAR(missing[1], 2, 1e-6);
+    EXPECT_EQ(missing[2] + missing[3], 0);
+    EXPECT_TRUE(std::isinf(detail::least_deviation(problem)));
+}
+
+// 1.5 and 1.5 against 4: a quad too many or too few, shared out as one likes.
+TEST(ArcCounts, NeedNotBeWholeForTheBound) {
+    const ArcProblem problem{{1.5, 1.5, 4}, {1, 1, 1}, {1, 1, 1}, {{{0, 1}, {2}}}};
+    EXPECT_NEAR(detail::least_deviation(problem), 1, 1e-6);
 }
 
 }  // namespace

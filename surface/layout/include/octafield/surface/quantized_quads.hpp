@@ -56,4 +56,9 @@ struct QuantizedQuads : LayoutQuads {
 QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOptions& options,
                                const Progress& progress = {});
 
+// Where no whole numbers fit: of each side of the layout, by how much it is below the least number that it has to have
+// (1, or 2 or 3 where edges of the mesh would be the same) where sums are equal and these shortages sum to the least.
+// All 0 where numbers fit. Throws InvalidInput as quantized_quads.
+std::vector<double> arc_shortages(const QuadLayout& layout, const std::vector<Index>& origins = {});
+
 }  // namespace octafield::surface

@@ -1,0 +1,130 @@
+"""Parts whose faces ask for numbers of quads that contradict one another: singular points change until they fit."""
+
+import math
+
+import numpy as np
+import octafield as of
+import pytest
+from quad_mesh_checks import irregular
+
+KEPT = of.SurfaceFieldOptions(feature_angle=math.radians(30))
+
+# A cube with a wedge cut out of one edge: of the two faces that the cut's slanted side ends on, a triangle and a
+# pentagon with corners of 135 degrees, the triangle's points ask for a slanted edge shorter than its other two
+# together, and the pentagon's for a longer one.
+NOTCH = np.array(
+    [[-5, -5, 10], [-5, -5, 0], [-5, 5, 10], [-5, 5, 0], [5, -5, 0], [5, -5, 10], [5, 5, 10], [1, 5, 0], [1, 5, 5],
+     [5, 5, 5], [1, 0, 0], [5, 0, 0]]
+) / 10  # fmt: skip
+NOTCH_FACES = [
+    ((-1, 0, 0), [0, 1, 3, 2]),
+    ((0, -1, 0), [0, 1, 4, 5]),
+    ((0, 0, 1), [0, 2, 6, 5]),
+    ((0, 0, -1), [10, 11, 4, 1, 3, 7]),
+    ((0, 1, 0), [8, 9, 6, 2, 3, 7]),
+    ((1, 0, 0), [9, 11, 4, 5, 6]),
+    ((1, 0, 0), [7, 8, 10]),
+    ((0, 1, -1), [8, 9, 11, 10]),
+]
+
+
+def solid(points, faces):
+    """Each face, of an outward normal, as a fan from its first vertex."""
+    triangles = []
+    for normal, loop in faces:
+        for a, b in zip(loop[1:], loop[2:], strict=False):
+            corners = points[[loop[0], a, b]]
+            outside = np.dot(np.cross(corners[1] - corners[0], corners[2] - corners[0]), normal) > 0
+            triangles.append([loop[0], a, b] if outside else [loop[0], b, a])
+    return of.TriangleMesh(points, triangles)
+
+
+def prism(sides):
+    angles = 2 * math.pi * np.arange(sides) / sides
+    points = np.array([[math.cos(a), math.sin(a), z] for z in (0, 1) for a in angles])
+    faces = [((0, 0, -1), list(range(sides))), ((0, 0, 1), list(range(sides, 2 * sides)))]
+    for i in range(sides):
+        j = (i + 1) % sides
+        middle = angles[i] + math.pi / sides
+        faces.append(((math.cos(middle), math.sin(middle), 0), [i, j, sides + j, sides + i]))
+    return solid(points, faces)
+
+
+def made(part, quads=600):
+    return of.compute_quad_layout(part, KEPT, layout_options=of.QuadLayoutOptions(quads=quads))
+
+
+def parts_of(part):
+    """Face by face: the surface cut open, and the points of the computed field there."""
+    domain = of.surface.SurfaceDomain(part, of.surface.detect_features(part, angle=math.radians(30)))
+    cut = of.surface.cut_along_features(domain)
+    field = of.surface.direction_field(cut.domain, symmetry=4)
+    pattern = of.surface.singular_pattern(field, of.surface.surface_singularities(field))
+    return cut, of.surface.with_corner_quads(cut.domain, pattern, of.surface.finite_corner_quads(cut.domain, pattern))
+
+
+def shortages(cut, pattern):
+    field = of.surface.impose_singular_points(cut.domain, pattern, inadmissible="rotate")
+    return np.asarray(of.surface.arc_shortages(of.surface.motorcycle_graph(field), cut.origins))
+
+
+def test_a_cube_with_a_notch_gets_a_pair_of_points_in_one_face():
+    result = made(solid(NOTCH, NOTCH_FACES))
+    assert result.record.scaled_jacobian.min > 0.6 and result.record.surface_deviation.max < 1e-9
+    found = irregular(result.mesh, 2)
+    assert sum(found.values()) == 8
+    points = np.asarray(result.mesh.vertices)
+    assert all((np.linalg.norm(points - corner, axis=1) < 1e-9).any() for corner in NOTCH)
+    # The points of the computed field and the pair; the others are corners.
+    _, pattern = parts_of(of.prepare_mesh(solid(NOTCH, NOTCH_FACES), KEPT, volume=False).surface)
+    inside = [found[v] for v in found if np.linalg.norm(NOTCH - points[v], axis=1).min() > 1e-9]
+    assert sorted(inside) == sorted([-1, 1, *(point.index_times_four for point in pattern.points)])
+    assert [note for note in result.record.notes if "1 pair of valence 3 and 5 added" in note]
+
+
+def test_changes_are_the_same_each_time_and_no_more_than_are_needed():
+    mesh = of.prepare_mesh(solid(NOTCH, NOTCH_FACES), KEPT, volume=False).surface
+    cut, pattern = parts_of(mesh)
+    assert shortages(cut, pattern).sum() > 0
+    first, second = (
+        of.surface.fitted_pattern(cut.domain, pattern, cut.origins, edge_length=0.1, inadmissible="rotate")
+        for _ in range(2)
+    )
+    assert first.before == pytest.approx(shortages(cut, pattern).sum()) and first.left == 0
+    assert shortages(cut, first.pattern).sum() == 0
+    assert len(first.changes) == 1 and len(first.pattern.points) == len(pattern.points) + 2
+    assert [(p.triangle, p.weights.tolist()) for p in first.pattern.points] == [
+        (p.triangle, p.weights.tolist()) for p in second.pattern.points
+    ]
+    assert {(c.vertex, c.quads) for c in first.pattern.corners} == {(c.vertex, c.quads) for c in pattern.corners}
+    # What fits stays as it is.
+    again = of.surface.fitted_pattern(cut.domain, first.pattern, cut.origins, edge_length=0.1, inadmissible="rotate")
+    assert again.changes == [] and again.tried == 0 and len(again.pattern.points) == len(first.pattern.points)
+
+
+@pytest.mark.parametrize("sides", [5, 7, 9, 11])
+def test_prisms_over_polygons_of_odd_numbers_of_sides(sides):
+    result = made(prism(sides))
+    found = irregular(result.mesh, 2)
+    assert sum(found.values()) == 8
+    assert result.record.scaled_jacobian.min > 0.3 and result.record.surface_deviation.max < 1e-9
+    corners = np.asarray(prism(sides).vertices)
+    points = np.asarray(result.mesh.vertices)
+    assert all((np.linalg.norm(points - corner, axis=1) < 1e-9).any() for corner in corners)
+
+
+def test_points_that_are_given_are_never_changed():
+    points = [{"position": [0.0, 0.0, 0.0], "index_times_four": 8}]
+    with pytest.raises(of.Error) as error:
+        of.compute_quad_layout(
+            solid(NOTCH, NOTCH_FACES), KEPT, layout_options=of.QuadLayoutOptions(quads=600), singularities=points
+        )
+    assert error.value.kind != "no_integers"
+
+
+def test_origins_that_do_not_fit_are_refused():
+    cut, pattern = parts_of(of.prepare_mesh(prism(4), KEPT, volume=False).surface)
+    with pytest.raises(of.InvalidInput, match="origin"):
+        of.surface.fitted_pattern(cut.domain, pattern, [0, 1], edge_length=0.1)
+    with pytest.raises(of.InvalidInput):
+        of.surface.fitted_pattern(cut.domain, pattern, cut.origins, edge_length=0.0)
