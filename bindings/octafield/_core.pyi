@@ -1048,6 +1048,7 @@ class QuantizedQuadsOptions:
     coarsest: bool
     weights: str
     smoothing: int
+    release_points: bool
     most_nodes: int
     def __init__(
         self,
@@ -1057,6 +1058,7 @@ class QuantizedQuadsOptions:
         weights: str = ...,
         origins: ArrayLike = ...,
         smoothing: int = ...,
+        release_points: bool = ...,
         most_nodes: int = ...,
     ) -> None: ...
     @property
@@ -1263,6 +1265,7 @@ def quantized_quads(
     weights: str = ...,
     origins: ArrayLike | None = ...,
     smoothing: int = ...,
+    release_points: bool = ...,
     most_nodes: int = ...,
     progress: Progress | None = None,
 ) -> QuantizedQuads: ...

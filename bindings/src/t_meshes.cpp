@@ -36,6 +36,8 @@ void bind_t_mesh_options(py::module_& m) {
                "Of a surface cut open (FeatureCut.origins): boundaries of the same origins get the same vertices.")
         .field("smoothing", &QuantizedQuadsOptions::smoothing,
                "Rounds in which vertices are moved for a larger least scaled Jacobian round them; 0: none.")
+        .field("release_points", &QuantizedQuadsOptions::release_points,
+               "Let singular points inside move where quads of a scaled Jacobian below 0.3 are left.")
         .field("most_nodes", &QuantizedQuadsOptions::most_nodes, "Of branch and bound, for each connected part.")
         .finish([](const QuantizedQuadsOptions& o) {
             return "edge_length=" + number(o.edge_length) + ", quad_count=" + std::to_string(o.quad_count);

@@ -29,7 +29,7 @@ from .blocks import BlockQuads, LayoutParts, quads_of_separatrices
 from .causes import cut_corners, told_of_points
 from .free_axes import pattern_of_lines
 from .options import MOST_QUADS, QuadLayoutOptions
-from .pattern import Places, pattern_of, places_of
+from .pattern import Pattern, Places, pattern_of, places_of
 from .quality import figures_of, require_sound
 from .t_mesh import MENDED, fitted_points, quads_of_t_mesh
 
@@ -181,11 +181,7 @@ def _on(
         announce(progress, "surface")
         whole = SurfaceDomain(meshed.surface, meshed.features)
         domain, origins = _cut(whole, wanted, singularities)
-        fitted = wanted.layout == "t-mesh"
-        if wanted.axes == "free":
-            domain, pattern = pattern_of_lines(domain, places, singularities, corners, options, progress, fitted)
-        else:
-            pattern = pattern_of(domain, places, singularities, corners, options, progress, fitted)
+        domain, pattern = _pattern(domain, wanted, places, singularities, corners, options, progress)
     begun = of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes()))
     begun = begun.changed(notes=[*begun.notes, *pattern.notes, *([] if origins is not None else _of_features(whole))])
     meter = PhaseMeter(begun, progress)
@@ -199,21 +195,21 @@ def _on(
         if error.kind != "unresolved_turns" or not notes:
             raise
         domain, origins = _cut(blunted, wanted, singularities)
-        pattern = pattern_of(domain, places, singularities, corners, options, progress, fitted)
+        domain, pattern = _pattern(domain, wanted, places, singularities, corners, options, progress)
         begun = begun.changed(notes=[*begun.notes, *notes])
         field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
     made: BlockQuads
     with told_of_points(domain, pattern.pattern, wanted):
         if wanted.layout == "t-mesh":
             try:
-                made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
+                made = quads_of_t_mesh(field, wanted, target, origins, pattern.source == "computed", meter.report)
             except GeometryError as error:
                 if pattern.source != "computed" or error.kind not in MENDED:
                     raise
                 pattern = fitted_points(domain, pattern, origins, inadmissible, wanted, target, error, meter.report)
                 begun = begun.changed(notes=[*begun.notes, pattern.notes[-1]])
                 field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
-                made = quads_of_t_mesh(field, wanted, target, origins, meter.report)
+                made = quads_of_t_mesh(field, wanted, target, origins, pattern.source == "computed", meter.report)
         else:
             field, made = quads_of_separatrices(field, wanted, target, meter.report)
     meter.begin("check")
@@ -237,6 +233,22 @@ def _on(
         field=field,
         record=told,
     )
+
+
+def _pattern(
+    domain: SurfaceDomain,
+    wanted: QuadLayoutOptions,
+    places: Places,
+    singularities: Points | None,
+    corners: Corners | None,
+    options: SurfaceFieldOptions,
+    progress: Progress | None,
+) -> tuple[SurfaceDomain, Pattern]:
+    """And the domain, measured along free axes where these are wanted."""
+    fitted = wanted.layout == "t-mesh"
+    if wanted.axes == "free":
+        return pattern_of_lines(domain, places, singularities, corners, options, progress, fitted)
+    return domain, pattern_of(domain, places, singularities, corners, options, progress, fitted)
 
 
 def _cut(

@@ -25,14 +25,23 @@ def quads_of_t_mesh(
     options: QuadLayoutOptions,
     edge_length: float,
     origins: np.ndarray | None,
+    release_points: bool,
     progress: Progress | None,
 ) -> BlockQuads:
-    """By whole numbers on the arcs of a motorcycle graph. origins: where the surface was cut open."""
+    """By whole numbers on the arcs of a motorcycle graph. origins: where the surface was cut open. release_points:
+    singular points inside may move where bad quads are left."""
     graph = _core.motorcycle_graph(
         field, end_tolerance=options.end_tolerance, max_length=options.max_length, progress=progress
     )
     size = {"quad_count": options.quads} if options.quads else {"edge_length": edge_length}
-    made = _core.quantized_quads(graph, coarsest=options.coarsest, origins=origins, progress=progress, **size)
+    made = _core.quantized_quads(
+        graph,
+        coarsest=options.coarsest,
+        origins=origins,
+        release_points=release_points,
+        progress=progress,
+        **size,
+    )
     quads, blocks = np.asarray(made.mesh.quads), np.array(made.patches)
     chords = block_chords(quads, blocks, np.asarray(made.patch_chords))
     parts = parts_of_blocks(made.mesh, blocks, chords, graph.largest_mismatch, graph.curves.traced)

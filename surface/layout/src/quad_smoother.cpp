@@ -123,11 +123,12 @@ public:
 
     // Optimised vertex by vertex; where that gets stuck, once more from where the vertices round bad quads are at the
     // means of their neighbours, in growing rings, first with all quads round a vertex counting. The better one is
-    // kept. Singular points inside are held first, and released where bad quads are left.
+    // kept. Singular points inside are held first, and released where bad quads are left
+    // and that is wanted.
     void run(int rounds) {
         optimise(rounds);
         rescue(rounds);
-        if (least_quality() >= bad || !release()) return;
+        if (!input_.release || least_quality() >= bad || !release()) return;
         optimise(rounds);
         rescue(rounds);
     }

@@ -12,6 +12,7 @@ struct SmootherInput {
     const std::vector<SideGrids::OnSeam>& on_seams;  // of the first vertices
     const std::vector<Index>& patches;               // of each quad: of the layout
     const std::vector<Index>& fixed;                 // vertices inside the surface
+    bool release;                                    // these, where bad quads are left
 };
 
 // Vertex by vertex, in their order: to where its neighbours' mean is, or a part of its edges' length in one of eight

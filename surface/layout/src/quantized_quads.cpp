@@ -126,7 +126,8 @@ QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOpt
     static_cast<LayoutQuads&>(result) = std::move(builder).result();
     set_blocks(result);
     report_or_throw(progress, "smooth", 0.8, NAN);
-    const detail::SmootherInput on_surface{layout, seams, on_seams, result.tiles, result.irregular};
+    const detail::SmootherInput on_surface{
+        layout, seams, on_seams, result.tiles, result.irregular, options.release_points};
     if (options.smoothing > 0) detail::smooth(on_surface, options.smoothing, result.mesh);
     detail::require_convex(result);
     if (const auto away = detail::facing_away(on_surface, result.mesh); !away.empty())

@@ -27,6 +27,8 @@ struct QuantizedQuadsOptions {
     // Rounds in which vertices are moved where that raises the least scaled Jacobian of the quads round them, on the
     // surface, or along the boundary and seams; singular points and corners stay. 0: none.
     int smoothing = 20;
+    // Singular points inside are released where quads of a scaled Jacobian below 0.3 are left: for computed points.
+    bool release_points = false;
     int most_nodes = 1000;  // of branch and bound, for each connected part
 };
 
