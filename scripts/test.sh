@@ -8,7 +8,7 @@ jobs=$(nproc)
 if [ "${1:-}" = --sanitize ]; then
     say "building with sanitizers"
     cmake -S . -B build/sanitize -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DOCTAFIELD_PYTHON=OFF -DOCTAFIELD_TESTS=ON \
-        -DOCTAFIELD_SANITIZE=address,undefined -DOCTAFIELD_CONSUMER_TEST=OFF -DOCTAFIELD_PCH=OFF >/dev/null
+        -DOCTAFIELD_SANITIZE=address,undefined -DOCTAFIELD_CONSUMER_TEST=OFF -DOCTAFIELD_PCH=OFF -DOCTAFIELD_UNITY=OFF >/dev/null
     build_with_progress cmake --build build/sanitize
     ctest --test-dir build/sanitize --output-on-failure -j "$jobs"
     exit
