@@ -12,7 +12,7 @@ from .. import _core
 from .._core import ImposedPoint, QuadMesh, SingularPattern, SurfaceDomain
 from ..errors import GeometryError, SolverError
 from .options import QuadLayoutOptions
-from .pattern import Rim
+from .points.pattern import Rim
 
 _BAD_QUADS = ("inverted_quads", "non_manifold_edge", "degenerate_face")
 _SAME = 1e-6  # of the diagonal: a point that is at a vertex

@@ -21,7 +21,7 @@ from ..options import MeshOptions, SurfaceFieldOptions, require_one_of
 from ..progress.phases import PeakMemory, PhaseClock, Progress, forward
 from .blocks import imposed_indices
 from .options import INADMISSIBLE
-from .pattern import pattern_of
+from .points.pattern import pattern_of
 from .quad_layout import Corners, Points, inner_features, meshed_with_places, require_own_surface
 
 _MESH = {option.name for option in fields(MeshOptions)} | {"symmetry"}

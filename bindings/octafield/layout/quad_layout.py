@@ -27,9 +27,9 @@ from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
 from .blocks import BlockQuads, LayoutParts, quads_of_separatrices
 from .causes import cut_corners, told_of_points
-from .free_axes import pattern_of_lines
 from .options import MOST_QUADS, QuadLayoutOptions
-from .pattern import Pattern, Places, pattern_of, places_of
+from .points.free_axes import pattern_of_lines
+from .points.pattern import Pattern, Places, pattern_of, places_of
 from .quality import figures_of, require_sound
 from .t_mesh import MENDED, fitted_points, quads_of_t_mesh
 

@@ -14,7 +14,7 @@ from ..progress.meter import PhaseMeter
 from ..records.parts import Deviation, EdgeLengths, ImposedPointFigures, JacobianFigures, Misalignment
 from ..records.quad_layout import QuadLayoutRecord
 from .blocks import BlockQuads, imposed_indices
-from .pattern import Pattern
+from .points.pattern import Pattern
 from .quality import QuadFigures
 
 if TYPE_CHECKING:

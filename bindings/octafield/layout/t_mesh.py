@@ -14,7 +14,7 @@ from ..progress.phases import Progress
 from .block_parts import block_chords, parts_of_blocks
 from .blocks import BlockQuads
 from .options import QuadLayoutOptions
-from .pattern import Pattern
+from .points.pattern import Pattern
 
 MENDED = ("no_integers", "no_quad_layout")  # kinds of errors that other singular points may mend
 _TOLD = 3  # places

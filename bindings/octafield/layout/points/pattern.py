@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from .. import _core
-from .._core import CornerQuads, ImposedPoint, SingularPattern, SurfaceDomain
-from ..domain.inputs import Input
-from ..errors import InvalidInput
-from ..options import SurfaceFieldOptions
-from ..progress.phases import Progress, forward
+from ... import _core
+from ..._core import CornerQuads, ImposedPoint, SingularPattern, SurfaceDomain
+from ...domain.inputs import Input
+from ...errors import InvalidInput
+from ...options import SurfaceFieldOptions
+from ...progress.phases import Progress, forward
 from .point_files import PointRow, corner_rows, point_rows
 
 _SAME = 1e-6  # of the diagonal: places that are one

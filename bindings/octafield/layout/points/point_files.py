@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidInput, IoError
-from ..files.reading import plain_name, read_text
+from ...errors import InvalidInput, IoError
+from ...files.reading import plain_name, read_text
 
 _PLACES, _NUMBERS = ("position", "vertex"), ("index", "index_times_four", "valence", "quads")
 _LISTS = {"points": ("points", "singular_points", "singularities"), "corners": ("corners",)}

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from .. import _core
-from .._core import NonOrthogonalField, SingularPattern, SurfaceDomain
-from ..errors import InvalidInput, SolverError
-from ..options import SurfaceFieldOptions
-from ..progress.phases import Progress, forward
+from ... import _core
+from ..._core import NonOrthogonalField, SingularPattern, SurfaceDomain
+from ...errors import InvalidInput, SolverError
+from ...options import SurfaceFieldOptions
+from ...progress.phases import Progress, forward
 from .pattern import Pattern, Places, pattern_of, with_corners
 from .point_files import corner_rows
 
