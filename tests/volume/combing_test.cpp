@@ -27,7 +27,7 @@ using testing::kuhn_grid;
 using testing::mixed_representatives;
 using testing::sample_in_tets;
 
-Quaternions constant(const TetMesh& mesh) {
+Quaternions constant_in_tets(const TetMesh& mesh) {
     return mixed_representatives(sample_in_tets(mesh, [](const Vector3&) { return frames::exp({0.3, 0.2, -0.4}); }));
 }
 
@@ -124,7 +124,7 @@ TEST(FaceMatchings, ListEveryTriangleBetweenTwoTetsOnceWithTheClosestElement) {
 
 TEST(Comb, LeavesNoCutInABallWithoutSingularEdges) {
     for (const TetMesh& mesh : {kuhn_cube(1), kuhn_cube(5), jittered_cube(5, 0.2, 8)}) {
-        const Quaternions field = constant(mesh);
+        const Quaternions field = constant_in_tets(mesh);
         const CombedField combed = comb(mesh, field);
         expect_combed(mesh, field, combed);
         EXPECT_EQ(cut_size(combed), 0u);
@@ -136,8 +136,8 @@ TEST(Comb, LeavesNoCutInABallWithoutSingularEdges) {
 TEST(Comb, LeavesOneDiskInARing) {
     const TetMesh mesh =
         kuhn_grid(3, 3, 2, 1.0 / 3, Vector3::Zero(), [](int i, int j, int) { return i != 1 || j != 1; });
-    const CombedField combed = comb(mesh, constant(mesh));
-    expect_combed(mesh, constant(mesh), combed);
+    const CombedField combed = comb(mesh, constant_in_tets(mesh));
+    expect_combed(mesh, constant_in_tets(mesh), combed);
     EXPECT_GT(cut_size(combed), 0u);
     // Its triangles: a disk, V - E + F = 1.
     std::set<Index> vertices;
@@ -190,7 +190,7 @@ TEST(Comb, LeavesASimplyConnectedComplementInRandomFields) {
 
 TEST(Comb, TreatsPartsOfAMeshOneByOne) {
     const TetMesh mesh = kuhn_grid(5, 2, 2, 0.2, Vector3::Zero(), [](int i, int, int) { return i != 2; });
-    const CombedField combed = comb(mesh, constant(mesh));
+    const CombedField combed = comb(mesh, constant_in_tets(mesh));
     EXPECT_EQ(combed.parts, 2);
     EXPECT_EQ(cut_size(combed), 0u);
 }

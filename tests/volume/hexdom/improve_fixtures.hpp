@@ -82,13 +82,13 @@ inline ImproveCase box_of_both(int n, double amount, unsigned seed = 1) {
 }
 
 // Points of the surface of the cube [-1, 1]^3 in a grid, n quads along each edge, outward.
-struct CubeGrid {
+struct CubeSurface {
     std::vector<Eigen::Vector3d> points;
     std::vector<std::array<Index, 4>> quads;
 };
 
-inline CubeGrid cube_grid(int n) {
-    CubeGrid grid;
+inline CubeSurface cube_surface(int n) {
+    CubeSurface grid;
     std::map<std::array<int, 3>, Index> known;
     for (int axis = 0; axis < 3; ++axis)
         for (const int side : {0, n})
@@ -119,7 +119,7 @@ inline Eigen::Vector3d on_sphere(const Eigen::Vector3d& cube_point) {
 // The unit ball: a cube of n^3 cells in the middle, `layers` of cells from it to the sphere. The surface is far finer.
 inline ImproveCase ball_of_hexahedra(int n, int layers) {
     ImproveCase ball;
-    const CubeGrid grid = cube_grid(n);
+    const CubeSurface grid = cube_surface(n);
     std::vector<Eigen::Vector3d> points;
     std::map<std::array<int, 3>, Index> inner;
     const auto vertex = [&](int i, int j, int k) {
@@ -152,7 +152,7 @@ inline ImproveCase ball_of_hexahedra(int n, int layers) {
     ball.support.kind.assign(points.size(), VertexSupport::Kind::inside);
     for (std::size_t v = 0; v < points.size(); ++v)
         if (points[v].norm() > 1 - 1e-9) ball.support.kind[v] = VertexSupport::Kind::surface;
-    const CubeGrid fine = cube_grid(24);
+    const CubeSurface fine = cube_surface(24);
     ball.surface.vertices.resize(static_cast<Eigen::Index>(fine.points.size()), 3);
     for (std::size_t v = 0; v < fine.points.size(); ++v)
         ball.surface.vertices.row(static_cast<Eigen::Index>(v)) = on_sphere(fine.points[v]);

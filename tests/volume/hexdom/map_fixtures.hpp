@@ -14,7 +14,7 @@
 namespace octafield::volume::testing {
 
 inline Quaternions constant(const TetDomain& domain, const frames::Quaternion& q = frames::Quaternion::Identity()) {
-    return testing::sample(domain.mesh(), [&](const Vector3&) { return q; });
+    return testing::sample(domain.mesh(), [&](const Eigen::Vector3d&) { return q; });
 }
 
 inline TetDomain ball() { return TetDomain(tetrahedralize(surface::testing::icosphere(2))); }
