@@ -6,6 +6,7 @@ import numpy as np
 import octafield as of
 import pytest
 from octafield.domain.generators import generate
+from octafield.layout import t_mesh
 from octafield.layout.causes import told_of_points
 from octafield.layout.files import write_layout_result
 from quad_mesh_checks import area_of, disk, four_points, irregular, require_conforming
@@ -179,6 +180,19 @@ def test_bad_quads_of_few_blocks_ask_to_leave_coarsest_out():
     with pytest.raises(of.SolverError, match="or leave coarsest out") as caught:
         of.compute_quad_layout(generate("nut"), layout_options=of.QuadLayoutOptions(quads=300, coarsest=True))
     assert caught.value.kind == "inverted_quads"
+
+
+def test_only_points_of_a_computed_field_may_move_in_smoothing(monkeypatch):
+    seen, quantized = [], t_mesh._core.quantized_quads
+
+    def watched(*arguments, **options):
+        seen.append(options["release_points"])
+        return quantized(*arguments, **options)
+
+    monkeypatch.setattr(t_mesh._core, "quantized_quads", watched)
+    made(disk(), four_points(), quads=100)
+    made(disk(), quads=100)
+    assert seen == [False, True]
 
 
 def test_quads_far_from_the_number_wanted_or_from_the_surface_are_noted():
