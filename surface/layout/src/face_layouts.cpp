@@ -9,6 +9,23 @@
 #include "tile_arcs.hpp"
 
 namespace octafield::surface::detail {
+namespace {
+
+// The faces by the edge lengths of the whole. Vertices keep their order, so edges of a face do, too.
+void measure_alike(const SurfaceDomain& whole, const std::vector<Index>& face_of, const std::vector<Index>& set_of,
+                   std::vector<Face>& faces) {
+    std::vector<Eigen::VectorXd> lengths;
+    for (const Face& face : faces) lengths.emplace_back(face.domain.edge_count());
+    std::vector<Index> next(faces.size(), 0);
+    for (Index e = 0; e < whole.edge_count(); ++e) {
+        const Index f = face_of[set_of[whole.topology().edges(e, 0)]];
+        lengths[f][next[f]++] = whole.edge_lengths()[e];
+    }
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        faces[f].domain = faces[f].domain.with_edge_lengths(std::move(lengths[f]));
+}
+
+}  // namespace
 
 std::vector<Face> faces_of(const SurfaceDomain& domain, const SingularPattern& pattern,
                            const std::vector<Index>& origins) {
@@ -45,6 +62,7 @@ std::vector<Face> faces_of(const SurfaceDomain& domain, const SingularPattern& p
                 mesh.triangles(static_cast<Index>(t), k) = new_vertex[triangles(face.triangles[t], k)];
         face.domain = SurfaceDomain(std::move(mesh));
     }
+    if (domain.has_own_lengths()) measure_alike(domain, face_of, set_of, faces);
     for (ImposedPoint point : pattern.points) {
         Face& face = faces[face_of[set_of[triangles(point.triangle, 0)]]];
         point.triangle = new_triangle[point.triangle];

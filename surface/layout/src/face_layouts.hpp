@@ -11,7 +11,7 @@ struct Face {
     SurfaceDomain domain;
     std::vector<Index> triangles, vertices;  // of the whole surface, ascending
     std::vector<Index> origins;
-    SingularPattern pattern;  // on the face
+    SingularPattern pattern;           // on the face
     std::optional<QuadLayout> layout;  // none where its curves make no quads
 };
 
@@ -20,7 +20,7 @@ struct FaceTracing {
     LayoutCurveOptions curves;
 };
 
-// By lowest triangle, layouts empty. origins: of each vertex of the domain.
+// By lowest triangle, layouts empty, measured as the domain is. origins: of each vertex of the domain.
 std::vector<Face> faces_of(const SurfaceDomain& domain, const SingularPattern& pattern,
                            const std::vector<Index>& origins);
 

@@ -66,9 +66,10 @@ struct ColumnBlock {
 // result is exactly symmetric where the element matrices are. The same bits at any thread count.
 template <class ElementColumn>
 SparseMatrix assemble(const Tets& elements, Index count, int threads, const ElementColumn& element_column) {
-    constexpr std::int64_t least_columns = 4096;  // a block's own arrays are as long as all columns
+    constexpr std::int64_t least_columns = 4096, most_blocks = 8;  // a block's own arrays are as long as all columns
     const Corners corners(elements, count);
-    const std::int64_t parts = std::clamp<std::int64_t>(count / least_columns, 1, thread_count(threads));
+    const std::int64_t parts =
+        std::clamp<std::int64_t>(std::min(count / least_columns, most_blocks), 1, thread_count(threads));
     std::vector<ColumnBlock> blocks(parts);
     const auto first = [&](std::int64_t b) { return static_cast<Index>(count * b / parts); };
     parallel_for(

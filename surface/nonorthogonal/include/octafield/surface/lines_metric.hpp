@@ -19,11 +19,10 @@ struct LinesMetric {
 // field it is that of space, and the domain is the field's as it is.
 //
 // Where lines turn so fast, next to singular points, that the sides of a triangle enclose less than half the area that
-// it has by any of its corners' metrics, the metrics of its vertices are drawn towards that of space: g^s, s = 1/2,
-// 1/4,
-// ..., 0, those of vertices inside first. Throws InvalidInput ("wrong_size", "not_finite", "bad_quads") where the
-// field does not fit its domain, GeometryError (kind "parallel_lines", elements: vertices) where two lines are less
-// than 1e-3 radians apart.
+// it has by any of its corners' metrics, the metrics of its vertices are drawn towards that of space: g^s with s halved
+// each time and at last 0, those of vertices inside first. Throws InvalidInput ("wrong_size", "not_finite",
+// "bad_quads") where the field does not fit its domain, GeometryError (kind "parallel_lines", elements: vertices) where
+// two lines are less than 1e-3 radians apart.
 LinesMetric lines_metric(const NonOrthogonalField& field);
 
 }  // namespace octafield::surface
