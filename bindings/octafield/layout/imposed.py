@@ -22,7 +22,8 @@ from ..progress.phases import PeakMemory, PhaseClock, Progress, forward
 from .blocks import imposed_indices
 from .options import INADMISSIBLE
 from .points.pattern import pattern_of
-from .quad_layout import Corners, Points, inner_features, meshed_with_places, require_own_surface
+from .points.wanted import Corners, Points, PointsWanted, meshed_with_places, require_own_surface
+from .quad_layout import inner_features
 
 _MESH = {option.name for option in fields(MeshOptions)} | {"symmetry"}
 
@@ -80,7 +81,7 @@ def compute_imposed_field(
     clock = PhaseClock(meshed.clock)
     with naming(meshed.name), clock.phase("surface"):
         domain = SurfaceDomain(meshed.surface, meshed.features)
-        pattern = pattern_of(domain, places, singularities, corners, options, progress)
+        pattern = pattern_of(domain, PointsWanted(places, singularities, corners, options), progress)
         made = _core.impose_singular_points(
             domain, pattern.pattern, inadmissible=inadmissible, progress=forward(progress, "surface", 0, 0.9)
         )

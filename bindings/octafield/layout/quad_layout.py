@@ -7,20 +7,16 @@ result.record.patches   # the figures
 
 from __future__ import annotations
 
-import time
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from .. import _core
-from .._core import ImposedField, QuadMesh, SingularPattern, SurfaceDomain, TetDomain, TetMesh, TriangleMesh
-from ..domain.inputs import Input, from_mesh, naming, read_input
+from .._core import ImposedField, QuadMesh, SingularPattern, SurfaceDomain, TriangleMesh
+from ..domain.inputs import naming
 from ..domain.meshed_input import MeshedInput
-from ..domain.meshing import Source, prepare_mesh, read_sound
+from ..domain.meshing import Source
 from ..errors import GeometryError, InvalidInput, SolverError
 from ..options import SurfaceFieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
@@ -29,7 +25,8 @@ from .blocks import BlockQuads, LayoutParts, quads_of_separatrices
 from .causes import cut_corners, told_of_points
 from .options import MOST_QUADS, QuadLayoutOptions
 from .points.free_axes import pattern_of_lines
-from .points.pattern import Pattern, Places, pattern_of, places_of
+from .points.pattern import Pattern, pattern_of
+from .points.wanted import Corners, Points, PointsWanted, meshed_with_places, require_own_surface
 from .quality import figures_of, require_sound
 from .t_mesh import MENDED, fitted_points, quads_of_t_mesh
 
@@ -37,9 +34,6 @@ if TYPE_CHECKING:
     import pyvista
 
     from ..records.quad_layout import QuadLayoutRecord
-
-Points = str | Path | SingularPattern | Mapping[str, Any] | Sequence[Mapping[str, Any]] | ArrayLike
-Corners = str | Path | Mapping[str, Any] | Sequence[Mapping[str, Any]] | ArrayLike
 
 _SHOWN = ("patches", "quads", "irregular_vertices", "scaled_jacobian", "surface_deviation")
 
@@ -119,56 +113,15 @@ def compute_quad_layout(
     require_own_surface(source, singularities)
     meshed, places, given = meshed_with_places(source, replace(options, interfaces=False), progress)
     with naming(meshed.name):
-        return _on(meshed, places, given, options, layout_options, singularities, corners, progress)
-
-
-def require_own_surface(source: object, singularities: Points | None) -> None:
-    if isinstance(singularities, SingularPattern) and not isinstance(source, (MeshedInput, SurfaceDomain)):
-        raise InvalidInput(
-            "a SingularPattern belongs to the surface the field is on; give that SurfaceDomain, or the result of"
-            " prepare_mesh(source, options, volume=False), or positions instead",
-            "not_meshed",
-        )
-
-
-def meshed_with_places(
-    source: Source | SurfaceDomain | MeshedInput, options: SurfaceFieldOptions, progress: Progress | None
-) -> tuple[MeshedInput, Places, TriangleMesh]:
-    """The surface for the field, the vertices that users number, and the surface that quads are compared with."""
-    if isinstance(source, SurfaceDomain):
-        source = MeshedInput("mesh in memory", "surface", source.mesh, source.features, "file", options=options)
-    if isinstance(source, MeshedInput):
-        return source, Places(np.array(source.surface.vertices), None), source.surface
-    before, memory = time.perf_counter(), PeakMemory()
-    announce(progress, "read")
-    found = _read(source, options, progress)
-    places, seconds, peak = places_of(found), time.perf_counter() - before, memory.megabytes()
-    sound = read_sound(found, options, volume=False, progress=progress)
-    sound.clock.wall["read"] += seconds
-    meshed = prepare_mesh(sound, options, volume=False, progress=progress)
-    meshed.peak_mb = max(meshed.peak_mb, peak)
-    return meshed, places, meshed.surface if found.tets is not None else found.surface
-
-
-def _read(source: Source, options: SurfaceFieldOptions, progress: Progress | None) -> Input:
-    if isinstance(source, (str, Path)):
-        return read_input(source, interfaces=False, edge_length=options.edge_length, progress=progress)
-    if isinstance(source, (TriangleMesh, TetMesh, TetDomain)):
-        return from_mesh(source)
-    raise InvalidInput(
-        f"a path, TriangleMesh, SurfaceDomain, TetMesh or TetDomain is needed, not {type(source).__name__}",
-        "wrong_type",
-    )
+        points = PointsWanted(places, singularities, corners, options, fitted=layout_options.layout == "t-mesh")
+        return _on(meshed, given, points, layout_options, progress)
 
 
 def _on(
     meshed: MeshedInput,
-    places: Places,
     given: TriangleMesh,
-    options: SurfaceFieldOptions,
+    points: PointsWanted,
     wanted: QuadLayoutOptions,
-    singularities: Points | None,
-    corners: Corners | None,
     progress: Progress | None,
 ) -> QuadLayoutResult:
     from ..fields.record import of_input
@@ -180,22 +133,22 @@ def _on(
     with clock.phase("surface"):
         announce(progress, "surface")
         whole = SurfaceDomain(meshed.surface, meshed.features)
-        domain, origins = _cut(whole, wanted, singularities)
-        domain, pattern = _pattern(domain, wanted, places, singularities, corners, options, progress)
+        domain, origins = _cut(whole, wanted, points.singularities)
+        domain, pattern = _pattern(domain, wanted, points, progress)
     begun = of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes()))
     begun = begun.changed(notes=[*begun.notes, *pattern.notes, *([] if origins is not None else _of_features(whole))])
     meter = PhaseMeter(begun, progress)
     inadmissible = wanted.inadmissible
     if inadmissible == "default":
-        inadmissible = "move" if singularities is None else "fail"
+        inadmissible = "move" if points.singularities is None else "fail"
     try:
         field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
     except SolverError as error:
         blunted, notes = _blunted(whole) if origins is not None else (whole, [])
         if error.kind != "unresolved_turns" or not notes:
             raise
-        domain, origins = _cut(blunted, wanted, singularities)
-        domain, pattern = _pattern(domain, wanted, places, singularities, corners, options, progress)
+        domain, origins = _cut(blunted, wanted, points.singularities)
+        domain, pattern = _pattern(domain, wanted, points, progress)
         begun = begun.changed(notes=[*begun.notes, *notes])
         field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
     made: BlockQuads
@@ -220,7 +173,7 @@ def _on(
     meter.end()
     told = record.of_quads(
         made, figures, field, pattern, begun, len(meshed.surface.triangles), target, inadmissible, meter,
-        dict(vars(wanted)), options.recorded(),
+        dict(vars(wanted)), points.options.recorded(),
     )  # fmt: skip
     return QuadLayoutResult(
         mesh=made.mesh,
@@ -236,19 +189,12 @@ def _on(
 
 
 def _pattern(
-    domain: SurfaceDomain,
-    wanted: QuadLayoutOptions,
-    places: Places,
-    singularities: Points | None,
-    corners: Corners | None,
-    options: SurfaceFieldOptions,
-    progress: Progress | None,
+    domain: SurfaceDomain, wanted: QuadLayoutOptions, points: PointsWanted, progress: Progress | None
 ) -> tuple[SurfaceDomain, Pattern]:
     """And the domain, measured along free axes where these are wanted."""
-    fitted = wanted.layout == "t-mesh"
     if wanted.axes == "free":
-        return pattern_of_lines(domain, places, singularities, corners, options, progress, fitted)
-    return domain, pattern_of(domain, places, singularities, corners, options, progress, fitted)
+        return pattern_of_lines(domain, points, progress)
+    return domain, pattern_of(domain, points, progress)
 
 
 def _cut(

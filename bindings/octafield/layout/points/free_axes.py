@@ -5,67 +5,60 @@ are orthonormal; the others that of a cross field, as ever."""
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
 from ... import _core
-from ..._core import NonOrthogonalField, SingularPattern, SurfaceDomain
+from ..._core import CornerQuads, NonOrthogonalField, SingularPattern, SurfaceDomain
 from ...errors import InvalidInput, SolverError
-from ...options import SurfaceFieldOptions
 from ...progress.phases import Progress, forward
-from .pattern import Pattern, Places, pattern_of, with_corners
+from .pattern import Pattern, pattern_of, with_corners
 from .point_files import corner_rows
+from .wanted import PointsWanted
 
 _OBLIQUE = math.radians(10)  # by which a corner of 1 or 3 quads is off their right angles
 
 
 def pattern_of_lines(
-    domain: SurfaceDomain,
-    places: Places,
-    singularities: Any,
-    corners: Any,
-    options: SurfaceFieldOptions,
-    progress: Progress | None,
-    fitted: bool,
+    domain: SurfaceDomain, wanted: PointsWanted, progress: Progress | None
 ) -> tuple[SurfaceDomain, Pattern]:
-    """The surface measured by the lines, and the pattern on it; arguments as of pattern_of. Corners that are given
-    decide how the lines run there."""
+    """The surface measured by the lines, and the pattern on it. Corners that are given decide how the lines run
+    there."""
     surface = SurfaceDomain(domain.mesh)  # features inside, which the lines do not follow, have been cut or told of
     lines = _core.non_orthogonal_field(
         surface,
-        corners=_given_corners(surface, places, corners),
-        seed=options.seed,
+        corners=_given_corners(surface, wanted),
+        seed=wanted.options.seed,
         progress=forward(progress, "surface", 0, 0.5),
     )
     oblique = _oblique_parts(lines)
     if not oblique.any():
-        return domain, pattern_of(domain, places, singularities, corners, options, progress, fitted)
+        return domain, pattern_of(domain, wanted, progress)
     metric = _core.lines_metric(lines)
     measured = _measured(domain, metric.domain, oblique)
-    if singularities is not None:
-        made = pattern_of(measured, places, singularities, corners, options, progress, fitted)
+    if wanted.singularities is not None:
+        made = pattern_of(measured, wanted, progress)
     else:
         made = _joined(lines, measured, oblique)
         if not oblique.all():
-            right = pattern_of(domain, places, None, corners, options, forward(progress, "surface", 0.5, 1), fitted)
+            right = pattern_of(domain, wanted, forward(progress, "surface", 0.5, 1))
             made = _put_together(domain, oblique, made.pattern, right)
     made.notes += _notes(lines, np.asarray(metric.damped), oblique)
     return measured, made
 
 
-def _given_corners(surface: SurfaceDomain, places: Places, corners: Any) -> Any:
-    if corners is None:
+def _given_corners(surface: SurfaceDomain, wanted: PointsWanted) -> list[CornerQuads] | None:
+    if wanted.corners is None:
         return None
-    wanted = with_corners(surface, places, SingularPattern(), corner_rows(corners))
-    if wanted.points:
-        at = np.round(_core.imposed_position(surface, wanted.points[0]), 6).tolist()
+    given = with_corners(surface, wanted.places, SingularPattern(), corner_rows(wanted.corners))
+    if given.points:
+        at = np.round(_core.imposed_position(surface, given.points[0]), 6).tolist()
         raise InvalidInput(
             f"corners of quads with free axes are at vertices of the boundary, and remeshing has left none at {at};"
             " leave the corner out, or mark the vertices of the boundary as features",
             "not_on_boundary",
         )
-    return wanted.corners
+    return given.corners
 
 
 def _oblique_parts(lines: NonOrthogonalField) -> np.ndarray:

@@ -9,46 +9,15 @@ import numpy as np
 
 from ... import _core
 from ..._core import CornerQuads, ImposedPoint, SingularPattern, SurfaceDomain
-from ...domain.inputs import Input
 from ...errors import InvalidInput
 from ...options import SurfaceFieldOptions
 from ...progress.phases import Progress, forward
 from .point_files import PointRow, corner_rows, point_rows
+from .wanted import Places, PointsWanted
 
 _SAME = 1e-6  # of the diagonal: places that are one
 _MOST_QUADS = 16  # at a corner, for points inside that make up for it
 _NEAR = 1e-3  # of the diagonal: how far a corner may be from the boundary
-
-
-@dataclass
-class Places:
-    """Positions of the vertices that users number, before repair and remeshing. ids: of the file, ascending; None: 0 to
-    the number of positions."""
-
-    positions: np.ndarray
-    ids: np.ndarray | None
-
-    def of(self, vertex: int, name: str) -> np.ndarray:
-        place = vertex
-        if self.ids is not None:
-            place = int(np.searchsorted(self.ids, vertex))
-            if place < len(self.ids) and self.ids[place] != vertex:
-                place = -1
-        if not 0 <= place < len(self.positions):
-            raise InvalidInput(
-                f"{name}: the input has no vertex {vertex} at a triangle; it has {len(self.positions)}, from 0; correct"
-                " the number",
-                "outside_surface",
-                [vertex],
-            )
-        position: np.ndarray = self.positions[place]
-        return position
-
-
-def places_of(found: Input) -> Places:
-    if found.tets is None:
-        return Places(np.array(found.surface.vertices), found.surface_points)
-    return Places(np.array(found.tets.vertices), found.file_points)
 
 
 @dataclass
@@ -61,31 +30,21 @@ class Pattern:
     notes: list[str] = field(default_factory=list)
 
 
-def pattern_of(
-    domain: SurfaceDomain,
-    places: Places,
-    singularities: Any,
-    corners: Any,
-    options: SurfaceFieldOptions,
-    progress: Progress | None,
-    fitted: bool = False,
-) -> Pattern:
-    """singularities: a SingularPattern on this surface, what point_rows takes, or None: those of a computed field.
-    corners: what corner_rows takes, in place of those that follow from angles or the computed field. fitted: corners of
-    a computed field get a quad at least, and what corners change the sum of indices by is made good inside."""
-    fitted = fitted and singularities is None
+def pattern_of(domain: SurfaceDomain, wanted: PointsWanted, progress: Progress | None) -> Pattern:
+    singularities, corners = wanted.singularities, wanted.corners
+    fitted = wanted.fitted and singularities is None
     if isinstance(singularities, SingularPattern):
         made = Pattern(singularities, "given", "given" if singularities.corners else "angle")
     elif singularities is None:
-        computed = _computed(domain, options, progress)
+        computed = _computed(domain, wanted.options, progress)
         if fitted:
             computed = _core.with_corner_quads(domain, computed, _core.finite_corner_quads(domain, computed))
         made = Pattern(computed, "computed", "computed")
     else:
-        made = given_pattern(domain, places, singularities)
+        made = _given(domain, wanted.places, singularities)
     if corners is not None:
         rows = corner_rows(corners)
-        replaced = with_corners(domain, places, made.pattern, rows)
+        replaced = with_corners(domain, wanted.places, made.pattern, rows)
         if fitted and all(abs(corner.quads) <= _MOST_QUADS for corner in replaced.corners):
             replaced = _made_good(domain, made.pattern, replaced)
         made = Pattern(replaced, made.source, name_of(corners), made.notes)
@@ -133,7 +92,7 @@ def _computed(domain: SurfaceDomain, options: SurfaceFieldOptions, progress: Pro
     return _core.singular_pattern(made, _core.surface_singularities(made))
 
 
-def given_pattern(domain: SurfaceDomain, places: Places, singularities: Any) -> Pattern:
+def _given(domain: SurfaceDomain, places: Places, singularities: Any) -> Pattern:
     points, corners = point_rows(singularities)
     rim = Rim(domain)
     placed = [_placed(domain, places, rim, row) for row in points]
