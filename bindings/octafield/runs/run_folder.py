@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -80,28 +80,33 @@ def write_surface_result(result: SurfaceFieldResult, folder: Path, progress: Pro
     announce(progress, "write")
     metadata = _metadata(result.record)
     with _telling(result, folder, SURFACE_FILES):
-        _write_surface_files(result, folder, metadata)
-        if result.vertex_data:
-            _save(_with_vertex_data(result), folder / SURFACE_FILES[0], metadata)
+        _write_surface_files(result, folder, metadata, result.vertex_data)
 
 
-def _with_vertex_data(result: SurfaceFieldResult) -> pyvista.PolyData:
+def _write_surface_files(
+    result: FieldResult | SurfaceFieldResult,
+    folder: Path,
+    metadata: dict[str, str],
+    vertex_data: Mapping[str, np.ndarray] | None = None,
+) -> None:
+    surface, points, curves = (folder / name for name in SURFACE_FILES)
+    if vertex_data:
+        _save(_surface(result, vertex_data), surface, metadata)
+    else:
+        _core.write_surface_field(surface, result.surface, result.directions, metadata)
+    write_singular_points(points, result.singularities.points, metadata)
+    write_streamlines(curves, result.separatrices, metadata)
+
+
+def _surface(result: FieldResult | SurfaceFieldResult, vertex_data: Mapping[str, np.ndarray]) -> pyvista.PolyData:
     import pyvista
 
     surface: pyvista.PolyData = pyvista.PolyData.from_regular_faces(
         np.array(result.surface.vertices), np.array(result.surface.triangles, int)
     )
-    surface.point_data["direction"] = result.directions
-    for name, values in result.vertex_data.items():
+    for name, values in {"direction": result.directions, **vertex_data}.items():
         surface.point_data[name] = values
     return surface
-
-
-def _write_surface_files(result: FieldResult | SurfaceFieldResult, folder: Path, metadata: dict[str, str]) -> None:
-    surface, points, curves = (folder / name for name in SURFACE_FILES)
-    _core.write_surface_field(surface, result.surface, result.directions, metadata)
-    write_singular_points(points, result.singularities.points, metadata)
-    write_streamlines(curves, result.separatrices, metadata)
 
 
 def write_singular_points(path: Path, singularities: Sequence[SurfaceSingularity], metadata: dict[str, str]) -> None:
