@@ -61,6 +61,7 @@ def render(
         exhibits.add("integrability", sizes, "Integrability", caption)
     page = filled(
         "page.html",
+        title=report.title,
         report=report,
         files=files,
         tables=tables,
