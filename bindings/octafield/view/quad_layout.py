@@ -46,6 +46,7 @@ def scene_of_folder(folder: Path) -> tuple[pyvista.Plotter, list[str]]:
 def jacobian_scene_of_folder(folder: Path) -> pyvista.Plotter:
     """Quads by their scaled Jacobian, from mesh.vtu of a result."""
     grid, _ = _read(folder)
+    flat = _is_flat(np.asarray(grid.points))
     shape = scene.plotter()
     shape.add_mesh(
         grid,
@@ -55,11 +56,12 @@ def jacobian_scene_of_folder(folder: Path) -> pyvista.Plotter:
         show_edges=True,
         edge_color=_EDGES,
         line_width=_edge_width(grid),
-        lighting=not _is_flat(np.asarray(grid.points)),
-        ambient=0.45,
+        lighting=not flat,
+        ambient=0 if flat else 0.45,  # with diffuse: never brighter than the scale
+        diffuse=1 if flat else 0.55,
         specular=0,
         scalar_bar_args={
-            "title": "scaled Jacobian", "color": scene.INK, "n_labels": 3, "fmt": "%.1f", "vertical": True,
+            "title": "scaled Jacobian\n", "color": scene.INK, "n_labels": 3, "fmt": "%.1f", "vertical": True,
             "position_x": 0.93, "position_y": 0.2, "width": 0.05, "height": 0.6,
         },
     )  # fmt: skip
