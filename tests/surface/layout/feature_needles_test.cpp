@@ -20,6 +20,22 @@ SurfaceDomain wheel(const std::vector<double>& angles, const std::vector<Index>&
     return SurfaceDomain(mesh, feature_graph(mesh, edges));
 }
 
+// With a second wheel's worth of triangles outside, so that the sides opposite to the middle are inside.
+SurfaceDomain ringed_wheel(const std::vector<double>& angles, const std::vector<Index>& spokes) {
+    const SurfaceDomain small = wheel(angles, spokes);
+    TriangleMesh mesh = small.mesh();
+    const Index inner = 5;
+    mesh.vertices.conservativeResize(11, 3);
+    mesh.triangles.conservativeResize(15, 3);
+    for (Index i = 0; i < inner; ++i) {
+        mesh.vertices.row(6 + i) = 2 * mesh.vertices.row(1 + i);
+        const Index j = (i + 1) % inner;
+        mesh.triangles.row(5 + 2 * i) << 1 + i, 6 + i, 6 + j;
+        mesh.triangles.row(6 + 2 * i) << 1 + i, 6 + j, 1 + j;
+    }
+    return SurfaceDomain(mesh, small.features());
+}
+
 std::vector<std::pair<Index, Index>> inner_features(const SurfaceDomain& domain) {
     std::vector<std::pair<Index, Index>> result;
     for (Index e = 0; e < domain.edge_count(); ++e)
@@ -31,19 +47,7 @@ std::vector<std::pair<Index, Index>> inner_features(const SurfaceDomain& domain)
 using Pairs = std::vector<std::pair<Index, Index>>;
 
 TEST(FeatureNeedles, AreCutOffInFrontOfTheTip) {
-    // A second wheel's worth of triangles outside, so that the sides opposite to the middle are inside.
-    const SurfaceDomain small = wheel({0, 4, 90, 180, 270}, {1, 2, 4});
-    TriangleMesh mesh = small.mesh();
-    const Index inner = 5;
-    mesh.vertices.conservativeResize(11, 3);
-    mesh.triangles.conservativeResize(15, 3);
-    for (Index i = 0; i < inner; ++i) {
-        mesh.vertices.row(6 + i) = 2 * mesh.vertices.row(1 + i);
-        const Index j = (i + 1) % inner;
-        mesh.triangles.row(5 + 2 * i) << 1 + i, 6 + i, 6 + j;
-        mesh.triangles.row(6 + 2 * i) << 1 + i, 6 + j, 1 + j;
-    }
-    const SurfaceDomain domain(mesh, small.features());
+    const SurfaceDomain domain = ringed_wheel({0, 4, 90, 180, 270}, {1, 2, 4});
     const BluntedFeatures made = blunted_features(domain);
     EXPECT_EQ(made.tips, std::vector<Index>{0});
     // The shorter one, to vertex 1, has gone.
@@ -52,10 +56,10 @@ TEST(FeatureNeedles, AreCutOffInFrontOfTheTip) {
 }
 
 TEST(FeatureNeedles, StayWhereACurveWouldEndOrNothingIsBlunt) {
-    EXPECT_TRUE(blunted_features(wheel({0, 4, 90, 180, 270}, {1, 2})).tips.empty());      // a curve would end
-    EXPECT_TRUE(blunted_features(wheel({0, 40, 90, 180, 270}, {1, 2, 4})).tips.empty());  // wide
-    EXPECT_TRUE(blunted_features(wheel({0, 4, 90, 180, 270}, {1, 2, 4})).tips.empty());   // the face is that triangle
-    EXPECT_TRUE(blunted_features(wheel({0, 4, 90, 180, 270}, {})).tips.empty());
+    EXPECT_TRUE(blunted_features(ringed_wheel({0, 4, 90, 180, 270}, {1, 2})).tips.empty());      // a curve would end
+    EXPECT_TRUE(blunted_features(ringed_wheel({0, 40, 90, 180, 270}, {1, 2, 4})).tips.empty());  // wide
+    EXPECT_TRUE(blunted_features(wheel({0, 4, 90, 180, 270}, {1, 2, 4})).tips.empty());  // the face is that triangle
+    EXPECT_TRUE(blunted_features(ringed_wheel({0, 4, 90, 180, 270}, {})).tips.empty());
 }
 
 }  // namespace
