@@ -1,6 +1,6 @@
 """Quads by T-meshes on the surfaces of HexMe, and their time.
 
-    python -m studies.quad_layouts -o DIR [--only s05u,i02c] [--data ../shared/data] [--quads 2000]
+    python -m studies.quad_layouts -o DIR [--only s05u,i02c] [--data ../shared/data] [--quads 2000] [--axes free]
     python -m studies.quad_layouts -o DIR --cost 5,6,7
     python -m studies.quad_layouts -o DIR --gmsh [--only s16u,i01c]
 
@@ -31,8 +31,8 @@ HEADER = (
 MADE = ("trace", "cut", "integers", "map", "mesh_smooth")  # phases of the layout and its quads
 
 
-def measure(path: Path, quads: int) -> dict:
-    wanted = octafield.QuadLayoutOptions(quads=quads)
+def measure(path: Path, quads: int, axes: str) -> dict:
+    wanted = octafield.QuadLayoutOptions(quads=quads, axes=axes)
     try:
         record = octafield.compute_quad_layout(path, layout_options=wanted).record
     except octafield.Error as error:
@@ -60,7 +60,7 @@ def cells(row: dict) -> list[str]:
     return [row["file"], *counts, *quality, f"{row['made']:.1f}", f"{row['cpu']:.1f}", ""]
 
 
-def hexme(data: Path, output: Path, only: list[str], quads: int) -> None:
+def hexme(data: Path, output: Path, only: list[str], quads: int, axes: str) -> None:
     """Rows that are there already are kept."""
     path = output / "rows.jsonl"
     rows = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
@@ -68,7 +68,7 @@ def hexme(data: Path, output: Path, only: list[str], quads: int) -> None:
         name = file.name.split(".")[0]
         if name in {row["file"] for row in rows} or (only and name not in only):
             continue
-        row = {"file": name} | run_words(["studies.quad_layouts", str(file), str(quads)], LIMIT)
+        row = {"file": name} | run_words(["studies.quad_layouts", str(file), str(quads), axes], LIMIT)
         rows.append(row)
         with path.open("a") as stream:
             stream.write(json.dumps(row) + "\n")
@@ -106,14 +106,15 @@ def cost(levels: list[int], quads: int) -> str:
 
 
 def main() -> None:
-    if len(sys.argv) == 4 and not sys.argv[1].startswith("-"):  # one file, in a process of its own
-        Path(sys.argv[3]).write_text(json.dumps(measure(Path(sys.argv[1]), int(sys.argv[2]))))
+    if len(sys.argv) == 5 and not sys.argv[1].startswith("-"):  # one file, in a process of its own
+        Path(sys.argv[4]).write_text(json.dumps(measure(Path(sys.argv[1]), int(sys.argv[2]), sys.argv[3])))
         return
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--data", type=Path, default=DATA)
     parser.add_argument("--only", default="", help="names with commas")
     parser.add_argument("--quads", type=int, default=0, help="0: 2,000; of spheres 10,000")
+    parser.add_argument("--axes", default="orthogonal", choices=("orthogonal", "free"), help="of the quads of HexMe")
     parser.add_argument("--cost", help="times that the triangles of an icosahedron are cut into four")
     parser.add_argument("--gmsh", action="store_true", help="Gmsh's quads beside them (gmsh of requirements-test.txt)")
     given = parser.parse_args()
@@ -126,7 +127,7 @@ def main() -> None:
     if given.gmsh:
         quad_beside_gmsh.work(given.data, given.output, only, given.quads or 2_000)
         return
-    hexme(given.data, given.output, only, given.quads or 2_000)
+    hexme(given.data, given.output, only, given.quads or 2_000, given.axes)
 
 
 if __name__ == "__main__":

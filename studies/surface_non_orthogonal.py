@@ -1,12 +1,12 @@
 """Non-orthogonal cross fields on the figures of L. Dermine (master thesis, UCLouvain 2024): trapezoids, a diamond, the
 disk, a shuriken and an aerofoil in a square.
 
-    python studies/surface_non_orthogonal.py -o DIR [--edge 0.05] [--cost] [--wedges]
+    python studies/surface_non_orthogonal.py -o DIR [--edge 0.05] [--cost] [--wedges] [--wedges-cost]
 
 The thesis does not give its geometries: angles, the numbers of corners and of singular points are its own, all else is
 chosen here. DIR gets one picture per figure, and summary.md: energy, singular points and angles of every domain and
 method. With --cost cost.md alone: CPU seconds by mesh size. With --wedges wedges.md and its pictures alone: quads of
-acute corners.
+acute corners; with --wedges-cost wedges_cost.md alone.
 """
 
 import argparse
@@ -15,12 +15,12 @@ from pathlib import Path
 
 import numpy as np
 import octafield
+import surface_wedges
 from matplotlib.collections import LineCollection
 from study_output import markdown_table, new_figure
 from surface_aerofoil import naca
 from surface_meshes import even_disk, region, resampled
 from surface_pictures import SEPARATRIX, STREAMLINE, add_lines, add_points, save_drawing
-from surface_wedges import wedges
 
 SURFACE = octafield.surface
 
@@ -229,6 +229,7 @@ def main() -> None:
     parser.add_argument("--edge", type=float, default=0.05, help="edge length; trapezoids have height 1")
     parser.add_argument("--cost", nargs="?", const="0.02,0.01,0.005", help="edges; seconds in place of the figures")
     parser.add_argument("--wedges", nargs="?", const="15,30,45,60,75", help="angles; quads of wedges in their place")
+    parser.add_argument("--wedges-cost", nargs="?", const="0.01,0.005,0.0025", help="edges; seconds of quads of wedges")
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     output, edge = arguments.output, arguments.edge
@@ -237,8 +238,13 @@ def main() -> None:
         (output / "cost.md").write_text(text)
         print(text)
         return
+    if arguments.wedges_cost:
+        text = surface_wedges.cost(map(float, arguments.wedges_cost.split(",")))
+        (output / "wedges_cost.md").write_text(text)
+        print(text)
+        return
     if arguments.wedges:
-        print(wedges(output, [int(degrees) for degrees in arguments.wedges.split(",")]))
+        print(surface_wedges.wedges(output, [int(degrees) for degrees in arguments.wedges.split(",")]))
         return
     rows = [*trapezoids(output, edge), *diamonds(output, 0.9 * edge), *disks(output, edge)]
     rows += [*stars(output, edge), *aerofoils(output, edge)]

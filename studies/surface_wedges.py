@@ -3,6 +3,7 @@
 Run by surface_non_orthogonal.py --wedges.
 """
 
+import time
 from pathlib import Path
 
 import numpy as np
@@ -223,11 +224,45 @@ def draw_prisms(results: dict, path: Path) -> None:
     save_drawing(figure, path)
 
 
+def at_the_corner(degrees: float, quads: int) -> float:
+    """The longest edge at the corner of a sector of radius 1, along lines at any angle."""
+    mesh, corner, _, _ = sector(degrees)
+    wanted = octafield.QuadLayoutOptions(quads=quads, axes="free")
+    made = octafield.compute_quad_layout(SURFACE.SurfaceDomain(mesh), layout_options=wanted).mesh
+    points, cells = np.array(made.vertices)[:, :2], np.array(made.quads)
+    at = int(np.argmin(np.linalg.norm(points - corner, axis=1)))
+    edges = np.concatenate([cells[:, [k, (k + 1) % 4]] for k in range(4)])
+    ends = points[edges[(edges == at).any(axis=1)]]
+    return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).max())
+
+
+def cost(edges) -> str:
+    """A row per edge length of the trapezoid of 30 degrees: CPU seconds of each step to 2,000 quads along its lines."""
+    rows = []
+    for edge in edges:
+        width = 0.8 + 1 / np.tan(np.radians(30))
+        mesh = _polygon([(0, 0), (width, 0), (0.8, 1), (0, 1)], edge)
+        marks = [time.process_time()]
+        mark = lambda value, marks=marks: (marks.append(time.process_time()), value)[1]
+        lines = mark(SURFACE.non_orthogonal_field(mesh))
+        domain = SURFACE.lines_metric(lines).domain
+        pattern = mark(SURFACE.singular_pattern(domain, SURFACE.surface_singularities(lines)))
+        field = mark(SURFACE.impose_singular_points(domain, pattern, inadmissible="move"))
+        mark(SURFACE.quantized_quads(SURFACE.motorcycle_graph(field), quad_count=2000))
+        rows.append([f"{len(mesh.triangles):,}", *(f"{took:.2f}" for took in np.diff(marks))])
+    return markdown_table(("triangles", "lines, CPU s", "points and metric", "imposed field", "quads"), rows)
+
+
 def wedges(output: Path, angles) -> str:
     rows, planes = plane_rows(angles)
     more, prisms = prism_rows(angles)
     draw_plane(planes, output / "non_orthogonal_wedges.png")
     draw_prisms(prisms, output / "non_orthogonal_prisms.png")
     text = markdown_table(HEADER, rows + more)
+    if 15 in angles:
+        longest = [f"{at_the_corner(15, quads):.2f}" for quads in (400, 6400)]
+        text += (
+            f"\nLongest edge at the corner of the sector of 15 degrees, 400 and 6,400 quads: {', '.join(longest)}.\n"
+        )
     (output / "wedges.md").write_text(text)
     return text

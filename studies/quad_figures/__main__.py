@@ -1,6 +1,7 @@
 import argparse
 import time
 from collections import Counter
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ from study_output import markdown_table, new_figure
 from surface_pictures import save_drawing
 
 from . import __doc__ as told
-from .cases import CASES, Case
+from .cases import CASES, SEPARATRICES, T_MESH, Case, holed_square, placed
 from .drawing import draw_outline, draw_quads, finish, legend
 
 # Rows and columns of panels, and inches of a row.
@@ -68,13 +69,37 @@ def draw(axes, case: Case, mesh, points: list[dict], result) -> None:
     finish(axes, case.title + words, case.window)
 
 
+def eights(output: Path) -> str:
+    """How layouts end that have one point of valence 8 beside a hole in a square, by place, hole and triangles."""
+    found: dict[str, Counter] = {T_MESH: Counter(), SEPARATRICES: Counter()}
+    for radius, x, edge in product((0.3, 0.4), np.arange(0.5, 0.81, 0.05), (0.05, 0.04, 0.03)):
+        mesh, arguments = holed_square([placed(float(x), 0, -4)], radius)(edge)
+        for layout, tolerance in ((SEPARATRICES, 1e-3), (T_MESH, 0.0)):
+            case = Case("", "", holed_square([]), "", layout, end_tolerance=tolerance, quads=1500)
+            try:
+                laid_out(case, mesh, arguments)
+                ending = "quads"
+            except octafield.Error as error:
+                ending = error.kind
+            found[layout][ending] += 1
+            print(f"{radius:g} {x:.2f} {edge:g} {layout} {ending}", flush=True)
+    rows = [[layout, kind, str(count)] for layout, counts in found.items() for kind, count in counts.most_common()]
+    text = markdown_table(("layout", "ends in", "of 42"), rows)
+    (output / "eights.md").write_text(text)
+    return text
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=told, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--only", default="", help="sheets or figures, with commas")
     parser.add_argument("--edge", type=float, default=0.05, help="of the triangles")
+    parser.add_argument("--eights", action="store_true", help="in their place: 42 points of valence 8 beside a hole")
     given = parser.parse_args()
     given.output.mkdir(parents=True, exist_ok=True)
+    if given.eights:
+        print(eights(given.output))
+        return
     only, rows = {word for word in given.only.split(",") if word}, []
     for sheet, (lines, columns, height) in SHEETS.items():
         cases = [case for case in CASES if case.sheet == sheet and (not only or {sheet, case.name} & only)]

@@ -107,10 +107,6 @@ KITE = [at(0.85009, angle, 1) for angle in (0, 85, 180, 275)]
 GENERIC = [at(radius, angle, 1) for radius, angle in ((0.8, 0), (0.7, 83), (0.85, 190), (0.6, 262))]
 EIGHT = [placed(0, 0, -4)]
 
-KITE = [at(0.85009, angle, 1) for angle in (0, 85, 180, 275)]
-GENERIC = [at(radius, angle, 1) for radius, angle in ((0.8, 0), (0.7, 83), (0.85, 190), (0.6, 262))]
-EIGHT = [placed(0, 0, -4)]
-
 PLACES = "places are ours"
 GOLDEN = "figures 1, 8, 10, 12: a layout"
 RINGS = "figure 11"

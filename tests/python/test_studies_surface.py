@@ -279,6 +279,12 @@ def test_quads_of_hexme_have_a_row_per_file_with_the_figures_or_the_error(tmp_pa
     cube, torus = ([word.strip() for word in line.split("|")[1:-1]] for line in text.splitlines()[4:])
     assert cube[0] == "s01c" and cube[4:6] == ["6", "8"] and float(cube[7]) > 0.99 and cube[-1] == ""
     assert torus[0] == "s16c" and torus[-1] == "inverted_quads"
+    subprocess.run(
+        [*command[:-1], tmp_path / "free", "--only", "s01c", "--quads", "24", "--axes", "free"],
+        cwd=STUDIES.parent,
+        check=True,
+    )
+    assert (tmp_path / "free" / "hexme.md").read_text().splitlines()[4].startswith("| s01c |")
 
 
 def test_the_cost_of_quad_layouts_has_a_row_per_sphere(tmp_path):
@@ -295,6 +301,13 @@ def test_the_cost_of_non_orthogonal_fields_has_a_row_per_edge_length(tmp_path):
     (coarse, fine) = ([word.strip() for word in line] for line in lines)
     assert (coarse[0], fine[0]) == ("0.2", "0.1") and 2.5 * int(coarse[1]) < int(fine[1]) < 5 * int(coarse[1])
     assert coarse[3] == coarse[5] == "" and all(float(fine[k]) >= 0 for k in (2, 4))
+
+
+def test_the_cost_of_quads_of_wedges_has_a_row_per_edge_length(tmp_path):
+    run("surface_non_orthogonal.py", tmp_path, "--wedges-cost", "0.2,0.1")
+    lines = [line.split("|")[1:-1] for line in (tmp_path / "wedges_cost.md").read_text().splitlines()[2:]]
+    coarse, fine = (int(line[0].replace(",", "")) for line in lines)
+    assert 3 * coarse < fine < 5 * coarse and all(float(seconds) >= 0 for line in lines for seconds in line[1:])
 
 
 def test_quads_of_wedges_are_as_good_as_their_corners_with_free_axes(tmp_path):
