@@ -853,6 +853,21 @@ class LayoutCurveOptions:
     @cut_vertices.setter
     def cut_vertices(self, value: ArrayLike) -> None: ...
 
+class FittingOptions:
+    edge_length: float
+    places: int
+    more_tried: int
+    most_tried: int
+    most_triangles: float
+    def __init__(
+        self,
+        edge_length: float = ...,
+        places: int = ...,
+        more_tried: int = ...,
+        most_tried: int = ...,
+        most_triangles: float = ...,
+    ) -> None: ...
+
 class LayoutQuadsOptions:
     edge_length: float
     quad_count: int
@@ -1285,7 +1300,11 @@ def fitted_pattern(
     end_tolerance: float = ...,
     max_length: float = ...,
     cut_vertices: ArrayLike | None = ...,
-    edge_length: float,
+    edge_length: float = ...,
+    places: int = ...,
+    more_tried: int = ...,
+    most_tried: int = ...,
+    most_triangles: float = ...,
     progress: Progress | None = None,
 ) -> FittedPattern: ...
 def base_complex(mesh: QuadMesh) -> BaseComplex: ...

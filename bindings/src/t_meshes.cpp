@@ -18,6 +18,10 @@ using namespace surface;
 using py::literals::operator""_a;
 
 void check(const QuantizedQuadsOptions& options) { finite(options.edge_length, "edge_length"); }
+void check(const FittingOptions& options) {
+    finite(options.edge_length, "edge_length");
+    finite(options.most_triangles, "most_triangles");
+}
 
 namespace {
 
@@ -42,6 +46,16 @@ void bind_t_mesh_options(py::module_& m) {
         .finish([](const QuantizedQuadsOptions& o) {
             return "edge_length=" + number(o.edge_length) + ", quad_count=" + std::to_string(o.quad_count);
         });
+    Record<FittingOptions>(m, "FittingOptions",
+                           "Options of fitted_pattern: its keyword arguments, beside those of ImposedFieldOptions and "
+                           "LayoutCurveOptions. edge_length is to be given.")
+        .field("edge_length", &FittingOptions::edge_length, "Of the quads wanted, as of QuantizedQuadsOptions.")
+        .field("places", &FittingOptions::places, "Tried in a face, all over it.")
+        .field("more_tried", &FittingOptions::more_tried,
+               "Patterns after the first that ends a face's shortage, for less deviation.")
+        .field("most_tried", &FittingOptions::most_tried, "Patterns in all.")
+        .field("most_triangles", &FittingOptions::most_triangles, "Of the faces of all patterns tried.")
+        .finish([](const FittingOptions& o) { return "edge_length=" + number(o.edge_length); });
 }
 
 // A member of the base as one of the class.
@@ -196,24 +210,22 @@ void bind_cut_features(py::module_& m) {
     m.def(
         "fitted_pattern",
         [](const SurfaceOrMesh& surface, const SingularPattern& pattern, const std::vector<Index>& origins,
-           double edge_length, const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
-            FittingOptions fitting;
-            fitting.size = finite(edge_length, "edge_length");
-            const auto [imposing, curves] =
-                options_of<ImposedFieldOptions, LayoutCurveOptions>("fitted_pattern", given);
+           const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+            const auto [imposing, curves, fitting] =
+                options_of<ImposedFieldOptions, LayoutCurveOptions, FittingOptions>("fitted_pattern", given);
             return run_interruptible(
-                [=, imposing = imposing, curves = curves](Job& job) {
+                [=, imposing = imposing, curves = curves, fitting = fitting](Job& job) {
                     return fitted_pattern(domain_of(surface), pattern, origins, imposing, curves, fitting,
                                           job.progress());
                 },
                 progress);
         },
-        "surface"_a, "pattern"_a, "origins"_a, py::kw_only(), "edge_length"_a, "progress"_a = py::none(),
+        "surface"_a, "pattern"_a, "origins"_a, py::kw_only(), "progress"_a = py::none(),
         "The SingularPattern of a surface cut along features (FeatureCut: domain, origins), changed face by face until "
         "whole numbers fit its T-mesh, as a FittedPattern: a point is moved, or a pair of valence 3 and 5 added, in "
         "one of a few places all over the face. Of those that fit, one is taken that deviates little for quads of this "
         "edge length. Raises as impose_singular_points and motorcycle_graph.");
-    list_options<ImposedFieldOptions, LayoutCurveOptions>(m, "fitted_pattern");
+    list_options<ImposedFieldOptions, LayoutCurveOptions, FittingOptions>(m, "fitted_pattern");
     m.def(
         "finite_corner_quads",
         [](const SurfaceOrMesh& surface, const SingularPattern& pattern) {

@@ -125,6 +125,7 @@ def layout_objects():
         t_mesh, quads, of.surface.base_complex(quads.mesh), of.surface.cut_along_features(plate),
         of.surface.FittedPattern(changes=[of.surface.PatternChange(3, True, np.ones((2, 3)))], before=2.0, tried=7),
         of.surface.QuantizedQuadsOptions(quad_count=7, weights="relative"),
+        of.surface.FittingOptions(edge_length=0.1, places=3),
         layout, of.surface.layout_quads(layout, quad_count=12), of.surface.patch_polygons(layout),
         of.surface.LayoutCurveOptions(end_tolerance=0.1), of.surface.LayoutQuadsOptions(quad_count=7),
         of.compute_quad_layout(plate, layout_options=of.QuadLayoutOptions(quads=12)), of.QuadLayoutOptions(quads=12),

@@ -54,9 +54,9 @@ public:
             now_.missing = result.left = infinite;
             if (!improve_face(f, 0, result)) return;
         }
-        now_ = detail::fit_of(faces_, options_.size);
+        now_ = detail::fit_of(faces_, options_.edge_length);
         if (!broken) result.before = now_.missing;
-        while (now_.missing > 0 && improve(result)) now_ = detail::fit_of(faces_, options_.size);
+        while (now_.missing > 0 && improve(result)) now_ = detail::fit_of(faces_, options_.edge_length);
         result.left = now_.missing;
     }
 
@@ -108,7 +108,7 @@ bool Fitter::improve_face(std::size_t f, double share, FittedPattern& result) {
         triangles_ += face.domain.triangle_count();
         std::optional<QuadLayout> layout = layout_of(face, candidate.pattern, short_part);
         if (!layout) continue;
-        const detail::Fit fit = detail::fit_of(faces_, options_.size, &*layout, f);
+        const detail::Fit fit = detail::fit_of(faces_, options_.edge_length, &*layout, f);
         if (fit.missing > missing + nothing) continue;
         if (best && fit.missing > missing - nothing && fit.deviation >= deviation) continue;
         missing = fit.missing;
@@ -171,10 +171,11 @@ FittedPattern fitted_pattern(const SurfaceDomain& domain, const SingularPattern&
     if (static_cast<Index>(origins.size()) != domain.vertex_count())
         throw InvalidInput("each vertex of the surface needs an origin", "bad_option");
     if (!curves.cut_vertices.empty()) throw InvalidInput("fitting takes no cuts of its own", "bad_option");
-    if (!(options.size > 0) || options.places < 1 || options.most_tried < 0 || options.more_tried < 0 ||
+    if (!(options.edge_length > 0) || options.places < 1 || options.most_tried < 0 || options.more_tried < 0 ||
         !(options.most_triangles >= 0))
-        throw InvalidInput("fitting needs a size above 0, a place at least, and numbers to be tried of at least 0",
-                           "bad_option");
+        throw InvalidInput(
+            "fitting needs an edge length above 0, a place at least, and numbers to be tried of at least 0",
+            "bad_option");
     // Refuses points and corners that are not on the surface; sizes as of the whole.
     const ImposedField whole = impose_singular_points(domain, pattern, imposing, progress);
     std::vector<Face> faces = detail::faces_of(domain, {whole.pattern.points, pattern.corners}, origins);

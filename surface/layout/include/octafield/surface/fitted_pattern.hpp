@@ -22,7 +22,7 @@ struct FittedPattern {
 };
 
 struct FittingOptions {
-    double size = 1;              // of quads, in quad coordinates, > 0: about their edge length
+    double edge_length = 0;       // of the quads wanted, as in QuantizedQuadsOptions, > 0
     int places = 6;               // tried in a face, all over it
     int more_tried = 4;           // after the first that ends a face's shortage, for less deviation
     int most_tried = 1000;        // patterns, of as many triangles as
