@@ -311,8 +311,13 @@ def test_the_cost_of_quads_of_wedges_has_a_row_per_edge_length(tmp_path):
 
 
 def test_quads_of_wedges_are_as_good_as_their_corners_with_free_axes(tmp_path):
-    run("surface_non_orthogonal.py", tmp_path, "--wedges", "30")
-    lines = [line.split("|")[1:-1] for line in (tmp_path / "wedges.md").read_text().splitlines()[2:]]
+    run("surface_non_orthogonal.py", tmp_path, "--wedges", "15,30")
+    rows = [line.split("|")[1:-1] for line in (tmp_path / "wedges.md").read_text().splitlines()[2:10]]
+    sharp, lines = rows[::2], rows[1::2]
+    for line in sharp:  # a quad that its corner keeps below 0.3 does not cost the others
+        least, _, mean = map(float, line[7].split(","))
+        assert abs(least - np.sin(np.pi / 12)) < 0.01
+        assert float(line[6]) < 7 and (mean > 0.95 or line[0].strip() == "parallelogram")
     assert [line[0].strip() for line in lines] == ["sector", "right trapezoid", "parallelogram", "prism"]
     for line in lines:
         assert float(line[7].split(",")[0]) > np.sin(np.pi / 6) - 0.05

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "layout_pieces.hpp"
 #include "octafield/disjoint_sets.hpp"
@@ -20,6 +22,7 @@ namespace {
 using Vector = Eigen::Vector3d;
 constexpr double good_enough = 0.9;  // scaled Jacobian: vertices with no worse quads stay
 constexpr double bad = 0.3;
+constexpr double reachable = 0.98;  // of the sine of an angle that nothing changes
 constexpr double softness = 10;
 constexpr int rings[] = {1, 2, 3, 4, 8, 16}, relaxing_rounds = 20;
 constexpr double least_gain = 1e-4;
@@ -112,6 +115,7 @@ public:
         for (const LayoutPatch& patch : input.layout.patches) part_of_patch.push_back(parts_.part_of(patch));
         for (const Index patch : input.patches) part_.push_back(part_of_patch[patch]);
         for (Index q = 0; q < mesh.quads.rows(); ++q) normals_.push_back(surface_normal(q));
+        find_given_corners();
     }
 
     std::vector<Index> facing_away() const {
@@ -123,12 +127,11 @@ public:
 
     // Optimised vertex by vertex; where that gets stuck, once more from where the vertices round bad quads are at the
     // means of their neighbours, in growing rings, first with all quads round a vertex counting. The better one is
-    // kept. Singular points inside are held first, and released where bad quads are left
-    // and that is wanted.
+    // kept. Singular points inside are held first, and released where bad quads are left and that is wanted.
     void run(int rounds) {
         optimise(rounds);
         rescue(rounds);
-        if (!input_.release || least_quality() >= bad || !release()) return;
+        if (!input_.release || least_margin() >= 0 || !release()) return;
         optimise(rounds);
         rescue(rounds);
     }
@@ -140,9 +143,9 @@ private:
     }
 
     void rescue(int rounds) {
-        double least = least_quality();
+        double least = least_margin();
         for (const int ring : rings) {
-            if (least >= bad) break;
+            if (least >= 0) break;
             const Points before = mesh_.vertices;
             const auto places = places_;
             relax(ring);
@@ -150,7 +153,7 @@ private:
             optimise(rounds);
             soft_ = false;
             optimise(rounds);
-            const double found = least_quality();
+            const double found = least_margin();
             if (found > least) {
                 least = found;
                 continue;
@@ -169,16 +172,53 @@ private:
         }
     }
 
-    double least_quality() const {
+    // Corners of quads between two edges on seams at a vertex that stays: the surface gives their angles.
+    void find_given_corners() {
+        std::map<std::pair<Index, Index>, std::vector<Index>> beside;
+        const auto edge = [&](Index q, int k) -> std::pair<Index, Index> {
+            return std::minmax(mesh_.quads(q, k), mesh_.quads(q, (k + 1) % 4));
+        };
+        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+            for (int k = 0; k < 4; ++k)
+                if (on_seam(mesh_.quads(q, k)) && on_seam(mesh_.quads(q, (k + 1) % 4))) beside[edge(q, k)].push_back(q);
+        const auto along_seam = [&](Index q, int k) {
+            const auto found = beside.find(edge(q, k));
+            if (found == beside.end()) return false;
+            const std::vector<Index>& quads = found->second;
+            return quads.size() == 1 || part_[quads[0]] != part_[quads[1]];
+        };
+        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+            for (int k = 0; k < 4; ++k) {
+                const Index v = mesh_.quads(q, k);
+                if (on_seam(v) && places_[v].seam < 0 && along_seam(q, k) && along_seam(q, (k + 3) % 4))
+                    given_corners_[q].push_back(k);
+            }
+    }
+
+    // A quad below is bad. No quad is better than an angle that it is given.
+    double bad_below(Index q) const {
+        double result = bad;
+        const auto found = given_corners_.find(q);
+        if (found == given_corners_.end()) return result;
+        for (const int k : found->second) {
+            const Vector at = position(mesh_.quads(q, k)), u = position(mesh_.quads(q, (k + 1) % 4)) - at,
+                         v = position(mesh_.quads(q, (k + 3) % 4)) - at;
+            result = std::min(result, reachable * u.cross(v).norm() / (u.norm() * v.norm()));
+        }
+        return result;
+    }
+
+    // Below 0 where there are bad quads.
+    double least_margin() const {
         double least = 1;
-        for (Index q = 0; q < mesh_.quads.rows(); ++q) least = std::min(least, quality(q));
+        for (Index q = 0; q < mesh_.quads.rows(); ++q) least = std::min(least, quality(q) - bad_below(q));
         return least;
     }
 
     void relax(int ring) {
         std::vector<bool> near(around_.size(), false);
         for (Index q = 0; q < mesh_.quads.rows(); ++q)
-            for (int k = 0; k < 4 && quality(q) < bad; ++k) near[mesh_.quads(q, k)] = true;
+            for (int k = 0; k < 4 && quality(q) < bad_below(q); ++k) near[mesh_.quads(q, k)] = true;
         for (int i = 0; i < ring; ++i) {
             const std::vector<bool> inner = near;
             for (std::size_t v = 0; v < near.size(); ++v)
@@ -316,9 +356,10 @@ private:
     std::vector<SideGrids::OnSeam> places_;
     std::vector<std::vector<Index>> along_;  // vertices of each seam, in their order
     std::vector<bool> fixed_;
-    std::vector<Index> held_;      // of these, singular points inside
-    std::vector<Index> part_;      // of each quad
-    std::vector<Vector> normals_;  // of the surface at each quad
+    std::map<Index, std::vector<int>> given_corners_;  // of quads
+    std::vector<Index> held_;                          // of these, singular points inside
+    std::vector<Index> part_;                          // of each quad
+    std::vector<Vector> normals_;                      // of the surface at each quad
 };
 
 }  // namespace
