@@ -10,6 +10,7 @@
 #include "boundary_star.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/sh4.hpp"
+#include "stretched_directions.hpp"
 #include "surface_constraints.hpp"
 
 namespace octafield::volume {
@@ -83,11 +84,14 @@ VertexRule corner_rule(const Directions& edges, const Directions& normals, doubl
 
 // A feature curve that ends inside a smooth patch only gives its end vertex a direction. Several sectors without
 // features are a vertex where the boundary touches itself: like a corner.
-VertexRule vertex_rule(const Directions& edges, const Directions& normals, bool listed_corner, const Vector3& direction,
-                       const BoundaryOptions& options) {
+VertexRule vertex_rule(Directions edges, Directions normals, bool listed_corner, const Vector3& direction,
+                       const StretchedDirections& stretched, const BoundaryOptions& options) {
+    for (Vector3& normal : normals) normal = stretched.normal(normal);
     if (edges.size() <= 1 && normals.size() == 1)
-        return smooth_rule(normals[0], edges.empty() ? direction : edges[0], options.mode);
-    if (edges.size() == 2 && !listed_corner) return curve_rule(curve_tangent(edges), normals, options);
+        return smooth_rule(normals[0], stretched.tangent(edges.empty() ? direction : edges[0]), options.mode);
+    if (edges.size() == 2 && !listed_corner)
+        return curve_rule(stretched.tangent(curve_tangent(edges)), normals, options);
+    for (Vector3& edge : edges) edge = stretched.tangent(edge);
     return corner_rule(edges, normals, options.feature_tolerance);
 }
 
@@ -124,7 +128,7 @@ SectorNormals sector_normals(const TetDomain& domain) {
 
 BoundaryConstraints constraints_on_surface(Index vertex_count, const BoundarySurface& surface,
                                            const surface::FeatureGraph& features, const Points& directions,
-                                           const BoundaryOptions& options) {
+                                           const BoundaryOptions& options, const Stretches* stretch) {
     require_boundary_inputs(surface, directions, options);
     BoundaryConstraints result;
     result.kind.assign(vertex_count, VertexConstraint::free);
@@ -139,9 +143,10 @@ BoundaryConstraints constraints_on_surface(Index vertex_count, const BoundarySur
     for (Index b = 0; b < stars.vertex_count(); ++b) {
         const Directions normals = stars.sector_normals(b);
         if (normals.empty()) continue;  // in no triangle
-        const VertexRule rule =
-            vertex_rule(stars.feature_directions(b), normals, listed[b], directions.row(b).transpose(), options);
         const Index v = surface.vertex_map[b];
+        const VertexRule rule =
+            vertex_rule(stars.feature_directions(b), normals, listed[b], directions.row(b).transpose(),
+                        stretch ? stretched_directions(*stretch, v) : StretchedDirections(), options);
         result.on_boundary[v] = 1;
         result.frames.row(v) = frames::to_wxyz(rule.frame).transpose();
         if (options.mode == BoundaryMode::none) continue;
