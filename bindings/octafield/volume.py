@@ -3,6 +3,8 @@ sizes."""
 
 from ._core import (
     AlignmentTables,
+    AxesStretch,
+    AxesStretchOptions,
     AxisScales,
     BoundaryConstraints,
     BoundaryMeshability,
@@ -64,6 +66,7 @@ from ._core import (
     TetMesh,
     VertexConstraints,
     alignment_angles,
+    axes_stretch,
     alignment_tables,
     analyse_field,
     analyse_tet_field,
@@ -122,6 +125,7 @@ from ._core import (
     split_locking,
     spread_points,
     stiffness,
+    stretched_axes,
     surface_constraints,
     tet_alignment_angles,
     tet_boundary_constraints,
@@ -145,6 +149,8 @@ from .schemes import EdgeScheme, EmbeddingScheme
 
 __all__ = [
     "AlignmentTables",
+    "AxesStretch",
+    "AxesStretchOptions",
     "AxisScales",
     "BoundaryConstraints",
     "BoundaryMeshability",
@@ -208,6 +214,7 @@ __all__ = [
     "TetMesh",
     "VertexConstraints",
     "alignment_angles",
+    "axes_stretch",
     "alignment_tables",
     "analyse_field",
     "analyse_tet_field",
@@ -266,6 +273,7 @@ __all__ = [
     "split_locking",
     "spread_points",
     "stiffness",
+    "stretched_axes",
     "surface_constraints",
     "tet_alignment_angles",
     "tet_boundary_constraints",

@@ -9,6 +9,7 @@
 #include "octafield/volume/meshability.hpp"
 #include "octafield/volume/smoothed_curves.hpp"
 #include "octafield/volume/tet_meshability.hpp"
+#include "stretch.hpp"
 
 namespace octafield::bindings {
 
@@ -20,7 +21,8 @@ namespace {
 void bind_meshability(py::module_& m) {
     m.def("hex_vertex_exists", &hex_vertex_exists, "valence3"_a, "valence5"_a, "valence6"_a = 0, "valence7"_a = 0,
           "valence8"_a = 0,
-          "Whether a hex mesh has an interior vertex with so many edges of valence 3, 5, 6, 7 and 8, the others regular: a "
+          "Whether a hex mesh has an interior vertex with so many edges of valence 3, 5, 6, 7 and 8, the others "
+          "regular: a "
           "triangulation of the sphere with corners of these degrees. Exact up to 12 edges in all; beyond, which takes "
           "valence 6, and with valence 7 or 8, true means that no count forbids it.");
     m.def(
@@ -129,16 +131,18 @@ void bind_feature_alignment(py::module_& m) {
         "domain"_a, "Directions of a domain's feature curves at the vertices of its surface, as FeatureTangents.");
     m.def(
         "feature_alignment_angles",
-        [](const DomainOrMesh& mesh, const ArrayLike& frames) {
-            return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, const std::optional<ArrayLike>& stretch) {
+            return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
+                                          stretches = stretches_of(stretch)](Job&) mutable {
                 const TetDomain domain = domain_of(mesh);
                 check_unit(rows, domain.vertex_count(), "frames");
-                return feature_alignment_angles(domain, rows);
+                return stretches ? feature_alignment_angles(domain, rows, *stretches)
+                                 : feature_alignment_angles(domain, rows);
             }));
         },
-        "domain"_a, "frames"_a,
+        "domain"_a, "frames"_a, py::kw_only(), "stretch"_a = py::none(),
         "(k,) angles (radians) between each feature tangent and the nearest axis of its vertex's frame, in the order "
-        "of feature_tangents. frames: (n, 4), one per vertex of the mesh.");
+        "of feature_tangents. frames: (n, 4), one per vertex of the mesh. stretch: (n, 6) as AxesStretch has it.");
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ struct LayoutQuadsOptions;
 struct QuantizedQuadsOptions;
 }  // namespace octafield::surface
 namespace octafield::volume {
+struct AxesStretchOptions;
 struct BoundaryOptions;
 struct DiffuseOptions;
 struct SmoothOptions;
@@ -54,6 +55,7 @@ void check(const surface::LayoutCurveOptions& options);
 void check(const surface::LayoutQuadsOptions& options);
 void check(const surface::QuantizedQuadsOptions& options);
 void check(const surface::FittingOptions& options);
+void check(const volume::AxesStretchOptions& options);
 void check(const volume::BoundaryOptions& options);
 void check(const volume::DiffuseOptions& options);
 void check(const volume::SmoothOptions& options);

@@ -54,6 +54,7 @@ PYBIND11_MODULE(_core, module) {
     bind_option_types(module);
     bind_surface(module);
     bind_volume_types(module);
+    bind_axes_stretch(module);
     bind_field_analysis_types(module);
     bind_parameterization_types(module);
     bind_hexdom_types(module);

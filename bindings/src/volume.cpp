@@ -8,12 +8,13 @@
 #include "bind.hpp"
 #include "domain.hpp"
 #include "interruptible.hpp"
-#include "options.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/singularities.hpp"
 #include "octafield/volume/tetrahedralize.hpp"
 #include "octafield/volume/write_vtk.hpp"
+#include "options.hpp"
 #include "sampling.hpp"
+#include "stretch.hpp"
 #include "words.hpp"
 
 namespace octafield::bindings {
@@ -102,9 +103,9 @@ void bind_tet_meshes(py::module_& m) {
         "mesh"_a);
     def_of_domain<true>(m, "tet_volumes", tet_volumes, "(m,) signed volumes of the tets, cubed input unit.");
     def_of_domain<true>(m, "boundary_surface", boundary_surface,
-                "The triangles that belong to one tet only, as a BoundarySurface. Raises GeometryError (kind "
-                "\"non_manifold_face\") where "
-                "three tets share a triangle.");
+                        "The triangles that belong to one tet only, as a BoundarySurface. Raises GeometryError (kind "
+                        "\"non_manifold_face\") where "
+                        "three tets share a triangle.");
 }
 
 void bind_operators(py::module_& m) {
@@ -131,44 +132,51 @@ void bind_operators(py::module_& m) {
         "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
         "E = 1/2 sum_c a_c^T L a_c of (n, 4) frames, a their sh4 vectors and L the stiffness matrix, in the input's "
         "length unit; times "
-        "unit_speed_factor for frames moving at unit speed. domain: a TetDomain, a TetMesh or a Sampling. The same bits at any thread "
+        "unit_speed_factor for frames moving at unit speed. domain: a TetDomain, a TetMesh or a Sampling. The same "
+        "bits at any thread "
         "count.");
 }
 
 void bind_tet_boundary(py::module_& m) {
     def_of_domain(m, "sector_normals", sector_normals,
-                         "One unit normal per vertex of the domain's surface and smooth sector, the triangles round it "
-                         "between feature edges, weighted by area, as SectorNormals.");
+                  "One unit normal per vertex of the domain's surface and smooth sector, the triangles round it "
+                  "between feature edges, weighted by area, as SectorNormals.");
 
     m.def(
         "boundary_constraints",
-        [](const DomainOrMesh& mesh, const ArrayLike& directions, const py::kwargs& given) {
+        [](const DomainOrMesh& mesh, const ArrayLike& directions, const std::optional<ArrayLike>& stretch,
+           const py::kwargs& given) {
             const auto [options] = options_of<BoundaryOptions>("boundary_constraints", given);
-            return run_interruptible(
-                [mesh, options = options, rows = from_python<Points>(directions, "directions")](Job&) {
-                    const TetDomain domain = domain_of(mesh);
-                    check_vectors(rows, domain.surface().mesh.vertices.rows(), "directions");
-                    return boundary_constraints(domain, rows, options);
-                });
+            return run_interruptible([mesh, options = options, rows = from_python<Points>(directions, "directions"),
+                                      stretches = stretches_of(stretch)](Job&) {
+                const TetDomain domain = domain_of(mesh);
+                check_vectors(rows, domain.surface().mesh.vertices.rows(), "directions");
+                return stretches ? boundary_constraints(domain, rows, *stretches, options)
+                                 : boundary_constraints(domain, rows, options);
+            });
         },
-        "domain"_a, "directions"_a,
+        "domain"_a, "directions"_a, py::kw_only(), "stretch"_a = py::none(),
         "Frames and constraints on the surface of a TetDomain, as BoundaryConstraints with one row per vertex of its "
         "mesh. directions: (B, 3) unit tangents at the surface's vertices (vertex_directions). mode: \"aligned\" (one "
         "axis on the normal, twist free), \"fixed\" (whole frame) or \"none\"; feature_tolerance (radians): how well "
-        "one frame must fit a feature vertex to be kept whole.");
+        "one frame must fit a feature vertex to be kept whole. stretch: (n, 6) as AxesStretch has it, for the "
+        "rotations of "
+        "frames whose axes are not at right angles.");
     list_options<BoundaryOptions>(m, "boundary_constraints");
     m.def(
         "alignment_angles",
-        [](const DomainOrMesh& mesh, const ArrayLike& frames) {
-            return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, const std::optional<ArrayLike>& stretch) {
+            return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
+                                          stretches = stretches_of(stretch)](Job&) mutable {
                 const TetDomain domain = domain_of(mesh);
                 check_unit(rows, domain.vertex_count(), "frames");
-                return alignment_angles(domain, rows);
+                return stretches ? alignment_angles(domain, rows, *stretches) : alignment_angles(domain, rows);
             }));
         },
-        "domain"_a, "frames"_a,
+        "domain"_a, "frames"_a, py::kw_only(), "stretch"_a = py::none(),
         "(k,) angles (radians) between each sector normal and the nearest axis of its vertex's frame, in the order of "
-        "sector_normals. frames: (n, 4), one per vertex of the mesh.");
+        "sector_normals. frames: (n, 4), one per vertex of the mesh. stretch: (n, 6) as AxesStretch has it; of axes "
+        "that are not at right angles, to the normal of the nearest pair of them.");
 }
 
 void bind_analysis(py::module_& m) {
@@ -192,29 +200,29 @@ void bind_analysis(py::module_& m) {
 void bind_tet_files(py::module_& m) {
     m.def(
         "write_field",
-        [](const std::filesystem::path& path, const DomainOrMesh& mesh, const ArrayLike& frames, const Metadata& metadata,
-           const ArrayLike& tet_frames, const ArrayLike& lengths,
+        [](const std::filesystem::path& path, const DomainOrMesh& mesh, const ArrayLike& frames,
+           const Metadata& metadata, const ArrayLike& tet_frames, const ArrayLike& lengths,
            const ArrayLike& tet_lengths, const NamedArrayLikes& point_data, const NamedArrayLikes& cell_data,
            const ArrayLike& features) {
-            run_interruptible([path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames"),
-                               more = FieldArrays{from_python<Quaternions>(tet_frames, "tet_frames"),
-                                                  from_python<Points>(lengths, "lengths"),
-                                                  from_python<Points>(tet_lengths, "tet_lengths"),
-                                                  named_arrays(point_data), named_arrays(cell_data),
-                                                  from_python<Edges>(features, "features")}](Job&) mutable {
-                const TetDomain domain = domain_of(mesh);
-                check_unit(rows, domain.vertex_count(), "frames");
-                if (more.tet_frames.rows() > 0) check_unit(more.tet_frames, domain.tet_count(), "tet_frames");
-                if (more.lengths.rows() > 0) check_vectors(more.lengths, domain.vertex_count(), "lengths");
-                if (more.tet_lengths.rows() > 0)
-                    check_vectors(more.tet_lengths, domain.tet_count(), "tet_lengths", "tet");
-                write_field(path, domain, rows, metadata, more);
-                return true;
-            });
+            run_interruptible(
+                [path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames"),
+                 more = FieldArrays{from_python<Quaternions>(tet_frames, "tet_frames"),
+                                    from_python<Points>(lengths, "lengths"),
+                                    from_python<Points>(tet_lengths, "tet_lengths"), named_arrays(point_data),
+                                    named_arrays(cell_data), from_python<Edges>(features, "features")}](Job&) mutable {
+                    const TetDomain domain = domain_of(mesh);
+                    check_unit(rows, domain.vertex_count(), "frames");
+                    if (more.tet_frames.rows() > 0) check_unit(more.tet_frames, domain.tet_count(), "tet_frames");
+                    if (more.lengths.rows() > 0) check_vectors(more.lengths, domain.vertex_count(), "lengths");
+                    if (more.tet_lengths.rows() > 0)
+                        check_vectors(more.tet_lengths, domain.tet_count(), "tet_lengths", "tet");
+                    write_field(path, domain, rows, metadata, more);
+                    return true;
+                });
         },
-        "path"_a, "domain"_a, "frames"_a, "metadata"_a = Metadata{}, py::kw_only(),
-        "tet_frames"_a = py::tuple(), "lengths"_a = py::tuple(), "tet_lengths"_a = py::tuple(),
-        "point_data"_a = NamedArrayLikes{}, "cell_data"_a = NamedArrayLikes{}, "features"_a = py::tuple(),
+        "path"_a, "domain"_a, "frames"_a, "metadata"_a = Metadata{}, py::kw_only(), "tet_frames"_a = py::tuple(),
+        "lengths"_a = py::tuple(), "tet_lengths"_a = py::tuple(), "point_data"_a = NamedArrayLikes{},
+        "cell_data"_a = NamedArrayLikes{}, "features"_a = py::tuple(),
         "Write a .vtu file with point data frame_u, frame_v, frame_w (unit axes), quaternion (w x y z), sh4 (9) and "
         "boundary (0/1). frames: (n, 4); "
         "metadata: words written as field data; the domain's regions are cell data region; "

@@ -77,6 +77,7 @@ def objects(field, tmp_path_factory):
         of.volume.boundary_meshability(tets, of.frames.random_rotations(len(frames))),
         of.volume.boundary_meshability(box.tets, of.frames.random_rotations(len(box.tets.vertices))),
         of.surface.DirectionConstraints([[0, 1]], [[1, 0, 0]], [2.0]), of.surface.DirectionGuide([[1, 0, 0]], [1], 3),
+        of.volume.axes_stretch(tets), of.volume.AxesStretchOptions(corner_angle=0.6),
         of.volume.VertexConstraints([3], [1], [[0, 0, 1]]),
         of.volume.SmoothOptions(tolerance=1e-5), of.volume.DiffuseOptions(max_steps=3),
         of.volume.FrameFieldOptions(rounds=1), of.volume.BoundaryOptions(feature_tolerance=0.2),
