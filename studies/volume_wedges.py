@@ -97,8 +97,9 @@ def draw(path: Path, shown: list[tuple[str, octafield.TetDomain, dict]]) -> None
             if len(curve) > 1:
                 plotter.add_mesh(pyvista.lines_from_points(np.asarray(points)[curve]), color="#d55e00", line_width=5)
         plotter.add_text(title, font_size=9)
-        plotter.camera_position = [(0.55, -0.9, 2.4), (0.55, 0.15, 0.3), (0, 1, 0)]
-        plotter.camera.zoom(1.3)
+        plotter.enable_parallel_projection()
+        plotter.view_vector((0.25, -0.45, 1), viewup=(0, 1, 0))
+        plotter.camera.zoom(1.35)
     plotter.screenshot(str(path))
 
 

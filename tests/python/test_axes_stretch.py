@@ -36,12 +36,10 @@ def test_axes_follow_both_faces_of_a_sharp_edge_in_every_representation(wedge, r
     assert min(np.linalg.norm(t.point[:2]) for t in graph.triangles) > 4 * EDGE
 
 
-def test_at_right_angles_the_singular_curve_is_at_the_sharp_edge(wedge):
+def test_at_right_angles_no_frame_follows_both_faces(wedge):
     domain = wedge.meshed.volume()
     frames = volume.frame_field(domain, volume.boundary_constraints(domain, wedge.directions)).smooth.frames
-    graph = volume.singular_graph(domain, frames)
-    assert min(np.linalg.norm(t.point[:2]) for t in graph.triangles) < 2 * EDGE
-    assert volume.alignment_angles(domain, frames).max() > np.radians(5)
+    assert volume.alignment_angles(domain, frames).max() > np.radians(10)
 
 
 def test_a_stretch_of_another_mesh_or_that_is_not_positive_is_refused(wedge):
