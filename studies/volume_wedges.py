@@ -1,9 +1,10 @@
 """Frames in sharp wedges: axes along both faces by axes_stretch, beside frames at right angles.
 
     python studies/volume_wedges.py -o DIR [--angles 15,30,45,60,75] [--edges 12]
+    python studies/volume_wedges.py -o DIR --files DATA/hexme/s02c.vtk.gz ...
 
 Prisms of height 0.6 over right triangles with a side of 1 at the angle, tets of 1 / EDGES. DIR gets wedges.md,
-representations.md (one prism, every representation that is compared) and wedges.png.
+representations.md (one prism, every representation that is compared) and wedges.png. With --files files.md alone.
 """
 
 import argparse
@@ -73,6 +74,29 @@ HEADER = ("off faces and edge at the wedge, degrees", "anywhere", "singular curv
           "nearest to the wedge, edges", "least angle between axes, degrees")  # fmt: skip
 
 
+def of_file(path: Path) -> list[str]:
+    problem = octafield.prepare_field(octafield.prepare_mesh(path))
+    domain = problem.meshed.volume()
+    directions = problem.directions[: len(domain.surface.mesh.vertices)]
+    stretch = VOLUME.axes_stretch(domain)
+    row = [path.name.split(".")[0], f"{len(domain.tets):,}", f"{len(stretch.sharp):,} of {len(stretch.followed):,}"]
+    for given in (stretch.values, None):
+        held = VOLUME.boundary_constraints(domain, directions, stretch=given)
+        frames = VOLUME.frame_field(domain, held).smooth.frames
+        for found in (VOLUME.alignment_angles, VOLUME.feature_alignment_angles):
+            off = np.degrees(found(domain, frames, stretch=given))
+            row.append(", ".join(f"{value:.1f}" for value in np.percentile(off, [50, 95, 100])))
+        row.append(f"{len(VOLUME.singular_graph(domain, frames).triangles):,}")
+    return row
+
+
+OF_FILES = [
+    "file", "tets", "sharp vertices of those followed",
+    "free: off faces, degrees: median, p95, max", "off edges", "singular triangles",
+    "right angles: off faces", "off edges", "singular triangles",
+]  # fmt: skip
+
+
 def draw(path: Path, shown: list[tuple[str, octafield.TetDomain, dict]]) -> None:
     import pyvista
 
@@ -108,8 +132,13 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--angles", default="15,30,45,60,75")
     parser.add_argument("--edges", type=int, default=12)
+    parser.add_argument("--files", type=Path, nargs="+", help="tet meshes in place of prisms")
     a = parser.parse_args()
     a.output.mkdir(parents=True, exist_ok=True)
+    if a.files:
+        rows = [of_file(path) for path in a.files]
+        (a.output / "files.md").write_text(markdown_table(OF_FILES, rows) + "\n")
+        return
     rows, shown = [], []
     for degrees in map(float, a.angles.split(",")):
         domain, directions = domain_of(degrees, a.edges)
