@@ -54,7 +54,6 @@ PYBIND11_MODULE(_core, module) {
     bind_option_types(module);
     bind_surface(module);
     bind_volume_types(module);
-    bind_axes_stretch(module);
     bind_field_analysis_types(module);
     bind_parameterization_types(module);
     bind_hexdom_types(module);
@@ -63,6 +62,7 @@ PYBIND11_MODULE(_core, module) {
     bind_volume_input_types(module);
     bind_domain(module);
     bind_volume(module);
+    bind_axes_stretch(module);
     bind_sampling(module);
     bind_schemes(module);
     bind_array_schemes(module);
