@@ -21,7 +21,7 @@ using frames::Matrix3;
 using frames::Vector3;
 
 constexpr double least_volume = 1.7e-2;  // of three unit directions: an angle of a degree between two of them
-constexpr double solve_tolerance = 1e-12;
+constexpr double solve_tolerance = 1e-10;
 
 Eigen::Matrix<double, 1, 6> packed(const Matrix3& s) { return {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(0, 2), s(0, 1)}; }
 

@@ -41,8 +41,8 @@ struct AxesStretch {
 // each of both faces, whose angle from the tangent goes linearly by length between the corners at its ends (a right
 // angle where these ask for none, and on closed curves). All have length 1 there; log S
 // is harmonic between, first on the surface, then in the tets (linear elements). Edges of interfaces between regions
-// are not followed. Near linear; the same bits on every run. Throws InvalidInput (kind "bad_option"), SolverError (kind
-// "conjugate_gradients").
+// are not followed. Time like n^(4/3) (conjugate gradients); the same bits on every run. Throws InvalidInput (kind
+// "bad_option"), SolverError (kind "conjugate_gradients").
 AxesStretch axes_stretch(const TetDomain& domain, const AxesStretchOptions& options = {});
 
 // (n, 9) the axes A = S Q, not of unit length: x, y, z of the first, the second and the third. frames: (n, 4) unit
