@@ -2,7 +2,7 @@
 
 Importing, and taking all of it down, takes longer than what most tests ask of a command. A child runs and writes as
 `python -m octafield` does: it has the caller's folder and environment, its own streams and exit code, and may crash.
-That the command also starts from nothing is shown elsewhere: by the commands of the pages, run as printed, and by tests
+That the command also starts from nothing is shown elsewhere: by the commands of README.md, run as printed, and by tests
 that send signals.
 """
 
