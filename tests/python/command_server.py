@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
 
@@ -26,11 +26,14 @@ LATE_IMPORTS = ("matplotlib.figure", "meshio", "octafield.inspect.info", "octafi
                 "pyvista.plotting", "scipy.sparse.csgraph", "scipy.spatial", "vtk")  # fmt: skip
 
 
-def run(arguments: list[str], timeout: float) -> subprocess.CompletedProcess:
-    """Exit code and output of `octafield` with these arguments. Raises TimeoutExpired; the command is killed then."""
+def run(
+    arguments: list[str], timeout: float, environment: Mapping[str, str] | None = None
+) -> subprocess.CompletedProcess:
+    """Exit code and output of `octafield` with these arguments. environment: in addition to this process's. Raises
+    TimeoutExpired; the command is killed then."""
     with tempfile.TemporaryDirectory() as folder:
         streams = [Path(folder) / name for name in ("stdout", "stderr")]
-        request = {"arguments": arguments, "folder": os.getcwd(), "environment": dict(os.environ)}
+        request = {"arguments": arguments, "folder": os.getcwd(), "environment": {**os.environ, **(environment or {})}}
         code = _answer({**request, "streams": [str(path) for path in streams]}, timeout)
         return subprocess.CompletedProcess(arguments, code, *(path.read_text() for path in streams))
 
