@@ -10,6 +10,8 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+import command_server
+
 ROOT = Path(__file__).parents[2]
 _FENCE = re.compile(r'^```(\w+)(?: title="([^"]*)")?\n(.*?)^```$', flags=re.DOTALL | re.MULTILINE)
 _SNIPPET = re.compile(r'^--8<-- "([^":]+):(\w+)"$', flags=re.MULTILINE)
@@ -53,10 +55,10 @@ def python_of(page: Path) -> str:
     return "\n".join(block.text for block in blocks(page) if block.language == "python" and not block.is_file)
 
 
-def run_page(page: Path) -> int:
+def run_page(page: Path, from_nothing: bool = False) -> int:
     """Runs the Python and octafield commands of a page in the current folder, in order and in one namespace; files it
-    shows are written there, one after another into one of the same name. Returns how many blocks ran. AssertionError: a
-    command fails or prints something else than the page says."""
+    shows are written there, one after another into one of the same name. from_nothing: commands import octafield anew.
+    Returns how many blocks ran. AssertionError: a command fails or prints something else than the page says."""
     namespace: dict = {"__name__": "__main__"}
     printed, ran = "", 0
     for block in blocks(page):
@@ -70,7 +72,9 @@ def run_page(page: Path) -> int:
                 exec(compile("\n" * (block.line - 1) + block.text, str(page), "exec"), namespace)
             printed, ran = stdout.getvalue(), ran + 1
         elif block.is_command:
-            printed = "".join(_command(line, f"{page.name}:{block.line}") for line in block.text.splitlines())
+            printed = "".join(
+                _command(line, f"{page.name}:{block.line}", from_nothing) for line in block.text.splitlines()
+            )
             ran += 1
         elif block.title == OUTPUT:
             assert printed == block.text, (
@@ -79,8 +83,11 @@ def run_page(page: Path) -> int:
     return ran
 
 
-def _command(line: str, where: str) -> str:
+def _command(line: str, where: str, from_nothing: bool) -> str:
     words = shlex.split(line, comments=True)
-    done = subprocess.run([sys.executable, "-m", *words], capture_output=True, text=True, timeout=300)
+    if from_nothing:
+        done = subprocess.run([sys.executable, "-m", *words], capture_output=True, text=True, timeout=300)
+    else:
+        done = command_server.run(words[1:], timeout=300)
     assert done.returncode == 0, f"{where}: {line}\n{done.stderr}"
     return done.stdout

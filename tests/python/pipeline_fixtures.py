@@ -1,9 +1,9 @@
 """Small inputs and the command line for the tests of the pipeline."""
 
 import subprocess
-import sys
 from pathlib import Path
 
+import command_server
 import pytest
 import pyvista
 
@@ -37,8 +37,7 @@ def write_sphere(folder: Path) -> Path:
 
 def octafield(*arguments, check: int | None = None) -> subprocess.CompletedProcess:
     """Runs the command line in a process of its own; `check` is the exit code it must have."""
-    command = [sys.executable, "-m", "octafield.command_line.fields", *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    done = command_server.run([str(argument) for argument in arguments], timeout=600)
     if check is not None:
         assert done.returncode == check, done.stderr
     return done

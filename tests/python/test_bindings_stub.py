@@ -2,14 +2,12 @@
 
 import ast
 import inspect
-import subprocess
-import sys
 from pathlib import Path
 
 import octafield
 import pytest
-from docs_blocks import ROOT
 from octafield import _core
+from typed import checked
 
 STUB = ast.parse(Path(octafield.__file__).with_name("_core.pyi").read_text())
 ALIASES = {"Complex128s", "Float64s", "Int32s", "UInt8s", "Path", "Progress"}
@@ -119,10 +117,8 @@ except octafield.IoError as error:
 
 def test_a_typed_program_passes_mypy_strict(tmp_path):
     (tmp_path / "example.py").write_text(EXAMPLE)
-    cache = f"--cache-dir={ROOT / '.mypy_cache'}"  # shared with the test of the pages
-    command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", cache, "example.py"]
-    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    run = checked(tmp_path, "example.py")
     assert run.returncode == 0, run.stdout
     wrong = EXAMPLE + '\noctafield.surface.direction_field(domain, epsilon="wide")\n'
     (tmp_path / "example.py").write_text(wrong)
-    assert subprocess.run(command, cwd=tmp_path, capture_output=True).returncode == 1
+    assert checked(tmp_path, "example.py").returncode == 1

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 
+import command_server
 import pytest
 from octafield.command_line import fields as cli
 from octafield.command_line.shell_completion import lists, words
@@ -161,15 +162,11 @@ def test_words_for_completion():
 def completed(*typed: str) -> list[str]:
     """What bash is offered for the last word, by the protocol of its completion function."""
     environment = {
-        **os.environ,
         "_OCTAFIELD_COMPLETE": "complete_bash",
         "COMP_WORDS": " ".join(["octafield", *typed]),
         "COMP_CWORD": str(len(typed)),
     }
-    done = subprocess.run(
-        [sys.executable, "-m", "octafield"], env=environment, capture_output=True, text=True, timeout=60
-    )
-    return done.stdout.split()
+    return command_server.run([], 60, environment).stdout.split()
 
 
 @pytest.mark.parametrize("typed, offered", [

@@ -17,6 +17,7 @@ import yaml
 from docs_blocks import ROOT, blocks, python_of, run_page
 from octafield import _core
 from octafield.domain.generators import generate
+from typed import checked
 
 sys.path.insert(0, str(ROOT / "scripts" / "docs"))
 from gallery import alike, shown  # noqa: E402
@@ -82,17 +83,8 @@ def test_the_python_of_the_pages_passes_mypy_strict(tmp_path):
     for name, page in PAGES.items():
         if text := python_of(page):
             (tmp_path / (re.sub(r"\W", "_", name) + ".py")).write_text(text)
-    command = [
-        sys.executable,
-        "-m",
-        "mypy",
-        "--strict",
-        "--follow-imports=silent",
-        f"--cache-dir={ROOT / '.mypy_cache'}",
-        ".",
-    ]
     environment = {**os.environ, "MYPYPATH": str(ROOT / "studies" / "examples" / "own_scheme")}
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, env=environment)
+    done = checked(tmp_path, ".", environment=environment)
     assert done.returncode == 0, done.stdout
 
 

@@ -68,21 +68,26 @@ def test_figures_are_those_of_the_arrays(curved):
     assert all(megabytes > 10 for megabytes in record.phase_peak_mb.values())
 
 
-def test_the_function_on_arrays_gives_what_the_whole_way_gives(curved):
-    again = of.volume.hex_dominant(curved.field.tets, curved.field.frames, edge_length=curved.record.edge_length.target)
-    for name in ("vertices", "tets", "hexahedra", "wedges", "pyramids"):
-        assert np.array_equal(getattr(again.mesh, name), getattr(curved.mesh, name))
-    assert np.array_equal(again.support, curved.support) and len(again.regions) == 0
-
-
-def test_the_number_of_threads_changes_no_bit(curved):
+def from_arrays(curved, threads):
     length = curved.record.edge_length.target
-    one, three = (
-        of.volume.hex_dominant(curved.field.tets, curved.field.frames, edge_length=length, threads=threads)
-        for threads in (1, 3)
-    )
-    assert np.array_equal(one.mesh.vertices, three.mesh.vertices)
-    assert np.array_equal(one.mesh.tets, three.mesh.tets) and np.array_equal(one.mesh.hexahedra, three.mesh.hexahedra)
+    return of.volume.hex_dominant(curved.field.tets, curved.field.frames, edge_length=length, threads=threads)
+
+
+@pytest.fixture(scope="module")
+def of_one_thread(curved):
+    return from_arrays(curved, threads=1)
+
+
+def test_the_function_on_arrays_gives_what_the_whole_way_gives(curved, of_one_thread):
+    for name in ("vertices", "tets", "hexahedra", "wedges", "pyramids"):
+        assert np.array_equal(getattr(of_one_thread.mesh, name), getattr(curved.mesh, name))
+    assert np.array_equal(of_one_thread.support, curved.support) and len(of_one_thread.regions) == 0
+
+
+def test_the_number_of_threads_changes_no_bit(curved, of_one_thread):
+    one, three = of_one_thread.mesh, from_arrays(curved, threads=3).mesh
+    assert np.array_equal(one.vertices, three.vertices)
+    assert np.array_equal(one.tets, three.tets) and np.array_equal(one.hexahedra, three.hexahedra)
 
 
 def test_options_are_those_of_the_struct_and_bad_ones_are_named(box):

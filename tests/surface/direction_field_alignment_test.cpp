@@ -6,12 +6,6 @@
 namespace octafield::surface {
 namespace {
 
-constexpr const char* mbo = "mbo";
-
-TriangleMesh square(int n) {
-    return plate(n, [](double, double) { return true; });
-}
-
 TriangleMesh ellipse(int rings, double height) {
     TriangleMesh mesh = disk(rings);
     mesh.vertices.col(1) *= height;

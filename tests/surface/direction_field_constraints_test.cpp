@@ -4,18 +4,12 @@
 namespace octafield::surface {
 namespace {
 
-constexpr const char* mbo = "mbo";
-
 // Angle between a direction and the nearest of the field's N directions at the midpoint of an edge of a plane mesh.
 double angle_off(const TriangleMesh& mesh, const DirectionField& field, Index e, double angle) {
     const Vector along =
         mesh.vertices.row(field.domain.topology().edges(e, 1)) - mesh.vertices.row(field.domain.topology().edges(e, 0));
     const double edge = std::atan2(along.y(), along.x());
     return std::abs(std::arg(field.values[e] * std::polar(1.0, field.symmetry * (edge - angle)))) / field.symmetry;
-}
-
-TriangleMesh square(int n) {
-    return plate(n, [](double, double) { return true; });
 }
 
 // ---- user constraints ----
@@ -164,7 +158,7 @@ TEST(Guide, WithoutWeightIsNoGuide) {
 // ---- bad input ----
 
 template <class Change>
-std::string refusal(const Change& change) {
+std::string refusal_of(const Change& change) {
     const TriangleMesh mesh = square(4);
     DirectionFieldOptions options;
     options.constraints.edges = edge_topology(mesh).edges.row(5);
@@ -183,18 +177,19 @@ std::string refusal(const Change& change) {
 TEST(Alignment, RefusesConstraintsAndGuidesThatMakeNoSense) {
     using O = DirectionFieldOptions;
     using M = TriangleMesh;
-    EXPECT_EQ(refusal([](O&, const M&) {}), "");
-    EXPECT_EQ(refusal([](O& o, const M&) { o.constraints.edge_directions.resize(2, 3); }), "wrong_size");
-    EXPECT_EQ(refusal([](O& o, const M&) { o.constraints.vertex_weights.setOnes(3); }), "wrong_size");
-    EXPECT_EQ(refusal([](O& o, const M&) { o.constraints.edges << 0, 24; }), "unknown_edge");
-    EXPECT_EQ(refusal([](O& o, const M&) { o.constraints.vertices = {25}; }), "index_out_of_range");
-    EXPECT_EQ(refusal([](O& o, const M&) { o.constraints.vertex_directions << 0, 0, 1; }), "bad_constraint");
-    EXPECT_EQ(refusal([](O& o, const M&) { o.constraints.edge_directions.setZero(); }), "bad_constraint");
-    EXPECT_EQ(refusal([](O& o, const M&) { o.constraints.edge_directions(0, 1) = std::nan(""); }), "bad_constraint");
-    EXPECT_EQ(refusal([](O& o, const M&) { o.constraints.edge_weights = Eigen::VectorXd::Zero(1); }), "bad_constraint");
-    EXPECT_EQ(refusal([](O& o, const M& m) { o.guide.directions.setZero(m.triangles.rows(), 3); }), "bad_guide");
-    EXPECT_EQ(refusal([](O& o, const M&) { o.guide.directions.setOnes(3, 3); }), "wrong_size");
-    EXPECT_EQ(refusal([](O& o, const M&) {
+    EXPECT_EQ(refusal_of([](O&, const M&) {}), "");
+    EXPECT_EQ(refusal_of([](O& o, const M&) { o.constraints.edge_directions.resize(2, 3); }), "wrong_size");
+    EXPECT_EQ(refusal_of([](O& o, const M&) { o.constraints.vertex_weights.setOnes(3); }), "wrong_size");
+    EXPECT_EQ(refusal_of([](O& o, const M&) { o.constraints.edges << 0, 24; }), "unknown_edge");
+    EXPECT_EQ(refusal_of([](O& o, const M&) { o.constraints.vertices = {25}; }), "index_out_of_range");
+    EXPECT_EQ(refusal_of([](O& o, const M&) { o.constraints.vertex_directions << 0, 0, 1; }), "bad_constraint");
+    EXPECT_EQ(refusal_of([](O& o, const M&) { o.constraints.edge_directions.setZero(); }), "bad_constraint");
+    EXPECT_EQ(refusal_of([](O& o, const M&) { o.constraints.edge_directions(0, 1) = std::nan(""); }), "bad_constraint");
+    EXPECT_EQ(refusal_of([](O& o, const M&) { o.constraints.edge_weights = Eigen::VectorXd::Zero(1); }),
+              "bad_constraint");
+    EXPECT_EQ(refusal_of([](O& o, const M& m) { o.guide.directions.setZero(m.triangles.rows(), 3); }), "bad_guide");
+    EXPECT_EQ(refusal_of([](O& o, const M&) { o.guide.directions.setOnes(3, 3); }), "wrong_size");
+    EXPECT_EQ(refusal_of([](O& o, const M&) {
                   o.constraints.edges = o.constraints.edges.replicate(2, 1).eval();
                   o.constraints.edge_directions.resize(2, 3);
                   o.constraints.edge_directions << 1, 0, 0, 1, 0.2, 0;

@@ -29,7 +29,8 @@ using testing::icosphere;
 using testing::make_mesh;
 using testing::torus;
 using Vector = Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+constexpr const char* mbo = "mbo";  // diffusion and projection
+using std::numbers::pi;
 
 // The field that follows direction(x) at the edge midpoints x of a surface with normal(x).
 inline DirectionField prescribed(const SurfaceDomain& domain, int symmetry,
@@ -49,6 +50,8 @@ inline DirectionField prescribed(const SurfaceDomain& domain, int symmetry,
     }
     return field;
 }
+
+inline Complex flat(const Vector& x) { return {x.x(), x.y()}; }
 
 inline Vector up(const Vector&) { return Vector::UnitZ(); }
 
@@ -97,6 +100,10 @@ inline TriangleMesh plate(int n, const std::function<bool(double, double)>& keep
             triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
         }
     return make_mesh(points, triangles);
+}
+
+inline TriangleMesh square(int n) {
+    return plate(n, [](double, double) { return true; });
 }
 
 inline FeatureGraph all_edges(const TriangleMesh& mesh) { return {edge_topology(mesh).edges, {}}; }

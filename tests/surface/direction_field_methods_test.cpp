@@ -4,7 +4,6 @@
 namespace octafield::surface {
 namespace {
 
-constexpr const char* mbo = "mbo";
 constexpr const char* eigenvector = "eigen";
 
 DirectionField computed(const TriangleMesh& mesh, const std::string& method, int symmetry = 4) {

@@ -11,6 +11,8 @@
 
 namespace octafield::surface::testing {
 
+inline constexpr double degree = std::numbers::pi / 180;
+
 inline TriangleMesh make_mesh(const std::vector<Eigen::Vector3d>& points,
                               const std::vector<Eigen::Vector3i>& triangles) {
     TriangleMesh mesh;

@@ -22,7 +22,7 @@ QuadMesh house() {
     return mesh;
 }
 
-std::pair<std::string, std::vector<Index>> refusal(const QuadMesh& mesh, bool closed = true) {
+std::pair<std::string, std::vector<Index>> refusal_of_quads(const QuadMesh& mesh, bool closed = true) {
     try {
         require_valid(mesh, closed);
     } catch (const GeometryError& error) {
@@ -34,34 +34,34 @@ std::pair<std::string, std::vector<Index>> refusal(const QuadMesh& mesh, bool cl
 using Refusal = std::pair<std::string, std::vector<Index>>;
 
 TEST(QuadMesh, AHouseIsValidAndItsDefectsAreNamed) {
-    EXPECT_EQ(refusal(house()), Refusal("valid", {}));
-    EXPECT_EQ(refusal({}), Refusal("empty", {}));
+    EXPECT_EQ(refusal_of_quads(house()), Refusal("valid", {}));
+    EXPECT_EQ(refusal_of_quads({}), Refusal("empty", {}));
     QuadMesh mesh = house();
     mesh.quads(0, 2) = 10;
-    EXPECT_EQ(refusal(mesh), Refusal("index_out_of_range", {2}));  // after the triangles
+    EXPECT_EQ(refusal_of_quads(mesh), Refusal("index_out_of_range", {2}));  // after the triangles
     EXPECT_THROW(scaled_jacobians(mesh), GeometryError);
     EXPECT_THROW(split_quads(mesh), GeometryError);
     mesh = house();
     mesh.vertices(9, 1) = INFINITY;
-    EXPECT_EQ(refusal(mesh), Refusal("non_finite_vertex", {9}));
+    EXPECT_EQ(refusal_of_quads(mesh), Refusal("non_finite_vertex", {9}));
     mesh = house();
     mesh.quads(1, 2) = 1;
-    EXPECT_EQ(refusal(mesh), Refusal("repeated_vertex", {3}));
+    EXPECT_EQ(refusal_of_quads(mesh), Refusal("repeated_vertex", {3}));
     mesh = house();
     mesh.vertices.row(0) << 0.8, 0.8, 0;  // the floor is a dart
-    EXPECT_EQ(refusal(mesh).first, "degenerate_face");
-    EXPECT_EQ(refusal(mesh).second.front(), 2);
+    EXPECT_EQ(refusal_of_quads(mesh).first, "degenerate_face");
+    EXPECT_EQ(refusal_of_quads(mesh).second.front(), 2);
     mesh = house();
     mesh.triangles.row(1).reverseInPlace();
-    EXPECT_EQ(refusal(mesh), Refusal("inconsistent_orientation", {6, 7, 6, 9, 7, 9}));
+    EXPECT_EQ(refusal_of_quads(mesh), Refusal("inconsistent_orientation", {6, 7, 6, 9, 7, 9}));
     mesh = house();
     mesh.triangles.conservativeResize(1, 3);
-    EXPECT_EQ(refusal(mesh), Refusal("not_closed", {6, 7, 6, 9, 7, 9}));
-    EXPECT_EQ(refusal(mesh, false), Refusal("valid", {}));
+    EXPECT_EQ(refusal_of_quads(mesh), Refusal("not_closed", {6, 7, 6, 9, 7, 9}));
+    EXPECT_EQ(refusal_of_quads(mesh, false), Refusal("valid", {}));
     mesh = house();
     mesh.triangles.conservativeResize(3, 3);
     mesh.triangles.row(2) << 4, 5, 9;  // inside, from an eaves edge
-    EXPECT_EQ(refusal(mesh, false), Refusal("non_manifold_edge", {4, 5}));
+    EXPECT_EQ(refusal_of_quads(mesh, false), Refusal("non_manifold_edge", {4, 5}));
 }
 
 TEST(QuadMesh, SplitAlongShorterDiagonalsItIsTheSameSurface) {

@@ -15,7 +15,7 @@ namespace octafield::surface {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<Complex> polygon(int d, double r, double turn = 0.3) {
     std::vector<Complex> points;

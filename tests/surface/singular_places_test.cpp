@@ -17,8 +17,6 @@ double angle_of(const std::vector<Zero>& zeros, Complex z, int symmetry) {
     return sum / symmetry;
 }
 
-Complex flat(const Vector& x) { return {x.x(), x.y()}; }
-
 // From the north pole.
 Complex lowered(const Vector& x) { return Complex(x.x(), x.y()) / (1 - x.z()); }
 Vector lifted(Complex w) { return Vector(2 * w.real(), 2 * w.imag(), std::norm(w) - 1) / (1 + std::norm(w)); }

@@ -4,8 +4,6 @@
 namespace octafield::surface {
 namespace {
 
-Complex flat(const Vector& x) { return {x.x(), x.y()}; }
-
 // A triangle in the middle of three others: too few values for a fit. The corners of all begin at `shift`, and vertices
 // are numbered backwards.
 TriangleMesh four_triangles(int shift, bool backwards) {

@@ -31,7 +31,7 @@ TriangleMesh both(const TriangleMesh& a, TriangleMesh b, const Eigen::RowVector3
 // A ball and, beside it, a ring whose tube is so thin that edges must be much shorter than the ball's.
 TriangleMesh ball_and_ring() { return both(icosphere(4), torus(120, 12, 0.5, 0.04), {0, 0, 2}); }
 
-TriangleMesh plate(double thickness, int n = 12) {
+TriangleMesh slab(double thickness, int n = 12) {
     TriangleMesh mesh = cube_surface(n);
     mesh.vertices.col(2) *= thickness;
     return mesh;
@@ -69,7 +69,7 @@ TEST(SizeField, GrowsSlowlyFromWhereItIsShort) {
 }
 
 TEST(SizeField, WallsAndGapsCarryEdgesOfTwiceTheirWidth) {
-    const TriangleMesh wall = plate(0.015);
+    const TriangleMesh wall = slab(0.015);
     const auto most = [](const TriangleMesh& mesh) {
         return size_field(mesh, detect_features(mesh), {.max_cells = 1e7}).lengths.maxCoeff();
     };
@@ -201,7 +201,7 @@ TEST(GradedRemesh, KeepsTips) {
 }
 
 TEST(GradedRemesh, FeatureCurvesAndCornersStay) {
-    const TriangleMesh wall = plate(0.03);
+    const TriangleMesh wall = slab(0.03);
     const FeatureGraph features = detect_features(wall);
     const RemeshResult result = remesh(wall, features);
     EXPECT_EQ(result.features.corners.size(), 8u);

@@ -13,9 +13,6 @@ using End = StreamlineEnd;
 inline Vector at_angle(double angle) { return Vector(std::cos(angle), std::sin(angle), 0); }
 inline Vector outward(const Vector& x) { return x; }
 inline Vector from_tube(const Vector& x) { return x - Vector(x.x(), x.y(), 0).normalized(); }
-inline TriangleMesh square(int n) {
-    return plate(n, [](double, double) { return true; });
-}
 
 inline Index triangle_at(const TriangleMesh& mesh, const Vector& place) {
     Index best = 0;

@@ -8,7 +8,7 @@ namespace octafield::surface::detail {
 namespace {
 
 // Added to the second derivative, in units of mass over the area of the component: far below its other eigenvalues.
-constexpr double smallest_shift = 1e-6;
+constexpr double shift_of_angles = 1e-6;
 // Of a link's own weight, what the convex second derivative keeps at least where it changes anything.
 constexpr double least_part = 0.1;
 
@@ -26,7 +26,7 @@ AngleEnergy::AngleEnergy(const Problem& problem) : problem_(problem), number_(pr
     for (Index i = 0; i < system.size(); ++i) {
         const Index e = system.edges()[i];
         number_[e] = i;
-        shift_[i] = smallest_shift * problem.masses[e] / problem.components.areas[problem.components.of_edge[e]];
+        shift_[i] = shift_of_angles * problem.masses[e] / problem.components.areas[problem.components.of_edge[e]];
     }
     matrix_.resize(system.size(), system.size());
     matrix_.resizeNonZeros(stiffness.nonZeros());

@@ -7,7 +7,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double least_clearance = pi / 2;
 
 // A fan with an index, and how clear of the worst angle the field gets on the way to it from the one before.

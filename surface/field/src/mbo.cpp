@@ -21,7 +21,7 @@ constexpr double least_change = 1e-4;
 
 // A smooth random field of this largest length is added at first: multiple singular points, which symmetric surfaces
 // start with, stay where they are without.
-constexpr double disturbance = 0.1;
+constexpr double size_of_noise = 0.1;
 
 // s_e of every level.
 class Levels {
@@ -54,7 +54,7 @@ void disturb(const FreeSystem& system, DiffusionSolver& solver, const Eigen::Vec
              Eigen::VectorXcd& values) {
     const Eigen::VectorXcd noise = as_complex(random_vector(2 * system.size(), seed));
     Eigen::VectorXcd smooth = solver.solve(system.gather(weights).cast<Complex>().cwiseProduct(noise));
-    smooth *= disturbance / smooth.cwiseAbs().maxCoeff();
+    smooth *= size_of_noise / smooth.cwiseAbs().maxCoeff();
     const Eigen::VectorXcd before = values;
     values += system.scatter(smooth, values.size());
     normalise(values, before);

@@ -20,7 +20,7 @@ namespace {
 // Turning all directions of a component that nothing aligns by one angle does not change E: i f is a null vector of H
 // at a critical point, the gradient is orthogonal to it everywhere. This keeps the factorization away from it, and the
 // step keeps out of it.
-constexpr double smallest_shift = 1e-8;
+constexpr double least_shift = 1e-8;
 constexpr double largest_shift = 1.5;
 constexpr int steps_per_round = 8;
 constexpr int remembered_steps = 10;
@@ -29,7 +29,7 @@ constexpr double saddle_shift = 1e-6;
 // Relative gain of a round from which on the next one tries Newton's method.
 constexpr double newton_start = 1e-3;
 // Largest length of what is added to a start.
-constexpr double disturbance = 0.1;
+constexpr double added_to_start = 0.1;
 
 class Descent {
 public:
@@ -117,7 +117,7 @@ bool Descent::round() {
         settled = before - slope_.energy <= options_.energy_tolerance / steps_per_round * std::abs(before);
     }
     if (first > 0.5) {
-        shift_ = std::max(smallest_shift, shift_ / (raised_ ? 2 : 8));
+        shift_ = std::max(least_shift, shift_ / (raised_ ? 2 : 8));
     } else if (first < 0.25) {
         shift_ = std::min(largest_shift, 4 * shift_);
     }
@@ -130,7 +130,7 @@ void Descent::disturb() {
     const Eigen::VectorXcd noise = as_complex(random_vector(2 * system.size(), options_.seed));
     const Eigen::VectorXd rough = as_real(system.gather(functional_.weights()).cast<Complex>().cwiseProduct(noise));
     const Eigen::VectorXd smooth = cholesky_.solve(rough);
-    values_ += system.scatter(as_complex(smooth * (disturbance / smooth.cwiseAbs().maxCoeff())), values_.size());
+    values_ += system.scatter(as_complex(smooth * (added_to_start / smooth.cwiseAbs().maxCoeff())), values_.size());
     slope_ = functional_.slope(values_);
 }
 

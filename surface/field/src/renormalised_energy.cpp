@@ -10,7 +10,7 @@
 namespace octafield::surface {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Adds up -log of the distances of all pairs.
 template <class Distance>

@@ -10,7 +10,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t parameters = 7, least_values = 3 * parameters;
 constexpr double most_unexplained = 0.25;  // radians of the N-fold angle, root mean square
 constexpr double most_moved = 1;           // edge lengths

@@ -15,7 +15,7 @@
 namespace octafield::surface {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double crease_angle = 40 * pi / 180;
 constexpr double most_defect = 0.15;  // radians
 

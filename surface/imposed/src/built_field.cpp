@@ -14,7 +14,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double most_turned = 0.9 * pi;  // of 4 theta between two edges of a triangle; from pi on it is lost
 constexpr int most_refinements = 20;
 constexpr std::size_t most_per_point = 20000;  // triangles

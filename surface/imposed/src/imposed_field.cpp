@@ -16,7 +16,7 @@ namespace {
 
 using detail::BuiltField;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double most_open = 1e-6;  // radians: misfits beyond are no rounding of sound triangles
 
 // A vertex of the input at, or beside, the condition.

@@ -14,7 +14,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double done = 1e-10, good_enough = 1e-3;  // radians; what is left of it is rotated away
 constexpr double longest_step = 0.1;                // of the surface's size
 constexpr double most_approach = 0.02;              // of two points, as part of their distance

@@ -11,7 +11,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double blunt = 0.2;  // exponent of the size at a corner up to which it gets no rings
 
 // Where the point is, as BisectedMesh puts it.

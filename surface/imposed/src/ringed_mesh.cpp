@@ -10,7 +10,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double first_circle = 0.6;  // of the star's inner radius
 
 class Rings {

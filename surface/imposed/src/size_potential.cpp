@@ -10,7 +10,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Edge midpoint quadrature of exp(-2 H), scaled by the largest so that nothing overflows.
 void set_mean_size(const SurfaceDomain& domain, const Structure& structure, Eigen::VectorXd& h) {

@@ -10,7 +10,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Interior angles this near to a bound (radians) lie on it.
 constexpr double rounding = 1e-6;
 // Two given lines are at least this far apart (radians).

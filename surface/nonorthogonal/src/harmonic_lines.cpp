@@ -11,7 +11,7 @@ namespace octafield::surface::detail {
 namespace {
 
 // Of the mean weight, what weights are raised to.
-constexpr double least_part = 1e-3;
+constexpr double least_of_mean = 1e-3;
 
 std::vector<Index> numbers(const std::vector<bool>& given) {
     std::vector<Index> number(given.size(), -1);
@@ -76,7 +76,7 @@ std::vector<TwoLines> harmonic_lines(const std::vector<VertexLink>& links, const
 std::vector<VertexLink> with_positive_weights(std::vector<VertexLink> links) {
     double sum = 0;
     for (const VertexLink& link : links) sum += std::abs(link.weight);
-    const double least = links.empty() ? 0 : least_part * sum / static_cast<double>(links.size());
+    const double least = links.empty() ? 0 : least_of_mean * sum / static_cast<double>(links.size());
     for (VertexLink& link : links) link.weight = std::max(link.weight, least);
     return links;
 }

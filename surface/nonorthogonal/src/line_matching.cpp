@@ -6,7 +6,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double branch(const TwoLines& lines, int k) {
     const int half_turns = k >= 0 ? k / 2 : (k - 1) / 2;

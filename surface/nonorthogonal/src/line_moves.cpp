@@ -7,15 +7,11 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t patch_vertices = 80;
 constexpr int settling_sweeps = 40, holding_sweeps = 10;
 constexpr double least_gain = 1e-3;   // the energy has no unit; a singular point costs some tens
 constexpr double longest_step = 0.3;  // radians
-
-double dot(const std::array<Complex, 2>& a, const std::array<Complex, 2>& b) {
-    return (std::conj(a[0]) * b[0] + std::conj(a[1]) * b[1]).real();
-}
 
 }  // namespace
 

@@ -9,7 +9,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int samples = 360;
 constexpr double boundary_width = 0.02;  // lines at a corner nearer than this (radians) to the boundary run along it
 

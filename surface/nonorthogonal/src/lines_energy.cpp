@@ -8,15 +8,11 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Added to the second derivative, over the number of unknowns: far below its other eigenvalues.
 constexpr double smallest_shift = 1e-6;
 // Of a negative weight, what the convex second derivative has instead.
-constexpr double least_part = 0.1;
-
-double dot(const std::array<Complex, 2>& a, const std::array<Complex, 2>& b) {
-    return (std::conj(a[0]) * b[0] + std::conj(a[1]) * b[1]).real();
-}
+constexpr double part_of_negative = 0.1;
 
 std::array<Complex, 2> moved(const VertexLink& link, const std::array<Complex, 2>& c) {
     return {link.turn * c[0], link.turn * link.turn * c[1]};
@@ -48,7 +44,7 @@ LinesEnergy::LinesEnergy(const std::vector<VertexLink>& links, const BoundaryLin
     shift_ = size_ > 0 ? smallest_shift / size_ : 0;
     const double unit = std::numeric_limits<double>::epsilon();
     for (const VertexLink& link : links_) {
-        positive_weights_.push_back(std::max(link.weight, -least_part * link.weight));
+        positive_weights_.push_back(std::max(link.weight, -part_of_negative * link.weight));
         rounding_ += unit * unit * std::abs(link.weight) * (64 * lambda + 4);
     }
 }

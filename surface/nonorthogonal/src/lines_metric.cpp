@@ -10,10 +10,10 @@
 namespace octafield::surface {
 namespace {
 
-constexpr double rounding = 1e-12;       // of lengths
-constexpr double least_angle = 1e-3;     // between the lines, radians
-constexpr double least_area = 0.5;       // of the least by a corner's metric
-constexpr double least_part = 1.0 / 64;  // of a metric; below it is that of space
+constexpr double rounding = 1e-12;         // of lengths
+constexpr double least_angle = 1e-3;       // between the lines, radians
+constexpr double least_area = 0.5;         // of the least by a corner's metric
+constexpr double least_metric = 1.0 / 64;  // of a metric; below it is that of space
 
 class Metric {
 public:
@@ -123,7 +123,7 @@ private:
                 if (!any_inside || !at_boundary(v)) chosen[v] = true;
         }
         for (std::size_t v = 0; v < axes_.size(); ++v)
-            if (chosen[v]) axes_[v].part = axes_[v].part > least_part ? axes_[v].part / 2 : 0;
+            if (chosen[v]) axes_[v].part = axes_[v].part > least_metric ? axes_[v].part / 2 : 0;
     }
 
     SurfaceDomain domain_;

@@ -23,7 +23,7 @@ namespace {
 using detail::BoundaryLines;
 using detail::VertexCharts;
 using detail::VertexLink;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int most_moves = 20;
 constexpr double energy_tolerance = 1e-10;  // gain to be expected from a step, relative to the energy
 // The angle to which lines that coincide in the start are spread (radians): there the energy does not tell them apart.

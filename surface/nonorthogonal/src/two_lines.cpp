@@ -8,7 +8,7 @@ namespace octafield::surface {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double vanishing = 1e-12;  // a root beside the other one
 
 double modulo_pi(double angle) {

@@ -9,7 +9,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double wrapped(double angle) { return angle - 2 * pi * std::ceil((angle - pi) / (2 * pi)); }
 

@@ -10,7 +10,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Directions at a vertex nearer than this (radians) to a feature edge are the feature's.
 constexpr double feature_width = 0.05;
 

@@ -5,7 +5,6 @@
 namespace octafield::surface {
 namespace {
 
-const ImposedFieldOptions rotate{.inadmissible = Inadmissible::rotate};
 const ImposedFieldOptions move{.inadmissible = Inadmissible::move};
 
 // Four of valence 5 on a circle, four of valence 3 on a wider one, turned by delta.

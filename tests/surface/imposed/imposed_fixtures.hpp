@@ -14,7 +14,9 @@
 namespace octafield::surface {
 
 using detail::Complex;
-constexpr double degree = pi / 180;
+using testing::degree;
+
+inline const ImposedFieldOptions rotate{.inadmissible = Inadmissible::rotate};
 
 inline Vector in_plane(Complex z) { return Vector(z.real(), z.imag(), 0); }
 inline Complex plane_point(const ImposedField& field, Index v) {

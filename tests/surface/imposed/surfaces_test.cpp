@@ -5,8 +5,6 @@
 namespace octafield::surface {
 namespace {
 
-const ImposedFieldOptions rotate{.inadmissible = Inadmissible::rotate};
-
 SingularPattern valence_3(const SurfaceDomain& domain, const std::vector<Vector>& points) {
     SingularPattern pattern;
     for (const Vector& x : points) pattern.points.push_back(imposed_point(domain, x, 1));

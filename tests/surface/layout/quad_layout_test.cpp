@@ -6,11 +6,11 @@
 namespace octafield::surface {
 namespace {
 
-struct Counts {
+struct CellCounts {
     std::size_t vertices, sides, patches;
 };
 
-void expect_all_quads(const QuadLayout& layout, const Counts& counts) {
+void expect_all_quads(const QuadLayout& layout, const CellCounts& counts) {
     EXPECT_EQ(layout.vertices.size(), counts.vertices);
     EXPECT_EQ(layout.sides.size(), counts.sides);
     EXPECT_EQ(layout.patches.size(), counts.patches);

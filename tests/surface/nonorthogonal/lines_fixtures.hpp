@@ -14,11 +14,11 @@
 
 namespace octafield::surface {
 
+using std::numbers::pi;
+using testing::degree;
 using testing::disk;
 using testing::icosphere;
 using testing::make_mesh;
-constexpr double pi = std::numbers::pi;
-constexpr double degree = pi / 180;
 using Vector = Eigen::Vector3d;
 
 // Triangles of edge length about h in a convex polygon in z = 0, corners counter-clockwise.

@@ -10,7 +10,7 @@
 namespace octafield::surface {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double degree = pi / 180;
 
 void expect_same_lines(const TwoLines& a, const TwoLines& b, double tolerance) {
