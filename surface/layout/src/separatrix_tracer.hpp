@@ -3,23 +3,10 @@
 
 #include <optional>
 
-#include "layout_points.hpp"
 #include "octafield/surface/layout_curves.hpp"
+#include "passed_points.hpp"
 
 namespace octafield::surface::detail {
-
-struct Slot {
-    Index point;
-    int slot;
-    auto operator<=>(const Slot&) const = default;
-};
-
-// A separatrix that comes back along the traced one.
-struct Passing {
-    Slot slot;
-    double length;  // from the start to the point, in parameters
-    double offset;  // of the point, to the left
-};
 
 struct Trace {
     LayoutCurve curve;
@@ -48,21 +35,14 @@ public:
     std::optional<LayoutCurve> joined(const Slot& start, Passing target) const;
 
 private:
-    struct Nearest {
-        Passing passing;
-        double behind;  // angle, in parameters, between the way back and where it was looked at from
-        double from;    // how far along the curve
-    };
     Trace trace_to(const Slot& start, double shear, const std::optional<Passing>& target, double longest) const;
     const LayoutPoint& point(const Slot& slot) const { return points_.points[slot.point]; }
     bool arrives(const Passing& target, const LocalField::Place& at, int entry, double length) const;
-    void look_round(const LocalField::Place& at, double from, double to, std::vector<Nearest>& found) const;
-    void look_at(const LocalField::Place& at, Complex offset, int k, double from, std::vector<Nearest>& found) const;
 
     const LocalField& local_;
     const LayoutPoints& points_;
+    PassedPoints near_;
     double tolerance_, max_length_;
-    std::vector<bool> near_points_;  // (F) whether a point may be within the tolerance
 };
 
 struct SeparatrixTracer::Walk {
@@ -71,7 +51,7 @@ struct SeparatrixTracer::Walk {
     double shear;
     Charts::Side side;  // that it ends on
     double fraction, heading;
-    std::vector<Nearest> found;
+    std::vector<PassedPoints::Nearest> found;
     std::vector<Passing> passing() const;  // by slot
 };
 
