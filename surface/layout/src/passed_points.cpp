@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <queue>
+#include <tuple>
 
 namespace octafield::surface::detail {
 namespace {
@@ -44,17 +45,19 @@ void PassedPoints::find_near() {
     const Triangles& triangles = charts.mesh().triangles;
     const VertexFans& fans = charts.domain().fans();
     std::vector<double> distance(charts.mesh().vertices.rows(), std::numeric_limits<double>::infinity());
-    using Entry = std::pair<double, Index>;
+    using Entry = std::tuple<double, Index, double>;  // the last one the zone
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-    for (const LayoutPoint& point : points_.points) front.emplace(distance[point.vertex] = 0, point.vertex);
-    const auto go_on = [&](double here, Index t, int side, Index to) {
+    for (const LayoutPoint& p : points_.points)
+        front.emplace(distance[p.vertex] = 0, p.vertex, zone * std::min(tolerance_, p.most_tolerance));
+    const auto go_on = [&](double here, double most, Index t, int side, Index to) {
         const double log_size = local_.log_size(t, charts.on_side(t, side, 0.5));
         const double there = here + std::abs(charts.side(t, side)) * std::exp(-log_size);
-        if (there >= distance[to] || there > zone * tolerance_) return;
-        front.emplace(distance[to] = there, to);
+        if (there >= distance[to] || there > most) return;
+        front.emplace(distance[to] = there, to, most);
     };
-    for (; !front.empty(); front.pop()) {
-        const auto [here, v] = front.top();
+    while (!front.empty()) {
+        const auto [here, v, most] = front.top();
+        front.pop();
         if (here > distance[v]) continue;
         auto fan = std::lower_bound(fans.fans.begin(), fans.fans.end(), v,
                                     [](const VertexFans::Fan& f, Index vertex) { return f.vertex < vertex; });
@@ -63,8 +66,8 @@ void PassedPoints::find_near() {
                 const Index t = fans.corners[c] / 3;
                 const int k = fans.corners[c] % 3;
                 near_of_[t] = 0;
-                go_on(here, t, k, triangles(t, (k + 1) % 3));
-                go_on(here, t, (k + 2) % 3, triangles(t, (k + 2) % 3));
+                go_on(here, most, t, k, triangles(t, (k + 1) % 3));
+                go_on(here, most, t, (k + 2) % 3, triangles(t, (k + 2) % 3));
             }
     }
     for (Index t = 0; t < triangles.rows(); ++t) {
@@ -93,8 +96,10 @@ void PassedPoints::fill(NearTriangle& near) const {
     }
 }
 
-void PassedPoints::look_at(const LocalField::Place& at, Complex offset, int k, double from,
+void PassedPoints::look_at(const LocalField::Place& at, Complex offset, int k, const Part& part,
                            std::vector<Nearest>& found) const {
+    const double tolerance = part.tolerance, from = part.from;
+
     const Charts& charts = local_.charts();
     const Index place = points_.of_vertex[charts.mesh().triangles(at.t, k)];
     const LayoutPoint& p = points_.points[place];
@@ -103,7 +108,7 @@ void PassedPoints::look_at(const LocalField::Place& at, Complex offset, int k, d
     const double length = spoke_length(local_, p, at.t, middle, std::abs(way));
     const Complex where = offset + local_.parameters(at, middle) - std::polar(length, radial);
     // From behind the point the way round it may be shorter, which ends at another sector.
-    if (std::abs(where.imag()) > tolerance_ || where.real() < 3 * tolerance_ || where.real() < from) return;
+    if (std::abs(where.imag()) > tolerance || where.real() < 3 * tolerance || where.real() < from) return;
     const double back = wrapped(pi - radial);
     const double phi = angle_at(local_, p, at.t, k, middle) + back / p.power;
     const double sector = p.angle / p.quads;
@@ -112,7 +117,7 @@ void PassedPoints::look_at(const LocalField::Place& at, Complex offset, int k, d
         if (std::abs(off) > sector_part * sector || std::abs(back) > 0.6 * pi) continue;
         const Nearest seen{{{place, s}, where.real(), where.imag()}, std::abs(back), from};
         const auto known = std::find_if(found.begin(), found.end(), [&](const Nearest& n) {
-            return n.passing.slot.point == place && std::abs(n.passing.length - where.real()) < 5 * tolerance_;
+            return n.passing.slot.point == place && std::abs(n.passing.length - where.real()) < 5 * tolerance;
         });
         if (known == found.end()) {
             found.push_back(seen);
@@ -126,10 +131,10 @@ void PassedPoints::look_at(const LocalField::Place& at, Complex offset, int k, d
 }
 
 // Not round points. The first triangle is entered anywhere, the others at the middle of a side.
-void PassedPoints::look_round(const LocalField::Place& start, double shear, double from, double to,
-                              std::vector<Nearest>& found) const {
+void PassedPoints::look_round(const LocalField::Place& start, const Part& part, std::vector<Nearest>& found) const {
     if (near_of_[start.t] < 0) return;
     const Charts& charts = local_.charts();
+    const auto [shear, tolerance, from, to] = part;
     std::array<Complex, 4> turned;
     for (int q = 0; q < 4; ++q) turned[q] = std::polar(1.0, -shear - q * quarter);
     ++round_;
@@ -143,7 +148,7 @@ void PassedPoints::look_round(const LocalField::Place& start, double shear, doub
             if (near.is_point[k])
                 look_at(
                     entry < 0 ? start : LocalField::Place{t, charts.on_side(t, entry, 0.5), shear + quarters * quarter},
-                    offset, k, from, found);
+                    offset, k, part, found);
         for (int k = 0; k < 3; ++k) {
             const int next = (k + 1) % 3;
             if (near.across[k] < 0 || near.is_point[k] || near.is_point[next] || seen_[near.across[k]] == round_)
@@ -152,8 +157,8 @@ void PassedPoints::look_round(const LocalField::Place& start, double shear, doub
                                                   : turned[quarters] * near.corners[entry][k]);
             const Complex b = offset + (entry < 0 ? local_.parameters(start, charts.corners(t)[next])
                                                   : turned[quarters] * near.corners[entry][next]);
-            if (std::min(a.imag(), b.imag()) > tolerance_ || std::max(a.imag(), b.imag()) < -tolerance_ ||
-                std::min(a.real(), b.real()) > to + tolerance_ || std::max(a.real(), b.real()) < from - tolerance_)
+            if (std::min(a.imag(), b.imag()) > tolerance || std::max(a.imag(), b.imag()) < -tolerance ||
+                std::min(a.real(), b.real()) > to + tolerance || std::max(a.real(), b.real()) < from - tolerance)
                 continue;
             seen_[near.across[k]] = round_;
             const Complex way = entry < 0 ? local_.parameters(start, charts.on_side(t, k, 0.5))

@@ -38,10 +38,12 @@ public:
 
     PassedPoints(const LocalField& local, const LayoutPoints& points, double tolerance);
 
-    // Adds the points within the tolerance of the part from..to of a curve, which begins at `start`, `shear` more than
-    // quarter turns off the field.
-    void look_round(const LocalField::Place& start, double shear, double from, double to,
-                    std::vector<Nearest>& found) const;
+    // Of a curve, `shear` more than quarter turns off the field. The tolerance is at most that of this.
+    struct Part {
+        double shear, tolerance, from, to;
+    };
+    // Adds the points within the tolerance of a part that begins at `start`.
+    void look_round(const LocalField::Place& start, const Part& part, std::vector<Nearest>& found) const;
 
 private:
     // Entered at the middle of a side, along the direction of the field that the chart tells.
@@ -61,7 +63,8 @@ private:
 
     void find_near();
     void fill(NearTriangle& near) const;
-    void look_at(const LocalField::Place& at, Complex offset, int k, double from, std::vector<Nearest>& found) const;
+    void look_at(const LocalField::Place& at, Complex offset, int k, const Part& part,
+                 std::vector<Nearest>& found) const;
 
     const LocalField& local_;
     const LayoutPoints& points_;

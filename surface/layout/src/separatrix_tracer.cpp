@@ -12,8 +12,10 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double sector_part = 0.35;  // of the angle between separatrices: off their own direction
 constexpr int most_shots = 8;
-constexpr std::size_t most_passing = 8;  // what a curve passes later is out of its reach
-constexpr double clearance = 1e-7;       // of an edge, from its ends
+constexpr std::size_t most_passing = 8;              // what a curve passes later is out of its reach
+constexpr double clearance = 1e-7;                   // of an edge, from its ends
+constexpr double beside = pi / 4;                    // off the boundary
+constexpr double least_off = 1e-9, most_off = 1e-6;  // of edges, beside it
 
 double wrapped(double angle, double period = 2 * pi) { return angle - period * std::round(angle / period); }
 
@@ -73,6 +75,7 @@ SeparatrixTracer::Walk SeparatrixTracer::begin(const Slot& start, double shear) 
     const Spoke spoke = spoke_at(local_, from, from.slots[start.slot] + shear / from.power);
     Walk walk;
     walk.shear = shear;
+    walk.tolerance = tolerance(start);
     walk.trace.curve.first_vertex = from.vertex;
     walk.length = spoke_length(local_, from, spoke.t, spoke.end, spoke.radius);
     walk.side = {spoke.t, (spoke.corner + 1) % 3};
@@ -83,6 +86,21 @@ SeparatrixTracer::Walk SeparatrixTracer::begin(const Slot& start, double shear) 
     walk.trace.curve.triangles = {spoke.t};
     walk.trace.boundary = local_.charts().across(walk.side).triangle < 0;
     return walk;
+}
+
+// A curve that comes to the boundary nearly along it does so by rounding alone: it goes on beside it, the later the
+// farther off, to where the boundary turns or the field leads it away; back by the side it came in by where that one
+// ends there, too.
+LocalField::Exit SeparatrixTracer::kept_inside(const LocalField::Place& at, const LocalField::Exit& exit,
+                                               double length) const {
+    const Charts& charts = local_.charts();
+    const LocalField::Place there{at.t, charts.on_side(at.t, exit.side, exit.fraction), at.turn};
+    if (std::abs(wrapped(local_.heading(there) - std::arg(charts.side(at.t, exit.side)), pi)) > beside) return exit;
+    LocalField::Exit along = local_.along_side(there, exit.side);
+    const double off = least_off + std::min(length / max_length_, 1.0) * most_off;
+    along.fraction = along.fraction < 0.5 ? off : 1 - off;
+    along.length += exit.length;
+    return along;
 }
 
 bool SeparatrixTracer::step(Walk& walk, bool looking, const std::optional<Passing>& target) const {
@@ -101,9 +119,10 @@ bool SeparatrixTracer::step(Walk& walk, bool looking, const std::optional<Passin
         trace.arrived = true;
         return true;
     }
-    const LocalField::Exit exit = local_.exit(at, entry);
+    LocalField::Exit exit = local_.exit(at, entry);
+    if (charts.across({at.t, exit.side}).triangle < 0) exit = kept_inside(at, exit, walk.length);
     if (looking && walk.found.size() < most_passing)
-        near_.look_round(at, walk.shear, walk.length, walk.length + exit.length, walk.found);
+        near_.look_round(at, {walk.shear, walk.tolerance, walk.length, walk.length + exit.length}, walk.found);
     walk.length += exit.length;
     walk.side = {at.t, exit.side};
     walk.fraction = exit.fraction;
@@ -115,7 +134,7 @@ bool SeparatrixTracer::step(Walk& walk, bool looking, const std::optional<Passin
 
 Trace SeparatrixTracer::trace(const Slot& start, double shear, const std::optional<Passing>& target) const {
     return trace_to(start, shear, target,
-                    target ? std::min(max_length_, target->length + 20 * tolerance_) : max_length_);
+                    target ? std::min(max_length_, target->length + 20 * tolerance(start)) : max_length_);
 }
 
 Trace SeparatrixTracer::beginning(const Slot& start, double reach) const {
@@ -145,7 +164,7 @@ std::optional<LayoutCurve> SeparatrixTracer::joined(const Slot& start, Passing t
                                        [&](const Passing& p) { return p.slot == target.slot; });
         if (seen == trace.passing.end()) return {};
         target = *seen;
-        if (std::abs(target.offset) < 1e-3 * tolerance_ && shot > 1) return {};  // it goes to another sector
+        if (std::abs(target.offset) < 1e-3 * tolerance(start) && shot > 1) return {};  // it goes to another sector
     }
     return {};
 }

@@ -1,6 +1,7 @@
 // One separatrix at a time, and what it passes.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "octafield/surface/layout_curves.hpp"
@@ -34,9 +35,15 @@ public:
     // The line from one point to the other; none if it goes another way.
     std::optional<LayoutCurve> joined(const Slot& start, Passing target) const;
 
+    // In parameters, of the separatrices of a point.
+    double tolerance(const Slot& start) const {
+        return std::min(tolerance_, points_.points[start.point].most_tolerance);
+    }
+
 private:
     Trace trace_to(const Slot& start, double shear, const std::optional<Passing>& target, double longest) const;
     const LayoutPoint& point(const Slot& slot) const { return points_.points[slot.point]; }
+    LocalField::Exit kept_inside(const LocalField::Place& at, const LocalField::Exit& exit, double length) const;
     bool arrives(const Passing& target, const LocalField::Place& at, int entry, double length) const;
 
     const LocalField& local_;
@@ -48,7 +55,7 @@ private:
 struct SeparatrixTracer::Walk {
     Trace trace;    // `passing` is not filled in
     double length;  // up to the end of the last triangle
-    double shear;
+    double shear, tolerance;
     Charts::Side side;  // that it ends on
     double fraction, heading;
     std::vector<PassedPoints::Nearest> found;
