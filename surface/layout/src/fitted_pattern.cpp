@@ -67,7 +67,12 @@ class Fitter {
 public:
     Fitter(std::vector<Face>& faces, const detail::FaceTracing& tracing, const FittingOptions& options,
            const Progress& progress)
-        : faces_(faces), tracing_(tracing), options_(options), progress_(progress) {}
+        : faces_(faces),
+          tracing_(tracing),
+          options_(options),
+          progress_(progress),
+          last_triangles_(options.most_triangles),
+          failures_(faces.size(), 0) {}
 
     void run(FittedPattern& result) {
         constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -94,7 +99,7 @@ private:
     std::vector<Candidate> candidates(const Face& face) const;
     std::optional<QuadLayout> as_given(Face& face) const { return layout_of(face, face.pattern, 1); }
     std::optional<QuadLayout> layout_of(const Face& face, SingularPattern& pattern, double part) const;
-    bool enough() const { return tried_ >= options_.most_tried || triangles_ > options_.most_triangles; }
+    bool enough() const { return tried_ >= options_.most_tried || triangles_ > last_triangles_; }
 
     std::vector<Face>& faces_;
     const detail::FaceTracing& tracing_;
@@ -102,22 +107,29 @@ private:
     const Progress& progress_;
     detail::Fit now_;
     int tried_ = 0;
-    double triangles_ = 0;
+    double triangles_ = 0, last_triangles_;  // of faces that were tried, and up to which they are now
+    std::vector<int> failures_;              // of each face
 };
 
-// A change of the first face that has one, by part of the shortage.
+// A change of the first face that has one, by part of the shortage; those that had none before come last. No face has
+// more than half of what may still be tried while others wait: small ones cost next to nothing.
 bool Fitter::improve(FittedPattern& result) {
-    std::vector<std::pair<double, std::size_t>> order;
+    std::vector<std::tuple<int, double, std::size_t>> order;
     auto at = now_.shortages.begin();
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         const auto end = at + static_cast<std::ptrdiff_t>(faces_[f].layout->sides.size());
         const double share = std::accumulate(at, end, 0.0);
-        if (share > nothing) order.emplace_back(-share, f);
+        if (share > nothing) order.emplace_back(failures_[f], -share, f);
         at = end;
     }
     std::sort(order.begin(), order.end());
-    return std::any_of(order.begin(), order.end(),
-                       [&](const auto& face) { return improve_face(face.second, -face.first, result); });
+    for (const auto& [failures, share, f] : order) {
+        const double left = options_.most_triangles - triangles_;
+        last_triangles_ = triangles_ + (f == std::get<2>(order.back()) ? left : left / 2);
+        if (improve_face(f, -share, result)) return true;
+        ++failures_[f];
+    }
+    return false;
 }
 
 // The change that leaves least missing and then deviates least, up to a few after the first one that ends the face's

@@ -27,7 +27,7 @@ struct FittingOptions {
     int places = 6;               // tried in a face, all over it
     int more_tried = 4;           // after the first that ends a face's shortage, for less deviation
     int most_tried = 1000;        // patterns, of as many triangles as
-    double most_triangles = 2e4;  // in all
+    double most_triangles = 6e4;  // in all
 };
 
 // domain: connected parts are faces; origins: as QuantizedQuadsOptions has them. The face with the largest part of the
