@@ -24,6 +24,7 @@ struct LayoutPoint {
 struct LayoutPoints {
     std::vector<LayoutPoint> points;  // by vertex
     std::vector<Index> of_vertex;     // (V), -1: none
+    bool near = false;  // whether curves see points nearer than three tolerances, if they miss them by next to nothing
 };
 
 // Throws InvalidInput (kinds "infinite_corner", "bad_option"), SolverError (kind "unclear_directions").

@@ -215,17 +215,31 @@ std::vector<Index> cuts_for(const QuadLayout& layout, const detail::LayoutInput&
     return result;
 }
 
-}  // namespace
-
-QuadLayout motorcycle_graph(const ImposedField& field, const LayoutCurveOptions& options, const Progress& progress) {
+QuadLayout graph_of_disks(const ImposedField& field, const LayoutCurveOptions& options, bool near,
+                          const Progress& progress) {
     LayoutCurveOptions with_cuts = options;
     for (int round = 0;; ++round) {
-        const detail::LayoutInput input(field, with_cuts, true);
+        detail::LayoutInput input(field, with_cuts, true);
+        input.points.near = near;
         QuadLayout layout = graph_with(input, progress);
         const std::vector<Index> cuts = cuts_for(layout, input);
         if (cuts.empty() || round == most_rounds) return layout;
         with_cuts.cut_vertices.insert(with_cuts.cut_vertices.end(), cuts.begin(), cuts.end());
     }
+}
+
+}  // namespace
+
+// Separatrices of near points that face one another are joined only where they would cross otherwise.
+QuadLayout motorcycle_graph(const ImposedField& field, const LayoutCurveOptions& options, const Progress& progress) {
+    const auto all_quads = [](const QuadLayout& layout) {
+        return std::all_of(layout.patches.begin(), layout.patches.end(),
+                           [](const LayoutPatch& patch) { return patch.kind == PatchKind::quad; });
+    };
+    QuadLayout layout = graph_of_disks(field, options, false, progress);
+    if (all_quads(layout)) return layout;
+    QuadLayout other = graph_of_disks(field, options, true, progress);
+    return all_quads(other) ? other : layout;
 }
 
 }  // namespace octafield::surface

@@ -14,6 +14,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double quarter = pi / 2;
 constexpr double sector_part = 0.35;  // of the angle between separatrices: off their own direction
 constexpr double zone = 3;            // tolerances from a point, along edges
+constexpr double ahead = 3;           // least length over offset of points nearer than three tolerances
 constexpr double straight = pi / 4;   // off the way back, in parameters
 
 double wrapped(double angle, double period = 2 * pi) { return angle - period * std::round(angle / period); }
@@ -108,7 +109,9 @@ void PassedPoints::look_at(const LocalField::Place& at, Complex offset, int k, c
     const double length = spoke_length(local_, p, at.t, middle, std::abs(way));
     const Complex where = offset + local_.parameters(at, middle) - std::polar(length, radial);
     // From behind the point the way round it may be shorter, which ends at another sector.
-    if (std::abs(where.imag()) > tolerance || where.real() < 3 * tolerance || where.real() < from) return;
+    const double aside = std::abs(where.imag());
+    const double nearest = points_.near ? std::min(3 * tolerance, ahead * aside) : 3 * tolerance;
+    if (aside > tolerance || where.real() < nearest || where.real() < from) return;
     const double back = wrapped(pi - radial);
     const double phi = angle_at(local_, p, at.t, k, middle) + back / p.power;
     const double sector = p.angle / p.quads;
