@@ -1180,9 +1180,12 @@ class FeatureCut:
     def origins(self, value: ArrayLike) -> None: ...
 
 class PatternChange:
-    def __init__(self, triangle: int = ..., added: bool = ..., positions: ArrayLike = ...) -> None: ...
+    def __init__(
+        self, triangle: int = ..., added: bool = ..., positions: ArrayLike = ..., removed: bool = ...
+    ) -> None: ...
     triangle: int
     added: bool
+    removed: bool
     @property
     def positions(self) -> Float64s: ...
     @positions.setter
@@ -1285,6 +1288,19 @@ def quantized_quads(
     progress: Progress | None = None,
 ) -> QuantizedQuads: ...
 def arc_shortages(layout: QuadLayout, origins: ArrayLike = ...) -> Float64s: ...
+def moved_by_faces(
+    surface: SurfaceDomain | TriangleMesh,
+    pattern: SingularPattern,
+    *,
+    inadmissible: str = ...,
+    tolerance: float = ...,
+    allow_zero_quads: bool = ...,
+    sectors: int = ...,
+    rings: int = ...,
+    ring_ratio: float = ...,
+    max_steps: int = ...,
+    progress: Progress | None = None,
+) -> SingularPattern: ...
 def fitted_pattern(
     surface: SurfaceDomain | TriangleMesh,
     pattern: SingularPattern,

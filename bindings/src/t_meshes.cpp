@@ -107,11 +107,16 @@ void bind_t_mesh_results(py::module_& m) {
         .finish([](const FeatureCut& c) { return count(c.domain.vertex_count(), "vertex", "vertices"); });
     Record<PatternChange>(m, "PatternChange", "What fitted_pattern changed in a face, and where.")
         .field("triangle", &PatternChange::triangle, "The lowest of the face, a connected part of the surface.")
-        .field("added", &PatternChange::added, "A pair of points of valence 3 and 5; otherwise a point was moved.")
-        .field("positions", &PatternChange::positions, "(1, 3) or (2, 3) float64: where it is now, or where they are.")
+        .field("added", &PatternChange::added, "A pair of points of valence 3 and 5.")
+        .field("positions", &PatternChange::positions,
+               "(1, 3) or (2, 3) float64: where the point is now, or where the pair is or was.")
+        .field("removed", &PatternChange::removed,
+               "A pair of points whose indices add up to 0. If neither, a point was moved.")
         .finish([](const PatternChange& c) {
-            return std::string(c.added ? "pair added" : "point moved") + " in the face of triangle " +
-                   std::to_string(c.triangle);
+            return std::string(c.added     ? "pair added"
+                               : c.removed ? "pair removed"
+                                           : "point moved") +
+                   " in the face of triangle " + std::to_string(c.triangle);
         });
     Record<FittedPattern>(m, "FittedPattern", "Singular points that whole numbers fit, as fitted_pattern makes them.")
         .field("pattern", &FittedPattern::pattern, "SingularPattern.")
@@ -207,6 +212,22 @@ void bind_cut_features(py::module_& m) {
         "surface"_a, "pattern"_a, "corners"_a,
         "The SingularPattern with these CornerQuads and no others; points inside are taken away or added, near the "
         "corners, so that the sum of indices stays. Raises InvalidInput, GeometryError (kind \"no_room\").");
+    m.def(
+        "moved_by_faces",
+        [](const SurfaceOrMesh& surface, const SingularPattern& pattern,
+           const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+            const auto [options] = options_of<ImposedFieldOptions>("moved_by_faces", given);
+            return run_interruptible(
+                [=, options = options](Job& job) {
+                    return moved_by_faces(domain_of(surface), pattern, options, job.progress());
+                },
+                progress);
+        },
+        "surface"_a, "pattern"_a, py::kw_only(), "progress"_a = py::none(),
+        "The SingularPattern with points moved, connected part by part, where that makes it admissible there; the "
+        "others keep theirs, so that one part does not have the field of all others rotated. Raises as "
+        "impose_singular_points for what moving does not mend.");
+    list_options<ImposedFieldOptions>(m, "moved_by_faces");
     m.def(
         "fitted_pattern",
         [](const SurfaceOrMesh& surface, const SingularPattern& pattern, const std::vector<Index>& origins,

@@ -128,3 +128,44 @@ def test_origins_that_do_not_fit_are_refused():
         of.surface.fitted_pattern(cut.domain, pattern, [0, 1], edge_length=0.1)
     with pytest.raises(of.InvalidInput):
         of.surface.fitted_pattern(cut.domain, pattern, cut.origins, edge_length=0.0)
+
+
+def square_ring(turn, centre=0.0, n=10, layers=8):
+    """A square with a square hole that is turned."""
+    side = np.linspace(-1, 1, n, endpoint=False)
+    edge = np.column_stack([side, -np.ones(n)])
+    quarter = np.array([[0, 1], [-1, 0]])  # rows to the left
+    loop = np.vstack([edge @ np.linalg.matrix_power(quarter, k) for k in range(4)])
+    turned = 0.4 * loop @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+    rings = [loop + (turned - loop) * i / layers for i in range(layers + 1)]
+    points = np.column_stack([np.vstack(rings), np.zeros((layers + 1) * 4 * n)]) + [centre, 0, 0]
+    triangles = []
+    for i in range(layers):
+        for j in range(4 * n):
+            a, b = 4 * n * i + j, 4 * n * i + (j + 1) % (4 * n)
+            triangles += [[a, b, b + 4 * n], [a, b + 4 * n, a + 4 * n]]
+    return of.TriangleMesh(points, triangles)
+
+
+def test_a_face_whose_points_cannot_be_moved_leaves_the_others_alone():
+    turn = math.radians(20)
+    first, second = square_ring(turn), square_ring(turn, 5.0)
+    both = of.TriangleMesh(
+        np.vstack([first.vertices, second.vertices]),
+        np.vstack([first.triangles, np.asarray(second.triangles) + len(first.vertices)]),
+    )
+    pair = [of.surface.imposed_point(both, [x, y, 0], four) for x, y, four in ((0.7, 0.1, 1), (-0.1, 0.72, -1))]
+    pattern = of.surface.SingularPattern(pair)
+    with pytest.raises(of.SolverError) as error:  # the second ring has no points that could move
+        of.surface.impose_singular_points(both, pattern, inadmissible="move")
+    assert error.value.kind == "move_failed"
+    moved = of.surface.moved_by_faces(both, pattern)
+    assert [point.index_times_four for point in moved.points] == [1, -1]
+    assert all(point.triangle < len(first.triangles) for point in moved.points)
+    # They are admissible in the first ring by itself, as it is told by a function that moves nothing.
+    of.surface.impose_singular_points(first, of.surface.SingularPattern(moved.points), inadmissible="fail")
+    with pytest.raises(of.Error):
+        of.surface.impose_singular_points(first, pattern, inadmissible="fail")
+    # What cannot be mended by moving is told.
+    with pytest.raises(of.InvalidInput):
+        of.surface.moved_by_faces(both, of.surface.SingularPattern(pair[:1]))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import _core
-from .._core import ImposedField, QuadMesh, SingularPattern, SurfaceDomain, TriangleMesh
+from .._core import ImposedField, QuadMesh, SurfaceDomain, TriangleMesh
 from ..domain.inputs import naming
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source
@@ -142,7 +142,7 @@ def _on(
     if inadmissible == "default":
         inadmissible = "move" if points.singularities is None else "fail"
     try:
-        field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
+        field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
     except SolverError as error:
         blunted, notes = _blunted(whole) if origins is not None else (whole, [])
         if error.kind != "unresolved_turns" or not notes:
@@ -150,7 +150,7 @@ def _on(
         domain, origins = _cut(blunted, wanted, points.singularities)
         domain, pattern = _pattern(domain, wanted, points, progress)
         begun = begun.changed(notes=[*begun.notes, *notes])
-        field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
+        field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
     made: BlockQuads
     with told_of_points(domain, pattern.pattern, wanted):
         if wanted.layout == "t-mesh":
@@ -161,7 +161,7 @@ def _on(
                     raise
                 pattern = fitted_points(domain, pattern, origins, inadmissible, wanted, target, error, meter.report)
                 begun = begun.changed(notes=[*begun.notes, pattern.notes[-1]])
-                field, inadmissible = _imposed(domain, pattern.pattern, inadmissible, wanted, meter.report)
+                field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
                 made = quads_of_t_mesh(field, wanted, target, origins, pattern.source == "computed", meter.report)
         else:
             field, made = quads_of_separatrices(field, wanted, target, meter.report)
@@ -222,26 +222,29 @@ def _blunted(whole: SurfaceDomain) -> tuple[SurfaceDomain, list[str]]:
 
 def _imposed(
     domain: SurfaceDomain,
-    pattern: SingularPattern,
+    pattern: Pattern,
     inadmissible: str,
     wanted: QuadLayoutOptions,
     progress: Progress | None,
-) -> tuple[ImposedField, str]:
-    """T-meshes take rotated fields: where points of a computed field cannot be moved, the field is rotated."""
+) -> tuple[ImposedField, Pattern, str]:
+    """T-meshes take rotated fields: in faces where points of a computed field cannot be moved, the field is rotated."""
     may_rotate = wanted.inadmissible == "default" and inadmissible == "move" and wanted.layout == "t-mesh"
 
-    def imposed(way: str) -> tuple[ImposedField, str]:
+    def imposed(pattern: Pattern, way: str) -> tuple[ImposedField, Pattern, str]:
         field = _core.impose_singular_points(
-            domain, pattern, inadmissible=way, tolerance=wanted.tolerance, progress=progress
+            domain, pattern.pattern, inadmissible=way, tolerance=wanted.tolerance, progress=progress
         )
-        return field, way
+        return field, pattern, way
 
     try:
-        return imposed(inadmissible)
-    except SolverError:
+        return imposed(pattern, inadmissible)
+    except SolverError as error:
         if not may_rotate:
             raise
-        return imposed("rotate")
+        if error.kind == "move_failed":
+            moved = _core.moved_by_faces(domain, pattern.pattern, tolerance=wanted.tolerance, progress=progress)
+            pattern = replace(pattern, pattern=moved)
+        return imposed(pattern, "rotate")
 
 
 def _edge_length(surface: TriangleMesh, wanted: QuadLayoutOptions) -> float:

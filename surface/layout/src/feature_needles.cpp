@@ -26,10 +26,10 @@ public:
         for (const auto& fan : domain_.fans().fans) {
             const std::vector<Sector> sectors = sectors_of(fan);
             const std::size_t features = sectors.size() + (fan.closed ? 0 : 1);
-            if (features < 3) continue;
+            if (features < (fan.closed ? 2 : 3)) continue;
             const auto sharpest = std::min_element(sectors.begin(), sectors.end(),
                                                    [](const Sector& a, const Sector& b) { return a.angle < b.angle; });
-            if (sharpest->angle < least_angle_ && blunt(*sharpest)) tips.push_back(fan.vertex);
+            if (sharpest->angle < least_angle_ && blunt(*sharpest, features == 2)) tips.push_back(fan.vertex);
         }
         if (tips.empty()) return {domain_, {}};
         Edges edges(std::count(is_feature_.begin(), is_feature_.end(), true), 2);
@@ -60,7 +60,8 @@ private:
         return sectors;
     }
 
-    bool blunt(const Sector& sector) {
+    // At a hairpin, where one feature turns back, both edges go: either by itself would end at the tip.
+    bool blunt(const Sector& sector, bool hairpin) {
         std::vector<Index> vertices = {sector.tip};
         for (const Index corner : sector.corners) {
             if (domain_.is_feature()[opposite(corner)]) return false;
@@ -76,6 +77,7 @@ private:
         if (!gone) return false;
         for (const Index v : vertices) taken_[v] = true;
         is_feature_[*gone] = false;
+        if (hairpin) is_feature_[first] = is_feature_[last] = false;
         for (const Index corner : sector.corners) is_feature_[opposite(corner)] = true;
         return true;
     }

@@ -46,15 +46,19 @@ void require_parameters(const ImposedField& field) {
 }
 
 double parameter_area(const ImposedField& field) {
+    return parameter_areas(field, std::vector<Index>(field.field.domain.vertex_count(), 0), 1)[0];
+}
+
+std::vector<double> parameter_areas(const ImposedField& field, const std::vector<Index>& part_of, Index parts) {
     const TriangleMesh& mesh = field.field.domain.mesh();
     const Eigen::VectorXd areas = field.field.domain.areas();
-    double sum = 0;
+    std::vector<double> sums(parts, 0);
     for (Index t = 0; t < areas.size(); ++t)
         for (int k = 0; k < 3; ++k) {  // by the middles of the sides
             const Index a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);
-            sum += areas[t] / 3 * std::exp(-field.log_size[a] - field.log_size[b]);
+            sums[part_of[a]] += areas[t] / 3 * std::exp(-field.log_size[a] - field.log_size[b]);
         }
-    return sum;
+    return sums;
 }
 
 }  // namespace octafield::surface::detail

@@ -14,4 +14,7 @@ void require_parameters(const ImposedField& field);
 // int exp(-2 H).
 double parameter_area(const ImposedField& field);
 
+// The same of each connected part; part_of: of each vertex.
+std::vector<double> parameter_areas(const ImposedField& field, const std::vector<Index>& part_of, Index parts);
+
 }  // namespace octafield::surface::detail

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "given_field.hpp"
+#include "octafield/disjoint_sets.hpp"
 #include "octafield/error.hpp"
 #include "short_number.hpp"
 #include "split_between_points.hpp"
@@ -11,6 +12,7 @@ namespace octafield::surface::detail {
 namespace {
 
 constexpr double default_tolerance = 0.01, default_length = 40;  // of the root of the area in parameters
+constexpr double most_of_part = 0.1;  // likewise, of a connected part: in small faces all would be near misses
 
 const ImposedField& checked(const ImposedField& field, const LayoutCurveOptions& options, bool general) {
     if (!(options.end_tolerance >= 0) || !(options.max_length >= 0) || std::isinf(options.end_tolerance))
@@ -20,6 +22,18 @@ const ImposedField& checked(const ImposedField& field, const LayoutCurveOptions&
     return field;
 }
 
+void limit_tolerances(const ImposedField& field, LayoutPoints& points) {
+    const Triangles& triangles = field.field.domain.mesh().triangles;
+    DisjointSets sets(field.field.domain.vertex_count());
+    for (Index t = 0; t < triangles.rows(); ++t)
+        for (int k = 1; k < 3; ++k) sets.join(triangles(t, 0), triangles(t, k));
+    Index parts = 0;
+    const std::vector<Index> part_of = std::move(sets).numbers(parts);
+    const std::vector<double> areas = parameter_areas(field, part_of, parts);
+    for (LayoutPoint& point : points.points)
+        point.most_tolerance = most_of_part * std::sqrt(areas[part_of[point.vertex]]);
+}
+
 }  // namespace
 
 LayoutInput::LayoutInput(const ImposedField& given, const LayoutCurveOptions& options, bool general)
@@ -27,6 +41,7 @@ LayoutInput::LayoutInput(const ImposedField& given, const LayoutCurveOptions& op
       local(field),
       points(layout_points(field, local, options.cut_vertices, general)),
       parameter_area(detail::parameter_area(field)) {
+    limit_tolerances(field, points);
     const double unit = std::sqrt(parameter_area);
     end_tolerance = options.end_tolerance > 0 ? options.end_tolerance : default_tolerance * unit;
     max_length = options.max_length > 0 ? options.max_length : default_length * unit;

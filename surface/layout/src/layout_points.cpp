@@ -72,7 +72,7 @@ LayoutPoints layout_points(const ImposedField& field, const LocalField& local, c
             throw InvalidInput("cuts start at vertices of the boundary; vertex " + std::to_string(vertex) + " is none",
                                "bad_option", {vertex});
         const VertexFans::Fan& fan = fans.fans[place->second];
-        LayoutPoint point{vertex, index, (fan.closed ? 4 : 2) - index, !fan.closed, 0, 0, {}, {}, {}};
+        LayoutPoint point{vertex, index, (fan.closed ? 4 : 2) - index, !fan.closed};
         if (point.quads < 1)
             throw InvalidInput("vertex " + std::to_string(vertex) +
                                    " has no quads: its corner is infinitely long in quad coordinates; give it one "

@@ -32,6 +32,8 @@ public:
         double length;    // in parameters
     };
     Exit exit(const Place& from, int entry) const;
+    // From a place on side `entry`: along it to its end, and out by the next side.
+    Exit along_side(const Place& from, int entry) const;
     // Parameters of z against those of `from`, whose curve runs along the real axis.
     Complex parameters(const Place& from, Complex z) const;
     // In the triangle across the side, at `fraction` of it: the turn nearest to the heading that is `shear` more than
@@ -47,7 +49,6 @@ private:
     Complex point(const Place& from, Complex way) const;  // way: velocity times length
     // Through a side, if that is before another one is met.
     double first_exit(const Place& from, int side, bool entered, double before) const;
-    Exit along_side(const Place& from, int entry) const;
 
     Charts charts_;
     std::vector<Linear> at_;

@@ -58,7 +58,7 @@ std::vector<Candidate> passed_points(const std::vector<detail::Track>& tracks) {
 
 // Tracks that end at a third one from its two sides at nearly the same place: each would come to the other's point.
 // Left as they are, they bound strips next to nothing wide, for which there may be no whole numbers.
-std::vector<Candidate> opposite_ends(const std::vector<detail::Track>& tracks, double tolerance) {
+std::vector<Candidate> opposite_ends(const std::vector<detail::Track>& tracks, const detail::SeparatrixTracer& tracer) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < tracks.size(); ++i)
         if (tracks[i].stopped_by >= 0) order.push_back(i);
@@ -71,7 +71,7 @@ std::vector<Candidate> opposite_ends(const std::vector<detail::Track>& tracks, d
         for (std::size_t j = i + 1; j < order.size(); ++j) {
             const detail::Track &a = tracks[order[i]], &b = tracks[order[j]];
             const double apart = b.stopped_at - a.stopped_at;
-            if (b.stopped_by != a.stopped_by || apart > tolerance) break;
+            if (b.stopped_by != a.stopped_by || apart > tracer.tolerance(a.slot)) break;
             if (a.from_left != b.from_left)
                 result.push_back({a.slot, {b.slot, a.length + b.length, a.from_left ? apart : -apart}});
         }
@@ -92,10 +92,9 @@ Tracks joined_tracks(const detail::LayoutInput& input, const Progress& progress)
         for (Index p = 0; p < static_cast<Index>(input.points.points.size()); ++p)
             for (int s = 0; s < static_cast<int>(input.points.points[p].slots.size()); ++s)
                 if (!taken.contains({p, s})) slots.push_back({p, s});
-        result.tracks = detail::race(input.local, tracer, result.walls, slots, input.end_tolerance, input.max_length);
+        result.tracks = detail::race(input.local, tracer, result.walls, slots, input.max_length);
         std::size_t before = result.walls.size();
-        for (const auto& candidates :
-             {passed_points(result.tracks), opposite_ends(result.tracks, input.end_tolerance)}) {
+        for (const auto& candidates : {passed_points(result.tracks), opposite_ends(result.tracks, tracer)}) {
             if (result.walls.size() > before) break;
             for (const auto& [from, to] : candidates) {
                 if (taken.contains(from) || refused.contains({from, to.slot})) continue;
@@ -216,17 +215,31 @@ std::vector<Index> cuts_for(const QuadLayout& layout, const detail::LayoutInput&
     return result;
 }
 
-}  // namespace
-
-QuadLayout motorcycle_graph(const ImposedField& field, const LayoutCurveOptions& options, const Progress& progress) {
+QuadLayout graph_of_disks(const ImposedField& field, const LayoutCurveOptions& options, bool near,
+                          const Progress& progress) {
     LayoutCurveOptions with_cuts = options;
     for (int round = 0;; ++round) {
-        const detail::LayoutInput input(field, with_cuts, true);
+        detail::LayoutInput input(field, with_cuts, true);
+        input.points.near = near;
         QuadLayout layout = graph_with(input, progress);
         const std::vector<Index> cuts = cuts_for(layout, input);
         if (cuts.empty() || round == most_rounds) return layout;
         with_cuts.cut_vertices.insert(with_cuts.cut_vertices.end(), cuts.begin(), cuts.end());
     }
+}
+
+}  // namespace
+
+// Separatrices of near points that face one another are joined only where they would cross otherwise.
+QuadLayout motorcycle_graph(const ImposedField& field, const LayoutCurveOptions& options, const Progress& progress) {
+    const auto all_quads = [](const QuadLayout& layout) {
+        return std::all_of(layout.patches.begin(), layout.patches.end(),
+                           [](const LayoutPatch& patch) { return patch.kind == PatchKind::quad; });
+    };
+    QuadLayout layout = graph_of_disks(field, options, false, progress);
+    if (all_quads(layout)) return layout;
+    QuadLayout other = graph_of_disks(field, options, true, progress);
+    return all_quads(other) ? other : layout;
 }
 
 }  // namespace octafield::surface

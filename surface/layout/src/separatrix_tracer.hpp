@@ -1,25 +1,13 @@
 // One separatrix at a time, and what it passes.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
-#include "layout_points.hpp"
 #include "octafield/surface/layout_curves.hpp"
+#include "passed_points.hpp"
 
 namespace octafield::surface::detail {
-
-struct Slot {
-    Index point;
-    int slot;
-    auto operator<=>(const Slot&) const = default;
-};
-
-// A separatrix that comes back along the traced one.
-struct Passing {
-    Slot slot;
-    double length;  // from the start to the point, in parameters
-    double offset;  // of the point, to the left
-};
 
 struct Trace {
     LayoutCurve curve;
@@ -47,31 +35,30 @@ public:
     // The line from one point to the other; none if it goes another way.
     std::optional<LayoutCurve> joined(const Slot& start, Passing target) const;
 
+    // In parameters, of the separatrices of a point.
+    double tolerance(const Slot& start) const {
+        return std::min(tolerance_, points_.points[start.point].most_tolerance);
+    }
+
 private:
-    struct Nearest {
-        Passing passing;
-        double behind;  // angle, in parameters, between the way back and where it was looked at from
-        double from;    // how far along the curve
-    };
     Trace trace_to(const Slot& start, double shear, const std::optional<Passing>& target, double longest) const;
     const LayoutPoint& point(const Slot& slot) const { return points_.points[slot.point]; }
+    LocalField::Exit kept_inside(const LocalField::Place& at, const LocalField::Exit& exit, double length) const;
     bool arrives(const Passing& target, const LocalField::Place& at, int entry, double length) const;
-    void look_round(const LocalField::Place& at, double from, double to, std::vector<Nearest>& found) const;
-    void look_at(const LocalField::Place& at, Complex offset, int k, double from, std::vector<Nearest>& found) const;
 
     const LocalField& local_;
     const LayoutPoints& points_;
+    PassedPoints near_;
     double tolerance_, max_length_;
-    std::vector<bool> near_points_;  // (F) whether a point may be within the tolerance
 };
 
 struct SeparatrixTracer::Walk {
     Trace trace;    // `passing` is not filled in
     double length;  // up to the end of the last triangle
-    double shear;
+    double shear, tolerance;
     Charts::Side side;  // that it ends on
     double fraction, heading;
-    std::vector<Nearest> found;
+    std::vector<PassedPoints::Nearest> found;
     std::vector<Passing> passing() const;  // by slot
 };
 

@@ -36,11 +36,10 @@ Complex place_of(const Charts& charts, Index t, double ring) {
 class Race {
 public:
     Race(const LocalField& local, const SeparatrixTracer& tracer, const std::vector<LayoutCurve>& walls,
-         const std::vector<Slot>& slots, double tolerance, double max_length)
+         const std::vector<Slot>& slots, double max_length)
         : charts_(local.charts()),
           tracer_(tracer),
           walls_(walls),
-          tolerance_(tolerance),
           max_length_(max_length),
           in_triangle_(charts_.mesh().triangles.rows()) {
         for (std::size_t w = 0; w < walls.size(); ++w)
@@ -177,16 +176,17 @@ private:
             track.curve.triangles.resize(last_place_[i] + 1);
             track.curve.points.resize(last_place_[i] + 2);
         }
-        while (track.ended && walk.length < track.length + look_on * tolerance_ && tracer_.step(walk)) {
+        const double last = track.length + look_on * walk.tolerance;
+        while (track.ended && walk.length < last && tracer_.step(walk)) {
         }
         for (const Passing& p : walk.passing())
-            if (p.length < track.length + look_on * tolerance_) track.passing.push_back(p);
+            if (p.length < last) track.passing.push_back(p);
     }
 
     const Charts& charts_;
     const SeparatrixTracer& tracer_;
     const std::vector<LayoutCurve>& walls_;
-    double tolerance_, max_length_;
+    double max_length_;
     std::vector<std::vector<Part>> in_triangle_;
     std::vector<Track> tracks_;
     std::vector<double> stops_;
@@ -198,8 +198,8 @@ private:
 }  // namespace
 
 std::vector<Track> race(const LocalField& local, const SeparatrixTracer& tracer, const std::vector<LayoutCurve>& walls,
-                        const std::vector<Slot>& slots, double tolerance, double max_length) {
-    return Race(local, tracer, walls, slots, tolerance, max_length).run();
+                        const std::vector<Slot>& slots, double max_length) {
+    return Race(local, tracer, walls, slots, max_length).run();
 }
 
 }  // namespace octafield::surface::detail

@@ -22,6 +22,6 @@ struct Track {
 // points round a triangle, stops if the other one was there before it, or at the same time and comes before it in
 // `slots`. Walls are there from the start.
 std::vector<Track> race(const LocalField& local, const SeparatrixTracer& tracer, const std::vector<LayoutCurve>& walls,
-                        const std::vector<Slot>& slots, double tolerance, double max_length);
+                        const std::vector<Slot>& slots, double max_length);
 
 }  // namespace octafield::surface::detail

@@ -55,8 +55,15 @@ TEST(FeatureNeedles, AreCutOffInFrontOfTheTip) {
     EXPECT_TRUE(blunted_features(domain, 0.05).tips.empty());
 }
 
-TEST(FeatureNeedles, StayWhereACurveWouldEndOrNothingIsBlunt) {
-    EXPECT_TRUE(blunted_features(ringed_wheel({0, 4, 90, 180, 270}, {1, 2})).tips.empty());      // a curve would end
+// One feature that turns back at its tip: neither of its edges there may be left, or it would end inside a face.
+TEST(FeatureNeedles, OfOneFeatureLoseBothEdgesAtTheTip) {
+    const BluntedFeatures made = blunted_features(ringed_wheel({0, 4, 90, 180, 270}, {1, 2}));
+    EXPECT_EQ(made.tips, std::vector<Index>{0});
+    EXPECT_EQ(inner_features(made.domain), (Pairs{{1, 2}}));
+    EXPECT_TRUE(blunted_features(ringed_wheel({0, 4, 90, 180, 270}, {1, 3})).tips.empty());
+}
+
+TEST(FeatureNeedles, StayWhereNothingIsSharpOrTheFaceIsOneTriangle) {
     EXPECT_TRUE(blunted_features(ringed_wheel({0, 40, 90, 180, 270}, {1, 2, 4})).tips.empty());  // wide
     EXPECT_TRUE(blunted_features(wheel({0, 4, 90, 180, 270}, {1, 2, 4})).tips.empty());  // the face is that triangle
     EXPECT_TRUE(blunted_features(ringed_wheel({0, 4, 90, 180, 270}, {})).tips.empty());

@@ -1,0 +1,79 @@
+// The points that a curve passes, seen from triangle after triangle.
+#pragma once
+
+#include <array>
+
+#include "layout_points.hpp"
+
+namespace octafield::surface::detail {
+
+struct Slot {
+    Index point;
+    int slot;
+    auto operator<=>(const Slot&) const = default;
+};
+
+// A separatrix that comes back along the traced one.
+struct Passing {
+    Slot slot;
+    double length;  // from the start to the point, in parameters
+    double offset;  // of the point, to the left
+};
+
+// Length in parameters from the point to `end`, `radius` away in triangle t.
+double spoke_length(const LocalField& local, const LayoutPoint& point, Index t, Complex end, double radius);
+
+// Angle at the point, from its first edge, of z in triangle t, whose corner k it is.
+double angle_at(const LocalField& local, const LayoutPoint& point, Index t, int k, Complex z);
+
+// Unfolds the triangles within a tolerance of a curve. What that takes is kept for all triangles within three
+// tolerances of a point, about 350 bytes each; others cost nothing. Not for several threads at once.
+class PassedPoints {
+public:
+    struct Nearest {
+        Passing passing;
+        double behind;  // angle, in parameters, between the way back and where it was looked at from
+        double from;    // how far along the curve
+    };
+
+    PassedPoints(const LocalField& local, const LayoutPoints& points, double tolerance);
+
+    // Of a curve, `shear` more than quarter turns off the field. The tolerance is at most that of this.
+    struct Part {
+        double shear, tolerance, from, to;
+    };
+    // Adds the points within the tolerance of a part that begins at `start`.
+    void look_round(const LocalField::Place& start, const Part& part, std::vector<Nearest>& found) const;
+
+private:
+    // Entered at the middle of a side, along the direction of the field that the chart tells.
+    struct NearTriangle {
+        Index triangle;
+        std::array<bool, 3> is_point;        // of its corners
+        std::array<Index, 3> across;         // place of the triangle beyond each side, -1: none near points
+        std::array<int, 3> entry, quarters;  // side of that one, and turns of the direction in its chart
+        std::array<Complex, 3> corners[3];   // parameters, by the side entered
+        std::array<Complex, 3> middles[3];   // of sides
+    };
+    struct Unfolded {
+        Index place;
+        int entry, quarters;
+        Complex offset;  // parameters where it is entered
+    };
+
+    void find_near();
+    void fill(NearTriangle& near) const;
+    void look_at(const LocalField::Place& at, Complex offset, int k, const Part& part,
+                 std::vector<Nearest>& found) const;
+
+    const LocalField& local_;
+    const LayoutPoints& points_;
+    double tolerance_;
+    std::vector<Index> near_of_;  // (F) place, -1: no point may be within the tolerance
+    std::vector<NearTriangle> near_;
+    mutable std::vector<Index> seen_;  // round of each near triangle
+    mutable Index round_ = 0;
+    mutable std::vector<Unfolded> front_;
+};
+
+}  // namespace octafield::surface::detail
