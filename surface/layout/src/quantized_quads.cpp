@@ -76,6 +76,7 @@ public:
         for (const detail::BlockStructure& structure : structures) {
             try {
                 attempts.push_back(made(structure));
+                if (structure.blocks == detail::BlockStructure::finest) break;
                 if (attempts.back().margin >= 0 && is_valid(attempts.back())) return std::move(attempts.back().quads);
             } catch (const Error& error) {
                 if (!is_of_quads(error)) throw;
