@@ -25,8 +25,8 @@ from .hex_dominant.rows import markdown_table, run_words
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 LIMIT = 120.0  # seconds of CPU time
 HEADER = (
-    "file", "triangles", "points inside", "T-joints", "blocks", "irregular", "quads", "SJ min", "mean", "deviation %",
-    "layout and quads, CPU s", "all, CPU s", "error",
+    "file", "triangles", "points inside", "T-joints", "blocks", "at least", "ratio", "irregular", "quads",
+    "SJ min", "mean", "deviation %", "layout and quads, CPU s", "all, CPU s", "error",
 )  # fmt: skip
 MADE = ("trace", "cut", "integers", "map", "mesh_smooth")  # phases of the layout and its quads
 
@@ -42,6 +42,7 @@ def measure(path: Path, quads: int, axes: str) -> dict:
         "points": sum(not point.boundary for point in record.singular_points),
         "t_joints": record.t_joints,
         "blocks": record.patches,
+        "fewest": record.fewest_patches,
         "irregular": record.irregular_vertices,
         "quads": record.quads,
         "least": record.scaled_jacobian.min,
@@ -55,7 +56,8 @@ def measure(path: Path, quads: int, axes: str) -> dict:
 def cells(row: dict) -> list[str]:
     if "error" in row:
         return [row["file"], *[""] * (len(HEADER) - 2), row.get("kind", row["error"])]
-    counts = [f"{row[name]:,}" for name in ("triangles", "points", "t_joints", "blocks", "irregular", "quads")]
+    counts = [f"{row[name]:,}" for name in ("triangles", "points", "t_joints", "blocks", "fewest")]
+    counts += [f"{row['blocks'] / row['fewest']:.1f}", f"{row['irregular']:,}", f"{row['quads']:,}"]
     quality = [f"{row['least']:.2f}", f"{row['mean']:.3f}", f"{100 * row['deviation']:.2f}"]
     return [row["file"], *counts, *quality, f"{row['made']:.1f}", f"{row['cpu']:.1f}", ""]
 
@@ -75,7 +77,9 @@ def hexme(data: Path, output: Path, only: list[str], quads: int, axes: str) -> N
         print(*cells(row), flush=True)
         sound = [row for row in rows if "error" not in row]
         fair = sum(row["least"] >= 0.3 for row in sound)
-        head = f"{len(rows)} surfaces, {len(sound)} meshes, {fair} of them with a least scaled Jacobian of 0.3 or more."
+        head = f"{len(rows)} surfaces, {len(sound)} meshes, {fair} of them with a least scaled Jacobian of 0.3 or more,"
+        few = sum(row["blocks"] <= 4 * row["fewest"] for row in sound)
+        head += f" {few} with at most 4 times the fewest blocks that there could be."
         (output / "hexme.md").write_text(head + "\n\n" + markdown_table(HEADER, [cells(row) for row in rows]))
     (output / "when.md").write_text(when())
 

@@ -1060,7 +1060,8 @@ class QuantizedQuadsOptions:
     words: ClassVar[dict[str, list[str]]]
     edge_length: float
     quad_count: int
-    coarsest: bool
+    blocks: str
+    least_jacobian: float
     weights: str
     smoothing: int
     release_points: bool
@@ -1069,7 +1070,8 @@ class QuantizedQuadsOptions:
         self,
         edge_length: float = ...,
         quad_count: int = ...,
-        coarsest: bool = ...,
+        blocks: str = ...,
+        least_jacobian: float = ...,
         weights: str = ...,
         origins: ArrayLike = ...,
         smoothing: int = ...,
@@ -1279,7 +1281,8 @@ def quantized_quads(
     *,
     edge_length: float = ...,
     quad_count: int = ...,
-    coarsest: bool = ...,
+    blocks: str = ...,
+    least_jacobian: float = ...,
     weights: str = ...,
     origins: ArrayLike | None = ...,
     smoothing: int = ...,
@@ -1324,6 +1327,7 @@ def fitted_pattern(
     progress: Progress | None = None,
 ) -> FittedPattern: ...
 def base_complex(mesh: QuadMesh) -> BaseComplex: ...
+def fewest_blocks(mesh: QuadMesh) -> int: ...
 def cut_along_features(surface: SurfaceDomain | TriangleMesh) -> FeatureCut: ...
 def blunted_features(
     surface: SurfaceDomain | TriangleMesh, least_angle: float = ...

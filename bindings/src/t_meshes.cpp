@@ -17,7 +17,10 @@ namespace octafield::bindings {
 using namespace surface;
 using py::literals::operator""_a;
 
-void check(const QuantizedQuadsOptions& options) { finite(options.edge_length, "edge_length"); }
+void check(const QuantizedQuadsOptions& options) {
+    finite(options.edge_length, "edge_length");
+    finite(options.least_jacobian, "least_jacobian");
+}
 void check(const FittingOptions& options) {
     finite(options.edge_length, "edge_length");
     finite(options.most_triangles, "most_triangles");
@@ -32,8 +35,12 @@ void bind_t_mesh_options(py::module_& m) {
         "is to be given.")
         .field("edge_length", &QuantizedQuadsOptions::edge_length, "As of LayoutQuadsOptions.")
         .field("quad_count", &QuantizedQuadsOptions::quad_count, "Wanted; sizes are tried until the number is near.")
-        .field("coarsest", &QuantizedQuadsOptions::coarsest,
-               "Fewest blocks first, then quads of the size wanted within that structure, less closely.")
+        .field("blocks", &QuantizedQuadsOptions::blocks,
+               "\"few\": whole numbers for large quads, whose rows are split; or \"fine\": for quads of the size "
+               "wanted, nearer to the lengths, in blocks that may be as small as quads.")
+        .field("least_jacobian", &QuantizedQuadsOptions::least_jacobian,
+               "Of \"few\": more blocks are tried until all quads have this scaled Jacobian; if none has, the fewest "
+               "with 0.7 of the best one's are taken. 0: the fewest.")
         .field("weights", &QuantizedQuadsOptions::weights,
                "Of |n - length / size| in the sum: \"equal\", or \"relative\", over length / size, 1 at least.")
         .field("origins", &QuantizedQuadsOptions::origins,
@@ -74,6 +81,8 @@ void bind_t_mesh_results(py::module_& m) {
         .field("patch_chords", &QuantizedQuads::patch_chords, "(blocks, 2) int32: the chord across each of them.")
         .field("tiles", &QuantizedQuads::tiles, "(Q,) int32: patch of the T-mesh of each quad.")
         .field("arc_counts", &QuantizedQuads::arc_counts, "int32, quads along each side of the T-mesh, at least 1.")
+        .field("fewest_blocks", &QuantizedQuads::fewest_blocks,
+               "That meshes with these irregular vertices can have: a quarter of the quads' corners there.")
         .field("t_joints", &QuantizedQuads::t_joints, "Of the T-mesh; the quads have none.")
         .field("irregular", &QuantizedQuads::irregular,
                "int32 vertices inside with other than four quads, of the boundary with other than two.")
@@ -169,6 +178,17 @@ void bind_quantized_quads(py::module_& m) {
         "layout"_a, "origins"_a = std::vector<Index>(),
         "Of each side of a T-mesh that no whole numbers fit, by how much it is below the least number that it has to "
         "have where these shortages sum to the least; all 0 where numbers fit. origins: as of quantized_quads.");
+    m.def(
+        "fewest_blocks",
+        [](const QuadMesh& mesh) {
+            return run_interruptible([mesh = mesh](Job&) {
+                scaled_jacobians(mesh);  // refuses ids out of range
+                return fewest_blocks(mesh);
+            });
+        },
+        "mesh"_a,
+        "A bound from below of the blocks without T-joints for the irregular vertices of the mesh: every quad there is "
+        "in a corner of a block, and a block has four; one at least for each connected part. Raises as base_complex.");
     m.def(
         "base_complex",
         [](const QuadMesh& mesh) {

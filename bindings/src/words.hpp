@@ -93,6 +93,12 @@ struct Words<surface::ArcWeights> {
 };
 
 template <>
+struct Words<surface::Blocks> {
+    using E = surface::Blocks;
+    static constexpr std::array<std::pair<const char*, E>, 2> list{{{"few", E::few}, {"fine", E::fine}}};
+};
+
+template <>
 struct Words<surface::PatchKind> {
     using E = surface::PatchKind;
     static constexpr std::array<std::pair<const char*, E>, 4> list{

@@ -125,8 +125,11 @@ def test_bad_options_are_named():
         of.surface.quantized_quads(graph, quad_count=50, origins=np.arange(10**6))
     with pytest.raises(of.InvalidInput, match="did you mean 't-mesh'"):
         of.QuadLayoutOptions(layout="tmesh")
-    with pytest.raises(of.InvalidInput, match="coarsest"):
-        of.QuadLayoutOptions(coarsest=1)
+    with pytest.raises(of.InvalidInput, match="did you mean 'few'"):
+        of.QuadLayoutOptions(blocks="fwe")
+    for wrong in (-0.1, 1.5, np.nan):
+        with pytest.raises(of.InvalidInput, match="least_jacobian|least scaled Jacobian"):
+            of.surface.quantized_quads(graph, quad_count=50, least_jacobian=wrong)
 
 
 def turned_hole(degrees):
@@ -176,10 +179,24 @@ def test_a_map_that_folds_names_the_option_for_shorter_triangles():
             raise of.SolverError("other", "no_integers")
 
 
-def test_bad_quads_of_few_blocks_ask_to_leave_coarsest_out():
-    with pytest.raises(of.SolverError, match="or leave coarsest out") as caught:
-        of.compute_quad_layout(generate("nut"), layout_options=of.QuadLayoutOptions(quads=300, coarsest=True))
-    assert caught.value.kind == "inverted_quads"
+def test_blocks_are_few_where_that_leaves_quads_good():
+    few, fine = (made(generate("ball"), quads=600, blocks=blocks).record for blocks in ("few", "fine"))
+    # Eight points of valence 3 are in 24 corners of blocks, four of each.
+    assert few.fewest_patches == fine.fewest_patches == 6
+    assert 6 <= few.patches <= 24 and few.patches < fine.patches / 4
+    assert few.scaled_jacobian.min > 0.8 and few.options["blocks"] == "few"
+
+
+def test_few_blocks_do_not_invert_quads():
+    record = of.compute_quad_layout(generate("nut"), layout_options=of.QuadLayoutOptions(quads=300)).record
+    assert record.inverted == 0 and record.scaled_jacobian.min > 0.3
+
+
+def test_the_fewest_blocks_follow_from_the_quads_at_irregular_vertices():
+    result = made(cube(), quads=150)
+    counts = irregular(result.mesh, 2)
+    assert sum(4 - index for index in counts.values()) == 24 and of.surface.fewest_blocks(result.mesh) == 6
+    assert result.record.fewest_patches == result.record.patches == 6
 
 
 def test_only_points_of_a_computed_field_may_move_in_smoothing(monkeypatch):

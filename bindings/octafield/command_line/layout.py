@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ..layout.options import AXES, INADMISSIBLE, LAYOUTS, QuadLayoutOptions
+from ..layout.options import AXES, BLOCKS, INADMISSIBLE, LAYOUTS, QuadLayoutOptions
 from ..options import SurfaceFieldOptions
 from . import console, tables
 from .console import carry_out, log
@@ -63,9 +63,14 @@ def quad_layout(
             ),
         ),
     ] = _DEFAULTS.layout,
-    coarsest: Annotated[bool, typer.Option("--coarsest", help="Fewest blocks first, then quads near the number.")] = (
-        _DEFAULTS.coarsest
-    ),
+    blocks: Annotated[
+        str,
+        typer.Option(
+            metavar=choices(BLOCKS),
+            autocompletion=words(BLOCKS),
+            help="As few as keep quads good; or quads nearer to the lengths, in blocks that may be as small as quads.",
+        ),
+    ] = _DEFAULTS.blocks,
     axes: Annotated[
         str,
         typer.Option(
@@ -126,7 +131,7 @@ def quad_layout(
             quads=quads,
             edge_length=edge_length,
             layout=layout,
-            coarsest=coarsest,
+            blocks=blocks,
             axes=axes,
             inadmissible=inadmissible,
             tolerance=math.radians(tolerance),

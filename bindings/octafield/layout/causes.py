@@ -40,8 +40,6 @@ def told_of_points(domain: SurfaceDomain, pattern: SingularPattern, options: Qua
                 error.kind,
                 error.elements,
             ) from error
-        if options.coarsest:
-            raise SolverError(f"{error}, or leave coarsest out", error.kind, error.elements) from error
         raise
 
 

@@ -11,7 +11,8 @@ INADMISSIBLE = ("default", *_core.ImposedFieldOptions.words["inadmissible"])
 LAYOUTS = ("t-mesh", "separatrices")
 AXES = ("orthogonal", "free")
 MOST_QUADS = 10_000_000
-_FIELD, _CURVES = _core.ImposedFieldOptions(), _core.LayoutCurveOptions()
+BLOCKS = tuple(_core.QuantizedQuadsOptions.words["blocks"])
+_FIELD, _CURVES, _QUADS = _core.ImposedFieldOptions(), _core.LayoutCurveOptions(), _core.QuantizedQuadsOptions()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,7 +21,8 @@ class QuadLayoutOptions:
 
     layout: "t-mesh": separatrices stop at one another, whole numbers put the T-joints on vertices of the quads
         (octafield.surface.motorcycle_graph, quantized_quads); features are followed with points of a computed field. Or
-        "separatrices": all of them to their ends (quad_layout, layout_quads). coarsest: fewest blocks first (t-mesh).
+        "separatrices": all of them to their ends (quad_layout, layout_quads). blocks, of t-meshes: "few", as
+        long as quads stay good; or "fine": quads nearer to the lengths, in blocks that may be as small as they are.
     axes: of quads: "orthogonal", at right angles as far as the points allow; or "free": along two lines at any angle on
         faces with corners that right angles do not fit, so that both sides of these are followed (octafield.surface.
         non_orthogonal_field, lines_metric); points and quads at corners are those lines' there.
@@ -40,7 +42,7 @@ class QuadLayoutOptions:
     quads: int = 0
     edge_length: float = 0.0
     layout: str = "t-mesh"
-    coarsest: bool = False
+    blocks: str = _QUADS.blocks
     axes: str = "orthogonal"
     inadmissible: str = "default"
     tolerance: float = _FIELD.tolerance
@@ -56,8 +58,7 @@ class QuadLayoutOptions:
                 "an edge length decides the number of quads: leave it or the number of quads out", "option_out_of_range"
             )
         require_one_of("layout", self.layout, LAYOUTS)
-        if not isinstance(self.coarsest, bool):
-            raise InvalidInput(f"coarsest must be true or false, not {self.coarsest!r}", "option_out_of_range")
+        require_one_of("blocks", self.blocks, BLOCKS)
         require_one_of("axes", self.axes, AXES)
         require_one_of("inadmissible", self.inadmissible, INADMISSIBLE)
         if not 0 < self.tolerance <= math.pi / 4:

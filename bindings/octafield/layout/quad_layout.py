@@ -151,18 +151,19 @@ def _on(
         domain, pattern = _pattern(domain, wanted, points, progress)
         begun = begun.changed(notes=[*begun.notes, *notes])
         field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
+    computed = pattern.source == "computed"
     made: BlockQuads
     with told_of_points(domain, pattern.pattern, wanted):
         if wanted.layout == "t-mesh":
             try:
-                made = quads_of_t_mesh(field, wanted, target, origins, pattern.source == "computed", meter.report)
+                field, made = quads_of_t_mesh(field, wanted, target, origins, computed, meter.report)
             except GeometryError as error:
-                if pattern.source != "computed" or error.kind not in MENDED:
+                if not computed or error.kind not in MENDED:
                     raise
                 pattern = fitted_points(domain, pattern, origins, inadmissible, wanted, target, error, meter.report)
                 begun = begun.changed(notes=[*begun.notes, pattern.notes[-1]])
                 field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
-                made = quads_of_t_mesh(field, wanted, target, origins, pattern.source == "computed", meter.report)
+                field, made = quads_of_t_mesh(field, wanted, target, origins, computed, meter.report)
         else:
             field, made = quads_of_separatrices(field, wanted, target, meter.report)
     meter.begin("check")

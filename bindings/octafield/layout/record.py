@@ -61,6 +61,7 @@ def of_quads(
         whole_numbers_optimal=made.optimal,
         separatrices=None if layout is None else layout.separatrices,
         patches=len(np.unique(made.blocks)),
+        fewest_patches=int(_core.fewest_blocks(made.mesh)),
         chords=len(np.unique(made.chords)),
         largest_mismatch=None if layout is None else layout.largest_mismatch,
         vertices=len(made.mesh.vertices),
@@ -116,7 +117,7 @@ def _of_the_quads(made: int, wanted: int, figures: QuadFigures) -> list[str]:
     if wanted and not 1 / _OTHER_NUMBER <= made / wanted <= _OTHER_NUMBER:
         notes.append(
             f"{made:,} quads, {wanted:,} wanted: each arc of the layout has one at least, and few numbers fit all arcs;"
-            " with coarsest, or fewer singular points, there are fewer arcs"
+            " with fewer singular points there are fewer arcs"
         )
     if figures.deviation[0] > _FAR:
         notes.append(

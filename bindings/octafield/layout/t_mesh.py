@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _core
 from .._core import ImposedField, SurfaceDomain
-from ..errors import GeometryError
+from ..errors import Cancelled, Error, GeometryError
 from ..progress.phases import Progress
 from .block_parts import block_chords, parts_of_blocks
 from .blocks import BlockQuads
@@ -27,16 +27,15 @@ def quads_of_t_mesh(
     origins: np.ndarray | None,
     release_points: bool,
     progress: Progress | None,
-) -> BlockQuads:
+) -> tuple[ImposedField, BlockQuads]:
     """By whole numbers on the arcs of a motorcycle graph. origins: where the surface was cut open. release_points:
-    singular points inside may move where bad quads are left."""
-    graph = _core.motorcycle_graph(
-        field, end_tolerance=options.end_tolerance, max_length=options.max_length, progress=progress
-    )
+    singular points inside may move where bad quads are left. The field comes back turned on closed parts where that
+    makes for few blocks."""
+    field, graph = _graph(field, options, progress)
     size = {"quad_count": options.quads} if options.quads else {"edge_length": edge_length}
     made = _core.quantized_quads(
         graph,
-        coarsest=options.coarsest,
+        blocks=options.blocks,
         origins=origins,
         release_points=release_points,
         progress=progress,
@@ -45,7 +44,38 @@ def quads_of_t_mesh(
     quads, blocks = np.asarray(made.mesh.quads), np.array(made.patches)
     chords = block_chords(quads, blocks, np.asarray(made.patch_chords))
     parts = parts_of_blocks(made.mesh, blocks, chords, graph.largest_mismatch, graph.curves.traced)
-    return BlockQuads(made.mesh, blocks, chords, parts, t_joints=made.t_joints, optimal=made.optimal)
+    return field, BlockQuads(made.mesh, blocks, chords, parts, t_joints=made.t_joints, optimal=made.optimal)
+
+
+def _graph(
+    field: ImposedField, options: QuadLayoutOptions, progress: Progress | None
+) -> tuple[ImposedField, _core.QuadLayout]:
+    """Where few blocks are wanted the field of closed parts is turned, if there are fewer T-joints then."""
+
+    def graph_of(given: ImposedField) -> _core.QuadLayout:
+        return _core.motorcycle_graph(
+            given, end_tolerance=options.end_tolerance, max_length=options.max_length, progress=progress
+        )
+
+    graph = graph_of(field)
+    if options.blocks != "few" or not _joints(graph):
+        return field, graph
+    try:
+        turned = _core.turned_for_layout(
+            field, end_tolerance=options.end_tolerance, max_length=options.max_length, progress=progress
+        )
+    except Cancelled:
+        raise
+    except Error:  # no short turn, or a field that was rotated
+        return field, graph
+    if np.array_equal(np.asarray(turned.field.values), np.asarray(field.field.values)):
+        return field, graph
+    other = graph_of(turned)
+    return (turned, other) if _joints(other) < _joints(graph) else (field, graph)
+
+
+def _joints(graph: _core.QuadLayout) -> int:
+    return sum(vertex.kind == "t_joint" for vertex in graph.vertices)
 
 
 def fitted_points(

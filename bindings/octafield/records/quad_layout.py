@@ -36,6 +36,9 @@ class QuadLayoutRecord(Record):
     )
     separatrices: int | None = Field(default=None, description="traced, before any were joined")
     patches: int = Field(description="of the layout, each a block of quads")
+    fewest_patches: int = Field(
+        description="at least this many there are for these irregular vertices: a quarter of the quads' corners there"
+    )
     chords: int = Field(description="of the layout: rows of blocks")
     largest_mismatch: float | None = Field(
         default=None, description="of opposite sides of a patch in quad coordinates, over their mean length"

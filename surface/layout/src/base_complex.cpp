@@ -19,6 +19,9 @@ public:
     }
 
     BaseComplex result() &&;
+    Index mate(Index side) const { return mates_[side]; }
+    const std::vector<Index>& sides_from(Index vertex) const { return out_[vertex]; }
+    const std::vector<Index>& irregular() const { return result_.irregular; }
 
 private:
     Index from(Index side) const { return quads_(side / 4, side % 4); }
@@ -184,14 +187,34 @@ BaseComplex Complex::result() && {
     return std::move(result_);
 }
 
-}  // namespace
-
-BaseComplex base_complex(const QuadMesh& mesh) {
+void require_quads(const QuadMesh& mesh) {
     if (mesh.triangles.rows() > 0)
         throw InvalidInput("the base complex is that of quads; the mesh has triangles", "not_quads");
     if (mesh.quads.size() > 0 && (mesh.quads.minCoeff() < 0 || mesh.quads.maxCoeff() >= mesh.vertices.rows()))
         throw GeometryError("quads name vertices that there are not", "index_out_of_range");
+}
+
+}  // namespace
+
+BaseComplex base_complex(const QuadMesh& mesh) {
+    require_quads(mesh);
     return Complex(mesh.quads).result();
+}
+
+Index fewest_blocks(const QuadMesh& mesh) {
+    require_quads(mesh);
+    DisjointSets sets(static_cast<std::size_t>(mesh.quads.rows()));
+    const Complex complex(mesh.quads);
+    for (Index s = 0; s < 4 * static_cast<Index>(mesh.quads.rows()); ++s)
+        if (const Index mate = complex.mate(s); mate >= 0) sets.join(s / 4, mate / 4);
+    Index parts = 0;
+    const std::vector<Index> part_of = std::move(sets).numbers(parts);
+    std::vector<long> corners(parts, 0);
+    for (const Index v : complex.irregular())
+        for (const Index side : complex.sides_from(v)) ++corners[part_of[side / 4]];
+    Index result = 0;
+    for (const long count : corners) result += std::max<Index>(1, static_cast<Index>((count + 3) / 4));
+    return result;
 }
 
 }  // namespace octafield::surface

@@ -45,16 +45,22 @@ std::vector<Index> QuadBuilder::along(const LayoutPatch& patch, int k) const {
 }
 
 void QuadBuilder::add_patch(Index patch) {
+    const auto inner = static_cast<Eigen::Index>(positions_.size());
+    add_grid(patch);
+    const PatchMap map = patch_map(layout_, patch, grids_.along);
+    result_.mean_value_patches += map.mean_value;
+    const Points grid = grid_positions(map, sizes_.back()[0], sizes_.back()[1]);
+    if (map.folded || !grid.allFinite()) folded_.push_back(patch);
+    for (Eigen::Index i = 0; i < grid.rows(); ++i) positions_[inner + i] = grid.row(i);
+}
+
+void QuadBuilder::add_grid(Index patch) {
     const LayoutPatch& around = layout_.patches[patch];
     const std::vector<Index> bottom = along(around, 0), right = along(around, 1), top = along(around, 2),
                              left = along(around, 3);
     const auto n = static_cast<int>(bottom.size()) - 1, m = static_cast<int>(right.size()) - 1;
     const auto inner = static_cast<Index>(positions_.size());
-    const PatchMap map = patch_map(layout_, patch, grids_.along);
-    result_.mean_value_patches += map.mean_value;
-    const Points grid = grid_positions(map, n, m);
-    if (map.folded || !grid.allFinite()) folded_.push_back(patch);
-    for (Eigen::Index i = 0; i < grid.rows(); ++i) positions_.push_back(grid.row(i));
+    positions_.resize(inner + static_cast<std::size_t>(n - 1) * (m - 1), Eigen::Vector3d::Zero());
     const auto at = [&](int i, int j) {
         if (j == 0) return bottom[i];
         if (i == n) return right[j];

@@ -19,6 +19,7 @@ public:
     // Equal numbers of quads on opposite sides of patches, which are to be quads.
     QuadBuilder(const QuadLayout& layout, SideGrids grids);
     void add_patch(Index patch);
+    void add_grid(Index patch);  // its quads alone: vertices inside it are at 0
     // Without chord_counts. Throws SolverError (kind "folded_map").
     LayoutQuads result() &&;
 

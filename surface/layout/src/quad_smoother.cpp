@@ -1,89 +1,28 @@
 #include "quad_smoother.hpp"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Simple_cartesian.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <numbers>
 #include <utility>
-
-#include "layout_pieces.hpp"
-#include "octafield/disjoint_sets.hpp"
 
 namespace octafield::surface::detail {
 namespace {
 
 using Vector = Eigen::Vector3d;
 constexpr double good_enough = 0.9;  // scaled Jacobian: vertices with no worse quads stay
-constexpr double bad = 0.3;
-constexpr double reachable = 0.98;  // of the sine of an angle that nothing changes
+constexpr double reachable = 0.98;   // of the sine of an angle that nothing changes
+constexpr double few_bad = 0.03;     // of the quads
+constexpr int beside = 8;            // rings round what is relaxed that are optimised with it
 constexpr double softness = 10;
 constexpr int rings[] = {1, 2, 3, 4, 8, 16}, relaxing_rounds = 20;
 constexpr double least_gain = 1e-4;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
 
-// Nearest points of each connected part of the surface.
-class Parts {
-public:
-    explicit Parts(const QuadLayout& layout) : layout_(layout), mesh_(layout.domain.mesh()) {
-        DisjointSets sets(mesh_.vertices.rows());
-        for (Index t = 0; t < mesh_.triangles.rows(); ++t)
-            for (int k = 1; k < 3; ++k) sets.join(mesh_.triangles(t, 0), mesh_.triangles(t, k));
-        Index count = 0;
-        part_of_ = std::move(sets).numbers(count);
-        triangles_.resize(count);
-        numbers_.resize(count);
-        for (Index t = 0; t < mesh_.triangles.rows(); ++t) {
-            const auto at = [&](int k) {
-                const auto p = mesh_.vertices.row(mesh_.triangles(t, k));
-                return Flat::Point_3(p[0], p[1], p[2]);
-            };
-            const Index part = part_of_[mesh_.triangles(t, 0)];
-            triangles_[part].emplace_back(at(0), at(1), at(2));
-            numbers_[part].push_back(t);
-        }
-        for (const auto& triangles : triangles_)
-            trees_.push_back(triangles.empty() ? nullptr : std::make_unique<Tree>(triangles.begin(), triangles.end()));
-    }
-
-    Index part_of(const LayoutPatch& patch) const {
-        for (const DirectedSide& s : patch.loops[0]) {
-            const Index curve = layout_.sides[s.side].curve;
-            if (curve >= 0) return part_of_[mesh_.triangles(layout_.curves.curves[curve].triangles[0], 0)];
-        }
-        for (const CurveNode& node : layout_.pieces->chains[patch.loops[0][0].side].nodes)
-            if (node.node < mesh_.vertices.rows()) return part_of_[node.node];
-        return 0;
-    }
-
-    std::pair<Vector, Index> nearest(Index part, const Vector& p) const {
-        const auto found = trees_[part]->closest_point_and_primitive(Flat::Point_3(p[0], p[1], p[2]));
-        const auto place = found.second - triangles_[part].begin();
-        return {Vector(found.first.x(), found.first.y(), found.first.z()), numbers_[part][place]};
-    }
-    Vector normal(Index triangle) const { return layout_.domain.normals().row(triangle); }
-
-private:
-    using Flat = CGAL::Simple_cartesian<double>;
-    using Primitive = CGAL::AABB_triangle_primitive<Flat, std::vector<Flat::Triangle_3>::const_iterator>;
-    using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Flat, Primitive>>;
-    const QuadLayout& layout_;
-    const TriangleMesh& mesh_;
-    std::vector<Index> part_of_;
-    std::vector<std::vector<Flat::Triangle_3>> triangles_;
-    std::vector<std::vector<Index>> numbers_;
-    std::vector<std::unique_ptr<Tree>> trees_;
-};
-
 class Smoother {
 public:
-    Smoother(const SmootherInput& input, QuadMesh& mesh) : input_(input), mesh_(mesh), parts_(input.layout) {
+    Smoother(const SmootherInput& input, QuadMesh& mesh) : input_(input), mesh_(mesh), parts_(input.parts) {
         const auto count = static_cast<std::size_t>(mesh.vertices.rows());
         around_.resize(count);
         neighbours_.resize(count);
@@ -99,6 +38,7 @@ public:
         }
         places_.assign(input.on_seams.begin(), input.on_seams.end());
         fixed_.assign(count, false);
+        active_.assign(count, true);
         for (std::size_t v = 0; v < places_.size(); ++v) fixed_[v] = places_[v].seam < 0;
         for (const Index v : input.fixed)
             if (v >= static_cast<Index>(places_.size())) {
@@ -128,12 +68,25 @@ public:
     // Optimised vertex by vertex; where that gets stuck, once more from where the vertices round bad quads are at the
     // means of their neighbours, in growing rings, first with all quads round a vertex counting. The better one is
     // kept. Singular points inside are held first, and released where bad quads are left and that is wanted.
-    void run(int rounds) {
+    bool run(int rounds, Rescue how) {
+        everywhere_ = how == Rescue::everywhere;
         optimise(rounds);
-        rescue(rounds);
-        if (!input_.release || least_margin() >= 0 || !release()) return;
-        optimise(rounds);
-        rescue(rounds);
+        const bool rescued =
+            how != Rescue::where_few || bad_count() <= few_bad * static_cast<double>(mesh_.quads.rows());
+        if (rescued) rescue(rounds);
+        if (rescued && input_.release && least_margin(bad) < 0 && release()) {
+            optimise(rounds);
+            rescue(rounds);
+        }
+        std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
+        return rescued;
+    }
+
+    // Below 0 where quads are worse than that, and than the angles that they are given.
+    double least_margin(double wanted) const {
+        double least = 1;
+        for (Index q = 0; q < mesh_.quads.rows(); ++q) least = std::min(least, quality(q) - reachable_of(q, wanted));
+        return least;
     }
 
 private:
@@ -143,7 +96,7 @@ private:
     }
 
     void rescue(int rounds) {
-        double least = least_margin();
+        double least = least_margin(bad);
         for (const int ring : rings) {
             if (least >= 0) break;
             const Points before = mesh_.vertices;
@@ -153,7 +106,7 @@ private:
             optimise(rounds);
             soft_ = false;
             optimise(rounds);
-            const double found = least_margin();
+            const double found = least_margin(bad);
             if (found > least) {
                 least = found;
                 continue;
@@ -161,15 +114,31 @@ private:
             mesh_.vertices = before;
             places_ = places;
         }
+        active_.assign(around_.size(), true);
+    }
+
+    Index bad_count() const {
+        Index result = 0;
+        for (Index q = 0; q < mesh_.quads.rows(); ++q) result += quality(q) < reachable_of(q, bad);
+        return result;
     }
 
     void optimise(int rounds) {
         for (int round = 0; round < rounds; ++round) {
             bool moved = false;
             for (Index v = 0; v < static_cast<Index>(around_.size()); ++v)
-                if (!fixed_[v] && !around_[v].empty()) moved |= improve(v);
+                if (active_[v] && !fixed_[v] && !around_[v].empty()) moved |= improve(v);
             if (!moved) return;
         }
+    }
+
+    std::vector<bool> grown(std::vector<bool> near, int rings) const {
+        for (int i = 0; i < rings; ++i) {
+            const std::vector<bool> inner = near;
+            for (std::size_t v = 0; v < near.size(); ++v)
+                for (const Index n : neighbours_[v]) near[v] = near[v] || inner[n];
+        }
+        return near;
     }
 
     // Corners of quads between two edges on seams at a vertex that stays: the surface gives their angles.
@@ -195,35 +164,24 @@ private:
             }
     }
 
-    // A quad below is bad. No quad is better than an angle that it is given.
-    double bad_below(Index q) const {
-        double result = bad;
+    // No quad is better than an angle that it is given.
+    double reachable_of(Index q, double wanted) const {
         const auto found = given_corners_.find(q);
-        if (found == given_corners_.end()) return result;
+        if (found == given_corners_.end()) return wanted;
         for (const int k : found->second) {
             const Vector at = position(mesh_.quads(q, k)), u = position(mesh_.quads(q, (k + 1) % 4)) - at,
                          v = position(mesh_.quads(q, (k + 3) % 4)) - at;
-            result = std::min(result, reachable * u.cross(v).norm() / (u.norm() * v.norm()));
+            wanted = std::min(wanted, reachable * u.cross(v).norm() / (u.norm() * v.norm()));
         }
-        return result;
-    }
-
-    // Below 0 where there are bad quads.
-    double least_margin() const {
-        double least = 1;
-        for (Index q = 0; q < mesh_.quads.rows(); ++q) least = std::min(least, quality(q) - bad_below(q));
-        return least;
+        return wanted;
     }
 
     void relax(int ring) {
         std::vector<bool> near(around_.size(), false);
         for (Index q = 0; q < mesh_.quads.rows(); ++q)
-            for (int k = 0; k < 4 && quality(q) < bad_below(q); ++k) near[mesh_.quads(q, k)] = true;
-        for (int i = 0; i < ring; ++i) {
-            const std::vector<bool> inner = near;
-            for (std::size_t v = 0; v < near.size(); ++v)
-                for (const Index n : neighbours_[v]) near[v] = near[v] || inner[n];
-        }
+            for (int k = 0; k < 4 && quality(q) < reachable_of(q, bad); ++k) near[mesh_.quads(q, k)] = true;
+        near = grown(std::move(near), ring);
+        if (!everywhere_) active_ = grown(near, beside);
         for (int round = 0; round < relaxing_rounds; ++round) {
             relax_seams(near);
             for (Index v = static_cast<Index>(places_.size()); v < static_cast<Index>(near.size()); ++v) {
@@ -349,13 +307,14 @@ private:
     }
 
     const SmootherInput& input_;
+    bool everywhere_ = false;
     bool soft_ = false;  // the quads round a vertex count all, the worse the more
     QuadMesh& mesh_;
-    Parts parts_;
+    const SurfaceParts& parts_;
     std::vector<std::vector<Index>> around_, neighbours_;
     std::vector<SideGrids::OnSeam> places_;
     std::vector<std::vector<Index>> along_;  // vertices of each seam, in their order
-    std::vector<bool> fixed_;
+    std::vector<bool> fixed_, active_;
     std::map<Index, std::vector<int>> given_corners_;  // of quads
     std::vector<Index> held_;                          // of these, singular points inside
     std::vector<Index> part_;                          // of each quad
@@ -364,7 +323,13 @@ private:
 
 }  // namespace
 
-void smooth(const SmootherInput& input, int rounds, QuadMesh& mesh) { Smoother(input, mesh).run(rounds); }
+bool smooth(const SmootherInput& input, int rounds, Rescue rescue, QuadMesh& mesh) {
+    return Smoother(input, mesh).run(rounds, rescue);
+}
+
+double least_margin(const SmootherInput& input, double wanted, QuadMesh& mesh) {
+    return Smoother(input, mesh).least_margin(wanted);
+}
 
 std::vector<Index> facing_away(const SmootherInput& input, QuadMesh& mesh) {
     return Smoother(input, mesh).facing_away();

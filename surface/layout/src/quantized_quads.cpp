@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <exception>
 #include <numeric>
 
 #include "arc_shortage.hpp"
+#include "block_structures.hpp"
 #include "octafield/error.hpp"
 #include "quad_builder.hpp"
 #include "quad_smoother.hpp"
@@ -14,77 +15,18 @@
 namespace octafield::surface {
 namespace {
 
-constexpr double most_quads = 1e8;
-constexpr int most_sizes = 6;         // tried for a number of quads
-constexpr double near_enough = 0.02;  // of that
+constexpr double as_good = 0.7;          // of the best least scaled Jacobian, where none is as good as wanted
+constexpr double most_inverted = 0.04;   // of the quads, before smoothing
+constexpr std::size_t most_rescued = 2;  // unless all of these have inverted quads
 
-struct Chosen {
-    detail::ArcCounts arcs;
-    std::vector<int> part_counts{};
-    double size = 0, quads = 0;
-};
-
-class Chooser {
-public:
-    Chooser(const QuadLayout& layout, const detail::Seams& seams, const QuantizedQuadsOptions& options)
-        : layout_(layout), seams_(seams), options_(options), problem_(detail::arc_problem(layout, seams)) {
-        if (!options.coarsest) return;
-        detail::ArcProblem fewest = problem_;
-        fewest.wanted.assign(problem_.least.size(), 0);
-        fewest.weights.assign(problem_.least.size(), 1);
-        problem_ =
-            detail::split_problem(layout, seams, problem_, detail::integer_counts(fewest, options.most_nodes).counts);
-    }
-
-    Chosen at_size(double size) const {
-        detail::ArcProblem problem = problem_;
-        detail::set_size(problem, layout_, seams_, size, options_.weights);
-        const double most = *std::max_element(problem.wanted.begin(), problem.wanted.end());
-        if (!(most * most <= most_quads))
-            throw InvalidInput("the edge length would give more than 1e8 quads", "bad_option");
-        Chosen result{detail::integer_counts(problem, options_.most_nodes), {}, size, 0};
-        result.part_counts.assign(result.arcs.counts.begin() + static_cast<std::ptrdiff_t>(layout_.sides.size()),
-                                  result.arcs.counts.end());
-        result.part_counts.resize(seams_.parts.size());
-        result.arcs.counts.resize(layout_.sides.size());
-        result.quads = detail::total_quads(layout_, result.arcs.counts);
-        return result;
-    }
-
-    // Sizes by the square root of what is missing, between those with too many and too few.
-    Chosen with_quads(double wanted) const {
-        Chosen best;
-        double low = 0, high = std::numeric_limits<double>::infinity();
-        double size = std::sqrt(layout_.curves.parameter_area / wanted);
-        for (int i = 0; i < most_sizes; ++i) {
-            Chosen found = at_size(size);
-            const double quads = found.quads;
-            if (i == 0 || std::abs(quads - wanted) < std::abs(best.quads - wanted)) best = std::move(found);
-            if (std::abs(quads - wanted) <= near_enough * wanted) break;
-            (quads > wanted ? low : high) = size;
-            size *= std::sqrt(quads / wanted);
-            if (size <= low || size >= high)
-                size = std::isinf(high) ? 1.5 * low : low > 0 ? std::sqrt(low * high) : high / 1.5;
-        }
-        return best;
-    }
-
-private:
-    const QuadLayout& layout_;
-    const detail::Seams& seams_;
-    const QuantizedQuadsOptions& options_;
-    detail::ArcProblem problem_;
-};
-
-Chosen choose(const QuadLayout& layout, const detail::Seams& seams, const QuantizedQuadsOptions& options) {
+void check(const QuantizedQuadsOptions& options) {
     const bool by_length = options.edge_length > 0 && std::isfinite(options.edge_length);
     if (by_length == (options.quad_count > 0) || !(options.edge_length >= 0) || options.quad_count < 0)
         throw InvalidInput("give either an edge length or a number of quads, > 0", "bad_option");
+    if (!(options.least_jacobian >= 0 && options.least_jacobian <= 1))
+        throw InvalidInput("the least scaled Jacobian wanted lies between 0 and 1", "bad_option");
     if (options.smoothing < 0) throw InvalidInput("the number of rounds of smoothing is >= 0", "bad_option");
     if (options.most_nodes < 1) throw InvalidInput("branch and bound needs a node at least", "bad_option");
-    const Chooser chooser(layout, seams, options);
-    return by_length ? chooser.at_size(options.edge_length)
-                     : chooser.with_quads(static_cast<double>(options.quad_count));
 }
 
 // Without any, each vertex is its own.
@@ -105,41 +47,155 @@ void set_blocks(QuantizedQuads& result) {
     result.irregular = std::move(complex.irregular);
 }
 
+// Other quads may do better: not where the caller is to blame, or stops.
+bool is_of_quads(const Error& error) {
+    return dynamic_cast<const SolverError*>(&error) || dynamic_cast<const GeometryError*>(&error);
+}
+
+Index inverted(const QuadMesh& mesh) { return static_cast<Index>((scaled_jacobians(mesh).array() <= 0).count()); }
+
+// Quads of one structure of blocks.
+struct Attempt {
+    QuantizedQuads quads{};
+    std::vector<detail::SideGrids::OnSeam> on_seams{};
+    bool finest = false, rescued = false;
+    bool fair = false;  // no bad quads, but for angles of features
+    double least = 0;   // scaled Jacobian
+    double margin = 0;  // of the least scaled Jacobian over the one wanted, where the angles of features allow that
+};
+
+class Maker {
+public:
+    Maker(const QuadLayout& layout, const detail::Seams& seams, const QuantizedQuadsOptions& options,
+          const Progress& progress)
+        : layout_(layout), seams_(seams), options_(options), progress_(progress), parts_(layout) {}
+
+    // The fewest blocks with quads as good as wanted; else the fewest with quads nearly as good as the best.
+    QuantizedQuads fewest_of(const std::vector<detail::BlockStructure>& structures) {
+        std::vector<Attempt> attempts;
+        for (const detail::BlockStructure& structure : structures) {
+            try {
+                attempts.push_back(made(structure));
+                if (structure.blocks == detail::BlockStructure::finest) break;
+                if (attempts.back().margin >= 0 && is_valid(attempts.back())) return std::move(attempts.back().quads);
+            } catch (const Error& error) {
+                if (!is_of_quads(error)) throw;
+                error_ = std::current_exception();
+            }
+        }
+        return best_of(std::move(attempts));
+    }
+
+private:
+    Attempt made(const detail::BlockStructure& structure) const {
+        detail::SizedCounts chosen = detail::CountChooser(layout_, seams_, options_).wanted(structure.problem);
+        detail::SideGrids grids = detail::seamed_grids(layout_, seams_, chosen.arcs.counts, chosen.part_counts);
+        Attempt result;
+        result.on_seams = grids.on_seams;
+        detail::QuadBuilder builder(layout_, std::move(grids));
+        for (Index p = 0; p < static_cast<Index>(layout_.patches.size()); ++p) {
+            report_or_throw(progress_, "map", 0.8 * p / static_cast<double>(layout_.patches.size()), NAN);
+            builder.add_patch(p);
+        }
+        QuantizedQuads& quads = result.quads;
+        static_cast<LayoutQuads&>(quads) = std::move(builder).result();
+        set_blocks(quads);
+        quads.arc_counts = std::move(chosen.arcs.counts);
+        quads.size = chosen.size;
+        quads.deviation = chosen.arcs.deviation;
+        quads.bound = chosen.arcs.bound;
+        quads.optimal = chosen.arcs.optimal;
+        if (structure.blocks != detail::BlockStructure::finest &&
+            inverted(quads.mesh) > most_inverted * static_cast<double>(quads.mesh.quads.rows()))
+            throw SolverError("the structure of blocks inverts too many quads", "inverted_quads");
+        result.finest = structure.blocks == detail::BlockStructure::finest;
+        smooth(result, options_.blocks == Blocks::fine ? detail::Rescue::everywhere : detail::Rescue::where_few);
+        return result;
+    }
+
+    detail::SmootherInput input_of(Attempt& attempt) const {
+        return {layout_,
+                parts_,
+                seams_,
+                attempt.on_seams,
+                attempt.quads.tiles,
+                attempt.quads.irregular,
+                options_.release_points};
+    }
+
+    void smooth(Attempt& attempt, detail::Rescue rescue) const {
+        report_or_throw(progress_, "smooth", 0.8, NAN);
+        const detail::SmootherInput input = input_of(attempt);
+        attempt.rescued =
+            options_.smoothing == 0 || detail::smooth(input, options_.smoothing, rescue, attempt.quads.mesh);
+        attempt.margin = detail::least_margin(input, options_.least_jacobian, attempt.quads.mesh);
+        attempt.fair = attempt.margin >= 0 || detail::least_margin(input, detail::bad, attempt.quads.mesh) >= 0;
+        attempt.least = scaled_jacobians(attempt.quads.mesh).minCoeff();
+    }
+
+    bool is_valid(Attempt& attempt) {
+        try {
+            detail::require_convex(attempt.quads);
+            if (const auto away = detail::facing_away(input_of(attempt), attempt.quads.mesh); !away.empty())
+                throw SolverError("quads " + first_few(away) + " face against the surface; ask for smaller ones",
+                                  "inverted_quads", away);
+            require_valid(attempt.quads.mesh, false);
+        } catch (const Error&) {
+            error_ = std::current_exception();
+            return false;
+        }
+        return true;
+    }
+
+    QuantizedQuads best_of(std::vector<Attempt> attempts) {
+        std::stable_sort(attempts.begin(), attempts.end(),
+                         [](const Attempt& a, const Attempt& b) { return a.margin > b.margin; });
+        bool any_fair = false;
+        double best = -1;
+        for (std::size_t i = 0; i < attempts.size() && (i < most_rescued ? !any_fair : best <= 0); ++i) {
+            if (!attempts[i].rescued && !attempts[i].fair) smooth(attempts[i], detail::Rescue::near_them);
+            any_fair |= attempts[i].fair;
+            best = std::max(best, attempts[i].least);
+        }
+        for (Attempt& attempt : attempts)  // the last resort is what `fine` makes
+            if (attempt.finest && !any_fair) {
+                smooth(attempt, detail::Rescue::everywhere);
+                any_fair = attempt.fair;
+            }
+        for (const Attempt& attempt : attempts)
+            if (attempt.fair >= any_fair) best = std::max(best, attempt.least);
+        std::stable_sort(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
+            return a.quads.patch_sizes.rows() < b.quads.patch_sizes.rows();
+        });
+        for (Attempt& attempt : attempts)
+            if (attempt.fair >= any_fair && attempt.least >= as_good * best && is_valid(attempt))
+                return std::move(attempt.quads);
+        for (Attempt& attempt : attempts)
+            if (is_valid(attempt)) return std::move(attempt.quads);
+        std::rethrow_exception(error_);
+    }
+
+    const QuadLayout& layout_;
+    const detail::Seams& seams_;
+    const QuantizedQuadsOptions& options_;
+    const Progress& progress_;
+    detail::SurfaceParts parts_;
+    std::exception_ptr error_;  // the last one
+};
+
 }  // namespace
 
 QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOptions& options,
                                const Progress& progress) {
     if (!layout.pieces || layout.patches.empty()) throw InvalidInput("the layout has no patches", "bad_option");
     detail::require_quads(layout);
+    check(options);
     report_or_throw(progress, "integers", 0, NAN);
     const detail::Seams seams = detail::find_seams(layout, origins_of(layout, options.origins));
-    Chosen chosen = choose(layout, seams, options);
-    if (!(chosen.quads <= most_quads)) throw InvalidInput("the size would give more than 1e8 quads", "bad_option");
-    detail::SideGrids grids = detail::seamed_grids(layout, seams, chosen.arcs.counts, chosen.part_counts);
-    const auto on_seams = grids.on_seams;
-    detail::QuadBuilder builder(layout, std::move(grids));
-    for (Index p = 0; p < static_cast<Index>(layout.patches.size()); ++p) {
-        report_or_throw(progress, "map", 0.8 * p / static_cast<double>(layout.patches.size()), NAN);
-        builder.add_patch(p);
-    }
-    QuantizedQuads result;
-    static_cast<LayoutQuads&>(result) = std::move(builder).result();
-    set_blocks(result);
-    report_or_throw(progress, "smooth", 0.8, NAN);
-    const detail::SmootherInput on_surface{
-        layout, seams, on_seams, result.tiles, result.irregular, options.release_points};
-    if (options.smoothing > 0) detail::smooth(on_surface, options.smoothing, result.mesh);
-    detail::require_convex(result);
-    if (const auto away = detail::facing_away(on_surface, result.mesh); !away.empty())
-        throw SolverError("quads " + first_few(away) + " face against the surface; ask for smaller ones",
-                          "inverted_quads", away);
-    require_valid(result.mesh, false);
+    const auto structures = detail::block_structures(layout, seams, options);
+    QuantizedQuads result = Maker(layout, seams, options, progress).fewest_of(structures);
+    result.fewest_blocks = fewest_blocks(result.mesh);
     for (const LayoutVertex& vertex : layout.vertices) result.t_joints += vertex.kind == LayoutVertexKind::t_joint;
-    result.arc_counts = std::move(chosen.arcs.counts);
-    result.size = chosen.size;
-    result.deviation = chosen.arcs.deviation;
-    result.bound = chosen.arcs.bound;
-    result.optimal = chosen.arcs.optimal;
     return result;
 }
 

@@ -17,9 +17,10 @@ namespace octafield::surface {
 namespace {
 
 constexpr double quarter = std::numbers::pi / 2;
-constexpr int directions = 120;       // looked along, per quarter turn
-constexpr double reach = 1;           // how far, in roots of the area in parameters
-constexpr int most_tried = 8;         // angles
+constexpr int directions = 16;            // looked along, per quarter turn
+constexpr double reaches[] = {0.5, 1.1};  // how far, in roots of the area in parameters, until there are enough angles
+constexpr int most_tried = 8;             // angles
+constexpr std::size_t enough = 4;
 constexpr double same_angle = 0.004;  // radians
 constexpr double longest = 8;         // curve, in the same roots
 constexpr double first_reach = 1.5;   // likewise
@@ -33,22 +34,27 @@ ImposedField turned(const ImposedField& field, const detail::Structure& structur
     return result;
 }
 
-// Angles at which a separatrix of the part hits a point, those of short ones first.
+// Angles at which a separatrix of the part hits a point, those of short ones first. starts: vertices that are points as
+// well, where there are no others.
 std::vector<double> hitting_angles(const ImposedField& field, const detail::Structure& structure, Index component,
-                                   double unit, const Progress& progress) {
+                                   const std::vector<Index>& starts, double reach, const Progress& progress) {
     std::vector<std::pair<double, double>> found;  // length, angle
     const double step = quarter / directions;
-    for (int i = 0; i < directions; ++i) {
-        report_or_throw(progress, "turn", 0.5 * i / directions, NAN);
-        const ImposedField at = turned(field, structure, component, i * step);
+    // Lines are told to come to a point near its separatrices only: those turned by an eighth find the others.
+    for (const double base : {0.0, quarter / 2}) {
+        const ImposedField at = turned(field, structure, component, base);
         const detail::LocalField local(at);
-        const detail::LayoutPoints points = detail::layout_points(at, local);
-        const detail::SeparatrixTracer tracer(local, points, 0.6 * step * unit, reach * unit);
-        for (Index p = 0; p < static_cast<Index>(points.points.size()); ++p) {
-            if (structure.of_vertex[points.points[p].vertex] != component) continue;
-            for (int s = 0; s < static_cast<int>(points.points[p].slots.size()); ++s)
-                for (const auto& passing : tracer.trace({p, s}).passing)
-                    found.emplace_back(passing.length, i * step + std::atan2(passing.offset, passing.length));
+        const detail::LayoutPoints points = detail::layout_points(at, local, starts, true);
+        const detail::SeparatrixTracer tracer(local, points, 0.6 * step * reach, reach);
+        for (int i = 0; i < directions / 2; ++i) {
+            report_or_throw(progress, "turn", (base > 0 ? 0.25 : 0) + 0.5 * i / directions, NAN);
+            const double shear = (i + 0.5) * step - quarter / 4;
+            for (Index p = 0; p < static_cast<Index>(points.points.size()); ++p) {
+                if (structure.of_vertex[points.points[p].vertex] != component) continue;
+                for (int s = 0; s < static_cast<int>(points.points[p].slots.size()); ++s)
+                    for (const auto& passing : tracer.trace({p, s}, shear).passing)
+                        found.emplace_back(passing.length, base + shear + std::atan2(passing.offset, passing.length));
+            }
         }
     }
     std::sort(found.begin(), found.end());
@@ -73,12 +79,12 @@ struct Try {
     detail::SeparatrixTracer tracer;
     detail::Joiner joiner;
 
-    Try(const ImposedField& at, double by, const detail::Structure& structure, Index component, double tolerance,
-        double max_length)
+    Try(const ImposedField& at, double by, const detail::Structure& structure, Index component,
+        const std::vector<Index>& starts, double tolerance, double max_length)
         : angle(by),
           field(detail::split_between_points(at)),
           local(field),
-          points(detail::layout_points(field, local)),
+          points(detail::layout_points(field, local, starts, true)),
           tracer(local, points, tolerance, max_length),
           joiner(tracer, points, max_length, of_component(points, structure, component)) {}
 
@@ -118,6 +124,11 @@ std::optional<double> best_angle(std::vector<std::unique_ptr<Try>> tries, double
     return best;
 }
 
+Index lowest_vertex(const detail::Structure& structure, Index component) {
+    const auto found = std::find(structure.of_vertex.begin(), structure.of_vertex.end(), component);
+    return static_cast<Index>(found - structure.of_vertex.begin());
+}
+
 }  // namespace
 
 ImposedField turned_for_layout(const ImposedField& field, const LayoutCurveOptions& options, const Progress& progress) {
@@ -131,7 +142,9 @@ ImposedField turned_for_layout(const ImposedField& field, const LayoutCurveOptio
         std::vector<Index> vertices;
         for (const Index v : field.point_vertices)
             if (structure.of_vertex[v] == c) vertices.push_back(v);
-        if (!structure.components[c].curves.empty() || vertices.empty()) continue;
+        if (!structure.components[c].curves.empty()) continue;
+        const std::vector<Index> starts =
+            vertices.empty() ? std::vector<Index>{lowest_vertex(structure, c)} : std::vector<Index>{};
         double area = 0;
         const Eigen::VectorXd areas = field.field.domain.areas();
         for (Index t = 0; t < areas.size(); ++t) area += structure.of_triangle[t] == c ? areas[t] : 0;
@@ -139,10 +152,14 @@ ImposedField turned_for_layout(const ImposedField& field, const LayoutCurveOptio
         const double max_length =
             options.max_length > 0 ? std::min(options.max_length, longest * unit) : longest * unit;
         std::vector<std::unique_ptr<Try>> tries;
-        for (const double angle : hitting_angles(result, structure, c, unit, progress))
-            tries.push_back(
-                std::make_unique<Try>(turned(result, structure, c, angle), angle, structure, c, tolerance, max_length));
-        const auto angle = best_angle(std::move(tries), unit, max_length, progress);
+        std::vector<double> angles;
+        for (const double reach : reaches)
+            if (angles.size() < enough) angles = hitting_angles(result, structure, c, starts, reach * unit, progress);
+        for (const double angle : angles)
+            tries.push_back(std::make_unique<Try>(turned(result, structure, c, angle), angle, structure, c, starts,
+                                                  tolerance, max_length));
+        auto angle = best_angle(std::move(tries), unit, max_length, progress);
+        if (!angle && vertices.empty()) angle = angles.empty() ? 0.0 : angles[0];  // one closed line, not two
         if (!angle)
             throw GeometryError("the field on the closed part with singular points at vertices " + first_few(vertices) +
                                     " can be turned in no way tried that makes its separatrices end; move the points",

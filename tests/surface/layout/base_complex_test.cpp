@@ -28,6 +28,27 @@ QuadMesh grid(int n, int m, bool round, bool both, bool hole = false) {
     return quad_mesh(columns * rows, quads);
 }
 
+// n^3 cubes' surface, each face of n^2 quads.
+QuadMesh cube_surface(int n) {
+    std::map<std::array<int, 3>, Index> number;
+    std::vector<std::array<Index, 4>> quads;
+    for (int d = 0; d < 3; ++d)
+        for (const int end : {0, n})
+            for (int i = 0; i < n; ++i)
+                for (int j = 0; j < n; ++j) {
+                    const auto at = [&](int u, int v) {
+                        std::array<int, 3> p{};
+                        p[d] = end;
+                        p[(d + 1) % 3] = u;
+                        p[(d + 2) % 3] = v;
+                        return number.emplace(p, static_cast<Index>(number.size())).first->second;
+                    };
+                    quads.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+                    if (end == 0) std::swap(quads.back()[1], quads.back()[3]);
+                }
+    return quad_mesh(static_cast<Index>(number.size()), quads);
+}
+
 void expect_grids(const QuadMesh& mesh, const BaseComplex& complex) {
     std::vector<long> counts(complex.block_sizes.rows(), 0);
     for (const Index b : complex.blocks) ++counts.at(b);
@@ -70,33 +91,64 @@ TEST(BaseComplex, OfRingsAndToriIsCut) {
 
 TEST(BaseComplex, OfACubeIsItsFaces) {
     const int n = 3;
-    std::map<std::array<int, 3>, Index> number;
-    std::vector<std::array<Index, 4>> quads;
-    const auto at = [&](std::array<int, 3> p) {
-        return number.emplace(p, static_cast<Index>(number.size())).first->second;
-    };
-    for (int d = 0; d < 3; ++d)
-        for (int end = 0; end < 2; ++end)
-            for (int i = 0; i < n; ++i)
-                for (int j = 0; j < n; ++j) {
-                    const auto point = [&](int u, int v) {
-                        std::array<int, 3> p{};
-                        p[d] = end * n;
-                        p[(d + 1) % 3] = u;
-                        p[(d + 2) % 3] = v;
-                        return at(p);
-                    };
-                    std::array<Index, 4> quad = {point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)};
-                    if (end == 0) std::swap(quad[1], quad[3]);
-                    quads.push_back(quad);
-                }
-    const QuadMesh mesh = quad_mesh(static_cast<Index>(number.size()), quads);
+    const QuadMesh mesh = cube_surface(n);
     const BaseComplex complex = base_complex(mesh);
     expect_grids(mesh, complex);
     EXPECT_EQ(complex.block_sizes.rows(), 6);
     EXPECT_EQ(complex.irregular.size(), 8u);
     EXPECT_EQ(complex.chord_counts.size(), 3u);
     for (Index q = 0; q < mesh.quads.rows(); ++q) EXPECT_EQ(complex.blocks[q], q / (n * n));
+}
+
+// Quads of squares of the plane, of which some are left out.
+QuadMesh squares(const std::vector<std::array<int, 2>>& at) {
+    std::map<std::array<int, 2>, Index> number;
+    std::vector<std::array<Index, 4>> quads;
+    const auto vertex = [&](int x, int y) {
+        return number.emplace(std::array<int, 2>{x, y}, static_cast<Index>(number.size())).first->second;
+    };
+    for (const auto& [x, y] : at)
+        quads.push_back({vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)});
+    return quad_mesh(static_cast<Index>(number.size()), quads);
+}
+
+// Counted by hand: a cube has six faces, and corners for no fewer; an L has 5 + 3 quads at corners, and blocks for
+// three; a plus has 8 + 4 * 3, which are those of its five squares; a square with a hole 4 + 4 * 3, which asks for
+// four.
+TEST(FewestBlocks, AreAQuarterOfTheCornersAtIrregularVertices) {
+    for (const int n : {1, 3}) EXPECT_EQ(fewest_blocks(cube_surface(n)), 6);
+    EXPECT_EQ(fewest_blocks(grid(5, 3, false, false)), 1);
+    EXPECT_EQ(fewest_blocks(grid(6, 4, true, false)), 1);
+    EXPECT_EQ(fewest_blocks(grid(6, 4, true, true)), 1);
+    const QuadMesh l_shape = squares({{0, 0}, {1, 0}, {0, 1}}),
+                   plus = squares({{1, 0}, {0, 1}, {1, 1}, {2, 1}, {1, 2}});
+    EXPECT_EQ(fewest_blocks(l_shape), 2);
+    EXPECT_EQ(base_complex(l_shape).block_sizes.rows(), 3);
+    EXPECT_EQ(fewest_blocks(plus), 5);
+    EXPECT_EQ(base_complex(plus).block_sizes.rows(), 5);
+    EXPECT_EQ(fewest_blocks(grid(7, 5, false, false, true)), 4);
+}
+
+TEST(FewestBlocks, OfPartsAddUp) {
+    EXPECT_EQ(fewest_blocks(squares({{0, 0}, {5, 0}, {6, 0}, {5, 1}})), 1 + 2);
+    QuadMesh none;
+    none.quads.resize(0, 4);
+    EXPECT_EQ(fewest_blocks(none), 0);
+}
+
+// On a closed surface there are as many blocks as vertices of the layout less the Euler characteristic, so no fewer
+// than irregular vertices less that.
+TEST(FewestBlocks, OfClosedSurfacesFollowFromEuler) {
+    const QuadMesh cube = cube_surface(4);
+    EXPECT_EQ(fewest_blocks(cube), static_cast<Index>(base_complex(cube).irregular.size()) - 2);
+}
+
+TEST(FewestBlocks, OfWhatIsNoQuadMeshAreRefused) {
+    QuadMesh mesh = grid(2, 2, false, false);
+    mesh.quads(0, 0) = 100;
+    EXPECT_EQ(kind_of([&] { fewest_blocks(mesh); }), "index_out_of_range");
+    mesh = quad_mesh(8, {{0, 1, 2, 3}, {1, 0, 4, 5}, {1, 0, 6, 7}});
+    EXPECT_EQ(kind_of([&] { fewest_blocks(mesh); }), "non_manifold_edge");
 }
 
 TEST(BaseComplex, OfWhatIsNoQuadMeshIsRefused) {

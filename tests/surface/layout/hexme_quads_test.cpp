@@ -34,10 +34,10 @@ ImposedField field_of(const Part& part) {
     }
 }
 
-QuantizedQuads quads_of(const Part& part, Index count, bool coarsest = false) {
+QuantizedQuads quads_of(const Part& part, Index count, Blocks blocks = Blocks::fine) {
     QuantizedQuadsOptions options;
     options.quad_count = count;
-    options.coarsest = coarsest;
+    options.blocks = blocks;
     options.origins = part.cut.origins;
     return quantized_quads(motorcycle_graph(field_of(part)), options);
 }
@@ -152,16 +152,17 @@ TEST(HexmeQuads, OfParts) {
 }
 
 // Blocks follow one another across features, so that there are few.
-TEST(HexmeQuads, CoarsestHaveFewerBlocks) {
+TEST(HexmeQuads, AreInFewBlocks) {
     if (!std::filesystem::exists(shared_data() / "hexme")) GTEST_SKIP() << "no data";
     for (const char* name : {"s05c"}) {
         SCOPED_TRACE(name);
         const Part part = part_of(hexme_surface(name));
-        const QuantizedQuads plain = quads_of(part, 2000), coarsest = quads_of(part, 2000, true);
-        expect_whole(part, coarsest);
-        EXPECT_LT(coarsest.patch_sizes.rows(), 60);
-        EXPECT_LT(coarsest.patch_sizes.rows(), plain.patch_sizes.rows() / 4);
-        EXPECT_GT(coarsest.least_scaled_jacobian, 0.5);
+        const QuantizedQuads few = quads_of(part, 2000, Blocks::few), fine = quads_of(part, 2000);
+        expect_whole(part, few);
+        expect_whole(part, fine);
+        EXPECT_LE(few.patch_sizes.rows(), 4 * few.fewest_blocks);
+        EXPECT_LT(few.patch_sizes.rows(), fine.patch_sizes.rows() / 4);
+        EXPECT_GE(few.least_scaled_jacobian, 0.5);
     }
 }
 

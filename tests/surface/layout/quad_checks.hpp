@@ -81,10 +81,10 @@ inline void expect_conforming(const QuantizedQuads& quads, int euler) {
     expect_blocks(quads);
 }
 
-inline QuantizedQuads quantized(const QuadLayout& layout, Index count, bool coarsest = false) {
+inline QuantizedQuads quantized(const QuadLayout& layout, Index count, Blocks blocks = Blocks::fine) {
     QuantizedQuadsOptions options;
     options.quad_count = count;
-    options.coarsest = coarsest;
+    options.blocks = blocks;
     return quantized_quads(layout, options);
 }
 

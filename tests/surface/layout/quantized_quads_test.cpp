@@ -74,13 +74,60 @@ TEST(QuantizedQuads, OfClosedSurfaces) {
     EXPECT_GT(ring.least_scaled_jacobian, 0.95);
 }
 
-TEST(QuantizedQuads, CoarsestHaveFewerBlocks) {
+// Eight points of valence 3 have corners for six blocks.
+TEST(QuantizedQuads, FewBlocksAreFewerAndQuadsAsGoodAsWanted) {
+    for (const int seed : {2}) {
+        const QuadLayout layout = motorcycle_graph(sphere_field(3, random_points(seed)));
+        QuantizedQuadsOptions options;
+        options.quad_count = 1000;
+        options.blocks = Blocks::fine;
+        const QuantizedQuads fine = quantized_quads(layout, options);
+        options.blocks = Blocks::few;
+        options.least_jacobian = 0;
+        const QuantizedQuads fewest = quantized_quads(layout, options);
+        options.least_jacobian = 0.7;
+        const QuantizedQuads good = quantized_quads(layout, options);
+        for (const QuantizedQuads* quads : {&fine, &fewest, &good}) {
+            expect_conforming(*quads, 2);
+            EXPECT_EQ(irregularities(quads->mesh), irregularities(fine.mesh));
+            EXPECT_EQ(quads->fewest_blocks, 6);
+            EXPECT_GE(quads->patch_sizes.rows(), 6);
+        }
+        EXPECT_LE(fewest.patch_sizes.rows(), good.patch_sizes.rows());
+        EXPECT_LT(good.patch_sizes.rows(), fine.patch_sizes.rows() / 2);
+        EXPECT_GE(good.least_scaled_jacobian, 0.7);
+    }
+}
+
+// Whatever is asked for, quads are no worse than 0.7 of the best that was found.
+TEST(QuantizedQuads, WhereNoneAreAsGoodAsWantedTheyAreNearlyAsGoodAsTheBest) {
     const QuadLayout layout = motorcycle_graph(sphere_field(4, random_points(2)));
-    const QuantizedQuads plain = quantized(layout, 1500), coarsest = quantized(layout, 1500, true);
-    expect_conforming(coarsest, 2);
-    EXPECT_EQ(irregularities(coarsest.mesh), irregularities(plain.mesh));
-    EXPECT_LT(coarsest.patch_sizes.rows(), plain.patch_sizes.rows() / 2);
-    EXPECT_GE(coarsest.deviation, plain.deviation - 1e-9);
+    QuantizedQuadsOptions options;
+    options.quad_count = 1500;
+    options.least_jacobian = 1;
+    const QuantizedQuads quads = quantized_quads(layout, options);
+    options.blocks = Blocks::fine;
+    const QuantizedQuads fine = quantized_quads(layout, options);
+    EXPECT_LT(fine.least_scaled_jacobian, 1);
+    EXPECT_GE(quads.least_scaled_jacobian, 0.7 * fine.least_scaled_jacobian);
+    EXPECT_LT(quads.patch_sizes.rows(), fine.patch_sizes.rows());
+}
+
+// Lines at an angle wind round and round a torus; turned for a layout they close after one round.
+TEST(QuantizedQuads, OfATorusWhoseFieldIsTurnedAreOneBlock) {
+    const ImposedField field = impose_singular_points(SurfaceDomain(torus(60, 30, 1, 0.5)), {});
+    for (const double degrees : {10.0, 40.0}) {
+        ImposedField turned = field;
+        turned.field.values *= std::polar(1.0, 4 * degrees * pi / 180);
+        const QuantizedQuads winding = quantized(motorcycle_graph(turned), 600);
+        EXPECT_GT(winding.patch_sizes.rows(), 10);
+        EXPECT_EQ(winding.fewest_blocks, 1);
+        const QuantizedQuads quads = quantized(motorcycle_graph(turned_for_layout(turned)), 600, Blocks::few);
+        expect_conforming(quads, 0);
+        EXPECT_TRUE(irregularities(quads.mesh).empty());
+        EXPECT_EQ(quads.patch_sizes.rows(), 1) << degrees;
+        EXPECT_GE(quads.least_scaled_jacobian, 0.95) << degrees;
+    }
 }
 
 TEST(QuantizedQuads, RelativeWeightsKeepShortArcs) {
@@ -100,6 +147,7 @@ TEST(QuantizedQuads, SmoothingNeverMakesTheWorstQuadWorse) {
         const QuadLayout layout = motorcycle_graph(disk_field(16, random_sources(random, round)));
         QuantizedQuadsOptions options;
         options.quad_count = 1000;
+        options.blocks = Blocks::fine;
         options.smoothing = 0;
         const QuantizedQuads before = quantized_quads(layout, options);
         options.smoothing = 20;
@@ -143,6 +191,11 @@ TEST(QuantizedQuads, WhatGivesNoneIsTold) {
     options.smoothing = -1;
     EXPECT_EQ(kind_of([&] { quantized_quads(layout, options); }), "bad_option");
     options.smoothing = 0;
+    for (const double wrong : {-0.1, 1.1, static_cast<double>(NAN)}) {
+        options.least_jacobian = wrong;
+        EXPECT_EQ(kind_of([&] { quantized_quads(layout, options); }), "bad_option");
+    }
+    options.least_jacobian = 0.5;
     options.most_nodes = 0;
     EXPECT_EQ(kind_of([&] { quantized_quads(layout, options); }), "bad_option");
     options.most_nodes = 10;

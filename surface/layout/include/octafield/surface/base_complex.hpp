@@ -20,4 +20,9 @@ struct BaseComplex {
 // "index_out_of_range", "non_manifold_edge" (elements: the edge's vertices), "bad_blocks" (elements: a quad).
 BaseComplex base_complex(const QuadMesh& mesh);
 
+// A bound from below of the blocks without T-joints that there are for the irregular vertices of the mesh, whatever
+// runs between them. Every block has four corners, and every quad at an irregular vertex is in a corner of a block: so
+// a quarter of these, rounded up, and one at least, for each connected part. Throws as base_complex, but for blocks.
+Index fewest_blocks(const QuadMesh& mesh);
+
 }  // namespace octafield::surface

@@ -13,13 +13,19 @@ enum class ArcWeights {
     relative,  // that over length / size, of 1 at least
 };
 
+enum class Blocks {
+    few,   // whole numbers for large quads, the rows of which are split: blocks stay as few, and are more oblique
+    fine,  // whole numbers for quads of the size wanted: near to the lengths, and blocks may be as small as quads
+};
+
 // Either an edge length or a number of quads is to be given, > 0.
 struct QuantizedQuadsOptions {
     double edge_length = 0;  // as in LayoutQuadsOptions
     Index quad_count = 0;    // wanted; sizes are tried until the number is near
-    // Fewest blocks first: the least whole numbers that fit, all arcs 1 at least; then quads of the size wanted within
-    // that structure, so that they follow it less closely.
-    bool coarsest = false;
+    Blocks blocks = Blocks::few;
+    // Of `few`: structures of more blocks are tried until all quads have this scaled Jacobian, as far as the angles
+    // between features allow; if none has it, the fewest blocks with 0.7 of the best one's are taken. 0: the fewest.
+    double least_jacobian = 0.5;
     ArcWeights weights = ArcWeights::equal;
     // For a surface cut open (FeatureCut::origins): parts of its boundary with the same origins are one curve again,
     // and get the same vertices on both sides. None: the boundary stays open.
@@ -37,6 +43,7 @@ struct QuantizedQuads : LayoutQuads {
     Rows<Index, 2> patch_chords{0, 2};  // of each block: chord across its first and second direction
     std::vector<Index> tiles;           // patch of the T-mesh of each quad
     std::vector<int> arc_counts;        // quads along each arc (side) of the T-mesh, >= 1
+    Index fewest_blocks = 0;            // that meshes with these irregular vertices can have (fewest_blocks)
     Index t_joints = 0;                 // of the T-mesh; the quads have none
     std::vector<Index> irregular;       // vertices inside with other than four quads, of the boundary with other than 2
     double size = 0;                    // that lengths were divided by

@@ -1,0 +1,27 @@
+// Nearest points of each connected part of a layout's surface.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "octafield/surface/quad_layout.hpp"
+
+namespace octafield::surface::detail {
+
+class SurfaceParts {
+public:
+    explicit SurfaceParts(const QuadLayout& layout);  // kept by reference
+    SurfaceParts(SurfaceParts&&) noexcept;
+    ~SurfaceParts();
+
+    Index part_of(const LayoutPatch& patch) const;
+    // And the triangle that it is in.
+    std::pair<Eigen::Vector3d, Index> nearest(Index part, const Eigen::Vector3d& p) const;
+    Eigen::Vector3d normal(Index triangle) const;
+
+private:
+    struct Trees;
+    std::unique_ptr<Trees> trees_;
+};
+
+}  // namespace octafield::surface::detail
