@@ -29,7 +29,7 @@ QuadMesh grid(int n, int m, bool round, bool both, bool hole = false) {
 }
 
 // n^3 cubes' surface, each face of n^2 quads.
-QuadMesh cube_surface(int n) {
+QuadMesh cube_quads(int n) {
     std::map<std::array<int, 3>, Index> number;
     std::vector<std::array<Index, 4>> quads;
     for (int d = 0; d < 3; ++d)
@@ -91,7 +91,7 @@ TEST(BaseComplex, OfRingsAndToriIsCut) {
 
 TEST(BaseComplex, OfACubeIsItsFaces) {
     const int n = 3;
-    const QuadMesh mesh = cube_surface(n);
+    const QuadMesh mesh = cube_quads(n);
     const BaseComplex complex = base_complex(mesh);
     expect_grids(mesh, complex);
     EXPECT_EQ(complex.block_sizes.rows(), 6);
@@ -116,7 +116,7 @@ QuadMesh squares(const std::vector<std::array<int, 2>>& at) {
 // three; a plus has 8 + 4 * 3, which are those of its five squares; a square with a hole 4 + 4 * 3, which asks for
 // four.
 TEST(FewestBlocks, AreAQuarterOfTheCornersAtIrregularVertices) {
-    for (const int n : {1, 3}) EXPECT_EQ(fewest_blocks(cube_surface(n)), 6);
+    for (const int n : {1, 3}) EXPECT_EQ(fewest_blocks(cube_quads(n)), 6);
     EXPECT_EQ(fewest_blocks(grid(5, 3, false, false)), 1);
     EXPECT_EQ(fewest_blocks(grid(6, 4, true, false)), 1);
     EXPECT_EQ(fewest_blocks(grid(6, 4, true, true)), 1);
@@ -139,7 +139,7 @@ TEST(FewestBlocks, OfPartsAddUp) {
 // On a closed surface there are as many blocks as vertices of the layout less the Euler characteristic, so no fewer
 // than irregular vertices less that.
 TEST(FewestBlocks, OfClosedSurfacesFollowFromEuler) {
-    const QuadMesh cube = cube_surface(4);
+    const QuadMesh cube = cube_quads(4);
     EXPECT_EQ(fewest_blocks(cube), static_cast<Index>(base_complex(cube).irregular.size()) - 2);
 }
 
