@@ -16,6 +16,7 @@ namespace octafield::surface {
 namespace {
 
 constexpr double as_good = 0.7;          // of the best least scaled Jacobian, where none is as good as wanted
+constexpr double as_bad = 0.95;          // of it, where it is bad
 constexpr double most_inverted = 0.04;   // of the quads, before smoothing
 constexpr std::size_t most_rescued = 2;  // unless all of these have inverted quads
 
@@ -58,7 +59,7 @@ Index inverted(const QuadMesh& mesh) { return static_cast<Index>((scaled_jacobia
 struct Attempt {
     QuantizedQuads quads{};
     std::vector<detail::SideGrids::OnSeam> on_seams{};
-    bool finest = false, rescued = false;
+    bool rescued = false;
     bool fair = false;  // no bad quads, but for angles of features
     double least = 0;   // scaled Jacobian
     double margin = 0;  // of the least scaled Jacobian over the one wanted, where the angles of features allow that
@@ -72,10 +73,12 @@ public:
 
     // The fewest blocks with quads as good as wanted; else the fewest with quads nearly as good as the best.
     QuantizedQuads fewest_of(const std::vector<detail::BlockStructure>& structures) {
+        const auto first_rescue =
+            options_.blocks == Blocks::fine ? detail::Rescue::everywhere : detail::Rescue::where_few;
         std::vector<Attempt> attempts;
         for (const detail::BlockStructure& structure : structures) {
             try {
-                attempts.push_back(made(structure));
+                attempts.push_back(made(structure, first_rescue));
                 if (structure.blocks == detail::BlockStructure::finest) break;
                 if (attempts.back().margin >= 0 && is_valid(attempts.back())) return std::move(attempts.back().quads);
             } catch (const Error& error) {
@@ -83,11 +86,11 @@ public:
                 error_ = std::current_exception();
             }
         }
-        return best_of(std::move(attempts));
+        return best_of(std::move(attempts), structures.back());
     }
 
 private:
-    Attempt made(const detail::BlockStructure& structure) const {
+    Attempt made(const detail::BlockStructure& structure, detail::Rescue rescue) const {
         detail::SizedCounts chosen = detail::CountChooser(layout_, seams_, options_).wanted(structure.problem);
         detail::SideGrids grids = detail::seamed_grids(layout_, seams_, chosen.arcs.counts, chosen.part_counts);
         Attempt result;
@@ -108,8 +111,7 @@ private:
         if (structure.blocks != detail::BlockStructure::finest &&
             inverted(quads.mesh) > most_inverted * static_cast<double>(quads.mesh.quads.rows()))
             throw SolverError("the structure of blocks inverts too many quads", "inverted_quads");
-        result.finest = structure.blocks == detail::BlockStructure::finest;
-        smooth(result, options_.blocks == Blocks::fine ? detail::Rescue::everywhere : detail::Rescue::where_few);
+        smooth(result, rescue);
         return result;
     }
 
@@ -147,7 +149,19 @@ private:
         return true;
     }
 
-    QuantizedQuads best_of(std::vector<Attempt> attempts) {
+    // What `fine` makes: everything is moved once more where quads are bad.
+    bool add_last_resort(std::vector<Attempt>& attempts, const detail::BlockStructure& finest) {
+        try {
+            attempts.push_back(made(finest, detail::Rescue::everywhere));
+            return attempts.back().fair;
+        } catch (const Error& error) {
+            if (!is_of_quads(error)) throw;
+            error_ = std::current_exception();
+            return false;
+        }
+    }
+
+    QuantizedQuads best_of(std::vector<Attempt> attempts, const detail::BlockStructure& finest) {
         std::stable_sort(attempts.begin(), attempts.end(),
                          [](const Attempt& a, const Attempt& b) { return a.margin > b.margin; });
         bool any_fair = false;
@@ -157,19 +171,19 @@ private:
             any_fair |= attempts[i].fair;
             best = std::max(best, attempts[i].least);
         }
-        for (Attempt& attempt : attempts)  // the last resort is what `fine` makes
-            if (attempt.finest && !any_fair) {
-                smooth(attempt, detail::Rescue::everywhere);
-                any_fair = attempt.fair;
-            }
+        if (!any_fair && options_.blocks == Blocks::few) any_fair = add_last_resort(attempts, finest);
+        if (!attempts.empty() && attempts.back().least <= 0) smooth(attempts.back(), detail::Rescue::everywhere);
         for (const Attempt& attempt : attempts)
             if (attempt.fair >= any_fair) best = std::max(best, attempt.least);
+        const double needed = best < detail::bad ? as_bad * best : std::max(detail::bad, as_good * best);
         std::stable_sort(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
             return a.quads.patch_sizes.rows() < b.quads.patch_sizes.rows();
         });
         for (Attempt& attempt : attempts)
-            if (attempt.fair >= any_fair && attempt.least >= as_good * best && is_valid(attempt))
+            if (attempt.fair >= any_fair && attempt.least >= needed && is_valid(attempt))
                 return std::move(attempt.quads);
+        std::stable_sort(attempts.begin(), attempts.end(),
+                         [](const Attempt& a, const Attempt& b) { return a.least > b.least; });
         for (Attempt& attempt : attempts)
             if (is_valid(attempt)) return std::move(attempt.quads);
         std::rethrow_exception(error_);
