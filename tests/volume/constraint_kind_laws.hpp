@@ -3,8 +3,8 @@
 // Type).
 #pragma once
 
-#include <ceres/manifold_test_utils.h>
 #include <gtest/gtest.h>
+#include "ceres_manifold_matchers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -176,8 +176,7 @@ TYPED_TEST_P(ConstraintKindLaws, ItsSpaceHoldsTheSh4VectorsOfWhatIsAllowed) {
 
 REGISTER_TYPED_TEST_SUITE_P(ConstraintKindLaws, MovingTwiceIsMovingOnceAndGivesAUnitQuaternion,
                             AFrameIsAllowedWhicheverRotationStandsForIt, HoldsAsManyLengthsAsItSays,
-                            UnknownsAreTheDimensionOfWhatIsAllowed,
-                            TheChartStaysOnWhatIsAllowedAndFollowsTheTangents, ItsManifoldObeysCeresInvariants,
-                            ItsSpaceHoldsTheSh4VectorsOfWhatIsAllowed);
+                            UnknownsAreTheDimensionOfWhatIsAllowed, TheChartStaysOnWhatIsAllowedAndFollowsTheTangents,
+                            ItsManifoldObeysCeresInvariants, ItsSpaceHoldsTheSh4VectorsOfWhatIsAllowed);
 
 }  // namespace octafield::volume

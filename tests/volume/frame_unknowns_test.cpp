@@ -2,8 +2,8 @@
 
 #include "frame_unknowns.hpp"
 
-#include <ceres/manifold_test_utils.h>
 #include <gtest/gtest.h>
+#include "ceres_manifold_matchers.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "octafield/volume/smooth.hpp"
 
-#include <ceres/manifold_test_utils.h>
 #include <gtest/gtest.h>
+#include "ceres_manifold_matchers.hpp"
 
 #include <cmath>
 
