@@ -1084,6 +1084,7 @@ class QuantizedQuadsOptions:
     def origins(self, value: ArrayLike) -> None: ...
 
 class QuantizedQuads:
+    fewest_blocks: int
     t_joints: int
     size: float
     deviation: float
@@ -1100,6 +1101,7 @@ class QuantizedQuads:
         patch_chords: ArrayLike = ...,
         tiles: ArrayLike = ...,
         arc_counts: ArrayLike = ...,
+        fewest_blocks: int = ...,
         t_joints: int = ...,
         irregular: ArrayLike = ...,
         size: float = ...,

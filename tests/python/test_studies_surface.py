@@ -273,12 +273,18 @@ def test_quads_of_hexme_have_a_row_per_file_with_the_figures_or_the_error(tmp_pa
     data = STUDIES.parents[1] / "shared" / "data"
     if not (data / "hexme").is_dir():
         pytest.skip("no data")
-    subprocess.run([*command, "--only", "s01c,s16c", "--quads", "24"], cwd=STUDIES.parent, check=True)
+    (tmp_path / "data" / "hexme").mkdir(parents=True)
+    for name in ("s01c", "s16c"):
+        (tmp_path / "data" / "hexme" / f"{name}.vtk.gz").symlink_to((data / "hexme" / f"{name}.vtk.gz").resolve())
+    (tmp_path / "data" / "hexme" / "s99c.vtk.gz").write_bytes(b"no mesh")
+    subprocess.run([*command, "--data", tmp_path / "data", "--quads", "24"], cwd=STUDIES.parent, check=True)
     text = (tmp_path / "hexme.md").read_text()
-    assert text.startswith("2 surfaces, 1 meshes, 1 of them")
-    cube, torus = ([word.strip() for word in line.split("|")[1:-1]] for line in text.splitlines()[4:])
-    assert cube[0] == "s01c" and cube[4:6] == ["6", "8"] and float(cube[7]) > 0.99 and cube[-1] == ""
-    assert torus[0] == "s16c" and torus[-1] == "inverted_quads"
+    assert text.startswith("3 surfaces, 2 meshes, 2 of them")
+    assert "2 with at most 4 times the fewest blocks" in text
+    cube, torus, broken = ([word.strip() for word in line.split("|")[1:-1]] for line in text.splitlines()[4:])
+    assert cube[0] == "s01c" and cube[4:8] == ["6", "6", "1.0", "8"] and float(cube[9]) > 0.99 and cube[-1] == ""
+    assert torus[0] == "s16c" and torus[4:8] == ["1", "1", "1.0", "0"]
+    assert broken[0] == "s99c" and broken[-1] != ""
     subprocess.run(
         [*command[:-1], tmp_path / "free", "--only", "s01c", "--quads", "24", "--axes", "free"],
         cwd=STUDIES.parent,
