@@ -55,7 +55,7 @@ def measure(path: Path, quads: int, axes: str) -> dict:
 
 def cells(row: dict) -> list[str]:
     if "error" in row:
-        return [row["file"], *[""] * (len(HEADER) - 2), row.get("kind", row["error"])]
+        return [row["file"], *[""] * (len(HEADER) - 2), row.get("kind") or row["error"]]
     counts = [f"{row[name]:,}" for name in ("triangles", "points", "t_joints", "blocks", "fewest")]
     counts += [f"{row['blocks'] / row['fewest']:.1f}", f"{row['irregular']:,}", f"{row['quads']:,}"]
     quality = [f"{row['least']:.2f}", f"{row['mean']:.3f}", f"{100 * row['deviation']:.2f}"]
