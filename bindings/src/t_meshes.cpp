@@ -116,16 +116,11 @@ void bind_t_mesh_results(py::module_& m) {
         .finish([](const FeatureCut& c) { return count(c.domain.vertex_count(), "vertex", "vertices"); });
     Record<PatternChange>(m, "PatternChange", "What fitted_pattern changed in a face, and where.")
         .field("triangle", &PatternChange::triangle, "The lowest of the face, a connected part of the surface.")
-        .field("added", &PatternChange::added, "A pair of points of valence 3 and 5.")
-        .field("positions", &PatternChange::positions,
-               "(1, 3) or (2, 3) float64: where the point is now, or where the pair is or was.")
-        .field("removed", &PatternChange::removed,
-               "A pair of points whose indices add up to 0. If neither, a point was moved.")
+        .field("added", &PatternChange::added, "A pair of points of valence 3 and 5. If not, a point was moved.")
+        .field("positions", &PatternChange::positions, "(1, 3) or (2, 3) float64: where the point or the pair is now.")
         .finish([](const PatternChange& c) {
-            return std::string(c.added     ? "pair added"
-                               : c.removed ? "pair removed"
-                                           : "point moved") +
-                   " in the face of triangle " + std::to_string(c.triangle);
+            return std::string(c.added ? "pair added" : "point moved") + " in the face of triangle " +
+                   std::to_string(c.triangle);
         });
     Record<FittedPattern>(m, "FittedPattern", "Singular points that whole numbers fit, as fitted_pattern makes them.")
         .field("pattern", &FittedPattern::pattern, "SingularPattern.")

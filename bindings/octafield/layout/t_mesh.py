@@ -114,10 +114,8 @@ def fitted_points(
 
 def _told(found: _core.FittedPattern) -> str:
     pairs = sum(change.added for change in found.changes)
-    gone = sum(change.removed for change in found.changes)
-    moved = len(found.changes) - pairs - gone
+    moved = len(found.changes) - pairs
     words = [f"{pairs} pair{'s' * (pairs > 1)} of valence 3 and 5 added"] * (pairs > 0)
-    words += [f"{gone} pair{'s' * (gone > 1)} of points that cancel taken away"] * (gone > 0)
     words += [f"{moved} moved"] * (moved > 0)
     places = [np.asarray(change.positions)[0] for change in found.changes[:_TOLD]]
     where = "; ".join(", ".join(f"{x:.4g}" for x in place) for place in places)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "face_layouts.hpp"
 #include "far_triangles.hpp"
@@ -16,7 +16,6 @@ namespace {
 
 using detail::Face;
 
-constexpr std::size_t most_pairs = 4;
 constexpr int most_steps = 6;        // of Newton's method, for points that are tried
 constexpr double nothing = 1e-6;     // of quads
 constexpr double short_part = 0.25;  // of the length curves may have: those that run round and round are no help
@@ -34,45 +33,14 @@ bool on_boundary(const SurfaceDomain& domain, const ImposedPoint& point) {
 struct Candidate {
     SingularPattern pattern;
     bool added;
-    std::size_t point;               // moved, or the first of the pair
-    std::vector<ImposedPoint> gone;  // a pair taken away
+    std::size_t point;  // moved, or the first of the pair
 };
-
-// Two points that cancel are taken away, those nearest to one another first.
-std::vector<Candidate> without_pairs(const Face& face) {
-    const auto& points = face.pattern.points;
-    std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
-    for (std::size_t j = 0; j < points.size(); ++j)
-        for (std::size_t i = 0; i < j; ++i) {
-            if (points[i].index_times_four + points[j].index_times_four != 0 || points[i].index_times_four == 0 ||
-                on_boundary(face.domain, points[i]) || on_boundary(face.domain, points[j]))
-                continue;
-            const Eigen::Vector3d way =
-                imposed_position(face.domain, points[i]) - imposed_position(face.domain, points[j]);
-            pairs.emplace_back(way.norm(), i, j);
-        }
-    std::sort(pairs.begin(), pairs.end());
-    if (pairs.size() > most_pairs) pairs.resize(most_pairs);
-    std::vector<Candidate> result;
-    for (const auto& [distance, i, j] : pairs) {
-        result.push_back({face.pattern, false, 0, {points[i], points[j]}});
-        auto& left = result.back().pattern.points;
-        left.erase(left.begin() + static_cast<std::ptrdiff_t>(j));
-        left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
-    }
-    return result;
-}
 
 class Fitter {
 public:
     Fitter(std::vector<Face>& faces, const detail::FaceTracing& tracing, const FittingOptions& options,
            const Progress& progress)
-        : faces_(faces),
-          tracing_(tracing),
-          options_(options),
-          progress_(progress),
-          last_triangles_(options.most_triangles),
-          failures_(faces.size(), 0) {}
+        : faces_(faces), tracing_(tracing), options_(options), progress_(progress) {}
 
     void run(FittedPattern& result) {
         constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -99,7 +67,7 @@ private:
     std::vector<Candidate> candidates(const Face& face) const;
     std::optional<QuadLayout> as_given(Face& face) const { return layout_of(face, face.pattern, 1); }
     std::optional<QuadLayout> layout_of(const Face& face, SingularPattern& pattern, double part) const;
-    bool enough() const { return tried_ >= options_.most_tried || triangles_ > last_triangles_; }
+    bool enough() const { return tried_ >= options_.most_tried || triangles_ > options_.most_triangles; }
 
     std::vector<Face>& faces_;
     const detail::FaceTracing& tracing_;
@@ -107,29 +75,22 @@ private:
     const Progress& progress_;
     detail::Fit now_;
     int tried_ = 0;
-    double triangles_ = 0, last_triangles_;  // of faces that were tried, and up to which they are now
-    std::vector<int> failures_;              // of each face
+    double triangles_ = 0;  // of faces that were tried
 };
 
-// A change of the first face that has one, by part of the shortage; those that had none before come last. No face has
-// more than half of what may still be tried while others wait: small ones cost next to nothing.
+// A change of the first face that has one, by part of the shortage.
 bool Fitter::improve(FittedPattern& result) {
-    std::vector<std::tuple<int, double, std::size_t>> order;
+    std::vector<std::pair<double, std::size_t>> order;
     auto at = now_.shortages.begin();
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         const auto end = at + static_cast<std::ptrdiff_t>(faces_[f].layout->sides.size());
         const double share = std::accumulate(at, end, 0.0);
-        if (share > nothing) order.emplace_back(failures_[f], -share, f);
+        if (share > nothing) order.emplace_back(-share, f);
         at = end;
     }
     std::sort(order.begin(), order.end());
-    for (const auto& [failures, share, f] : order) {
-        const double left = options_.most_triangles - triangles_;
-        last_triangles_ = triangles_ + (f == std::get<2>(order.back()) ? left : left / 2);
-        if (improve_face(f, -share, result)) return true;
-        ++failures_[f];
-    }
-    return false;
+    return std::any_of(order.begin(), order.end(),
+                       [&](const auto& next) { return improve_face(next.second, -next.first, result); });
 }
 
 // The change that leaves least missing and then deviates least, up to a few after the first one that ends the face's
@@ -160,11 +121,9 @@ bool Fitter::improve_face(std::size_t f, double share, FittedPattern& result) {
     face.layout = std::move(best);
     face.pattern = std::move(taken.pattern);
     const auto at = face.pattern.points.begin() + static_cast<std::ptrdiff_t>(taken.point);
-    const std::vector<ImposedPoint> now =
-        taken.gone.empty() ? std::vector<ImposedPoint>(at, at + (taken.added ? 2 : 1)) : taken.gone;
-    PatternChange change{face.triangles[0], taken.added, Points(now.size(), 3), !taken.gone.empty()};
-    for (std::size_t i = 0; i < now.size(); ++i)
-        change.positions.row(static_cast<Index>(i)) = imposed_position(face.domain, now[i]);
+    const int count = taken.added ? 2 : 1;
+    PatternChange change{face.triangles[0], taken.added, Points(count, 3)};
+    for (int i = 0; i < count; ++i) change.positions.row(i) = imposed_position(face.domain, at[i]);
     result.changes.push_back(std::move(change));
     return true;
 }
@@ -172,18 +131,18 @@ bool Fitter::improve_face(std::size_t f, double share, FittedPattern& result) {
 std::vector<Candidate> Fitter::candidates(const Face& face) const {
     const std::vector<Index> places = detail::far_triangles(face.domain, options_.places);
     const auto& points = face.pattern.points;
-    std::vector<Candidate> result = without_pairs(face);
+    std::vector<Candidate> result;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].index_times_four == 0 || on_boundary(face.domain, points[i])) continue;
         for (const Index place : places) {
-            result.push_back({face.pattern, false, i, {}});
+            result.push_back({face.pattern, false, i});
             result.back().pattern.points[i] = {place, middle, points[i].index_times_four};
         }
     }
     for (const Index first : places)
         for (const Index second : places) {
             if (first == second) continue;
-            result.push_back({face.pattern, true, points.size(), {}});
+            result.push_back({face.pattern, true, points.size()});
             result.back().pattern.points.push_back({first, middle, 1});
             result.back().pattern.points.push_back({second, middle, -1});
         }

@@ -12,12 +12,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double quarter = pi / 2;
-constexpr double sector_part = 0.35;  // of the angle between separatrices: off their own direction
-constexpr double zone = 3;            // tolerances from a point, along edges
-constexpr double ahead = 3;           // least length over offset of points nearer than three tolerances
-constexpr double straight = pi / 4;   // off the way back, in parameters
-
-double wrapped(double angle, double period = 2 * pi) { return angle - period * std::round(angle / period); }
+constexpr double zone = 3;           // tolerances from a point, along edges
+constexpr double ahead = 3;          // least length over offset of points nearer than three tolerances
+constexpr double straight = pi / 4;  // off the way back, in parameters
 
 int quarters_of(double turn) { return static_cast<int>(std::lround(turn / quarter)) & 3; }
 

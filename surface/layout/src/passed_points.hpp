@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "layout_points.hpp"
 
@@ -19,6 +21,12 @@ struct Passing {
     double length;  // from the start to the point, in parameters
     double offset;  // of the point, to the left
 };
+
+constexpr double sector_part = 0.35;  // of the angle between separatrices: off their own direction
+
+inline double wrapped(double angle, double period = 2 * std::numbers::pi) {
+    return angle - period * std::round(angle / period);
+}
 
 // Length in parameters from the point to `end`, `radius` away in triangle t.
 double spoke_length(const LocalField& local, const LayoutPoint& point, Index t, Complex end, double radius);

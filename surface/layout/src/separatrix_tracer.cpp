@@ -10,14 +10,11 @@ namespace octafield::surface::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double sector_part = 0.35;  // of the angle between separatrices: off their own direction
 constexpr int most_shots = 8;
 constexpr std::size_t most_passing = 8;              // what a curve passes later is out of its reach
 constexpr double clearance = 1e-7;                   // of an edge, from its ends
 constexpr double beside = pi / 4;                    // off the boundary
 constexpr double least_off = 1e-9, most_off = 1e-6;  // of edges, beside it
-
-double wrapped(double angle, double period = 2 * pi) { return angle - period * std::round(angle / period); }
 
 LayoutCurvePoint edge_point(const Charts& charts, Index t, int side, double fraction, double length) {
     const Index edge = charts.topology().triangle_edges(t, side);

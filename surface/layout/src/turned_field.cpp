@@ -47,13 +47,14 @@ std::vector<double> hitting_angles(const ImposedField& field, const detail::Stru
         const detail::LayoutPoints points = detail::layout_points(at, local, starts, true);
         const detail::SeparatrixTracer tracer(local, points, 0.6 * step * reach, reach);
         for (int i = 0; i < directions / 2; ++i) {
-            report_or_throw(progress, "turn", (base > 0 ? 0.25 : 0) + 0.5 * i / directions, NAN);
             const double shear = (i + 0.5) * step - quarter / 4;
             for (Index p = 0; p < static_cast<Index>(points.points.size()); ++p) {
                 if (structure.of_vertex[points.points[p].vertex] != component) continue;
-                for (int s = 0; s < static_cast<int>(points.points[p].slots.size()); ++s)
+                for (int s = 0; s < static_cast<int>(points.points[p].slots.size()); ++s) {
+                    report_or_throw(progress, "turn", (base > 0 ? 0.25 : 0) + 0.5 * i / directions, NAN);
                     for (const auto& passing : tracer.trace({p, s}, shear).passing)
                         found.emplace_back(passing.length, base + shear + std::atan2(passing.offset, passing.length));
+                }
             }
         }
     }

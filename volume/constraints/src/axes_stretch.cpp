@@ -4,15 +4,12 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <numbers>
 
 #include "feature_axes.hpp"
 #include "octafield/error.hpp"
-#include "octafield/volume/feature_alignment.hpp"
 #include "octafield/volume/operators.hpp"
-#include "require_frames.hpp"
 #include "stretched_directions.hpp"
-#include "surface_constraints.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -22,14 +19,6 @@ using frames::Vector3;
 
 constexpr double least_volume = 1.7e-2;  // of three unit directions: an angle of a degree between two of them
 constexpr double solve_tolerance = 1e-10;
-
-Eigen::Matrix<double, 1, 6> packed(const Matrix3& s) { return {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(0, 2), s(0, 1)}; }
-
-Matrix3 unpacked(const Eigen::Matrix<double, 1, 6>& s) {
-    Matrix3 full;
-    full << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
-    return full;
-}
 
 template <class Function>
 Matrix3 of_eigenvalues(const Matrix3& symmetric, const Function& function) {
@@ -118,30 +107,9 @@ void require_options(const AxesStretchOptions& options) {
         throw InvalidInput("least_deviation is in radians, from 0 to pi/2", "bad_option");
 }
 
-void require_stretch(const Stretches& stretch, Index count) {
-    if (stretch.rows() != count)
-        throw InvalidInput(
-            "stretch has " + std::to_string(stretch.rows()) + " rows; give one per vertex, " + std::to_string(count),
-            "wrong_size");
-    std::vector<Index> bad;
-    for (Index v = 0; v < count; ++v)
-        if (!stretch.row(v).allFinite() || unpacked(stretch.row(v)).llt().info() != Eigen::Success) bad.push_back(v);
-    if (!bad.empty())
-        throw InvalidInput("stretch must be symmetric positive definite matrices (xx, yy, zz, yz, xz, xy); not at " +
-                               std::string("vertices ") + first_few(bad),
-                           "not_positive", bad);
-}
-
 }  // namespace
 
 Matrix3 AxesStretch::at(Index vertex) const { return unpacked(values.row(vertex)); }
-
-StretchedDirections::StretchedDirections(const Matrix3& stretch)
-    : stretch_(stretch), inverse_(stretch.inverse()), is_identity_(stretch == Matrix3::Identity()) {}
-
-StretchedDirections stretched_directions(const Stretches& stretch, Index vertex) {
-    return StretchedDirections(unpacked(stretch.row(vertex)));
-}
 
 AxesStretch axes_stretch(const TetDomain& domain, const AxesStretchOptions& options) {
     require_options(options);
@@ -173,63 +141,6 @@ AxesStretch axes_stretch(const TetDomain& domain, const AxesStretchOptions& opti
     extend(stiffness(domain), held, logs);
     for (Index v = 0; v < count; ++v) result.values.row(v) = packed(exp_of(unpacked(logs.row(v))));
     return result;
-}
-
-Rows<double, 9> stretched_axes(const Quaternions& frames, const Stretches& stretch) {
-    require_frames(frames, frames.rows());
-    require_stretch(stretch, static_cast<Index>(frames.rows()));
-    Rows<double, 9> result(frames.rows(), 9);
-    for (Eigen::Index v = 0; v < frames.rows(); ++v) {
-        const Matrix3 axes = unpacked(stretch.row(v)) * frames::from_wxyz(frames.row(v)).toRotationMatrix();
-        result.row(v) = Eigen::Map<const Eigen::Matrix<double, 1, 9>>(axes.data());
-    }
-    return result;
-}
-
-BoundaryConstraints boundary_constraints(const TetDomain& domain, const Points& directions, const Stretches& stretch,
-                                         const BoundaryOptions& options) {
-    require_stretch(stretch, domain.vertex_count());
-    return constraints_on_surface(domain.vertex_count(), domain.surface(), domain.features(), directions, options,
-                                  &stretch);
-}
-
-namespace {
-
-// Angle between the direction and the nearest column, at most pi / 2.
-double angle_to_nearest(const Matrix3& columns, const Vector3& direction) {
-    double best = std::numbers::pi / 2;
-    for (int i = 0; i < 3; ++i)
-        best =
-            std::min(best, std::atan2(columns.col(i).cross(direction).norm(), std::abs(columns.col(i).dot(direction))));
-    return best;
-}
-
-template <class Columns>
-Eigen::VectorXd angles(const TetDomain& domain, const Quaternions& frames, const Stretches& stretch,
-                       const std::vector<Index>& vertex, const Points& direction, const Columns& columns) {
-    require_frames(frames, domain.vertex_count());
-    require_stretch(stretch, domain.vertex_count());
-    Eigen::VectorXd result(direction.rows());
-    for (Eigen::Index i = 0; i < result.size(); ++i) {
-        const Index v = domain.surface().vertex_map[vertex[i]];
-        const Matrix3 rotation = frames::from_wxyz(frames.row(v)).toRotationMatrix();
-        result[i] = angle_to_nearest(columns(unpacked(stretch.row(v)), rotation), direction.row(i).transpose());
-    }
-    return result;
-}
-
-}  // namespace
-
-Eigen::VectorXd alignment_angles(const TetDomain& domain, const Quaternions& frames, const Stretches& stretch) {
-    const SectorNormals normals = sector_normals(domain);
-    return angles(domain, frames, stretch, normals.vertex, normals.normal,
-                  [](const Matrix3& s, const Matrix3& q) { return Matrix3(s.inverse() * q); });
-}
-
-Eigen::VectorXd feature_alignment_angles(const TetDomain& domain, const Quaternions& frames, const Stretches& stretch) {
-    const FeatureTangents tangents = feature_tangents(domain);
-    return angles(domain, frames, stretch, tangents.vertex, tangents.tangent,
-                  [](const Matrix3& s, const Matrix3& q) { return Matrix3(s * q); });
 }
 
 }  // namespace octafield::volume

@@ -5,6 +5,17 @@
 
 namespace octafield::volume {
 
+// A row (xx, yy, zz, yz, xz, xy) of a symmetric matrix.
+inline Eigen::Matrix<double, 1, 6> packed(const frames::Matrix3& s) {
+    return {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(0, 2), s(0, 1)};
+}
+
+inline frames::Matrix3 unpacked(const Eigen::Matrix<double, 1, 6>& s) {
+    frames::Matrix3 full;
+    full << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+    return full;
+}
+
 class StretchedDirections {
 public:
     StretchedDirections() : StretchedDirections(frames::Matrix3::Identity()) {}

@@ -8,10 +8,9 @@
 namespace octafield::surface {
 
 struct PatternChange {
-    Index triangle;        // lowest of the face
-    bool added;            // a pair of points of valence 3 and 5
-    Points positions;      // (1, 3) where the point is now, or (2, 3) where the pair is or was
-    bool removed = false;  // a pair of points whose indices add up to 0; if neither, a point was moved
+    Index triangle;    // lowest of the face
+    bool added;        // a pair of points of valence 3 and 5; else a point was moved
+    Points positions;  // (1, 3) or (2, 3): where they are now
 };
 
 struct FittedPattern {
@@ -33,10 +32,9 @@ struct FittingOptions {
 // domain: connected parts are faces; origins: as QuantizedQuadsOptions has them. The face with the largest part of the
 // shortage first: one of its points is moved to one of a few places all over it or, where that does not end its
 // shortage, a pair of points of valence 3 and 5 is added there, which frees the numbers along its sides from one
-// another; before both, pairs of points that cancel are taken away. What leaves least missing is kept, and of those
-// that leave nothing, what deviates least from the lengths wanted; until nothing is missing, nothing helps, or enough
-// was tried. Corners stay. Always the same result for the same input. Throws as impose_singular_points and
-// motorcycle_graph for the pattern that is given.
+// another. What leaves least missing is kept, and of those that leave nothing, what deviates least from the lengths
+// wanted; until nothing is missing, nothing helps, or enough was tried. Corners stay. Always the same result for the
+// same input. Throws as impose_singular_points and motorcycle_graph for the pattern that is given.
 FittedPattern fitted_pattern(const SurfaceDomain& domain, const SingularPattern& pattern,
                              const std::vector<Index>& origins, const ImposedFieldOptions& imposing = {},
                              const LayoutCurveOptions& curves = {}, const FittingOptions& options = {},

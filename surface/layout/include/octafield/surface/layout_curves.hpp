@@ -63,9 +63,10 @@ LayoutCurves layout_curves(const ImposedField& field, const LayoutCurveOptions& 
 
 // On closed parts of the surface nothing aligns the field: turned by any one angle it has the same singular points and
 // sizes, but other separatrices. The field with each closed part turned so that separatrices join and are short in all,
-// out of those angles at which one runs straight from a point to another one nearby. Parts with a boundary stay. Throws
-// as layout_curves; GeometryError (kind "no_short_turn", elements: vertices of the points of a part) where no angle
-// tried gives separatrices of finite length.
+// out of those angles at which one runs straight from a point to another one nearby; parts without points (tori) so
+// that the lines through their lowest vertex come back to it, if they can. Parts with a boundary stay. Throws as
+// layout_curves; GeometryError (kind "no_short_turn", elements: vertices of the points of a part) where no angle tried
+// gives separatrices of finite length.
 ImposedField turned_for_layout(const ImposedField& field, const LayoutCurveOptions& options = {},
                                const Progress& progress = {});
 

@@ -24,7 +24,8 @@ struct QuantizedQuadsOptions {
     Index quad_count = 0;    // wanted; sizes are tried until the number is near
     Blocks blocks = Blocks::few;
     // Of `few`: structures of more blocks are tried until all quads have this scaled Jacobian, as far as the angles
-    // between features allow; if none has it, the fewest blocks with 0.7 of the best one's are taken. 0: the fewest.
+    // between features allow. If none has it, the fewest blocks are taken that have 0.7 of the best one's, and 0.3 at
+    // least (0.95 of the best one's where that is below 0.3). 0: the fewest.
     double least_jacobian = 0.5;
     ArcWeights weights = ArcWeights::equal;
     // For a surface cut open (FeatureCut::origins): parts of its boundary with the same origins are one curve again,
