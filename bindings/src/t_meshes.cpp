@@ -80,7 +80,8 @@ void bind_t_mesh_results(py::module_& m) {
                "(blocks, 2) int32: quads along the first and second direction of each.")
         .field("patch_chords", &QuantizedQuads::patch_chords, "(blocks, 2) int32: the chord across each of them.")
         .field("tiles", &QuantizedQuads::tiles, "(Q,) int32: patch of the T-mesh of each quad.")
-        .field("arc_counts", &QuantizedQuads::arc_counts, "int32, quads along each side of the T-mesh, at least 1.")
+        .field("arc_counts", &QuantizedQuads::arc_counts,
+               "int32, quads along each side of the T-mesh; 0 where its ends became one.")
         .field("fewest_blocks", &QuantizedQuads::fewest_blocks,
                "That meshes with these irregular vertices can have: a quarter of the quads' corners there.")
         .field("t_joints", &QuantizedQuads::t_joints, "Of the T-mesh; the quads have none.")

@@ -192,6 +192,16 @@ def test_few_blocks_do_not_invert_quads():
     assert record.inverted == 0 and record.scaled_jacobian.min > 0.3
 
 
+@pytest.mark.parametrize(("name", "at_most"), [("s17c", 1), ("s08c", 1.5), ("i02c", 4)])
+def test_tracks_that_run_side_by_side_become_one_where_few_blocks_are_wanted(shared_data, name, at_most):
+    path = shared_data / "hexme" / f"{name}.vtk.gz"
+    surface = of.prepare_mesh(path, KEPT, volume=False).surface
+    result = made(path, quads=2000)
+    require_conforming(result.mesh, len(surface.vertices) - len(surface.triangles) // 2)
+    assert result.record.patches <= at_most * result.record.fewest_patches
+    assert result.record.scaled_jacobian.min > 0.4 and result.record.surface_deviation.max < 0.03
+
+
 def test_the_fewest_blocks_follow_from_the_quads_at_irregular_vertices():
     result = made(cube(), quads=150)
     counts = irregular(result.mesh, 2)

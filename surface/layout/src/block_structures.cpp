@@ -6,8 +6,10 @@
 #include <numbers>
 #include <set>
 
+#include "merged_vertices.hpp"
 #include "octafield/error.hpp"
 #include "quad_builder.hpp"
+#include "zero_arcs.hpp"
 
 namespace octafield::surface::detail {
 namespace {
@@ -16,21 +18,16 @@ constexpr double most_quads = 1e8;
 constexpr int most_sizes = 6;                    // tried for a number of quads
 constexpr double near_enough = 0.02;             // of that
 constexpr double coarser = std::numbers::sqrt2;  // from size to size
-constexpr std::size_t most_structures = 4;       // beside the finest
-
-Index blocks_of(const QuadLayout& layout, const Seams& seams, const SizedCounts& chosen) {
-    QuadBuilder builder(layout, seamed_grids(layout, seams, chosen.arcs.counts, chosen.part_counts));
-    for (Index p = 0; p < static_cast<Index>(layout.patches.size()); ++p) builder.add_grid(p);
-    return static_cast<Index>(base_complex(std::move(builder).result().mesh).block_sizes.rows());
-}
+constexpr std::size_t most_structures = 6;       // beside the finest
+constexpr int most_rounds = 40;                  // of numbers that merge what must not be one
 
 SizedCounts counts_of(const QuadLayout& layout, const Seams& seams, ArcCounts arcs, double size) {
     SizedCounts result{std::move(arcs), {}, size, 0};
-    result.part_counts.assign(result.arcs.counts.begin() + static_cast<std::ptrdiff_t>(layout.sides.size()),
-                              result.arcs.counts.end());
-    result.part_counts.resize(seams.parts.size());
-    result.arcs.counts.resize(layout.sides.size());
-    result.quads = total_quads(layout, result.arcs.counts);
+    auto& counts = result.arcs.counts;
+    const auto parts = counts.begin() + static_cast<std::ptrdiff_t>(layout.sides.size());
+    result.part_counts.assign(parts, parts + static_cast<std::ptrdiff_t>(seams.parts.size()));
+    counts.erase(parts, counts.end());
+    result.quads = total_quads(layout, counts);
     return result;
 }
 
@@ -83,34 +80,101 @@ double CountChooser::first_size() const {
     return std::sqrt(layout_.curves.parameter_area / static_cast<double>(options_.quad_count));
 }
 
+namespace {
+
+// Structures that whole numbers for large quads make.
+class Finder {
+public:
+    Finder(const QuadLayout& layout, const Seams& seams, const QuantizedQuadsOptions& options)
+        : layout_(layout),
+          seams_(seams),
+          options_(options),
+          sums_(arc_problem(layout, seams)),
+          merging_(sums_),
+          chooser_(layout, seams, options) {
+        const auto arcs = static_cast<Index>(layout.sides.size());
+        for (Index a = 0; a < arcs; ++a)
+            if (layout.sides[a].first != layout.sides[a].last) merging_.least[a] = 0;
+    }
+
+    void find() {
+        double longest = 0;
+        for (const LayoutSide& side : layout_.sides) longest = std::max(longest, side.length());
+        for (double size = chooser_.first_size() * coarser; size < longest * coarser; size *= coarser)
+            add([&](const ArcProblem& problem) { return chooser_.at_size(problem, size); });
+        add([&](ArcProblem coarsest) {
+            coarsest.wanted.assign(coarsest.least.size(), 0);
+            coarsest.weights.assign(coarsest.least.size(), 1);
+            return counts_of(layout_, seams_, integer_counts(coarsest, options_.most_nodes), longest);
+        });
+    }
+    const ArcProblem& sums() const { return sums_; }
+    std::vector<BlockStructure> result() && { return std::move(result_); }
+
+private:
+    // With a quad at least on each arc, and without, until nothing becomes one that must not.
+    template <class Counts>
+    void add(const Counts& counts) {
+        // No numbers, or none found in so many nodes, or blocks that cannot be told: there are other structures.
+        try {
+            add(counts(sums_));
+        } catch (const GeometryError&) {
+        } catch (const SolverError&) {
+        }
+        try {
+            for (int round = 0; round < most_rounds; ++round) {
+                const SizedCounts found = counts(merging_);
+                const auto wrong = wrongly_merged(layout_, seams_, found.arcs.counts, found.part_counts);
+                if (wrong.empty()) return add(found);
+                for (const std::vector<Index>& way : wrong) {
+                    merging_.sums.push_back({{static_cast<Index>(merging_.least.size())}, way});
+                    merging_.least.push_back(1);
+                }
+            }
+        } catch (const GeometryError&) {
+        } catch (const SolverError&) {
+        }
+    }
+
+    void add(const SizedCounts& found) {
+        std::vector<int> counts = found.arcs.counts;
+        counts.insert(counts.end(), found.part_counts.begin(), found.part_counts.end());
+        if (!known_.insert(counts).second) return;
+        SideGrids grids = seamed_grids(layout_, seams_, found.arcs.counts, found.part_counts);
+        auto on_seams = grids.on_seams;
+        QuadBuilder builder(layout_, std::move(grids));
+        for (Index p = 0; p < static_cast<Index>(layout_.patches.size()); ++p) builder.add_grid(p);
+        const auto same = builder.same();
+        const auto held = builder.held();
+        QuadMesh mesh = std::move(builder).result().mesh;
+        if (!is_as_expected(mesh.quads, same, held, static_cast<Index>(seams_.nodes.size()),
+                            static_cast<Index>(mesh.vertices.rows())))
+            return;
+        merge_vertices(seams_, same, held, mesh, on_seams);
+        const auto blocks = static_cast<Index>(base_complex(mesh).block_sizes.rows());
+        result_.push_back({split_problem(QuadRows(layout_, seams_, counts), sums_), blocks});
+    }
+
+    const QuadLayout& layout_;
+    const Seams& seams_;
+    const QuantizedQuadsOptions& options_;
+    const ArcProblem sums_;
+    ArcProblem merging_;
+    CountChooser chooser_;
+    std::set<std::vector<int>> known_;
+    std::vector<BlockStructure> result_;
+};
+
+}  // namespace
+
 std::vector<BlockStructure> block_structures(const QuadLayout& layout, const Seams& seams,
                                              const QuantizedQuadsOptions& options) {
-    const ArcProblem sums = arc_problem(layout, seams);
-    const CountChooser chooser(layout, seams, options);
+    Finder finder(layout, seams, options);
+    const ArcProblem finest = finder.sums();
     std::vector<BlockStructure> result;
-    const double longest = std::max_element(layout.sides.begin(), layout.sides.end(), [](const auto& a, const auto& b) {
-                               return a.length() < b.length();
-                           })->length();
-    std::set<std::vector<int>> known;
-    // Structures whose blocks cannot be told, or numbers that are not found in so many nodes, are left out.
-    const auto add = [&](const SizedCounts& found) {
-        std::vector<int> all = found.arcs.counts;
-        all.insert(all.end(), found.part_counts.begin(), found.part_counts.end());
-        if (!known.insert(all).second) return;
-        try {
-            result.push_back({split_problem(layout, seams, sums, all), blocks_of(layout, seams, found)});
-        } catch (const GeometryError&) {
-        }
-    };
     if (options.blocks == Blocks::few) {
-        for (double size = chooser.first_size() * coarser; size < longest * coarser; size *= coarser) try {
-                add(chooser.at_size(sums, size));
-            } catch (const SolverError&) {
-            }
-        ArcProblem coarsest = sums;
-        coarsest.wanted.assign(sums.least.size(), 0);
-        coarsest.weights.assign(sums.least.size(), 1);
-        add(counts_of(layout, seams, integer_counts(coarsest, options.most_nodes), longest));
+        finder.find();
+        result = std::move(finder).result();
         std::stable_sort(result.begin(), result.end(),
                          [](const BlockStructure& a, const BlockStructure& b) { return a.blocks < b.blocks; });
         // Of as many blocks, the first are nearest to the lengths.
@@ -119,7 +183,7 @@ std::vector<BlockStructure> block_structures(const QuadLayout& layout, const Sea
                      result.end());
         result = spread(std::move(result));
     }
-    result.push_back({sums, BlockStructure::finest});
+    result.push_back({finest});
     return result;
 }
 

@@ -36,11 +36,12 @@ private:
 struct BlockStructure {
     static constexpr Index finest = std::numeric_limits<Index>::max();
     ArcProblem problem;
-    Index blocks;  // `finest`: not counted
+    Index blocks = finest;  // `finest`: not counted
 };
 
 // By blocks, ascending. Whole numbers for large quads are a structure: its rows are split to get quads of the size
-// wanted, and its blocks stay. Of `fine` only that for the size wanted, which is the last one else.
+// wanted, and its blocks stay. Arcs may have no quads there, so that tracks become one. Of `fine` only that for the
+// size wanted, which is the last one else, with a quad at least on each arc.
 std::vector<BlockStructure> block_structures(const QuadLayout& layout, const Seams& seams,
                                              const QuantizedQuadsOptions& options);
 

@@ -71,6 +71,13 @@ void Patch::add_boundary() {
     for (Index i = first[1]; i < first[2]; ++i) result_.height += extent(around[i]);
     const Vector2 corners[] = {{0, 0}, {result_.width, 0}, {result_.width, result_.height}, {0, result_.height}};
     const Vector2 ways[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const double extents[] = {result_.width, result_.height, result_.width, result_.height};
+    std::array<double, 4> scales{};
+    for (int side = 0; side < 4; ++side) {
+        const Index end = side < 3 ? first[side + 1] : static_cast<Index>(around.size());
+        for (Index i = first[side]; i < end; ++i) scales[side] += extent(around[i]);
+        scales[side] = extents[side] / scales[side];
+    }
     int k = -1;
     Index place = -1;
     double before = 0;  // lengths of the sides of the layout before this one on the same side of the patch
@@ -88,7 +95,7 @@ void Patch::add_boundary() {
         local_[cut.points[c]] = p;
         sides_[p] = 1u << k;
         if (corner) sides_[p] |= 1u << (k + 3) % 4;
-        fixed_[p] = corner ? corners[k] : Vector2(corners[k] + (before + at) * ways[k]);
+        fixed_[p] = corner ? corners[k] : Vector2(corners[k] + scales[k] * (before + at) * ways[k]);
     }
 }
 

@@ -15,8 +15,8 @@ struct PatchMap {
 };
 
 // Harmonic, or with mean value weights where that folds; `folded` if both do. `along`: of all sides of the layout,
-// where each of their points goes on the rectangle's border, from 0, increasing; equal sums on opposite sides of the
-// patch.
+// where each of their points goes on the rectangle's border, from 0, increasing; about equal sums on opposite sides of
+// the patch.
 PatchMap patch_map(const QuadLayout& layout, Index patch, const std::vector<Eigen::VectorXd>& along);
 
 // Positions at the inner points (i width / n, j height / m), 0 < i < n, 0 < j < m: row (j - 1) (n - 1) + i - 1. Rows

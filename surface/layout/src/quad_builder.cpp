@@ -47,6 +47,7 @@ std::vector<Index> QuadBuilder::along(const LayoutPatch& patch, int k) const {
 void QuadBuilder::add_patch(Index patch) {
     const auto inner = static_cast<Eigen::Index>(positions_.size());
     add_grid(patch);
+    if (sizes_.back()[0] == 0 || sizes_.back()[1] == 0) return;
     const PatchMap map = patch_map(layout_, patch, grids_.along);
     result_.mean_value_patches += map.mean_value;
     const Points grid = grid_positions(map, sizes_.back()[0], sizes_.back()[1]);
@@ -59,6 +60,10 @@ void QuadBuilder::add_grid(Index patch) {
     const std::vector<Index> bottom = along(around, 0), right = along(around, 1), top = along(around, 2),
                              left = along(around, 3);
     const auto n = static_cast<int>(bottom.size()) - 1, m = static_cast<int>(right.size()) - 1;
+    sizes_.push_back({n, m});
+    for (int j = 0; n == 0 && j <= m; ++j) grids_.same.emplace_back(right[j], left[m - j]);
+    for (int i = 0; m == 0 && i <= n; ++i) grids_.same.emplace_back(bottom[i], top[n - i]);
+    if (n == 0 || m == 0) return;
     const auto inner = static_cast<Index>(positions_.size());
     positions_.resize(inner + static_cast<std::size_t>(n - 1) * (m - 1), Eigen::Vector3d::Zero());
     const auto at = [&](int i, int j) {
@@ -73,7 +78,6 @@ void QuadBuilder::add_grid(Index patch) {
             quads_.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
             result_.patches.push_back(patch);
         }
-    sizes_.push_back({n, m});
 }
 
 LayoutQuads QuadBuilder::result() && {

@@ -20,6 +20,9 @@ public:
     QuadBuilder(const QuadLayout& layout, SideGrids grids);
     void add_patch(Index patch);
     void add_grid(Index patch);  // its quads alone: vertices inside it are at 0
+    // Vertices that are to be one: across patches without quads, and those of the grids.
+    const std::vector<std::pair<Index, Index>>& same() const { return grids_.same; }
+    const std::vector<std::pair<Index, int>>& held() const { return grids_.held; }
     // Without chord_counts. Throws SolverError (kind "folded_map").
     LayoutQuads result() &&;
 

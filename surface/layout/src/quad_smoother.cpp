@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "quad_untangler.hpp"
+
 namespace octafield::surface::detail {
 namespace {
 
@@ -22,7 +24,8 @@ constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex'
 
 class Smoother {
 public:
-    Smoother(const SmootherInput& input, QuadMesh& mesh) : input_(input), mesh_(mesh), parts_(input.parts) {
+    Smoother(const SmootherInput& input, QuadMesh& mesh)
+        : input_(input), mesh_(mesh), parts_(input.parts), movable_(input, mesh) {
         const auto count = static_cast<std::size_t>(mesh.vertices.rows());
         around_.resize(count);
         neighbours_.resize(count);
@@ -36,24 +39,13 @@ public:
             std::sort(list.begin(), list.end());
             list.erase(std::unique(list.begin(), list.end()), list.end());
         }
-        places_.assign(input.on_seams.begin(), input.on_seams.end());
-        fixed_.assign(count, false);
         active_.assign(count, true);
-        for (std::size_t v = 0; v < places_.size(); ++v) fixed_[v] = places_[v].seam < 0;
-        for (const Index v : input.fixed)
-            if (v >= static_cast<Index>(places_.size())) {
-                fixed_[v] = true;
-                held_.push_back(v);
-            }
         along_.resize(input.seams.seams.size());
         for (std::size_t v = 0; v < places_.size(); ++v)
             if (places_[v].seam >= 0 && !around_[v].empty()) along_[places_[v].seam].push_back(static_cast<Index>(v));
         for (auto& vertices : along_)
             std::stable_sort(vertices.begin(), vertices.end(),
                              [&](Index a, Index b) { return places_[a].at < places_[b].at; });
-        std::vector<Index> part_of_patch;
-        for (const LayoutPatch& patch : input.layout.patches) part_of_patch.push_back(parts_.part_of(patch));
-        for (const Index patch : input.patches) part_.push_back(part_of_patch[patch]);
         for (Index q = 0; q < mesh.quads.rows(); ++q) normals_.push_back(surface_normal(q));
         find_given_corners();
     }
@@ -80,6 +72,12 @@ public:
         }
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
         return rescued;
+    }
+
+    void prepare(Start start) {
+        if (start == Start::relaxed) relax(std::vector<bool>(around_.size(), true), relaxing_rounds);
+        if (start == Start::untangled) untangle(input_, movable_, places_, mesh_);
+        std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
     }
 
     // Below 0 where quads are worse than that, and than the angles that they are given.
@@ -182,7 +180,11 @@ private:
             for (int k = 0; k < 4 && quality(q) < reachable_of(q, bad); ++k) near[mesh_.quads(q, k)] = true;
         near = grown(std::move(near), ring);
         if (!everywhere_) active_ = grown(near, beside);
-        for (int round = 0; round < relaxing_rounds; ++round) {
+        relax(near, relaxing_rounds);
+    }
+
+    void relax(const std::vector<bool>& near, int rounds) {
+        for (int round = 0; round < rounds; ++round) {
             relax_seams(near);
             for (Index v = static_cast<Index>(places_.size()); v < static_cast<Index>(near.size()); ++v) {
                 if (!near[v] || fixed_[v] || around_[v].empty()) continue;
@@ -312,13 +314,14 @@ private:
     QuadMesh& mesh_;
     const SurfaceParts& parts_;
     std::vector<std::vector<Index>> around_, neighbours_;
-    std::vector<SideGrids::OnSeam> places_;
+    Movable movable_;
+    std::vector<SideGrids::OnSeam>& places_ = movable_.places;
     std::vector<std::vector<Index>> along_;  // vertices of each seam, in their order
-    std::vector<bool> fixed_, active_;
+    std::vector<bool>& fixed_ = movable_.fixed;
+    std::vector<bool> active_;
     std::map<Index, std::vector<int>> given_corners_;  // of quads
-    std::vector<Index> held_;                          // of these, singular points inside
-    std::vector<Index> part_;                          // of each quad
-    std::vector<Vector> normals_;                      // of the surface at each quad
+    const std::vector<Index>&held_ = movable_.held, &part_ = movable_.part;
+    std::vector<Vector> normals_;  // of the surface at each quad
 };
 
 }  // namespace
@@ -326,6 +329,8 @@ private:
 bool smooth(const SmootherInput& input, int rounds, Rescue rescue, QuadMesh& mesh) {
     return Smoother(input, mesh).run(rounds, rescue);
 }
+
+void prepare(const SmootherInput& input, Start start, QuadMesh& mesh) { Smoother(input, mesh).prepare(start); }
 
 double least_margin(const SmootherInput& input, double wanted, QuadMesh& mesh) {
     return Smoother(input, mesh).least_margin(wanted);

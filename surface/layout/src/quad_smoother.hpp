@@ -34,6 +34,13 @@ enum class Rescue {
 // Returns whether bad quads were rescued, or there were none.
 bool smooth(const SmootherInput& input, int rounds, Rescue rescue, QuadMesh& mesh);
 
+enum class Start {
+    mapped,     // as it is
+    relaxed,    // vertices at the means of their neighbours
+    untangled,  // all moved at once, for the shapes of quads (quad_untangler.hpp)
+};
+void prepare(const SmootherInput& input, Start start, QuadMesh& mesh);
+
 // By how much the quads are all better than that, or than the angle between features that they are given.
 double least_margin(const SmootherInput& input, double wanted, QuadMesh& mesh);
 

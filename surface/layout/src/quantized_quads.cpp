@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <numeric>
 
 #include "arc_shortage.hpp"
 #include "block_structures.hpp"
+#include "merged_vertices.hpp"
 #include "octafield/error.hpp"
 #include "quad_builder.hpp"
 #include "quad_smoother.hpp"
@@ -18,6 +20,7 @@ namespace {
 constexpr double as_good = 0.7;          // of the best least scaled Jacobian, where none is as good as wanted
 constexpr double as_bad = 0.95;          // of it, where it is bad
 constexpr double most_inverted = 0.04;   // of the quads, before smoothing
+constexpr double most_left = 0.01;       // after all were moved at once
 constexpr std::size_t most_rescued = 2;  // unless all of these have inverted quads
 
 void check(const QuantizedQuadsOptions& options) {
@@ -53,8 +56,6 @@ bool is_of_quads(const Error& error) {
     return dynamic_cast<const SolverError*>(&error) || dynamic_cast<const GeometryError*>(&error);
 }
 
-Index inverted(const QuadMesh& mesh) { return static_cast<Index>((scaled_jacobians(mesh).array() <= 0).count()); }
-
 // Quads of one structure of blocks.
 struct Attempt {
     QuantizedQuads quads{};
@@ -64,6 +65,10 @@ struct Attempt {
     double least = 0;   // scaled Jacobian
     double margin = 0;  // of the least scaled Jacobian over the one wanted, where the angles of features allow that
 };
+
+double inverted_share(const Attempt& attempt) {
+    return (scaled_jacobians(attempt.quads.mesh).array() <= 0).cast<double>().mean();
+}
 
 class Maker {
 public:
@@ -76,6 +81,7 @@ public:
         const auto first_rescue =
             options_.blocks == Blocks::fine ? detail::Rescue::everywhere : detail::Rescue::where_few;
         std::vector<Attempt> attempts;
+        std::exception_ptr finest_error;
         for (const detail::BlockStructure& structure : structures) {
             try {
                 attempts.push_back(made(structure, first_rescue));
@@ -84,9 +90,15 @@ public:
             } catch (const Error& error) {
                 if (!is_of_quads(error)) throw;
                 error_ = std::current_exception();
+                if (structure.blocks == detail::BlockStructure::finest) finest_error = error_;
             }
         }
-        return best_of(std::move(attempts), structures.back());
+        rescue_best(attempts, structures.back());
+        // Of tracks that have to become one for numbers to fit, only good quads are worth having: other points do
+        // better.
+        if (finest_error && std::none_of(attempts.begin(), attempts.end(), [](const Attempt& a) { return a.fair; }))
+            std::rethrow_exception(finest_error);
+        return best_of(std::move(attempts));
     }
 
 private:
@@ -101,17 +113,17 @@ private:
             builder.add_patch(p);
         }
         QuantizedQuads& quads = result.quads;
+        const auto same = builder.same();
+        const auto held = builder.held();
         static_cast<LayoutQuads&>(quads) = std::move(builder).result();
+        if (!same.empty()) detail::merge_vertices(seams_, same, held, quads.mesh, result.on_seams);
         set_blocks(quads);
         quads.arc_counts = std::move(chosen.arcs.counts);
         quads.size = chosen.size;
         quads.deviation = chosen.arcs.deviation;
         quads.bound = chosen.arcs.bound;
         quads.optimal = chosen.arcs.optimal;
-        if (structure.blocks != detail::BlockStructure::finest &&
-            inverted(quads.mesh) > most_inverted * static_cast<double>(quads.mesh.quads.rows()))
-            throw SolverError("the structure of blocks inverts too many quads", "inverted_quads");
-        smooth(result, rescue);
+        smooth(result, rescue, !same.empty(), structure.blocks == detail::BlockStructure::finest);
         return result;
     }
 
@@ -125,11 +137,34 @@ private:
                 options_.release_points};
     }
 
-    void smooth(Attempt& attempt, detail::Rescue rescue) const {
+    // From where the maps have the vertices (not where some were merged: that is too far from where they belong), and
+    // where that leaves bad quads from where they are when relaxed, or all moved at once. The best is kept.
+    void smooth(Attempt& attempt, detail::Rescue rescue, bool merged, bool finest) const {
         report_or_throw(progress_, "smooth", 0.8, NAN);
+        if (options_.smoothing == 0) return judge(attempt);
+        const Attempt start = attempt;
+        attempt.margin = -std::numeric_limits<double>::infinity();
+        for (const detail::Start from : {detail::Start::mapped, detail::Start::relaxed, detail::Start::untangled}) {
+            if (from == detail::Start::mapped ? merged : finest) continue;
+            Attempt other = start;
+            detail::prepare(input_of(other), from, other.quads.mesh);
+            const double most = from == detail::Start::untangled ? most_left : most_inverted;
+            if (!finest && inverted_share(other) > most) continue;
+            smooth_further(other, rescue);
+            if (other.margin > attempt.margin) attempt = std::move(other);
+            if (attempt.margin >= 0) return;
+        }
+        if (std::isinf(attempt.margin))
+            throw SolverError("the structure of blocks inverts too many quads", "inverted_quads");
+    }
+
+    void smooth_further(Attempt& attempt, detail::Rescue rescue) const {
+        attempt.rescued = detail::smooth(input_of(attempt), options_.smoothing, rescue, attempt.quads.mesh);
+        judge(attempt);
+    }
+
+    void judge(Attempt& attempt) const {
         const detail::SmootherInput input = input_of(attempt);
-        attempt.rescued =
-            options_.smoothing == 0 || detail::smooth(input, options_.smoothing, rescue, attempt.quads.mesh);
         attempt.margin = detail::least_margin(input, options_.least_jacobian, attempt.quads.mesh);
         attempt.fair = attempt.margin >= 0 || detail::least_margin(input, detail::bad, attempt.quads.mesh) >= 0;
         attempt.least = scaled_jacobians(attempt.quads.mesh).minCoeff();
@@ -149,30 +184,34 @@ private:
         return true;
     }
 
-    // What `fine` makes: everything is moved once more where quads are bad.
-    bool add_last_resort(std::vector<Attempt>& attempts, const detail::BlockStructure& finest) {
-        try {
-            attempts.push_back(made(finest, detail::Rescue::everywhere));
-            return attempts.back().fair;
-        } catch (const Error& error) {
-            if (!is_of_quads(error)) throw;
-            error_ = std::current_exception();
-            return false;
-        }
-    }
-
-    QuantizedQuads best_of(std::vector<Attempt> attempts, const detail::BlockStructure& finest) {
-        std::stable_sort(attempts.begin(), attempts.end(),
-                         [](const Attempt& a, const Attempt& b) { return a.margin > b.margin; });
+    // The two with the best quads, more if all are inverted; and if none is fair, what `fine` makes: everything is
+    // moved once more where quads are bad.
+    void rescue_best(std::vector<Attempt>& attempts, const detail::BlockStructure& finest) {
+        std::vector<Attempt*> order;
+        for (Attempt& attempt : attempts) order.push_back(&attempt);
+        std::stable_sort(order.begin(), order.end(),
+                         [](const auto* a, const auto* b) { return a->margin > b->margin; });
         bool any_fair = false;
         double best = -1;
-        for (std::size_t i = 0; i < attempts.size() && (i < most_rescued ? !any_fair : best <= 0); ++i) {
-            if (!attempts[i].rescued && !attempts[i].fair) smooth(attempts[i], detail::Rescue::near_them);
-            any_fair |= attempts[i].fair;
-            best = std::max(best, attempts[i].least);
+        for (std::size_t i = 0; i < order.size() && (i < most_rescued ? !any_fair : best <= 0); ++i) {
+            if (!order[i]->rescued && !order[i]->fair) smooth_further(*order[i], detail::Rescue::near_them);
+            any_fair |= order[i]->fair;
+            best = std::max(best, order[i]->least);
         }
-        if (!any_fair && options_.blocks == Blocks::few) any_fair = add_last_resort(attempts, finest);
-        if (!attempts.empty() && attempts.back().least <= 0) smooth(attempts.back(), detail::Rescue::everywhere);
+        if (!any_fair && options_.blocks == Blocks::few) try {
+                attempts.push_back(made(finest, detail::Rescue::everywhere));
+            } catch (const Error& error) {
+                if (!is_of_quads(error)) throw;
+                error_ = std::current_exception();
+            }
+        if (!attempts.empty() && attempts.back().least <= 0)
+            smooth_further(attempts.back(), detail::Rescue::everywhere);
+    }
+
+    QuantizedQuads best_of(std::vector<Attempt> attempts) {
+        bool any_fair = false;
+        double best = -1;
+        for (const Attempt& attempt : attempts) any_fair |= attempt.fair;
         for (const Attempt& attempt : attempts)
             if (attempt.fair >= any_fair) best = std::max(best, attempt.least);
         const double needed = best < detail::bad ? as_bad * best : std::max(detail::bad, as_good * best);

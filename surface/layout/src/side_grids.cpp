@@ -6,6 +6,8 @@
 namespace octafield::surface::detail {
 namespace {
 
+constexpr double next_to_nothing = 0.05;  // quads: sides without any keep their place on the border of patches
+
 // Vertices between the ends, whose ids are given, in equal steps of parameters.
 void add_plain(const LayoutSide& side, int count, Index first, Index last, std::size_t number, SideGrids& grids) {
     std::vector<Index> ids = {first};
@@ -18,10 +20,12 @@ void add_plain(const LayoutSide& side, int count, Index first, Index last, std::
         ids.push_back(static_cast<Index>(grids.positions.size()));
         grids.positions.push_back((1 - fraction) * side.points.row(part) + fraction * side.points.row(part + 1));
     }
-    ids.push_back(last);
+    if (count > 0) ids.push_back(last);
+    if (count == 0) grids.same.emplace_back(first, last);
     grids.vertices[number] = std::move(ids);
-    grids.along[number] = side.parameters * (count / side.length());
-    grids.along[number][side.parameters.size() - 1] = count;
+    const double extent = std::max<double>(count, next_to_nothing);
+    grids.along[number] = side.parameters * (extent / side.length());
+    grids.along[number][side.parameters.size() - 1] = extent;
 }
 
 // The vertices of one seam.
@@ -123,7 +127,7 @@ void add_seamed(const LayoutSide& side, std::size_t number, const std::vector<Se
     for (Eigen::Index i = 1; i < side.points.rows(); ++i)
         lengths.push_back(lengths.back() + (side.points.row(i) - side.points.row(i - 1)).norm());
     const double whole = lengths.back(), apart = 1e-6 * whole;
-    std::vector<std::pair<double, int>> anchors = {{0, 0}};
+    std::vector<std::pair<double, double>> anchors = {{0, 0}};
     std::vector<Index>& ids = grids.vertices[number];
     int before = 0;
     for (const SeamUse& use : uses) {
@@ -143,7 +147,7 @@ void add_seamed(const LayoutSide& side, std::size_t number, const std::vector<Se
         before += high - low;
     }
     while (anchors.size() > 1 && anchors.back().second >= before) anchors.pop_back();
-    anchors.emplace_back(whole, before);
+    anchors.emplace_back(whole, std::max<double>(before, next_to_nothing));
     Eigen::VectorXd& along = grids.along[number];
     along.resize(side.points.rows());
     std::size_t a = 0;
@@ -185,6 +189,8 @@ SideGrids seamed_grids(const QuadLayout& layout, const Seams& seams, const std::
         if (id_of[v] >= 0) continue;
         id_of[v] = static_cast<Index>(grids.positions.size());
         grids.positions.push_back(layout.vertices[v].position);
+        if (layout.vertices[v].index_times_four != 0)
+            grids.held.emplace_back(id_of[v], 4 - layout.vertices[v].index_times_four);
     }
     for (std::size_t s = 0; s < layout.sides.size(); ++s) {
         const LayoutSide& side = layout.sides[s];

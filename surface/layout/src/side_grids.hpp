@@ -12,9 +12,13 @@ struct SideGrids {
         Index seam;  // -1: a node
         double at;   // length along it
     };
-    std::vector<OnSeam> on_seams;        // of the first vertices; the others are inside the surface
-    std::vector<Eigen::VectorXd> along;  // of each point of a side: its place, counted in quads; increasing
+    std::vector<OnSeam> on_seams;               // of the first vertices; the others are inside the surface
+    std::vector<Eigen::VectorXd> along;         // of each point of a side: its place, counted in quads; increasing
+    std::vector<std::pair<Index, Index>> same;  // vertices that are to be one: ends of sides without quads
+    std::vector<std::pair<Index, int>> held;    // vertices at singular points inside the surface, with their valences
 };
+
+// A side without quads has one vertex, its first.
 
 // In equal steps of parameters. Vertices: of the layout, then those inside each side.
 SideGrids side_grids(const QuadLayout& layout, const std::vector<int>& counts);

@@ -1,47 +1,17 @@
 #include "tile_arcs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-
-#include "octafield/disjoint_sets.hpp"
 
 namespace octafield::surface::detail {
 namespace {
 
 constexpr double part_weight = 0.25;  // against 1 of arcs
 
-std::array<std::vector<DirectedSide>, 4> four_sides(const LayoutPatch& patch) {
-    std::array<std::vector<DirectedSide>, 4> result;
-    const auto& loop = patch.loops[0];
-    for (int k = 0; k < 4; ++k) {
-        const Index end = k < 3 ? patch.corner_sides[k + 1] : static_cast<Index>(loop.size());
-        result[k].assign(loop.begin() + patch.corner_sides[k], loop.begin() + end);
-    }
-    return result;
-}
-
 std::vector<Index> numbers(const std::vector<DirectedSide>& sides) {
     std::vector<Index> result;
     for (const DirectedSide& s : sides) result.push_back(s.side);
-    return result;
-}
-
-// Of the pieces that arcs and parts of seams are made of, first[k] on, in the sense of the patch's border.
-std::vector<Index> pieces_along(const std::vector<DirectedSide>& sides, const Seams& seams,
-                                const std::vector<Index>& first, const std::vector<int>& counts) {
-    const auto arcs = static_cast<Index>(seams.uses.size());
-    std::vector<Index> result;
-    const auto add = [&](Index k, bool forward) {
-        for (Index i = 0; i < counts[k]; ++i) result.push_back(first[k] + (forward ? i : counts[k] - 1 - i));
-    };
-    for (const DirectedSide& s : sides) {
-        auto uses = seams.uses[s.side];
-        if (s.reversed) std::reverse(uses.begin(), uses.end());
-        for (const SeamUse& use : uses) add(arcs + use.part, use.forward != s.reversed);
-        if (uses.empty()) add(s.side, !s.reversed);
-    }
     return result;
 }
 
@@ -115,35 +85,18 @@ void set_size(ArcProblem& problem, const std::vector<const QuadLayout*>& layouts
     problem.weights.resize(problem.least.size(), 0);
 }
 
-ArcProblem split_problem(const QuadLayout& layout, const Seams& seams, const ArcProblem& arcs,
-                         const std::vector<int>& counts) {
-    const auto arc_count = static_cast<Index>(layout.sides.size());
-    const auto made_of_pieces = arc_count + static_cast<Index>(seams.parts.size());
-    std::vector<Index> first(made_of_pieces + 1, 0);
-    for (Index k = 0; k < made_of_pieces; ++k) {
-        const bool on_seam = k < arc_count && !seams.uses[k].empty();
-        first[k + 1] = first[k] + (on_seam ? 0 : counts[k]);
-    }
-    DisjointSets sets(first.back());
-    for (const LayoutPatch& patch : layout.patches) {
-        const auto sides = four_sides(patch);
-        for (int k = 0; k < 2; ++k) {
-            const auto near = pieces_along(sides[k], seams, first, counts);
-            const auto far = pieces_along(sides[k + 2], seams, first, counts);
-            for (std::size_t i = 0; i < near.size(); ++i) sets.join(near[i], far[far.size() - 1 - i]);
-        }
-    }
-    Index rows = 0;
-    const std::vector<Index> row_of = std::move(sets).numbers(rows);
+ArcProblem split_problem(const QuadRows& rows, const ArcProblem& arcs) {
     ArcProblem problem = arcs;
     const auto known = static_cast<Index>(arcs.least.size());
-    problem.least.resize(known + rows, 1);
+    for (Index k = 0; k < rows.arcs(); ++k)
+        problem.least[k] = std::min(problem.least[k], static_cast<int>(rows.on(k).size()));  // tracks that became one
+    problem.least.resize(known + rows.count(), 1);
     std::erase_if(problem.sums,
-                  [&](const EqualSums& sum) { return sum.left[0] < arc_count && sum.right[0] < arc_count; });
-    for (Index k = 0; k < made_of_pieces; ++k) {
-        if (k < arc_count && !seams.uses[k].empty()) continue;
+                  [&](const EqualSums& sum) { return sum.left[0] < rows.arcs() && sum.right[0] < rows.arcs(); });
+    for (Index k = 0; k < rows.arcs_and_parts(); ++k) {
+        if (rows.is_on_seams(k)) continue;
         problem.sums.push_back({{k}, {}});
-        for (Index i = first[k]; i < first[k + 1]; ++i) problem.sums.back().right.push_back(known + row_of[i]);
+        for (const Index row : rows.on(k)) problem.sums.back().right.push_back(known + row);
     }
     return problem;
 }

@@ -3,7 +3,7 @@
 
 #include "arc_counts.hpp"
 #include "octafield/surface/quantized_quads.hpp"
-#include "seams.hpp"
+#include "quad_rows.hpp"
 
 namespace octafield::surface::detail {
 
@@ -17,10 +17,8 @@ void set_size(ArcProblem& problem, const QuadLayout& layout, const Seams& seams,
 void set_size(ArcProblem& problem, const std::vector<const QuadLayout*>& layouts, const Seams& seams, double size,
               ArcWeights weights);
 
-// The problem with the given counts, each of whose quads is to be split as all others in its row: a problem in those
-// splits, >= 1, behind the rest.
-ArcProblem split_problem(const QuadLayout& layout, const Seams& seams, const ArcProblem& arcs,
-                         const std::vector<int>& counts);
+// The problem in the splits of rows of quads, >= 1, behind the rest.
+ArcProblem split_problem(const QuadRows& rows, const ArcProblem& arcs);
 
 double total_quads(const QuadLayout& layout, const std::vector<int>& counts);
 

@@ -14,7 +14,9 @@ enum class ArcWeights {
 };
 
 enum class Blocks {
-    few,   // whole numbers for large quads, the rows of which are split: blocks stay as few, and are more oblique
+    // Whole numbers for large quads, the rows of which are split: blocks stay as few, and are more oblique. Tracks that
+    // would keep strips without a large quad across apart become one, if no two points and corners do.
+    few,
     fine,  // whole numbers for quads of the size wanted: near to the lengths, and blocks may be as small as quads
 };
 
@@ -26,7 +28,7 @@ struct QuantizedQuadsOptions {
     // Of `few`: structures of more blocks are tried until all quads have this scaled Jacobian, as far as the angles
     // between features allow. If none has it, the fewest blocks are taken that have 0.7 of the best one's, and 0.3 at
     // least (0.95 of the best one's where that is below 0.3). 0: the fewest.
-    double least_jacobian = 0.5;
+    double least_jacobian = 0.4;
     ArcWeights weights = ArcWeights::equal;
     // For a surface cut open (FeatureCut::origins): parts of its boundary with the same origins are one curve again,
     // and get the same vertices on both sides. None: the boundary stays open.
@@ -43,7 +45,7 @@ struct QuantizedQuadsOptions {
 struct QuantizedQuads : LayoutQuads {
     Rows<Index, 2> patch_chords{0, 2};  // of each block: chord across its first and second direction
     std::vector<Index> tiles;           // patch of the T-mesh of each quad
-    std::vector<int> arc_counts;        // quads along each arc (side) of the T-mesh, >= 1
+    std::vector<int> arc_counts;        // quads along each arc (side) of the T-mesh; 0 where tracks became one
     Index fewest_blocks = 0;            // that meshes with these irregular vertices can have (fewest_blocks)
     Index t_joints = 0;                 // of the T-mesh; the quads have none
     std::vector<Index> irregular;       // vertices inside with other than four quads, of the boundary with other than 2

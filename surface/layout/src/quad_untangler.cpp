@@ -1,0 +1,188 @@
+#include "quad_untangler.hpp"
+
+#include <ceres/gradient_problem.h>
+#include <ceres/gradient_problem_solver.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace octafield::surface::detail {
+namespace {
+
+using Vector = Eigen::Vector3d;
+constexpr int most_rounds = 25, most_iterations = 15;
+constexpr double least_progress = 1e-3;  // of the sum, in a round without inverted corners
+
+// Of the vertices that can move: the values are lengths along seams, or pairs in tangent planes.
+class Energy : public ceres::FirstOrderFunction {
+public:
+    Energy(const SmootherInput& input, const Movable& movable, const std::vector<SideGrids::OnSeam>& places,
+           const QuadMesh& mesh)
+        : input_(input), places_(places), mesh_(mesh), first_(mesh.vertices.rows(), -1), bases_(mesh.vertices.rows()) {
+        std::vector<Index> quad(mesh.vertices.rows(), -1);
+        for (Index q = 0; q < mesh.quads.rows(); ++q)
+            for (int k = 0; k < 4; ++k) quad[mesh.quads(q, k)] = q;
+        for (Index v = 0; v < mesh.vertices.rows(); ++v) {
+            if (movable.fixed[v] || quad[v] < 0) continue;
+            first_[v] = count_;
+            count_ += is_on_seam(v) ? 1 : 2;
+            if (is_on_seam(v)) continue;
+            const Vector at = mesh.vertices.row(v);
+            const Vector n = input.parts.normal(input.parts.nearest(movable.part[quad[v]], at).second);
+            bases_[v].col(0) = n.unitOrthogonal();
+            bases_[v].col(1) = n.cross(bases_[v].col(0));
+        }
+        for (Index q = 0; q < mesh.quads.rows(); ++q) {
+            Vector middle = Vector::Zero();
+            for (int k = 0; k < 4; ++k) middle += Vector(mesh.vertices.row(mesh.quads(q, k))) / 4;
+            normals_.push_back(input.parts.normal(input.parts.nearest(movable.part[q], middle).second));
+            for (int k = 0; k < 4; ++k)
+                area_ +=
+                    (mesh.vertices.row(mesh.quads(q, (k + 1) % 4)) - mesh.vertices.row(mesh.quads(q, k))).squaredNorm();
+        }
+        area_ /= 4 * std::max<double>(1, static_cast<double>(mesh.quads.rows()));
+        const double worst = std::min(0.0, least(mesh.vertices) / area_);
+        softness_ = area_ * std::sqrt(1e-8 + 0.04 * worst * worst);
+    }
+
+    int NumParameters() const override { return count_; }
+
+    bool Evaluate(const double* values, double* cost, double* gradient) const override {
+        const Points at = positions(values);
+        Points slope = Points::Zero(gradient ? at.rows() : 0, 3);
+        *cost = 0;
+        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+            for (int k = 0; k < 4; ++k) {
+                const Index a = mesh_.quads(q, k), b = mesh_.quads(q, (k + 1) % 4), c = mesh_.quads(q, (k + 3) % 4);
+                const Vector u = at.row(b) - at.row(a), v = at.row(c) - at.row(a), &n = normals_[q];
+                const double d = u.cross(v).dot(n), root = std::sqrt(d * d + softness_ * softness_);
+                const double below = d + root, above = u.squaredNorm() + v.squaredNorm();
+                *cost += above / below;
+                if (!gradient) continue;
+                const double by_d = -above / (below * root);  // (1 + d / root) / below^2 = 1 / (below root)
+                const Vector gu = 2 * u / below + by_d * v.cross(n), gv = 2 * v / below + by_d * n.cross(u);
+                slope.row(b) += gu.transpose();
+                slope.row(c) += gv.transpose();
+                slope.row(a) -= (gu + gv).transpose();
+            }
+        if (gradient)
+            for (Index v = 0; v < at.rows(); ++v) {
+                if (first_[v] < 0) continue;
+                const Vector g = slope.row(v);
+                if (is_on_seam(v)) {
+                    gradient[first_[v]] = g.dot(way_along(v, values[first_[v]]));
+                } else {
+                    Eigen::Map<Eigen::Vector2d>(gradient + first_[v]) = bases_[v].transpose() * g;
+                }
+            }
+        return std::isfinite(*cost);
+    }
+
+    Points positions(const double* values) const {
+        Points result = mesh_.vertices;
+        for (Index v = 0; v < result.rows(); ++v) {
+            if (first_[v] < 0) continue;
+            if (is_on_seam(v)) {
+                result.row(v) = position_on(input_.seams.seams[places_[v].seam], place(v, values[first_[v]]));
+            } else {
+                result.row(v) += (bases_[v] * Eigen::Map<const Eigen::Vector2d>(values + first_[v])).transpose();
+            }
+        }
+        return result;
+    }
+    double along_seam(Index v, const double* values) const {
+        return first_[v] < 0 ? places_[v].at : place(v, values[first_[v]]);
+    }
+
+    // Parallelogram of a corner.
+    double least(const Points& at) const {
+        double result = std::numeric_limits<double>::infinity();
+        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+            for (int k = 0; k < 4; ++k) {
+                const Vector p = at.row(mesh_.quads(q, k)), u = at.row(mesh_.quads(q, (k + 1) % 4)),
+                             v = at.row(mesh_.quads(q, (k + 3) % 4));
+                result = std::min(result, (u - p).cross(v - p).dot(normals_[q]));
+            }
+        return result;
+    }
+
+private:
+    bool is_on_seam(Index v) const { return v < static_cast<Index>(places_.size()); }
+    Vector way_along(Index v, double value) const {
+        const Seam& seam = input_.seams.seams[places_[v].seam];
+        const double step = 1e-6 * seam.length, at = place(v, value);
+        const Vector way = (position_on(seam, at + step) - position_on(seam, at - step)) / (2 * step);
+        if (seam.closed) return way;
+        const double share = at / seam.length, start = start_of(v);
+        return way * share * (1 - share) / (start * (1 - start));
+    }
+    double start_of(Index v) const {
+        const Seam& seam = input_.seams.seams[places_[v].seam];
+        return std::clamp(places_[v].at / seam.length, 1e-3, 1 - 1e-3);
+    }
+    // Never beyond the ends: the length along it by which a closed seam would be followed, at the start.
+    double place(Index v, double value) const {
+        const Seam& seam = input_.seams.seams[places_[v].seam];
+        if (seam.closed) return places_[v].at + value;
+        const double start = start_of(v);
+        const double t = std::log(start / (1 - start)) + value / (seam.length * start * (1 - start));
+        return seam.length / (1 + std::exp(-t));
+    }
+
+    const SmootherInput& input_;
+    const std::vector<SideGrids::OnSeam>& places_;
+    const QuadMesh& mesh_;
+    std::vector<int> first_;  // value of each vertex; -1: it stays
+    std::vector<Eigen::Matrix<double, 3, 2>> bases_;
+    std::vector<Vector> normals_;
+    int count_ = 0;
+    double area_ = 0, softness_ = 0;
+};
+
+}  // namespace
+
+Movable::Movable(const SmootherInput& input, const QuadMesh& mesh)
+    : places(input.on_seams), fixed(mesh.vertices.rows(), false) {
+    for (std::size_t v = 0; v < places.size(); ++v) fixed[v] = places[v].seam < 0;
+    for (const Index v : input.fixed)
+        if (v >= static_cast<Index>(places.size())) {
+            fixed[v] = true;
+            held.push_back(v);
+        }
+    std::vector<Index> part_of_patch;
+    for (const LayoutPatch& patch : input.layout.patches) part_of_patch.push_back(input.parts.part_of(patch));
+    for (const Index patch : input.patches) part.push_back(part_of_patch[patch]);
+}
+
+void untangle(const SmootherInput& input, const Movable& movable, std::vector<SideGrids::OnSeam>& places,
+              QuadMesh& mesh) {
+    std::vector<Index> part(mesh.vertices.rows(), 0);
+    for (Index q = 0; q < mesh.quads.rows(); ++q)
+        for (int k = 0; k < 4; ++k) part[mesh.quads(q, k)] = movable.part[q];
+    ceres::GradientProblemSolver::Options options;
+    options.max_num_iterations = most_iterations;
+    options.logging_type = ceres::SILENT;
+    for (int round = 0; round < most_rounds; ++round) {
+        auto* energy = new Energy(input, movable, places, mesh);
+        const ceres::GradientProblem problem(energy);  // owns it
+        if (energy->NumParameters() == 0) return;
+        std::vector<double> values(energy->NumParameters(), 0);
+        ceres::GradientProblemSolver::Summary summary;
+        ceres::Solve(options, problem, values.data(), &summary);
+        const Points found = energy->positions(values.data());
+        const bool sound = energy->least(found) > 0;
+        for (Index v = 0; v < mesh.vertices.rows(); ++v) {
+            if (v < static_cast<Index>(places.size())) {
+                if (places[v].seam < 0) continue;
+                places[v].at = energy->along_seam(v, values.data());
+                mesh.vertices.row(v) = position_on(input.seams.seams[places[v].seam], places[v].at);
+            } else if (!movable.fixed[v]) {
+                mesh.vertices.row(v) = input.parts.nearest(part[v], found.row(v).transpose()).first;
+            }
+        }
+        if (sound && summary.initial_cost - summary.final_cost < least_progress * summary.initial_cost) return;
+    }
+}
+
+}  // namespace octafield::surface::detail
