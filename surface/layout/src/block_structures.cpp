@@ -18,8 +18,9 @@ constexpr double most_quads = 1e8;
 constexpr int most_sizes = 6;                    // tried for a number of quads
 constexpr double near_enough = 0.02;             // of that
 constexpr double coarser = std::numbers::sqrt2;  // from size to size
-constexpr std::size_t most_structures = 6;       // beside the finest
-constexpr int most_rounds = 40;                  // of numbers that merge what must not be one
+constexpr int structure_nodes = 50;
+constexpr std::size_t most_structures = 6;  // beside the finest
+constexpr int most_rounds = 20;             // of numbers that merge what must not be one
 
 SizedCounts counts_of(const QuadLayout& layout, const Seams& seams, ArcCounts arcs, double size) {
     SizedCounts result{std::move(arcs), {}, size, 0};
@@ -82,16 +83,22 @@ double CountChooser::first_size() const {
 
 namespace {
 
+// Any numbers that fit do for a structure.
+QuantizedQuadsOptions with_few_nodes(QuantizedQuadsOptions options) {
+    options.most_nodes = std::min(options.most_nodes, structure_nodes);
+    return options;
+}
+
 // Structures that whole numbers for large quads make.
 class Finder {
 public:
     Finder(const QuadLayout& layout, const Seams& seams, const QuantizedQuadsOptions& options)
         : layout_(layout),
           seams_(seams),
-          options_(options),
+          options_(with_few_nodes(options)),
           sums_(arc_problem(layout, seams)),
           merging_(sums_),
-          chooser_(layout, seams, options) {
+          chooser_(layout, seams, options_) {
         const auto arcs = static_cast<Index>(layout.sides.size());
         for (Index a = 0; a < arcs; ++a)
             if (layout.sides[a].first != layout.sides[a].last) merging_.least[a] = 0;
@@ -157,7 +164,7 @@ private:
 
     const QuadLayout& layout_;
     const Seams& seams_;
-    const QuantizedQuadsOptions& options_;
+    const QuantizedQuadsOptions options_;
     const ArcProblem sums_;
     ArcProblem merging_;
     CountChooser chooser_;

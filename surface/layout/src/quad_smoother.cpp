@@ -15,10 +15,10 @@ namespace {
 using Vector = Eigen::Vector3d;
 constexpr double good_enough = 0.9;  // scaled Jacobian: vertices with no worse quads stay
 constexpr double reachable = 0.98;   // of the sine of an angle that nothing changes
-constexpr double few_bad = 0.03;     // of the quads
+constexpr double few_bad = 0.02;     // of the quads
 constexpr int beside = 8;            // rings round what is relaxed that are optimised with it
 constexpr double softness = 10;
-constexpr int rings[] = {1, 2, 3, 4, 8, 16}, relaxing_rounds = 20;
+constexpr int rings[] = {1, 2, 4, 8}, relaxing_rounds = 20;
 constexpr double least_gain = 1e-4;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
 
