@@ -22,6 +22,7 @@ WAYS = [
     ("vertices not moved", {"improve": False}),
     ("hexahedra with scaled Jacobians from 0.15", {"min_scaled_jacobian": 0.15}),
     ("hexahedra with scaled Jacobians from 0.5", {"min_scaled_jacobian": 0.5}),
+    ("hexahedra with scaled Jacobians from 0.8", {"min_scaled_jacobian": 0.8}),
     ("front alone", {"points": "frontal"}),
 ]  # fmt: skip
 HEADER = [
