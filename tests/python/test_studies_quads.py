@@ -27,7 +27,7 @@ def figures(tmp_path_factory):
         ("square less a disk, valence 6", "14, 22, 8", "2"),
         ("L", "8, 10, 3", "0"),
         ("kite, separatrices", "8, 12, 5", "4"),
-        ("turned by 5, field rotated", "32, 56, 24", "8"),
+        ("turned by 5, field rotated", "26, 45, 19", "8"),
         ("right trapezoid, 50 degrees", "4, 4, 1", "0"),
         ("right trapezoid, 40 degrees", "7, 9, 3", "1"),
         ("diamond, 28.65 degrees", "4, 4, 1", "0"),
