@@ -135,7 +135,7 @@ CASES = [
          shows="-", differs="ours; at 20 degrees sizes disagree sixfold, and it is refused"),
     Case("kite", "kite, separatrices", disk(KITE), "cycles", shows=CYCLES, differs=f"{NO_CYCLES}; near misses join"),
     Case("kite_apart", "kite, nothing joined", disk(KITE), "cycles", T_MESH, end_tolerance=1e-3, shows=CYCLES,
-         differs="whole numbers for all T-joints at once; thin rows of quads waver"),
+         differs="tracks that run side by side become one"),
     Case("kite_long", "kite, nothing joined, separatrices", disk(KITE), "cycles", end_tolerance=1e-3, drawn=False,
          shows=CYCLES, differs="a separatrix winds on without an end: refused"),
     Case("generic", "general places, separatrices", disk(GENERIC), "cycles", shows="no figure", differs="-"),
