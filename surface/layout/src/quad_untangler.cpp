@@ -2,6 +2,7 @@
 
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <array>
@@ -160,6 +161,7 @@ void untangle(const SmootherInput& input, const Movable& movable, std::vector<Si
     std::vector<Index> part(mesh.vertices.rows(), 0);
     for (Index q = 0; q < mesh.quads.rows(); ++q)
         for (int k = 0; k < 4; ++k) part[mesh.quads(q, k)] = movable.part[q];
+    FLAGS_minloglevel = google::GLOG_FATAL;  // a line search that fails ends a round, no more
     ceres::GradientProblemSolver::Options options;
     options.max_num_iterations = most_iterations;
     options.logging_type = ceres::SILENT;
