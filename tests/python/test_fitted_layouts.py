@@ -50,8 +50,8 @@ def prism(sides):
     return solid(points, faces)
 
 
-def made(part, quads=600):
-    return of.compute_quad_layout(part, KEPT, layout_options=of.QuadLayoutOptions(quads=quads))
+def made(part, quads=600, **wanted):
+    return of.compute_quad_layout(part, KEPT, layout_options=of.QuadLayoutOptions(quads=quads, **wanted))
 
 
 def parts_of(part):
@@ -69,6 +69,7 @@ def shortages(cut, pattern):
 
 
 def test_a_cube_with_a_notch_gets_a_pair_of_points_in_one_face():
+    assert made(solid(NOTCH, NOTCH_FACES), blocks="fine").record.scaled_jacobian.min > 0.6
     result = made(solid(NOTCH, NOTCH_FACES))
     assert result.record.scaled_jacobian.min > 0.5 and result.record.surface_deviation.max < 1e-9
     found = irregular(result.mesh, 2)

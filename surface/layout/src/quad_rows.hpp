@@ -23,10 +23,9 @@ public:
     Index arcs_and_parts() const { return static_cast<Index>(counts_.size()); }
     bool is_on_seams(Index arc_or_part) const;
 
-    // The same along sides of the layout.
+private:
     std::vector<Index> along(const std::vector<DirectedSide>& sides) const;
 
-private:
     const QuadLayout& layout_;
     const Seams& seams_;
     std::vector<int> counts_;

@@ -76,7 +76,7 @@ public:
 
     void prepare(Start start) {
         if (start == Start::relaxed) relax(std::vector<bool>(around_.size(), true), relaxing_rounds);
-        if (start == Start::untangled) untangle(input_, movable_, places_, mesh_);
+        if (start == Start::untangled) untangle(input_, movable_, mesh_);
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
     }
 

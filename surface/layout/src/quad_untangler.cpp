@@ -18,9 +18,12 @@ constexpr double least_progress = 1e-3;  // of the sum, in a round without inver
 // Of the vertices that can move: the values are lengths along seams, or pairs in tangent planes.
 class Energy : public ceres::FirstOrderFunction {
 public:
-    Energy(const SmootherInput& input, const Movable& movable, const std::vector<SideGrids::OnSeam>& places,
-           const QuadMesh& mesh)
-        : input_(input), places_(places), mesh_(mesh), first_(mesh.vertices.rows(), -1), bases_(mesh.vertices.rows()) {
+    Energy(const SmootherInput& input, const Movable& movable, const QuadMesh& mesh)
+        : input_(input),
+          places_(movable.places),
+          mesh_(mesh),
+          first_(mesh.vertices.rows(), -1),
+          bases_(mesh.vertices.rows()) {
         std::vector<Index> quad(mesh.vertices.rows(), -1);
         for (Index q = 0; q < mesh.quads.rows(); ++q)
             for (int k = 0; k < 4; ++k) quad[mesh.quads(q, k)] = q;
@@ -122,7 +125,7 @@ private:
         const Seam& seam = input_.seams.seams[places_[v].seam];
         return std::clamp(places_[v].at / seam.length, 1e-3, 1 - 1e-3);
     }
-    // Never beyond the ends: the length along it by which a closed seam would be followed, at the start.
+    // Near 0 a value is a length along the seam; those of open seams saturate at the ends, so that none is passed.
     double place(Index v, double value) const {
         const Seam& seam = input_.seams.seams[places_[v].seam];
         if (seam.closed) return places_[v].at + value;
@@ -156,8 +159,8 @@ Movable::Movable(const SmootherInput& input, const QuadMesh& mesh)
     for (const Index patch : input.patches) part.push_back(part_of_patch[patch]);
 }
 
-void untangle(const SmootherInput& input, const Movable& movable, std::vector<SideGrids::OnSeam>& places,
-              QuadMesh& mesh) {
+void untangle(const SmootherInput& input, Movable& movable, QuadMesh& mesh) {
+    std::vector<SideGrids::OnSeam>& places = movable.places;
     std::vector<Index> part(mesh.vertices.rows(), 0);
     for (Index q = 0; q < mesh.quads.rows(); ++q)
         for (int k = 0; k < 4; ++k) part[mesh.quads(q, k)] = movable.part[q];
@@ -166,7 +169,7 @@ void untangle(const SmootherInput& input, const Movable& movable, std::vector<Si
     options.max_num_iterations = most_iterations;
     options.logging_type = ceres::SILENT;
     for (int round = 0; round < most_rounds; ++round) {
-        auto* energy = new Energy(input, movable, places, mesh);
+        auto* energy = new Energy(input, movable, mesh);
         const ceres::GradientProblem problem(energy);  // owns it
         if (energy->NumParameters() == 0) return;
         std::vector<double> values(energy->NumParameters(), 0);

@@ -17,8 +17,7 @@ struct Movable {
 // Least sum over the corners of quads of (|u|^2 + |v|^2) / (d + sqrt(d^2 + e^2)), u and v the edges there, d their
 // parallelogram as the surface sees it, e falling with the worst d (Garanzha, Kaporin, Kudryavtseva, Protais, Ray,
 // Sokolov 2021, for triangles): by L-BFGS in tangent planes, along seams, and back to the surface, a few times. The
-// caller compares. Places: moved with the mesh.
-void untangle(const SmootherInput& input, const Movable& movable, std::vector<SideGrids::OnSeam>& places,
-              QuadMesh& mesh);
+// caller compares. Places on seams move with the mesh.
+void untangle(const SmootherInput& input, Movable& movable, QuadMesh& mesh);
 
 }  // namespace octafield::surface::detail

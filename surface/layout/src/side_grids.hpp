@@ -7,7 +7,7 @@ namespace octafield::surface::detail {
 
 struct SideGrids {
     std::vector<Eigen::Vector3d> positions;
-    std::vector<std::vector<Index>> vertices;  // along each side of the layout, both ends
+    std::vector<std::vector<Index>> vertices;  // along each side of the layout, both ends; its first if without quads
     struct OnSeam {
         Index seam;  // -1: a node
         double at;   // length along it
@@ -17,8 +17,6 @@ struct SideGrids {
     std::vector<std::pair<Index, Index>> same;  // vertices that are to be one: ends of sides without quads
     std::vector<std::pair<Index, int>> held;    // vertices at singular points inside the surface, with their valences
 };
-
-// A side without quads has one vertex, its first.
 
 // In equal steps of parameters. Vertices: of the layout, then those inside each side.
 SideGrids side_grids(const QuadLayout& layout, const std::vector<int>& counts);

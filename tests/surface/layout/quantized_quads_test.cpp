@@ -88,7 +88,7 @@ TEST(QuantizedQuads, FewBlocksAreFewerAndQuadsAsGoodAsWanted) {
         options.least_jacobian = 0.7;
         const QuantizedQuads good = quantized_quads(layout, options);
         for (const QuantizedQuads* quads : {&fine, &fewest, &good}) {
-            expect_conforming(*quads, 2);
+            expect_conforming(*quads, 2, quads == &fine ? Blocks::fine : Blocks::few);
             EXPECT_EQ(irregularities(quads->mesh), irregularities(fine.mesh));
             EXPECT_EQ(quads->fewest_blocks, 6);
             EXPECT_GE(quads->patch_sizes.rows(), 6);
