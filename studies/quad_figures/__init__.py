@@ -1,6 +1,6 @@
 """The figures of Jezdimirovic et al. (2021) on quad layouts, and the domains of Dermine (2024), laid out and meshed.
 
-python -m studies.quad_figures -o DIR [--only NAME,...] [--edge 0.05]
+python -m studies.quad_figures -o DIR [--only NAME,...] [--edge 0.05] [--blocks fine]
 
 Neither source gives its geometries: valences, numbers of points and angles are theirs, all else is chosen here. DIR
 gets one PNG per sheet and summary.md.

@@ -23,10 +23,14 @@ HEADER = (
 )  # fmt: skip
 
 
-def laid_out(case: Case, mesh, arguments: dict):
+def laid_out(case: Case, mesh, arguments: dict, blocks: str = "few"):
     kept = octafield.SurfaceFieldOptions(remesh=False, features="none")
     wanted = octafield.QuadLayoutOptions(
-        quads=case.quads, layout=case.layout, inadmissible=case.inadmissible, end_tolerance=case.end_tolerance
+        quads=case.quads,
+        layout=case.layout,
+        blocks=blocks,
+        inadmissible=case.inadmissible,
+        end_tolerance=case.end_tolerance,
     )
     return octafield.compute_quad_layout(mesh, kept, layout_options=wanted, **arguments)
 
@@ -94,6 +98,7 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--only", default="", help="sheets or figures, with commas")
     parser.add_argument("--edge", type=float, default=0.05, help="of the triangles")
+    parser.add_argument("--blocks", default="few", choices=("few", "fine"), help="of T-meshes")
     parser.add_argument("--eights", action="store_true", help="in their place: 42 points of valence 8 beside a hole")
     given = parser.parse_args()
     given.output.mkdir(parents=True, exist_ok=True)
@@ -113,7 +118,7 @@ def main() -> None:
             mesh, arguments = case.make(given.edge / case.finer)
             points = arguments["singularities"]
             try:
-                result = laid_out(case, mesh, arguments)
+                result = laid_out(case, mesh, arguments, given.blocks)
             except octafield.Error as error:
                 result = error
             if case.drawn:
