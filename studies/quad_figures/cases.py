@@ -132,7 +132,7 @@ CASES = [
     Case("annulus_move", "the same, moved", annulus(20), "rings", inadmissible="move", finer=5 / 3, shows="-",
          differs="ours"),
     Case("annulus_rotate", "turned by 5, field rotated", annulus(5), "rings", T_MESH, "rotate", end_tolerance=0.05,
-         shows="-", differs="ours; at 20 degrees sizes disagree sixfold, and it is refused"),
+         shows="-", differs="ours; sizes disagree round the ring, and tracks become one"),
     Case("kite", "kite, separatrices", disk(KITE), "cycles", shows=CYCLES, differs=f"{NO_CYCLES}; near misses join"),
     Case("kite_apart", "kite, nothing joined", disk(KITE), "cycles", T_MESH, end_tolerance=1e-3, shows=CYCLES,
          differs="tracks that run side by side become one"),
