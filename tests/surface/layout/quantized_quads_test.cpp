@@ -137,7 +137,7 @@ TEST(QuantizedQuads, RelativeWeightsKeepShortArcs) {
     options.quad_count = 2000;
     options.weights = ArcWeights::relative;
     const QuantizedQuads relative = quantized_quads(layout, options);
-    expect_conforming(relative, 1);
+    expect_conforming(relative, 1, options.blocks);
     EXPECT_LE(relative.bound, relative.deviation + 1e-9);
 }
 
