@@ -46,6 +46,8 @@ from .layout.quad_layout import QuadLayoutResult, compute_quad_layout
 from .meshes.mesh_format import MeshFormat
 from .meshes.registry import mesh_formats, register_mesh_format
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
+from .quad_mesh.options import QuadMeshOptions
+from .quad_mesh.quad_mesh import QuadMeshResult, compute_quad_mesh
 from .records.record_file import read_record, read_surface_record
 from .runs.compare import Comparison, compare
 from .runs.conversion import Conversion, convert_file
@@ -75,6 +77,8 @@ __all__ = [
     "FieldProblem",
     "QuadLayoutOptions",
     "QuadLayoutResult",
+    "QuadMeshOptions",
+    "QuadMeshResult",
     "SingularGraph",
     "SolverError",
     "SurfaceFieldOptions",
@@ -88,6 +92,7 @@ __all__ = [
     "compute_field",
     "compute_hex_dominant",
     "compute_quad_layout",
+    "compute_quad_mesh",
     "compute_surface_field",
     "convert_file",
     "frame_formats",

@@ -1063,6 +1063,7 @@ class QuantizedQuadsOptions:
     blocks: str
     least_jacobian: float
     weights: str
+    measure: str
     smoothing: int
     release_points: bool
     most_nodes: int
@@ -1073,6 +1074,7 @@ class QuantizedQuadsOptions:
         blocks: str = ...,
         least_jacobian: float = ...,
         weights: str = ...,
+        measure: str = ...,
         origins: ArrayLike = ...,
         smoothing: int = ...,
         release_points: bool = ...,
@@ -1283,6 +1285,7 @@ def quantized_quads(
     blocks: str = ...,
     least_jacobian: float = ...,
     weights: str = ...,
+    measure: str = ...,
     origins: ArrayLike | None = ...,
     smoothing: int = ...,
     release_points: bool = ...,

@@ -43,6 +43,10 @@ void bind_t_mesh_options(py::module_& m) {
                "with 0.7 of the best one's are taken. 0: the fewest.")
         .field("weights", &QuantizedQuadsOptions::weights,
                "Of |n - length / size| in the sum: \"equal\", or \"relative\", over length / size, 1 at least.")
+        .field("measure", &QuantizedQuadsOptions::measure,
+               "What is divided by the size, and spreads quads along sides: \"parameters\", quad coordinates, so that "
+               "quads are as square as the field has them and as large as its sizes; or \"lengths\" on the surface, so "
+               "that they are about as large as one another.")
         .field("origins", &QuantizedQuadsOptions::origins,
                "Of a surface cut open (FeatureCut.origins): boundaries of the same origins get the same vertices.")
         .field("smoothing", &QuantizedQuadsOptions::smoothing,

@@ -93,6 +93,13 @@ struct Words<surface::ArcWeights> {
 };
 
 template <>
+struct Words<surface::ArcMeasure> {
+    using E = surface::ArcMeasure;
+    static constexpr std::array<std::pair<const char*, E>, 2> list{
+        {{"parameters", E::parameters}, {"lengths", E::lengths}}};
+};
+
+template <>
 struct Words<surface::Blocks> {
     using E = surface::Blocks;
     static constexpr std::array<std::pair<const char*, E>, 2> list{{{"few", E::few}, {"fine", E::fine}}};

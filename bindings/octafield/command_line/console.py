@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ..records.field import InputRecord
     from ..records.hex_dominant import HexDominantRecord
     from ..records.quad_layout import QuadLayoutRecord
+    from ..records.quad_mesh import QuadMeshRecord
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 # kinds of SolverError that another option or another mesh avoids
@@ -129,7 +130,7 @@ def _say(message: str) -> None:
     print("octafield: " + " ".join(message.split()), file=sys.stderr, flush=True)
 
 
-def report_notes(record: "InputRecord | HexDominantRecord | QuadLayoutRecord") -> None:
+def report_notes(record: "InputRecord | HexDominantRecord | QuadLayoutRecord | QuadMeshRecord") -> None:
     for note in record.notes:
         log.info("%s: %s", record.input, note)
 

@@ -17,7 +17,7 @@ from . import console, tables
 from . import files as files_cli
 from . import hexdom as hexdom_cli
 from . import inspect as cli_inspect
-from . import layout as layout_cli
+from . import quads as quads_cli
 from .console import carry_out, log
 from .options import InputFile, Json, Output, Quiet, Verbose, choices, with_options
 from .shell_completion import words
@@ -41,7 +41,7 @@ app.add_typer(studies, name="study")
 files_cli.register(app)
 compare_cli.register(app)
 hexdom_cli.register(app)
-layout_cli.register(app)
+quads_cli.register(app)
 
 
 def _show_version(wanted: bool) -> None:

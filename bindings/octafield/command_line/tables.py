@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ..records.field import FieldRecord
     from ..records.hex_dominant import HexDominantRecord
     from ..records.quad_layout import QuadLayoutRecord
+    from ..records.quad_mesh import QuadMeshRecord
     from ..records.surface_field import SurfaceFieldRecord
 
 
@@ -92,6 +93,29 @@ def show_layout_record(record: QuadLayoutRecord) -> None:
         ("peak_mb", f"{record.peak_mb:.0f}"),
     ]
     _facts(record.input, facts)
+
+
+def show_quad_mesh_record(record: QuadMeshRecord) -> None:
+    facts = [
+        ("quads", f"{record.quads:,}"),
+        ("wanted", f"{record.target:,}"),
+        ("irregular vertices by quads", _counts(record.irregular_vertices)),
+        ("on the boundary", _counts(record.irregular_boundary_vertices)),
+        ("inverted", f"{record.inverted}"),
+        ("nonconforming edges", f"{record.nonconforming_edges}"),
+        ("scaled Jacobian", _several(record.scaled_jacobian, (".3f",) * 3)),
+        ("angle, degrees", _several(record.angle, (".1f",) * 2)),
+        ("size over the wanted one", _several(record.size_ratio, (".3f",) * 3)),
+        ("deviation from features", _several(record.feature_deviation, (".2e",) * 2)),
+        ("deviation from the surface", _several(record.surface_deviation, (".2e",) * 2)),
+        ("seconds", f"{record.seconds:.1f}"),
+        ("peak_mb", f"{record.peak_mb:.0f}"),
+    ]
+    _facts(record.input, facts)
+
+
+def _counts(by_number: dict[str, int]) -> str:
+    return "  ".join(f"{number}: {count:,}" for number, count in by_number.items()) or "none"
 
 
 def _several(figures: Record, formats: Sequence[str]) -> str:

@@ -37,6 +37,17 @@ class LayoutParts:
 
 
 @dataclass
+class WholeNumbers:
+    """On the arcs of a T-mesh. t_joints: of the T-mesh. deviation: from the lengths wanted, over all arcs; bound: what
+    it cannot be below; optimal: whether the two are the same."""
+
+    t_joints: int
+    deviation: float
+    bound: float
+    optimal: bool
+
+
+@dataclass
 class BlockQuads:
     """mesh: of quads. blocks: (q,) patch of each; chords: (q, 2) the chord across its first and its second pair of
     sides. layout: that it is the grid of; None: there is none of curves."""
@@ -45,8 +56,7 @@ class BlockQuads:
     blocks: np.ndarray
     chords: np.ndarray
     layout: LayoutParts | None = None
-    t_joints: int | None = None  # of the T-mesh that the quads come from
-    optimal: bool | None = None  # whether no other whole numbers on its arcs deviate less
+    whole_numbers: WholeNumbers | None = None  # of the T-mesh that the quads come from
 
 
 def quads_of_separatrices(

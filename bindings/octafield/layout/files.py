@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import _core
+from .._core import ImposedField
 from ..files.scratch import through_file
 from ..files.writing import vtp_bytes, vtu_bytes, write_file
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
@@ -34,7 +35,7 @@ def write_layout_result(result: QuadLayoutResult, folder: Path, progress: Progre
         through_file(folder / "mesh.msh", ".msh", lambda plain: _write_msh(plain, result))
         if result.layout is not None:
             write_file(folder / "layout.vtp", vtp_bytes(layout_polydata(result.layout), metadata))
-        write_file(folder / "field.vtp", vtp_bytes(field_polydata(result), metadata))
+        write_file(folder / "field.vtp", vtp_bytes(field_polydata(result.field), metadata))
     record, peak = result.record, round(memory.megabytes(), 1)
     result.record = record.changed(
         wall_seconds={**record.wall_seconds, "write": clock.wall["write"]},
@@ -114,13 +115,13 @@ def _by_kind(kinds: tuple[int, int, int], kind: int, values: np.ndarray, other: 
     return result
 
 
-def field_polydata(result: QuadLayoutResult) -> pyvista.PolyData:
+def field_polydata(field: ImposedField) -> pyvista.PolyData:
     """The surface refined round the singular points. Point data: direction (one of the four; with free axes
     the next one is at any angle from it), log_size (H; exp(H) is
     the edge length of quads there up to one factor), index_times_four."""
     import pyvista
 
-    field, domain = result.field, result.field.field.domain
+    domain = field.field.domain
     surface: pyvista.PolyData = pyvista.PolyData.from_regular_faces(
         np.array(domain.vertices), np.array(domain.triangles, int)
     )

@@ -20,10 +20,10 @@ from ..fields.direction_field import SurfaceFieldResult, structure
 from ..options import MeshOptions, SurfaceFieldOptions, require_one_of
 from ..progress.phases import PeakMemory, PhaseClock, Progress, forward
 from .blocks import imposed_indices
+from .made import inner_features
 from .options import INADMISSIBLE
 from .points.pattern import pattern_of
 from .points.wanted import Corners, Points, PointsWanted, meshed_with_places, require_own_surface
-from .quad_layout import inner_features
 
 _MESH = {option.name for option in fields(MeshOptions)} | {"symmetry"}
 

@@ -12,6 +12,7 @@ LAYOUTS = ("t-mesh", "separatrices")
 AXES = ("orthogonal", "free")
 MOST_QUADS = 10_000_000
 BLOCKS = tuple(_core.QuantizedQuadsOptions.words["blocks"])
+MEASURES = tuple(_core.QuantizedQuadsOptions.words["measure"])
 _FIELD, _CURVES, _QUADS = _core.ImposedFieldOptions(), _core.LayoutCurveOptions(), _core.QuantizedQuadsOptions()
 
 
@@ -23,6 +24,8 @@ class QuadLayoutOptions:
         (octafield.surface.motorcycle_graph, quantized_quads); features are followed with points of a computed field. Or
         "separatrices": all of them to their ends (quad_layout, layout_quads). blocks, of t-meshes: "few", as
         long as quads stay good; or "fine": quads nearer to the lengths, in blocks that may be as small as they are.
+        measure, of t-meshes: quads are spread by "parameters", as large as the field has them, or by "lengths", about
+        as large as one another.
     axes: of quads: "orthogonal", at right angles as far as the points allow; or "free": along two lines at any angle on
         faces with corners that right angles do not fit, so that both sides of these are followed (octafield.surface.
         non_orthogonal_field, lines_metric); points and quads at corners are those lines' there.
@@ -43,6 +46,7 @@ class QuadLayoutOptions:
     edge_length: float = 0.0
     layout: str = "t-mesh"
     blocks: str = _QUADS.blocks
+    measure: str = _QUADS.measure
     axes: str = "orthogonal"
     inadmissible: str = "default"
     tolerance: float = _FIELD.tolerance
@@ -59,6 +63,7 @@ class QuadLayoutOptions:
             )
         require_one_of("layout", self.layout, LAYOUTS)
         require_one_of("blocks", self.blocks, BLOCKS)
+        require_one_of("measure", self.measure, MEASURES)
         require_one_of("axes", self.axes, AXES)
         require_one_of("inadmissible", self.inadmissible, INADMISSIBLE)
         if not 0 < self.tolerance <= math.pi / 4:

@@ -12,23 +12,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .. import _core
 from .._core import ImposedField, QuadMesh, SurfaceDomain, TriangleMesh
 from ..domain.inputs import naming
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source
-from ..errors import GeometryError, InvalidInput, SolverError
 from ..options import SurfaceFieldOptions
-from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
+from ..progress.phases import Progress
 from ..view.notebook import Facts, ShownInNotebooks
-from .blocks import BlockQuads, LayoutParts, quads_of_separatrices
-from .causes import cut_corners, told_of_points
-from .options import MOST_QUADS, QuadLayoutOptions
-from .points.free_axes import pattern_of_lines
-from .points.pattern import Pattern, pattern_of
+from .blocks import LayoutParts
+from .options import QuadLayoutOptions
 from .points.wanted import Corners, Points, PointsWanted, meshed_with_places, require_own_surface
-from .quality import figures_of, require_sound
-from .t_mesh import MENDED, fitted_points, quads_of_t_mesh
 
 if TYPE_CHECKING:
     import pyvista
@@ -124,57 +117,13 @@ def _on(
     wanted: QuadLayoutOptions,
     progress: Progress | None,
 ) -> QuadLayoutResult:
-    from ..fields.record import of_input
-    from ..progress.meter import PhaseMeter
     from . import record
 
-    memory, clock = PeakMemory(), PhaseClock(meshed.clock)
-    target = _edge_length(meshed.surface, wanted)
-    with clock.phase("surface"):
-        announce(progress, "surface")
-        whole = SurfaceDomain(meshed.surface, meshed.features)
-        domain, origins = _cut(whole, wanted, points.singularities)
-        domain, pattern = _pattern(domain, wanted, points, progress)
-    begun = of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes()))
-    begun = begun.changed(notes=[*begun.notes, *pattern.notes, *([] if origins is not None else _of_features(whole))])
-    meter = PhaseMeter(begun, progress)
-    inadmissible = wanted.inadmissible
-    if inadmissible == "default":
-        inadmissible = "move" if points.singularities is None else "fail"
-    try:
-        field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
-    except SolverError as error:
-        blunted, notes = _blunted(whole) if origins is not None else (whole, [])
-        if error.kind != "unresolved_turns" or not notes:
-            raise
-        domain, origins = _cut(blunted, wanted, points.singularities)
-        domain, pattern = _pattern(domain, wanted, points, progress)
-        begun = begun.changed(notes=[*begun.notes, *notes])
-        field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
-    computed = pattern.source == "computed"
-    made: BlockQuads
-    with told_of_points(domain, pattern.pattern, wanted):
-        if wanted.layout == "t-mesh":
-            try:
-                field, made = quads_of_t_mesh(field, wanted, target, origins, computed, meter.report)
-            except GeometryError as error:
-                if not computed or error.kind not in MENDED:
-                    raise
-                pattern = fitted_points(domain, pattern, origins, inadmissible, wanted, target, error, meter.report)
-                begun = begun.changed(notes=[*begun.notes, pattern.notes[-1]])
-                field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
-                field, made = quads_of_t_mesh(field, wanted, target, origins, computed, meter.report)
-        else:
-            field, made = quads_of_separatrices(field, wanted, target, meter.report)
-    meter.begin("check")
-    announce(progress, "check")
-    figures = figures_of(made.mesh, whole, given)
-    require_sound(made.mesh, figures, int(_core.euler_characteristic(meshed.surface)))
-    begun = begun.changed(notes=[*begun.notes, *cut_corners(made.mesh, whole)])
-    meter.end()
+    found = quads_on(meshed, given, points, wanted, progress)
+    made, figures = found.quads, found.figures
     told = record.of_quads(
-        made, figures, field, pattern, begun, len(meshed.surface.triangles), target, inadmissible, meter,
-        dict(vars(wanted)), points.options.recorded(),
+        made, figures, found.field, found.pattern, found.begun, len(meshed.surface.triangles), found.target,
+        found.inadmissible, found.meter, dict(vars(wanted)), points.options.recorded(),
     )  # fmt: skip
     return QuadLayoutResult(
         mesh=made.mesh,
@@ -184,102 +133,6 @@ def _on(
         valences=figures.quads_round,
         on_boundary=figures.on_boundary,
         layout=made.layout,
-        field=field,
+        field=found.field,
         record=told,
     )
-
-
-def _pattern(
-    domain: SurfaceDomain, wanted: QuadLayoutOptions, points: PointsWanted, progress: Progress | None
-) -> tuple[SurfaceDomain, Pattern]:
-    """And the domain, measured along free axes where these are wanted."""
-    if wanted.axes == "free":
-        return pattern_of_lines(domain, points, progress)
-    return domain, pattern_of(domain, points, progress)
-
-
-def _cut(
-    whole: SurfaceDomain, wanted: QuadLayoutOptions, singularities: Points | None
-) -> tuple[SurfaceDomain, np.ndarray | None]:
-    """The surface for the field: cut open along features inside where these are to be followed, with the vertices of
-    the whole surface. Points that are given are of the surface as a whole."""
-    if wanted.layout != "t-mesh" or singularities is not None or not inner_features(whole):
-        return whole, None
-    cut = _core.cut_along_features(whole)
-    return cut.domain, np.array(cut.origins)
-
-
-def _blunted(whole: SurfaceDomain) -> tuple[SurfaceDomain, list[str]]:
-    """With needles between features that end a triangle before their tips, and a note; none where there are none."""
-    blunted, tips = _core.blunted_features(whole)
-    if not len(tips):
-        return whole, []
-    at = ", ".join(f"{x:.4g}" for x in np.asarray(whole.vertices)[tips[0]])
-    return blunted, [
-        f"{len(tips)} feature edges are not followed up to where they meet another one at less than 10 degrees, the"
-        f" first at ({at}), but to a triangle before: no cross field follows both on triangles of that size"
-    ]
-
-
-def _imposed(
-    domain: SurfaceDomain,
-    pattern: Pattern,
-    inadmissible: str,
-    wanted: QuadLayoutOptions,
-    progress: Progress | None,
-) -> tuple[ImposedField, Pattern, str]:
-    """T-meshes take rotated fields: in faces where points of a computed field cannot be moved, the field is rotated."""
-    may_rotate = wanted.inadmissible == "default" and inadmissible == "move" and wanted.layout == "t-mesh"
-
-    def imposed(pattern: Pattern, way: str) -> tuple[ImposedField, Pattern, str]:
-        field = _core.impose_singular_points(
-            domain, pattern.pattern, inadmissible=way, tolerance=wanted.tolerance, progress=progress
-        )
-        return field, pattern, way
-
-    try:
-        return imposed(pattern, inadmissible)
-    except SolverError as error:
-        if not may_rotate:
-            raise
-        if error.kind == "move_failed":
-            moved = _core.moved_by_faces(domain, pattern.pattern, tolerance=wanted.tolerance, progress=progress)
-            pattern = replace(pattern, pattern=moved)
-        return imposed(pattern, "rotate")
-
-
-def _edge_length(surface: TriangleMesh, wanted: QuadLayoutOptions) -> float:
-    """Of the quads, input unit. Refuses what would hardly end before any work."""
-    area = float(np.asarray(_core.triangle_areas(surface)).sum())
-    if wanted.quads:
-        return float(np.sqrt(area / wanted.quads))
-    length = wanted.edge_length or float(_core.mean_edge_length(surface))
-    count = area / length**2
-    if count > MOST_QUADS:
-        raise InvalidInput(
-            f"the edge length {length:g} asks for about {count:.2g} quads, and at most {MOST_QUADS:,} are made; give a"
-            " larger edge length",
-            "too_many_cells",
-        )
-    return length
-
-
-def _of_features(domain: SurfaceDomain) -> list[str]:
-    """A note where features inside the surface will not be followed."""
-    count = inner_features(domain)
-    if not count:
-        return []
-    return [
-        f"{count} feature edges inside the surface are not followed: with points that are given, and by separatrices,"
-        " layouts follow the boundary alone"
-    ]
-
-
-def inner_features(domain: SurfaceDomain) -> int:
-    features = np.sort(np.asarray(domain.features.edges), axis=1).astype(np.int64)
-    if not len(features):
-        return 0
-    rim = np.asarray(domain.edges)[np.asarray(domain.edge_triangles).min(axis=1) < 0].astype(np.int64)
-    count = len(domain.vertices)
-    inside = ~np.isin(features[:, 0] * count + features[:, 1], rim[:, 0] * count + rim[:, 1])
-    return int(inside.sum())

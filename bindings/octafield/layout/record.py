@@ -39,7 +39,7 @@ def of_quads(
 ) -> QuadLayoutRecord:
     """begun: what every record begins with. triangles: of the surface before it was refined. target: edge length."""
     found = _core.surface_singularities(field.field)
-    layout, domain = made.layout, field.field.domain
+    layout, whole, domain = made.layout, made.whole_numbers, field.field.domain
     return QuadLayoutRecord(
         input=begun.input,
         version=begun.version,
@@ -57,8 +57,8 @@ def of_quads(
         misalignment=misalignment_of(field),
         inadmissible=inadmissible,
         largest_move=field.largest_move,
-        t_joints=made.t_joints,
-        whole_numbers_optimal=made.optimal,
+        t_joints=None if whole is None else whole.t_joints,
+        whole_numbers_optimal=None if whole is None else whole.optimal,
         separatrices=None if layout is None else layout.separatrices,
         patches=len(np.unique(made.blocks)),
         fewest_patches=int(_core.fewest_blocks(made.mesh)),
@@ -71,8 +71,8 @@ def of_quads(
         t_junctions=figures.t_junctions,
         inverted=figures.inverted,
         nonconforming_edges=figures.nonconforming_edges,
-        scaled_jacobian=_jacobians(figures.jacobians),
-        angle_quality=_jacobians(figures.angle_quality),
+        scaled_jacobian=jacobians(figures.jacobians),
+        angle_quality=jacobians(figures.angle_quality),
         edge_length=EdgeLengths(
             target=target, median=figures.edges.median, p05=figures.edges.p05, p95=figures.edges.p95
         ),
@@ -107,7 +107,7 @@ def misalignment_of(field: ImposedField) -> list[Misalignment]:
     ]
 
 
-def _jacobians(values: Spread) -> JacobianFigures:
+def jacobians(values: Spread) -> JacobianFigures:
     return JacobianFigures(min=values.min, p05=values.p05, mean=values.mean)
 
 

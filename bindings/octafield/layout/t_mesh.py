@@ -12,7 +12,7 @@ from .._core import ImposedField, SurfaceDomain
 from ..errors import Cancelled, Error, GeometryError
 from ..progress.phases import Progress
 from .block_parts import block_chords, parts_of_blocks
-from .blocks import BlockQuads
+from .blocks import BlockQuads, WholeNumbers
 from .options import QuadLayoutOptions
 from .points.pattern import Pattern
 
@@ -36,6 +36,7 @@ def quads_of_t_mesh(
     made = _core.quantized_quads(
         graph,
         blocks=options.blocks,
+        measure=options.measure,
         origins=origins,
         release_points=release_points,
         progress=progress,
@@ -44,7 +45,8 @@ def quads_of_t_mesh(
     quads, blocks = np.asarray(made.mesh.quads), np.array(made.patches)
     chords = block_chords(quads, blocks, np.asarray(made.patch_chords))
     parts = parts_of_blocks(made.mesh, blocks, chords, graph.largest_mismatch, graph.curves.traced)
-    return field, BlockQuads(made.mesh, blocks, chords, parts, t_joints=made.t_joints, optimal=made.optimal)
+    whole = WholeNumbers(made.t_joints, made.deviation, made.bound, made.optimal)
+    return field, BlockQuads(made.mesh, blocks, chords, parts, whole)
 
 
 def _graph(

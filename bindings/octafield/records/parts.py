@@ -178,6 +178,38 @@ class Deviation(Record):
     rms: float = Field(description="root mean square by area")
 
 
+class FeatureDeviation(Record):
+    """Of quads from features and the boundary, over the diagonal of the surface's box."""
+
+    corners: float = Field(description="the largest distance of a corner of these to the nearest vertex of the quads")
+    curves: float = Field(
+        description="of a point of these to edges of quads with both ends on them: chords, where they are bent"
+    )
+
+
+class MinMax(Record):
+    """Of numbers."""
+
+    min: float = Field(description="the smallest")
+    max: float = Field(description="the largest")
+
+
+class SizeRatios(Record):
+    """Of quads: the square root of the area over the edge length wanted there."""
+
+    p10: float = Field(description="10 % are smaller")
+    median: float = Field(description="half of them are smaller")
+    p90: float = Field(description="90 % are smaller")
+
+
+class WholeNumberFigures(Record):
+    """Of quads along the arcs of a T-mesh."""
+
+    objective: float = Field(description="sum of |n - length / size|")
+    bound: float = Field(description="what no other whole numbers are below")
+    optimal: bool = Field(description="whether the two are the same")
+
+
 class EdgeLengths(Record):
     """Input unit."""
 

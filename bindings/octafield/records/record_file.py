@@ -17,9 +17,18 @@ if TYPE_CHECKING:
     from .field import FieldRecord, RunWithField, RunWithoutField
     from .hex_dominant import HexDominantRecord
     from .quad_layout import QuadLayoutRecord
+    from .quad_mesh import QuadMeshRecord
     from .surface_field import SurfaceFieldRecord
 
-    AnyRecord = FieldRecord | SurfaceFieldRecord | HexDominantRecord | QuadLayoutRecord | RunWithField | RunWithoutField
+    AnyRecord = (
+        FieldRecord
+        | SurfaceFieldRecord
+        | HexDominantRecord
+        | QuadLayoutRecord
+        | QuadMeshRecord
+        | RunWithField
+        | RunWithoutField
+    )
 
 RECORD_FILE = "result.json"
 _WHAT = {
@@ -27,6 +36,7 @@ _WHAT = {
     "GivenFieldRecord": "a frame field",
     "HexDominantRecord": "a hex-dominant mesh",
     "QuadLayoutRecord": "a quad layout",
+    "QuadMeshRecord": "a quad mesh",
     "RunWithField": "a frame field",
     "RunWithoutField": "a run of a study that ended without a field",
     "SurfaceFieldRecord": "a surface field",
@@ -103,7 +113,7 @@ def record_of(content: Any, name: object) -> AnyRecord:
 
 
 def _kind(content: dict[str, Any]) -> type[AnyRecord]:
-    from . import field, hex_dominant, quad_layout, surface_field
+    from . import field, hex_dominant, quad_layout, quad_mesh, surface_field
 
     if content.get("state", "done") != "done":
         return field.RunWithoutField
@@ -113,6 +123,8 @@ def _kind(content: dict[str, Any]) -> type[AnyRecord]:
         return hex_dominant.HexDominantRecord
     if "index_sum" in content and "patches" in content:
         return quad_layout.QuadLayoutRecord
+    if "size_ratio" in content:
+        return quad_mesh.QuadMeshRecord
     if "symmetry" in content:
         return surface_field.SurfaceFieldRecord
     return field.GivenFieldRecord if "label" in content and "objective" not in content else field.FieldRecord

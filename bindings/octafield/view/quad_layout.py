@@ -45,7 +45,11 @@ def scene_of_folder(folder: Path) -> tuple[pyvista.Plotter, list[str]]:
 
 def jacobian_scene_of_folder(folder: Path) -> pyvista.Plotter:
     """Quads by their scaled Jacobian, from mesh.vtu of a result."""
-    grid, _ = _read(folder)
+    return jacobian_scene(_read(folder)[0])
+
+
+def jacobian_scene(grid: pyvista.UnstructuredGrid) -> pyvista.Plotter:
+    """grid: with cell data scaled_jacobian."""
     flat = _is_flat(np.asarray(grid.points))
     shape = scene.plotter()
     shape.add_mesh(

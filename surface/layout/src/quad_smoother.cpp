@@ -18,6 +18,7 @@ constexpr double reachable = 0.98;   // of the sine of an angle that nothing cha
 constexpr double few_bad = 0.02;     // of the quads
 constexpr int beside = 8;            // rings round what is relaxed that are optimised with it
 constexpr double softness = 10;
+constexpr double size_share = 0.3;    // of sizes beside shapes
 constexpr int rings[] = {1, 2, 4, 8}, relaxing_rounds = 20;
 constexpr double least_gain = 1e-4;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
@@ -76,7 +77,8 @@ public:
 
     void prepare(Start start) {
         if (start == Start::relaxed) relax(std::vector<bool>(around_.size(), true), relaxing_rounds);
-        if (start == Start::untangled) untangle(input_, movable_, mesh_);
+        if (start == Start::untangled) untangle(input_, movable_, 0, mesh_);
+        if (start == Start::evened) untangle(input_, movable_, size_share, mesh_);
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
     }
 

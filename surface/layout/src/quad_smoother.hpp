@@ -38,6 +38,7 @@ enum class Start {
     mapped,     // as it is
     relaxed,    // vertices at the means of their neighbours
     untangled,  // all moved at once, for the shapes of quads (quad_untangler.hpp)
+    evened,     // and for their sizes
 };
 void prepare(const SmootherInput& input, Start start, QuadMesh& mesh);
 

@@ -18,12 +18,13 @@ constexpr double least_progress = 1e-3;  // of the sum, in a round without inver
 // Of the vertices that can move: the values are lengths along seams, or pairs in tangent planes.
 class Energy : public ceres::FirstOrderFunction {
 public:
-    Energy(const SmootherInput& input, const Movable& movable, const QuadMesh& mesh)
+    Energy(const SmootherInput& input, const Movable& movable, const QuadMesh& mesh, double of_sizes)
         : input_(input),
           places_(movable.places),
           mesh_(mesh),
           first_(mesh.vertices.rows(), -1),
-          bases_(mesh.vertices.rows()) {
+          bases_(mesh.vertices.rows()),
+          of_sizes_(of_sizes) {
         std::vector<Index> quad(mesh.vertices.rows(), -1);
         for (Index q = 0; q < mesh.quads.rows(); ++q)
             for (int k = 0; k < 4; ++k) quad[mesh.quads(q, k)] = q;
@@ -40,12 +41,21 @@ public:
         for (Index q = 0; q < mesh.quads.rows(); ++q) {
             Vector middle = Vector::Zero();
             for (int k = 0; k < 4; ++k) middle += Vector(mesh.vertices.row(mesh.quads(q, k))) / 4;
-            normals_.push_back(input.parts.normal(input.parts.nearest(movable.part[q], middle).second));
+            const Index triangle = input.parts.nearest(movable.part[q], middle).second;
+            normals_.push_back(input.parts.normal(triangle));
+            wanted_.push_back(input.parts.unit_area(triangle));
             for (int k = 0; k < 4; ++k)
                 area_ +=
                     (mesh.vertices.row(mesh.quads(q, (k + 1) % 4)) - mesh.vertices.row(mesh.quads(q, k))).squaredNorm();
         }
         area_ /= 4 * std::max<double>(1, static_cast<double>(mesh.quads.rows()));
+        double sum = 0, wanted = 0;
+        for (Index q = 0; q < mesh.quads.rows(); ++q) {
+            const auto p = [&](int k) -> Vector { return mesh.vertices.row(mesh.quads(q, k)); };
+            sum += (p(2) - p(0)).cross(p(3) - p(1)).norm() / 2;
+            wanted += wanted_[q];
+        }
+        for (double& area : wanted_) area *= sum / wanted;
         const double worst = std::min(0.0, least(mesh.vertices) / area_);
         softness_ = area_ * std::sqrt(1e-8 + 0.04 * worst * worst);
     }
@@ -62,9 +72,11 @@ public:
                 const Vector u = at.row(b) - at.row(a), v = at.row(c) - at.row(a), &n = normals_[q];
                 const double d = u.cross(v).dot(n), root = std::sqrt(d * d + softness_ * softness_);
                 const double below = d + root, above = u.squaredNorm() + v.squaredNorm();
-                *cost += above / below;
+                const double size = below / (2 * wanted_[q]);
+                *cost += above / below + of_sizes_ * (size + 1 / size) / 2;
                 if (!gradient) continue;
-                const double by_d = -above / (below * root);  // (1 + d / root) / below^2 = 1 / (below root)
+                // below grows by below / root with d.
+                const double by_d = -above / (below * root) + of_sizes_ * (size - 1 / size) / (2 * root);
                 const Vector gu = 2 * u / below + by_d * v.cross(n), gv = 2 * v / below + by_d * n.cross(u);
                 slope.row(b) += gu.transpose();
                 slope.row(c) += gv.transpose();
@@ -140,6 +152,8 @@ private:
     std::vector<int> first_;  // value of each vertex; -1: it stays
     std::vector<Eigen::Matrix<double, 3, 2>> bases_;
     std::vector<Vector> normals_;
+    std::vector<double> wanted_;  // area of each quad, in all that of the quads
+    double of_sizes_;
     int count_ = 0;
     double area_ = 0, softness_ = 0;
 };
@@ -159,7 +173,7 @@ Movable::Movable(const SmootherInput& input, const QuadMesh& mesh)
     for (const Index patch : input.patches) part.push_back(part_of_patch[patch]);
 }
 
-void untangle(const SmootherInput& input, Movable& movable, QuadMesh& mesh) {
+void untangle(const SmootherInput& input, Movable& movable, double of_sizes, QuadMesh& mesh) {
     std::vector<SideGrids::OnSeam>& places = movable.places;
     std::vector<Index> part(mesh.vertices.rows(), 0);
     for (Index q = 0; q < mesh.quads.rows(); ++q)
@@ -169,7 +183,7 @@ void untangle(const SmootherInput& input, Movable& movable, QuadMesh& mesh) {
     options.max_num_iterations = most_iterations;
     options.logging_type = ceres::SILENT;
     for (int round = 0; round < most_rounds; ++round) {
-        auto* energy = new Energy(input, movable, mesh);
+        auto* energy = new Energy(input, movable, mesh, of_sizes);
         const ceres::GradientProblem problem(energy);  // owns it
         if (energy->NumParameters() == 0) return;
         std::vector<double> values(energy->NumParameters(), 0);

@@ -8,6 +8,7 @@
 
 #include "arc_shortage.hpp"
 #include "block_structures.hpp"
+#include "even_sides.hpp"
 #include "merged_vertices.hpp"
 #include "octafield/error.hpp"
 #include "quad_builder.hpp"
@@ -144,8 +145,10 @@ private:
         if (options_.smoothing == 0) return judge(attempt);
         const Attempt start = attempt;
         attempt.margin = -std::numeric_limits<double>::infinity();
-        for (const detail::Start from : {detail::Start::mapped, detail::Start::relaxed, detail::Start::untangled}) {
-            if (from == detail::Start::mapped ? merged : finest) continue;
+        using detail::Start;
+        for (const Start from : {Start::evened, Start::mapped, Start::relaxed, Start::untangled}) {
+            if (from == Start::evened ? options_.measure == ArcMeasure::parameters
+                                      : from == Start::mapped ? merged : finest) continue;
             Attempt other = start;
             detail::prepare(input_of(other), from, other.quads.mesh);
             const double most = from == detail::Start::untangled ? most_left : most_inverted;
@@ -238,12 +241,14 @@ private:
 
 }  // namespace
 
-QuantizedQuads quantized_quads(const QuadLayout& layout, const QuantizedQuadsOptions& options,
+QuantizedQuads quantized_quads(const QuadLayout& given, const QuantizedQuadsOptions& options,
                                const Progress& progress) {
-    if (!layout.pieces || layout.patches.empty()) throw InvalidInput("the layout has no patches", "bad_option");
-    detail::require_quads(layout);
+    if (!given.pieces || given.patches.empty()) throw InvalidInput("the layout has no patches", "bad_option");
+    detail::require_quads(given);
     check(options);
     report_or_throw(progress, "integers", 0, NAN);
+    const QuadLayout layout =
+        options.measure == ArcMeasure::lengths ? detail::with_lengths_for_parameters(given) : given;
     const detail::Seams seams = detail::find_seams(layout, origins_of(layout, options.origins));
     const auto structures = detail::block_structures(layout, seams, options);
     QuantizedQuads result = Maker(layout, seams, options, progress).fewest_of(structures);

@@ -26,7 +26,8 @@ struct SurfaceParts::Trees {
 };
 
 SurfaceParts::SurfaceParts(const QuadLayout& layout)
-    : trees_(std::make_unique<Trees>(Trees{layout, layout.domain.mesh()})) {
+    : trees_(std::make_unique<Trees>(Trees{layout, layout.domain.mesh()})),
+      unit_areas_(triangle_areas(layout.domain.mesh()).cwiseQuotient(layout.domain.areas())) {
     const TriangleMesh& mesh = trees_->mesh;
     DisjointSets sets(mesh.vertices.rows());
     for (Index t = 0; t < mesh.triangles.rows(); ++t)

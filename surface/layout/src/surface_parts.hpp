@@ -18,10 +18,13 @@ public:
     // And the triangle that it is in.
     std::pair<Eigen::Vector3d, Index> nearest(Index part, const Eigen::Vector3d& p) const;
     Eigen::Vector3d normal(Index triangle) const;
+    // In space, of what the domain measures as 1: 1, unless it has own lengths.
+    double unit_area(Index triangle) const { return unit_areas_[triangle]; }
 
 private:
     struct Trees;
     std::unique_ptr<Trees> trees_;
+    Eigen::VectorXd unit_areas_;
 };
 
 }  // namespace octafield::surface::detail

@@ -26,10 +26,11 @@ Corners = str | Path | Mapping[str, Any] | Sequence[Mapping[str, Any]] | ArrayLi
 @dataclass
 class Places:
     """Positions of the vertices that users number, before repair and remeshing. ids: of the file, ascending; None: 0 to
-    the number of positions."""
+    the number of positions. found: that they are of, where it was read."""
 
     positions: np.ndarray
     ids: np.ndarray | None
+    found: Input | None = None
 
     def of(self, vertex: int, name: str) -> np.ndarray:
         place = vertex
@@ -50,8 +51,8 @@ class Places:
 
 def _places_of(found: Input) -> Places:
     if found.tets is None:
-        return Places(np.array(found.surface.vertices), found.surface_points)
-    return Places(np.array(found.tets.vertices), found.file_points)
+        return Places(np.array(found.surface.vertices), found.surface_points, found)
+    return Places(np.array(found.tets.vertices), found.file_points, found)
 
 
 @dataclass(frozen=True)

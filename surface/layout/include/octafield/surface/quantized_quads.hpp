@@ -13,6 +13,12 @@ enum class ArcWeights {
     relative,  // that over length / size, of 1 at least
 };
 
+// What is divided by the size, and by what quads are spread along sides.
+enum class ArcMeasure {
+    parameters,  // quad coordinates: quads are as square as the field has them, and as large as its sizes are
+    lengths,     // on the surface, as the domain measures it: quads are about as large as one another
+};
+
 enum class Blocks {
     // Whole numbers for large quads, the rows of which are split: blocks stay as few, and are more oblique. Tracks that
     // would keep strips without a large quad across apart become one, if no two points and corners do.
@@ -30,6 +36,7 @@ struct QuantizedQuadsOptions {
     // least (0.95 of the best one's where that is below 0.3). 0: the fewest.
     double least_jacobian = 0.4;
     ArcWeights weights = ArcWeights::equal;
+    ArcMeasure measure = ArcMeasure::parameters;
     // For a surface cut open (FeatureCut::origins): parts of its boundary with the same origins are one curve again,
     // and get the same vertices on both sides. None: the boundary stays open.
     std::vector<Index> origins = {};

@@ -1,4 +1,4 @@
-"""The command that makes block-structured quads: octafield quad-layout."""
+"""The commands that make quads: octafield quad-layout, in blocks, and quad-mesh, of wanted sizes."""
 
 import math
 from collections.abc import Callable
@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
-from ..layout.options import AXES, BLOCKS, INADMISSIBLE, LAYOUTS, QuadLayoutOptions
+from ..layout.options import AXES, BLOCKS, INADMISSIBLE, LAYOUTS, MEASURES, QuadLayoutOptions
 from ..options import SurfaceFieldOptions
+from ..quad_mesh.options import FORMATS, QuadMeshOptions
 from . import console, tables
 from .console import carry_out, log
 from .options import InputFile, Json, Output, Quiet, Verbose, choices, with_options
@@ -21,6 +22,7 @@ _WITHOUT = ("edge_length", "symmetry", "boundary_alignment", "interfaces", "spli
 
 def register(app: typer.Typer) -> None:
     app.command("quad-layout")(quad_layout)
+    app.command("quad-mesh")(quad_mesh)
     app.command("report")(report)
 
 
@@ -71,6 +73,14 @@ def quad_layout(
             help="As few as keep quads good; or quads nearer to the lengths, in blocks that may be as small as quads.",
         ),
     ] = _DEFAULTS.blocks,
+    measure: Annotated[
+        str,
+        typer.Option(
+            metavar=choices(MEASURES),
+            autocompletion=words(MEASURES),
+            help="Quads as large as the field's own sizes are, or about as large as one another (t-mesh).",
+        ),
+    ] = _DEFAULTS.measure,
     axes: Annotated[
         str,
         typer.Option(
@@ -132,6 +142,7 @@ def quad_layout(
             edge_length=edge_length,
             layout=layout,
             blocks=blocks,
+            measure=measure,
             axes=axes,
             inadmissible=inadmissible,
             tolerance=math.radians(tolerance),
@@ -148,6 +159,77 @@ def quad_layout(
             console.put_json(json, result.record.to_dict())
         if json != "-" and not quiet:
             tables.show_layout_record(result.record)
+        log.info("wrote %s", output)
+
+    carry_out(work, quiet, verbose, json)
+
+
+@with_options(SurfaceFieldOptions, without=_WITHOUT)
+def quad_mesh(
+    input: InputFile,
+    output: Output,
+    quads: Annotated[
+        int, typer.Option(metavar="N", help="Wanted number of quads; made is the nearest that whole numbers allow.")
+    ] = 0,
+    edge_length: Annotated[
+        float,
+        typer.Option(metavar="LENGTH", help="In its place: their mean edge, input unit; 0: that of the triangles."),
+    ] = 0.0,
+    size: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help=(
+                "Edge lengths wanted, .npy or text: a number per vertex of INPUT, or rows x y z size. With --quads or"
+                " --edge-length their ratios count."
+            ),
+        ),
+    ] = None,
+    inadmissible: Annotated[
+        str,
+        typer.Option(
+            metavar=choices(INADMISSIBLE),
+            autocompletion=words(INADMISSIBLE[1:]),
+            help="Where no field has the singular points in these places: refuse, move them, or rotate. Default: move.",
+        ),
+    ] = "default",
+    formats: Annotated[
+        str, typer.Option(metavar="LIST", help=f"Of the quads, with commas: {', '.join(FORMATS)}.")
+    ] = "vtu,obj",
+    triangle_length: Annotated[
+        float,
+        typer.Option(
+            metavar="LENGTH",
+            help="Edge of the triangles that the field is computed on, input unit; 0: lengths that fit the shape.",
+        ),
+    ] = 0.0,
+    options: Callable[[], SurfaceFieldOptions] = SurfaceFieldOptions,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Quads of wanted sizes along a cross field. DIR gets mesh.vtu, mesh.obj (or other formats),
+    field.vtp, result.json."""
+
+    def work() -> None:
+        from dataclasses import replace
+
+        from ..files.writing import staged_folder
+        from ..quad_mesh.files import formats_of, write_quad_mesh_result
+        from ..quad_mesh.quad_mesh import compute_quad_mesh
+        from ..records.record_file import RECORD_FILE
+
+        chosen = replace(options(), edge_length=triangle_length)
+        of_quads = QuadMeshOptions(quads=quads, edge_length=edge_length, inadmissible=inadmissible)
+        written = formats_of(formats)
+        with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
+            result = compute_quad_mesh(input, chosen, progress, quad_options=of_quads, sizes=size)
+            write_quad_mesh_result(result, folder, written, progress)
+        console.report_notes(result.record)
+        if json:
+            console.put_json(json, result.record.to_dict())
+        if json != "-" and not quiet:
+            tables.show_quad_mesh_record(result.record)
         log.info("wrote %s", output)
 
     carry_out(work, quiet, verbose, json)

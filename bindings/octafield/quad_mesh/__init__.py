@@ -1,0 +1,1 @@
+"""Quads of wanted sizes along a cross field: `octafield quad-mesh`."""

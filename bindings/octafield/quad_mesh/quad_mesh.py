@@ -1,0 +1,165 @@
+"""From a file to quads of wanted sizes: read, singular points, field, whole numbers, quads, figures.
+
+result = compute_quad_mesh("part.stl", quad_options=QuadMeshOptions(quads=3000), sizes=lambda points: 1 + points[:, 0])
+result.mesh                    # octafield.surface.QuadMesh
+result.record.size_ratio       # reached over wanted
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .. import _core
+from .._core import ImposedField, QuadMesh, SurfaceDomain, TriangleMesh
+from ..domain.inputs import from_mesh, naming
+from ..domain.meshed_input import MeshedInput
+from ..domain.meshing import Source
+from ..errors import InvalidInput
+from ..hexdom.sizes import SizeAt, Sizes, size_function
+from ..layout.made import quads_on
+from ..layout.options import MOST_QUADS, QuadLayoutOptions
+from ..layout.points.wanted import PointsWanted, meshed_with_places
+from ..options import SurfaceFieldOptions
+from ..progress.phases import Progress
+from ..view.notebook import Facts, ShownInNotebooks
+from .options import QuadMeshOptions
+from .sized import quads_wanted, sized
+
+if TYPE_CHECKING:
+    import pyvista
+
+    from ..records.quad_mesh import QuadMeshRecord
+
+_SHOWN = ("quads", "target", "irregular_vertices", "scaled_jacobian", "size_ratio", "surface_deviation")
+
+
+@dataclass(repr=False, kw_only=True)
+class QuadMeshResult(ShownInNotebooks):
+    """Quads and what led to them.
+
+    mesh: the quads. scaled_jacobians: (q,). size_ratios: (q,) square root of the area over the edge length wanted
+    there. valences: (V,) quads round each vertex; on_boundary: (V,) bool. field: that they follow, on the surface
+    refined round its singular points. record: all figures, the JSON object of the command line."""
+
+    mesh: QuadMesh
+    scaled_jacobians: np.ndarray
+    size_ratios: np.ndarray
+    valences: np.ndarray
+    on_boundary: np.ndarray
+    field: ImposedField
+    record: QuadMeshRecord
+
+    def __repr__(self) -> str:
+        r = self.record
+        return (
+            f"QuadMeshResult({r.input}: {r.quads:,} quads, {sum(r.irregular_vertices.values()):,} irregular vertices;"
+            f" least scaled Jacobian {r.scaled_jacobian.min:.3f})"
+        )
+
+    def _facts(self) -> Facts:
+        return str(self.record.input), {name: self.record.to_dict()[name] for name in _SHOWN}
+
+    def scene(self) -> pyvista.Plotter:
+        """A pyvista scene: quads by their scaled Jacobian."""
+        from ..view.window import shown_where_possible
+
+        return shown_where_possible(self._drawn())
+
+    def _drawn(self) -> pyvista.Plotter:
+        from ..view.quad_layout import jacobian_scene
+        from .files import quad_grid
+
+        return jacobian_scene(quad_grid(self))
+
+
+def compute_quad_mesh(
+    source: Source | SurfaceDomain | MeshedInput,
+    options: SurfaceFieldOptions = SurfaceFieldOptions(),
+    progress: Progress | None = None,
+    *,
+    quad_options: QuadMeshOptions = QuadMeshOptions(),
+    sizes: Sizes | None = None,
+) -> QuadMeshResult:
+    """Quads on a surface, open or closed, or on the boundary of a tet mesh (paths or meshes in memory), along a cross
+    field whose singular points are their irregular vertices, about as large as wanted; features are followed exactly.
+
+    options: of the mesh that the field is computed on, and of that field. Their edge_length is that of triangles.
+    sizes: edge lengths wanted, input unit: a function of (n, 3) points; (n,) one per vertex of the input; (k, 4) rows
+        x y z size; or a file of these, .npy or text. The field is the one of the surface measured in them, so that it
+        turns as quads of such sizes have to. None: the same everywhere.
+
+    progress(phase, fraction, merit): False cancels. Raises InvalidInput, GeometryError, IoError, SolverError,
+    Cancelled.
+
+        >>> import octafield
+        >>> corners = [[0, 0, 0], [3, 0, 0], [3, 1, 0], [0, 1, 0]]
+        >>> plate = octafield.TriangleMesh(corners, [[0, 1, 2], [0, 2, 3]])
+        >>> result = octafield.compute_quad_mesh(plate, quad_options=octafield.QuadMeshOptions(quads=12))
+        >>> result.record.quads, result.record.irregular_vertices, result.record.scaled_jacobian.min > 0.99
+        (12, {}, True)
+    """
+    meshed, places, given = meshed_with_places(source, replace(options, interfaces=False), progress)
+    with naming(meshed.name):
+        points = PointsWanted(places, None, None, options, fitted=True)
+        wanted_at = None if sizes is None else size_function(sizes, places.found or from_mesh(meshed.surface))
+        return _on(meshed, given, points, quad_options, wanted_at, progress)
+
+
+def _on(
+    meshed: MeshedInput,
+    given: TriangleMesh,
+    points: PointsWanted,
+    wanted: QuadMeshOptions,
+    sizes: SizeAt | None,
+    progress: Progress | None,
+) -> QuadMeshResult:
+    from . import record
+
+    target, scale = _target(meshed, wanted, sizes)
+    layout = QuadLayoutOptions(quads=target, blocks="fine", measure="lengths", inadmissible=wanted.inadmissible)
+    measure = None if sizes is None else lambda domain: sized(domain, sizes)
+    found = quads_on(meshed, given, points, layout, progress, measure)
+    ratios = _size_ratios(found.quads.mesh, sizes, scale)
+    told = record.of_quad_mesh(found, ratios, target, len(meshed.surface.triangles), wanted, points.options)
+    return QuadMeshResult(
+        mesh=found.quads.mesh,
+        scaled_jacobians=found.figures.scaled_jacobians,
+        size_ratios=ratios,
+        valences=found.figures.quads_round,
+        on_boundary=found.figures.on_boundary,
+        field=found.field,
+        record=told,
+    )
+
+
+def _target(meshed: MeshedInput, wanted: QuadMeshOptions, sizes: SizeAt | None) -> tuple[int, float]:
+    """How many quads, and their edge length where sizes are None, else what sizes are times."""
+    domain = SurfaceDomain(meshed.surface)
+    area = float(np.asarray(_core.triangle_areas(meshed.surface)).sum())
+    per_unit = area if sizes is None else quads_wanted(domain, sizes)  # quads of size 1, or of these sizes
+    if wanted.quads:
+        count = float(wanted.quads)
+    elif wanted.edge_length:
+        count = area / wanted.edge_length**2
+    elif sizes is None:
+        count = area / float(_core.mean_edge_length(meshed.surface)) ** 2
+    else:
+        count = per_unit
+    if count > MOST_QUADS:
+        raise InvalidInput(
+            f"that asks for about {count:.2g} quads, and at most {MOST_QUADS:,} are made; give a larger edge length or"
+            " larger sizes",
+            "too_many_cells",
+        )
+    return max(1, round(count)), float(np.sqrt(per_unit / count))
+
+
+def _size_ratios(mesh: QuadMesh, sizes: SizeAt | None, scale: float) -> np.ndarray:
+    corners = np.asarray(mesh.vertices)[np.asarray(mesh.quads)]
+    areas = np.linalg.norm(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), axis=1) / 2
+    there = 1.0 if sizes is None else sizes(corners.mean(axis=1))
+    ratios: np.ndarray = np.sqrt(areas) / (scale * there)
+    return ratios

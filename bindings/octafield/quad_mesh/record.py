@@ -1,0 +1,87 @@
+"""The record of a quad mesh. Imported where a record is made: pydantic takes long to import."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .._core import QuadMesh
+from ..layout.made import QuadsMade
+from ..layout.record import jacobians, points_of
+from ..options import SurfaceFieldOptions
+from ..records.parts import Deviation, EdgeLengths, FeatureDeviation, MinMax, SizeRatios, WholeNumberFigures
+from ..records.quad_mesh import QuadMeshRecord
+from .features import feature_deviation
+from .options import QuadMeshOptions
+
+
+def of_quad_mesh(
+    made: QuadsMade,
+    size_ratios: np.ndarray,
+    target: int,
+    triangles: int,
+    options: QuadMeshOptions,
+    field_options: SurfaceFieldOptions,
+) -> QuadMeshRecord:
+    """size_ratios: of each quad. target: number of quads wanted. triangles: of the surface before it was refined."""
+    begun, figures, mesh, meter = made.begun, made.figures, made.quads.mesh, made.meter
+    corners, curves = feature_deviation(mesh, made.whole)
+    low, median, high = np.percentile(size_ratios, [10, 50, 90])
+    smallest, largest = quad_angles(mesh)
+    whole = made.quads.whole_numbers
+    wall = {name: seconds for name, seconds in meter.wall.items() if seconds}
+    return QuadMeshRecord(
+        input=begun.input,
+        version=begun.version,
+        input_kind=begun.input_kind,
+        mesh_sha256=begun.mesh_sha256,
+        triangles=triangles,
+        field_triangles=len(made.field.field.domain.triangles),
+        feature_source=begun.feature_source,
+        feature_edges=begun.feature_edges,
+        point_source=made.pattern.source,
+        field_singularities=points_of(made.field),
+        target=target,
+        quads=len(mesh.quads),
+        vertices=len(mesh.vertices),
+        irregular_vertices=_valences(figures.quads_round[~figures.on_boundary], 4),
+        irregular_boundary_vertices=_valences(figures.quads_round[figures.on_boundary], 2),
+        inverted=figures.inverted,
+        nonconforming_edges=figures.nonconforming_edges,
+        t_junctions=figures.t_junctions,
+        scaled_jacobian=jacobians(figures.jacobians),
+        angle=MinMax(min=smallest, max=largest),
+        edge_length=EdgeLengths(
+            target=made.target, median=figures.edges.median, p05=figures.edges.p05, p95=figures.edges.p95
+        ),
+        size_ratio=SizeRatios(p10=float(low), median=float(median), p90=float(high)),
+        feature_deviation=FeatureDeviation(corners=corners, curves=curves),
+        surface_deviation=Deviation(max=figures.deviation[0], rms=figures.deviation[1]),
+        whole_numbers=WholeNumberFigures(
+            objective=0.0 if whole is None else whole.deviation,
+            bound=0.0 if whole is None else whole.bound,
+            optimal=whole is None or whole.optimal,
+        ),
+        seconds=sum(wall.values()),
+        wall_seconds=wall,
+        cpu_seconds={name: meter.cpu[name] for name in wall},
+        phase_peak_mb=meter.peak_mb,
+        peak_mb=max(begun.peak_mb, *meter.peak_mb.values()),
+        notes=begun.notes,
+        versions=begun.versions,
+        machine=begun.machine,
+        options=dict(vars(options)),
+        field_options=field_options.recorded(),
+    )
+
+
+def quad_angles(mesh: QuadMesh) -> tuple[float, float]:
+    """The smallest and the largest of all corners, degrees: between edges in space."""
+    corners = np.asarray(mesh.vertices)[np.asarray(mesh.quads)]
+    u, v = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    angles = np.arctan2(np.linalg.norm(np.cross(u, v), axis=2), (u * v).sum(axis=2))
+    return float(np.degrees(angles.min())), float(np.degrees(angles.max()))
+
+
+def _valences(quads_round: np.ndarray, regular: int) -> dict[str, int]:
+    found, counts = np.unique(quads_round[(quads_round != regular) & (quads_round > 0)], return_counts=True)
+    return {str(valence): int(count) for valence, count in zip(found, counts, strict=True)}
