@@ -20,6 +20,7 @@ from ..options import SurfaceFieldOptions
 from ..progress.phases import Progress
 from ..view.notebook import Facts, ShownInNotebooks
 from .blocks import LayoutParts
+from .made import quads_on
 from .options import QuadLayoutOptions
 from .points.wanted import Corners, Points, PointsWanted, meshed_with_places, require_own_surface
 
