@@ -96,6 +96,12 @@ def own(path: Path, quads: int) -> dict:
 
 
 def other(path: Path, quads: int) -> dict:
+    points, cells, rest, cpu = nearest_to(path, quads)
+    return figures(points, cells, rest, path) | {"cpu": cpu}
+
+
+def nearest_to(path: Path, quads: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """Vertices, quads, triangles where their number is nearest to the one wanted, and CPU seconds of that try."""
     points, triangles = surface_of(path)
     area = np.linalg.norm(np.cross(*(points[triangles[:, k]] - points[triangles[:, 0]] for k in (1, 2))), axis=1).sum()
     edge, best = COARSER * np.sqrt(area / 2 / quads), None
@@ -112,7 +118,7 @@ def other(path: Path, quads: int) -> dict:
             break
         edge *= np.sqrt(ratio)
     _, (vertices, cells, rest), cpu = best
-    return figures(placed(vertices, path, points, triangles), cells, rest, path) | {"cpu": cpu}
+    return placed(vertices, path, points, triangles), cells, rest, cpu
 
 
 def quadqs(path: Path, edge: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -8,6 +8,7 @@ result.record.size_ratio       # reached over wanted
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -120,7 +121,7 @@ def _on(
 
     target, scale = _target(meshed, wanted, sizes)
     layout = QuadLayoutOptions(quads=target, blocks="fine", measure="lengths", inadmissible=wanted.inadmissible)
-    measure = None if sizes is None else lambda domain: sized(domain, sizes)
+    measure = None if sizes is None else partial(sized, sizes=sizes)
     found = quads_on(meshed, given, points, layout, progress, measure)
     ratios = _size_ratios(found.quads.mesh, sizes, scale)
     told = record.of_quad_mesh(found, ratios, target, len(meshed.surface.triangles), wanted, points.options)
