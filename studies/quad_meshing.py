@@ -3,10 +3,10 @@
     python -m studies.quad_meshing -o DIR [--factor 0.5] [--only s05u,i02c] [--by octafield,quadriflow,instant,gmsh]
 
 Each file's boundary at `factor` times its mean edge, area / edge^2 quads wanted; each tool on each file in a process of
-its own (QuadriFlow may end it) that is stopped at 240 s of CPU time, the others at 60 (QuadriFlow at 120). The others get the triangles of the file, and the
-same judge: studies.quad_judge, which knows arrays alone. DIR gets rows.jsonl, meshing.md, beside.md and when.md.
-QuadriFlow is pyQuadriFlow 0.0.4, Instant Meshes is pynanoinstantmeshes 0.0.3 (pip install them; a row says where one
-is missing); Gmsh is of requirements-test.txt.
+its own (QuadriFlow may end it) that is stopped at 240 s of CPU time, QuadriFlow at 120, the others at 60. The others
+get the triangles of the file, and the same judge: studies.quad_judge, which knows arrays alone. DIR gets rows.jsonl,
+meshing.md and when.md. QuadriFlow is pyQuadriFlow 0.0.4, Instant Meshes is pynanoinstantmeshes 0.0.3 (pip install them;
+a row says where one is missing); Gmsh is of requirements-test.txt.
 """
 
 import argparse
