@@ -37,9 +37,13 @@ struct Method {
 const Method& method_of(const DirectionFieldOptions& options);  // throws InvalidInput that lists the names
 
 void require_usable(const SurfaceDomain& domain, const DirectionFieldOptions& options) {
-    if (domain.has_own_lengths())
-        throw InvalidInput("direction fields are found on the surface in space, without edge lengths of its own",
-                           "own_lengths");
+    const DirectionConstraints& given = options.constraints;
+    if (domain.has_own_lengths() &&
+        (given.edges.rows() > 0 || !given.vertices.empty() || options.guide.directions.rows() > 0))
+        throw InvalidInput(
+            "constraints and guides are directions on the surface in space, without edge lengths of its "
+            "own; leave them out",
+            "own_lengths");
     const auto is_length = [](double length) { return length >= 0 && std::isfinite(length); };
     if (options.symmetry < 1 || options.symmetry > largest_symmetry)
         throw InvalidInput("the symmetry of a direction field must be at least 1 and at most " +
@@ -375,7 +379,8 @@ DirectionField direction_field(const SurfaceDomain& domain, const DirectionField
             free = solver.has_free_component();
             solver.run();
         }
-        if (free && field.converged && options.symmetry % 2 == 0 && method_of(options).run_from)
+        const bool in_space = !domain.has_own_lengths();  // as principal directions are
+        if (free && in_space && field.converged && options.symmetry % 2 == 0 && method_of(options).run_from)
             improve_from_curvature(options, field, progress);
     });
     return field;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "inverse_iteration.hpp"
 #include "random_field.hpp"
 
 namespace octafield::surface::detail {
@@ -40,15 +41,14 @@ Eigen::VectorXcd smoothest_eigenvector(DiffusionSolver& solver, const FreeSystem
                                        const Eigen::VectorXd& weights, const Components& components, std::uint64_t seed,
                                        const Progress& progress) {
     Eigen::VectorXcd values = system.scatter(as_complex(random_vector(2 * system.size(), seed)), weights.size());
-    Eigen::ArrayXd growth = scale_components(values, weights, components);
-    for (int i = 0; i < most_iterations; ++i) {
-        if (!report(progress, "cross field", 0, std::numeric_limits<double>::quiet_NaN())) break;
-        const Eigen::VectorXcd weighted = weights.cast<Complex>().cwiseProduct(values);
-        values = system.scatter(solver.solve(system.gather(weighted)), weights.size());
-        const Eigen::ArrayXd before = growth;
-        growth = scale_components(values, weights, components);
-        if (i > 0 && ((growth - before).abs() <= eigen_tolerance * growth).all()) break;
-    }
+    const auto solve = [&](const Eigen::VectorXcd& given) -> Eigen::VectorXcd {
+        const Eigen::VectorXcd weighted = weights.cast<Complex>().cwiseProduct(given);
+        return system.scatter(solver.solve(system.gather(weighted)), weights.size());
+    };
+    const auto scale = [&](Eigen::VectorXcd& given) { return scale_components(given, weights, components); };
+    const auto go_on = [&] { return report(progress, "cross field", 0, std::numeric_limits<double>::quiet_NaN()); };
+    bool settled = false;
+    inverse_iteration(values, solve, scale, most_iterations, eigen_tolerance, go_on, settled);
     for (Eigen::Index e = 0; e < values.size(); ++e)
         if (weights[e] == 0) values[e] = 0;
     return values;

@@ -105,12 +105,13 @@ struct DirectionField {
 // Edges of the mesh boundary and of the domain's features have g = 1: one direction along the edge. With odd N the
 // direction follows the boundary, surface on its left, and features inside the surface are refused: they have no sense
 // to run in. Where nothing aligns a component, the methods gl and mbo also descend from the principal directions (even
-// N) and give the field of lower E. Cancelling through progress keeps the best state (converged = false). Throws
-// InvalidInput (kind "own_lengths" where the domain has edge lengths of its own); GeometryError (kind "empty") without
-// triangles; SolverError when the descent ends with |f| < 0.1 on all free edges of a component (kind
-// "epsilon_too_large", elements its triangles): such a field has no directions; SolverError where triangles are too
-// thin for double precision (kind "thin_triangles", elements; angles far below 1e-6 radians) or weights too small to
-// count (kind "bad_weights").
+// N) and give the field of lower E. Cancelling through progress keeps the best state (converged = false). On a domain
+// with edge lengths of its own the field, its energy and its coherence length are in that metric; constraints and
+// guides, directions in space, are refused there (InvalidInput, kind "own_lengths"). Throws InvalidInput; GeometryError
+// (kind "empty") without triangles; SolverError when the descent ends with |f| < 0.1 on all free edges of a component
+// (kind "epsilon_too_large", elements its triangles): such a field has no directions; SolverError where triangles are
+// too thin for double precision (kind "thin_triangles", elements; angles far below 1e-6 radians) or weights too small
+// to count (kind "bad_weights").
 DirectionField direction_field(const SurfaceDomain& domain, const DirectionFieldOptions& options = {},
                                const Progress& progress = {});
 
