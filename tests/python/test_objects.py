@@ -130,6 +130,7 @@ def layout_objects():
         layout, of.surface.layout_quads(layout, quad_count=12), of.surface.patch_polygons(layout),
         of.surface.LayoutCurveOptions(end_tolerance=0.1), of.surface.LayoutQuadsOptions(quad_count=7),
         of.compute_quad_layout(plate, layout_options=of.QuadLayoutOptions(quads=12)), of.QuadLayoutOptions(quads=12),
+        of.compute_quad_mesh(plate, quad_options=of.QuadMeshOptions(quads=12)), of.QuadMeshOptions(quads=12),
     ]  # fmt: skip
 
 

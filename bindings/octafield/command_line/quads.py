@@ -176,12 +176,22 @@ def quad_mesh(
         typer.Option(metavar="LENGTH", help="In its place: their mean edge, input unit; 0: that of the triangles."),
     ] = 0.0,
     size: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FILE|growth=G",
+            help=(
+                "Edge lengths wanted, .npy or text: a number per vertex of INPUT, or rows x y z size. Or those of its"
+                " boundary, plus G times the distance. With --quads or --edge-length their ratios count."
+            ),
+        ),
+    ] = None,
+    field: Annotated[
         Path | None,
         typer.Option(
             metavar="FILE",
             help=(
-                "Edge lengths wanted, .npy or text: a number per vertex of INPUT, or rows x y z size. With --quads or"
-                " --edge-length their ratios count."
+                "A cross field whose singular points become irregular vertices, in place of a computed one: .vtp with"
+                " data `direction` (as surface-field writes), or .npy, a direction per vertex or triangle of INPUT."
             ),
         ),
     ] = None,
@@ -223,7 +233,7 @@ def quad_mesh(
         of_quads = QuadMeshOptions(quads=quads, edge_length=edge_length, inadmissible=inadmissible)
         written = formats_of(formats)
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
-            result = compute_quad_mesh(input, chosen, progress, quad_options=of_quads, sizes=size)
+            result = compute_quad_mesh(input, chosen, progress, quad_options=of_quads, sizes=size, field=field)
             write_quad_mesh_result(result, folder, written, progress)
         console.report_notes(result.record)
         if json:

@@ -81,7 +81,7 @@ def quads_on(
         domain, pattern = _pattern(domain, wanted, points, progress)
         begun = begun.changed(notes=[*begun.notes, *notes])
         field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
-    computed = pattern.source == "computed"
+    computed = points.singularities is None
     made: BlockQuads
     with told_of_points(domain, pattern.pattern, wanted):
         if wanted.layout == "t-mesh":

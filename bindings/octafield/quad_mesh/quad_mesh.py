@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,15 +20,16 @@ from ..domain.inputs import from_mesh, naming
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source
 from ..errors import InvalidInput
-from ..hexdom.sizes import SizeAt, Sizes, size_function
+from ..hexdom.sizes import SizeAt, Sizes
 from ..layout.made import quads_on
 from ..layout.options import MOST_QUADS, QuadLayoutOptions
 from ..layout.points.wanted import PointsWanted, meshed_with_places
 from ..options import SurfaceFieldOptions
 from ..progress.phases import Progress
 from ..view.notebook import Facts, ShownInNotebooks
+from .given_field import FieldGiven, field_at
 from .options import QuadMeshOptions
-from .sized import quads_wanted, sized
+from .sized import quads_wanted, size_at, sized
 
 if TYPE_CHECKING:
     import pyvista
@@ -83,14 +85,20 @@ def compute_quad_mesh(
     *,
     quad_options: QuadMeshOptions = QuadMeshOptions(),
     sizes: Sizes | None = None,
+    field: FieldGiven | None = None,
 ) -> QuadMeshResult:
     """Quads on a surface, open or closed, or on the boundary of a tet mesh (paths or meshes in memory), along a cross
     field whose singular points are their irregular vertices, about as large as wanted; features are followed exactly.
 
     options: of the mesh that the field is computed on, and of that field. Their edge_length is that of triangles.
     sizes: edge lengths wanted, input unit: a function of (n, 3) points; (n,) one per vertex of the input; (k, 4) rows
-        x y z size; or a file of these, .npy or text. The field is the one of the surface measured in them, so that it
+        x y z size; a file of these, .npy or text; or "growth=0.2": the length of the boundary's edges at the nearest
+        place of it, plus 0.2 times the distance. The field is the one of the surface measured in them, so that it
         turns as quads of such sizes have to. None: the same everywhere.
+
+    field: a cross field whose singular points are to be the irregular vertices, in place of a computed one: (V, 3)
+        or (F, 3) directions, one of each cross, at the vertices or triangles of the input, .npy of these, or .vtp of a
+        surface with data `direction`. Quads follow the imposed field of these points.
 
     progress(phase, fraction, merit): False cancels. Raises InvalidInput, GeometryError, IoError, SolverError,
     Cancelled.
@@ -104,8 +112,11 @@ def compute_quad_mesh(
     """
     meshed, places, given = meshed_with_places(source, replace(options, interfaces=False), progress)
     with naming(meshed.name):
-        points = PointsWanted(places, None, None, options, fitted=True)
-        wanted_at = None if sizes is None else size_function(sizes, places.found or from_mesh(meshed.surface))
+        found = places.found or from_mesh(meshed.surface)
+        own = None if field is None else field_at(field, found)
+        name = str(field) if isinstance(field, (str, Path)) else "given"
+        points = PointsWanted(places, None, None, options, fitted=True, field=own, field_name=name)
+        wanted_at = None if sizes is None else size_at(sizes, found)
         return _on(meshed, given, points, quad_options, wanted_at, progress)
 
 

@@ -17,8 +17,7 @@ QuadLayout with_lengths_for_parameters(const QuadLayout& layout) {
     for (Index p = 0; p < cut.polygon_count(); ++p)
         for (Index c = cut.first[p]; c < cut.first[p + 1]; ++c) {
             if (pieces.chain_of_side[c] < 0) continue;
-            const Eigen::Vector3d way =
-                cut.positions.row(cut.nodes[cut.next(p, c)]) - cut.positions.row(cut.nodes[c]);
+            const Eigen::Vector3d way = cut.positions.row(cut.nodes[cut.next(p, c)]) - cut.positions.row(cut.nodes[c]);
             const bool own = layout.domain.has_own_lengths();
             steps[pieces.chain_of_side[c]][pieces.part_of_side[c]] =
                 own ? std::abs(vector_by_own_lengths(layout.domain, cut.triangles[p], way)) : way.norm();

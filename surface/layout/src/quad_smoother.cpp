@@ -18,7 +18,7 @@ constexpr double reachable = 0.98;   // of the sine of an angle that nothing cha
 constexpr double few_bad = 0.02;     // of the quads
 constexpr int beside = 8;            // rings round what is relaxed that are optimised with it
 constexpr double softness = 10;
-constexpr double size_share = 0.3;    // of sizes beside shapes
+constexpr double size_share = 0.3;  // of sizes beside shapes
 constexpr int rings[] = {1, 2, 4, 8}, relaxing_rounds = 20;
 constexpr double least_gain = 1e-4;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges

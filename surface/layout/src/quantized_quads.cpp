@@ -79,8 +79,9 @@ public:
 
     // The fewest blocks with quads as good as wanted; else the fewest with quads nearly as good as the best.
     QuantizedQuads fewest_of(const std::vector<detail::BlockStructure>& structures) {
-        const auto first_rescue =
-            options_.blocks == Blocks::fine ? detail::Rescue::everywhere : detail::Rescue::where_few;
+        const auto first_rescue = options_.blocks == Blocks::few            ? detail::Rescue::where_few
+                                  : options_.measure == ArcMeasure::lengths ? detail::Rescue::near_them
+                                                                            : detail::Rescue::everywhere;
         std::vector<Attempt> attempts;
         std::exception_ptr finest_error;
         for (const detail::BlockStructure& structure : structures) {
@@ -138,17 +139,15 @@ private:
                 options_.release_points};
     }
 
-    // From where the maps have the vertices (not where some were merged: that is too far from where they belong), and
-    // where that leaves bad quads from where they are when relaxed, or all moved at once. The best is kept.
+    // From where the maps have the vertices (not where some were merged: that is too far from where they belong), or
+    // from there for sizes as well, and where that leaves bad quads from where they are when relaxed, or all moved at
+    // once. The best is kept.
     void smooth(Attempt& attempt, detail::Rescue rescue, bool merged, bool finest) const {
         report_or_throw(progress_, "smooth", 0.8, NAN);
         if (options_.smoothing == 0) return judge(attempt);
         const Attempt start = attempt;
         attempt.margin = -std::numeric_limits<double>::infinity();
-        using detail::Start;
-        for (const Start from : {Start::evened, Start::mapped, Start::relaxed, Start::untangled}) {
-            if (from == Start::evened ? options_.measure == ArcMeasure::parameters
-                                      : from == Start::mapped ? merged : finest) continue;
+        for (const detail::Start from : starts(merged, finest)) {
             Attempt other = start;
             detail::prepare(input_of(other), from, other.quads.mesh);
             const double most = from == detail::Start::untangled ? most_left : most_inverted;
@@ -159,6 +158,17 @@ private:
         }
         if (std::isinf(attempt.margin))
             throw SolverError("the structure of blocks inverts too many quads", "inverted_quads");
+    }
+
+    std::vector<detail::Start> starts(bool merged, bool finest) const {
+        using detail::Start;
+        const bool by_lengths = options_.measure == ArcMeasure::lengths;
+        std::vector<Start> result;
+        if (by_lengths || !merged) result.push_back(by_lengths ? Start::evened : Start::mapped);
+        if (finest) return result;
+        result.push_back(Start::relaxed);
+        result.push_back(Start::untangled);
+        return result;
     }
 
     void smooth_further(Attempt& attempt, detail::Rescue rescue) const {

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ... import _core
-from ..._core import CornerQuads, ImposedPoint, SingularPattern, SurfaceDomain
+from ..._core import CornerQuads, DirectionField, ImposedPoint, SingularPattern, SurfaceDomain
 from ...errors import InvalidInput
 from ...options import SurfaceFieldOptions
 from ...progress.phases import Progress, forward
@@ -36,10 +36,14 @@ def pattern_of(domain: SurfaceDomain, wanted: PointsWanted, progress: Progress |
     if isinstance(singularities, SingularPattern):
         made = Pattern(singularities, "given", "given" if singularities.corners else "angle")
     elif singularities is None:
-        computed = _computed(domain, wanted.options, progress)
+        if wanted.field is None:
+            computed = _computed(domain, wanted.options, progress)
+        else:
+            computed = _of_field(wanted.field(domain))
         if fitted:
             computed = _core.with_corner_quads(domain, computed, _core.finite_corner_quads(domain, computed))
-        made = Pattern(computed, "computed", "computed")
+        source = "computed" if wanted.field is None else wanted.field_name
+        made = Pattern(computed, source, source)
     else:
         made = _given(domain, wanted.places, singularities)
     if corners is not None:
@@ -89,7 +93,11 @@ def _computed(domain: SurfaceDomain, options: SurfaceFieldOptions, progress: Pro
         seed=options.seed,
         progress=forward(progress, "surface", 0, 1),
     )
-    return _core.singular_pattern(made, _core.surface_singularities(made))
+    return _of_field(made)
+
+
+def _of_field(field: DirectionField) -> SingularPattern:
+    return _core.singular_pattern(field, _core.surface_singularities(field))
 
 
 def _given(domain: SurfaceDomain, places: Places, singularities: Any) -> Pattern:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..._core import SingularPattern, SurfaceDomain, TetDomain, TetMesh, TriangleMesh
+from ..._core import DirectionField, SingularPattern, SurfaceDomain, TetDomain, TetMesh, TriangleMesh
 from ...domain.inputs import Input, from_mesh, read_input
 from ...domain.meshed_input import MeshedInput
 from ...domain.meshing import Source, prepare_mesh, read_sound
@@ -67,6 +67,8 @@ class PointsWanted:
     corners: Corners | None
     options: SurfaceFieldOptions
     fitted: bool = False
+    field: Callable[[SurfaceDomain], DirectionField] | None = None  # in place of one that is computed
+    field_name: str = "given"
 
 
 def require_own_surface(source: object, singularities: Points | None) -> None:

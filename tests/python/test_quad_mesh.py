@@ -1,0 +1,279 @@
+"""octafield quad-mesh: quads of wanted sizes."""
+
+import json
+
+import meshio
+import numpy as np
+import octafield as of
+import pytest
+from octafield.command_line import fields as cli
+from octafield.domain.generators import generate
+from octafield.quad_mesh.features import feature_deviation
+from octafield.records.record_file import any_record
+from pipeline_fixtures import octafield
+from quad_mesh_checks import area_of, disk, require_conforming
+from surface_fixtures import square
+from test_t_meshes import cube
+from typer.testing import CliRunner
+
+KEPT = of.SurfaceFieldOptions(remesh=False)
+
+
+def made(source, sizes=None, **wanted):
+    return of.compute_quad_mesh(source, KEPT, quad_options=of.QuadMeshOptions(**wanted), sizes=sizes)
+
+
+def valences(mesh):
+    """Of vertices inside with other than four quads: {number of quads: how many}, by numpy alone."""
+    quads = np.asarray(mesh.quads)
+    sides = np.sort(np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
+    edges, count = np.unique(sides, axis=0, return_counts=True)
+    around = np.bincount(quads.ravel(), minlength=len(mesh.vertices))
+    around[edges[count == 1].ravel()] = 4
+    found, number = np.unique(around[around != 4], return_counts=True)
+    return {str(k): int(n) for k, n in zip(found, number, strict=True)}
+
+
+def areas(mesh):
+    p = np.asarray(mesh.vertices)[np.asarray(mesh.quads)]
+    return np.linalg.norm(np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1]), axis=1) / 2
+
+
+@pytest.fixture(scope="module")
+def of_disk():
+    return made(disk(), quads=300)
+
+
+def test_quads_are_conforming_of_wanted_number_and_irregular_where_the_field_is(of_disk):
+    mesh, record = of_disk.mesh, of_disk.record
+    require_conforming(mesh, 1)
+    inside = [point for point in record.field_singularities if not point.boundary]
+    assert valences(mesh) == record.irregular_vertices == {"3": len(inside)} == {"3": 4}
+    assert abs(record.quads / record.target - 1) <= 0.05 and record.target == 300
+    assert record.inverted == record.nonconforming_edges == record.t_junctions == 0
+    assert record.whole_numbers.objective >= record.whole_numbers.bound - 1e-9 >= -1e-9
+    assert record.angle.min > 45 and record.angle.max < 160
+
+
+def test_size_ratios_are_those_of_the_areas(of_disk):
+    ratios = np.sqrt(areas(of_disk.mesh)) / np.sqrt(np.pi / 300)
+    np.testing.assert_allclose(of_disk.size_ratios, ratios, rtol=2e-3)  # the disk is a polygon
+    p10, p90 = np.percentile(ratios, [10, 90])
+    assert abs(of_disk.record.size_ratio.p10 - p10) < 2e-3 and abs(of_disk.record.size_ratio.p90 - p90) < 2e-3
+
+
+def test_quads_by_lengths_are_nearer_to_one_size_than_those_by_parameters():
+    """Where the field's own sizes differ: round a hole."""
+
+    def spread(measure):
+        wanted = of.QuadLayoutOptions(quads=300, blocks="fine", measure=measure)
+        low, high = np.percentile(areas(of.compute_quad_layout(plate, KEPT, layout_options=wanted).mesh), [10, 90])
+        return high / low
+
+    plate = plate_with_hole()
+    assert spread("lengths") < 0.8 * spread("parameters")
+
+
+def plate_with_hole(n=32, rings=10):
+    """The square [-4, 4]^2 less the unit disk."""
+    angles = 2 * np.pi * np.arange(n) / n
+    inner = np.column_stack([np.cos(angles), np.sin(angles)])
+    outer = 4 * inner / abs(inner).max(axis=1)[:, None]
+    shares = (np.arange(rings + 1) / rings)[:, None, None] ** 1.5
+    points = ((1 - shares) * inner + shares * outer).reshape(-1, 2)
+    return of.TriangleMesh(np.column_stack([points, 0 * points[:, 0]]), ring_triangles(n, rings))
+
+
+def test_features_and_corners_are_followed_exactly():
+    result = made(cube(), quads=300)
+    assert result.record.feature_deviation.corners == 0 and result.record.feature_deviation.curves < 1e-12
+    assert result.record.irregular_vertices == {"3": 8}
+    moved = np.array(result.mesh.vertices)
+    corner = int(np.flatnonzero((moved == 1).all(axis=1))[0])
+    moved[corner] = 0.99
+    bent = of.surface.QuadMesh(moved, quads=np.asarray(result.mesh.quads))
+    whole = of.surface.SurfaceDomain(cube(), of.surface.detect_features(cube()))
+    corners, curves = feature_deviation(bent, whole)
+    assert corners > 1e-3 and curves > 1e-3
+
+
+def ring(n=48, rings=16):
+    """Between the circles of radius 1 and 4."""
+    angles, radii = 2 * np.pi * np.arange(n) / n, 4.0 ** (np.arange(rings + 1) / rings)
+    points = radii[:, None, None] * np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])
+    return of.TriangleMesh(points.reshape(-1, 3), ring_triangles(n, rings))
+
+
+def ring_triangles(n, rings):
+    inner = [(r * n + i, r * n + (i + 1) % n) for r in range(rings) for i in range(n)]
+    return [t for a, b in inner for t in ([a, a + n, b + n], [a, b + n, b])]
+
+
+def test_sizes_like_the_radius_are_reached_between_circles_without_points():
+    """Crosses along the circles turn as such quads do: squares of log r and the angle."""
+    result = made(ring(), sizes=lambda p: 0.15 * np.linalg.norm(p, axis=1))
+    mesh, record = result.mesh, result.record
+    assert record.irregular_vertices == {}
+    assert abs(record.target / (2 * np.pi * np.log(4) / 0.15**2) - 1) < 0.01
+    assert abs(record.quads / record.target - 1) <= 0.05
+    assert 0.9 < record.size_ratio.p10 and record.size_ratio.p90 < 1.1
+    radii = np.linalg.norm(np.asarray(mesh.vertices)[np.asarray(mesh.quads)].mean(axis=1), axis=1)
+    ratios = np.sqrt(areas(mesh)) / radii
+    assert ratios.max() / ratios.min() < 1.25
+
+
+def growing(points):
+    return 0.04 * 4 ** points[:, 0]
+
+
+def test_where_the_boundary_forbids_how_sizes_turn_there_are_points():
+    """Lines of quads that grow so turn by 79 degrees from the lower to the upper side, which are parallel."""
+    result = made(square(24), sizes=growing)
+    assert result.record.irregular_vertices == {"3": 1, "5": 1}
+    middles = np.asarray(result.mesh.vertices)[np.asarray(result.mesh.quads)].mean(axis=1)
+    sizes = np.sqrt(areas(result.mesh))
+    assert sizes[middles[:, 0] > 0.9].mean() > 2 * sizes[middles[:, 0] < 0.1].mean()
+
+
+def test_sizes_may_be_an_array_rows_a_file_or_grow_from_the_boundary(tmp_path):
+    plate = square(12)
+    points = np.asarray(plate.vertices)
+    np.save(tmp_path / "sizes.npy", growing(points))
+    rows = np.column_stack([points, growing(points)])
+    numbers = {made(plate, sizes=sizes).record.quads for sizes in (growing(points), rows, tmp_path / "sizes.npy")}
+    assert len(numbers) == 1
+    grown = made(square(24), sizes="growth=0.3")
+    middles = np.asarray(grown.mesh.vertices)[np.asarray(grown.mesh.quads)].mean(axis=1)
+    depth = np.minimum(middles[:, :2], 1 - middles[:, :2]).min(axis=1)
+    size = np.sqrt(areas(grown.mesh))
+    assert size[depth > 0.3].mean() > 1.2 * size[depth < 0.1].mean()
+    assert area_of(grown.mesh) == pytest.approx(1)
+
+
+def test_with_a_number_of_quads_the_ratios_of_sizes_count():
+    plate = square(12)
+    one, other = (made(plate, sizes=lambda p, f=f: f * growing(p), quads=150) for f in (1, 1000))
+    assert one.record.quads == other.record.quads
+    np.testing.assert_array_equal(one.mesh.quads, other.mesh.quads)
+
+
+@pytest.mark.parametrize(
+    "sizes, kind",
+    [
+        ([1.0, 2.0], "wrong_size"),
+        (lambda p: -np.ones(len(p)), "bad_sizes"),
+        (lambda p: np.where(p[:, 0] > 0.5, 1.0, 0.01), "steep_sizes"),
+        (lambda p: 1e-7 + 0 * p[:, 0], "too_many_cells"),
+        ("growth=fast", "bad_option"),
+        ("growth=-1", "bad_option"),
+        ("nowhere.npy", None),
+    ],
+)
+def test_sizes_that_no_quads_can_have_are_refused(sizes, kind):
+    with pytest.raises(of.Error) as error:
+        made(square(6), sizes=sizes)
+    assert kind is None or error.value.kind == kind
+
+
+def test_growth_needs_a_boundary_and_one_size_is_enough():
+    with pytest.raises(of.InvalidInput) as error:
+        made(cube(), sizes="growth=0.1")
+    assert error.value.kind == "no_boundary"
+    with pytest.raises(of.InvalidInput):
+        of.QuadMeshOptions(quads=10, edge_length=0.1)
+
+
+@pytest.mark.parametrize("name", ["torus", "nut"])
+def test_generated_parts_have_quads_alone(name):
+    part = generate(name)
+    result = of.compute_quad_mesh(part, quad_options=of.QuadMeshOptions(quads=800))
+    surface = of.surface.SurfaceDomain(part)
+    euler = len(part.vertices) - len(surface.edges) + len(part.triangles)
+    require_conforming(result.mesh, euler)
+    record = result.record
+    assert record.inverted == 0 and record.scaled_jacobian.min > 0.3
+    assert sum((4 - int(v)) * n for v, n in record.irregular_vertices.items()) == 4 * euler
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Of a run of the command, with its JSON beside."""
+    folder = tmp_path_factory.mktemp("quads")
+    of.write_surface(disk(), folder / "disk.obj")
+    octafield("quad-mesh", folder / "disk.obj", "-o", folder / "out", "--quads", "200", "--no-remesh", "--formats",
+              "vtu,obj,off,msh,mesh,inp", "--json", folder / "out.json", "-q", check=0)  # fmt: skip
+    return folder
+
+
+def test_every_format_holds_the_same_quads(folder):
+    whole = meshio.read(folder / "out" / "mesh.vtu")
+    quads = whole.cells_dict["quad"]
+    lines = (folder / "out" / "mesh.obj").read_text().splitlines()
+    places = np.array([line.split()[1:] for line in lines if line.startswith("v ")], float)
+    faces = np.array([line.split()[1:] for line in lines if line.startswith("f ")], int) - 1
+    np.testing.assert_array_equal(places, whole.points)
+    np.testing.assert_array_equal(faces, quads)
+    head, counts, *rest = (folder / "out" / "mesh.off").read_text().splitlines()
+    assert head == "OFF" and counts.split() == [str(len(places)), str(len(quads)), "0"]
+    np.testing.assert_array_equal(
+        [line.split() for line in rest[len(places) :]], np.insert(quads, 0, 4, axis=1).astype(str)
+    )
+    for name in ("mesh.msh", "mesh.mesh", "mesh.inp"):
+        found = meshio.read(folder / "out" / name)
+        np.testing.assert_allclose(found.points, whole.points, atol=1e-12)
+        np.testing.assert_array_equal(found.cells_dict["quad"], quads)
+    assert {"scaled_jacobian", "size_ratio"} <= set(whole.cell_data) and {"quads", "boundary"} <= set(whole.point_data)
+
+
+def test_the_record_is_read_back(folder):
+    told = json.loads((folder / "out.json").read_text())
+    assert told == json.loads((folder / "out" / "result.json").read_text())
+    record = any_record(folder / "out" / "result.json")
+    assert type(record).__name__ == "QuadMeshRecord" and record.quads == told["quads"]
+    assert sorted(told["files"]) == sorted(path.name for path in (folder / "out").iterdir())
+    assert record.seconds == pytest.approx(sum(record.wall_seconds.values()))
+
+
+def test_the_command_refuses_unknown_formats(tmp_path):
+    of.write_surface(square(2), tmp_path / "plate.obj")
+    done = CliRunner().invoke(
+        cli.app, ["quad-mesh", str(tmp_path / "plate.obj"), "-o", str(tmp_path / "out"), "--formats", "vtu,stl"]
+    )
+    assert done.exit_code != 0 and not (tmp_path / "out").exists()
+
+
+def turned_points(result):
+    return sorted(tuple(np.round(p.position, 3)) for p in result.record.field_singularities if not p.boundary)
+
+
+def test_a_field_of_ones_own_gives_the_irregular_vertices(tmp_path):
+    """Of the disk: the field round four points at other places than a computed one has them."""
+    plate = disk(12)
+    places = [(0.5, 0.01), (0.0, 0.4), (-0.5, 0.0), (0.02, -0.45)]
+    surface = of.surface
+    points = [surface.imposed_point(plate, [x, y, 0], 1) for x, y in places]
+    own = surface.impose_singular_points(plate, surface.SingularPattern(points))
+    fine = own.field.domain
+    of.write_surface(fine.mesh, tmp_path / "fine.obj")
+    directions = np.asarray(surface.vertex_directions(own.field))
+    np.save(tmp_path / "field.npy", directions)
+    result = of.compute_quad_mesh(
+        tmp_path / "fine.obj", KEPT, quad_options=of.QuadMeshOptions(quads=300), field=tmp_path / "field.npy"
+    )
+    found = np.array(turned_points(result))[:, :2]
+    assert len(found) == 4 and result.record.irregular_vertices == {"3": 4}
+    assert np.linalg.norm(found - sorted(places), axis=1).max() < 0.05
+    assert result.record.point_source == str(tmp_path / "field.npy")
+    computed = np.array(turned_points(made(plate, quads=300)))[:, :2]
+    assert np.linalg.norm(computed, axis=1).min() > 0.7  # where nobody has moved them
+
+
+@pytest.mark.parametrize(
+    "field, kind",
+    [(np.ones((3, 3)), "wrong_shape"), (np.zeros((49, 3)), "bad_field"), (np.full((49, 3), np.nan), "bad_field"),
+     (np.ones(49), "wrong_shape"), ("no.npy", None)],
+)  # fmt: skip
+def test_what_is_no_field_is_refused(field, kind):
+    with pytest.raises(of.Error) as error:
+        of.compute_quad_mesh(square(6), KEPT, field=field)
+    assert kind is None or error.value.kind == kind
