@@ -115,6 +115,10 @@ public:
             return counts_of(layout_, seams_, integer_counts(coarsest, options_.most_nodes), longest);
         });
     }
+    // Of the size wanted, where tracks between which less than half a quad would be become one.
+    void find_merged() {
+        add_merging([&](const ArcProblem& problem) { return chooser_.at_size(problem, chooser_.first_size()); });
+    }
     const ArcProblem& sums() const { return sums_; }
     std::vector<BlockStructure> result() && { return std::move(result_); }
 
@@ -128,6 +132,11 @@ private:
         } catch (const GeometryError&) {
         } catch (const SolverError&) {
         }
+        add_merging(counts);
+    }
+
+    template <class Counts>
+    void add_merging(const Counts& counts) {
         try {
             for (int round = 0; round < most_rounds; ++round) {
                 const SizedCounts found = counts(merging_);
@@ -189,6 +198,10 @@ std::vector<BlockStructure> block_structures(const QuadLayout& layout, const Sea
                                  [](const auto& a, const auto& b) { return a.blocks == b.blocks; }),
                      result.end());
         result = spread(std::move(result));
+    }
+    if (options.blocks == Blocks::fine && options.measure == ArcMeasure::lengths) {
+        finder.find_merged();
+        result = std::move(finder).result();
     }
     result.push_back({finest});
     return result;
