@@ -117,7 +117,7 @@ public:
     }
     // Of the size wanted, where tracks between which less than half a quad would be become one.
     void find_merged() {
-        add_merging([&](const ArcProblem& problem) { return chooser_.at_size(problem, chooser_.first_size()); });
+        add_merging([&](const ArcProblem& problem) { return chooser_.wanted(problem); });
     }
     const ArcProblem& sums() const { return sums_; }
     std::vector<BlockStructure> result() && { return std::move(result_); }
