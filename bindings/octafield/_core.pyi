@@ -839,6 +839,153 @@ def merge_singular_points(
 
 # ---- surface: quad layouts
 
+class WantedSizes:
+    def __init__(
+        self,
+        lengths: ArrayLike = ...,
+        turns: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def lengths(self) -> Float64s: ...
+    @lengths.setter
+    def lengths(self, value: ArrayLike) -> None: ...
+    @property
+    def turns(self) -> Float64s: ...
+    @turns.setter
+    def turns(self, value: ArrayLike) -> None: ...
+
+class SizedField:
+    eigenvalue: float
+    iterations: int
+    converged: bool
+    least_length: float
+    def __init__(
+        self,
+        field: DirectionField = ...,
+        values: ArrayLike = ...,
+        directions: ArrayLike = ...,
+        eigenvalue: float = ...,
+        iterations: int = ...,
+        converged: bool = ...,
+        holonomy: ArrayLike = ...,
+        unresolved: ArrayLike = ...,
+        triangle_indices: ArrayLike = ...,
+        least_length: float = ...,
+    ) -> None: ...
+    @property
+    def field(self) -> DirectionField: ...
+    @property
+    def values(self) -> Complex128s: ...
+    @values.setter
+    def values(self, value: ArrayLike) -> None: ...
+    @property
+    def directions(self) -> Float64s: ...
+    @directions.setter
+    def directions(self, value: ArrayLike) -> None: ...
+    @property
+    def holonomy(self) -> Float64s: ...
+    @holonomy.setter
+    def holonomy(self, value: ArrayLike) -> None: ...
+    @property
+    def unresolved(self) -> Int32s: ...
+    @unresolved.setter
+    def unresolved(self, value: ArrayLike) -> None: ...
+    @property
+    def triangle_indices(self) -> Int32s: ...
+    @triangle_indices.setter
+    def triangle_indices(self, value: ArrayLike) -> None: ...
+
+class ReachedSizes:
+    misfit: float
+    def __init__(
+        self,
+        log_sizes: ArrayLike = ...,
+        misfit: float = ...,
+    ) -> None: ...
+    @property
+    def log_sizes(self) -> Float64s: ...
+    @log_sizes.setter
+    def log_sizes(self, value: ArrayLike) -> None: ...
+
+class ExtendedRegion:
+    vertices: int
+    triangles: int
+    def __init__(
+        self,
+        mesh: TriangleMesh = ...,
+        vertices: int = ...,
+        triangles: int = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> TriangleMesh: ...
+
+class SizedFieldOptions:
+    words: ClassVar[dict[str, list[str]]]
+    symmetry: int
+    s: float
+    boundary_alignment: str
+    feature_alignment: str
+    corner_tolerance: float
+    shift: float
+    max_iterations: int
+    tolerance: float
+    seed: int
+    def __init__(
+        self,
+        symmetry: int = ...,
+        s: float = ...,
+        boundary_alignment: str = ...,
+        feature_alignment: str = ...,
+        corner_tolerance: float = ...,
+        directions: ArrayLike = ...,
+        weights: ArrayLike = ...,
+        shift: float = ...,
+        max_iterations: int = ...,
+        tolerance: float = ...,
+        seed: int = ...,
+    ) -> None: ...
+    @property
+    def directions(self) -> Float64s: ...
+    @directions.setter
+    def directions(self, value: ArrayLike) -> None: ...
+    @property
+    def weights(self) -> Float64s: ...
+    @weights.setter
+    def weights(self, value: ArrayLike) -> None: ...
+
+Sizes: TypeAlias = WantedSizes | ArrayLike | Callable[[Float64s], ArrayLike]
+
+def wanted_sizes(
+    surface: SurfaceDomain | TriangleMesh, sizes: Sizes, middles: ArrayLike | None = None
+) -> WantedSizes: ...
+def edge_midpoints(surface: SurfaceDomain | TriangleMesh) -> Float64s: ...
+def sized_field(
+    surface: SurfaceDomain | TriangleMesh,
+    sizes: Sizes,
+    *,
+    symmetry: int = ...,
+    s: float = ...,
+    boundary_alignment: str = ...,
+    feature_alignment: str = ...,
+    corner_tolerance: float = ...,
+    directions: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
+    shift: float = ...,
+    max_iterations: int = ...,
+    tolerance: float = ...,
+    seed: int = ...,
+    progress: Progress | None = None,
+) -> SizedField: ...
+def sized_domain(surface: SurfaceDomain | TriangleMesh, lengths: ArrayLike) -> SurfaceDomain: ...
+def boundary_sizes(surface: SurfaceDomain | TriangleMesh, *, growth: float = ..., largest: float = ...) -> Float64s: ...
+def reached_sizes(field: DirectionField) -> ReachedSizes: ...
+def size_ratios(surface: SurfaceDomain | TriangleMesh, reached: ReachedSizes, wanted: ArrayLike) -> Float64s: ...
+def extended_region(
+    region: SurfaceDomain | TriangleMesh, *, margin: float = ..., longest: float = ...
+) -> ExtendedRegion: ...
+def extended_sizes(region: ExtendedRegion, lengths: ArrayLike) -> Float64s: ...
+def restricted_field(field: DirectionField, region: SurfaceDomain | TriangleMesh) -> DirectionField: ...
+
 class LayoutCurveOptions:
     end_tolerance: float
     max_length: float
