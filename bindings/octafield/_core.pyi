@@ -986,6 +986,189 @@ def extended_region(
 def extended_sizes(region: ExtendedRegion, lengths: ArrayLike) -> Float64s: ...
 def restricted_field(field: DirectionField, region: SurfaceDomain | TriangleMesh) -> DirectionField: ...
 
+class SizeFamilies:
+    worst_anisotropy: float
+    mean_anisotropy: float
+    objective: float
+    iterations: int
+    converged: bool
+    self_crossings: int
+    parts: int
+    left_out: int
+    def __init__(
+        self,
+        lines: list[Streamline] = ...,
+        positions: ArrayLike = ...,
+        triangles: ArrayLike = ...,
+        crossing_lines: ArrayLike = ...,
+        log_widths: ArrayLike = ...,
+        worst_anisotropy: float = ...,
+        mean_anisotropy: float = ...,
+        objective: float = ...,
+        iterations: int = ...,
+        converged: bool = ...,
+        self_crossings: int = ...,
+        parts: int = ...,
+        left_out: int = ...,
+        log_anisotropy: ArrayLike = ...,
+        log_sizes: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def lines(self) -> list[Streamline]: ...
+    @property
+    def positions(self) -> Float64s: ...
+    @positions.setter
+    def positions(self, value: ArrayLike) -> None: ...
+    @property
+    def triangles(self) -> Int32s: ...
+    @triangles.setter
+    def triangles(self, value: ArrayLike) -> None: ...
+    @property
+    def crossing_lines(self) -> Int32s: ...
+    @crossing_lines.setter
+    def crossing_lines(self, value: ArrayLike) -> None: ...
+    @property
+    def log_widths(self) -> Float64s: ...
+    @log_widths.setter
+    def log_widths(self, value: ArrayLike) -> None: ...
+    @property
+    def log_anisotropy(self) -> Float64s: ...
+    @log_anisotropy.setter
+    def log_anisotropy(self, value: ArrayLike) -> None: ...
+    @property
+    def log_sizes(self) -> Float64s: ...
+    @log_sizes.setter
+    def log_sizes(self, value: ArrayLike) -> None: ...
+
+class PhaseSearch:
+    least_worst: int
+    least_mean: int
+    def __init__(
+        self,
+        angles: ArrayLike = ...,
+        worst: ArrayLike = ...,
+        mean: ArrayLike = ...,
+        least_worst: int = ...,
+        least_mean: int = ...,
+    ) -> None: ...
+    @property
+    def angles(self) -> Float64s: ...
+    @angles.setter
+    def angles(self, value: ArrayLike) -> None: ...
+    @property
+    def worst(self) -> Float64s: ...
+    @worst.setter
+    def worst(self, value: ArrayLike) -> None: ...
+    @property
+    def mean(self) -> Float64s: ...
+    @mean.setter
+    def mean(self, value: ArrayLike) -> None: ...
+
+class LimitCycle:
+    flux: float
+    crosses_itself: bool
+    def __init__(
+        self,
+        line: Streamline = ...,
+        flux: float = ...,
+        crosses_itself: bool = ...,
+    ) -> None: ...
+    @property
+    def line(self) -> Streamline: ...
+
+class UnwoundField:
+    def __init__(
+        self,
+        field: DirectionField = ...,
+        removed: list[LimitCycle] = ...,
+        left: list[LimitCycle] = ...,
+    ) -> None: ...
+    @property
+    def field(self) -> DirectionField: ...
+    @property
+    def removed(self) -> list[LimitCycle]: ...
+    @property
+    def left(self) -> list[LimitCycle]: ...
+
+class SizeFamilyOptions:
+    spacing: float
+    power: int
+    max_length: float
+    singular_radius: float
+    max_iterations: int
+    stop_at_features: bool
+    def __init__(
+        self,
+        spacing: float = ...,
+        power: int = ...,
+        max_length: float = ...,
+        singular_radius: float = ...,
+        max_iterations: int = ...,
+        stop_at_features: bool = ...,
+    ) -> None: ...
+
+class LimitCycleOptions:
+    seeds: int
+    max_length: float
+    tolerance: float
+    band_width: float
+    most_removed: int
+    def __init__(
+        self,
+        seeds: int = ...,
+        max_length: float = ...,
+        tolerance: float = ...,
+        band_width: float = ...,
+        most_removed: int = ...,
+    ) -> None: ...
+
+def size_families(
+    field: DirectionField,
+    singularities: SurfaceSingularities,
+    *,
+    spacing: float = ...,
+    power: int = ...,
+    max_length: float = ...,
+    singular_radius: float = ...,
+    max_iterations: int = ...,
+    stop_at_features: bool = ...,
+    progress: Progress | None = None,
+) -> SizeFamilies: ...
+def phase_search(
+    field: DirectionField,
+    phases: int,
+    *,
+    spacing: float = ...,
+    power: int = ...,
+    max_length: float = ...,
+    singular_radius: float = ...,
+    max_iterations: int = ...,
+    stop_at_features: bool = ...,
+    progress: Progress | None = None,
+) -> PhaseSearch: ...
+def limit_cycles(
+    field: DirectionField,
+    singularities: SurfaceSingularities,
+    *,
+    seeds: int = ...,
+    max_length: float = ...,
+    tolerance: float = ...,
+    band_width: float = ...,
+    most_removed: int = ...,
+    progress: Progress | None = None,
+) -> list[LimitCycle]: ...
+def without_limit_cycles(
+    field: DirectionField,
+    *,
+    seeds: int = ...,
+    max_length: float = ...,
+    tolerance: float = ...,
+    band_width: float = ...,
+    most_removed: int = ...,
+    progress: Progress | None = None,
+) -> UnwoundField: ...
+def rotated_field(field: DirectionField, angle: float) -> DirectionField: ...
+
 class LayoutCurveOptions:
     end_tolerance: float
     max_length: float

@@ -174,6 +174,9 @@ TEST(LimitCycles, OfATorusWithOnePairOfPointsAreForced) {
     imposing.inadmissible = Inadmissible::rotate;
     const ImposedField imposed = impose_singular_points(domain, pattern, imposing);
     const UnwoundField unwound = without_limit_cycles(imposed.field);
+    EXPECT_TRUE(unwound.removed.empty());
+    ASSERT_FALSE(unwound.left.empty());
+    EXPECT_GT(std::abs(unwound.left[0].flux), 0.5);
 }
 
 }  // namespace
