@@ -839,6 +839,336 @@ def merge_singular_points(
 
 # ---- surface: quad layouts
 
+class WantedSizes:
+    def __init__(
+        self,
+        lengths: ArrayLike = ...,
+        turns: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def lengths(self) -> Float64s: ...
+    @lengths.setter
+    def lengths(self, value: ArrayLike) -> None: ...
+    @property
+    def turns(self) -> Float64s: ...
+    @turns.setter
+    def turns(self, value: ArrayLike) -> None: ...
+
+class SizedField:
+    eigenvalue: float
+    iterations: int
+    converged: bool
+    least_length: float
+    def __init__(
+        self,
+        field: DirectionField = ...,
+        values: ArrayLike = ...,
+        directions: ArrayLike = ...,
+        eigenvalue: float = ...,
+        iterations: int = ...,
+        converged: bool = ...,
+        holonomy: ArrayLike = ...,
+        unresolved: ArrayLike = ...,
+        triangle_indices: ArrayLike = ...,
+        least_length: float = ...,
+    ) -> None: ...
+    @property
+    def field(self) -> DirectionField: ...
+    @property
+    def values(self) -> Complex128s: ...
+    @values.setter
+    def values(self, value: ArrayLike) -> None: ...
+    @property
+    def directions(self) -> Float64s: ...
+    @directions.setter
+    def directions(self, value: ArrayLike) -> None: ...
+    @property
+    def holonomy(self) -> Float64s: ...
+    @holonomy.setter
+    def holonomy(self, value: ArrayLike) -> None: ...
+    @property
+    def unresolved(self) -> Int32s: ...
+    @unresolved.setter
+    def unresolved(self, value: ArrayLike) -> None: ...
+    @property
+    def triangle_indices(self) -> Int32s: ...
+    @triangle_indices.setter
+    def triangle_indices(self, value: ArrayLike) -> None: ...
+
+class ReachedSizes:
+    misfit: float
+    def __init__(
+        self,
+        log_sizes: ArrayLike = ...,
+        misfit: float = ...,
+    ) -> None: ...
+    @property
+    def log_sizes(self) -> Float64s: ...
+    @log_sizes.setter
+    def log_sizes(self, value: ArrayLike) -> None: ...
+
+class ExtendedRegion:
+    vertices: int
+    triangles: int
+    def __init__(
+        self,
+        mesh: TriangleMesh = ...,
+        vertices: int = ...,
+        triangles: int = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> TriangleMesh: ...
+
+class SizedFieldOptions:
+    words: ClassVar[dict[str, list[str]]]
+    symmetry: int
+    s: float
+    boundary_alignment: str
+    feature_alignment: str
+    corner_tolerance: float
+    shift: float
+    max_iterations: int
+    tolerance: float
+    seed: int
+    def __init__(
+        self,
+        symmetry: int = ...,
+        s: float = ...,
+        boundary_alignment: str = ...,
+        feature_alignment: str = ...,
+        corner_tolerance: float = ...,
+        directions: ArrayLike = ...,
+        weights: ArrayLike = ...,
+        shift: float = ...,
+        max_iterations: int = ...,
+        tolerance: float = ...,
+        seed: int = ...,
+    ) -> None: ...
+    @property
+    def directions(self) -> Float64s: ...
+    @directions.setter
+    def directions(self, value: ArrayLike) -> None: ...
+    @property
+    def weights(self) -> Float64s: ...
+    @weights.setter
+    def weights(self, value: ArrayLike) -> None: ...
+
+Sizes: TypeAlias = WantedSizes | ArrayLike | Callable[[Float64s], ArrayLike]
+
+def wanted_sizes(
+    surface: SurfaceDomain | TriangleMesh, sizes: Sizes, middles: ArrayLike | None = None
+) -> WantedSizes: ...
+def edge_midpoints(surface: SurfaceDomain | TriangleMesh) -> Float64s: ...
+def sized_field(
+    surface: SurfaceDomain | TriangleMesh,
+    sizes: Sizes,
+    *,
+    symmetry: int = ...,
+    s: float = ...,
+    boundary_alignment: str = ...,
+    feature_alignment: str = ...,
+    corner_tolerance: float = ...,
+    directions: ArrayLike | None = None,
+    weights: ArrayLike | None = None,
+    shift: float = ...,
+    max_iterations: int = ...,
+    tolerance: float = ...,
+    seed: int = ...,
+    progress: Progress | None = None,
+) -> SizedField: ...
+def sized_domain(surface: SurfaceDomain | TriangleMesh, lengths: ArrayLike) -> SurfaceDomain: ...
+def boundary_sizes(surface: SurfaceDomain | TriangleMesh, *, growth: float = ..., largest: float = ...) -> Float64s: ...
+def reached_sizes(field: DirectionField) -> ReachedSizes: ...
+def size_ratios(surface: SurfaceDomain | TriangleMesh, reached: ReachedSizes, wanted: ArrayLike) -> Float64s: ...
+def extended_region(
+    region: SurfaceDomain | TriangleMesh, *, margin: float = ..., longest: float = ...
+) -> ExtendedRegion: ...
+def extended_sizes(region: ExtendedRegion, lengths: ArrayLike) -> Float64s: ...
+def restricted_field(field: DirectionField, region: SurfaceDomain | TriangleMesh) -> DirectionField: ...
+
+class SizeFamilies:
+    worst_anisotropy: float
+    mean_anisotropy: float
+    objective: float
+    iterations: int
+    converged: bool
+    self_crossings: int
+    parts: int
+    left_out: int
+    def __init__(
+        self,
+        lines: list[Streamline] = ...,
+        positions: ArrayLike = ...,
+        triangles: ArrayLike = ...,
+        crossing_lines: ArrayLike = ...,
+        log_widths: ArrayLike = ...,
+        worst_anisotropy: float = ...,
+        mean_anisotropy: float = ...,
+        objective: float = ...,
+        iterations: int = ...,
+        converged: bool = ...,
+        self_crossings: int = ...,
+        parts: int = ...,
+        left_out: int = ...,
+        log_anisotropy: ArrayLike = ...,
+        log_sizes: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def lines(self) -> list[Streamline]: ...
+    @property
+    def positions(self) -> Float64s: ...
+    @positions.setter
+    def positions(self, value: ArrayLike) -> None: ...
+    @property
+    def triangles(self) -> Int32s: ...
+    @triangles.setter
+    def triangles(self, value: ArrayLike) -> None: ...
+    @property
+    def crossing_lines(self) -> Int32s: ...
+    @crossing_lines.setter
+    def crossing_lines(self, value: ArrayLike) -> None: ...
+    @property
+    def log_widths(self) -> Float64s: ...
+    @log_widths.setter
+    def log_widths(self, value: ArrayLike) -> None: ...
+    @property
+    def log_anisotropy(self) -> Float64s: ...
+    @log_anisotropy.setter
+    def log_anisotropy(self, value: ArrayLike) -> None: ...
+    @property
+    def log_sizes(self) -> Float64s: ...
+    @log_sizes.setter
+    def log_sizes(self, value: ArrayLike) -> None: ...
+
+class PhaseSearch:
+    least_worst: int
+    least_mean: int
+    def __init__(
+        self,
+        angles: ArrayLike = ...,
+        worst: ArrayLike = ...,
+        mean: ArrayLike = ...,
+        least_worst: int = ...,
+        least_mean: int = ...,
+    ) -> None: ...
+    @property
+    def angles(self) -> Float64s: ...
+    @angles.setter
+    def angles(self, value: ArrayLike) -> None: ...
+    @property
+    def worst(self) -> Float64s: ...
+    @worst.setter
+    def worst(self, value: ArrayLike) -> None: ...
+    @property
+    def mean(self) -> Float64s: ...
+    @mean.setter
+    def mean(self, value: ArrayLike) -> None: ...
+
+class LimitCycle:
+    flux: float
+    crosses_itself: bool
+    def __init__(
+        self,
+        line: Streamline = ...,
+        flux: float = ...,
+        crosses_itself: bool = ...,
+    ) -> None: ...
+    @property
+    def line(self) -> Streamline: ...
+
+class UnwoundField:
+    def __init__(
+        self,
+        field: DirectionField = ...,
+        removed: list[LimitCycle] = ...,
+        left: list[LimitCycle] = ...,
+    ) -> None: ...
+    @property
+    def field(self) -> DirectionField: ...
+    @property
+    def removed(self) -> list[LimitCycle]: ...
+    @property
+    def left(self) -> list[LimitCycle]: ...
+
+class SizeFamilyOptions:
+    spacing: float
+    power: int
+    max_length: float
+    singular_radius: float
+    max_iterations: int
+    stop_at_features: bool
+    def __init__(
+        self,
+        spacing: float = ...,
+        power: int = ...,
+        max_length: float = ...,
+        singular_radius: float = ...,
+        max_iterations: int = ...,
+        stop_at_features: bool = ...,
+    ) -> None: ...
+
+class LimitCycleOptions:
+    seeds: int
+    max_length: float
+    tolerance: float
+    band_width: float
+    most_removed: int
+    def __init__(
+        self,
+        seeds: int = ...,
+        max_length: float = ...,
+        tolerance: float = ...,
+        band_width: float = ...,
+        most_removed: int = ...,
+    ) -> None: ...
+
+def size_families(
+    field: DirectionField,
+    singularities: SurfaceSingularities,
+    *,
+    spacing: float = ...,
+    power: int = ...,
+    max_length: float = ...,
+    singular_radius: float = ...,
+    max_iterations: int = ...,
+    stop_at_features: bool = ...,
+    progress: Progress | None = None,
+) -> SizeFamilies: ...
+def phase_search(
+    field: DirectionField,
+    phases: int,
+    *,
+    spacing: float = ...,
+    power: int = ...,
+    max_length: float = ...,
+    singular_radius: float = ...,
+    max_iterations: int = ...,
+    stop_at_features: bool = ...,
+    progress: Progress | None = None,
+) -> PhaseSearch: ...
+def limit_cycles(
+    field: DirectionField,
+    singularities: SurfaceSingularities,
+    *,
+    seeds: int = ...,
+    max_length: float = ...,
+    tolerance: float = ...,
+    band_width: float = ...,
+    most_removed: int = ...,
+    progress: Progress | None = None,
+) -> list[LimitCycle]: ...
+def without_limit_cycles(
+    field: DirectionField,
+    *,
+    seeds: int = ...,
+    max_length: float = ...,
+    tolerance: float = ...,
+    band_width: float = ...,
+    most_removed: int = ...,
+    progress: Progress | None = None,
+) -> UnwoundField: ...
+def rotated_field(field: DirectionField, angle: float) -> DirectionField: ...
+
 class LayoutCurveOptions:
     end_tolerance: float
     max_length: float

@@ -278,6 +278,8 @@ void bind_surface(py::module_& m) {
     bind_non_orthogonal(m);
     bind_streamlines(m);
     bind_imposed_fields(m);
+    bind_sized_fields(m);
+    bind_size_families(m);
     bind_renormalised_energy(m);
 }
 

@@ -110,6 +110,8 @@ void bind_surface_types(py::module_& m) {
     bind_direction_field_types(m);
     bind_non_orthogonal_types(m);
     bind_imposed_field_types(m);
+    bind_sized_field_types(m);
+    bind_size_family_types(m);
 }
 
 }  // namespace octafield::bindings

@@ -10,7 +10,7 @@ from octafield import _core
 from typed import checked
 
 STUB = ast.parse(Path(octafield.__file__).with_name("_core.pyi").read_text())
-ALIASES = {"Complex128s", "Float64s", "Int32s", "UInt8s", "Path", "Progress"}
+ALIASES = {"Complex128s", "Float64s", "Int32s", "UInt8s", "Path", "Progress", "Sizes"}
 
 
 def stub_names(body):

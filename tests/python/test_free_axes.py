@@ -103,7 +103,7 @@ def test_a_surface_keeps_its_own_lengths_where_it_is_copied():
     assert np.array_equal(again.edge_lengths, domain.edge_lengths)
     assert np.array_equal(again.corner_angles, domain.corner_angles)
     with pytest.raises(of.InvalidInput) as caught:
-        surface.direction_field(domain)
+        surface.non_orthogonal_field(domain)
     assert caught.value.kind == "own_lengths"
     with pytest.raises(of.GeometryError) as caught:
         surface.SurfaceDomain(polygon(right_triangle(30)), edge_lengths=[1, 1, 3])

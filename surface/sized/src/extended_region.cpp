@@ -188,7 +188,9 @@ Eigen::VectorXd extended_sizes(const ExtendedRegion& region, const Eigen::Vector
     Eigen::VectorXd logs = Eigen::VectorXd::Zero(domain.vertex_count());
     logs.head(region.vertices) = lengths.array().log();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(domain.vertex_count());
-    return detail::VertexLaplacian(domain, held).solve(none, logs).array().exp();
+    Eigen::VectorXd sizes = detail::VertexLaplacian(domain, held).solve(none, logs).array().exp();
+    sizes.head(region.vertices) = lengths;
+    return sizes;
 }
 
 DirectionField restricted_field(const DirectionField& field, const SurfaceDomain& region) {
