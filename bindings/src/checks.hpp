@@ -26,6 +26,7 @@ struct ImposedFieldOptions;
 struct LayoutCurveOptions;
 struct LayoutQuadsOptions;
 struct QuantizedQuadsOptions;
+struct FixedBoundaryOptions;
 }  // namespace octafield::surface
 namespace octafield::volume {
 struct AxesStretchOptions;
@@ -55,6 +56,7 @@ void check(const surface::LayoutCurveOptions& options);
 void check(const surface::LayoutQuadsOptions& options);
 void check(const surface::QuantizedQuadsOptions& options);
 void check(const surface::FittingOptions& options);
+void check(const surface::FixedBoundaryOptions& options);
 void check(const volume::AxesStretchOptions& options);
 void check(const volume::BoundaryOptions& options);
 void check(const volume::DiffuseOptions& options);

@@ -6,7 +6,7 @@
 #include "cover.hpp"
 #include "even_regions.hpp"
 #include "octafield/error.hpp"
-#include "planar_checks.hpp"
+#include "outline_segments.hpp"
 #include "reform.hpp"
 #include "smooth.hpp"
 

@@ -94,4 +94,19 @@ std::vector<Index> parts_of(const PlaneTriangulation& made, const std::vector<ch
     return part;
 }
 
+std::vector<Index> triangles_at(const PlaneTriangulation& made, const PlanePoints& points,
+                                const Eigen::Vector2d& place) {
+    const auto at = [&](Index v) { return Kernel::Point_2(points(v, 0), points(v, 1)); };
+    const Kernel::Point_2 here(place[0], place[1]);
+    std::vector<Index> result;
+    for (Index t = 0; t < made.triangles.rows(); ++t) {
+        bool holds = true;
+        for (int k = 0; k < 3 && holds; ++k)
+            holds = CGAL::orientation(at(made.triangles(t, k)), at(made.triangles(t, (k + 1) % 3)), here) !=
+                    CGAL::RIGHT_TURN;
+        if (holds) result.push_back(t);
+    }
+    return result;
+}
+
 }  // namespace octafield::surface::detail

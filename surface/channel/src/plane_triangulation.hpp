@@ -1,7 +1,9 @@
 // Constrained Delaunay triangles of points and segments in the plane.
 #pragma once
 
-#include "octafield/surface/fixed_boundary_quads.hpp"
+#include <vector>
+
+#include "octafield/surface/planar_outline.hpp"
 
 namespace octafield::surface::detail {
 
@@ -20,5 +22,9 @@ std::vector<char> inside_loops(const PlaneTriangulation& made, Index loops);
 
 // Number of the connected part of each triangle, between segments; -1 where not `wanted`.
 std::vector<Index> parts_of(const PlaneTriangulation& made, const std::vector<char>& wanted, Index& count);
+
+// The triangles that hold a place: two or more where it is on a side or a vertex.
+std::vector<Index> triangles_at(const PlaneTriangulation& made, const PlanePoints& points,
+                                const Eigen::Vector2d& place);
 
 }  // namespace octafield::surface::detail

@@ -6,19 +6,10 @@
 #include <vector>
 
 #include "octafield/progress.hpp"
+#include "octafield/surface/planar_outline.hpp"
 #include "octafield/surface/quad_mesh.hpp"
 
 namespace octafield::surface {
-
-using PlanePoints = Rows<double, 2>;
-
-// A plane straight-line graph. Inside is what an odd number of loops goes round, so holes and islands in them are loops
-// as well, in either sense.
-struct PlanarOutline {
-    PlanePoints points;  // (P, 2), the input's length unit
-    Edges loops{0, 2};   // (L, 2) ids of points: each in two of these segments or in none
-    Edges lines{0, 2};   // (M, 2) ids of points: segments inside that become edges; they may end anywhere
-};
 
 enum class OddLoops {
     refuse,     // GeometryError "odd_boundary"
@@ -53,12 +44,11 @@ struct FixedBoundaryQuads {
 // for the template with the least sum of costs, as long as one is better. So channels of every shape and number of
 // boundaries are done alike, in time near to linear.
 //
-// Throws InvalidInput (kinds "bad_option", "empty", "index_out_of_range", "non_finite_vertex", "too_many_quads"),
-// GeometryError naming points or segments (loops first, then lines): "repeated_point" (two points at one place),
-// "no_length", "open_loop", "touching_loops" (more than two segments of loops at a point), "crossing" (segments that
-// cross, overlap or end on one another), "outside_line", "odd_boundary" (elements: the longest segment of each region
-// with an odd number of them), "odd_interior" (the mesh inside encloses an odd number of edges); SolverError
-// ("inverted_quads": elements: quads that no template made convex); Cancelled.
+// Throws as require_planar; InvalidInput (kinds "bad_option", "bad_inside_mesh": triangles, or not in the plane z = 0,
+// "too_many_quads"); as require_valid for the mesh inside; GeometryError "outside_line" (elements: segments),
+// "odd_boundary" (elements: a segment for each region with an odd number round it, which, split, puts it right),
+// "odd_interior" (a hole of the mesh inside has an odd number of edges); SolverError "inverted_quads" (elements: quads
+// that no template made convex); Cancelled.
 FixedBoundaryQuads fixed_boundary_quads(const PlanarOutline& outline, const QuadMesh& inside,
                                         const FixedBoundaryOptions& options, const Progress& progress = {});
 

@@ -1,4 +1,4 @@
-#include "planar_checks.hpp"
+#include "octafield/surface/planar_outline.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
@@ -8,9 +8,13 @@
 #include <set>
 
 #include "octafield/error.hpp"
+#include "outline_segments.hpp"
+#include "plane_triangulation.hpp"
 
-namespace octafield::surface::detail {
+namespace octafield::surface {
 namespace {
+
+using namespace detail;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_2;
@@ -21,12 +25,11 @@ void throw_if_any(const Ids& ids, const char* kind, const std::string& what, con
     if (!ids.empty()) throw GeometryError(what + " (" + first_few(ids) + "); " + remedy, kind, ids);
 }
 
-void require_points(const PlanarOutline& outline, const Edges& segments) {
-    if (outline.loops.rows() == 0) throw InvalidInput("the outline has no loop, so nothing is inside", "empty");
-    const Index count = static_cast<Index>(outline.points.rows());
+void require_points(const PlanePoints& points, const Edges& segments) {
+    const Index count = static_cast<Index>(points.rows());
     Ids lost, outside;
     for (Index i = 0; i < count; ++i)
-        if (!outline.points.row(i).allFinite()) lost.push_back(i);
+        if (!points.row(i).allFinite()) lost.push_back(i);
     if (!lost.empty())
         throw InvalidInput(
             "points have coordinates that are not finite (" + first_few(lost) + "); correct or remove them",
@@ -38,12 +41,12 @@ void require_points(const PlanarOutline& outline, const Edges& segments) {
                            outside);
 }
 
-void require_different(const PlanarOutline& outline, const Edges& segments) {
+void require_different(const PlanePoints& points, const Edges& segments) {
     const auto before = [&](Index a, Index b) {
-        const auto p = outline.points.row(a), q = outline.points.row(b);
+        const auto p = points.row(a), q = points.row(b);
         return p[0] != q[0] ? p[0] < q[0] : p[1] < q[1];
     };
-    Ids order(outline.points.rows()), same, flat;
+    Ids order(points.rows()), same, flat;
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), before);
     for (std::size_t i = 1; i < order.size(); ++i)
@@ -81,10 +84,10 @@ bool meet(const std::array<Point, 4>& p, const std::array<Index, 4>& ids) {
     return CGAL::do_intersect(Kernel::Segment_2(p[0], p[1]), Kernel::Segment_2(p[2], p[3]));
 }
 
-void require_apart(const PlanarOutline& outline, const Edges& segments) {
+void require_apart(const PlanePoints& points, const Edges& segments) {
     std::vector<Box> boxes;
     for (Index s = 0; s < segments.rows(); ++s) {
-        const auto p = outline.points.row(segments(s, 0)), q = outline.points.row(segments(s, 1));
+        const auto p = points.row(segments(s, 0)), q = points.row(segments(s, 1));
         const CGAL::Bbox_2 box = Point(p[0], p[1]).bbox() + Point(q[0], q[1]).bbox();
         boxes.emplace_back(box, s);
     }
@@ -93,14 +96,33 @@ void require_apart(const PlanarOutline& outline, const Edges& segments) {
         std::array<Index, 4> ids{segments(a.info(), 0), segments(a.info(), 1), segments(b.info(), 0),
                                  segments(b.info(), 1)};
         std::array<Point, 4> places;
-        for (int i = 0; i < 4; ++i) places[i] = Point(outline.points(ids[i], 0), outline.points(ids[i], 1));
+        for (int i = 0; i < 4; ++i) places[i] = Point(points(ids[i], 0), points(ids[i], 1));
         if (meet(places, ids)) found.insert({a.info(), b.info()});
     });
     throw_if_any({found.begin(), found.end()}, "crossing", "segments cross, overlap or end on one another",
                  "divide both where they meet, or move them apart");
 }
 
+// What each triangle's side lies on, from inside and outside.
+void sort_segments(const PlaneTriangulation& made, const std::vector<char>& outside, const Edges& segments,
+                   PlanarOutline& result) {
+    std::vector<int> sides(segments.rows(), 0);  // inside, of each segment
+    for (Index t = 0; t < made.triangles.rows(); ++t)
+        for (int k = 0; k < 3 && !outside[t]; ++k)
+            if (made.segments(t, k) >= 0) ++sides[made.segments(t, k)];
+    const auto of = [&](int count) {
+        std::vector<Index> rows;
+        for (Index s = 0; s < segments.rows(); ++s)
+            if (sides[s] == count) rows.push_back(s);
+        return Edges(segments(rows, Eigen::all));
+    };
+    result.loops = of(1);
+    result.lines = of(2);
+}
+
 }  // namespace
+
+namespace detail {
 
 Edges all_segments(const PlanarOutline& outline) {
     Edges all(outline.loops.rows() + outline.lines.rows(), 2);
@@ -108,12 +130,51 @@ Edges all_segments(const PlanarOutline& outline) {
     return all;
 }
 
-void require_planar(const PlanarOutline& outline) {
-    const Edges segments = all_segments(outline);
-    require_points(outline, segments);
-    require_different(outline, segments);
-    require_loops(outline);
-    require_apart(outline, segments);
+void require_graph(const PlanePoints& points, const Edges& segments) {
+    require_points(points, segments);
+    require_different(points, segments);
+    require_apart(points, segments);
 }
 
-}  // namespace octafield::surface::detail
+}  // namespace detail
+
+void require_planar(const PlanarOutline& outline) {
+    if (outline.loops.rows() == 0) throw InvalidInput("the outline has no loop, so nothing is inside", "empty");
+    const Edges segments = all_segments(outline);
+    require_points(outline.points, segments);
+    require_different(outline.points, segments);
+    require_loops(outline);
+    require_apart(outline.points, segments);
+}
+
+PlanarOutline outline_of_graph(const PlanePoints& points, const Edges& segments, const PlanePoints& holes) {
+    require_graph(points, segments);
+    if (!holes.allFinite())
+        throw InvalidInput("points of holes have coordinates that are not finite", "non_finite_vertex");
+    const PlaneTriangulation made = triangulate(points, segments);
+    std::vector<char> outside(made.triangles.rows(), false);
+    std::vector<Index> open;
+    const auto reach = [&](Index t) {
+        if (outside[t]) return;
+        outside[t] = true;
+        open.push_back(t);
+    };
+    for (Index t = 0; t < made.triangles.rows(); ++t)
+        for (int k = 0; k < 3; ++k)
+            if (made.neighbours(t, k) < 0 && made.segments(t, k) < 0) reach(t);
+    for (Index h = 0; h < holes.rows(); ++h)
+        for (const Index t : triangles_at(made, points, holes.row(h))) reach(t);
+    while (!open.empty()) {
+        const Index t = open.back();
+        open.pop_back();
+        for (int k = 0; k < 3; ++k)
+            if (made.neighbours(t, k) >= 0 && made.segments(t, k) < 0) reach(made.neighbours(t, k));
+    }
+    PlanarOutline result;
+    result.points = points;
+    sort_segments(made, outside, segments, result);
+    if (result.loops.rows() == 0) throw InvalidInput("no segments go round a region, so nothing is inside", "empty");
+    return result;
+}
+
+}  // namespace octafield::surface
