@@ -129,9 +129,10 @@ TEST(PatchFiller, FillsARectangleOfTwoByOneWithTwoSquares) {
     EXPECT_NEAR(filling.cost, 0, 1e-12);
 }
 
-TEST(PatchFiller, PutsAVertexIntoARegularHexagon) {
+TEST(PatchFiller, DividesATriangleWithMiddlesInThree) {
     detail::Patch patch{{}, std::vector<int>(6, 0), std::vector<int>(6, -1), {}};
-    for (int i = 0; i < 6; ++i) patch.corners.emplace_back(std::cos(i * M_PI / 3), std::sin(i * M_PI / 3));
+    for (int i = 0; i < 6; ++i)
+        patch.corners.push_back((i % 2 ? 0.5 : 1.0) * detail::Vector2(std::cos(i * M_PI / 3), std::sin(i * M_PI / 3)));
     const detail::Filling filling = detail::PatchFiller().fill(patch, 1e9);
     ASSERT_EQ(filling.interior.size(), 1U);
     EXPECT_NEAR(filling.interior[0].norm(), 0, 0.02);

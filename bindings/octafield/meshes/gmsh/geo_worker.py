@@ -36,7 +36,7 @@ def main() -> None:
     os._exit(0)  # libraries that end may crash too
 
 
-def _curves(model: str, edge_length: float) -> dict[str, np.ndarray[Any, Any]]:
+def _curves(model: str, edge_length: float) -> dict[str, Any]:
     try:
         import gmsh
     except (ImportError, OSError) as error:
