@@ -186,12 +186,12 @@ def test_geojson_gives_regions_lines_and_points(tmp_path):
         ],
     }
     outline = of.outline_of_geojson(collection)
-    assert (len(outline.loops), len(outline.lines), len(outline.points)) == (88, 2, 40 + 8 + 40 + 2 + 1)
+    assert (len(outline.loops), len(outline.lines), len(outline.points)) == (88, 2, 40 + 8 + 40 + 3 + 1)
     path = tmp_path / "area.geojson"
     path.write_text(json.dumps(collection))
     result = of.fixed_boundary_quads(path, edge_length=0.1)
     require_kept(result, 2 - 4 * 0.15**2 * np.sin(np.pi / 4))
-    assert 4 in result.figures.as_dict()["irregular_vertices"] or result.figures.quads > 150
+    assert result.figures.boundary_segments == 90
 
 
 @pytest.mark.parametrize(

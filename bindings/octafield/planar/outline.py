@@ -102,36 +102,38 @@ def resampled_outline(outline: PlanarOutline, edge_length: float) -> PlanarOutli
 def chains(segments: np.ndarray, ends: np.ndarray) -> list[list[int]]:
     """Polylines of (n, 2) segments, cut where `ends` (bool per point) says so; rings have their first point twice."""
     round_point: dict[int, list[int]] = {}
-    for s, pair in enumerate(segments.tolist()):
+    for number, pair in enumerate(segments.tolist()):
         for point in pair:
-            round_point.setdefault(point, []).append(s)
+            round_point.setdefault(point, []).append(number)
     cut = {p for p, there in round_point.items() if len(there) != 2 or ends[p]}
     used: set[int] = set()
-    result = []
+    result: list[list[int]] = []
     for start in [*sorted(cut), *sorted(round_point)]:
         for first in round_point[start]:
-            chain, s, at = [start], first, start
-            while s not in used:
+            chain: list[int] = [start]
+            s: int | None = None if first in used else first
+            while s is not None:
                 used.add(s)
                 a, b = segments[s].tolist()
-                at = b if a == at else a
-                chain.append(at)
-                if at in cut:
-                    break
-                s = next(other for other in (*round_point[at], s) if other not in used or other == s)
+                chain.append(b if a == chain[-1] else a)
+                onward = [] if chain[-1] in cut else [other for other in round_point[chain[-1]] if other not in used]
+                s = onward[0] if onward else None
             if len(chain) > 1:
                 result.append(chain)
     return result
 
 
 def _thinned(points: np.ndarray, chain: Sequence[int], joints: np.ndarray, edge_length: float) -> np.ndarray:
-    kept = [chain[0]]
-    for p in chain[1:-1]:
-        if joints[p] or np.linalg.norm(points[p] - points[kept[-1]]) >= 0.7 * edge_length:
-            kept.append(p)
-    while len(kept) > 1 and not joints[kept[-1]] and _near(points, kept[-1], chain[-1], 0.7 * edge_length):
-        kept.pop()
-    corners = points[[*kept, chain[-1]]]
+    kept: list[int] = []
+    for number, p in enumerate(chain):
+        last = number == len(chain) - 1
+        near = len(kept) > 0 and _near(points, kept[-1], p, 0.7 * edge_length)
+        if near and not (last or joints[p]):
+            continue
+        while len(kept) > 1 and not joints[kept[-1]] and _near(points, kept[-1], p, 0.7 * edge_length):
+            kept.pop()
+        kept.append(p)
+    corners = points[kept]
     parts = [
         np.linspace(a, b, max(1, round(float(np.linalg.norm(b - a)) / edge_length)) + 1)[:-1]
         for a, b in zip(corners, corners[1:], strict=False)

@@ -21,6 +21,8 @@ using Point = Kernel::Point_2;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 2, Index>;
 using Ids = std::vector<Index>;
 
+constexpr double largest = 1e100;  // its square is a number, too
+
 void throw_if_any(const Ids& ids, const char* kind, const std::string& what, const std::string& remedy) {
     if (!ids.empty()) throw GeometryError(what + " (" + first_few(ids) + "); " + remedy, kind, ids);
 }
@@ -34,6 +36,11 @@ void require_points(const PlanePoints& points, const Edges& segments) {
         throw InvalidInput(
             "points have coordinates that are not finite (" + first_few(lost) + "); correct or remove them",
             "non_finite_vertex", lost);
+    const PlanePoints size = points.colwise().maxCoeff() - points.colwise().minCoeff();
+    if (count > 0 && !(points.cwiseAbs().maxCoeff() < largest && size.maxCoeff() > 1 / largest))
+        throw InvalidInput(
+            "coordinates are too large, or too near to each other, to be reckoned with; choose another unit",
+            "extreme_coordinates");
     for (Index s = 0; s < segments.rows(); ++s)
         if (segments.row(s).minCoeff() < 0 || segments.row(s).maxCoeff() >= count) outside.push_back(s);
     if (!outside.empty())

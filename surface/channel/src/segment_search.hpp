@@ -11,7 +11,7 @@ namespace octafield::surface::detail {
 
 class SegmentSearch {
 public:
-    // Points without a segment count as segments of no length.
+    // cell: near to the distances that will be asked for. Points without a segment count as segments of no length.
     SegmentSearch(const PlanePoints& points, const Edges& segments, double cell);
 
     // Whether a segment is nearer to it than that.
@@ -19,11 +19,14 @@ public:
 
 private:
     using Ends = std::array<Vector2, 2>;
-    double cell_;
+    double cell_ = 0;
+    Vector2 origin_;
     std::vector<Ends> ends_;
     std::unordered_map<std::uint64_t, std::vector<Index>> cells_;
 
-    Index column(double x) const { return static_cast<Index>(std::floor(x / cell_)); }
+    Index column(const Vector2& place, int axis) const {
+        return static_cast<Index>(std::floor((place[axis] - origin_[axis]) / cell_));
+    }
     void add(const Ends& ends);
 };
 
