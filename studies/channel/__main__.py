@@ -33,6 +33,7 @@ HEADER = (
 
 
 def judged(points: np.ndarray, triangles: np.ndarray, quads: np.ndarray, outline) -> dict:
+    triangles, quads = (_counter_clockwise(points, cells) for cells in (triangles, quads))
     sides = [np.sort(cells[:, [k, (k + 1) % n]], axis=1) for cells, n in ((triangles, 3), (quads, 4)) for k in range(n)]
     edges, count = np.unique(np.concatenate(sides), axis=0, return_counts=True)
     rim = edges[count == 1]
@@ -53,6 +54,12 @@ def judged(points: np.ndarray, triangles: np.ndarray, quads: np.ndarray, outline
         "whole": len(kept) == len(rim) == len(outline.loops),
         "sound": bool((count <= 2).all() and corners.max() < 180),
     }
+
+
+def _counter_clockwise(points: np.ndarray, cells: np.ndarray) -> np.ndarray:
+    """Gmsh's cells run as the outline's loop does: all turned where their areas sum to less than 0."""
+    x, y = points[cells, 0], points[cells, 1]
+    return cells[:, ::-1] if (x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum() < 0 else cells
 
 
 def _as_places(points: np.ndarray, edges: np.ndarray) -> set:
