@@ -37,11 +37,14 @@ Index improve(PlaneQuads& quads, const PatchFiller& filler, int rounds, const Pr
     Reformer reformer(quads, filler);
     Index reformed = 0;
     for (int round = 0; round < rounds; ++round) {
-        report_or_throw(progress, "forming quads anew", static_cast<double>(round) / rounds, reformed);
+        const auto ask = [&] {
+            report_or_throw(progress, "forming quads anew", static_cast<double>(round) / rounds, reformed);
+        };
+        ask();
         const std::vector<Index> moved = smooth(quads, sweeps_between);
         for (const Index v : moved)
             for (const Index q : quads.quads_round(v)) reformer.touch(q);
-        const Index exchanged = reformer.round();
+        const Index exchanged = reformer.round(ask);
         reformed += exchanged;
         if (exchanged == 0) break;
     }

@@ -9,7 +9,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double most_squares = 3e7;
+constexpr double most_squares = 5e6;
 
 // Of each point, whether an odd number of the outline's loops goes round it.
 std::vector<char> inside(const PlanePoints& points, const Outline& outline) {
@@ -88,7 +88,7 @@ InsideMesh squares(const PlanePoints& points, double edge_length, const FixedBou
     InsideMesh result;
     if (!(count.minCoeff() >= 2)) return result;
     if (!(count.prod() <= most_squares))
-        throw InvalidInput("the region's box has more than 30 million squares of this edge length", "too_many_quads");
+        throw InvalidInput("the region's box has more than 5 million squares of this edge length", "too_many_quads");
     const Index across = static_cast<Index>(count[0]), up = static_cast<Index>(count[1]);
     result.points.resize(static_cast<Eigen::Index>(across) * up, 2);
     result.quads.resize(static_cast<Eigen::Index>(across - 1) * (up - 1), 4);

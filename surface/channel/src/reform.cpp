@@ -9,12 +9,13 @@ namespace {
 constexpr double worth_trying = 0.003;  // cost of a quad; a square's is 0
 constexpr double dear = 0.15;           // of a quad for which decagons are tried as well
 constexpr double least_saving = 1e-3;
+constexpr std::size_t quads_between = 100;  // questions whether to go on
 
 bool contains(const std::vector<Index>& ids, Index id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
 
 }  // namespace
 
-Index Reformer::round() {
+Index Reformer::round(const std::function<void()>& ask) {
     tried_.resize(quads_.quad_slots(), false);
     std::vector<std::pair<double, Index>> order;
     for (Index q = 0; q < quads_.quad_slots(); ++q) {
@@ -24,8 +25,10 @@ Index Reformer::round() {
     }
     std::sort(order.begin(), order.end());
     Index exchanged = 0;
-    for (const auto& [cost, q] : order)
-        if (quads_.alive(q)) exchanged += exchange(q);
+    for (std::size_t at = 0; at < order.size(); ++at) {
+        if (at % quads_between == 0) ask();
+        if (quads_.alive(order[at].second)) exchanged += exchange(order[at].second);
+    }
     return exchanged;
 }
 

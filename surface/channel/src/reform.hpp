@@ -1,6 +1,8 @@
 // Groups of quads exchanged for better templates.
 #pragma once
 
+#include <functional>
+
 #include "patch_filler.hpp"
 #include "plane_quads.hpp"
 
@@ -12,8 +14,8 @@ public:
 
     // Each quad in turn, the dearest first: of all groups with it that have a simple outline of a few sides the one
     // whose best template saves most is exchanged. Quads round which nothing was changed since they were tried are left
-    // out. Returns how many groups were exchanged.
-    Index round();
+    // out. `ask` is called often and may throw. Returns how many groups were exchanged.
+    Index round(const std::function<void()>& ask);
     // Vertices were moved: these quads are tried again.
     void touch(Index q);
 
