@@ -48,7 +48,7 @@ from .meshes.registry import mesh_formats, register_mesh_format
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
 from .planar.geojson import outline_of_geojson
 from .planar.outline import planar_outline, resampled_outline
-from .planar.quads import FixedBoundaryFigures, FixedBoundaryResult, fixed_boundary_quads
+from .planar.quads import FixedBoundaryFigures, FixedBoundaryResult, compute_fixed_boundary_quads
 from .planar.read import read_outline
 from .records.record_file import read_record, read_surface_record
 from .runs.compare import Comparison, compare
@@ -92,11 +92,11 @@ __all__ = [
     "analyse",
     "compare",
     "compute_field",
+    "compute_fixed_boundary_quads",
     "compute_hex_dominant",
     "compute_quad_layout",
     "compute_surface_field",
     "convert_file",
-    "fixed_boundary_quads",
     "frame_formats",
     "frames",
     "from_meshio",

@@ -68,7 +68,7 @@ def _as_places(points: np.ndarray, edges: np.ndarray) -> set:
 
 def of_channel(outline, edge_length: float, **options) -> tuple[dict, object]:
     start = time.process_time()
-    made = octafield.fixed_boundary_quads(outline, edge_length=edge_length, spacing="accept", **options)
+    made = octafield.compute_fixed_boundary_quads(outline, edge_length=edge_length, spacing="accept", **options)
     seconds = time.process_time() - start
     return judged(*arrays(made), made_outline(made)) | {"seconds": seconds}, made
 

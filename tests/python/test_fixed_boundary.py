@@ -65,7 +65,7 @@ def test_templates_of_the_octagon_are_36():
 
 
 def test_a_square_is_its_grid_and_the_figures_say_so():
-    result = of.fixed_boundary_quads([divided(SQUARE, 0.1)])
+    result = of.compute_fixed_boundary_quads([divided(SQUARE, 0.1)])
     require_kept(result, 1)
     assert result.figures.quads == 100 and result.figures.irregular_vertices == {}
     assert result.figures.angle == pytest.approx((90, 90), abs=1e-6)
@@ -75,7 +75,7 @@ def test_a_square_is_its_grid_and_the_figures_say_so():
 @pytest.mark.parametrize("turn", [0, 0.4, 1.1])
 def test_holes_and_lines_are_kept_whatever_the_turn(turn):
     line = np.column_stack([np.linspace(-0.7, -0.45, 4), np.linspace(-0.1, 0.15, 4)])
-    result = of.fixed_boundary_quads(
+    result = of.compute_fixed_boundary_quads(
         [circle(1, 60), circle(0.25, 16, (0.3, 0.2))], [line], rotation=turn, offset=(0.2, 0.6)
     )
     require_kept(result, 30 * np.sin(np.pi / 30) - 8 * 0.25**2 * np.sin(np.pi / 8))
@@ -84,29 +84,29 @@ def test_holes_and_lines_are_kept_whatever_the_turn(turn):
 
 
 def test_a_mesh_of_ones_own_stays_where_it_has_room():
-    own = of.fixed_boundary_quads([divided(SQUARE, 0.1)]).mesh
-    result = of.fixed_boundary_quads([circle(0.42, 26, (0.5, 0.5))], interior=own)
+    own = of.compute_fixed_boundary_quads([divided(SQUARE, 0.1)]).mesh
+    result = of.compute_fixed_boundary_quads([circle(0.42, 26, (0.5, 0.5))], interior=own)
     require_kept(result, 13 * 0.42**2 * np.sin(np.pi / 13))
     assert result.figures.interior_quads > 10
 
 
 def test_odd_loops_are_refused_or_split():
     with pytest.raises(of.GeometryError, match="odd number of segments") as caught:
-        of.fixed_boundary_quads([circle(1, 31)])
+        of.compute_fixed_boundary_quads([circle(1, 31)])
     assert caught.value.kind == "odd_boundary" and len(caught.value.elements) == 1
-    one = of.fixed_boundary_quads([circle(1, 31)], odd_loops="split_one")
+    one = of.compute_fixed_boundary_quads([circle(1, 31)], odd_loops="split_one")
     require_kept(one, 15.5 * np.sin(2 * np.pi / 31))
     assert one.figures.split_segments == 1 and one.figures.kept_segments == 30
-    every = of.fixed_boundary_quads([circle(1, 31)], odd_loops="split_all")
+    every = of.compute_fixed_boundary_quads([circle(1, 31)], odd_loops="split_all")
     assert len(every.made.boundary) == 62 and every.figures.kept_segments == 0
 
 
 def test_segments_are_near_to_the_edge_length_or_it_is_said():
     with pytest.raises(of.GeometryError, match="resample") as caught:
-        of.fixed_boundary_quads([SQUARE], edge_length=0.2)
+        of.compute_fixed_boundary_quads([SQUARE], edge_length=0.2)
     assert caught.value.kind == "segment_length" and caught.value.elements == [0, 1, 2, 3]
-    assert of.fixed_boundary_quads([SQUARE], edge_length=0.2, spacing="accept").figures.kept_segments == 4
-    made = of.fixed_boundary_quads([SQUARE], edge_length=0.2, spacing="resample")
+    assert of.compute_fixed_boundary_quads([SQUARE], edge_length=0.2, spacing="accept").figures.kept_segments == 4
+    made = of.compute_fixed_boundary_quads([SQUARE], edge_length=0.2, spacing="resample")
     require_kept(made, 1)
     assert made.figures.quads == 25
 
@@ -144,7 +144,7 @@ def test_resampling_keeps_corners_where_lines_meet_loops():
 )
 def test_bad_outlines_are_refused_by_kind(loops, lines, kind):
     with pytest.raises(of.Error) as caught:
-        of.fixed_boundary_quads(loops, lines, edge_length=0.7, spacing="accept")
+        of.compute_fixed_boundary_quads(loops, lines, edge_length=0.7, spacing="accept")
     assert caught.value.kind == kind
 
 
@@ -153,7 +153,7 @@ def test_bad_outlines_are_refused_by_kind(loops, lines, kind):
 )
 def test_bad_options_are_refused(wrong):
     with pytest.raises(of.InvalidInput):
-        of.fixed_boundary_quads([SQUARE], **wrong)
+        of.compute_fixed_boundary_quads([SQUARE], **wrong)
 
 
 def closed(loop):
@@ -189,7 +189,7 @@ def test_geojson_gives_regions_lines_and_points(tmp_path):
     assert (len(outline.loops), len(outline.lines), len(outline.points)) == (88, 2, 40 + 8 + 40 + 3 + 1)
     path = tmp_path / "area.geojson"
     path.write_text(json.dumps(collection))
-    result = of.fixed_boundary_quads(path, edge_length=0.1)
+    result = of.compute_fixed_boundary_quads(path, edge_length=0.1)
     require_kept(result, 2 - 4 * 0.15**2 * np.sin(np.pi / 4))
     assert result.figures.boundary_segments == 90
 
@@ -241,7 +241,7 @@ def test_poly_files_tell_loops_by_their_holes(tmp_path):
     path.write_text(POLY)
     outline = of.read_outline(path)
     assert (len(outline.loops), len(outline.lines)) == (8, 1)
-    require_kept(of.fixed_boundary_quads(path, edge_length=1, spacing="resample"), 8)
+    require_kept(of.compute_fixed_boundary_quads(path, edge_length=1, spacing="resample"), 8)
     header, points, rest = POLY.partition("9 1\n")
     nodes = header.partition("\n")[2]
     (tmp_path / "split.node").write_text(nodes)
@@ -290,7 +290,7 @@ def test_geo_files_are_read_by_gmsh(tmp_path):
     path.write_text(GEO)
     outline = of.read_outline(path)
     assert (len(outline.loops), len(outline.lines)) == (30, 5)
-    result = of.fixed_boundary_quads(path, edge_length=0.2)
+    result = of.compute_fixed_boundary_quads(path, edge_length=0.2)
     require_kept(result, 2)
     assert result.figures.quads == 50
     path.write_text("Point(1) = {0, 0, 0}; Line(1) = {1, 7};")
@@ -300,7 +300,7 @@ def test_geo_files_are_read_by_gmsh(tmp_path):
 
 def test_progress_is_told_and_may_cancel():
     phases = []
-    of.fixed_boundary_quads([circle(1, 40)], progress=lambda phase, fraction, merit: phases.append(phase))
+    of.compute_fixed_boundary_quads([circle(1, 40)], progress=lambda phase, fraction, merit: phases.append(phase))
     assert "forming quads anew" in phases
     with pytest.raises(of.Cancelled):
-        of.fixed_boundary_quads([circle(1, 40)], progress=lambda *_: False)
+        of.compute_fixed_boundary_quads([circle(1, 40)], progress=lambda *_: False)

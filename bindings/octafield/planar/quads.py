@@ -1,6 +1,6 @@
 """Quads that keep a boundary segment by segment, with their figures.
 
-result = fixed_boundary_quads([[(0, 0), (1, 0), (1, 1), (0, 1)]], edge_length=0.25, spacing="resample")
+result = compute_fixed_boundary_quads([[(0, 0), (1, 0), (1, 1), (0, 1)]], edge_length=0.25, spacing="resample")
 result.mesh                    # octafield.surface.QuadMesh
 result.figures.angle           # smallest and largest, degrees
 """
@@ -25,7 +25,7 @@ Spacing = Literal["require", "accept", "resample"]
 _DEFAULTS = FixedBoundaryOptions()
 
 
-@dataclass
+@dataclass(repr=False)
 class FixedBoundaryFigures:
     """irregular_vertices: how many inside by how many quads they have, other than four. angle: smallest and largest of
     all corners, degrees. sharpest: the smallest angle inside between two segments next to each other, degrees, above
@@ -42,6 +42,10 @@ class FixedBoundaryFigures:
     boundary_segments: int
     kept_segments: int
     split_segments: int
+
+    def __repr__(self) -> str:
+        low, high = self.angle
+        return f"FixedBoundaryFigures({self.quads} quads, angles {low:.1f} to {high:.1f} degrees)"
 
     def as_dict(self) -> dict[str, Any]:
         return asdict(self)
@@ -62,7 +66,7 @@ class FixedBoundaryResult:
         return f"FixedBoundaryResult({self.figures.quads} quads, angles {low:.1f} to {high:.1f} degrees)"
 
 
-def fixed_boundary_quads(
+def compute_fixed_boundary_quads(
     outline: Outline,
     lines: Any = (),
     *,
