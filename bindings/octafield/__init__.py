@@ -46,6 +46,10 @@ from .layout.quad_layout import QuadLayoutResult, compute_quad_layout
 from .meshes.mesh_format import MeshFormat
 from .meshes.registry import mesh_formats, register_mesh_format
 from .options import FieldOptions, MeshOptions, SurfaceFieldOptions
+from .planar.geojson import outline_of_geojson
+from .planar.outline import planar_outline, resampled_outline
+from .planar.quads import FixedBoundaryFigures, FixedBoundaryResult, compute_fixed_boundary_quads
+from .planar.read import read_outline
 from .quad_mesh.options import QuadMeshOptions
 from .quad_mesh.quad_mesh import QuadMeshResult, compute_quad_mesh
 from .records.record_file import read_record, read_surface_record
@@ -63,6 +67,8 @@ __all__ = [
     "FeatureGraph",
     "FieldOptions",
     "FieldResult",
+    "FixedBoundaryFigures",
+    "FixedBoundaryResult",
     "FrameFile",
     "FrameFormat",
     "GeometryError",
@@ -90,6 +96,7 @@ __all__ = [
     "analyse",
     "compare",
     "compute_field",
+    "compute_fixed_boundary_quads",
     "compute_hex_dominant",
     "compute_quad_layout",
     "compute_quad_mesh",
@@ -101,16 +108,20 @@ __all__ = [
     "from_pandas",
     "from_pyvista",
     "mesh_formats",
+    "outline_of_geojson",
     "parameterization_input",
+    "planar_outline",
     "prepare_field",
     "prepare_mesh",
     "read_cells",
     "read_frames",
+    "read_outline",
     "read_record",
     "read_surface",
     "read_surface_record",
     "register_mesh_format",
     "require_valid",
+    "resampled_outline",
     "run_field",
     "sample_frames",
     "slice_frames",

@@ -1515,6 +1515,71 @@ class FeatureCut:
     @origins.setter
     def origins(self, value: ArrayLike) -> None: ...
 
+class PlanarOutline:
+    def __init__(self, points: ArrayLike = ..., loops: ArrayLike = ..., lines: ArrayLike = ...) -> None: ...
+    @property
+    def points(self) -> Float64s: ...
+    @points.setter
+    def points(self, value: ArrayLike) -> None: ...
+    @property
+    def loops(self) -> Int32s: ...
+    @loops.setter
+    def loops(self, value: ArrayLike) -> None: ...
+    @property
+    def lines(self) -> Int32s: ...
+    @lines.setter
+    def lines(self, value: ArrayLike) -> None: ...
+
+class FixedBoundaryOptions:
+    words: ClassVar[dict[str, list[str]]]
+    edge_length: float
+    rotation: float
+    offset_x: float
+    offset_y: float
+    clearance: float
+    odd_loops: str
+    rounds: int
+    def __init__(
+        self,
+        edge_length: float = ...,
+        rotation: float = ...,
+        offset_x: float = ...,
+        offset_y: float = ...,
+        clearance: float = ...,
+        odd_loops: str = ...,
+        rounds: int = ...,
+    ) -> None: ...
+
+class FixedBoundaryQuads:
+    reformed: int
+    def __init__(
+        self,
+        mesh: QuadMesh = ...,
+        boundary: ArrayLike = ...,
+        lines: ArrayLike = ...,
+        interior: ArrayLike = ...,
+        split: ArrayLike = ...,
+        reformed: int = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> QuadMesh: ...
+    @property
+    def boundary(self) -> Int32s: ...
+    @boundary.setter
+    def boundary(self, value: ArrayLike) -> None: ...
+    @property
+    def lines(self) -> Int32s: ...
+    @lines.setter
+    def lines(self, value: ArrayLike) -> None: ...
+    @property
+    def interior(self) -> Int32s: ...
+    @interior.setter
+    def interior(self, value: ArrayLike) -> None: ...
+    @property
+    def split(self) -> Int32s: ...
+    @split.setter
+    def split(self, value: ArrayLike) -> None: ...
+
 class PatternChange:
     def __init__(self, triangle: int = ..., added: bool = ..., positions: ArrayLike = ...) -> None: ...
     triangle: int
@@ -1622,6 +1687,22 @@ def quantized_quads(
     most_nodes: int = ...,
     progress: Progress | None = None,
 ) -> QuantizedQuads: ...
+def quad_templates(sides: int, interior: int) -> list[Int32s]: ...
+def require_planar(outline: PlanarOutline) -> None: ...
+def outline_of_graph(points: ArrayLike, segments: ArrayLike, holes: ArrayLike = ...) -> PlanarOutline: ...
+def fixed_boundary_quads(
+    outline: PlanarOutline,
+    inside: QuadMesh | None = None,
+    *,
+    edge_length: float = ...,
+    rotation: float = ...,
+    offset_x: float = ...,
+    offset_y: float = ...,
+    clearance: float = ...,
+    odd_loops: str = ...,
+    rounds: int = ...,
+    progress: Progress | None = None,
+) -> FixedBoundaryQuads: ...
 def arc_shortages(layout: QuadLayout, origins: ArrayLike = ...) -> Float64s: ...
 def moved_by_faces(
     surface: SurfaceDomain | TriangleMesh,

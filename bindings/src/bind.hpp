@@ -27,6 +27,7 @@ void bind_size_family_types(pybind11::module_& module);
 void bind_size_families(pybind11::module_& module);
 void bind_quad_layout_types(pybind11::module_& module);
 void bind_quad_layouts(pybind11::module_& module);
+void bind_fixed_boundary(pybind11::module_& module);
 void bind_t_mesh_types(pybind11::module_& module);
 void bind_t_meshes(pybind11::module_& module);
 void bind_renormalised_energy(pybind11::module_& module);

@@ -29,6 +29,7 @@ struct SizedFieldOptions;
 struct LayoutCurveOptions;
 struct LayoutQuadsOptions;
 struct QuantizedQuadsOptions;
+struct FixedBoundaryOptions;
 }  // namespace octafield::surface
 namespace octafield::volume {
 struct AxesStretchOptions;
@@ -61,6 +62,7 @@ void check(const surface::LayoutCurveOptions& options);
 void check(const surface::LayoutQuadsOptions& options);
 void check(const surface::QuantizedQuadsOptions& options);
 void check(const surface::FittingOptions& options);
+void check(const surface::FixedBoundaryOptions& options);
 void check(const volume::AxesStretchOptions& options);
 void check(const volume::BoundaryOptions& options);
 void check(const volume::DiffuseOptions& options);

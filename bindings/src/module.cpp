@@ -77,6 +77,7 @@ PYBIND11_MODULE(_core, module) {
     bind_quad_layouts(module);
     bind_t_mesh_types(module);
     bind_t_meshes(module);
+    bind_fixed_boundary(module);
     bind_hexdom(module);
     bind_end();
     add_examples(module);

@@ -10,6 +10,7 @@
 
 #include "octafield/error.hpp"
 #include "octafield/surface/direction_field.hpp"
+#include "octafield/surface/fixed_boundary_quads.hpp"
 #include "octafield/surface/imposed_field.hpp"
 #include "octafield/surface/non_orthogonal_field.hpp"
 #include "octafield/surface/quantized_quads.hpp"
@@ -103,6 +104,13 @@ template <>
 struct Words<surface::Blocks> {
     using E = surface::Blocks;
     static constexpr std::array<std::pair<const char*, E>, 2> list{{{"few", E::few}, {"fine", E::fine}}};
+};
+
+template <>
+struct Words<surface::OddLoops> {
+    using E = surface::OddLoops;
+    static constexpr std::array<std::pair<const char*, E>, 3> list{
+        {{"refuse", E::refuse}, {"split_one", E::split_one}, {"split_all", E::split_all}}};
 };
 
 template <>

@@ -9,6 +9,7 @@ from octafield.domain.generators import generate
 from octafield.domain.inputs import read_input
 from octafield.meshes.gmsh import cad
 from octafield.meshes.gmsh.cad_worker import WAYS
+from octafield.meshes.gmsh.working import ending
 from octafield.meshes.grids import Grid
 from pipeline_fixtures import octafield, shared
 from test_cad import part  # noqa: F401 (a fixture)
@@ -56,9 +57,7 @@ def test_crossing_triangles_and_crowded_edges_are_faults_and_open_rims_are_none(
 
 
 def test_a_printed_path_is_not_passed_on():
-    said = cad._ending(
-        3, 'Traceback\n  File "/home/builder/src/worker.py", line 3\n/opt/gmsh/lib.so: undefined symbol x'
-    )
+    said = ending(3, 'Traceback\n  File "/home/builder/src/worker.py", line 3\n/opt/gmsh/lib.so: undefined symbol x')
     assert "/" not in said.replace("exit code 3", "") and "undefined symbol x" in said
 
 

@@ -138,6 +138,8 @@ def layout_objects():
         of.surface.LayoutCurveOptions(end_tolerance=0.1), of.surface.LayoutQuadsOptions(quad_count=7),
         of.compute_quad_layout(plate, layout_options=of.QuadLayoutOptions(quads=12)), of.QuadLayoutOptions(quads=12),
         of.compute_quad_mesh(plate, quad_options=of.QuadMeshOptions(quads=12)), of.QuadMeshOptions(quads=12),
+        of.compute_fixed_boundary_quads([[(0, 0), (2, 0), (2, 2), (0, 2)]], [[(0.5, 1), (1.5, 1)]], edge_length=1.5),
+        of.surface.FixedBoundaryOptions(edge_length=0.5, odd_loops="split_all"),
     ]  # fmt: skip
 
 

@@ -48,3 +48,16 @@ def test_sheets_are_small_pictures(figures):
     for sheet in ("blocks", "rings", "cycles", "corners"):
         content = (figures[0] / f"quad_figures_{sheet}.png").read_bytes()
         assert content[:8] == b"\x89PNG\r\n\x1a\n" and 3_000 < len(content) < 100_000
+
+
+def test_the_study_of_fixed_boundaries_finds_every_mesh_sound(tmp_path):
+    pytest.importorskip("gmsh")
+    command = [sys.executable, "-m", "studies.channel", "-o", tmp_path, *"--edge 0.06 --angles 1 --quads 500".split()]
+    done = subprocess.run(command, cwd=STUDIES, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    text = (tmp_path / "summary.md").read_text()
+    assert "4 configurations" in text and ": 0 failures." in text
+    row = next(line for line in text.splitlines() if line.startswith("| octafield |"))
+    assert row.split("|")[3].strip() == "0"  # triangles
+    content = (tmp_path / "channel_coast.png").read_bytes()
+    assert content[:8] == b"\x89PNG\r\n\x1a\n" and 3_000 < len(content) < 300_000

@@ -4,24 +4,19 @@ feature edges.
 Gmsh works in a process of its own (cad_worker.py): damaged models can crash it or keep it for ever.
 """
 
-import contextlib
 import json
 import re
-import signal
-import subprocess
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
 from ... import _core
 from ...errors import Cancelled, Error, InvalidInput, IoError
-from ...files.process import start_isolated
 from ...files.reading import plain_name, read_bytes
-from ...files.writing import scratch_folder
-from ...progress.phases import Progress, announce
+from ...progress.phases import Progress
 from ..grids import Grid
 from .cad_worker import WAYS
+from .working import ending, run_worker, scratch_for
 
 _FORMATS = {".step": "step", ".stp": "step", ".brep": "brep", ".iges": "iges", ".igs": "iges"}
 _WORKER = Path(__file__).with_name("cad_worker.py")
@@ -30,7 +25,6 @@ _OF_MESHING = (
     "non_manifold_edge",
     "self_intersection",
 )  # defects that another mesh may not have
-_PAUSE = 0.1  # seconds between questions to the callback
 _NO_NUMBER = re.compile(rb"(?i)[(,\s]\s*([-+]?(?:nan|inf|infinity))\s*[,)\s]")  # on which Open CASCADE does not end
 
 
@@ -71,22 +65,20 @@ def _meshed(
 ) -> tuple[Grid | None, str | None]:
     """The mesh, None where Gmsh gave none for the model it could read, and what is wrong with it. way: number in
     WAYS."""
-    with _scratch(path) as folder:
+    with scratch_for(path) as folder:
         job = {
             "model": str(_plain(path, suffix, folder)),
             "format": _FORMATS[suffix],
             "edge_length": edge_length,
             "way": way,
         }
-        code = _run(path, job | {"folder": str(folder)}, folder, progress)
+        code = run_worker(_WORKER, path, job | {"folder": str(folder)}, folder, progress)
         try:
             answer = json.loads((folder / "answer.json").read_bytes()) if code == 0 else None
         except (OSError, ValueError):
             answer = None
         if answer is None:
-            raise IoError(
-                f"{path}: {_ending(code, (folder / 'printed').read_text(errors='replace'))}", "reader_stopped"
-            )
+            raise IoError(f"{path}: {ending(code, (folder / 'printed').read_text(errors='replace'))}", "reader_stopped")
         if answer.get("error") == "not_meshed":
             return None, answer["message"]
         if "error" in answer:
@@ -109,16 +101,6 @@ def _fault(grid: Grid) -> str | None:
     return defect.message.partition("; ")[0] if defect else None
 
 
-@contextlib.contextmanager
-def _scratch(path: Path) -> Iterator[Path]:
-    with contextlib.ExitStack() as stack:
-        try:
-            folder = stack.enter_context(scratch_folder())
-        except OSError as error:
-            raise IoError(f"{path}: there is no folder for temporary files ({error}); set TMPDIR") from error
-        yield folder
-
-
 def _plain(path: Path, suffix: str, folder: Path) -> Path:
     """A file that is not packed, without numbers that are none."""
     content = read_bytes(path)
@@ -132,39 +114,3 @@ def _plain(path: Path, suffix: str, folder: Path) -> Path:
         return path.absolute()
     (folder / f"input{suffix}").write_bytes(content)
     return folder / f"input{suffix}"
-
-
-def _run(path: Path, job: dict[str, object], folder: Path, progress: Progress | None) -> int:
-    """Exit code, negative after a signal. No process is left, however this ends."""
-    with (folder / "printed").open("w+b") as printed:
-        process = start_isolated(
-            _WORKER, [json.dumps(job)], str(path), "mesh it with Gmsh (gmsh -2 or -3) and give the .msh file",
-            stdin=subprocess.DEVNULL, stdout=printed, stderr=printed,
-        )  # fmt: skip
-        try:
-            while True:
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    return process.wait(_PAUSE)
-                announce(progress, "read")
-        finally:
-            process.kill()
-            process.wait()
-
-
-def _ending(code: int, printed: str) -> str:
-    """What is to be told of a process that gave no answer."""
-    if code == -signal.SIGKILL:
-        return (
-            "Gmsh was stopped by signal SIGKILL, most likely because memory ran out; choose a larger edge length"
-            " (--edge-length)"
-        )
-    if code < 0:
-        return (
-            f"Gmsh was stopped by signal {signal.Signals(-code).name}: the model is damaged, or Gmsh has a defect;"
-            " export it again"
-        )
-    last = re.sub(r"\S*[/\\]\S*", "", printed.strip().rpartition("\n")[2]).strip()  # paths are of no use to anyone
-    return (
-        f"Gmsh gave no answer (exit code {code}{': ' if last else ''}{last}); export it again, or mesh it elsewhere and"
-        " give the mesh"
-    )
