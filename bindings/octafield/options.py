@@ -4,7 +4,7 @@ import difflib
 import math
 import numbers
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -29,9 +29,23 @@ LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
 LARGEST_SYMMETRY = 1000  # largest_symmetry of direction_field.hpp
 METHODS = dict(_core.direction_field_methods)  # with what each is
 ALIGNMENTS = tuple(_core.DirectionFieldOptions.words["boundary_alignment"])
+LINES_METHODS = dict(_core.non_orthogonal_field_methods)  # with what each is
+SECOND_LINES = tuple(_core.NonOrthogonalFieldOptions.words["second_line"])
+EDGE_WEIGHTS = tuple(_core.NonOrthogonalFieldOptions.words["weights"])
 
 # The structs of the compiled module, whose defaults are those of the classes below.
 _BOUNDARY, _RECIPE, _SURFACE = _core.BoundaryOptions(), _core.FrameFieldOptions(), _core.DirectionFieldOptions()
+_LINES = _core.NonOrthogonalFieldOptions()
+
+
+def changed_options(options: "MeshOptions", *, of_mesh: bool) -> dict[str, Any]:
+    """By name, those that are not at their defaults: all, or all but those of the mesh."""
+    mesh = {option.name for option in fields(MeshOptions)}
+    return {
+        option.name: getattr(options, option.name)
+        for option in fields(options)
+        if (of_mesh or option.name not in mesh) and getattr(options, option.name) != option.default
+    }
 
 
 def require_one_of(name: str, value: str, allowed: Iterable[str]) -> None:
@@ -115,8 +129,7 @@ class MeshOptions:
     max_cells: int = 0
 
     def __repr__(self) -> str:
-        default = type(self)()
-        changed = {name: value for name, value in vars(self).items() if value != getattr(default, name)}
+        changed = changed_options(self, of_mesh=True)
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
 
     def __post_init__(self) -> None:
@@ -194,6 +207,55 @@ class SurfaceFieldOptions(MeshOptions):
             "lines of curvature have no sense to run in: curvature needs an even symmetry",
         )
         _make_integer(self, "seed", 0, LARGEST_SEED)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class NonOrthogonalOptions(MeshOptions):
+    """Of a field of two lines at any angle on a surface: a key of octafield.surface.non_orthogonal_field_methods and
+    the other options of octafield.surface.non_orthogonal_field, which says what they are. Angles are radians. inertia,
+    penalty and tolerance are of the method "projected", least_angle of free lines: elsewhere they would be ignored.
+
+    Raises InvalidInput.
+
+        >>> from octafield.options import NonOrthogonalOptions
+        >>> NonOrthogonalOptions(second_line="free", remesh=False)
+        NonOrthogonalOptions(remesh=False, second_line='free')
+    """
+
+    method: str = _LINES.method
+    second_line: str = _LINES.second_line
+    corner_angle: float = _LINES.corner_angle
+    least_angle: float = _LINES.least_angle
+    lambda_: float = _LINES.lambda_
+    weights: str = _LINES.weights
+    max_iterations: int = _LINES.max_iterations
+    inertia: float = _LINES.inertia
+    penalty: float = _LINES.penalty
+    tolerance: float = _LINES.tolerance
+    seed: int = _LINES.seed
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_one_of("method", self.method, LINES_METHODS)
+        require_one_of("second_line", self.second_line, SECOND_LINES)
+        require_one_of("weights", self.weights, EDGE_WEIGHTS)
+        _require(0 < self.corner_angle < math.pi / 2, "the corner angle must lie between 0 and 90 degrees")
+        _require(0 < self.least_angle < math.pi / 4, "the least angle must lie between 0 and 45 degrees")
+        _require(math.isfinite(self.lambda_) and self.lambda_ > 0, "lambda must be positive")
+        for name in ("inertia", "penalty", "tolerance"):
+            _require(math.isfinite(getattr(self, name)) and getattr(self, name) >= 0, f"{name} must not be negative")
+        _make_integer(self, "max_iterations", 1, LARGEST_INT)
+        _make_integer(self, "seed", 0, LARGEST_SEED)
+        changed = changed_options(self, of_mesh=False)
+        unused = {"inertia", "penalty", "tolerance"} if self.method != "projected" else {"least_angle"}
+        if self.second_line != "free":
+            unused |= {"least_angle", "penalty"}
+        if ignored := sorted(unused & changed.keys()):
+            raise InvalidInput(
+                f"{', '.join(ignored)} would be ignored by method {self.method!r} with second_line"
+                f" {self.second_line!r}; leave that out",
+                "ignored_options",
+            )
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

@@ -21,6 +21,7 @@ from .._core import (
     FieldAnalysis,
     FrameStreamline,
     Meshability,
+    NonOrthogonalField,
     SingularGraph,
     SingularVertex,
     SurfaceSingularities,
@@ -28,13 +29,14 @@ from .._core import (
     VertexConstraints,
 )
 from ..domain.meshed_input import MeshedInput
-from ..options import SurfaceFieldOptions
+from ..options import NonOrthogonalOptions, SurfaceFieldOptions
 from ..progress.phases import PhaseClock, machine, octafield_version, versions
 from ..records.field import FieldFigures, InputRecord
 from ..records.parts import (
     Angles,
     IntegrabilityFigures,
     Machine,
+    NonOrthogonalFigures,
     PhaseSeconds,
     Range,
     SingularPoint,
@@ -250,12 +252,7 @@ def of_surface_field(
         symmetry=options.symmetry,
         method=options.method,
         seed=options.seed,
-        euler_characteristic=singularities.euler_characteristic,
-        index_sum=singularities.index_sum,
-        singularities=[
-            SingularPoint(position=[float(x) for x in s.position], index=float(s.index), boundary=bool(s.boundary))
-            for s in singularities.points
-        ],
+        **_of_points(singularities),
         energy=field.energy,
         dirichlet_energy=field.dirichlet_energy,
         energy_history=[float(e) for e in field.energy_history],
@@ -267,3 +264,59 @@ def of_surface_field(
         constraints=0 if constraints is None else len(constraints.edges) + len(constraints.vertices),
         options=asdict(options),
     )
+
+
+def of_lines(
+    meshed: MeshedInput,
+    clock: PhaseClock,
+    peak_mb: float,
+    field: NonOrthogonalField,
+    singularities: SurfaceSingularities,
+    options: NonOrthogonalOptions,
+    corner_source: str,
+    cut_edges: int,
+    stopped: bool,
+) -> SurfaceFieldRecord:
+    """cut_edges: feature edges inside, along which the surface was cut."""
+    quads, used = np.asarray(field.quads), np.unique(np.asarray(field.domain.triangles))
+    cosines = abs(np.einsum("vi,vi->v", np.asarray(field.first)[used], np.asarray(field.second)[used]))
+    numbers = Counter(quads[(quads > 0) & (quads != 2)].tolist())
+    return SurfaceFieldRecord(
+        **of_input(meshed, clock, peak_mb),
+        vertices=len(field.domain.vertices),
+        triangles=len(field.domain.triangles),
+        symmetry=4,
+        method=options.method,
+        seed=options.seed,
+        **_of_points(singularities),
+        energy=field.energy,
+        epsilon=0.0,
+        iterations=field.iterations,
+        converged=bool(field.converged),
+        stopped=stopped,
+        constraints=0,
+        non_orthogonal=NonOrthogonalFigures(
+            smallest_angle_deg=math.degrees(field.smallest_angle),
+            oblique_share=float((cosines > math.cos(math.radians(89))).mean()),
+            start_energy=field.start_energy,
+            corners={str(number): numbers[number] for number in sorted(numbers)},
+            corner_source=corner_source,
+            agree=bool(singularities.agree),
+            inverted=len(field.inverted),
+            freedom=field.freedom,
+            cut_edges=cut_edges,
+            input_vertices=len(meshed.surface.vertices),
+        ),
+        options=options.recorded(),
+    )
+
+
+def _of_points(found: SurfaceSingularities) -> dict[str, Any]:
+    return {
+        "euler_characteristic": found.euler_characteristic,
+        "index_sum": found.index_sum,
+        "singularities": [
+            SingularPoint(position=[float(x) for x in s.position], index=float(s.index), boundary=bool(s.boundary))
+            for s in found.points
+        ],
+    }

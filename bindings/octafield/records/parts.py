@@ -154,6 +154,21 @@ class ImposedFigures(Record):
     input_triangles: int = Field(description="of the surface before it was refined round the points")
 
 
+class NonOrthogonalFigures(Record):
+    """Of a field of two lines at any angle on a surface."""
+
+    smallest_angle_deg: float = Field(description="between the two lines of a vertex")
+    oblique_share: float = Field(description="of the vertices, where that is below 89 degrees")
+    start_energy: float = Field(description="of the linear start")
+    corners: dict[str, int] = Field(description="vertices of the boundary by number of quads, those of 2 left out")
+    corner_source: str = Field(description="angle, given, or the file: where these numbers come from")
+    agree: bool = Field(description="the indices inside and at corners add up to the Euler characteristic")
+    inverted: int = Field(description="vertices of the boundary where a line has passed through its direction")
+    freedom: float = Field(description="of free lines on the boundary, what is left of their range; 0: fixed")
+    cut_edges: int = Field(description="feature edges inside, along which the surface was cut")
+    input_vertices: int = Field(description="of the surface before it was cut")
+
+
 class CellCounts(Record):
     """Cells of a mesh by kind."""
 

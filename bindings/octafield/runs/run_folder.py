@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,7 @@ import numpy as np
 from .. import _core
 from .._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetDomain
 from ..fields.analysed import AnalysedField
-from ..fields.direction_field import SurfaceFieldResult
+from ..fields.direction_field import FieldOnSurface
 from ..fields.frame_field import FieldResult
 from ..fields.sizes import sizes_arrays
 from ..files.writing import text_array, vtp_bytes, write_file
@@ -75,38 +75,26 @@ def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str,
         write_streamlines(folder / "streamlines.vtp", result.streamlines, metadata)
 
 
-def write_surface_result(result: SurfaceFieldResult, folder: Path, progress: Progress | None = None) -> None:
+def write_surface_result(result: FieldOnSurface, folder: Path, progress: Progress | None = None) -> None:
     """The files of a surface field, and the record."""
     announce(progress, "write")
     metadata = _metadata(result.record)
     with _telling(result, folder, SURFACE_FILES):
-        _write_surface_files(result, folder, metadata, result.vertex_data)
+        _write_surface_files(result, folder, metadata)
 
 
 def _write_surface_files(
-    result: FieldResult | SurfaceFieldResult,
+    result: FieldResult | FieldOnSurface,
     folder: Path,
     metadata: dict[str, str],
-    vertex_data: Mapping[str, np.ndarray] | None = None,
 ) -> None:
     surface, points, curves = (folder / name for name in SURFACE_FILES)
-    if vertex_data:
-        _save(_surface(result, vertex_data), surface, metadata)
+    if isinstance(result, FieldOnSurface) and result.vertex_data:
+        _save(result.dataset(), surface, metadata)
     else:
         _core.write_surface_field(surface, result.surface, result.directions, metadata)
     write_singular_points(points, result.singularities.points, metadata)
     write_streamlines(curves, result.separatrices, metadata)
-
-
-def _surface(result: FieldResult | SurfaceFieldResult, vertex_data: Mapping[str, np.ndarray]) -> pyvista.PolyData:
-    import pyvista
-
-    surface: pyvista.PolyData = pyvista.PolyData.from_regular_faces(
-        np.array(result.surface.vertices), np.array(result.surface.triangles, int)
-    )
-    for name, values in {"direction": result.directions, **vertex_data}.items():
-        surface.point_data[name] = values
-    return surface
 
 
 def write_singular_points(path: Path, singularities: Sequence[SurfaceSingularity], metadata: dict[str, str]) -> None:
@@ -198,7 +186,7 @@ def _metadata(record: FieldRecord | SurfaceFieldRecord) -> dict[str, str]:
 
 
 @contextlib.contextmanager
-def _telling(result: AnalysedField | SurfaceFieldResult, folder: Path, names: Sequence[str]) -> Iterator[None]:
+def _telling(result: AnalysedField | FieldOnSurface, folder: Path, names: Sequence[str]) -> Iterator[None]:
     """Files are written in the block; then the record, with what that took and which of `names` are there."""
     memory, clock = PeakMemory(), PhaseClock()
     clock.wall, clock.cpu = dict(result.record.wall_seconds), dict(result.record.cpu_seconds)
