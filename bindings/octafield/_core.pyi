@@ -2011,6 +2011,7 @@ def write_field(
     point_data: Mapping[str, ArrayLike] = ...,
     cell_data: Mapping[str, ArrayLike] = ...,
     features: ArrayLike = ...,
+    stretch: ArrayLike | None = None,
 ) -> None: ...
 def write_singular_graph(
     path: Path, graph: SingularGraph, metadata: Mapping[str, str] = ..., meshability: Meshability | None = None
@@ -2239,7 +2240,9 @@ class FeatureTangents:
 def hex_vertex_exists(
     valence3: int, valence5: int, valence6: int = ..., valence7: int = ..., valence8: int = ...
 ) -> bool: ...
-def local_meshability(domain: TetDomain | TetMesh, frames: ArrayLike, graph: SingularGraph) -> Meshability: ...
+def local_meshability(
+    domain: TetDomain | TetMesh, frames: ArrayLike, graph: SingularGraph, *, stretch: ArrayLike | None = None
+) -> Meshability: ...
 def tet_meshability(
     domain: TetDomain | TetMesh,
     of_tets: ArrayLike,
@@ -2249,8 +2252,11 @@ def tet_boundary_meshability(
     domain: TetDomain | TetMesh, of_tets: ArrayLike, *, threads: int = 0
 ) -> BoundaryMeshability: ...
 def boundary_meshability(
-    domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0
+    domain: TetDomain | TetMesh, frames: ArrayLike, *, stretch: ArrayLike | None = None, threads: int = 0
 ) -> BoundaryMeshability: ...
+def wedge_alignment(
+    domain: TetDomain | TetMesh, frames: ArrayLike, *, stretch: ArrayLike | None = None, threads: int = 0
+) -> Float64s: ...
 def smoothed_curves(graph: SingularGraph, *, steps: int = ...) -> SmoothedCurves: ...
 def integrability(domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0) -> Integrability: ...
 def tet_frames(domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0) -> Float64s: ...
@@ -2517,6 +2523,7 @@ def frame_streamlines(
     points: ArrayLike,
     directions: ArrayLike | None = None,
     *,
+    stretch: ArrayLike | None = None,
     max_length: float = ...,
     both_ways: bool = ...,
     closing_distance: float = ...,
@@ -2709,6 +2716,7 @@ class ComputedField:
     def __init__(
         self,
         cross_field: DirectionField = ...,
+        stretch: AxesStretch = ...,
         constraints: BoundaryConstraints = ...,
         solved: FrameFieldResult = ...,
         combed: CombedVertices = ...,
@@ -2716,6 +2724,8 @@ class ComputedField:
     ) -> None: ...
     @property
     def cross_field(self) -> DirectionField: ...
+    @property
+    def stretch(self) -> AxesStretch: ...
     @property
     def constraints(self) -> BoundaryConstraints: ...
     @property
@@ -2753,8 +2763,11 @@ def surface_constraints(
     mode: str = ...,
     feature_tolerance: float = ...,
     sites: str = ...,
+    stretch: ArrayLike | None = None,
 ) -> BoundaryConstraints: ...
-def analyse_field(domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0) -> FieldAnalysis: ...
+def analyse_field(
+    domain: TetDomain | TetMesh, frames: ArrayLike, *, stretch: ArrayLike | None = None, threads: int = 0
+) -> FieldAnalysis: ...
 def analyse_tet_field(
     domain: TetDomain | TetMesh, sampling: Sampling, of_tets: ArrayLike, *, threads: int = 0
 ) -> TetFieldAnalysis: ...
@@ -2780,7 +2793,10 @@ def computed_field(
     tolerance: float = ...,
     linear_solver: str = ...,
     midpoint_limit: float = ...,
+    corner_angle: float = ...,
+    least_deviation: float = ...,
     constraints: VertexConstraints | None = None,
+    axes: str = ...,
     progress: Progress | None = None,
 ) -> ComputedField: ...
 def computed_tet_field(
@@ -2805,7 +2821,10 @@ def computed_tet_field(
     tolerance: float = ...,
     linear_solver: str = ...,
     midpoint_limit: float = ...,
+    corner_angle: float = ...,
+    least_deviation: float = ...,
     constraints: VertexConstraints | None = None,
+    axes: str = ...,
     progress: Progress | None = None,
 ) -> ComputedTetField: ...
 

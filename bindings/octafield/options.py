@@ -22,6 +22,7 @@ BOUNDARIES = tuple(_core.BoundaryOptions.words["mode"])
 OF_A_START = "start"  # a treatment of the boundary that needs frames to start from
 SAMPLINGS = ("vertices", "tets")
 SIZES = ("none", "isotropic", "axes")
+AXES = ("orthogonal", "free")
 FEATURES = ("default", "file", "angle", "none")
 REPAIR_LEVELS = ("none", "merge", "safe", "fill", "resolve", "wrap")  # each does what those before it do
 REPAIRS = ("default", *REPAIR_LEVELS)
@@ -266,6 +267,10 @@ class FieldOptions(MeshOptions):
         edges, alignment and meshability are those of the tets then, and integrability is left out).
     boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none",
         or "start" (frames on the surface held at those of the start that compute_field is given).
+    axes: of frames, "orthogonal", at right angles; or "free", along feature edges and both faces of those that are
+        sharp, at whatever angle (octafield.volume.axes_stretch): then frames are rotations Q, and the axes are the
+        columns of S Q with the stretch S of the result. For frames at vertices, without a start, sizes and
+        odeco_lengths.
     feature_tolerance: radians; a vertex on a feature keeps its whole frame when one frame fits all its normals and
         tangents so well (octafield.volume.boundary_constraints).
     seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
@@ -296,6 +301,7 @@ class FieldOptions(MeshOptions):
     representation: str | OwnScheme = _RECIPE.smooth.representation
     solver: str = _RECIPE.smooth.solver
     boundary: str = _BOUNDARY.mode
+    axes: str = AXES[0]
     feature_tolerance: float = _BOUNDARY.feature_tolerance
     seed: int = 0
     threads: int = 0
@@ -327,6 +333,9 @@ class FieldOptions(MeshOptions):
         require_one_of("solver", self.solver, SOLVERS)
         require_one_of("boundary", self.boundary, (*BOUNDARIES, OF_A_START))
         require_one_of("sizes", self.sizes, SIZES)
+        require_one_of("axes", self.axes, AXES)
+        if self.axes == "free":
+            self._require_free_axes()
         _require(0 <= self.feature_tolerance <= math.pi / 2, "the feature tolerance must lie between 0 and 90 degrees")
         _make_integer(self, "seed", 0, LARGEST_SEED)
         _make_integer(self, "threads", 0, LARGEST_INT, " (0: all)")
@@ -340,6 +349,16 @@ class FieldOptions(MeshOptions):
         for name in ("round_time", "first_time", "last_time", "time_exponent", "linear_tolerance"):
             value = getattr(self, name)
             _require(math.isfinite(value) and value > 0, f"{name.replace('_', ' ')} must be positive, not {value!r}")
+
+    def _require_free_axes(self) -> None:
+        for given, needed in (
+            (self.sampling == "vertices", "frames at the vertices: leave out sampling 'tets'"),
+            (self.boundary != OF_A_START, "the boundary's own frames: a start has axes at right angles"),
+            (self.scheme_name != "odeco_lengths", "axes without lengths of their own: leave out 'odeco_lengths'"),
+            (self.sizes == "none", "no sizes, which are found for axes at right angles: leave them out"),
+        ):
+            if not given:
+                raise InvalidInput(f"axes 'free' need {needed}, or take axes 'orthogonal'", "stretched_axes")
 
     def recorded(self) -> dict[str, Any]:
         given = self.representation

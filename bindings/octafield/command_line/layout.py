@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from ..layout.options import AXES, BLOCKS, INADMISSIBLE, LAYOUTS, QuadLayoutOptions
-from ..options import SurfaceFieldOptions
+from ..layout.options import BLOCKS, INADMISSIBLE, LAYOUTS, QuadLayoutOptions
+from ..options import AXES, SurfaceFieldOptions
 from . import console, tables
 from .console import carry_out, log
 from .options import InputFile, Json, Output, Quiet, Verbose, choices, with_options

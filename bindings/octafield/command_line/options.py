@@ -15,6 +15,7 @@ from ..errors import InvalidInput
 from ..meshes.registry import kinds_in_words
 from ..options import (
     ALIGNMENTS,
+    AXES,
     BOUNDARIES,
     EDGE_WEIGHTS,
     FEATURES,
@@ -150,6 +151,14 @@ Boundary = Annotated[
         help="aligned: twist free; fixed: whole frame held at the cross field; start: at --start.",
     ),
 ]
+Axes = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(AXES),
+        autocompletion=words(AXES),
+        help="At right angles, or along both faces of sharp feature edges at whatever angle (docs/non_orthogonal.md).",
+    ),
+]
 FeatureTolerance = Annotated[
     float, typer.Option(metavar="DEG", help="How well one frame must fit a feature vertex to be held, degrees.")
 ]
@@ -245,6 +254,7 @@ PARAMETERS: dict[str, Any] = {
     "representation": Representation,
     "solver": Solver,
     "boundary": Boundary,
+    "axes": Axes,
     "feature_tolerance": FeatureTolerance,
     "symmetry": Symmetry,
     "method": Method,

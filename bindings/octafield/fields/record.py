@@ -80,11 +80,16 @@ def of_mesh(meshed: MeshedInput) -> dict[str, Any]:
 
 
 def of_field_at_vertices(
-    found: FieldAnalysis, unserved: np.ndarray, unserved_vertices: int, lines: list[FrameStreamline]
+    found: FieldAnalysis,
+    unserved: np.ndarray,
+    unserved_vertices: int,
+    lines: list[FrameStreamline],
+    *,
+    at_right_angles: bool,
 ) -> FieldFigures:
-    """unserved: (k,) bool, of the angles of alignment."""
+    """unserved: (k,) bool, of the angles of alignment. at_right_angles: whether axes are, as integrability needs."""
     graph, integrability, alignment = found.singular_graph, found.integrability, np.asarray(found.alignment)
-    held = _degrees(alignment[~unserved]).max
+    held = degrees_of(alignment[~unserved]).max
     ends = Counter(end for line in lines for end in (line.first_end, line.last_end))
     return FieldFigures(
         energy=found.energy,
@@ -95,15 +100,17 @@ def of_field_at_vertices(
         undecided_edges=int(graph.undecided_triangles),
         **_of_meshability(found.meshability),
         **_of_boundary(found.boundary_meshability),
-        alignment_deg=_degrees(alignment).changed(held_max=held),
+        alignment_deg=degrees_of(alignment).changed(held_max=held),
         unserved_vertices=unserved_vertices,
-        feature_alignment_deg=_degrees(np.asarray(found.feature_alignment)),
+        feature_alignment_deg=degrees_of(np.asarray(found.feature_alignment)),
         integrability=IntegrabilityFigures(
             jump_rms=integrability.jump_rms,
             jump_max=integrability.jump_max,
             twist_rms=integrability.twist_rms,
             twist_max=integrability.twist_max,
-        ),
+        )
+        if at_right_angles
+        else None,
         streamlines=StreamlineCounts(
             curves=len(lines), length=float(sum(line.length for line in lines)), ends=dict(sorted(ends.items()))
         ),
@@ -122,8 +129,8 @@ def of_field_in_tets(found: TetFieldAnalysis) -> FieldFigures:
         tied_triangles=int(singular.tied_triangles),
         **_of_meshability(found.meshability),
         **_of_boundary(found.boundary_meshability),
-        alignment_deg=_degrees(np.asarray(found.alignment)),
-        feature_alignment_deg=_degrees(np.asarray(found.feature_alignment)),
+        alignment_deg=degrees_of(np.asarray(found.alignment)),
+        feature_alignment_deg=degrees_of(np.asarray(found.feature_alignment)),
     )
 
 
@@ -150,7 +157,7 @@ def _of_meshability(found: Meshability) -> dict[str, Any]:
         "singular_boundary_ends": found.boundary_ends,
         "singular_boundary_ends_about_normal": found.boundary_ends_about_normal,
         "singular_vertex_types": {name: counts[name] for name in sorted(counts)},
-        "singular_axis_deg": _degrees(np.array([end.angle for end in found.ends if end.quarter_turns])),
+        "singular_axis_deg": degrees_of(np.array([end.angle for end in found.ends if end.quarter_turns])),
     }
 
 
@@ -181,7 +188,7 @@ def _type(vertex: SingularVertex) -> str:
     return " ".join(word for word, count in counts.items() for _ in range(count))
 
 
-def _degrees(angles: np.ndarray) -> Angles:
+def degrees_of(angles: np.ndarray) -> Angles:
     if len(angles) == 0:
         return Angles(median=0.0, max=0.0)
     return Angles(median=math.degrees(float(np.median(angles))), max=math.degrees(float(angles.max())))

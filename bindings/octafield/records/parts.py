@@ -60,6 +60,31 @@ class StreamlineCounts(Record):
     ends: dict[str, int] = Field(description="how many ends of each kind (octafield.volume.FrameStreamline)")
 
 
+class WedgeFigures(Record):
+    """Feature edges whose interior angles are nearest to one multiple of 15 degrees."""
+
+    angle_deg: int = Field(description="the multiple")
+    edges: int = Field(description="how many")
+    off_faces_deg: Angles = Field(
+        description="per edge, from the normals of its two faces to the nearest normals of two axes, at both ends"
+    )
+    off_edges_deg: Angles = Field(description="per edge, from its direction to the nearest axis")
+
+
+class AxesFigures(Record):
+    """Of axes that may be at any angle (option axes)."""
+
+    oblique_share: float = Field(description="of the vertices: two axes are off a right angle by more than a degree")
+    largest_obliqueness_deg: float = Field(description="by which two axes of a vertex are off a right angle")
+    lengths: Range = Field(description="of the axes S Q; their mean is about 1")
+    followed_vertices: int | None = Field(
+        default=None, description="on feature edges and corners that give the axes; 0 where nothing is stretched"
+    )
+    sharp_vertices: int | None = Field(default=None, description="of these, off right angles by more than 10 degrees")
+    needle_vertices: int | None = Field(default=None, description="with an angle below a degree, not followed")
+    wedges: list[WedgeFigures] = Field(description="feature edges by their angle")
+
+
 class LockingCounts(Record):
     """Inside of the mesh and with all vertices on its surface."""
 

@@ -32,7 +32,7 @@ from .._core import BoundarySurface, FrameStreamline, SingularGraph, Streamline,
 from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField
 from ..fields.direction_field import FieldOnSurface
-from ..fields.probes import put_frames
+from ..fields.probes import put_frames, put_stretched_frames
 from ..meshes.topology import unique_edges
 from ..view.datasets import polylines
 
@@ -63,9 +63,10 @@ def to_pyvista(
 
     AnalysedField, FieldResult: point data frame_u, frame_v, frame_w (the axes, unit vectors), quaternion (w x y z) and
         sh4 (9); cell data of the same names where the field lives in the tets, axes_agree (1 or 0), and region where
-        there are several. Axes are labelled vertex by vertex: slices, clips, probes and stream tracers of VTK
-        interpolate them, and mix different axes in the tets where axes_agree is 0. Threshold these away, or use
-        octafield.slice_frames, sample_frames and frame_streamlines, which interpolate sh4 or match the axes.
+        there are several. Where the axes are not at right angles, rotation (w x y z), stretch (6) and frame_lengths (3)
+        take the place of quaternion and sh4. Axes are labelled vertex by vertex: slices, clips, probes and stream
+        tracers of VTK interpolate them, and mix different axes in the tets where axes_agree is 0. Threshold these away,
+        or use octafield.slice_frames, sample_frames and frame_streamlines, which interpolate sh4 or match the axes.
         SurfaceFieldResult: point data direction, and its vertex_data. SingularGraph: one polyline per curve with cell
         data quarter_turns (+1: valence 3, -1: valence 5, 4 less the valence in general; 0: complex). Streamlines: one
         polyline each with cell data length. Raises InvalidInput for anything else.
@@ -99,7 +100,10 @@ def to_pyvista(
         if value.tet_frames is not None:
             sites.append((grid.cell_data, value.tet_frames))
         for data, frames in sites:
-            put_frames(data, frames)
+            if value.stretch is None:
+                put_frames(data, frames)
+            else:
+                put_stretched_frames(data, frames, value.stretch)
         grid.cell_data["axes_agree"] = np.asarray(_core.axes_agree(value.tets, value.frames))
         if value.regions is not None:
             grid.cell_data["region"] = np.asarray(value.regions)
