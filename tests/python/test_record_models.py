@@ -16,7 +16,7 @@ from octafield.runs.run_folder import write_field_result, write_surface_result
 
 OF_TETS = {"energy_at_vertices", "tied_triangles"}
 OF_VERTICES = {"singular_length_smoothed", "unserved_vertices", "integrability", "streamlines"}
-ON_REQUEST = {"sizes", "lengths", "split_singular", "energies", "mesh"}
+ON_REQUEST = {"axes", "sizes", "lengths", "split_singular", "energies", "mesh"}
 OF_FILES = {"field", "field_format", "deviation_deg", "label", "folder"}
 # What the first version of studies wrote of a field.
 EARLIEST = """
