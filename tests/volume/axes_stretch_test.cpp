@@ -245,7 +245,9 @@ TEST_P(SharpWedge, AtRightAnglesAxesAreOffBothFacesByHalfTheAngle) {
     const BoundaryMeshability found = boundary_meshability(domain, frames);
     const double wanted = std::min(GetParam(), 90 - GetParam()) / 2 * degree;
     for (std::size_t i = 0; i < found.wedges.size(); ++i)
-        if (std::abs(found.wedges[i].angle - GetParam() * degree) < 1e-9) EXPECT_GT(off(i, 0), wanted - 1e-6);
+        if (std::abs(found.wedges[i].angle - GetParam() * degree) < 1e-9) {
+            EXPECT_GT(off(i, 0), wanted - 1e-6);
+        }
 }
 INSTANTIATE_TEST_SUITE_P(Degrees, SharpWedge, ::testing::Values(15.0, 30.0, 45.0, 60.0, 75.0));
 
