@@ -27,11 +27,11 @@ TetDomain with_angle_features(TetMesh mesh, double angle = 15 * degree) {
     return domain.with_features(surface::detect_features(domain.surface().mesh, {.angle = angle}));
 }
 
-// The unit cube under a linear map with these columns.
-TetDomain parallelepiped(int n, const Matrix3& columns) {
+// The unit cube under a linear map with these columns. angle: of its flattest edges or less.
+TetDomain parallelepiped(int n, const Matrix3& columns, double angle = 15 * degree) {
     TetMesh mesh = kuhn_cube(n);
     mesh.vertices = (mesh.vertices * columns.transpose()).eval();
-    return with_angle_features(std::move(mesh));
+    return with_angle_features(std::move(mesh), angle);
 }
 
 // The half y <= x of the cube, with the edge x = y = 0 at `angle`, and right angles at x = 1, y = 0; height 0.6.
@@ -117,6 +117,26 @@ TEST(AxesStretch, AxesOfAParallelepipedAreItsEdgesEverywhere) {
     EXPECT_LT(alignment_angles(domain, frames, stretch.values).maxCoeff(), 1e-6);
     EXPECT_LT(feature_alignment_angles(domain, frames, stretch.values).maxCoeff(), 1e-6);
     EXPECT_TRUE(singular_graph(domain, frames).curves.empty());
+}
+
+// So skew that of the axes of Q another one is nearest to the normals of some faces.
+TEST(AxesStretch, EveryEdgeOfASkewParallelepipedHasOneHexahedron) {
+    Matrix3 columns;
+    columns << 0.95, 0.86, 0.42, -0.19, 0.38, -0.85, 0.25, 0.33, 0.3;
+    const TetDomain domain = parallelepiped(3, columns, 2 * degree);
+    const AxesStretch stretch = axes_stretch(domain, {.corner_angle = 2 * degree});
+    const Quaternions frames = solved(domain, stretch);
+    EXPECT_LT(wedge_alignment(domain, frames, 0, stretch.values).maxCoeff(), 1e-6);
+    const BoundaryMeshability found = boundary_meshability(domain, frames, 0, stretch.values);
+    EXPECT_EQ(found.wedges.size(), 12u * 3);
+    for (const FeatureWedge& w : found.wedges) {
+        EXPECT_EQ(w.hexahedra_a, 1);
+        EXPECT_EQ(w.hexahedra_b, 1);
+        EXPECT_EQ(w.around, 1);
+    }
+    EXPECT_EQ(found.corners.size(), 8u);
+    for (const SurfaceCorner& corner : found.corners) EXPECT_TRUE(corner.meshable && corner.inside == 0);
+    EXPECT_TRUE(found.crossings.empty());
 }
 
 TEST(AxesStretch, CurvesRunAlongTheEdgesOfAParallelepiped) {
