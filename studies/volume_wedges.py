@@ -56,6 +56,7 @@ def figures(domain, directions, degrees: float, stretch=None, representation: st
         "types": sorted({int(turns) for turns in graph.curve_quarter_turns}),
         "nearest": np.linalg.norm(places[:, :2], axis=1).min() if len(places) else np.inf,
         "least": angles_between(axes).min(),
+        "without": VOLUME.boundary_meshability(domain, frames, stretch=stretch).non_meshable_wedges,
         "graph": graph,
         "axes": axes,
         "seconds": seconds,
@@ -66,12 +67,13 @@ def row_of(name, edges: int, found: dict) -> list[str]:
     valences = ", ".join(str(4 - turns) for turns in found["types"]) or "none"
     return [
         str(name), f"{found['at wedge']:.2g}", f"{found['anywhere']:.2g}", f"{found['curves']} ({valences})",
-        f"{found['nearest'] * edges:.1f}", f"{found['least']:.1f}",
+        f"{found['nearest'] * edges:.1f}", f"{found['least']:.1f}", str(found["without"]),
     ]  # fmt: skip
 
 
 HEADER = ("off faces and edge at the wedge, degrees", "anywhere", "singular curves (valence)",
-          "nearest to the wedge, edges", "least angle between axes, degrees")  # fmt: skip
+          "nearest to the wedge, edges", "least angle between axes, degrees",
+          "feature edges without a hexahedron")  # fmt: skip
 
 
 def of_file(path: Path) -> list[str]:
@@ -87,13 +89,15 @@ def of_file(path: Path) -> list[str]:
             off = np.degrees(found(domain, frames, stretch=given))
             row.append(", ".join(f"{value:.1f}" for value in np.percentile(off, [50, 95, 100])))
         row.append(f"{len(VOLUME.singular_graph(domain, frames).triangles):,}")
+        found_at = VOLUME.boundary_meshability(domain, frames, stretch=given)
+        row.append(f"{found_at.non_meshable_wedges:,}, {found_at.non_meshable_corners:,}")
     return row
 
 
 OF_FILES = [
     "file", "tets", "sharp vertices of those followed",
-    "free: off faces, degrees: median, p95, max", "off edges", "singular triangles",
-    "right angles: off faces", "off edges", "singular triangles",
+    "free: off faces, degrees: median, p95, max", "off edges", "singular triangles", "edges, corners no hex mesh has",
+    "right angles: off faces", "off edges", "singular triangles", "edges, corners no hex mesh has",
 ]  # fmt: skip
 
 

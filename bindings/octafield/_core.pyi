@@ -2425,6 +2425,7 @@ def write_field(
     point_data: Mapping[str, ArrayLike] = ...,
     cell_data: Mapping[str, ArrayLike] = ...,
     features: ArrayLike = ...,
+    stretch: ArrayLike | None = None,
 ) -> None: ...
 def write_singular_graph(
     path: Path, graph: SingularGraph, metadata: Mapping[str, str] = ..., meshability: Meshability | None = None
@@ -2653,7 +2654,9 @@ class FeatureTangents:
 def hex_vertex_exists(
     valence3: int, valence5: int, valence6: int = ..., valence7: int = ..., valence8: int = ...
 ) -> bool: ...
-def local_meshability(domain: TetDomain | TetMesh, frames: ArrayLike, graph: SingularGraph) -> Meshability: ...
+def local_meshability(
+    domain: TetDomain | TetMesh, frames: ArrayLike, graph: SingularGraph, *, stretch: ArrayLike | None = None
+) -> Meshability: ...
 def tet_meshability(
     domain: TetDomain | TetMesh,
     of_tets: ArrayLike,
@@ -2663,8 +2666,11 @@ def tet_boundary_meshability(
     domain: TetDomain | TetMesh, of_tets: ArrayLike, *, threads: int = 0
 ) -> BoundaryMeshability: ...
 def boundary_meshability(
-    domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0
+    domain: TetDomain | TetMesh, frames: ArrayLike, *, stretch: ArrayLike | None = None, threads: int = 0
 ) -> BoundaryMeshability: ...
+def wedge_alignment(
+    domain: TetDomain | TetMesh, frames: ArrayLike, *, stretch: ArrayLike | None = None, threads: int = 0
+) -> Float64s: ...
 def smoothed_curves(graph: SingularGraph, *, steps: int = ...) -> SmoothedCurves: ...
 def integrability(domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0) -> Integrability: ...
 def tet_frames(domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0) -> Float64s: ...
@@ -2931,6 +2937,7 @@ def frame_streamlines(
     points: ArrayLike,
     directions: ArrayLike | None = None,
     *,
+    stretch: ArrayLike | None = None,
     max_length: float = ...,
     both_ways: bool = ...,
     closing_distance: float = ...,
@@ -3123,6 +3130,7 @@ class ComputedField:
     def __init__(
         self,
         cross_field: DirectionField = ...,
+        stretch: AxesStretch = ...,
         constraints: BoundaryConstraints = ...,
         solved: FrameFieldResult = ...,
         combed: CombedVertices = ...,
@@ -3130,6 +3138,8 @@ class ComputedField:
     ) -> None: ...
     @property
     def cross_field(self) -> DirectionField: ...
+    @property
+    def stretch(self) -> AxesStretch: ...
     @property
     def constraints(self) -> BoundaryConstraints: ...
     @property
@@ -3167,8 +3177,11 @@ def surface_constraints(
     mode: str = ...,
     feature_tolerance: float = ...,
     sites: str = ...,
+    stretch: ArrayLike | None = None,
 ) -> BoundaryConstraints: ...
-def analyse_field(domain: TetDomain | TetMesh, frames: ArrayLike, *, threads: int = 0) -> FieldAnalysis: ...
+def analyse_field(
+    domain: TetDomain | TetMesh, frames: ArrayLike, *, stretch: ArrayLike | None = None, threads: int = 0
+) -> FieldAnalysis: ...
 def analyse_tet_field(
     domain: TetDomain | TetMesh, sampling: Sampling, of_tets: ArrayLike, *, threads: int = 0
 ) -> TetFieldAnalysis: ...
@@ -3194,7 +3207,10 @@ def computed_field(
     tolerance: float = ...,
     linear_solver: str = ...,
     midpoint_limit: float = ...,
+    corner_angle: float = ...,
+    least_deviation: float = ...,
     constraints: VertexConstraints | None = None,
+    axes: str = ...,
     progress: Progress | None = None,
 ) -> ComputedField: ...
 def computed_tet_field(
@@ -3219,7 +3235,10 @@ def computed_tet_field(
     tolerance: float = ...,
     linear_solver: str = ...,
     midpoint_limit: float = ...,
+    corner_angle: float = ...,
+    least_deviation: float = ...,
     constraints: VertexConstraints | None = None,
+    axes: str = ...,
     progress: Progress | None = None,
 ) -> ComputedTetField: ...
 

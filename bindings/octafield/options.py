@@ -4,7 +4,7 @@ import difflib
 import math
 import numbers
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ BOUNDARIES = tuple(_core.BoundaryOptions.words["mode"])
 OF_A_START = "start"  # a treatment of the boundary that needs frames to start from
 SAMPLINGS = ("vertices", "tets")
 SIZES = ("none", "isotropic", "axes")
+AXES = ("orthogonal", "free")
 FEATURES = ("default", "file", "angle", "none")
 REPAIR_LEVELS = ("none", "merge", "safe", "fill", "resolve", "wrap")  # each does what those before it do
 REPAIRS = ("default", *REPAIR_LEVELS)
@@ -29,9 +30,23 @@ LARGEST_INT, LARGEST_SEED = 2**31 - 1, 2**64 - 1  # int and uint64 of the core
 LARGEST_SYMMETRY = 1000  # largest_symmetry of direction_field.hpp
 METHODS = dict(_core.direction_field_methods)  # with what each is
 ALIGNMENTS = tuple(_core.DirectionFieldOptions.words["boundary_alignment"])
+LINES_METHODS = dict(_core.non_orthogonal_field_methods)  # with what each is
+SECOND_LINES = tuple(_core.NonOrthogonalFieldOptions.words["second_line"])
+EDGE_WEIGHTS = tuple(_core.NonOrthogonalFieldOptions.words["weights"])
 
 # The structs of the compiled module, whose defaults are those of the classes below.
 _BOUNDARY, _RECIPE, _SURFACE = _core.BoundaryOptions(), _core.FrameFieldOptions(), _core.DirectionFieldOptions()
+_LINES = _core.NonOrthogonalFieldOptions()
+
+
+def changed_options(options: "MeshOptions", *, of_mesh: bool) -> dict[str, Any]:
+    """By name, those that are not at their defaults: all, or all but those of the mesh."""
+    mesh = {option.name for option in fields(MeshOptions)}
+    return {
+        option.name: getattr(options, option.name)
+        for option in fields(options)
+        if (of_mesh or option.name not in mesh) and getattr(options, option.name) != option.default
+    }
 
 
 def require_one_of(name: str, value: str, allowed: Iterable[str]) -> None:
@@ -115,8 +130,7 @@ class MeshOptions:
     max_cells: int = 0
 
     def __repr__(self) -> str:
-        default = type(self)()
-        changed = {name: value for name, value in vars(self).items() if value != getattr(default, name)}
+        changed = changed_options(self, of_mesh=True)
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
 
     def __post_init__(self) -> None:
@@ -197,6 +211,55 @@ class SurfaceFieldOptions(MeshOptions):
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
+class NonOrthogonalOptions(MeshOptions):
+    """Of a field of two lines at any angle on a surface: a key of octafield.surface.non_orthogonal_field_methods and
+    the other options of octafield.surface.non_orthogonal_field, which says what they are. Angles are radians. inertia,
+    penalty and tolerance are of the method "projected", least_angle of free lines: elsewhere they would be ignored.
+
+    Raises InvalidInput.
+
+        >>> from octafield.options import NonOrthogonalOptions
+        >>> NonOrthogonalOptions(second_line="free", remesh=False)
+        NonOrthogonalOptions(remesh=False, second_line='free')
+    """
+
+    method: str = _LINES.method
+    second_line: str = _LINES.second_line
+    corner_angle: float = _LINES.corner_angle
+    least_angle: float = _LINES.least_angle
+    lambda_: float = _LINES.lambda_
+    weights: str = _LINES.weights
+    max_iterations: int = _LINES.max_iterations
+    inertia: float = _LINES.inertia
+    penalty: float = _LINES.penalty
+    tolerance: float = _LINES.tolerance
+    seed: int = _LINES.seed
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_one_of("method", self.method, LINES_METHODS)
+        require_one_of("second_line", self.second_line, SECOND_LINES)
+        require_one_of("weights", self.weights, EDGE_WEIGHTS)
+        _require(0 < self.corner_angle < math.pi / 2, "the corner angle must lie between 0 and 90 degrees")
+        _require(0 < self.least_angle < math.pi / 4, "the least angle must lie between 0 and 45 degrees")
+        _require(math.isfinite(self.lambda_) and self.lambda_ > 0, "lambda must be positive")
+        for name in ("inertia", "penalty", "tolerance"):
+            _require(math.isfinite(getattr(self, name)) and getattr(self, name) >= 0, f"{name} must not be negative")
+        _make_integer(self, "max_iterations", 1, LARGEST_INT)
+        _make_integer(self, "seed", 0, LARGEST_SEED)
+        changed = changed_options(self, of_mesh=False)
+        unused = {"inertia", "penalty", "tolerance"} if self.method != "projected" else {"least_angle"}
+        if self.second_line != "free":
+            unused |= {"least_angle", "penalty"}
+        if ignored := sorted(unused & changed.keys()):
+            raise InvalidInput(
+                f"{', '.join(ignored)} would be ignored by method {self.method!r} with second_line"
+                f" {self.second_line!r}; leave that out",
+                "ignored_options",
+            )
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
 class FieldOptions(MeshOptions):
     """Of a frame field in a volume.
 
@@ -204,6 +267,10 @@ class FieldOptions(MeshOptions):
         edges, alignment and meshability are those of the tets then, and integrability is left out).
     boundary: "aligned" (one axis on the normal, twist free), "fixed" (frames held at the surface cross field), "none",
         or "start" (frames on the surface held at those of the start that compute_field is given).
+    axes: of frames, "orthogonal", at right angles; or "free", along feature edges and both faces of those that are
+        sharp, at whatever angle (octafield.volume.axes_stretch): then frames are rotations Q, and the axes are the
+        columns of S Q with the stretch S of the result. For frames at vertices, without a start, sizes and
+        odeco_lengths.
     feature_tolerance: radians; a vertex on a feature keeps its whole frame when one frame fits all its normals and
         tangents so well (octafield.volume.boundary_constraints).
     seed: of every random start; other than 0, the frame field's start is random too. threads: 0 means all; results do
@@ -234,6 +301,7 @@ class FieldOptions(MeshOptions):
     representation: str | OwnScheme = _RECIPE.smooth.representation
     solver: str = _RECIPE.smooth.solver
     boundary: str = _BOUNDARY.mode
+    axes: str = AXES[0]
     feature_tolerance: float = _BOUNDARY.feature_tolerance
     seed: int = 0
     threads: int = 0
@@ -265,6 +333,9 @@ class FieldOptions(MeshOptions):
         require_one_of("solver", self.solver, SOLVERS)
         require_one_of("boundary", self.boundary, (*BOUNDARIES, OF_A_START))
         require_one_of("sizes", self.sizes, SIZES)
+        require_one_of("axes", self.axes, AXES)
+        if self.axes == "free":
+            self._require_free_axes()
         _require(0 <= self.feature_tolerance <= math.pi / 2, "the feature tolerance must lie between 0 and 90 degrees")
         _make_integer(self, "seed", 0, LARGEST_SEED)
         _make_integer(self, "threads", 0, LARGEST_INT, " (0: all)")
@@ -278,6 +349,16 @@ class FieldOptions(MeshOptions):
         for name in ("round_time", "first_time", "last_time", "time_exponent", "linear_tolerance"):
             value = getattr(self, name)
             _require(math.isfinite(value) and value > 0, f"{name.replace('_', ' ')} must be positive, not {value!r}")
+
+    def _require_free_axes(self) -> None:
+        for given, needed in (
+            (self.sampling == "vertices", "frames at the vertices: leave out sampling 'tets'"),
+            (self.boundary != OF_A_START, "the boundary's own frames: a start has axes at right angles"),
+            (self.scheme_name != "odeco_lengths", "axes without lengths of their own: leave out 'odeco_lengths'"),
+            (self.sizes == "none", "no sizes, which are found for axes at right angles: leave them out"),
+        ):
+            if not given:
+                raise InvalidInput(f"axes 'free' need {needed}, or take axes 'orthogonal'", "stretched_axes")
 
     def recorded(self) -> dict[str, Any]:
         given = self.representation

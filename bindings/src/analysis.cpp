@@ -27,17 +27,21 @@ void bind_meshability(py::module_& m) {
           "valence 6, and with valence 7 or 8, true means that no count forbids it.");
     m.def(
         "local_meshability",
-        [](const DomainOrMesh& mesh, const ArrayLike& frames, const SingularGraph& graph) {
-            return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, const SingularGraph& graph,
+           const std::optional<ArrayLike>& stretch) {
+            return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
+                                      stretched = stretch_rows(stretch)](Job&) mutable {
                 const TetDomain domain = domain_of(mesh);
                 check(graph);
                 check_unit(rows, domain.vertex_count(), "frames");
-                return local_meshability(domain, rows, graph);
+                return local_meshability(domain, rows, graph, stretched);
             });
         },
-        "domain"_a, "frames"_a, "graph"_a,
+        "domain"_a, "frames"_a, "graph"_a, py::kw_only(), "stretch"_a = py::none(),
         "Necessary conditions for a hex mesh where the curves of singular_graph(domain, frames) end (Liu et al. 2018; "
-        "Liu, Bommes 2023), as a Meshability. A field that meets them all may still have no hex mesh.");
+        "Liu, Bommes 2023), as a Meshability. A field that meets them all may still have no hex mesh. stretch: (n, 6) "
+        "as "
+        "AxesStretch has it, of axes S Q.");
     m.def(
         "tet_meshability",
         [](const DomainOrMesh& mesh, const ArrayLike& of_tets, const SingularEdges& singular) {
@@ -69,19 +73,37 @@ void bind_boundary_meshability(py::module_& m) {
         "surface: one number of hexahedra per wedge.");
     m.def(
         "boundary_meshability",
-        [](const DomainOrMesh& mesh, const ArrayLike& frames, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, const std::optional<ArrayLike>& stretch, int threads) {
             threads_option(threads);
-            return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+            return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
+                                      stretched = stretch_rows(stretch)](Job&) mutable {
                 const TetDomain domain = domain_of(mesh);
                 check_unit(rows, domain.vertex_count(), "frames");
-                return boundary_meshability(domain, rows, threads);
+                return boundary_meshability(domain, rows, threads, stretched);
             });
         },
-        "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
+        "domain"_a, "frames"_a, py::kw_only(), "stretch"_a = py::none(), "threads"_a = 0,
         "Necessary conditions for a hex mesh at feature edges and corners (after Liu et al. 2018; Liu, Bommes 2023), "
         "as "
         "a BoundaryMeshability: how many hexahedra the turn of the field leaves at each, 1 or more; edges of the "
-        "surface on which the field is singular.");
+        "surface on which the field is singular. stretch: (n, 6) as AxesStretch has it, of axes S Q; angles are "
+        "counted "
+        "after S^-1.");
+    m.def(
+        "wedge_alignment",
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, const std::optional<ArrayLike>& stretch, int threads) {
+            threads_option(threads);
+            return own(run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
+                                          stretched = stretch_rows(stretch)](Job&) mutable {
+                const TetDomain domain = domain_of(mesh);
+                check_unit(rows, domain.vertex_count(), "frames");
+                return wedge_alignment(domain, rows, threads, stretched);
+            }));
+        },
+        "domain"_a, "frames"_a, py::kw_only(), "stretch"_a = py::none(), "threads"_a = 0,
+        "(k, 2) radians per wedge of boundary_meshability, the larger of its two ends: the largest angle between the "
+        "normal of one of its two triangles and the nearest normal of a pair of axes, and that between the edge and "
+        "the nearest axis. stretch: (n, 6) as AxesStretch has it, of axes S Q.");
     m.def(
         "smoothed_curves",
         [](const SingularGraph& graph, int steps) {

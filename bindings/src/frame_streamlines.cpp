@@ -11,6 +11,7 @@
 #include "interruptible.hpp"
 #include "octafield/volume/sample_frames.hpp"
 #include "record.hpp"
+#include "stretch.hpp"
 
 namespace octafield::bindings {
 
@@ -47,7 +48,8 @@ void bind_streamline_points(py::module_& m) {
             });
         },
         "domain"_a, "frames"_a, "points"_a, py::kw_only(), "tolerance"_a = SampleOptions{}.tolerance, "threads"_a = 0,
-        "What octafield.sample_frames does, on (n, 4) frames at the vertices of a tet mesh and (k, 3) points: their sh4 "
+        "What octafield.sample_frames does, on (n, 4) frames at the vertices of a tet mesh and (k, 3) points: their "
+        "sh4 "
         "vectors are interpolated linearly in the tet that holds a point, and projected to the nearest frame, as "
         "SampledFrames. tolerance: points no farther outside have the frame of the mesh's nearest point (input unit; "
         "below 0: a millionth of the bounding-box diagonal; infinity: all points).");
@@ -69,8 +71,8 @@ void bind_lines(py::module_& m) {
     m.def(
         "frame_streamlines",
         [](const DomainOrMesh& mesh, const ArrayLike& frames, const ArrayLike& points,
-           const std::optional<ArrayLike>& directions, double max_length, bool both_ways, double closing_distance,
-           int threads) {
+           const std::optional<ArrayLike>& directions, const std::optional<ArrayLike>& stretch, double max_length,
+           bool both_ways, double closing_distance, int threads) {
             threads_option(threads);
             const FrameStreamlineOptions options{.max_length = finite(max_length, "max_length"),
                                                  .both_ways = both_ways,
@@ -78,25 +80,29 @@ void bind_lines(py::module_& m) {
             std::optional<Points> along;
             if (directions) along = from_python<Points>(*directions, "directions");
             return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
-                                      seeds = from_python<Points>(points, "points")](Job&) mutable {
+                                      seeds = from_python<Points>(points, "points"),
+                                      stretched = stretch_rows(stretch)](Job&) mutable {
                 const TetDomain domain = domain_of(mesh);
                 check_unit(rows, domain.vertex_count(), "frames");
                 check_vectors(seeds, seeds.rows(), "points", "point");
                 if (along) check_vectors(*along, seeds.rows(), "directions", "point");
-                return frame_streamlines(domain, rows,
-                                         along ? seeds_at(domain, seeds, *along) : axis_seeds_at(domain, rows, seeds),
-                                         options, threads);
+                return frame_streamlines(
+                    domain, rows,
+                    along ? seeds_at(domain, seeds, *along) : axis_seeds_at(domain, rows, seeds, stretched), options,
+                    threads, stretched);
             });
         },
-        "domain"_a, "frames"_a, "points"_a, "directions"_a = py::none(), py::kw_only(),
+        "domain"_a, "frames"_a, "points"_a, "directions"_a = py::none(), py::kw_only(), "stretch"_a = py::none(),
         "max_length"_a = defaults.max_length, "both_ways"_a = defaults.both_ways,
         "closing_distance"_a = defaults.closing_distance, "threads"_a = 0,
         "Curves along the axes of (n, 4) frames at the vertices of a tet mesh, as a list of FrameStreamline: one per "
         "point along the axis nearest to its direction, or three, one per axis, where no directions are given. "
-        "max_length: input unit, from the seed each way, 0 means 4 times octafield.surface.shape_size; both_ways: against "
+        "max_length: input unit, from the seed each way, 0 means 4 times octafield.surface.shape_size; both_ways: "
+        "against "
         "the direction as well; closing_distance: a curve that comes back to its seed so near is closed, 0 means a "
         "tenth of an edge. A curve ends at the boundary and a tet before a singular curve that turns its axis. The "
-        "same bits at any thread count. Raises InvalidInput naming the points outside the mesh.");
+        "same bits at any thread count. stretch: (n, 6) as AxesStretch has it: curves follow the axes S Q. Raises "
+        "InvalidInput naming the points outside the mesh.");
 }
 
 }  // namespace
@@ -136,8 +142,8 @@ void bind_frame_streamline_types(py::module_& m) {
         .field("distance", &SampledFrames::distance,
                "(k,) float64, input unit: from the point to the mesh, 0 inside; infinity: outside.")
         .finish([](const SampledFrames& s) {
-            return count(s.frames.rows(), "frame") + ", " +
-                   std::to_string(std::count(s.tet.begin(), s.tet.end(), -1)) + " outside";
+            return count(s.frames.rows(), "frame") + ", " + std::to_string(std::count(s.tet.begin(), s.tet.end(), -1)) +
+                   " outside";
         });
 }
 

@@ -4,6 +4,7 @@
 #include "octafield/volume/computed_field.hpp"
 #include "options.hpp"
 #include "sampling.hpp"
+#include "stretch.hpp"
 
 namespace octafield::bindings {
 
@@ -47,9 +48,12 @@ void bind_analyses(py::module_& m) {
 
 template <class Result>
 void bind_computed(py::module_& m, const char* name, const char* doc) {
-    Record<Result>(m, name, doc)
-        .field("cross_field", &Result::cross_field, "DirectionField on sheet_domain(domain).")
-        .field("constraints", &Result::constraints, "BoundaryConstraints.")
+    Record<Result> record(m, name, doc);
+    record.field("cross_field", &Result::cross_field, "DirectionField on sheet_domain(domain).");
+    if constexpr (std::is_same_v<Result, ComputedField>)
+        record.field("stretch", &Result::stretch,
+                     "AxesStretch, with free axes; its values have no rows where axes are at right angles.");
+    record.field("constraints", &Result::constraints, "BoundaryConstraints.")
         .field("solved", &Result::solved, "FrameFieldResult: frames and lengths as the solver leaves them.")
         .field("combed", &Result::combed,
                "CombedVertices: the frames at the vertices, named so that neighbours agree but across a cut.")
@@ -63,21 +67,25 @@ void bind_compute(py::module_& m, const char* name, Function function, const cha
     m.def(
         name,
         [name, function](const DomainOrMesh& mesh, const std::optional<VertexConstraints>& constraints,
-                         const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
-            auto [boundary, solve, diffuse, smooth] =
-                options_of<BoundaryOptions, FrameFieldOptions, DiffuseOptions, SmoothOptions>(name, given);
+                         const std::string& axes, const std::optional<ProgressCallable>& progress,
+                         const py::kwargs& given) {
+            auto [boundary, solve, diffuse, smooth, stretch] =
+                options_of<BoundaryOptions, FrameFieldOptions, DiffuseOptions, SmoothOptions, AxesStretchOptions>(
+                    name, given);
             solve.diffuse = diffuse;
             solve.smooth = smooth;
             return run_interruptible(
                 [mesh, function,
-                 options = FieldOptions{boundary, constraints.value_or(VertexConstraints{}), solve}](Job& job) {
+                 options = FieldOptions{boundary, constraints.value_or(VertexConstraints{}), solve,
+                                        from_word<Axes>(axes, "axes"), stretch}](Job& job) {
                     check(options.given);
                     return function(domain_of(mesh), options, job.progress());
                 },
                 progress);
         },
-        "domain"_a, py::kw_only(), "constraints"_a = py::none(), "progress"_a = py::none(), doc);
-    list_options<BoundaryOptions, FrameFieldOptions, DiffuseOptions, SmoothOptions>(m, name);
+        "domain"_a, py::kw_only(), "constraints"_a = py::none(), "axes"_a = to_word(Axes::orthogonal),
+        "progress"_a = py::none(), doc);
+    list_options<BoundaryOptions, FrameFieldOptions, DiffuseOptions, SmoothOptions, AxesStretchOptions>(m, name);
 }
 
 void bind_recipe_parts(py::module_& m) {
@@ -92,29 +100,35 @@ void bind_recipe_parts(py::module_& m) {
     m.def(
         "surface_constraints",
         [](const DomainOrMesh& mesh, const surface::DirectionField& cross, const std::string& sites,
-           const py::kwargs& given) {
+           const std::optional<ArrayLike>& stretch, const py::kwargs& given) {
             const auto [options] = options_of<BoundaryOptions>("surface_constraints", given);
-            return run_interruptible([mesh, cross, where = from_word<Sites>(sites, "sites"), options = options](Job&) {
+            return run_interruptible([mesh, cross, where = from_word<Sites>(sites, "sites"), options = options,
+                                      stretched = stretch_rows(stretch)](Job&) {
                 check(cross);
-                return surface_constraints(domain_of(mesh), cross, where, options);
+                return surface_constraints(domain_of(mesh), cross, where, options, stretched);
             });
         },
-        "domain"_a, "cross"_a, py::kw_only(), "sites"_a = to_word(Sites::vertices),
+        "domain"_a, "cross"_a, py::kw_only(), "sites"_a = to_word(Sites::vertices), "stretch"_a = py::none(),
         "What the surface asks of the frames, as BoundaryConstraints: boundary_constraints, or with sites \"tets\" "
-        "tet_boundary_constraints, with the directions of a cross field on sheet_domain(domain). Raises InvalidInput.");
+        "tet_boundary_constraints, with the directions of a cross field on sheet_domain(domain). stretch: (n, 6) as "
+        "AxesStretch has it, of frames with axes S Q at the vertices. Raises InvalidInput.");
     list_options<BoundaryOptions>(m, "surface_constraints");
     m.def(
         "analyse_field",
-        [](const DomainOrMesh& mesh, const ArrayLike& frames, int threads) {
+        [](const DomainOrMesh& mesh, const ArrayLike& frames, const std::optional<ArrayLike>& stretch, int threads) {
             threads_option(threads);
-            return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames")](Job&) mutable {
+            return run_interruptible([=, rows = from_python<Quaternions>(frames, "frames"),
+                                      stretched = stretch_rows(stretch)](Job&) mutable {
                 const TetDomain domain = domain_of(mesh);
                 check_unit(rows, domain.vertex_count(), "frames");
-                return analyse_field(domain, rows, threads);
+                return analyse_field(domain, rows, threads, stretched);
             });
         },
-        "domain"_a, "frames"_a, py::kw_only(), "threads"_a = 0,
-        "All that (n, 4) frames at the vertices are judged by, as a FieldAnalysis. Raises InvalidInput.");
+        "domain"_a, "frames"_a, py::kw_only(), "stretch"_a = py::none(), "threads"_a = 0,
+        "All that (n, 4) frames at the vertices are judged by, as a FieldAnalysis. stretch: (n, 6) as AxesStretch has "
+        "it, of axes S Q: energy and singular graph are those of Q, alignment and meshability of S Q, and "
+        "integrability, "
+        "which is defined for axes at right angles, is left out. Raises InvalidInput.");
     m.def(
         "analyse_tet_field",
         [](const DomainOrMesh& mesh, const std::shared_ptr<Sampling>& sampling, const ArrayLike& of_tets, int threads) {
@@ -146,10 +160,13 @@ void bind_recipe(py::module_& m) {
         "From a domain to a frame field with its analysis, as a ComputedField: cross field on the surface, "
         "surface_constraints, frame_field, comb_vertices, analyse_field. constraints: the user's own, in place "
         "of the surface's. seed: of the cross field and of frame_field; where mode is \"none\", the cross field "
-        "is the start. The other options are those of the parts. octafield.compute_field does the same from a "
+        "is the start. axes: \"orthogonal\", or \"free\": along both faces of sharp edges, as axes_stretch has them. "
+        "The other options are those of the parts. octafield.compute_field does the same from a "
         "file on. Raises InvalidInput, GeometryError, SolverError, Cancelled.");
-    bind_compute(m, "computed_tet_field", &computed_tet_field,
-                 "computed_field with frames in the tets, as a ComputedTetField.");
+    bind_compute(
+        m, "computed_tet_field", &computed_tet_field,
+        "computed_field with frames in the tets, as a ComputedTetField. Its axes are at right angles: InvalidInput "
+        "for \"free\".");
 }
 
 }  // namespace octafield::bindings

@@ -203,13 +203,13 @@ void bind_tet_files(py::module_& m) {
         [](const std::filesystem::path& path, const DomainOrMesh& mesh, const ArrayLike& frames,
            const Metadata& metadata, const ArrayLike& tet_frames, const ArrayLike& lengths,
            const ArrayLike& tet_lengths, const NamedArrayLikes& point_data, const NamedArrayLikes& cell_data,
-           const ArrayLike& features) {
+           const ArrayLike& features, const std::optional<ArrayLike>& stretch) {
             run_interruptible(
                 [path, mesh = mesh, metadata, rows = from_python<Quaternions>(frames, "frames"),
-                 more = FieldArrays{from_python<Quaternions>(tet_frames, "tet_frames"),
-                                    from_python<Points>(lengths, "lengths"),
-                                    from_python<Points>(tet_lengths, "tet_lengths"), named_arrays(point_data),
-                                    named_arrays(cell_data), from_python<Edges>(features, "features")}](Job&) mutable {
+                 more = FieldArrays{
+                     from_python<Quaternions>(tet_frames, "tet_frames"), from_python<Points>(lengths, "lengths"),
+                     from_python<Points>(tet_lengths, "tet_lengths"), stretch_rows(stretch), named_arrays(point_data),
+                     named_arrays(cell_data), from_python<Edges>(features, "features")}](Job&) mutable {
                     const TetDomain domain = domain_of(mesh);
                     check_unit(rows, domain.vertex_count(), "frames");
                     if (more.tet_frames.rows() > 0) check_unit(more.tet_frames, domain.tet_count(), "tet_frames");
@@ -222,15 +222,18 @@ void bind_tet_files(py::module_& m) {
         },
         "path"_a, "domain"_a, "frames"_a, "metadata"_a = Metadata{}, py::kw_only(), "tet_frames"_a = py::tuple(),
         "lengths"_a = py::tuple(), "tet_lengths"_a = py::tuple(), "point_data"_a = NamedArrayLikes{},
-        "cell_data"_a = NamedArrayLikes{}, "features"_a = py::tuple(),
+        "cell_data"_a = NamedArrayLikes{}, "features"_a = py::tuple(), "stretch"_a = py::none(),
         "Write a .vtu file with point data frame_u, frame_v, frame_w (unit axes), quaternion (w x y z), sh4 (9) and "
         "boundary (0/1). frames: (n, 4); "
         "metadata: words written as field data; the domain's regions are cell data region; "
         "tet_frames: (m, 4) frames written as cell data under the same names, or none; lengths: (n, 3) point data "
         "frame_lengths, or none, and tet_lengths: (m, 3) cell data; point_data, cell_data: other arrays by name, (n,) "
         "or "
-        "(n, k), a row per vertex or tet; features: (k, 2) feature edges, written as field data feature_edges. Raises "
-        "IoError.");
+        "(n, k), a row per vertex or tet; features: (k, 2) feature edges, written as field data feature_edges; "
+        "stretch: "
+        "(n, 6) as AxesStretch has it: frame_u, frame_v, frame_w are unit vectors along the axes S Q then, "
+        "frame_lengths "
+        "their lengths, and stretch and rotation (Q) take the place of quaternion and sh4. Raises IoError.");
     m.def(
         "write_singular_graph",
         [](const std::filesystem::path& path, const SingularGraph& graph, const Metadata& metadata,

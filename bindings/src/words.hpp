@@ -16,6 +16,7 @@
 #include "octafield/surface/quantized_quads.hpp"
 #include "octafield/surface/streamlines.hpp"
 #include "octafield/volume/boundary.hpp"
+#include "octafield/volume/computed_field.hpp"
 #include "octafield/volume/hex_dominant.hpp"
 #include "octafield/volume/sampling.hpp"
 #include "octafield/volume/schemes.hpp"
@@ -125,6 +126,12 @@ struct Words<volume::BoundaryMode> {
     using E = volume::BoundaryMode;
     static constexpr std::array<std::pair<const char*, E>, 3> list{
         {{"aligned", E::aligned}, {"fixed", E::fixed}, {"none", E::none}}};
+};
+
+template <>
+struct Words<volume::Axes> {
+    using E = volume::Axes;
+    static constexpr std::array<std::pair<const char*, E>, 2> list{{{"orthogonal", E::orthogonal}, {"free", E::free}}};
 };
 
 template <>

@@ -32,3 +32,22 @@ def cylinder(radius: float, height: float, around: int, along: int) -> of.Triang
     angle = 2 * np.pi * column / around
     points = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), height * row / along])
     return of.TriangleMesh(points, grid_triangles(along + 1, around, closed=True))
+
+
+def polygon(corners) -> of.TriangleMesh:
+    """A fan of triangles, to be remeshed."""
+    points = np.array([(*corner, 0) for corner in corners], float)
+    return of.TriangleMesh(points, [[0, k, k + 1] for k in range(1, len(points) - 1)])
+
+
+def right_triangle(degrees):
+    """Its corners: a side of 1 along x, and the angle at the origin."""
+    return [(0, 0), (1, 0), (1, np.tan(np.radians(degrees)))]
+
+
+def prism(degrees, height=0.6) -> of.TriangleMesh:
+    """Over the right triangle, its sharp edge along z."""
+    plane = np.array(right_triangle(degrees))
+    points = np.concatenate([np.column_stack([plane, np.full(3, z)]) for z in (0, height)])
+    sides = [t for a, b in ((0, 1), (1, 2), (2, 0)) for t in ([a, b, b + 3], [a, b + 3, a + 3])]
+    return of.TriangleMesh(points, [[0, 2, 1], [3, 4, 5], *sides])

@@ -3,6 +3,7 @@
 import numpy as np
 import octafield
 import pytest
+from surface_fixtures import prism
 
 volume = octafield.volume
 ANGLE = 30.0
@@ -11,11 +12,7 @@ EDGE = 0.1
 
 @pytest.fixture(scope="module")
 def wedge() -> octafield.FieldProblem:
-    plane = np.array([(0, 0), (1, 0), (1, np.tan(np.radians(ANGLE)))])
-    points = np.concatenate([np.column_stack([plane, np.full(3, z)]) for z in (0, 0.5)])
-    sides = [t for a, b in ((0, 1), (1, 2), (2, 0)) for t in ([a, b, b + 3], [a, b + 3, a + 3])]
-    prism = octafield.TriangleMesh(points, [[0, 2, 1], [3, 4, 5], *sides])
-    return octafield.prepare_field(octafield.prepare_mesh(prism, octafield.MeshOptions(edge_length=EDGE)))
+    return octafield.prepare_field(octafield.prepare_mesh(prism(ANGLE, 0.5), octafield.MeshOptions(edge_length=EDGE)))
 
 
 @pytest.mark.parametrize("representation", ["sh4", "tensor4", "su2_midpoint"])

@@ -8,31 +8,15 @@ import pytest
 from octafield.command_line import fields as cli
 from octafield.domain.generators import generate
 from quad_mesh_checks import require_conforming
+from surface_fixtures import polygon, prism, right_triangle
 from typer.testing import CliRunner
 
 surface = of.surface
 
 
-def polygon(corners) -> of.TriangleMesh:
-    """A fan of triangles, to be remeshed."""
-    points = np.array([(*corner, 0) for corner in corners], float)
-    return of.TriangleMesh(points, [[0, k, k + 1] for k in range(1, len(points) - 1)])
-
-
 def parallelogram(degrees):
     c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
     return [(0, 0), (1.3, 0), (1.3 + c, s), (c, s)]
-
-
-def right_triangle(degrees):
-    return [(0, 0), (1, 0), (1, np.tan(np.radians(degrees)))]
-
-
-def prism(degrees) -> of.TriangleMesh:
-    plane = np.array(right_triangle(degrees))
-    points = np.concatenate([np.column_stack([plane, np.full(3, z)]) for z in (0, 0.6)])
-    sides = [t for a, b in ((0, 1), (1, 2), (2, 0)) for t in ([a, b, b + 3], [a, b + 3, a + 3])]
-    return of.TriangleMesh(points, [[0, 2, 1], [3, 4, 5], *sides])
 
 
 def made(source, quads=200, **more):

@@ -3,6 +3,7 @@ representations are elsewhere."""
 
 import sys
 from collections.abc import Callable
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,7 +12,7 @@ import typer
 from ..errors import InvalidInput
 from ..files.process import run_supervised
 from ..layout.options import INADMISSIBLE
-from ..options import FieldOptions, SurfaceFieldOptions
+from ..options import FieldOptions, MeshOptions, NonOrthogonalOptions, SurfaceFieldOptions, changed_options
 from . import compare as compare_cli
 from . import console, tables
 from . import files as files_cli
@@ -24,9 +25,13 @@ from .shell_completion import words
 from .study import app as studies
 
 if TYPE_CHECKING:
-    from ..fields.direction_field import SurfaceFieldResult
+    from ..fields.direction_field import FieldOnSurface
     from ..records.field import FieldRecord
     from ..records.surface_field import SurfaceFieldRecord
+
+# Of fields of lines: what they share with crosses, and what has another meaning there.
+_SHARED = (*(option.name for option in fields(MeshOptions)), "seed")
+_OF_LINES = {"method": "lines_method", "max_iterations": "lines_iterations", "tolerance": "lines_tolerance"}
 
 app = typer.Typer(
     name="octafield",
@@ -98,10 +103,21 @@ def field(
 
 @app.command("surface-field")
 @with_options(SurfaceFieldOptions, without=("interfaces", "split"))
+@with_options(NonOrthogonalOptions, without=_SHARED, renamed=_OF_LINES, place="lines")
 def surface_field(
     input: InputFile,
     output: Output,
     options: Callable[[], SurfaceFieldOptions],
+    non_orthogonal: Annotated[
+        bool,
+        typer.Option(
+            "--non-orthogonal",
+            help=(
+                "Two lines per point at any angle, which follow both sides of corners and of feature edges. Options of"
+                " crosses are refused."
+            ),
+        ),
+    ] = False,
     imposed: Annotated[
         Path | None,
         typer.Option(
@@ -116,7 +132,10 @@ def surface_field(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="With --imposed: corners with other numbers of quads than by angle, .json or .csv: vertex and quads.",
+            help=(
+                "With --imposed or --non-orthogonal: corners with other numbers of quads than by angle, .json or .csv:"
+                " vertex and quads."
+            ),
         ),
     ] = None,
     inadmissible: Annotated[
@@ -130,6 +149,7 @@ def surface_field(
             ),
         ),
     ] = INADMISSIBLE[1],
+    lines: Callable[[], NonOrthogonalOptions] = NonOrthogonalOptions,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
@@ -143,12 +163,15 @@ def surface_field(
         from ..runs.run_folder import write_surface_result
 
         chosen = options()
-        if imposed is None and (corners is not None or inadmissible != INADMISSIBLE[1]):
-            raise InvalidInput("corners and inadmissible belong to points that are imposed: add --imposed FILE",
-                               "ignored_options")  # fmt: skip
+        of_lines = _of_lines(chosen, lines(), non_orthogonal)
+        _refuse_unused(non_orthogonal, imposed is not None, corners is not None, inadmissible != INADMISSIBLE[1])
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
-            result: "SurfaceFieldResult"
-            if imposed is None:
+            result: "FieldOnSurface"
+            if of_lines is not None:
+                from ..layout.non_orthogonal import compute_non_orthogonal_field
+
+                result = compute_non_orthogonal_field(input, of_lines, progress, corners=corners)
+            elif imposed is None:
                 from ..fields.direction_field import compute_surface_field
 
                 result = compute_surface_field(input, chosen, progress)
@@ -162,6 +185,38 @@ def surface_field(
         _finish(result.record, json, quiet, output)
 
     carry_out(work, quiet, verbose, json)
+
+
+def _of_lines(chosen: SurfaceFieldOptions, lines: NonOrthogonalOptions, wanted: bool) -> NonOrthogonalOptions | None:
+    """Those of lines on the mesh that is chosen; None where crosses are wanted. What would be ignored is refused."""
+    unused = changed_options(chosen if wanted else lines, of_mesh=False)
+    if wanted:
+        unused.pop("seed", None)
+    if unused:
+        words = ", ".join(f"{name}={value!r}" for name, value in unused.items())
+        raise InvalidInput(
+            f"{words} belongs to a field of crosses and would be ignored with --non-orthogonal; leave that out"
+            if wanted
+            else f"{words} belongs to a field of lines at any angle: add --non-orthogonal",
+            "ignored_options",
+        )
+    if not wanted:
+        return None
+    of_mesh = {option.name: getattr(chosen, option.name) for option in fields(MeshOptions)}
+    return replace(lines, **of_mesh, seed=chosen.seed)
+
+
+def _refuse_unused(non_orthogonal: bool, imposed: bool, corners: bool, inadmissible: bool) -> None:
+    if non_orthogonal and imposed:
+        raise InvalidInput(
+            "singular points are imposed on crosses: leave out --imposed or --non-orthogonal", "ignored_options"
+        )
+    if (corners and not (imposed or non_orthogonal)) or (inadmissible and not imposed):
+        raise InvalidInput(
+            "corners and inadmissible belong to points that are imposed: add --imposed FILE (or --non-orthogonal, which"
+            " takes corners)",
+            "ignored_options",
+        )
 
 
 def _finish(record: "FieldRecord | SurfaceFieldRecord", json: str | None, quiet: bool, output: Path) -> None:

@@ -15,7 +15,7 @@ from .shell_completion import words
 
 _DEFAULTS = HexMeshOptions()
 # What has another meaning here, or none: lengths of the tets have names of their own.
-_WITHOUT = ("edge_length", "sizes", "streamlines", "split_singular")
+_WITHOUT = ("edge_length", "axes", "sizes", "streamlines", "split_singular")
 
 
 def register(app: typer.Typer) -> None:

@@ -92,7 +92,10 @@ def doctor(json: Json = None, quiet: Quiet = False, verbose: Verbose = False) ->
 
 @app.command()
 def view(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that `field` or `hex-dominant` wrote.")],
+    folder: Annotated[
+        Path,
+        typer.Argument(metavar="DIR", help="Folder that a command wrote which makes a field, a mesh or a layout."),
+    ],
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="PNG", help="Write a picture in place of opening a window.")
     ] = None,
@@ -100,7 +103,7 @@ def view(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """A field's singular curves or a mesh cut open, drawn."""
+    """A field's singular curves or points, or a mesh, drawn."""
 
     def work() -> None:
         from ..view.window import view_folder

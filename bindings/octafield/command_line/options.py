@@ -3,9 +3,10 @@
 import functools
 import inspect
 import math
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import MISSING, Field, fields
 from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated, Any, TypeVar
 
 import typer
@@ -14,13 +15,17 @@ from ..errors import InvalidInput
 from ..meshes.registry import kinds_in_words
 from ..options import (
     ALIGNMENTS,
+    AXES,
     BOUNDARIES,
+    EDGE_WEIGHTS,
     FEATURES,
+    LINES_METHODS,
     METHODS,
     OF_A_START,
     REPAIRS,
     REPRESENTATIONS,
     SAMPLINGS,
+    SECOND_LINES,
     SIZES,
     SOLVERS,
     MeshOptions,
@@ -146,6 +151,14 @@ Boundary = Annotated[
         help="aligned: twist free; fixed: whole frame held at the cross field; start: at --start.",
     ),
 ]
+Axes = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(AXES),
+        autocompletion=words(AXES),
+        help="At right angles, or along both faces of sharp feature edges at whatever angle (docs/non_orthogonal.md).",
+    ),
+]
 FeatureTolerance = Annotated[
     float, typer.Option(metavar="DEG", help="How well one frame must fit a feature vertex to be held, degrees.")
 ]
@@ -187,6 +200,53 @@ Curvature = Annotated[
 LeastFeatureAngle = Annotated[
     float, typer.Option(metavar="DEG", help="Feature edges that bend by less are not followed, degrees.")
 ]
+LinesMethod = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(LINES_METHODS),
+        autocompletion=words(LINES_METHODS),
+        help="With --non-orthogonal: descent by the angles; the loop of Dermine 2024; or linear, PolyVectors.",
+    ),
+]
+SecondLine = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(SECOND_LINES),
+        autocompletion=words(SECOND_LINES),
+        help="With --non-orthogonal: on the boundary, linear from corner to corner; or found with the field.",
+    ),
+]
+CornerAngle = Annotated[
+    float,
+    typer.Option(metavar="DEG", help="With --non-orthogonal: by which a corner of 1 or 3 quads is off 180 degrees."),
+]
+LeastAngle = Annotated[
+    float, typer.Option(metavar="DEG", help="With --second-line free: lines stay so far from the boundary, degrees.")
+]
+Lambda = Annotated[
+    float,
+    typer.Option(
+        "--lambda", metavar="L", help="With --non-orthogonal: what a change of the angle between lines costs."
+    ),
+]
+Weights = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(EDGE_WEIGHTS), autocompletion=words(EDGE_WEIGHTS), help="With --non-orthogonal: of edges."
+    ),
+]
+LinesIterations = Annotated[
+    int, typer.Option(metavar="N", help="With --non-orthogonal: steps of the descent, or rounds, at most.")
+]
+Inertia = Annotated[
+    float, typer.Option(metavar="TAU", help="With --lines-method projected: weight of the change in a round.")
+]
+Penalty = Annotated[
+    float, typer.Option(metavar="B", help="With --lines-method projected: weight of the lengths of free lines.")
+]
+LinesTolerance = Annotated[
+    float, typer.Option(metavar="T", help="With --lines-method projected: change at which rounds stop.")
+]
 
 # By the name of the field in the classes of options; a field that is not here is none of the command line.
 PARAMETERS: dict[str, Any] = {
@@ -194,6 +254,7 @@ PARAMETERS: dict[str, Any] = {
     "representation": Representation,
     "solver": Solver,
     "boundary": Boundary,
+    "axes": Axes,
     "feature_tolerance": FeatureTolerance,
     "symmetry": Symmetry,
     "method": Method,
@@ -221,8 +282,18 @@ PARAMETERS: dict[str, Any] = {
     "sizes": Sizes,
     "seed": Seed,
     "threads": Threads,
+    "lines_method": LinesMethod,
+    "second_line": SecondLine,
+    "corner_angle": CornerAngle,
+    "least_angle": LeastAngle,
+    "lambda_": Lambda,
+    "weights": Weights,
+    "lines_iterations": LinesIterations,
+    "inertia": Inertia,
+    "penalty": Penalty,
+    "lines_tolerance": LinesTolerance,
 }
-_IN_DEGREES = ("feature_angle", "feature_tolerance", "least_feature_angle")
+_IN_DEGREES = ("feature_angle", "feature_tolerance", "least_feature_angle", "corner_angle", "least_angle")
 
 
 def _default(option: Field[Any]) -> Any:
@@ -230,12 +301,25 @@ def _default(option: Field[Any]) -> Any:
     return round(math.degrees(option.default), 6) if option.name in _IN_DEGREES else option.default
 
 
+def _taken(option: Field[Any], value: Any) -> Any:
+    """An option's value from the command line's. The default comes back as it is, whatever its digits in degrees."""
+    if value == _default(option):
+        return option.default
+    return math.radians(value) if option.name in _IN_DEGREES else value
+
+
 def with_options(
-    kind: type[_Options], *, only: Collection[str] = (), without: Collection[str] = ()
+    kind: type[_Options],
+    *,
+    only: Collection[str] = (),
+    without: Collection[str] = (),
+    renamed: Mapping[str, str] = MappingProxyType({}),
+    place: str = "options",
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Gives a command the options of a class as parameters, with their defaults, in place of its parameter `options`:
-    that is called to make them, and raises InvalidInput then."""
-    known = {option.name: option for option in fields(kind)}
+    """Gives a command the options of a class as parameters, with their defaults, in place of its parameter `place`:
+    that is called to make them, and raises InvalidInput then. renamed: the parameter's name by that of the option,
+    where another class has an option of that name."""
+    known = {renamed.get(option.name, option.name): option for option in fields(kind)}
     names = [name for name in PARAMETERS if name in known and name in (only or known) and name not in without]
 
     def decorated(command: Callable[..., None]) -> Callable[..., None]:
@@ -244,14 +328,13 @@ def with_options(
             values = {name: given.pop(name) for name in names}
 
             def made() -> _Options:
-                angles = {name: math.radians(values[name]) for name in names if name in _IN_DEGREES}
-                return kind(**(values | angles))
+                return kind(**{known[name].name: _taken(known[name], value) for name, value in values.items()})
 
-            command(options=made, **given)
+            command(**{place: made}, **given)
 
         parameters = []
         for parameter in inspect.signature(command, eval_str=True).parameters.values():
-            if parameter.name != "options":
+            if parameter.name != place:
                 parameters.append(parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY))
                 continue
             for name in names:

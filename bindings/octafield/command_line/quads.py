@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from ..layout.options import AXES, BLOCKS, INADMISSIBLE, LAYOUTS, MEASURES, QuadLayoutOptions
-from ..options import SurfaceFieldOptions
+from ..layout.options import BLOCKS, INADMISSIBLE, LAYOUTS, MEASURES, QuadLayoutOptions
+from ..options import AXES, SurfaceFieldOptions
 from ..quad_mesh.options import FORMATS, QuadMeshOptions
 from . import console, tables
 from .console import carry_out, log

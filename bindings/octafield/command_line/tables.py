@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..records.base import Record
     from ..records.field import FieldRecord
     from ..records.hex_dominant import HexDominantRecord
+    from ..records.parts import AxesFigures
     from ..records.quad_layout import QuadLayoutRecord
     from ..records.quad_mesh import QuadMeshRecord
     from ..records.surface_field import SurfaceFieldRecord
@@ -37,11 +38,24 @@ def show_record(record: FieldRecord | SurfaceFieldRecord) -> None:
                     ),
                 )
             )
+        elif name == "axes":
+            facts += _of_axes(value)
         elif isinstance(value, (str, int, float)) and name != "input":
             facts.append((name, f"{value:.8g}" if isinstance(value, float) else str(value)))
     _facts(record.input, facts)
     verdict = getattr(record, "verdict", None)
     _show_verdict(verdict.sentences if verdict else ())
+
+
+def _of_axes(figures: AxesFigures) -> list[tuple[str, str]]:
+    facts = [
+        ("axes off right angles", f"at {figures.oblique_share:.1%} of the vertices, by"
+         f" {figures.largest_obliqueness_deg:.3g} degrees at most"),
+    ]  # fmt: skip
+    for wedges in figures.wedges:
+        off = f"off faces {wedges.off_faces_deg.max:.2g}  off edges {wedges.off_edges_deg.max:.2g} degrees at most"
+        facts.append((f"feature edges of {wedges.angle_deg} degrees", f"{wedges.edges:,}  {off}"))
+    return facts
 
 
 def show_hex_record(record: HexDominantRecord) -> None:

@@ -24,6 +24,29 @@ def fitting_frames(tets: TetMesh | TetDomain, frames: ArrayLike, where: str) -> 
     return unit_quaternions(values, lambda i: "frames")[0]
 
 
+def require_right_angles(stretch: np.ndarray | None, what: str) -> None:
+    """stretch: of frames with axes S Q; None: at right angles. what: that needs these, a sentence."""
+    if stretch is not None:
+        raise InvalidInput(
+            f"{what}, and the axes of this field are not (octafield.volume.axes_stretch); compute it with axes"
+            " 'orthogonal'",
+            "stretched_axes",
+        )
+
+
+def fitting_stretch(tets: TetMesh | TetDomain, stretch: ArrayLike | None, frames: np.ndarray) -> np.ndarray | None:
+    """(n, 6) positive definite matrices, one per vertex; InvalidInput otherwise."""
+    if stretch is None:
+        return None
+    values = np.asarray(stretch, float)
+    if values.shape != (len(tets.vertices), 6):
+        raise InvalidInput(
+            f"a stretch of shape {values.shape}; ({len(tets.vertices)}, 6) is needed, one row per vertex", "bad_count"
+        )
+    _core.stretched_axes(frames, values)
+    return values
+
+
 def moved_frames(mesh: TetMesh, frames: np.ndarray, where: str) -> tuple[np.ndarray, str]:
     """Frames of the other sites taken to the vertices or the tets, and the note that tells."""
     move = _core.tet_frames if where == "tets" else _core.vertex_frames

@@ -25,12 +25,13 @@ from .._core import (
 from ..domain.inputs import feature_edges, regions_of
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source, prepare_mesh
-from ..domain.sites import SITES, fitting_frames
+from ..domain.sites import SITES, fitting_frames, fitting_stretch
 from ..errors import InvalidInput
 from ..options import FieldOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks, facts_of_record
 from . import verdict
+from .free_axes import axes_figures, off_wedges_of
 from .sizes import Sizes, axis_order, sizes_of_run
 from .tet_analysis import analyse_tets
 from .vertex_analysis import analyse as analyse_frames
@@ -57,7 +58,12 @@ class AnalysedField(ShownInNotebooks):
     A field that lives in the tets is tet_frames, (m, 4), and so are singular_graph (of singular_edges), alignment (per
     triangle and tet beside it) and lengths, meshability and boundary_meshability are those of the tets; frames is the
     field taken to the vertices, integrability is None; sizes are those of frames. feature_edges: (k, 2) ids of tets'
-    vertices."""
+    vertices.
+
+    Where axes are not at right angles they are the columns of S Q (octafield.volume.stretched_axes), Q the rotation of
+    `frames` and S of `stretch`, (n, 6); else that is None. With the option axes "free", wedge_alignment is (k, 2)
+    radians per wedge of boundary_meshability, from axes to both faces and to the edge (octafield.volume.
+    wedge_alignment)."""
 
     surface: TriangleMesh
     features: FeatureGraph
@@ -75,6 +81,8 @@ class AnalysedField(ShownInNotebooks):
     lengths: np.ndarray | None = None
     sizes: Sizes | None = None
     feature_edges: np.ndarray | None = None
+    stretch: np.ndarray | None = None
+    wedge_alignment: np.ndarray | None = None
 
     @property
     def regions(self) -> np.ndarray | None:
@@ -113,9 +121,11 @@ def analyse(
     where: str = "vertices",
     options: FieldOptions = FieldOptions(),
     progress: Progress | None = None,
+    *,
+    stretch: ArrayLike | None = None,
 ) -> AnalysedField:
     """Analyses (n, 4) frames at the vertices or in the tets of a tet mesh (or its file; features as octafield field
-    finds them).
+    finds them). stretch: (n, 6) of axes S Q at the vertices, as results and octafield.read_frames have it.
 
     Of the options, those of features, interfaces, streamlines, sizes and threads count. In the record, what
     octafield.compute_field tells of solving is None. Raises InvalidInput where the frames do not fit the mesh.
@@ -129,8 +139,11 @@ def analyse(
     meshed = mesh if isinstance(mesh, MeshedInput) else prepare_mesh(mesh, options, progress=progress)
     if meshed.kind != "tets" and not isinstance(mesh, MeshedInput):
         raise InvalidInput(f"{meshed.name}: is a surface; frames need the tet mesh they belong to", "not_tets")
-    values, options = fitting_frames(meshed.volume(), frames, where), replace(options, sampling=where)
-    return analysed_field(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress)
+    axes = options.axes if stretch is None else "free"
+    options = replace(options, sampling=where, axes=axes)
+    values = fitting_frames(meshed.volume(), frames, where)
+    stretched = fitting_stretch(meshed.volume(), stretch, values)
+    return analysed_field(meshed, values, options, PhaseClock(meshed.clock), PeakMemory(), progress, stretch=stretched)
 
 
 def analysed_field(
@@ -141,9 +154,11 @@ def analysed_field(
     memory: PeakMemory,
     progress: Progress | None,
     lengths: np.ndarray | None = None,
+    stretch: np.ndarray | None = None,
 ) -> AnalysedField:
     """frames, lengths: where options.sampling has them; the axes of those at vertices are named anew, so that
-    neighbours agree but across a cut. The record tells nothing of how the field was made."""
+    neighbours agree but across a cut. stretch: (n, 6), of frames with axes S Q. The record tells nothing of how the
+    field was made."""
     from ..records.field import FieldRecord
     from . import record
 
@@ -164,15 +179,18 @@ def analysed_field(
                 **_analysis_of(of_tets.of_field),
             }
         else:
-            found = analyse_frames(meshed, frames, options.threads, options.streamlines, options.feature_tolerance)
+            found = analyse_frames(
+                meshed, frames, options.threads, options.streamlines, options.feature_tolerance, stretch
+            )
             figures, off = found.figures, found.off_vertices
             parts = {
                 "frames": frames,
                 "singular_graph": found.of_field.singular_graph,
-                "integrability": found.of_field.integrability,
+                "integrability": None if stretch is not None else found.of_field.integrability,
                 "streamlines": found.streamlines,
                 **_analysis_of(found.of_field),
             }
+    off_wedges = off_wedges_of(tets, parts["frames"], stretch, options)
     sizes = sizes_of_run(tets, parts["frames"], options, clock, progress)
     told = FieldRecord(
         **record.of_input(meshed, clock, max(meshed.peak_mb, memory.megabytes())),
@@ -180,6 +198,7 @@ def analysed_field(
         sampling=options.sampling,
         threads=options.threads,
         **figures,
+        axes=axes_figures(tets, parts["frames"], stretch, parts["boundary_meshability"], off_wedges),
         sizes=None if sizes is None else record.of_sizes(sizes),
         verdict=verdict.of_field(meshed, off, figures),
         options=options.recorded(),
@@ -192,6 +211,8 @@ def analysed_field(
         sizes=sizes,
         record=told,
         feature_edges=feature_edges(tets),
+        stretch=stretch,
+        wedge_alignment=off_wedges,
         **parts,
     )
 

@@ -18,6 +18,7 @@ from .._core import (
     DirectionField,
     DirectionGuide,
     FeatureGraph,
+    NonOrthogonalField,
     Streamline,
     SurfaceDomain,
     SurfaceSingularities,
@@ -39,14 +40,13 @@ if TYPE_CHECKING:
 _SHOWN = ("triangles", "energy", "epsilon", "euler_characteristic", "index_sum", "converged")
 
 
-@dataclass(repr=False)
-class SurfaceFieldResult(ShownInNotebooks):
-    """An N-direction field on a surface. directions: (V, 3), one representative per vertex. record: all
-    figures, the JSON object of the command line."""
+@dataclass(repr=False, kw_only=True)
+class FieldOnSurface(ShownInNotebooks):
+    """What fields of directions on a surface have in common. directions: (V, 3), one representative per vertex. record:
+    all figures, the JSON object of the command line."""
 
     surface: TriangleMesh
     features: FeatureGraph
-    direction_field: DirectionField
     directions: np.ndarray
     singularities: SurfaceSingularities
     separatrices: Sequence[Streamline]
@@ -55,7 +55,7 @@ class SurfaceFieldResult(ShownInNotebooks):
     def __repr__(self) -> str:
         r = self.record
         return (
-            f"SurfaceFieldResult({r.input}: {r.triangles:,} triangles; symmetry {self.direction_field.symmetry}; "
+            f"{type(self).__name__}({r.input}: {r.triangles:,} triangles; symmetry {r.symmetry}; "
             f"{len(self.singularities.points):,} singular points, index sum {self.singularities.index_sum:g})"
         )
 
@@ -63,6 +63,15 @@ class SurfaceFieldResult(ShownInNotebooks):
     def vertex_data(self) -> dict[str, np.ndarray]:
         """What is known at the vertices beside the directions."""
         return {}
+
+    def dataset(self) -> pyvista.PolyData:
+        """The surface with point data direction and vertex_data."""
+        from ..view.scene import surface_mesh
+
+        surface = surface_mesh(self.surface).copy()
+        for name, values in {"direction": self.directions, **self.vertex_data}.items():
+            surface.point_data[name] = np.array(values)
+        return surface
 
     def _facts(self) -> Facts:
         """For notebooks."""
@@ -73,6 +82,14 @@ class SurfaceFieldResult(ShownInNotebooks):
         from ..view.surface_field import surface_field_scene
 
         return surface_field_scene(self.surface, self.features, self.singularities, self.separatrices)
+
+
+@dataclass(repr=False, kw_only=True)
+class SurfaceFieldResult(FieldOnSurface):
+    """An N-direction field on a surface. directions: (V, 3), one representative per vertex. record: all
+    figures, the JSON object of the command line."""
+
+    direction_field: DirectionField
 
 
 def compute_surface_field(
@@ -136,7 +153,15 @@ def compute_surface_field(
     told = record.of_surface_field(
         meshed, clock, peak_mb, field, singularities, options, constraints, stopped=stop.stopped
     )
-    return SurfaceFieldResult(meshed.surface, meshed.features, field, directions, singularities, separatrices, told)
+    return SurfaceFieldResult(
+        surface=meshed.surface,
+        features=meshed.features,
+        direction_field=field,
+        directions=directions,
+        singularities=singularities,
+        separatrices=separatrices,
+        record=told,
+    )
 
 
 def _lines_of_curvature(
@@ -153,14 +178,20 @@ def structure(
 ) -> tuple[np.ndarray, SurfaceSingularities, list[Streamline]]:
     """Directions at the vertices, singular points and separatrices of a surface field. Cancelled while it traces, it
     raises Cancelled; with `stop` it leaves the separatrices out, as when it was stopped before."""
-    directions = np.asarray(_core.vertex_directions(field))
+    return np.asarray(_core.vertex_directions(field)), *curves_of(field, progress, stop)
+
+
+def curves_of(
+    field: DirectionField | NonOrthogonalField, progress: Progress | None, stop: StopNote | None = None
+) -> tuple[SurfaceSingularities, list[Streamline]]:
+    """Singular points and separatrices; cancelled, as structure."""
     singularities = _core.surface_singularities(field)
     if stop is not None and stop.stopped:
-        return directions, singularities, []
+        return singularities, []
     try:
         separatrices = _core.separatrices(field, singularities, progress=forward(progress, "surface", 0.9, 1.0))
     except Cancelled:
         if stop is None:
             raise
         separatrices = []
-    return directions, singularities, separatrices
+    return singularities, separatrices

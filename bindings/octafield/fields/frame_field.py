@@ -34,6 +34,7 @@ from ..options import OF_A_START, FieldOptions, MeshOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce, forward
 from .analysed import AnalysedField, analysed_field
 from .direction_field import structure
+from .free_axes import values_of, with_vertices
 from .smoothing import held_at_start, smoothed_field
 
 
@@ -174,14 +175,22 @@ def run_field(
     memory = PeakMemory()
     meshed, clock = problem.meshed, PhaseClock(problem.clock)
     _refuse_ignored(meshed, options)
+    if start is not None and options.axes == "free":
+        raise InvalidInput(
+            "a start has axes at right angles, and free axes begin from the boundary; leave out the start, or take axes"
+            " 'orthogonal'",
+            "stretched_axes",
+        )
     tets = meshed.volume()
     with clock.phase("smooth"):
         announce(progress, "smooth")
         in_tets = _core.tet_sampling(tets) if options.sampling == "tets" else None
+        stretch = _core.axes_stretch(tets) if options.axes == "free" else None
         held = _core.surface_constraints(
             tets,
             problem.direction_field,
             sites=options.sampling,
+            stretch=values_of(stretch),
             mode="none" if options.boundary == OF_A_START else options.boundary,
             feature_tolerance=options.feature_tolerance,
         )
@@ -196,7 +205,9 @@ def run_field(
     if options.split_singular:
         with clock.phase("analyse"):
             meshed, frames, lengths, parent, split = split_between_singular(meshed, frames, lengths, options.threads)
-    found = analysed_field(meshed, frames, options, clock, memory, progress, lengths)
+    found = analysed_field(meshed, frames, options, clock, memory, progress, lengths, values_of(stretch))
+    if stretch is not None:
+        found.record = with_vertices(found.record, stretch)
     found.record = found.record.changed(
         interface_triangles=meshed.interface_triangles,
         locking=meshed.locking,

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from .. import _core
 from .._core import SampledFrames, TetDomain, TetMesh
-from ..domain.sites import fitting_frames
+from ..domain.sites import fitting_frames, require_right_angles
 from ..errors import InvalidInput
 from ..options import require_one_of
 from .analysed import AnalysedField
@@ -149,12 +149,22 @@ def put_frames(data: pyvista.DataSetAttributes, frames: np.ndarray) -> None:
     data["sh4"] = np.asarray(_core.representations["sh4"].embed(frames))
 
 
+def put_stretched_frames(data: pyvista.DataSetAttributes, frames: np.ndarray, stretch: np.ndarray) -> None:
+    """As field.vtu has axes S Q: frame_u, frame_v, frame_w (unit), frame_lengths, stretch and rotation (Q, w x y z)."""
+    axes = np.asarray(_core.stretched_axes(frames, stretch))
+    lengths = np.linalg.norm(axes, axis=2)
+    for k, name in enumerate(("frame_u", "frame_v", "frame_w")):
+        data[name] = axes[:, k] / lengths[:, k, None]
+    data["frame_lengths"], data["stretch"], data["rotation"] = lengths, np.array(stretch), np.array(frames)
+
+
 def _parts(
     field: AnalysedField | TetMesh | TetDomain, frames: ArrayLike | None
 ) -> tuple[TetMesh | TetDomain, np.ndarray]:
     if isinstance(field, AnalysedField):
         if frames is not None:
             raise InvalidInput("a result has frames of its own; give frames with a TetMesh only", "bad_type")
+        require_right_angles(field.stretch, "fields are sampled between vertices by sh4, with axes at right angles")
         return field.tets, np.asarray(field.frames)
     if not isinstance(field, (TetMesh, TetDomain)):
         raise InvalidInput(

@@ -21,6 +21,7 @@ from .._core import (
     FieldAnalysis,
     FrameStreamline,
     Meshability,
+    NonOrthogonalField,
     SingularGraph,
     SingularVertex,
     SurfaceSingularities,
@@ -28,13 +29,14 @@ from .._core import (
     VertexConstraints,
 )
 from ..domain.meshed_input import MeshedInput
-from ..options import SurfaceFieldOptions
+from ..options import NonOrthogonalOptions, SurfaceFieldOptions
 from ..progress.phases import PhaseClock, machine, octafield_version, versions
 from ..records.field import FieldFigures, InputRecord
 from ..records.parts import (
     Angles,
     IntegrabilityFigures,
     Machine,
+    NonOrthogonalFigures,
     PhaseSeconds,
     Range,
     SingularPoint,
@@ -78,11 +80,16 @@ def of_mesh(meshed: MeshedInput) -> dict[str, Any]:
 
 
 def of_field_at_vertices(
-    found: FieldAnalysis, unserved: np.ndarray, unserved_vertices: int, lines: list[FrameStreamline]
+    found: FieldAnalysis,
+    unserved: np.ndarray,
+    unserved_vertices: int,
+    lines: list[FrameStreamline],
+    *,
+    at_right_angles: bool,
 ) -> FieldFigures:
-    """unserved: (k,) bool, of the angles of alignment."""
+    """unserved: (k,) bool, of the angles of alignment. at_right_angles: whether axes are, as integrability needs."""
     graph, integrability, alignment = found.singular_graph, found.integrability, np.asarray(found.alignment)
-    held = _degrees(alignment[~unserved]).max
+    held = degrees_of(alignment[~unserved]).max
     ends = Counter(end for line in lines for end in (line.first_end, line.last_end))
     return FieldFigures(
         energy=found.energy,
@@ -93,15 +100,17 @@ def of_field_at_vertices(
         undecided_edges=int(graph.undecided_triangles),
         **_of_meshability(found.meshability),
         **_of_boundary(found.boundary_meshability),
-        alignment_deg=_degrees(alignment).changed(held_max=held),
+        alignment_deg=degrees_of(alignment).changed(held_max=held),
         unserved_vertices=unserved_vertices,
-        feature_alignment_deg=_degrees(np.asarray(found.feature_alignment)),
+        feature_alignment_deg=degrees_of(np.asarray(found.feature_alignment)),
         integrability=IntegrabilityFigures(
             jump_rms=integrability.jump_rms,
             jump_max=integrability.jump_max,
             twist_rms=integrability.twist_rms,
             twist_max=integrability.twist_max,
-        ),
+        )
+        if at_right_angles
+        else None,
         streamlines=StreamlineCounts(
             curves=len(lines), length=float(sum(line.length for line in lines)), ends=dict(sorted(ends.items()))
         ),
@@ -120,8 +129,8 @@ def of_field_in_tets(found: TetFieldAnalysis) -> FieldFigures:
         tied_triangles=int(singular.tied_triangles),
         **_of_meshability(found.meshability),
         **_of_boundary(found.boundary_meshability),
-        alignment_deg=_degrees(np.asarray(found.alignment)),
-        feature_alignment_deg=_degrees(np.asarray(found.feature_alignment)),
+        alignment_deg=degrees_of(np.asarray(found.alignment)),
+        feature_alignment_deg=degrees_of(np.asarray(found.feature_alignment)),
     )
 
 
@@ -148,7 +157,7 @@ def _of_meshability(found: Meshability) -> dict[str, Any]:
         "singular_boundary_ends": found.boundary_ends,
         "singular_boundary_ends_about_normal": found.boundary_ends_about_normal,
         "singular_vertex_types": {name: counts[name] for name in sorted(counts)},
-        "singular_axis_deg": _degrees(np.array([end.angle for end in found.ends if end.quarter_turns])),
+        "singular_axis_deg": degrees_of(np.array([end.angle for end in found.ends if end.quarter_turns])),
     }
 
 
@@ -179,7 +188,7 @@ def _type(vertex: SingularVertex) -> str:
     return " ".join(word for word, count in counts.items() for _ in range(count))
 
 
-def _degrees(angles: np.ndarray) -> Angles:
+def degrees_of(angles: np.ndarray) -> Angles:
     if len(angles) == 0:
         return Angles(median=0.0, max=0.0)
     return Angles(median=math.degrees(float(np.median(angles))), max=math.degrees(float(angles.max())))
@@ -250,12 +259,7 @@ def of_surface_field(
         symmetry=options.symmetry,
         method=options.method,
         seed=options.seed,
-        euler_characteristic=singularities.euler_characteristic,
-        index_sum=singularities.index_sum,
-        singularities=[
-            SingularPoint(position=[float(x) for x in s.position], index=float(s.index), boundary=bool(s.boundary))
-            for s in singularities.points
-        ],
+        **_of_points(singularities),
         energy=field.energy,
         dirichlet_energy=field.dirichlet_energy,
         energy_history=[float(e) for e in field.energy_history],
@@ -267,3 +271,59 @@ def of_surface_field(
         constraints=0 if constraints is None else len(constraints.edges) + len(constraints.vertices),
         options=asdict(options),
     )
+
+
+def of_lines(
+    meshed: MeshedInput,
+    clock: PhaseClock,
+    peak_mb: float,
+    field: NonOrthogonalField,
+    singularities: SurfaceSingularities,
+    options: NonOrthogonalOptions,
+    corner_source: str,
+    cut_edges: int,
+    stopped: bool,
+) -> SurfaceFieldRecord:
+    """cut_edges: feature edges inside, along which the surface was cut."""
+    quads, used = np.asarray(field.quads), np.unique(np.asarray(field.domain.triangles))
+    cosines = abs(np.einsum("vi,vi->v", np.asarray(field.first)[used], np.asarray(field.second)[used]))
+    numbers = Counter(quads[(quads > 0) & (quads != 2)].tolist())
+    return SurfaceFieldRecord(
+        **of_input(meshed, clock, peak_mb),
+        vertices=len(field.domain.vertices),
+        triangles=len(field.domain.triangles),
+        symmetry=4,
+        method=options.method,
+        seed=options.seed,
+        **_of_points(singularities),
+        energy=field.energy,
+        epsilon=0.0,
+        iterations=field.iterations,
+        converged=bool(field.converged),
+        stopped=stopped,
+        constraints=0,
+        non_orthogonal=NonOrthogonalFigures(
+            smallest_angle_deg=math.degrees(field.smallest_angle),
+            oblique_share=float((cosines > math.cos(math.radians(89))).mean()),
+            start_energy=field.start_energy,
+            corners={str(number): numbers[number] for number in sorted(numbers)},
+            corner_source=corner_source,
+            agree=bool(singularities.agree),
+            inverted=len(field.inverted),
+            freedom=field.freedom,
+            cut_edges=cut_edges,
+            input_vertices=len(meshed.surface.vertices),
+        ),
+        options=options.recorded(),
+    )
+
+
+def _of_points(found: SurfaceSingularities) -> dict[str, Any]:
+    return {
+        "euler_characteristic": found.euler_characteristic,
+        "index_sum": found.index_sum,
+        "singularities": [
+            SingularPoint(position=[float(x) for x in s.position], index=float(s.index), boundary=bool(s.boundary))
+            for s in found.points
+        ],
+    }

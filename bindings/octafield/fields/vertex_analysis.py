@@ -38,25 +38,31 @@ def analyse(
     threads: int = 0,
     streamlines: int = 0,
     feature_tolerance: float = _core.BoundaryOptions().feature_tolerance,
+    stretch: np.ndarray | None = None,
 ) -> VertexAnalysis:
-    """streamlines: number of seeds, three curves each. feature_tolerance: radians, of the constraints."""
+    """streamlines: number of seeds, three curves each. feature_tolerance: radians, of the constraints. stretch: (n, 6)
+    of axes S Q; None: at right angles."""
     from . import record
 
     tets = meshed.volume()
-    found = _core.analyse_field(tets, frames, threads=threads)
+    found = _core.analyse_field(tets, frames, stretch=stretch, threads=threads)
     alignment = np.asarray(found.alignment)
     sectors = _core.sector_normals(tets)
-    unserved = unserved_sectors(meshed, sectors, feature_tolerance)
+    unserved = unserved_sectors(meshed, sectors, feature_tolerance, stretch)
     off = verdict.off_vertices(alignment[~unserved], np.asarray(sectors.vertex)[~unserved])
     size = _core.shape_size(tets.surface.mesh)
     seeds = _core.spread_points(tets, streamlines)
-    lines = _core.frame_streamlines(tets, frames, seeds, max_length=2 * size, threads=threads) if len(seeds) else []
+    lines = []
+    if len(seeds):
+        lines = _core.frame_streamlines(tets, frames, seeds, stretch=stretch, max_length=2 * size, threads=threads)
     unserved_vertices = len(np.unique(np.asarray(sectors.vertex)[unserved]))
-    figures = record.of_field_at_vertices(found, unserved, unserved_vertices, lines)
+    figures = record.of_field_at_vertices(found, unserved, unserved_vertices, lines, at_right_angles=stretch is None)
     return VertexAnalysis(found, lines, off, figures)
 
 
-def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolerance: float) -> np.ndarray:
+def unserved_sectors(
+    meshed: MeshedInput, sectors: SectorNormals, feature_tolerance: float, stretch: np.ndarray | None = None
+) -> np.ndarray:
     """(k,) true: at a vertex where smooth sectors meet and no frame fits all their normals and the tangents within the
     tolerance, so that constraints do not hold the normals (octafield.volume.boundary_constraints): the field may be off
     by up to 45 degrees there, whatever the method."""
@@ -66,7 +72,9 @@ def unserved_sectors(meshed: MeshedInput, sectors: SectorNormals, feature_tolera
     tangents = np.cross(normal, np.eye(3)[np.abs(normal).argmin(axis=1)])  # any will do: on features the normals decide
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
     directions = tangents[np.searchsorted(vertex, np.arange(len(boundary.mesh.vertices)))]
-    held = _core.boundary_constraints(tets, directions, mode="aligned", feature_tolerance=feature_tolerance)
+    held = _core.boundary_constraints(
+        tets, directions, mode="aligned", feature_tolerance=feature_tolerance, stretch=stretch
+    )
     loose = np.asarray(held.kind)[np.asarray(boundary.vertex_map)] != _core.constraint_kinds.index("fixed")
     several = np.bincount(vertex, minlength=len(loose)) > 1
     found: np.ndarray = (loose & several)[vertex]

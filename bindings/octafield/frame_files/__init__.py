@@ -44,6 +44,7 @@ def read_frames(
     format: str | None = None,
     *,
     where: str | None = None,
+    stretched: bool = False,
 ) -> FrameFile:
     """The frames of a file, as unit quaternions, with what else it holds.
 
@@ -51,6 +52,8 @@ def read_frames(
         whether they sit at its vertices or in its tets. format: a name of frame_formats; None: by the extension, and in
         .txt by the numbers on the first line. where: "vertices" or "tets", where the file does not tell. Axes of any
         length and handedness that are not quite at right angles are taken to the nearest frame, which the notes tell.
+        stretched: take files of fields with axes "free", too, whose frames are rotations Q and whose axes are those of
+        S Q, S the stretch of the result; else they are refused.
         Raises IoError naming the line or byte, and InvalidInput where axes are zero or in one plane, or the number of
         frames fits nothing.
     """
@@ -66,6 +69,12 @@ def read_frames(
     read = read_txt if format is None and plain_name(path).endswith(".txt") else READERS[reader.name]
     with reading(path, reader.name):
         found = read(path)
+    if found.stretch is not None and not stretched:
+        raise InvalidInput(
+            f"{path}: its axes are not at right angles, which are needed here; octafield analyse and convert take such"
+            " files, and octafield.read_frames(..., stretched=True)",
+            "stretched_axes",
+        )
     if found.mesh is not None:  # the file is checked, and its own mesh is the one wanted unless another is given
         _core.require_valid(found.mesh)
     result = place(found, given, where)
@@ -98,6 +107,7 @@ def write_frames(
     metadata: Mapping[str, str] | None = None,
     combed: bool = False,
     cell_edge: float | str | None = None,
+    stretch: ArrayLike | None = None,
 ) -> list[str]:
     """Writes (n, 4) frames to a file that appears only when complete, packed where the name ends with .gz.
 
@@ -110,7 +120,9 @@ def write_frames(
         mesh: None where the format needs none; a TetDomain, or a result of compute_field or analyse, gives its features
         and regions, too, where these are None. cell_edge: edge length of the cells that a mesher shall make, input
         unit, or "auto", the mean edge of the tets: the axes are divided by it (.fra, .bfra: densities of cells) or
-        multiplied (.ff3: edges of cells), on top of their lengths. Returns notes on what was changed or left out.
+        multiplied (.ff3: edges of cells), on top of their lengths. stretch: (n, 6) of axes S Q, that of the result
+        where None, for .vtu and .npz alone: other formats would lose it and are refused. Returns notes on what was
+        changed or left out.
         Raises InvalidInput and IoError.
     """
     if isinstance(mesh, TetDomain):
@@ -121,6 +133,7 @@ def write_frames(
     if mesh is not None and not isinstance(mesh, TetMesh):
         if not hasattr(mesh, "feature_edges"):
             raise InvalidInput(f"a TetMesh or a result that has one is needed, not {type(mesh).__name__}", "bad_type")
+        stretch = mesh.stretch if stretch is None else stretch
         features, regions = (
             (mesh.feature_edges if features is None else features),
             (mesh.regions if regions is None else regions),
@@ -142,8 +155,11 @@ def write_frames(
         _ids(features, 2, "features"),
         _ids(regions, None, "regions"),
         dict(metadata or {}),
+        stretch=_array(stretch, 6),
     )
     _require_fit(field, writer)
+    if field.stretch is not None:
+        _require_stretch_kept(field, writer, at, combed, cell_edge)
     if combed and at == "vertices":
         raise InvalidInput("combed frames sit in the tets; leave out at='vertices'", "unknown_option_value")
     notes = _move(field, writer, "tets" if combed else at)
@@ -158,6 +174,23 @@ def write_frames(
     if field.features is None and features is None and writer.holds_features:
         notes.append("no feature edges were given: the file marks none")
     return notes + (WRITERS[writer.name](path, field) or [])
+
+
+def _require_stretch_kept(
+    field: Field, writer: FrameFormat, at: str | None, combed: bool, cell_edge: float | str | None
+) -> None:
+    if not writer.holds_stretch:
+        holding = " ".join(e for form in FORMATS.values() if form.holds_stretch for e in form.extensions)
+        raise InvalidInput(
+            f"{writer.title} files hold frames at right angles, and these axes are not; write one of: {holding}",
+            "stretched_axes",
+        )
+    if field.where != "vertices" or at == "tets" or combed or cell_edge is not None or field.lengths is not None:
+        raise InvalidInput(
+            "axes that are not at right angles are written as they are, at the vertices: leave out tets, combing, cell"
+            " edges and lengths",
+            "stretched_axes",
+        )
 
 
 def _take_cell_edge(field: Field, writer: FrameFormat, cell_edge: float | str) -> list[str]:
@@ -247,7 +280,7 @@ def _require_fit(field: Field, writer: FrameFormat) -> None:
     count = len(field.mesh.vertices if field.where == "vertices" else field.mesh.tets)
     if len(field.frames) != count:
         raise InvalidInput(f"{len(field.frames)} frames; the mesh has {count} {field.where}", "bad_count")
-    for name, wanted in (("lengths", count), ("regions", len(field.mesh.tets))):
+    for name, wanted in (("lengths", count), ("stretch", count), ("regions", len(field.mesh.tets))):
         part = getattr(field, name)
         if part is not None and len(part) != wanted:
             raise InvalidInput(f"{len(part)} rows of {name}; {wanted} are needed", "bad_count")

@@ -10,7 +10,7 @@ from .._core import TetMesh
 from ..domain.sites import SITES
 from ..errors import InvalidInput, IoError
 from ..files.reading import read_bytes, require_unpackable, write_whole
-from .base import Field, FrameFile, from_axes, from_quaternions
+from .base import Field, FrameFile, from_axes, from_quaternions, stretched
 
 _UNITS = {1: "read_array_header_1_0", 2: "read_array_header_2_0"}
 
@@ -62,14 +62,20 @@ def _packed(values: np.ndarray) -> bytes:
 
 
 def read_npz(path: Path) -> FrameFile:
-    """Arrays frames and where; vertices and tets (the mesh), lengths, features, regions if there."""
+    """Arrays frames and where, or rotation and stretch; vertices and tets (the mesh), lengths, features, regions if
+    there."""
     parts = _members(path)
+    stretch = _numbers(path, parts, "stretch", 6) if {"rotation", "stretch"} <= parts.keys() else None
+    if stretch is not None:
+        parts["frames"] = parts["rotation"]
     if "frames" not in parts:
         raise InvalidInput(f"{path}: has no array frames (but {', '.join(sorted(parts)) or 'nothing'})", "no_frames")
     where = str(parts.pop("where", np.array("vertices")))
     if where not in SITES:
         raise InvalidInput(f"{path}: array where says {where[:20]!r}; vertices or tets are known", "bad_shape")
     result = _frames(path, "npz", where, parts["frames"])
+    if stretch is not None:
+        stretched(result, stretch)
     if "vertices" in parts and "tets" in parts:
         result.mesh = TetMesh(_numbers(path, parts, "vertices", 3).astype(float), _ids(path, parts, "tets", 4))
     if "lengths" in parts:
@@ -115,10 +121,10 @@ def _ids(path: Path, parts: dict[str, np.ndarray], name: str, width: int | None)
 
 
 def write_npz(path: Path, field: Field) -> None:
-    parts = {"frames": field.frames, "where": np.array(field.where)}
+    parts = {"frames" if field.stretch is None else "rotation": field.frames, "where": np.array(field.where)}
     if field.mesh is not None:
         parts |= {"vertices": field.mesh.vertices, "tets": field.mesh.tets}
-    for name in ("lengths", "features", "regions"):
+    for name in ("lengths", "stretch", "features", "regions"):
         if getattr(field, name) is not None:
             parts[name] = getattr(field, name)
     if field.combed is not None:

@@ -28,7 +28,8 @@ class FrameFile:
     one was given. lengths: (n, 3) of the axes, None where all are 1. deviation: radians, largest angle between an axis
     in the file and the frame's. left_handed: how many triads were; their third axis was turned round. features: (k, 2)
     feature edges, vertex ids of mesh. regions: (m,) of the tets. centres: (n, 3) where each frame belongs, if the file
-    tells that and not the order. notes: what was changed in reading, one sentence each.
+    tells that and not the order. notes: what was changed in reading, one sentence each. stretch: (n, 6) of axes S Q
+    that are not at right angles, frames being the rotations Q then (octafield.volume.stretched_axes); else None.
     """
 
     path: str
@@ -43,6 +44,7 @@ class FrameFile:
     regions: np.ndarray | None = None
     centres: np.ndarray | None = None
     notes: list[str] = field(default_factory=list)
+    stretch: np.ndarray | None = None
 
     def __repr__(self) -> str:
         mesh = "no mesh" if self.mesh is None else f"{len(self.mesh.tets):,} tets"
@@ -55,7 +57,8 @@ class FrameFile:
 
 @dataclass
 class Field:
-    """A field to be written: see write_frames for the parts. combed: of frames in the tets that are combed."""
+    """A field to be written: see write_frames for the parts. combed: of frames in the tets that are combed. stretch:
+    for formats that hold one."""
 
     mesh: TetMesh | None
     frames: np.ndarray
@@ -65,6 +68,7 @@ class Field:
     regions: np.ndarray | None = None
     metadata: dict[str, str] = field(default_factory=dict)
     combed: "ParameterizationInput | None" = None
+    stretch: np.ndarray | None = None
 
     def sites(self) -> np.ndarray:
         """(n, 3): where each frame is, a vertex or the centroid of a tet."""
@@ -102,7 +106,8 @@ class FrameFormat:
         holds_mesh: the file has the tets, too. needs_mesh: writing takes one. holds: what is written per frame, with
         its order. precision: of what is written.
     exact: quaternions come back bit by bit. holds_lengths: of axes; as its readers take them, gradients of a map or,
-        with holds_edges, edges of cells. source: where the layout was read.
+        with holds_edges, edges of cells. holds_stretch: of axes that are not at right angles. source: where the layout
+        was read.
     """
 
     name: str
@@ -119,6 +124,7 @@ class FrameFormat:
     exact: bool = False
     holds_lengths: bool = False
     holds_edges: bool = False
+    holds_stretch: bool = False
     holds_features: bool = False
     holds_regions: bool = False
 
@@ -160,6 +166,17 @@ def from_quaternions(
     result = FrameFile(str(path), name, frames, where)
     if change > _WORTH_A_NOTE:
         result.notes.append(f"quaternions were scaled to length 1: they were off by up to {change:.3g}")
+    return result
+
+
+def stretched(result: FrameFile, stretch: np.ndarray) -> FrameFile:
+    """With axes S Q, Q the rotation of the frames. Raises InvalidInput where S is no stretch."""
+    values = np.asarray(stretch, float)
+    try:
+        _core.stretched_axes(result.frames, values)
+    except InvalidInput as error:
+        raise InvalidInput(f"{result.path}: {error}", error.kind, error.elements) from error
+    result.stretch = values
     return result
 
 

@@ -34,7 +34,8 @@ def place(found: FrameFile, given: Input | TetMesh | None, where: str | None) ->
     if isinstance(given, Input) and "vertices" in sites and len(found.frames) == given.points_in_file:
         used = given.file_points  # other points of the file belong to no tet
         lengths = None if found.lengths is None else found.lengths[used]
-        return replace(found, frames=found.frames[used], lengths=lengths, where="vertices")
+        stretch = None if found.stretch is None else found.stretch[used]
+        return replace(found, frames=found.frames[used], lengths=lengths, stretch=stretch, where="vertices")
     raise InvalidInput(
         f"{found.path}: {len(found.frames)} frames; the mesh has {counts['vertices']} vertices and {counts['tets']}"
         " tets"

@@ -70,8 +70,9 @@ FORMATS: dict[str, FrameFormat] = {
         ),
         FrameFormat(
             "vtu", (".vtu",), "VTK XML", ("vertices", "tets"),
-            "arrays quaternion (w x y z), frame_u, frame_v, frame_w, sh4", _BITS, "VTK itself, meshio", vtk.read_vtu,
-            vtk.write_vtu,
+            "arrays quaternion (w x y z), frame_u, frame_v, frame_w, sh4; of axes at any angle rotation (w x y z),"
+            " stretch, frame_u, frame_v, frame_w, frame_lengths",
+            _BITS, "VTK itself, meshio", vtk.read_vtu, vtk.write_vtu, holds_stretch=True,
             holds_mesh=True, exact=True, needs_mesh=True, holds_lengths=True, holds_features=True, holds_regions=True,
         ),
         FrameFormat(
@@ -102,9 +103,12 @@ FORMATS: dict[str, FrameFormat] = {
         ),
         FrameFormat(
             "npz", (".npz",), "numpy, with the mesh", ("vertices", "tets"),
-            "arrays frames (w x y z), where, vertices, tets, lengths, features, regions", _BITS, "numpy",
+            "arrays frames (w x y z), where, vertices, tets, lengths, features, regions; of axes at any angle rotation"
+            " (w x y z) and stretch in place of frames",
+            _BITS, "numpy",
             arrays.read_npz, arrays.write_npz,
             holds_mesh=True, exact=True, holds_lengths=True, holds_features=True, holds_regions=True,
+            holds_stretch=True,
         ),
     )
 }  # fmt: skip

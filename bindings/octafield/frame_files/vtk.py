@@ -15,7 +15,7 @@ from ..files.reading import write_whole
 from ..files.scratch import through_file
 from ..files.writing import vtp_bytes
 from ..meshes.grids import grid_of_cells, read_cells
-from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of
+from .base import Field, FrameFile, from_axes, from_quaternions, from_sh4, mesh_of, stretched
 
 if TYPE_CHECKING:
     import meshio
@@ -25,6 +25,12 @@ AXES = ("frame_u", "frame_v", "frame_w")
 CONVENTION = (
     "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per vertex:"
     " interpolate sh4, or axes only in cells with axes_agree 1"
+)
+
+STRETCHED_CONVENTION = (
+    "axes are not at right angles: frame_u, frame_v, frame_w are unit vectors along the columns of S R(rotation),"
+    " frame_lengths their lengths, rotation w x y z, S symmetric with elements stretch xx yy zz yz xz xy; axes are"
+    " named per vertex"
 )
 
 
@@ -68,6 +74,8 @@ def with_mesh(result: FrameFile, read: Input) -> FrameFile:
 
 
 def _frames_in(path: Path, name: str, where: str, data: dict[str, np.ndarray]) -> FrameFile | None:
+    if where == "vertices" and _has(data, "stretch", 6) and _has(data, "rotation", 4):
+        return stretched(from_quaternions(path, name, where, data["rotation"]), data["stretch"])
     for key in QUATERNIONS:
         if _has(data, key, 4):
             result = from_quaternions(path, name, where, data[key])
@@ -104,7 +112,7 @@ def write_vtu(path: Path, field: Field) -> None:
     frames = _core.vertex_frames(mesh, field.frames) if of_tets else field.frames
     lengths, features = (() if part is None else part for part in (field.lengths, field.features))
     domain = TetDomain(mesh, regions=() if field.regions is None else field.regions)
-    metadata = {"convention": CONVENTION} | field.metadata
+    metadata = {"convention": CONVENTION if field.stretch is None else STRETCHED_CONVENTION} | field.metadata
 
     def write(plain: Path) -> None:
         if of_tets:
@@ -112,7 +120,9 @@ def write_vtu(path: Path, field: Field) -> None:
                 plain, domain, frames, metadata, tet_frames=field.frames, tet_lengths=lengths, features=features
             )
         else:
-            _core.write_field(plain, domain, frames, metadata, lengths=lengths, features=features)
+            _core.write_field(
+                plain, domain, frames, metadata, lengths=lengths, features=features, stretch=field.stretch
+            )
 
     through_file(path, ".vtu", write)
 

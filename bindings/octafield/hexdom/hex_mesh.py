@@ -20,7 +20,7 @@ from .._core import HexDominantCounts, MixedMesh, TetDomain
 from ..domain.inputs import Input, naming
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import SoundInput, Source, prepare_mesh, read_sound
-from ..domain.sites import fitting_frames
+from ..domain.sites import fitting_frames, require_right_angles
 from ..errors import InvalidInput, SolverError
 from ..fields.analysed import AnalysedField, analyse
 from ..fields.frame_field import compute_field
@@ -42,6 +42,7 @@ FieldSource = str | Path | ArrayLike
 
 _COARSE = 0.05  # difference of the volume that is worth a note
 _FAR_FROM_SIZES = 3.0
+_RIGHT_ANGLES = "hexahedra are made along axes at right angles so far"
 _SHOWN = ("cells", "hex_volume_share", "hex_number_share", "scaled_jacobian", "volume_error")
 
 
@@ -113,7 +114,10 @@ def compute_hex_dominant(
     """
     if sizes is not None and (hex_options.edge_length or hex_options.cells):
         raise InvalidInput("sizes stand for an edge length or a number of cells; leave one out", "option_out_of_range")
+    if options.axes == "free":
+        raise InvalidInput(_RIGHT_ANGLES + "; take axes 'orthogonal'", "stretched_axes")
     given, at = _field_of(source, options, progress, hex_options, sizes, field)
+    require_right_angles(given.stretch, _RIGHT_ANGLES)
     with naming(given.record.input):
         return _mesh_along(given, _name_of(source, field), options, hex_options, sizes, at, progress)
 

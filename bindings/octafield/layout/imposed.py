@@ -6,7 +6,7 @@ result.imposed.log_size  # H at the vertices of result.surface
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,15 +17,13 @@ from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source
 from ..errors import InvalidInput
 from ..fields.direction_field import SurfaceFieldResult, structure
-from ..options import MeshOptions, SurfaceFieldOptions, require_one_of
+from ..options import SurfaceFieldOptions, changed_options, require_one_of
 from ..progress.phases import PeakMemory, PhaseClock, Progress, forward
 from .blocks import imposed_indices
 from .made import inner_features
 from .options import INADMISSIBLE
 from .points.pattern import pattern_of
 from .points.wanted import Corners, Points, PointsWanted, meshed_with_places, require_own_surface
-
-_MESH = {option.name for option in fields(MeshOptions)} | {"symmetry"}
 
 
 @dataclass(repr=False, kw_only=True)
@@ -124,12 +122,7 @@ def _refuse_ignored(options: SurfaceFieldOptions) -> None:
             f"singular points are imposed on crosses: a symmetry of 4 is needed, not {options.symmetry}",
             "wrong_symmetry",
         )
-    default = SurfaceFieldOptions()
-    given = [
-        f"{option.name}={getattr(options, option.name)!r}"
-        for option in fields(options)
-        if option.name not in _MESH and getattr(options, option.name) != getattr(default, option.name)
-    ]
+    given = [f"{name}={value!r}" for name, value in changed_options(options, of_mesh=False).items()]
     if given:
         raise InvalidInput(
             f"the field follows from its singular points: {', '.join(given)} would be ignored; leave that out",

@@ -5,11 +5,10 @@ from dataclasses import dataclass
 
 from .. import _core
 from ..errors import InvalidInput
-from ..options import integer_in, require_one_of
+from ..options import AXES, integer_in, require_one_of
 
 INADMISSIBLE = ("default", *_core.ImposedFieldOptions.words["inadmissible"])
 LAYOUTS = ("t-mesh", "separatrices")
-AXES = ("orthogonal", "free")
 MOST_QUADS = 10_000_000
 BLOCKS = tuple(_core.QuantizedQuadsOptions.words["blocks"])
 MEASURES = tuple(_core.QuantizedQuadsOptions.words["measure"])

@@ -7,6 +7,7 @@ from pydantic import Field
 from .base import Record
 from .parts import (
     Angles,
+    AxesFigures,
     HexDominantFigures,
     IntegrabilityFigures,
     LockingCounts,
@@ -111,13 +112,16 @@ class FieldFigures(Record):
     alignment_deg: Angles = Field(description="between normal and nearest axis, per boundary vertex and smooth sector")
     unserved_vertices: int | None = Field(default=None, description="where faces meet whose normals no frame serves")
     feature_alignment_deg: Angles = Field(description="between feature curves and nearest axis")
-    integrability: IntegrabilityFigures | None = Field(default=None, description="of frames at vertices")
+    integrability: IntegrabilityFigures | None = Field(
+        default=None, description="of frames at vertices, axes at right angles"
+    )
     streamlines: StreamlineCounts | None = Field(default=None, description="of frames at vertices")
 
 
 class FieldRecord(FieldFigures, VolumeRecord):  # pydantic puts the names of the last base first
     """`octafield field`, `compare`, `analyse`: result.json, results.json and `FieldResult.record`."""
 
+    axes: AxesFigures | None = Field(default=None, description="where they may be at any angle")
     sizes: SizesFigures | None = Field(default=None, description="where the option asks for them")
     verdict: Verdict | None = Field(default=None, description="what the field is worth")
     lengths: Range | None = Field(default=None, description="of the axes, with representation odeco_lengths")

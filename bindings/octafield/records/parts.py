@@ -60,6 +60,31 @@ class StreamlineCounts(Record):
     ends: dict[str, int] = Field(description="how many ends of each kind (octafield.volume.FrameStreamline)")
 
 
+class WedgeFigures(Record):
+    """Feature edges whose interior angles are nearest to one multiple of 15 degrees."""
+
+    angle_deg: int = Field(description="the multiple")
+    edges: int = Field(description="how many")
+    off_faces_deg: Angles = Field(
+        description="per edge, from the normals of its two faces to the nearest normals of two axes, at both ends"
+    )
+    off_edges_deg: Angles = Field(description="per edge, from its direction to the nearest axis")
+
+
+class AxesFigures(Record):
+    """Of axes that may be at any angle (option axes)."""
+
+    oblique_share: float = Field(description="of the vertices: two axes are off a right angle by more than a degree")
+    largest_obliqueness_deg: float = Field(description="by which two axes of a vertex are off a right angle")
+    lengths: Range = Field(description="of the axes S Q; their mean is about 1")
+    followed_vertices: int | None = Field(
+        default=None, description="on feature edges and corners that give the axes; 0 where nothing is stretched"
+    )
+    sharp_vertices: int | None = Field(default=None, description="of these, off right angles by more than 10 degrees")
+    needle_vertices: int | None = Field(default=None, description="with an angle below a degree, not followed")
+    wedges: list[WedgeFigures] = Field(description="feature edges by their angle")
+
+
 class LockingCounts(Record):
     """Inside of the mesh and with all vertices on its surface."""
 
@@ -152,6 +177,21 @@ class ImposedFigures(Record):
     largest_move: float = Field(description="of a point, input unit, where they were moved")
     closure: float = Field(description="largest angle by which edges disagree with their triangles, radians: rounding")
     input_triangles: int = Field(description="of the surface before it was refined round the points")
+
+
+class NonOrthogonalFigures(Record):
+    """Of a field of two lines at any angle on a surface."""
+
+    smallest_angle_deg: float = Field(description="between the two lines of a vertex")
+    oblique_share: float = Field(description="of the vertices, where that is below 89 degrees")
+    start_energy: float = Field(description="of the linear start")
+    corners: dict[str, int] = Field(description="vertices of the boundary by number of quads, those of 2 left out")
+    corner_source: str = Field(description="angle, given, or the file: where these numbers come from")
+    agree: bool = Field(description="the indices inside and at corners add up to the Euler characteristic")
+    inverted: int = Field(description="vertices of the boundary where a line has passed through its direction")
+    freedom: float = Field(description="of free lines on the boundary, what is left of their range; 0: fixed")
+    cut_edges: int = Field(description="feature edges inside, along which the surface was cut")
+    input_vertices: int = Field(description="of the surface before it was cut")
 
 
 class CellCounts(Record):

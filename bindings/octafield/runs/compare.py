@@ -158,6 +158,12 @@ def compare(
     """
     inputs = [inputs] if isinstance(inputs, Source) else list(inputs)
     _check(inputs, representations, boundaries, starts)
+    if options.axes == "free":
+        raise InvalidInput(
+            "representations are compared at right angles, and so are given fields; take axes 'orthogonal', or run"
+            " octafield field --axes free for each",
+            "stretched_axes",
+        )
     judges, cells = named_energies(energies), compared_meshes.mesh_options(mesh, hex_options)
     seeds = integer_in("seeds", seeds, 1, LARGEST_SEED - options.seed + 1)
     with staged_folder(output, ROWS_FILE) as folder:

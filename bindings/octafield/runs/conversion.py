@@ -12,7 +12,7 @@ from ..domain.inputs import Input, domain_of, from_mesh, naming, read_input
 from ..domain.mesh_writers import write_mesh
 from ..domain.meshing import REPAIR_IGNORED
 from ..domain.repairing import level_of, repair_surface
-from ..domain.sites import moved_frames
+from ..domain.sites import moved_frames, require_right_angles
 from ..errors import InvalidInput, IoError
 from ..fields.sizes import Sizes, find_sizes, log_scales_of
 from ..files.reading import plain_name
@@ -74,6 +74,8 @@ def convert_file(
             raise InvalidInput(
                 f"{source}: holds frames on a tet mesh; repair works on surfaces only, leave it out", "option_not_used"
             )
+        if split_singular or sizes != "none":
+            require_right_angles(frames.stretch, f"{source}: splitting and sizes need axes at right angles")
         if split_singular:
             frames = _split(frames, find_format(target, to_format, to_write=True), at)
         curls: dict[str, Any] = {}
@@ -84,7 +86,7 @@ def convert_file(
         notes = write_frames(
             target, frames.mesh, frames.frames, frames.where, to_format, at=at, lengths=frames.lengths,
             features=frames.features, regions=frames.regions,
-            combed=combed, cell_edge=cell_edge,
+            combed=combed, cell_edge=cell_edge, stretch=frames.stretch,
         )  # fmt: skip
         written = "tets" if combed else at or _site_in_file(target, to_format, frames.where)
         count, cells = (0, 0) if frames.mesh is None else (len(frames.mesh.vertices), len(frames.mesh.tets))
@@ -197,9 +199,9 @@ def _frames(source: Path, mesh: str | Path | None, name: str | None) -> FrameFil
     if name is None and not any(FORMATS[known].owns(source) for known in READERS):
         return None
     if name is not None or not find_format(source, None).holds_mesh or not is_written(source):
-        return read_frames(source, mesh, name)
+        return read_frames(source, mesh, name, stretched=True)
     try:
-        return read_frames(source, mesh)
+        return read_frames(source, mesh, stretched=True)
     except InvalidInput as error:
         if error.kind in ("no_frames", "not_tets"):
             return None

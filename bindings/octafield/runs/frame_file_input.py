@@ -19,11 +19,11 @@ def analyse_file(
 ) -> AnalysedField:
     """The analysis of the frames in a file, on the mesh given or the file's own."""
     source = mesh if mesh is not None else field if is_written(field) and format is None else None
-    found = read_frames(field, mesh, format)
+    found = read_frames(field, mesh, format, stretched=True)
     if found.mesh is None:
         raise InvalidInput(f"{field}: holds frames and no mesh; give it with --mesh", "no_mesh")
     meshed = prepare_mesh(found.mesh if source is None else source, options, progress=progress)
-    result = analyse(meshed, found.frames, found.where, options, progress)
+    result = analyse(meshed, found.frames, found.where, options, progress, stretch=found.stretch)
     result.lengths = found.lengths
     result.record = result.record.changed(
         field=str(field),

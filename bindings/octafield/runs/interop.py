@@ -31,8 +31,8 @@ from .. import _core
 from .._core import BoundarySurface, FrameStreamline, SingularGraph, Streamline, TetDomain, TetMesh, TriangleMesh
 from ..errors import InvalidInput
 from ..fields.analysed import AnalysedField
-from ..fields.direction_field import SurfaceFieldResult
-from ..fields.probes import put_frames
+from ..fields.direction_field import FieldOnSurface
+from ..fields.probes import put_frames, put_stretched_frames
 from ..meshes.topology import unique_edges
 from ..view.datasets import polylines
 
@@ -54,7 +54,7 @@ def to_pyvista(
     | TetDomain
     | SingularGraph
     | AnalysedField
-    | SurfaceFieldResult
+    | FieldOnSurface
     | Sequence[Streamline]
     | Sequence[FrameStreamline],
 ) -> pyvista.PolyData | pyvista.UnstructuredGrid:
@@ -63,12 +63,13 @@ def to_pyvista(
 
     AnalysedField, FieldResult: point data frame_u, frame_v, frame_w (the axes, unit vectors), quaternion (w x y z) and
         sh4 (9); cell data of the same names where the field lives in the tets, axes_agree (1 or 0), and region where
-        there are several. Axes are labelled vertex by vertex: slices, clips, probes and stream tracers of VTK
-        interpolate them, and mix different axes in the tets where axes_agree is 0. Threshold these away, or use
-        octafield.slice_frames, sample_frames and frame_streamlines, which interpolate sh4 or match the axes.
-        SurfaceFieldResult: point data direction. SingularGraph: one polyline per curve with cell data quarter_turns
-        (+1: valence 3, -1: valence 5, 4 less the valence in general; 0: complex). Streamlines: one polyline each with
-        cell data length. Raises InvalidInput for anything else.
+        there are several. Where the axes are not at right angles, rotation (w x y z), stretch (6) and frame_lengths (3)
+        take the place of quaternion and sh4. Axes are labelled vertex by vertex: slices, clips, probes and stream
+        tracers of VTK interpolate them, and mix different axes in the tets where axes_agree is 0. Threshold these away,
+        or use octafield.slice_frames, sample_frames and frame_streamlines, which interpolate sh4 or match the axes.
+        SurfaceFieldResult: point data direction, and its vertex_data. SingularGraph: one polyline per curve with cell
+        data quarter_turns (+1: valence 3, -1: valence 5, 4 less the valence in general; 0: complex). Streamlines: one
+        polyline each with cell data length. Raises InvalidInput for anything else.
 
         >>> import octafield
         >>> from octafield.domain.generators import generate
@@ -91,17 +92,18 @@ def to_pyvista(
         lines = polylines([points[np.asarray(curve)] for curve in value.curves])
         lines.cell_data["quarter_turns"] = np.array(value.curve_quarter_turns, np.int32)
         return lines
-    if isinstance(value, SurfaceFieldResult):
-        surface = cast("pyvista.PolyData", to_pyvista(value.surface))
-        surface.point_data["direction"] = np.array(value.directions)
-        return surface
+    if isinstance(value, FieldOnSurface):
+        return value.dataset()
     if isinstance(value, AnalysedField):
         grid = to_pyvista(value.tets)
         sites = [(grid.point_data, value.frames)]
         if value.tet_frames is not None:
             sites.append((grid.cell_data, value.tet_frames))
         for data, frames in sites:
-            put_frames(data, frames)
+            if value.stretch is None:
+                put_frames(data, frames)
+            else:
+                put_stretched_frames(data, frames, value.stretch)
         grid.cell_data["axes_agree"] = np.asarray(_core.axes_agree(value.tets, value.frames))
         if value.regions is not None:
             grid.cell_data["region"] = np.asarray(value.regions)
@@ -237,7 +239,7 @@ Record = Mapping[str, Any]
 
 
 def to_pandas(
-    records: Sequence[Record] | Record | AnalysedField | SurfaceFieldResult | Comparison | SingularGraph,
+    records: Sequence[Record] | Record | AnalysedField | FieldOnSurface | Comparison | SingularGraph,
 ) -> pandas.DataFrame:
     """One line per record: of a result, a list of `result.record`, a Comparison, `octafield.study.rows(folder)`; nested
     numbers are in columns group_name, lists are left out. SingularGraph: one line per curve with quarter_turns, length,
@@ -257,7 +259,7 @@ def to_pandas(
 
     if isinstance(records, SingularGraph):
         return pandas.DataFrame(_curve_lines(records), columns=["quarter_turns", "length", "closed", "points"])
-    if isinstance(records, (AnalysedField, SurfaceFieldResult)):
+    if isinstance(records, (AnalysedField, FieldOnSurface)):
         records = [records.record]
     elif isinstance(records, Mapping):
         records = [records]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,10 +14,11 @@ import numpy as np
 from .. import _core
 from .._core import BoundaryMeshability, FrameStreamline, Streamline, SurfaceSingularity, TetDomain
 from ..fields.analysed import AnalysedField
-from ..fields.direction_field import SurfaceFieldResult
+from ..fields.direction_field import FieldOnSurface
 from ..fields.frame_field import FieldResult
 from ..fields.sizes import sizes_arrays
 from ..files.writing import text_array, vtp_bytes, write_file
+from ..frame_files.vtk import CONVENTION, STRETCHED_CONVENTION
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..records.record_file import RECORD_FILE, write_record
 from ..view.datasets import polylines
@@ -36,7 +37,7 @@ FIELD_FILES = ("field.vtu", "singular.vtp", "features.vtp", "streamlines.vtp", *
 def write_field_result(result: FieldResult, folder: Path, progress: Progress | None = None) -> None:
     """Writes the files of a run, and the record with their names and the time it took."""
     announce(progress, "write")
-    metadata = _metadata(result.record)
+    metadata = _metadata(result.record, result.stretch is not None)
     with _telling(result, folder, FIELD_FILES):
         _write_volume_files(result, folder, metadata)
         _write_surface_files(result, folder, metadata)
@@ -47,7 +48,7 @@ def write_analysis(result: AnalysedField, folder: Path, progress: Progress | Non
     import pyvista
 
     announce(progress, "write")
-    metadata = _metadata(result.record)
+    metadata = _metadata(result.record, result.stretch is not None)
     with _telling(result, folder, FIELD_FILES):
         _write_volume_files(result, folder, metadata)
         surface = pyvista.PolyData.from_regular_faces(
@@ -64,49 +65,41 @@ def _write_volume_files(result: AnalysedField, folder: Path, metadata: dict[str,
         more["lengths" if result.tet_frames is None else "tet_lengths"] = result.lengths
     if result.feature_edges is not None:
         more["features"] = result.feature_edges
+    if result.stretch is not None:
+        more["stretch"] = result.stretch
     points, cells = sizes_arrays(result.sizes, result.tet_frames)
     _core.write_field(
         folder / "field.vtu", result.tets, result.frames, metadata, point_data=points, cell_data=cells, **more
     )
     _core.write_singular_graph(folder / "singular.vtp", result.singular_graph, metadata, result.meshability)
     if result.boundary_meshability is not None:
-        write_features(folder / "features.vtp", result.tets, result.boundary_meshability, metadata)
+        write_features(
+            folder / "features.vtp", result.tets, result.boundary_meshability, metadata, result.wedge_alignment
+        )
     if result.streamlines:
         write_streamlines(folder / "streamlines.vtp", result.streamlines, metadata)
 
 
-def write_surface_result(result: SurfaceFieldResult, folder: Path, progress: Progress | None = None) -> None:
+def write_surface_result(result: FieldOnSurface, folder: Path, progress: Progress | None = None) -> None:
     """The files of a surface field, and the record."""
     announce(progress, "write")
     metadata = _metadata(result.record)
     with _telling(result, folder, SURFACE_FILES):
-        _write_surface_files(result, folder, metadata, result.vertex_data)
+        _write_surface_files(result, folder, metadata)
 
 
 def _write_surface_files(
-    result: FieldResult | SurfaceFieldResult,
+    result: FieldResult | FieldOnSurface,
     folder: Path,
     metadata: dict[str, str],
-    vertex_data: Mapping[str, np.ndarray] | None = None,
 ) -> None:
     surface, points, curves = (folder / name for name in SURFACE_FILES)
-    if vertex_data:
-        _save(_surface(result, vertex_data), surface, metadata)
+    if isinstance(result, FieldOnSurface) and result.vertex_data:
+        _save(result.dataset(), surface, metadata)
     else:
         _core.write_surface_field(surface, result.surface, result.directions, metadata)
     write_singular_points(points, result.singularities.points, metadata)
     write_streamlines(curves, result.separatrices, metadata)
-
-
-def _surface(result: FieldResult | SurfaceFieldResult, vertex_data: Mapping[str, np.ndarray]) -> pyvista.PolyData:
-    import pyvista
-
-    surface: pyvista.PolyData = pyvista.PolyData.from_regular_faces(
-        np.array(result.surface.vertices), np.array(result.surface.triangles, int)
-    )
-    for name, values in {"direction": result.directions, **vertex_data}.items():
-        surface.point_data[name] = values
-    return surface
 
 
 def write_singular_points(path: Path, singularities: Sequence[SurfaceSingularity], metadata: dict[str, str]) -> None:
@@ -142,11 +135,18 @@ def write_streamlines(
     _save(poly, path, metadata)
 
 
-def write_features(path: Path, tets: TetDomain, found: BoundaryMeshability, metadata: dict[str, str]) -> None:
+def write_features(
+    path: Path,
+    tets: TetDomain,
+    found: BoundaryMeshability,
+    metadata: dict[str, str],
+    off_wedges: np.ndarray | None = None,
+) -> None:
     """.vtp: corners as vertex cells, then feature edges (one line per wedge), then edges of the surface that a singular
     edge crosses. Cell data kind (0, 1, 2 in this order), meshable (0/1) and hexahedra (lines: the lower number of the
     two ends; corners: what is left for edges inside; octafield.volume.no_number: none), angle (of the wedge, degrees;
-    else 0), vertex (of the tet mesh; lines: the first of their two)."""
+    else 0), vertex (of the tet mesh; lines: the first of their two); with off_wedges, (k, 2) radians, off_faces and
+    off_edge (of the wedge, degrees; else 0)."""
     import pyvista
 
     corners, wedges, crossings = found.corners, found.wedges, found.crossings
@@ -171,8 +171,11 @@ def write_features(path: Path, tets: TetDomain, found: BoundaryMeshability, meta
     }
     for name, values in columns.items():
         poly.cell_data[name] = np.array(values, np.int32)
-    angles = [0.0] * len(corners) + [np.degrees(w.angle) for w in wedges] + [0.0] * len(crossings)
-    poly.cell_data["angle"] = np.array(angles, float)
+    degrees = {"angle": np.array([np.degrees(w.angle) for w in wedges], float)}
+    if off_wedges is not None:
+        degrees |= {"off_faces": np.degrees(off_wedges[:, 0]), "off_edge": np.degrees(off_wedges[:, 1])}
+    for name, of_wedges in degrees.items():
+        poly.cell_data[name] = np.concatenate([np.zeros(len(corners)), of_wedges, np.zeros(len(crossings))])
     _save(poly, path, metadata)
 
 
@@ -180,7 +183,7 @@ def _save(poly: pyvista.PolyData, path: Path, metadata: dict[str, str]) -> None:
     write_file(path, vtp_bytes(poly, metadata))
 
 
-def _metadata(record: FieldRecord | SurfaceFieldRecord) -> dict[str, str]:
+def _metadata(record: FieldRecord | SurfaceFieldRecord, stretched: bool = False) -> dict[str, str]:
     """What makes a file understandable by itself; no times, so that equal runs write equal files, and no
     thread count, on which results do not depend."""
     options = {name: value for name, value in record.options.items() if name != "threads"}
@@ -190,15 +193,12 @@ def _metadata(record: FieldRecord | SurfaceFieldRecord) -> dict[str, str]:
         "mesh_sha256": record.mesh_sha256,
         "options": json.dumps(options),
         "energy": repr(record.energy),
-        "convention": (
-            "frame axes are the columns of R(quaternion), quaternion w x y z, sh4 order m = -4..4; axes are named per"
-            " vertex: interpolate sh4, or axes only in cells with axes_agree 1"
-        ),
+        "convention": STRETCHED_CONVENTION if stretched else CONVENTION,
     }
 
 
 @contextlib.contextmanager
-def _telling(result: AnalysedField | SurfaceFieldResult, folder: Path, names: Sequence[str]) -> Iterator[None]:
+def _telling(result: AnalysedField | FieldOnSurface, folder: Path, names: Sequence[str]) -> Iterator[None]:
     """Files are written in the block; then the record, with what that took and which of `names` are there."""
     memory, clock = PeakMemory(), PhaseClock()
     clock.wall, clock.cpu = dict(result.record.wall_seconds), dict(result.record.cpu_seconds)

@@ -83,6 +83,7 @@ def mesh_of(run: Run) -> Hashable:
 # Options younger than keys, as they were before: not in the key, so that runs of earlier studies keep theirs.
 _LATER = (
     ("sizes", "none"),
+    ("axes", "orthogonal"),
     ("max_hole_edges", 0),
     ("wrap_alpha", 0.0),
     ("wrap_offset", 0.0),

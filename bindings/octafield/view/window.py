@@ -44,8 +44,9 @@ def _opens_windows() -> bool:
 
 
 def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
-    """Shows the singular curves that `octafield field` wrote, the mesh of `octafield hex-dominant` or the quads
-    of `octafield quad-layout`, in a window, or writes a PNG; what it did, for --json."""
+    """Shows the singular curves that `octafield field` wrote, the points and separatrices of `octafield
+    surface-field`, the mesh of `octafield hex-dominant` or the quads of `octafield quad-layout`, in a window, or writes
+    a PNG; what it did, for --json."""
     shape, names = _scene_of(folder)
     record = {"folder": str(folder), "files": names, "picture": picture and str(picture)}
     if picture is None:
@@ -66,7 +67,7 @@ def view_folder(folder: Path, picture: Path | None = None) -> dict[str, Any]:
 
 def _scene_of(folder: Path) -> tuple[pyvista.Plotter, list[str]]:
     """With the names of the files it shows."""
-    from . import quad_layout
+    from . import quad_layout, surface_field
 
     if quad_layout.is_layout(folder):
         return quad_layout.scene_of_folder(folder)
@@ -74,13 +75,15 @@ def _scene_of(folder: Path) -> tuple[pyvista.Plotter, list[str]]:
         from .hex_mesh import scene_of_folder
 
         return scene_of_folder(folder), ["mesh.vtu", "singular.vtp"]
+    if surface_field.is_surface_field(folder):
+        return surface_field.scene_of_folder(folder)
     from .curves import scene_from_files
 
     files = folder / "surface.vtp", folder / "singular.vtp"
     missing = next((path for path in files if not path.is_file()), None)
     if missing is not None:
         raise IoError(
-            f"{missing}: no such file; give the folder of a result of `octafield field`, `hex-dominant` or"
-            " `quad-layout`"
+            f"{missing}: no such file; give the folder of a result of `octafield field`, `surface-field`,"
+            " `hex-dominant` or `quad-layout`"
         )
     return scene_from_files(*files), [path.name for path in files]

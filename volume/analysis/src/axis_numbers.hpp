@@ -1,4 +1,4 @@
-// The six directions of a frame's axes by number, and how matchings carry them from vertex to vertex.
+// The six directions of a frame's axes by number.
 #pragma once
 
 #include <array>
@@ -31,31 +31,5 @@ inline int turned_axis(int element, int axis) {
     }();
     return table[element][axis];
 }
-
-// Axes of a field with one frame per vertex.
-class VertexAxes {
-public:
-    explicit VertexAxes(const Quaternions& frames) : frames_(frames) {}
-
-    frames::Quaternion frame(Index v) const { return frames::from_wxyz(frames_.row(v)); }
-    frames::Vector3 direction(Index v, int axis) const { return frame(v) * axis_unit(axis); }
-    int nearest(Index v, const frames::Vector3& direction) const {
-        return nearest_axis_number(frame(v).conjugate() * direction);
-    }
-
-    // The element o for which q_v o is near q_w. Edges are matched from their lower to their higher vertex, as in
-    // singular_graph, so that all agree also in a tie.
-    int matching(Index v, Index w) const {
-        return v < w ? frames::matching(frame(v), frame(w))
-                     : frames::octahedral_inverse(frames::matching(frame(w), frame(v)));
-    }
-    // The axis of w that continues the axis of v.
-    int carried(Index v, Index w, int axis) const {
-        return turned_axis(frames::octahedral_inverse(matching(v, w)), axis);
-    }
-
-private:
-    const Quaternions& frames_;
-};
 
 }  // namespace octafield::volume

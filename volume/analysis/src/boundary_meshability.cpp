@@ -179,7 +179,8 @@ std::vector<EdgeKey> surface_keys(const BoundarySurface& surface) {
 
 }  // namespace
 
-BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaternions& frames, int threads) {
+BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaternions& frames, int threads,
+                                         const Stretches& stretch) {
     const TetMesh& mesh = domain.mesh();
     const BoundarySurface& surface = domain.surface();
     const surface::FeatureGraph& features = domain.features();
@@ -187,7 +188,7 @@ BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaterni
     const BoundaryStars stars(surface.mesh, features);
     const std::vector<EdgeKey> keys = feature_keys(surface, features);
     const std::vector<Wedge> wedges = surface_wedges(domain, keys, threads);
-    const TurnCounter counter(mesh, frames);
+    const TurnCounter counter(mesh, frames, stretch_or_none(stretch, domain.vertex_count()));
     BoundaryMeshability result;
     result.wedges.resize(wedges.size());
     parallel_for(static_cast<std::int64_t>(wedges.size()), threads,
@@ -197,6 +198,29 @@ BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaterni
         surface, stars, features, keys,
         [&](Index v, const std::vector<Index>& link) { return counter.quadrilaterals(v, link); }, result.wedges);
     add_totals(result);
+    return result;
+}
+
+Rows<double, 2> wedge_alignment(const TetDomain& domain, const Quaternions& frames, int threads,
+                                const Stretches& stretch) {
+    require_frames(frames, domain.vertex_count());
+    const Stretches* stretched = stretch_or_none(stretch, domain.vertex_count());
+    const std::vector<Wedge> wedges =
+        surface_wedges(domain, feature_keys(domain.surface(), domain.features()), threads);
+    Rows<double, 2> result = Rows<double, 2>::Zero(static_cast<Eigen::Index>(wedges.size()), 2);
+    parallel_for(result.rows(), threads, [&](std::int64_t i) {
+        const Wedge& wedge = wedges[i];
+        const auto [first, last] = outward_normals(domain.mesh(), wedge);
+        const Vector3 edge = (domain.mesh().vertices.row(wedge.b) - domain.mesh().vertices.row(wedge.a)).transpose();
+        for (const Index v : {wedge.a, wedge.b}) {
+            const frames::Matrix3 turned = frames::from_wxyz(frames.row(v)).toRotationMatrix();
+            const frames::Matrix3 s = stretched ? unpacked(stretched->row(v)) : frames::Matrix3::Identity();
+            const frames::Matrix3 normals = s.inverse() * turned, axes = s * turned;
+            result(i, 0) = std::max(
+                {result(i, 0), angle_to_nearest_column(normals, first), angle_to_nearest_column(normals, last)});
+            result(i, 1) = std::max(result(i, 1), angle_to_nearest_column(axes, edge));
+        }
+    });
     return result;
 }
 

@@ -37,9 +37,11 @@ void require_length(double value, const char* name) {
 
 std::vector<FrameStreamline> frame_streamlines(const TetDomain& domain, const Quaternions& frames,
                                                const std::vector<FrameStreamlineSeed>& seeds,
-                                               const FrameStreamlineOptions& options, int threads) {
+                                               const FrameStreamlineOptions& options, int threads,
+                                               const Stretches& stretch) {
     const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
+    const Stretches* stretched = stretch_or_none(stretch, domain.vertex_count());
     require_seeds(mesh, seeds);
     require_length(options.max_length, "max_length");
     require_length(options.closing_distance, "closing_distance");
@@ -47,7 +49,7 @@ std::vector<FrameStreamline> frame_streamlines(const TetDomain& domain, const Qu
     if (seeds.empty()) return lines;
     FrameStreamlineOptions used = options;
     if (used.max_length == 0) used.max_length = 4 * surface::shape_size(domain.boundary().mesh);
-    const FrameTracer tracer(mesh, frames, domain.triangles(), used);
+    const FrameTracer tracer(mesh, VertexAxes(frames, stretched), domain.triangles(), used);
     parallel_for(
         static_cast<std::int64_t>(seeds.size()), threads, [&](std::int64_t i) { lines[i] = tracer.trace(seeds[i]); },
         1);
@@ -72,11 +74,11 @@ std::vector<FrameStreamlineSeed> seeds_at(const TetDomain& domain, const Points&
     return seeds;
 }
 
-std::vector<FrameStreamlineSeed> axis_seeds_at(const TetDomain& domain, const Quaternions& frames,
-                                               const Points& points) {
+std::vector<FrameStreamlineSeed> axis_seeds_at(const TetDomain& domain, const Quaternions& frames, const Points& points,
+                                               const Stretches& stretch) {
     const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
-    const VertexAxes axes(frames);
+    const VertexAxes axes(frames, stretch_or_none(stretch, domain.vertex_count()));
     std::vector<FrameStreamlineSeed> result;
     for (const FrameStreamlineSeed& seed : seeds_at(domain, points, Points::Zero(points.rows(), 3))) {
         Eigen::Index nearest;

@@ -3,17 +3,17 @@
 
 #include <optional>
 
-#include "axis_numbers.hpp"
 #include "octafield/volume/streamlines.hpp"
 #include "octafield/volume/triangle_table.hpp"
+#include "vertex_axes.hpp"
 
 namespace octafield::volume {
 
 class FrameTracer {
 public:
-    FrameTracer(const TetMesh& mesh, const Quaternions& frames, const TriangleTable& table,
+    FrameTracer(const TetMesh& mesh, const VertexAxes& axes, const TriangleTable& table,
                 const FrameStreamlineOptions& options)
-        : mesh_(mesh), axes_(frames), table_(table), options_(options) {}
+        : mesh_(mesh), axes_(axes), table_(table), options_(options) {}
 
     FrameStreamline trace(const FrameStreamlineSeed& seed) const;
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <string>
 
-#include "axis_numbers.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/octahedral_group.hpp"
 #include "octafield/volume/smoothed_curves.hpp"
 #include "require_frames.hpp"
 #include "singular_vertices.hpp"
+#include "vertex_axes.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -41,10 +41,12 @@ void require_fitting(const TetMesh& mesh, const SingularGraph& graph) {
 }
 
 // Whether the frame of a, carried round the triangle, turns about its axis nearest to the triangle's normal.
-bool turns_about_normal(const TetMesh& mesh, const Quaternions& frames, const SingularTriangle& t) {
+bool turns_about_normal(const TetMesh& mesh, const Quaternions& frames, const Stretches* stretch,
+                        const SingularTriangle& t) {
     const Eigen::Vector3d a = mesh.vertices.row(t.a), b = mesh.vertices.row(t.b), c = mesh.vertices.row(t.c);
     const Quaternion q = frames::from_wxyz(frames.row(t.a));
-    const Eigen::Vector3d normal = q.conjugate() * (b - a).cross(c - a);  // in the frame's own axes
+    const StretchedDirections seen = stretch ? stretched_directions(*stretch, t.a) : StretchedDirections();
+    const Eigen::Vector3d normal = q.conjugate() * seen.normal((b - a).cross(c - a));  // in the frame's own axes
     Eigen::Index nearest, turned;
     normal.cwiseAbs().maxCoeff(&nearest);
     frames::octahedral_group()[t.holonomy].vec().cwiseAbs().maxCoeff(&turned);
@@ -114,8 +116,7 @@ void judge(const SingularGraph& graph, const VertexAxes& axes, std::vector<Leavi
 }
 
 // Lists the ends of the curves and judges the vertices by them.
-void find_curve_ends(const Quaternions& frames, const SingularGraph& graph, Meshability& result) {
-    const VertexAxes axes(frames);
+void find_curve_ends(const VertexAxes& axes, const SingularGraph& graph, Meshability& result) {
     const Points smoothed = smoothed_curves(graph).points;
     std::vector<std::vector<Leaving>> leaving(result.vertices.size());
     std::vector<std::vector<int>> turns(result.vertices.size());
@@ -142,15 +143,17 @@ void find_curve_ends(const Quaternions& frames, const SingularGraph& graph, Mesh
 
 }  // namespace
 
-Meshability local_meshability(const TetDomain& domain, const Quaternions& frames, const SingularGraph& graph) {
+Meshability local_meshability(const TetDomain& domain, const Quaternions& frames, const SingularGraph& graph,
+                              const Stretches& stretch) {
     const TetMesh& mesh = domain.mesh();
     require_frames(frames, mesh.vertices.rows());
     require_fitting(mesh, graph);
+    const Stretches* stretched = stretch_or_none(stretch, domain.vertex_count());
     Meshability result = singular_vertices(graph, boundary_points(graph));
     for (SingularVertex& v : result.vertices)
-        v.about_normal =
-            v.kind == SingularVertexKind::boundary_end && turns_about_normal(mesh, frames, graph.triangles[v.point]);
-    find_curve_ends(frames, graph, result);
+        v.about_normal = v.kind == SingularVertexKind::boundary_end &&
+                         turns_about_normal(mesh, frames, stretched, graph.triangles[v.point]);
+    find_curve_ends(VertexAxes(frames, stretched), graph, result);
     find_junctions(graph, result);
     add_totals(graph, result);
     return result;

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "axis_numbers.hpp"
 #include "edge_loops.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/smoothed_curves.hpp"
 #include "require_frames.hpp"
 #include "singular_vertices.hpp"
+#include "vertex_axes.hpp"
 
 namespace octafield::volume {
 namespace {

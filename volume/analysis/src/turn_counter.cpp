@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace octafield::volume {
@@ -60,23 +61,14 @@ int nearest_of_residue(int residue, double measured) {
     return residue + 4 * static_cast<int>(std::lround((measured - residue) / 4));
 }
 
-double wedge_angle(const TetMesh& mesh, const Wedge& wedge) {
+double wedge_angle(const TetMesh& mesh, const Wedge& wedge, const StretchedDirections& seen = {}) {
     const auto from_a = [&](Index v) -> Vector3 {
-        return (mesh.vertices.row(v) - mesh.vertices.row(wedge.a)).transpose();
+        return seen.tangent((mesh.vertices.row(v) - mesh.vertices.row(wedge.a)).transpose());
     };
     double sum = 0;
     for (std::size_t i = 0; i + 1 < wedge.link.size(); ++i)
         sum += std::abs(angle_about(from_a(wedge.b), from_a(wedge.link[i]), from_a(wedge.link[i + 1])));
     return sum;
-}
-
-// Normals of the first and last triangle, out of the wedge.
-std::pair<Vector3, Vector3> outward_normals(const TetMesh& mesh, const Wedge& wedge) {
-    const auto from_a = [&](Index v) -> Vector3 {
-        return (mesh.vertices.row(v) - mesh.vertices.row(wedge.a)).transpose();
-    };
-    const Vector3 edge = from_a(wedge.b);
-    return {from_a(wedge.link.front()).cross(edge), edge.cross(from_a(wedge.link.back()))};
 }
 
 // A sector of the surface round v: the fan of triangles (v, link[i], link[i + 1]), counter-clockwise from outside.
@@ -86,8 +78,8 @@ struct Sector {
     std::vector<Vector3> normals;    // unit, per triangle
 };
 
-Sector sector_of(const TetMesh& mesh, Index v, const std::vector<Index>& link) {
-    const auto from_v = [&](Index w) -> Vector3 { return (mesh.vertices.row(w) - mesh.vertices.row(v)).transpose(); };
+// from_v: the direction from v to a vertex of the link.
+Sector sector_of(const std::vector<Index>& link, const std::function<Vector3(Index)>& from_v) {
     Sector sector;
     for (std::size_t i = 0; i + 1 < link.size(); ++i) {
         sector.normals.push_back(from_v(link[i]).cross(from_v(link[i + 1])).normalized());
@@ -100,9 +92,18 @@ Sector sector_of(const TetMesh& mesh, Index v, const std::vector<Index>& link) {
 
 }  // namespace
 
-int TurnCounter::hexahedra(const Wedge& wedge, Index v, double angle, bool round_the_link) const {
-    const Vector3 edge = p(wedge.b) - p(wedge.a);
-    const auto [first, last] = outward_normals(mesh_, wedge);
+std::pair<Vector3, Vector3> outward_normals(const TetMesh& mesh, const Wedge& wedge, const StretchedDirections& seen) {
+    const auto from_a = [&](Index v) -> Vector3 {
+        return seen.tangent((mesh.vertices.row(v) - mesh.vertices.row(wedge.a)).transpose());
+    };
+    const Vector3 edge = from_a(wedge.b);
+    return {from_a(wedge.link.front()).cross(edge), edge.cross(from_a(wedge.link.back()))};
+}
+
+int TurnCounter::hexahedra(const Wedge& wedge, Index v, bool round_the_link) const {
+    const StretchedDirections seen = seen_from(v);
+    const Vector3 edge = seen.tangent(p(wedge.b) - p(wedge.a));
+    const auto [first, last] = outward_normals(mesh_, wedge, seen);
     const int normal = axes_.nearest(v, first);
     Carried carried(axes_, v, nearest_across(axes_, v, edge, normal), normal, edge);
     const int tangent = carried.about;
@@ -113,31 +114,30 @@ int TurnCounter::hexahedra(const Wedge& wedge, Index v, double angle, bool round
     const auto turns = quarter_turns(carried.about, carried.across, axes_.nearest(v, last));
     if (carried.about != tangent || !turns) return no_number;
     // Normals are half a turn more than the wedge apart.
-    return nearest_of_residue((*turns + 2) % 4, (angle - carried.turn) / quarter);
+    return nearest_of_residue((*turns + 2) % 4, (wedge_angle(mesh_, wedge, seen) - carried.turn) / quarter);
 }
 
 std::optional<int> TurnCounter::quadrilaterals(Index v, const std::vector<Index>& link) const {
-    const Sector sector = sector_of(mesh_, v, link);
+    const Sector sector = sector_of(link, [&](Index w) { return seen_way(v, w); });
     const int normal = axes_.nearest(link.front(), sector.normals.front());
-    Carried carried(axes_, link.front(), normal, nearest_across(axes_, link.front(), p(link.front()) - p(v), normal),
+    Carried carried(axes_, link.front(), normal, nearest_across(axes_, link.front(), seen_way(v, link.front()), normal),
                     sector.mean);
     for (std::size_t i = 1; i < link.size(); ++i) carried.to(link[i]);
     const Index end = link.back();
     if (carried.about != axes_.nearest(end, sector.normals.back())) return std::nullopt;
     const auto turns =
-        quarter_turns(carried.about, carried.across, nearest_across(axes_, end, p(end) - p(v), carried.about));
+        quarter_turns(carried.about, carried.across, nearest_across(axes_, end, seen_way(v, end), carried.about));
     if (!turns) return std::nullopt;
     return nearest_of_residue(*turns, (sector.angle - carried.turn) / quarter);
 }
 
 FeatureWedge TurnCounter::judge(const Wedge& wedge) const {
-    const double size = wedge_angle(mesh_, wedge);
     FeatureWedge result{wedge.a,
                         wedge.b,
-                        size,
-                        hexahedra(wedge, wedge.a, size, false),
-                        hexahedra(wedge, wedge.b, size, false),
-                        hexahedra(wedge, wedge.a, size, true),
+                        wedge_angle(mesh_, wedge),
+                        hexahedra(wedge, wedge.a, false),
+                        hexahedra(wedge, wedge.b, false),
+                        hexahedra(wedge, wedge.a, true),
                         false};
     const auto fails = [](int number) { return number < 1 && number != no_number; };
     result.meshable = (result.hexahedra_a != no_number || result.hexahedra_b != no_number) &&
@@ -146,11 +146,12 @@ FeatureWedge TurnCounter::judge(const Wedge& wedge) const {
 }
 
 int TurnCounter::hexahedra(Index v, Index w, const Vector3& normal_v, const Vector3& normal_w) const {
-    const int carried = axes_.carried(v, w, axes_.nearest(v, normal_v)), there = axes_.nearest(w, normal_w);
+    const Vector3 at_v = seen_from(v).normal(normal_v), at_w = seen_from(w).normal(normal_w);
+    const int carried = axes_.carried(v, w, axes_.nearest(v, at_v)), there = axes_.nearest(w, at_w);
     if (carried == there) return 2;
-    const Vector3 about = (normal_v + normal_w).cross(p(w) - p(v));  // normals turn forward about it where convex
+    const Vector3 about = (at_v + at_w).cross(seen_way(v, w));  // normals turn forward about it where convex
     const Vector3 from = axes_.direction(w, carried), to = axes_.direction(w, there);
-    const bool convex = angle_about(about, normal_v, normal_w) > 0;
+    const bool convex = angle_about(about, at_v, at_w) > 0;
     if (carried == opposite_axis(there)) return convex ? 0 : 4;
     return about.dot(from.cross(to)) > 0 ? 1 : 3;
 }
@@ -194,7 +195,7 @@ int TetTurnCounter::hexahedra(const Wedge& wedge) const {
 }
 
 std::optional<int> TetTurnCounter::quadrilaterals(Index v, const std::vector<Index>& link) const {
-    const Sector sector = sector_of(mesh_, v, link);
+    const Sector sector = sector_of(link, [&](Index w) -> Vector3 { return p(w) - p(v); });
     const Wedge* wedge = wedge_at(v, link.front());
     if (!wedge) return std::nullopt;
     Index tet = wedge->link.front() == link[1] ? wedge->tets.front() : wedge->tets.back();

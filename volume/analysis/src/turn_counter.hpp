@@ -6,15 +6,21 @@
 #include <utility>
 #include <vector>
 
-#include "axis_numbers.hpp"
 #include "octafield/volume/boundary_meshability.hpp"
 #include "surface_wedges.hpp"
+#include "vertex_axes.hpp"
 
 namespace octafield::volume {
 
+// Normals of the first and last triangle, out of the wedge, as the frame of a vertex sees them.
+std::pair<frames::Vector3, frames::Vector3> outward_normals(const TetMesh& mesh, const Wedge& wedge,
+                                                            const StretchedDirections& seen = {});
+
 class TurnCounter {
 public:
-    TurnCounter(const TetMesh& mesh, const Quaternions& frames) : mesh_(mesh), axes_(frames) {}
+    // stretch: none, or of axes S Q: then angles and directions at a vertex are counted as Q sees them, after S^-1.
+    TurnCounter(const TetMesh& mesh, const Quaternions& frames, const Stretches* stretch = nullptr)
+        : mesh_(mesh), axes_(frames), stretch_(stretch) {}
 
     FeatureWedge judge(const Wedge& wedge) const;
 
@@ -27,11 +33,17 @@ public:
 
 private:
     // Hexahedra in the wedge by the frame of v, one of its ends; carried through the link and back where asked.
-    int hexahedra(const Wedge& wedge, Index v, double angle, bool round_the_link) const;
+    int hexahedra(const Wedge& wedge, Index v, bool round_the_link) const;
+    StretchedDirections seen_from(Index v) const {
+        return stretch_ ? stretched_directions(*stretch_, v) : StretchedDirections();
+    }
+    // The direction from v to w as the frame of w sees it.
+    frames::Vector3 seen_way(Index v, Index w) const { return seen_from(w).tangent(p(w) - p(v)); }
     frames::Vector3 p(Index v) const { return mesh_.vertices.row(v).transpose(); }
 
     const TetMesh& mesh_;
     const VertexAxes axes_;
+    const Stretches* stretch_;
 };
 
 // The same by frames in the tets, carried from one to the next through the wedges between.
@@ -53,7 +65,7 @@ private:
     frames::Vector3 p(Index v) const { return mesh_.vertices.row(v).transpose(); }
 
     const TetMesh& mesh_;
-    const VertexAxes axes_;  // of the tets
+    const VertexAxes axes_;                                    // of the tets
     std::map<std::pair<Index, Index>, const Wedge*> by_edge_;  // null: several
 };
 

@@ -32,4 +32,14 @@ private:
 
 StretchedDirections stretched_directions(const Stretches& stretch, Index vertex);
 
+// Throws InvalidInput (kinds "wrong_size", "not_positive") unless there is a positive definite matrix for each of
+// `count` vertices.
+void require_stretch(const Stretches& stretch, Index count);
+
+// None where there are no rows: frames at right angles. Throws as require_stretch.
+const Stretches* stretch_or_none(const Stretches& stretch, Index count);
+
+// Radians in [0, pi / 2] between a direction and the nearest column.
+double angle_to_nearest_column(const frames::Matrix3& columns, const frames::Vector3& direction);
+
 }  // namespace octafield::volume

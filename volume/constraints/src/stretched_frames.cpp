@@ -17,6 +17,22 @@ namespace {
 using frames::Matrix3;
 using frames::Vector3;
 
+template <class Columns>
+Eigen::VectorXd angles(const TetDomain& domain, const Quaternions& frames, const Stretches& stretch,
+                       const std::vector<Index>& vertex, const Points& direction, const Columns& columns) {
+    require_frames(frames, domain.vertex_count());
+    require_stretch(stretch, domain.vertex_count());
+    Eigen::VectorXd result(direction.rows());
+    for (Eigen::Index i = 0; i < result.size(); ++i) {
+        const Index v = domain.surface().vertex_map[vertex[i]];
+        const Matrix3 rotation = frames::from_wxyz(frames.row(v)).toRotationMatrix();
+        result[i] = angle_to_nearest_column(columns(unpacked(stretch.row(v)), rotation), direction.row(i).transpose());
+    }
+    return result;
+}
+
+}  // namespace
+
 void require_stretch(const Stretches& stretch, Index count) {
     if (stretch.rows() != count)
         throw InvalidInput(
@@ -31,8 +47,7 @@ void require_stretch(const Stretches& stretch, Index count) {
                            "not_positive", bad);
 }
 
-// Angle between the direction and the nearest column, at most pi / 2.
-double angle_to_nearest(const Matrix3& columns, const Vector3& direction) {
+double angle_to_nearest_column(const Matrix3& columns, const Vector3& direction) {
     double best = std::numbers::pi / 2;
     for (int i = 0; i < 3; ++i)
         best =
@@ -40,21 +55,11 @@ double angle_to_nearest(const Matrix3& columns, const Vector3& direction) {
     return best;
 }
 
-template <class Columns>
-Eigen::VectorXd angles(const TetDomain& domain, const Quaternions& frames, const Stretches& stretch,
-                       const std::vector<Index>& vertex, const Points& direction, const Columns& columns) {
-    require_frames(frames, domain.vertex_count());
-    require_stretch(stretch, domain.vertex_count());
-    Eigen::VectorXd result(direction.rows());
-    for (Eigen::Index i = 0; i < result.size(); ++i) {
-        const Index v = domain.surface().vertex_map[vertex[i]];
-        const Matrix3 rotation = frames::from_wxyz(frames.row(v)).toRotationMatrix();
-        result[i] = angle_to_nearest(columns(unpacked(stretch.row(v)), rotation), direction.row(i).transpose());
-    }
-    return result;
+const Stretches* stretch_or_none(const Stretches& stretch, Index count) {
+    if (stretch.rows() == 0) return nullptr;
+    require_stretch(stretch, count);
+    return &stretch;
 }
-
-}  // namespace
 
 StretchedDirections::StretchedDirections(const Matrix3& stretch)
     : stretch_(stretch), inverse_(stretch.inverse()), is_identity_(stretch == Matrix3::Identity()) {}

@@ -27,20 +27,44 @@ std::array<T, 1> one(T value) {
     return {value};
 }
 
+constexpr const char* axis_names[3] = {"frame_u", "frame_v", "frame_w"};
+
+void add_quaternions(vtkFieldData* data, const char* name, const Quaternions& rows) {
+    const auto array = add_array<vtkDoubleArray>(
+        data, name, 4, rows.rows(), [&](Eigen::Index i) -> frames::Vector4 { return rows.row(i).transpose(); });
+    constexpr const char* wxyz[4] = {"w", "x", "y", "z"};
+    for (int c = 0; c < 4; ++c) array->SetComponentName(c, wxyz[c]);
+}
+
 void add_frames(vtkFieldData* data, const Quaternions& rows) {
     using frames::Sh4;
     const auto q = [&](Eigen::Index i) -> frames::Quaternion { return frames::from_wxyz(rows.row(i)); };
-    constexpr const char* axes[3] = {"frame_u", "frame_v", "frame_w"};
     for (int k = 0; k < 3; ++k)
-        add_array<vtkDoubleArray>(data, axes[k], 3, rows.rows(),
+        add_array<vtkDoubleArray>(data, axis_names[k], 3, rows.rows(),
                                   [&](Eigen::Index i) -> Eigen::Vector3d { return q(i).toRotationMatrix().col(k); });
-    const auto quaternion = add_array<vtkDoubleArray>(
-        data, "quaternion", 4, rows.rows(), [&](Eigen::Index i) -> frames::Vector4 { return rows.row(i).transpose(); });
-    constexpr const char* wxyz[4] = {"w", "x", "y", "z"};
-    for (int c = 0; c < 4; ++c) quaternion->SetComponentName(c, wxyz[c]);
+    add_quaternions(data, "quaternion", rows);
     const auto sh4 = add_array<vtkDoubleArray>(data, "sh4", Sh4::dimension, rows.rows(),
                                                [&](Eigen::Index i) { return Sh4::embed(q(i)); });
     for (int m = -4; m <= 4; ++m) sh4->SetComponentName(m + 4, std::to_string(m).c_str());
+}
+
+void add_stretched_frames(vtkFieldData* data, const Quaternions& rows, const Stretches& stretch) {
+    const Rows<double, 9> axes = stretched_axes(rows, stretch);
+    const auto axis = [&](Eigen::Index i, int k) -> Eigen::Vector3d {
+        return axes.row(i).segment<3>(3 * k).transpose();
+    };
+    for (int k = 0; k < 3; ++k)
+        add_array<vtkDoubleArray>(data, axis_names[k], 3, rows.rows(),
+                                  [&](Eigen::Index i) -> Eigen::Vector3d { return axis(i, k).normalized(); });
+    add_array<vtkDoubleArray>(data, "frame_lengths", 3, rows.rows(), [&](Eigen::Index i) {
+        return Eigen::Vector3d(axis(i, 0).norm(), axis(i, 1).norm(), axis(i, 2).norm());
+    });
+    const auto array = add_array<vtkDoubleArray>(data, "stretch", 6, stretch.rows(), [&](Eigen::Index i) {
+        return Eigen::Matrix<double, 6, 1>(stretch.row(i).transpose());
+    });
+    constexpr const char* names[6] = {"xx", "yy", "zz", "yz", "xz", "xy"};
+    for (int c = 0; c < 6; ++c) array->SetComponentName(c, names[c]);
+    add_quaternions(data, "rotation", rows);
 }
 
 void require_lengths(const Points& lengths, Eigen::Index count, const char* per) {
@@ -125,13 +149,21 @@ void write_field(const fs::path& path, const TetDomain& domain, const Quaternion
     if (more.tet_frames.rows() > 0) require_frames(more.tet_frames, mesh.tets.rows());
     require_lengths(more.lengths, mesh.vertices.rows(), "vertex");
     require_lengths(more.tet_lengths, mesh.tets.rows(), "tet");
+    const bool stretched = more.stretch.rows() > 0;
+    if (stretched && (more.lengths.rows() > 0 || more.tet_frames.rows() > 0))
+        throw InvalidInput(
+            "stretch is of frames at the vertices, whose lengths follow from it; leave out lengths and tet_frames",
+            "stretched_axes");
     std::vector<std::uint8_t> on_boundary(mesh.vertices.rows(), 0);
     for (const Index v : domain.boundary().vertex_map) on_boundary[v] = 1;
 
     vtkNew<vtkUnstructuredGrid> grid;
     grid->SetPoints(to_points(mesh.vertices));
     grid->SetCells(VTK_TETRA, to_cells(mesh.tets));
-    add_frames(grid->GetPointData(), frames);
+    if (stretched)
+        add_stretched_frames(grid->GetPointData(), frames, more.stretch);
+    else
+        add_frames(grid->GetPointData(), frames);
     add_array<vtkUnsignedCharArray>(grid->GetPointData(), "boundary", 1, mesh.vertices.rows(),
                                     [&](Eigen::Index i) { return one(on_boundary[i]); });
     add_lengths(grid->GetPointData(), more.lengths);

@@ -7,14 +7,16 @@
 
 namespace octafield::volume {
 
-FieldAnalysis analyse_field(const TetDomain& domain, const Quaternions& frames, int threads) {
+FieldAnalysis analyse_field(const TetDomain& domain, const Quaternions& frames, int threads, const Stretches& stretch) {
+    const bool stretched = stretch.rows() > 0;
     FieldAnalysis found;
     found.singular_graph = singular_graph(domain, frames, threads);
-    found.meshability = local_meshability(domain, frames, found.singular_graph);
-    found.boundary_meshability = boundary_meshability(domain, frames, threads);
-    found.integrability = integrability(domain, frames, threads);
-    found.alignment = alignment_angles(domain, frames);
-    found.feature_alignment = feature_alignment_angles(domain, frames);
+    found.meshability = local_meshability(domain, frames, found.singular_graph, stretch);
+    found.boundary_meshability = boundary_meshability(domain, frames, threads, stretch);
+    if (!stretched) found.integrability = integrability(domain, frames, threads);
+    found.alignment = stretched ? alignment_angles(domain, frames, stretch) : alignment_angles(domain, frames);
+    found.feature_alignment =
+        stretched ? feature_alignment_angles(domain, frames, stretch) : feature_alignment_angles(domain, frames);
     found.energy = dirichlet_energy(domain, frames, threads);
     return found;
 }

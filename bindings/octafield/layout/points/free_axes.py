@@ -14,7 +14,7 @@ from ...errors import InvalidInput, SolverError
 from ...progress.phases import Progress, forward
 from .pattern import Pattern, pattern_of, with_corners
 from .point_files import corner_rows
-from .wanted import PointsWanted
+from .wanted import Corners, Places, PointsWanted
 
 _OBLIQUE = math.radians(10)  # by which a corner of 1 or 3 quads is off their right angles
 
@@ -27,7 +27,7 @@ def pattern_of_lines(
     surface = SurfaceDomain(domain.mesh)  # features inside, which the lines do not follow, have been cut or told of
     lines = _core.non_orthogonal_field(
         surface,
-        corners=_given_corners(surface, wanted),
+        corners=corners_of_lines(surface, wanted.places, wanted.corners),
         seed=wanted.options.seed,
         progress=forward(progress, "surface", 0, 0.5),
     )
@@ -47,10 +47,11 @@ def pattern_of_lines(
     return measured, made
 
 
-def _given_corners(surface: SurfaceDomain, wanted: PointsWanted) -> list[CornerQuads] | None:
-    if wanted.corners is None:
+def corners_of_lines(surface: SurfaceDomain, places: Places, corners: Corners | None) -> list[CornerQuads] | None:
+    """Of vertices of the boundary, by their numbers on the surface. Raises InvalidInput where one is elsewhere."""
+    if corners is None:
         return None
-    given = with_corners(surface, wanted.places, SingularPattern(), corner_rows(wanted.corners))
+    given = with_corners(surface, places, SingularPattern(), corner_rows(corners))
     if given.points:
         at = np.round(_core.imposed_position(surface, given.points[0]), 6).tolist()
         raise InvalidInput(

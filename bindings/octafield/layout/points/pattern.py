@@ -61,16 +61,22 @@ def _made_good(domain: SurfaceDomain, computed: SingularPattern, wanted: Singula
     had = {corner.vertex: corner.quads for corner in computed.corners}
     vertices = np.asarray(domain.vertices)
     for corner in wanted.corners:
-        at = vertices[corner.vertex]
-        if had.get(corner.vertex) != corner.quads and (vertices == at).all(axis=1).sum() > 1:
-            raise InvalidInput(
-                f"the corner at {at.tolist()} is on a feature edge, where faces meet that have numbers of quads of"
-                " their own; give corners of the boundary away from features, or take no features",
-                "several_faces",
-                [corner.vertex],
-            )
+        if had.get(corner.vertex) != corner.quads:
+            require_one_face(vertices, corner)
     fitting = _core.with_corner_quads(domain, computed, wanted.corners)
     return SingularPattern([*fitting.points, *list(wanted.points)[len(computed.points) :]], fitting.corners)
+
+
+def require_one_face(vertices: np.ndarray, corner: CornerQuads) -> None:
+    """vertices: of the surface, cut along features."""
+    at = vertices[corner.vertex]
+    if (vertices == at).all(axis=1).sum() > 1:
+        raise InvalidInput(
+            f"the corner at {at.tolist()} is on a feature edge, where faces meet that have numbers of quads of"
+            " their own; give corners of the boundary away from features, or take no features",
+            "several_faces",
+            [corner.vertex],
+        )
 
 
 def _computed(domain: SurfaceDomain, options: SurfaceFieldOptions, progress: Progress | None) -> SingularPattern:

@@ -16,7 +16,7 @@ from ...domain.inputs import Input, from_mesh, read_input
 from ...domain.meshed_input import MeshedInput
 from ...domain.meshing import Source, prepare_mesh, read_sound
 from ...errors import InvalidInput
-from ...options import SurfaceFieldOptions
+from ...options import MeshOptions, SurfaceFieldOptions
 from ...progress.phases import PeakMemory, Progress, announce
 
 Points = str | Path | SingularPattern | Mapping[str, Any] | Sequence[Mapping[str, Any]] | ArrayLike
@@ -81,7 +81,7 @@ def require_own_surface(source: object, singularities: Points | None) -> None:
 
 
 def meshed_with_places(
-    source: Source | SurfaceDomain | MeshedInput, options: SurfaceFieldOptions, progress: Progress | None
+    source: Source | SurfaceDomain | MeshedInput, options: MeshOptions, progress: Progress | None
 ) -> tuple[MeshedInput, Places, TriangleMesh]:
     """The surface for the field, the vertices that users number, and the surface that quads are compared with."""
     if isinstance(source, SurfaceDomain):
@@ -99,7 +99,7 @@ def meshed_with_places(
     return meshed, places, meshed.surface if found.tets is not None else found.surface
 
 
-def _read(source: Source, options: SurfaceFieldOptions, progress: Progress | None) -> Input:
+def _read(source: Source, options: MeshOptions, progress: Progress | None) -> Input:
     if isinstance(source, (str, Path)):
         return read_input(source, interfaces=False, edge_length=options.edge_length, progress=progress)
     if isinstance(source, (TriangleMesh, TetMesh, TetDomain)):

@@ -217,6 +217,8 @@ def _piece(file: File, piece: Piece) -> dict[str, Any]:
 
 
 def points_of(file: File, piece: Piece, arrays: list[tuple[_Array, np.ndarray]]) -> np.ndarray:
+    if not arrays and piece.counts["NumberOfPoints"] == 0:  # as VTK writes what is empty
+        return np.empty((0, 3))
     if len(arrays) != 1:
         raise IoError(f"{file.name}: a Piece has {len(arrays)} arrays of Points; one is needed")
     array, points = arrays[0]

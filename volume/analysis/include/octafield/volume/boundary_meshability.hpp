@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "octafield/surface/features.hpp"
+#include "octafield/volume/axes_stretch.hpp"
 #include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
@@ -60,7 +61,16 @@ struct BoundaryMeshability {
 };
 
 // surface: of the mesh, boundary_surface or that of region_surface; features of it. frames: (n, 4) unit quaternions
-// w x y z. Near linear; the same result at any thread count. Throws InvalidInput, GeometryError (unsound mesh).
-BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaternions& frames, int threads = 0);
+// w x y z. stretch: of axes S Q (axes_stretch.hpp), or no rows; angles are counted after S^-1, in which an edge of 30
+// degrees that both faces' axes follow has one hexahedron, and FeatureWedge::angle is that in space. Near linear; the
+// same result at any thread count. Throws InvalidInput, GeometryError (unsound mesh).
+BoundaryMeshability boundary_meshability(const TetDomain& domain, const Quaternions& frames, int threads = 0,
+                                         const Stretches& stretch = {});
+
+// (k, 2) radians per wedge, in the order of `wedges` above, the larger of both ends: the largest angle between the
+// normal of one of its two triangles and the nearest normal of a pair of axes, and that between the edge and the
+// nearest axis. Arguments and errors as above.
+Rows<double, 2> wedge_alignment(const TetDomain& domain, const Quaternions& frames, int threads = 0,
+                                const Stretches& stretch = {});
 
 }  // namespace octafield::volume

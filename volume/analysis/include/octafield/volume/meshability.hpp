@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "octafield/volume/axes_stretch.hpp"
 #include "octafield/volume/singularities.hpp"
 
 namespace octafield::volume {
@@ -89,8 +90,10 @@ struct Meshability {
     int boundary_ends_about_normal = 0;  // of those, the ones at singular points of the surface cross field
 };
 
-// graph: singular_graph(mesh, frames). frames: (n, 4) unit quaternions w x y z. Feature curves of the boundary are not
-// looked at. Linear in the graph. Throws InvalidInput where the sizes do not fit together.
-Meshability local_meshability(const TetDomain& domain, const Quaternions& frames, const SingularGraph& graph);
+// graph: singular_graph(mesh, frames). frames: (n, 4) unit quaternions w x y z. stretch: of axes S Q
+// (axes_stretch.hpp), or no rows. Feature curves of the boundary are not looked at. Linear in the graph. Throws
+// InvalidInput where the sizes do not fit together.
+Meshability local_meshability(const TetDomain& domain, const Quaternions& frames, const SingularGraph& graph,
+                              const Stretches& stretch = {});
 
 }  // namespace octafield::volume

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "octafield/volume/tet_domain.hpp"
+#include "octafield/volume/axes_stretch.hpp"
 
 namespace octafield::volume {
 
@@ -45,19 +45,20 @@ struct FrameStreamlineOptions {
     double closing_distance = 0;
 };
 
-// One curve per seed. frames: (n, 4) unit quaternions w x y z. The same bits at any thread count. Throws InvalidInput
-// for seeds outside the mesh or without a direction (elements: places of the seeds), for options that are no lengths,
-// and GeometryError (unsound mesh).
+// One curve per seed. frames: (n, 4) unit quaternions w x y z. stretch: of axes S Q (axes_stretch.hpp), which curves
+// follow then, or no rows. The same bits at any thread count. Throws InvalidInput for seeds outside the mesh or without
+// a direction (elements: places of the seeds), for options that are no lengths, and GeometryError (unsound mesh).
 std::vector<FrameStreamline> frame_streamlines(const TetDomain& domain, const Quaternions& frames,
                                                const std::vector<FrameStreamlineSeed>& seeds,
-                                               const FrameStreamlineOptions& options = {}, int threads = 0);
+                                               const FrameStreamlineOptions& options = {}, int threads = 0,
+                                               const Stretches& stretch = {});
 
 // Seeds at points, one per row of directions. Throws InvalidInput (kind "outside", elements: the rows) for points
 // outside the mesh. Linear in the tets.
 std::vector<FrameStreamlineSeed> seeds_at(const TetDomain& domain, const Points& points, const Points& directions);
 
 // Three seeds per point, along the axes of the frame of the nearest vertex of its tet (largest weight), in its order.
-std::vector<FrameStreamlineSeed> axis_seeds_at(const TetDomain& domain, const Quaternions& frames,
-                                               const Points& points);
+std::vector<FrameStreamlineSeed> axis_seeds_at(const TetDomain& domain, const Quaternions& frames, const Points& points,
+                                               const Stretches& stretch = {});
 
 }  // namespace octafield::volume

@@ -8,6 +8,7 @@
 
 #include "octafield/surface/surface_singularities.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
+#include "octafield/volume/axes_stretch.hpp"
 #include "octafield/volume/meshability.hpp"
 #include "octafield/volume/tet_domain.hpp"
 
@@ -26,6 +27,7 @@ struct FieldArrays {
     Quaternions tet_frames{};  // (m, 4): cell data under the names of the point data
     Points lengths{};          // (n, 3): point data frame_lengths, of frame_u, frame_v, frame_w
     Points tet_lengths{};      // (m, 3): cell data frame_lengths
+    Stretches stretch{};       // (n, 6) of axes S Q at the vertices (axes_stretch.hpp); without lengths, tet_frames
     // Other arrays by name, a row per vertex and per tet.
     std::map<std::string, Rows<double, Eigen::Dynamic>> point_data{}, cell_data{};
     Edges features{};  // (k, 2) feature edges, vertex ids: field data feature_edges
@@ -36,6 +38,9 @@ struct FieldArrays {
 // frames: (n, 4) unit quaternions w x y z. Axes are labelled vertex by vertex, as these quaternions are: what is
 // interpolated from frame_u, frame_v, frame_w or quaternion (slices, clips, stream tracers) mixes axes where axes_agree
 // is 0. Give frames of comb_vertices, so that such tets are few; sh4 may be interpolated everywhere (sample_frames).
+// With a stretch frame_u, frame_v, frame_w are unit vectors along the axes S Q and frame_lengths their lengths, stretch
+// is S (6 named components) and rotation Q (w x y z); there is neither quaternion nor sh4, which readers would take for
+// frames at right angles.
 void write_field(const std::filesystem::path& path, const TetDomain& domain, const Quaternions& frames,
                  const Metadata& metadata = {}, const FieldArrays& more = {});
 

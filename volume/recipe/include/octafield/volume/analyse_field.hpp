@@ -15,13 +15,16 @@ struct FieldAnalysis {
     SingularGraph singular_graph;  // of singular_graph(domain, frames)
     Meshability meshability;
     BoundaryMeshability boundary_meshability;
-    Integrability integrability;
+    Integrability integrability;        // of frames at right angles; else 0, without rows
     Eigen::VectorXd alignment;          // radians, per sector of sector_normals: to the nearest axis
     Eigen::VectorXd feature_alignment;  // radians, per tangent of feature_tangents
 };
 
-// frames: (n, 4) unit quaternions w x y z at the vertices. Throws InvalidInput where they do not fit the mesh.
-FieldAnalysis analyse_field(const TetDomain& domain, const Quaternions& frames, int threads = 0);
+// frames: (n, 4) unit quaternions w x y z at the vertices. stretch: of axes S Q (axes_stretch.hpp), or no rows: then
+// energy and singular graph are those of Q, alignment is from normals of pairs of axes and from axes, and meshability
+// is counted after S^-1. Throws InvalidInput where they do not fit the mesh.
+FieldAnalysis analyse_field(const TetDomain& domain, const Quaternions& frames, int threads = 0,
+                            const Stretches& stretch = {});
 
 struct TetFieldAnalysis {
     double energy = 0;              // of tet_sampling

@@ -3,13 +3,15 @@
 //
 //     surface::SurfaceDomain sheets = sheet_domain(domain);                    // the surface
 //     surface::DirectionField cross = surface::direction_field(sheets, {.seed = seed});
-//     BoundaryConstraints held = surface_constraints(domain, cross);           // what it asks of the frames
+//     BoundaryConstraints held = surface_constraints(domain, cross);           // what it asks of the frames; with
+//                                                                              // free axes as axes_stretch has them
 //     FrameFieldResult solved = frame_field(domain, held, {.seed = seed});     // the field
 //     FieldAnalysis found = analyse_field(domain, comb_vertices(domain, solved.smooth.frames).frames);
 #pragma once
 
 #include "octafield/surface/direction_field.hpp"
 #include "octafield/volume/analyse_field.hpp"
+#include "octafield/volume/axes_stretch.hpp"
 #include "octafield/volume/boundary.hpp"
 #include "octafield/volume/combing.hpp"
 #include "octafield/volume/frame_field.hpp"
@@ -23,10 +25,17 @@ namespace octafield::volume {
 surface::SurfaceDomain sheet_domain(const TetDomain& domain);
 
 // What the surface asks of the frames: boundary_constraints, or with frames in the tets tet_boundary_constraints, with
-// the directions of the cross field; at a vertex that sheets share, that of the first. Throws InvalidInput where the
-// field lives on another surface than sheet_domain(domain) (kind "wrong_mesh").
+// the directions of the cross field; at a vertex that sheets share, that of the first. stretch: of frames with axes S Q
+// at the vertices (axes_stretch.hpp), or no rows. Throws InvalidInput where the field lives on another surface than
+// sheet_domain(domain) (kind "wrong_mesh"), and for a stretch of frames in the tets (kind "wrong_sampling").
 BoundaryConstraints surface_constraints(const TetDomain& domain, const surface::DirectionField& cross,
-                                        Sites sites = Sites::vertices, const BoundaryOptions& options = {});
+                                        Sites sites = Sites::vertices, const BoundaryOptions& options = {},
+                                        const Stretches& stretch = {});
+
+enum class Axes {
+    orthogonal,  // at right angles
+    free,        // S Q with the stretch of axes_stretch: along both faces of sharp edges
+};
 
 struct FieldOptions {
     BoundaryOptions boundary{};
@@ -34,10 +43,13 @@ struct FieldOptions {
     // Its seed is that of the cross field, too. Where boundary.mode is none, the cross field is the start whatever
     // solve.start says.
     FrameFieldOptions solve{};
+    Axes axes = Axes::orthogonal;  // free: of frames at the vertices without lengths (not odeco_lengths)
+    AxesStretchOptions stretch{};  // with free axes
 };
 
 struct ComputedField {
     surface::DirectionField cross_field;  // on sheet_domain(domain)
+    AxesStretch stretch;                  // with free axes; values has no rows where axes are at right angles
     BoundaryConstraints constraints;
     FrameFieldResult solved;  // frames and lengths as the solver leaves them
     // Those of `solved`, named so that neighbours agree but across a cut: what files hold and is analysed.
@@ -46,7 +58,7 @@ struct ComputedField {
 };
 
 // Frames at the vertices. Progress tells the phases of the parts; cancelling throws Cancelled or keeps the best field
-// as the parts do. Throws InvalidInput, GeometryError, SolverError.
+// as the parts do. Throws InvalidInput (kind "stretched_axes": free axes with lengths), GeometryError, SolverError.
 ComputedField computed_field(const TetDomain& domain, const FieldOptions& options = {}, const Progress& progress = {});
 
 struct ComputedTetField {
@@ -57,7 +69,7 @@ struct ComputedTetField {
     TetFieldAnalysis analysis;
 };
 
-// The same with frames in the tets.
+// The same with frames in the tets, at right angles (InvalidInput, kind "wrong_sampling", for free axes).
 ComputedTetField computed_tet_field(const TetDomain& domain, const FieldOptions& options = {},
                                     const Progress& progress = {});
 
