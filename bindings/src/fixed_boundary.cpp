@@ -115,6 +115,12 @@ void bind_fixed_boundary(py::module_& m) {
         "inside and outside, lines have the inside on both sides. Outside is what can be reached from far away or from "
         "one of the holes (H, 2) without crossing a segment. Raises as require_planar.");
     m.def(
+        "outline_triangles",
+        [](const PlanarOutline& outline) { return run_interruptible([=](Job&) { return outline_triangles(outline); }); },
+        "outline"_a,
+        "Triangles of what is inside a PlanarOutline, in the plane z = 0: constrained Delaunay, its points' ids kept, "
+        "loops and lines as edges. Raises as require_planar.");
+    m.def(
         "fixed_boundary_quads",
         [](const PlanarOutline& outline, const std::optional<QuadMesh>& inside,
            const std::optional<ProgressCallable>& progress, const py::kwargs& given) {

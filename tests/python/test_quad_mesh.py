@@ -277,3 +277,109 @@ def test_what_is_no_field_is_refused(field, kind):
     with pytest.raises(of.Error) as error:
         of.compute_quad_mesh(square(6), KEPT, field=field)
     assert kind is None or error.value.kind == kind
+
+
+def coast(n=96):
+    """A closed curve with detail, counter-clockwise, of n points."""
+    a = 2 * np.pi * np.arange(n) / n
+    r = 1 + 0.25 * np.sin(3 * a) + 0.06 * np.sin(11 * a + 1)
+    return np.column_stack([r * np.cos(a), r * np.sin(a)])
+
+
+def segments_of(mesh):
+    quads = np.asarray(mesh.quads)
+    return {tuple(sorted((int(a), int(b)))) for q in quads for a, b in zip(q, np.roll(q, -1), strict=True)}
+
+
+def test_a_boundary_is_kept_segment_by_segment_round_a_hole_as_well():
+    outer, hole = coast(), 0.3 * coast(24)[::-1]
+    result = of.compute_quad_mesh([outer, hole], quad_options=of.QuadMeshOptions(keep_boundary=True))
+    mesh, record = result.mesh, result.record
+    _, rim = require_conforming(mesh, 0)
+    points = np.asarray(mesh.vertices)[:, :2]
+    place = {tuple(p): i for i, p in enumerate(points)}
+    edges = segments_of(mesh)
+    for loop in (outer, hole):
+        ids = [place[tuple(p)] for p in loop]
+        assert all(tuple(sorted(pair)) in edges for pair in zip(ids, np.roll(ids, -1).tolist(), strict=True))
+    assert len(rim) == len(outer) + len(hole)
+    told = record.kept_boundary
+    assert (told.segments, told.kept, told.split) == (120, 120, 0)
+    assert record.feature_deviation.corners == 0 and record.surface_deviation.max < 1e-12
+    assert record.scaled_jacobian.min > 0.2 and abs(record.quads / record.target - 1) < 0.4
+
+
+def test_sizes_grow_from_a_kept_boundary():
+    result = of.compute_quad_mesh([coast()], quad_options=of.QuadMeshOptions(keep_boundary=True), sizes="growth=0.4")
+    from_middle = np.linalg.norm(np.asarray(result.mesh.vertices)[np.asarray(result.mesh.quads)].mean(axis=1), axis=1)
+    sizes = np.sqrt(areas(result.mesh))
+    assert sizes[from_middle < 0.4].mean() > 2 * sizes[from_middle > 0.9].mean()
+    assert result.record.kept_boundary.kept == 96
+
+
+def test_outlines_are_surfaces_where_they_are_not_kept(tmp_path):
+    shape = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 2], [0, 2], [0, 0]]]}
+    (tmp_path / "plate.geojson").write_text(json.dumps(shape))
+    options = of.QuadMeshOptions(quads=32)
+    one, other = (of.compute_quad_mesh(source, quad_options=options) for source in (shape, tmp_path / "plate.geojson"))
+    assert one.record.quads == other.record.quads == 32 and one.record.irregular_vertices == {}
+    assert other.record.input.endswith("plate.geojson")
+
+
+def test_a_line_inside_is_a_feature_of_an_outline():
+    outline = of.planar_outline([[(0, 0), (4, 0), (4, 2), (0, 2)]], [[(1.3, 0), (1.3, 2)]])
+    mesh = of.compute_quad_mesh(outline, quad_options=of.QuadMeshOptions(quads=32)).mesh
+    points = np.asarray(mesh.vertices)
+    assert (abs(points[:, 0] - 1.3) < 1e-12).sum() >= 4
+
+
+def test_only_flat_surfaces_keep_their_boundary():
+    with pytest.raises(of.InvalidInput) as error:
+        made(cube(), keep_boundary=True)
+    assert error.value.kind == "not_plane"
+
+
+def test_triangles_of_an_outline_cover_what_is_inside():
+    outline = of.planar_outline([[(0, 0), (4, 0), (4, 4), (0, 4)], [(1, 1), (1, 2), (2, 2), (2, 1)]])
+    mesh = of.surface.outline_triangles(outline)
+    assert np.asarray(of.surface.triangle_areas(mesh)).sum() == pytest.approx(15)
+    assert of.surface.euler_characteristic(mesh) == 0
+
+
+def turned(plate, by):
+    """Directions at the vertices of a ring: along circles, turned by `by` of the radius."""
+    points = np.asarray(plate.vertices)
+    angle = np.arctan2(points[:, 1], points[:, 0]) + by(np.linalg.norm(points, axis=1))
+    return np.column_stack([-np.sin(angle), np.cos(angle), 0 * angle])
+
+
+def test_a_twisted_field_between_circles_has_valid_quads():
+    """Its streamlines wind towards a closed one (a limit cycle), which the imposed field of its points has not."""
+    plate = ring()
+    twisted = turned(plate, lambda r: np.pi / 2 * (r - 1) / 3)
+    result = of.compute_quad_mesh(plate, KEPT, quad_options=of.QuadMeshOptions(quads=400), field=twisted)
+    require_conforming(result.mesh, 0)
+    assert result.record.irregular_vertices == {} and result.record.scaled_jacobian.min > 0.8
+
+
+def test_a_pair_on_a_torus_is_refused_or_meshed():
+    """Fields of one point of valence 3 and one of 5 have a limit cycle there: no parameters exist."""
+    torus = generate("torus")
+    domain = of.surface.SurfaceDomain(torus)
+    points = np.asarray(torus.vertices)
+    pair = [
+        {"position": points[0].tolist(), "valence": 3},
+        {"position": points[len(points) // 2].tolist(), "valence": 5},
+    ]
+    for way in ("fail", "rotate"):
+        options = of.QuadLayoutOptions(quads=400, inadmissible=way, blocks="fine", measure="lengths")
+        try:
+            result = of.compute_quad_layout(domain, layout_options=options, singularities=pair)
+        except of.Error as error:
+            assert (
+                error.kind in ("inadmissible", "no_integers", "no_quad_layout", "inverted_quads")
+                and way in str(error) + "fail"
+            )
+        else:
+            require_conforming(result.mesh, 0)
+            assert valences(result.mesh) == {"3": 1, "5": 1}

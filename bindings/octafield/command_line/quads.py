@@ -195,6 +195,13 @@ def quad_mesh(
             ),
         ),
     ] = None,
+    keep_boundary: Annotated[
+        bool,
+        typer.Option(
+            "--keep-boundary",
+            help="Every segment of a plane region's outline, or of a flat surface's boundary, is an edge of a quad.",
+        ),
+    ] = False,
     inadmissible: Annotated[
         str,
         typer.Option(
@@ -230,7 +237,9 @@ def quad_mesh(
         from ..records.record_file import RECORD_FILE
 
         chosen = replace(options(), edge_length=triangle_length)
-        of_quads = QuadMeshOptions(quads=quads, edge_length=edge_length, inadmissible=inadmissible)
+        of_quads = QuadMeshOptions(
+            quads=quads, edge_length=edge_length, keep_boundary=keep_boundary, inadmissible=inadmissible
+        )
         written = formats_of(formats)
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             result = compute_quad_mesh(input, chosen, progress, quad_options=of_quads, sizes=size, field=field)

@@ -15,6 +15,7 @@ class QuadMeshOptions:
     """Of the quads: the number wanted, or their edge_length, input unit; 0 and 0: the mean edge of the triangles, or
     the sizes as they are. Sizes that are given are taken as ratios where a number or an edge length is told as well.
 
+    keep_boundary: every segment of a plane region's outline is an edge of a quad.
     inadmissible: what to do where the points are in places that no field has them in, as of QuadLayoutOptions.
 
     Raises InvalidInput.
@@ -26,6 +27,7 @@ class QuadMeshOptions:
 
     quads: int = 0
     edge_length: float = 0.0
+    keep_boundary: bool = False
     inadmissible: str = "default"
 
     def __post_init__(self) -> None:

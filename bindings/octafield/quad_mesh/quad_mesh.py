@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,17 +18,20 @@ from .. import _core
 from .._core import ImposedField, QuadMesh, SurfaceDomain, TriangleMesh
 from ..domain.inputs import from_mesh, naming
 from ..domain.meshed_input import MeshedInput
-from ..domain.meshing import Source
+from ..domain.meshing import Source, prepare_mesh
 from ..errors import InvalidInput
 from ..hexdom.sizes import SizeAt, Sizes
 from ..layout.made import quads_on
 from ..layout.options import MOST_QUADS, QuadLayoutOptions
 from ..layout.points.wanted import PointsWanted, meshed_with_places
+from ..layout.quality import quads_round
 from ..options import SurfaceFieldOptions
+from ..planar.read import Outline
 from ..progress.phases import Progress
 from ..view.notebook import Facts, ShownInNotebooks
 from .given_field import FieldGiven, field_at
 from .options import QuadMeshOptions
+from .plane import box_round, input_of_outline, is_outline, kept, outline_of, triangle_length
 from .sized import quads_wanted, size_at, sized
 
 if TYPE_CHECKING:
@@ -79,7 +82,7 @@ class QuadMeshResult(ShownInNotebooks):
 
 
 def compute_quad_mesh(
-    source: Source | SurfaceDomain | MeshedInput,
+    source: Source | SurfaceDomain | MeshedInput | Outline,
     options: SurfaceFieldOptions = SurfaceFieldOptions(),
     progress: Progress | None = None,
     *,
@@ -87,8 +90,13 @@ def compute_quad_mesh(
     sizes: Sizes | None = None,
     field: FieldGiven | None = None,
 ) -> QuadMeshResult:
-    """Quads on a surface, open or closed, or on the boundary of a tet mesh (paths or meshes in memory), along a cross
-    field whose singular points are their irregular vertices, about as large as wanted; features are followed exactly.
+    """Quads on a surface, open or closed, on the boundary of a tet mesh (paths or meshes in memory), or on a plane
+    region by its outline (read_outline, planar_outline: files, GeoJSON, lists of loops), along a cross field whose
+    singular points are their irregular vertices, about as large as wanted; features are followed exactly.
+
+    With keep_boundary every segment of the outline, or of the boundary of a flat surface, is an edge of a quad: the
+    quads of a rectangle round it are taken as far as they stay clear of it, and templates go between
+    (compute_fixed_boundary_quads).
 
     options: of the mesh that the field is computed on, and of that field. Their edge_length is that of triangles.
     sizes: edge lengths wanted, input unit: a function of (n, 3) points; (n,) one per vertex of the input; (k, 4) rows
@@ -110,7 +118,10 @@ def compute_quad_mesh(
         >>> result.record.quads, result.record.irregular_vertices, result.record.scaled_jacobian.min > 0.99
         (12, {}, True)
     """
-    meshed, places, given = meshed_with_places(source, replace(options, interfaces=False), progress)
+    if quad_options.keep_boundary:
+        return _kept(source, options, progress, quad_options, sizes, field)
+    read: Any = input_of_outline(source, progress) if is_outline(source) else source
+    meshed, places, given = meshed_with_places(read, replace(options, interfaces=False), progress)
     with naming(meshed.name):
         found = places.found or from_mesh(meshed.surface)
         own = None if field is None else field_at(field, found)
@@ -118,6 +129,51 @@ def compute_quad_mesh(
         points = PointsWanted(places, None, None, options, fitted=True, field=own, field_name=name)
         wanted_at = None if sizes is None else size_at(sizes, found)
         return _on(meshed, given, points, quad_options, wanted_at, progress)
+
+
+def _kept(
+    source: Any,
+    options: SurfaceFieldOptions,
+    progress: Progress | None,
+    wanted: QuadMeshOptions,
+    sizes: Sizes | None,
+    field: FieldGiven | None,
+) -> QuadMeshResult:
+    from . import record
+
+    if isinstance(source, MeshedInput):
+        source = source.surface
+    outline, found = outline_of(source, progress)
+    with naming(found.name):
+        known = None if sizes is None else size_at(sizes, found)
+        region = prepare_mesh(found, replace(options, interfaces=False), volume=False, progress=progress)
+        target, scale = _target(region, wanted, known)
+        there = _times(known, scale)
+        box = box_round(outline, triangle_length(outline, there, options.edge_length))
+        round_it = replace(options, remesh=False, edge_length=0.0, features="none", interfaces=False)
+        inner = QuadMeshOptions(edge_length=scale if known is None else 0.0, inadmissible=wanted.inadmissible)
+        result = compute_quad_mesh(
+            box, round_it, progress, quad_options=inner, sizes=None if known is None else there, field=field
+        )
+        made = kept(outline, result.mesh, progress)
+        ratios = _size_ratios(made.mesh, known, scale)
+        told = record.of_kept_boundary(result.record, made, ratios, found, target, wanted, options)
+    on_boundary, valences = quads_round(np.asarray(made.mesh.quads), len(made.mesh.vertices))
+    return QuadMeshResult(
+        mesh=made.mesh,
+        scaled_jacobians=np.asarray(_core.scaled_jacobians(made.mesh)),
+        size_ratios=ratios,
+        valences=valences,
+        on_boundary=on_boundary,
+        field=result.field,
+        record=told,
+    )
+
+
+def _times(sizes: SizeAt | None, scale: float) -> SizeAt:
+    if sizes is None:
+        return lambda points: np.full(len(points), scale)
+    return lambda points: scale * sizes(points)
 
 
 def _on(

@@ -4,11 +4,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._core import QuadMesh
+from .._core import FeatureGraph, QuadMesh, SurfaceDomain
+from ..domain.inputs import Input
+from ..domain.meshed_input import MeshedInput
 from ..layout.made import QuadsMade
+from ..layout.quality import edges_of, quads_round
 from ..layout.record import jacobians, points_of
+from ..meshes.figures import spread, surface_deviation
 from ..options import SurfaceFieldOptions
-from ..records.parts import Deviation, EdgeLengths, FeatureDeviation, MinMax, SizeRatios, WholeNumberFigures
+from ..planar.quads import FixedBoundaryResult
+from ..records.parts import (
+    Deviation,
+    EdgeLengths,
+    FeatureDeviation,
+    KeptBoundary,
+    MinMax,
+    SizeRatios,
+    WholeNumberFigures,
+)
 from ..records.quad_mesh import QuadMeshRecord
 from .features import feature_deviation
 from .options import QuadMeshOptions
@@ -69,6 +82,57 @@ def of_quad_mesh(
         notes=begun.notes,
         versions=begun.versions,
         machine=begun.machine,
+        options=dict(vars(options)),
+        field_options=field_options.recorded(),
+    )
+
+
+def of_kept_boundary(
+    inside: QuadMeshRecord,
+    made: FixedBoundaryResult,
+    size_ratios: np.ndarray,
+    found: Input,
+    target: int,
+    options: QuadMeshOptions,
+    field_options: SurfaceFieldOptions,
+) -> QuadMeshRecord:
+    """inside: of the quads round the outline, some of which are kept. found: the region as a surface."""
+    figures, mesh = made.figures, made.mesh
+    quads = np.asarray(mesh.quads)
+    on_boundary, around = quads_round(quads, len(mesh.vertices))
+    edges = edges_of(quads)[0]
+    points = np.asarray(mesh.vertices)
+    lengths = spread(np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1))
+    domain = SurfaceDomain(found.surface)
+    corners, curves = feature_deviation(mesh, domain)
+    deviation = surface_deviation(points, np.zeros((0, 3), np.int32), quads, found.surface)
+    low, median, high = np.percentile(size_ratios, [10, 50, 90])
+    smallest, largest = quad_angles(mesh)
+    notes = [] if not figures.split_segments else [f"{figures.split_segments} segments were split at their middle"]
+    return inside.changed(
+        input=found.name,
+        mesh_sha256=MeshedInput(found.name, "surface", found.surface, FeatureGraph(), "none").digest(),
+        feature_edges=0,
+        target=target,
+        quads=len(quads),
+        vertices=len(points),
+        irregular_vertices=_valences(around[~on_boundary], 4),
+        irregular_boundary_vertices=_valences(around[on_boundary], 2),
+        inverted=figures.inverted,
+        nonconforming_edges=figures.nonconforming_edges,
+        t_junctions=0 if figures.nonconforming_edges == 0 else figures.nonconforming_edges,
+        scaled_jacobian=jacobians(figures.scaled_jacobian),
+        angle=MinMax(min=smallest, max=largest),
+        edge_length=EdgeLengths(
+            target=inside.edge_length.target, median=lengths.median, p05=lengths.p05, p95=lengths.p95
+        ),
+        size_ratio=SizeRatios(p10=float(low), median=float(median), p90=float(high)),
+        feature_deviation=FeatureDeviation(corners=corners, curves=curves),
+        surface_deviation=Deviation(max=deviation[0], rms=deviation[1]),
+        kept_boundary=KeptBoundary(
+            segments=figures.boundary_segments, kept=figures.kept_segments, split=figures.split_segments
+        ),
+        notes=notes,
         options=dict(vars(options)),
         field_options=field_options.recorded(),
     )

@@ -56,7 +56,7 @@ def sized(domain: SurfaceDomain, sizes: SizeAt) -> SurfaceDomain:
     """octafield.surface.sized_domain with these sizes. Raises InvalidInput (kind "steep_sizes") where they change too
     fast for the triangles."""
     try:
-        return _sized(domain, sizes(np.asarray(domain.vertices)))
+        return _core.sized_domain(domain, sizes(np.asarray(domain.vertices)))
     except GeometryError as error:
         if error.kind != "no_triangle":
             raise
@@ -75,10 +75,3 @@ def quads_wanted(domain: SurfaceDomain, sizes: SizeAt) -> float:
     values = sizes(np.asarray(domain.vertices))[np.asarray(domain.triangles)]
     middle = (values + np.roll(values, -1, axis=1)) / 2
     return float((np.asarray(_core.triangle_areas(domain.mesh)) * (middle**-2.0).mean(axis=1)).sum())
-
-
-def _sized(domain: SurfaceDomain, lengths: np.ndarray) -> SurfaceDomain:
-    at = np.sqrt(lengths[np.asarray(domain.edges)].prod(axis=1))
-    plain = domain.with_edge_lengths(np.asarray(domain.edge_lengths) / at)
-    factor = np.sqrt(np.asarray(domain.areas).sum() / np.asarray(plain.areas).sum())
-    return domain.with_edge_lengths(np.asarray(plain.edge_lengths) * factor)

@@ -227,6 +227,14 @@ class FeatureDeviation(Record):
     )
 
 
+class KeptBoundary(Record):
+    """Segments of an outline."""
+
+    segments: int = Field(description="of the outline, lines inside with them")
+    kept: int = Field(description="that are an edge of a quad")
+    split: int = Field(description="that were split at their middle")
+
+
 class MinMax(Record):
     """Of numbers."""
 

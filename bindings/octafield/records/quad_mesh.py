@@ -11,6 +11,7 @@ from .parts import (
     FeatureDeviation,
     ImposedPointFigures,
     JacobianFigures,
+    KeptBoundary,
     Machine,
     MinMax,
     SizeRatios,
@@ -54,6 +55,7 @@ class QuadMeshRecord(Record):
     surface_deviation: Deviation = Field(
         description="between quads and input, both ways, over the diagonal of the input's box"
     )
+    kept_boundary: KeptBoundary | None = Field(default=None, description="where it was to be kept segment by segment")
     whole_numbers: WholeNumberFigures = Field(description="that the quads come from")
     seconds: float = Field(description="by the clock, of all phases")
     wall_seconds: dict[str, float] = Field(description="by the clock, per phase")

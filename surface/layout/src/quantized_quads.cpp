@@ -162,12 +162,10 @@ private:
 
     std::vector<detail::Start> starts(bool merged, bool finest) const {
         using detail::Start;
-        const bool by_lengths = options_.measure == ArcMeasure::lengths;
-        std::vector<Start> result;
-        if (by_lengths || !merged) result.push_back(by_lengths ? Start::evened : Start::mapped);
-        if (finest) return result;
-        result.push_back(Start::relaxed);
-        result.push_back(Start::untangled);
+        if (options_.measure == ArcMeasure::lengths) return {Start::evened};
+        if (finest) return {Start::mapped};
+        std::vector<Start> result = {Start::relaxed, Start::untangled};
+        if (!merged) result.insert(result.begin(), Start::mapped);
         return result;
     }
 

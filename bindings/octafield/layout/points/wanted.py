@@ -102,6 +102,8 @@ def meshed_with_places(
 def _read(source: Source, options: MeshOptions, progress: Progress | None) -> Input:
     if isinstance(source, (str, Path)):
         return read_input(source, interfaces=False, edge_length=options.edge_length, progress=progress)
+    if isinstance(source, Input):
+        return source
     if isinstance(source, (TriangleMesh, TetMesh, TetDomain)):
         return from_mesh(source)
     raise InvalidInput(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "octafield/cell_arrays.hpp"
+#include "octafield/surface/triangle_mesh.hpp"
 
 namespace octafield::surface {
 
@@ -26,5 +27,10 @@ void require_planar(const PlanarOutline& outline);
 // crossing a segment; segments within it are left out. Throws as require_planar, and InvalidInput "empty" where nothing
 // is inside.
 PlanarOutline outline_of_graph(const PlanePoints& points, const Edges& segments, const PlanePoints& holes);
+
+// Triangles of what is inside, counter-clockwise in the plane z = 0: a constrained Delaunay triangulation of the points,
+// whose ids are kept, with loops and lines as edges. Points that are nowhere inside are in no triangle. Throws as
+// require_planar.
+TriangleMesh outline_triangles(const PlanarOutline& outline);
 
 }  // namespace octafield::surface

@@ -1,0 +1,96 @@
+"""Plane regions by their outline: as surfaces, and with every segment of the outline kept."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import _core
+from .._core import PlanarOutline, SurfaceDomain, TriangleMesh
+from ..domain.inputs import Input, from_mesh, read_input
+from ..errors import InvalidInput
+from ..files.reading import plain_name
+from ..hexdom.sizes import SizeAt
+from ..planar.quads import FixedBoundaryResult, compute_fixed_boundary_quads
+from ..planar.read import as_outline
+from ..progress.phases import Progress
+
+_SUFFIXES = (".geojson", ".json", ".poly", ".geo")
+_FLAT = 1e-9  # of the diagonal
+_ROOM = 0.1  # of the diagonal: round the outline, for the field
+
+
+def is_outline(source: object) -> bool:
+    if isinstance(source, (str, Path)):
+        return Path(plain_name(Path(source))).suffix.lower() in _SUFFIXES
+    return isinstance(source, (PlanarOutline, Mapping, list, tuple))
+
+
+def input_of_outline(source: Any, progress: Progress | None = None) -> Input:
+    """The region as triangles, lines as features."""
+    outline = as_outline(source, progress=progress)
+    name = str(source) if isinstance(source, (str, Path)) else "outline in memory"
+    lines = np.asarray(outline.lines)
+    return Input(name, _core.outline_triangles(outline), lines=lines if len(lines) else None, creases=bool(len(lines)))
+
+
+def outline_of(source: Any, progress: Progress | None) -> tuple[PlanarOutline, Input]:
+    """Of an outline, or of a flat surface in a plane z = const by its boundary; and that as a surface."""
+    if is_outline(source):
+        return as_outline(source, progress=progress), input_of_outline(source, progress)
+    if isinstance(source, SurfaceDomain):
+        found = from_mesh(source.mesh)
+    elif isinstance(source, TriangleMesh):
+        found = from_mesh(source)
+    else:
+        found = read_input(source, interfaces=False, edge_length=0.0, progress=progress)
+    points, domain = np.asarray(found.surface.vertices), SurfaceDomain(found.surface)
+    if found.tets is not None or np.ptp(points[:, 2]) > _FLAT * np.linalg.norm(np.ptp(points, axis=0)):
+        raise InvalidInput(
+            f"{found.name}: a boundary is kept segment by segment in a plane z = const only; leave keep_boundary"
+            " (--keep-boundary) out: features and corners are followed exactly without it, too",
+            "not_plane",
+        )
+    rim = np.asarray(domain.edges)[np.asarray(domain.edge_triangles).min(axis=1) < 0]
+    used, ids = np.unique(rim, return_inverse=True)
+    outline = PlanarOutline(points[used, :2], ids.reshape(-1, 2).astype(np.int32), np.zeros((0, 2), np.int32))
+    _core.require_planar(outline)
+    return outline, found
+
+
+def box_round(outline: PlanarOutline, triangle_length: float) -> TriangleMesh:
+    """A rectangle round the outline in triangles of about that edge: squares, cut along alternating diagonals."""
+    points = np.asarray(outline.points)
+    low, high = points.min(axis=0), points.max(axis=0)
+    room = _ROOM * np.linalg.norm(high - low)
+    low, high = low - room, high + room
+    count = np.maximum(np.ceil((high - low) / triangle_length).astype(int), 1)
+    x, y = (np.linspace(low[k], high[k], count[k] + 1) for k in range(2))
+    vertices = np.column_stack([np.tile(x, len(y)), np.repeat(y, len(x)), np.zeros(len(x) * len(y))])
+    i, j = (part.ravel() for part in np.meshgrid(np.arange(count[0]), np.arange(count[1])))
+    a = j * len(x) + i
+    b, c, d = a + 1, a + 1 + len(x), a + len(x)
+    odd = ((i + j) % 2 == 1)[:, None]
+    first = np.where(odd, np.column_stack([a, b, d]), np.column_stack([a, b, c]))
+    second = np.where(odd, np.column_stack([b, c, d]), np.column_stack([a, c, d]))
+    return TriangleMesh(vertices, np.concatenate([first, second]))
+
+
+def kept(outline: PlanarOutline, inside: Any, progress: Progress | None) -> FixedBoundaryResult:
+    """inside: quads that cover the region."""
+    return compute_fixed_boundary_quads(outline, interior=inside, spacing="accept", progress=progress)
+
+
+def triangle_length(outline: PlanarOutline, sizes: SizeAt, asked: float, most: int = 200_000) -> float:
+    """For the rectangle: the least size at the outline, twice that where it is not asked for, as far as the number of
+    triangles allows."""
+    points = np.asarray(outline.points)
+    extent = np.ptp(points, axis=0) * (1 + 2 * _ROOM)
+    coarse = float(np.linalg.norm(extent)) / 40
+    if asked:
+        return asked
+    least = float(sizes(np.column_stack([points, np.zeros(len(points))])).min())
+    return max(min(2 * least, coarse), float(np.sqrt(2 * extent.prod() / most)))
