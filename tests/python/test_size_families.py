@@ -40,7 +40,7 @@ def test_sums_of_an_odd_function_with_an_offset_keep_their_bias():  # printed in
 def test_widths_along_circles_and_rays_are_those_of_polar_coordinates():
     field = twisted(0)
     made = SURFACE.size_families(field, SURFACE.surface_singularities(field))
-    assert made.converged and made.parts == 1 and made.worst_anisotropy < 1.02
+    assert made.converged and made.parts == 1 and made.worst_anisotropy < 1.06
     radius = np.hypot(*np.array(made.positions)[:, :2].T)
     off = made.log_widths.mean(axis=1) - np.log(radius)
     assert np.ptp(off) < 0.05
@@ -50,7 +50,7 @@ def test_widths_along_circles_and_rays_are_those_of_polar_coordinates():
 
 
 def test_the_phase_of_a_bent_field_decides_its_anisotropy():
-    field = along(square(16), lambda p: 1.2 * p[:, 0])
+    field = along(square(16), lambda p: 1.5 * p[:, 0] ** 2)  # not harmonic
     search = SURFACE.phase_search(field, 4, spacing=0.1)
     assert search.worst[search.least_worst] == search.worst.min() < 0.95 * search.worst.max()
     turned = SURFACE.rotated_field(field, search.angles[1])
