@@ -127,7 +127,7 @@ def radial_rows(output: Path, edge: float, spacing: float, chosen) -> list[tuple
                 rows.append((easing, f"{growth}", way, *told, least, unresolved, *lines))
                 if way == "diffusion in the metric":
                     draw(panels[row, column], mesh, field, singular, f"{easing}, x{growth}: reached x{told[0]}")
-    save_drawing(figure, output / "sized_fields.png", colours=32)
+    save_drawing(figure, output / "sized_fields.png", colours=12)
     return rows
 
 
