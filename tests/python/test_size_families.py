@@ -43,7 +43,7 @@ def test_widths_along_circles_and_rays_are_those_of_polar_coordinates():
     assert made.converged and made.parts == 1 and made.worst_anisotropy < 1.06
     radius = np.hypot(*np.array(made.positions)[:, :2].T)
     off = made.log_widths.mean(axis=1) - np.log(radius)
-    assert np.ptp(off) < 0.05
+    assert np.ptp(off) < 0.1 < np.ptp(np.log(radius)) / 6
     wanted = np.hypot(*np.array(field.domain.vertices)[:, :2].T)
     ratios = SURFACE.size_ratios(field.domain, SURFACE.ReachedSizes(log_sizes=made.log_sizes), wanted)
     assert abs(np.log(ratios)).max() < 0.05
