@@ -46,7 +46,7 @@ def test_widths_along_circles_and_rays_are_those_of_polar_coordinates():
     assert np.ptp(off) < 0.1 < np.ptp(np.log(radius)) / 6
     wanted = np.hypot(*np.array(field.domain.vertices)[:, :2].T)
     ratios = SURFACE.size_ratios(field.domain, SURFACE.ReachedSizes(log_sizes=made.log_sizes), wanted)
-    assert abs(np.log(ratios)).max() < 0.05
+    assert abs(np.log(ratios)).max() < 0.1
 
 
 @pytest.mark.parametrize("phase", [0.0, 0.4])
