@@ -80,8 +80,11 @@ def measured(mesh, sizes, field, spacing: float) -> tuple:
     grown = np.exp(reached.log_sizes[radius <= INNER].mean() - reached.log_sizes[abs(radius - OUTER) < 0.05].mean())
     singular = SURFACE.surface_singularities(field)
     indices = [point.index_times_symmetry for point in singular.points if not point.boundary]
-    families = SURFACE.size_families(field, singular, spacing=spacing)
+    near = 0.5 * np.array(SURFACE.SurfaceDomain(mesh).edge_lengths).mean()
+    families = SURFACE.size_families(field, singular, spacing=spacing, singular_radius=near)
     by_lines = np.exp(families.log_widths.mean(axis=1)) / sizes(np.array(families.positions))
+    if len(by_lines) == 0:
+        raise RuntimeError("every line comes too near to a singular point: choose a smaller --edge")
     by_lines /= np.exp(np.log(by_lines).mean())
     low, high = np.quantile(ratios[inside], (0.1, 0.9))
     told = (
@@ -124,7 +127,7 @@ def radial_rows(output: Path, edge: float, spacing: float, chosen) -> list[tuple
                 rows.append((easing, f"{growth}", way, *told, least, unresolved, *lines))
                 if way == "diffusion in the metric":
                     draw(panels[row, column], mesh, field, singular, f"{easing}, x{growth}: reached x{told[0]}")
-    save_drawing(figure, output / "sized_fields.png", colours=32)
+    save_drawing(figure, output / "sized_fields.png", colours=12)
     return rows
 
 

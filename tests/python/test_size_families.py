@@ -11,7 +11,7 @@ SURFACE = of.surface
 def ring(around: int = 96, across: int = 20) -> of.TriangleMesh:
     """Radii 1 and 2 in the plane z = 0."""
     row, column = np.divmod(np.arange((across + 1) * around), around)
-    radius, angle = 1 + row / across, 2 * np.pi * (column + row % 2 / 2) / around
+    radius, angle = 1 + row / across, 2 * np.pi * column / around
     points = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), 0 * angle])
     triangles = grid_triangles(across + 1, around, closed=True)[:, ::-1]
     return of.TriangleMesh(points, triangles)
@@ -40,17 +40,39 @@ def test_sums_of_an_odd_function_with_an_offset_keep_their_bias():  # printed in
 def test_widths_along_circles_and_rays_are_those_of_polar_coordinates():
     field = twisted(0)
     made = SURFACE.size_families(field, SURFACE.surface_singularities(field))
-    assert made.converged and made.parts == 1 and made.worst_anisotropy < 1.02
+    assert made.converged and made.parts == 1 and made.worst_anisotropy < 1.06
     radius = np.hypot(*np.array(made.positions)[:, :2].T)
     off = made.log_widths.mean(axis=1) - np.log(radius)
-    assert np.ptp(off) < 0.05
+    assert np.ptp(off) < 0.1 < np.ptp(np.log(radius)) / 6
     wanted = np.hypot(*np.array(field.domain.vertices)[:, :2].T)
     ratios = SURFACE.size_ratios(field.domain, SURFACE.ReachedSizes(log_sizes=made.log_sizes), wanted)
-    assert abs(np.log(ratios)).max() < 0.05
+    assert abs(np.log(ratios)).max() < 0.1
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.4])
+def test_a_torus_has_squares_as_large_as_the_distance_from_its_axis(phase):
+    around, across = 64, 32
+    i, j = np.divmod(np.arange(around * across), across)
+    radius, azimuth, angle = 1 + 0.4 * np.cos(2 * np.pi * j / across), 2 * np.pi * i / around, 2 * np.pi * j / across
+    points = np.column_stack([radius * np.cos(azimuth), radius * np.sin(azimuth), 0.4 * np.sin(angle)])
+    a, b = np.roll(np.arange(around * across).reshape(around, across), -1, axis=0), np.arange(around * across)
+    right, up = a.ravel(), np.roll(b.reshape(around, across), -1, axis=1).ravel()
+    corner = np.roll(a, -1, axis=1).ravel()
+    mesh = of.TriangleMesh(points, np.concatenate([np.stack(t, axis=1) for t in ((b, right, corner), (b, corner, up))]))
+    made = SURFACE.sized_field(mesh, radius)
+    along_azimuth = np.column_stack([-points[:, 1], points[:, 0], 0 * radius]) / radius[:, None]
+    out = np.array(SURFACE.vertex_normals(mesh))
+    d = np.array(made.directions)
+    off = np.arctan2(np.einsum("ij,ij->i", np.cross(d, along_azimuth), out), np.einsum("ij,ij->i", d, along_azimuth))
+    field = SURFACE.rotated_field(made.field, np.angle(np.exp(4j * off).mean()) / 4 + phase)
+    families = SURFACE.size_families(field, SURFACE.surface_singularities(field), spacing=0.15)
+    assert families.worst_anisotropy < 1.1 and families.parts == 1
+    ratios = SURFACE.size_ratios(mesh, SURFACE.ReachedSizes(log_sizes=families.log_sizes), radius)
+    assert abs(np.log(ratios)).max() < 0.1 < np.ptp(np.log(radius)) / 8
 
 
 def test_the_phase_of_a_bent_field_decides_its_anisotropy():
-    field = along(square(16), lambda p: 1.2 * p[:, 0])
+    field = along(square(16), lambda p: 1.5 * p[:, 0] ** 2)  # not harmonic
     search = SURFACE.phase_search(field, 4, spacing=0.1)
     assert search.worst[search.least_worst] == search.worst.min() < 0.95 * search.worst.max()
     turned = SURFACE.rotated_field(field, search.angles[1])

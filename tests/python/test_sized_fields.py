@@ -113,3 +113,29 @@ def test_errors_of_functions_that_give_sizes_come_through():
 
     with pytest.raises(ZeroDivisionError):
         SURFACE.sized_field(square(3), broken)
+
+
+def test_the_same_bits_on_every_run_and_the_best_state_when_cancelled():
+    mesh = square(10)
+    sizes = 1 + np.array(mesh.vertices)[:, 0] ** 2
+    one, other = (SURFACE.sized_field(mesh, sizes, boundary_alignment="none", seed=3) for _ in range(2))
+    assert one.values.tobytes() == other.values.tobytes() and one.converged
+    calls = []
+
+    def few(phase: str, fraction: float, merit: float) -> bool:
+        calls.append(phase)
+        return len(calls) < 3
+
+    stopped = SURFACE.sized_field(mesh, sizes, boundary_alignment="none", progress=few)
+    assert not stopped.converged and stopped.iterations == 1 and np.isfinite(stopped.values).all()
+    with pytest.raises(of.Cancelled):
+        SURFACE.sized_field(mesh, sizes, progress=lambda *_: False)
+
+
+def test_sizes_from_curvature_are_segments_round_a_bend():
+    mesh = cylinder(1.0, 2.0, 64, 20)
+    segments = 24
+    sizes = SURFACE.size_field(mesh, SURFACE.FeatureGraph(), angle=2 * np.pi / segments, longest=2.0).lengths
+    inside = abs(np.array(mesh.vertices)[:, 2] - 1) < 0.5
+    assert np.median(sizes[inside]) == pytest.approx(2 * np.pi / segments, rel=0.05)
+    assert SURFACE.surface_singularities(SURFACE.sized_field(mesh, sizes).field).agree

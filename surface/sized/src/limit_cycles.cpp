@@ -45,7 +45,7 @@ double distance_to(const Streamline& line, const Eigen::Vector3d& p) {
 class Search {
 public:
     Search(const DirectionField& field, const SurfaceSingularities& singularities, const LimitCycleOptions& options)
-        : options_(options), tracer_(field, singularities, tracing(field, options)) {}
+        : options_(options), tracer_(field, singularities, tracing(field, options)), slopes_(tracer_.field()) {}
 
     std::vector<LimitCycle> run(const Progress& progress) {
         const Charts& charts = tracer_.field();
@@ -92,7 +92,7 @@ private:
 
     void keep(const Streamline& line) {
         LimitCycle cycle;
-        cycle.flux = detail::width_growth(tracer_.field(), line).back();
+        cycle.flux = detail::width_growth(slopes_, line).back();
         if (std::abs(cycle.flux) < options_.tolerance) return;
         if (is_known(line.points.row(0)) && is_known(line.points.row(line.points.rows() / 2))) return;
         cycle.line = line;
@@ -104,6 +104,7 @@ private:
 
     const LimitCycleOptions& options_;
     detail::TwoWayTracer tracer_;
+    detail::AngleSlopes slopes_;
     std::vector<LimitCycle> found_;
 };
 

@@ -1,15 +1,34 @@
 // Widths that streamlines carry, and where streamlines cross.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "charted_field.hpp"
 #include "octafield/surface/streamlines.hpp"
+#include "vertex_charts.hpp"
 
 namespace octafield::surface::detail {
 
-// (points of the line) by what ln of the width has grown since the first point, by the midpoint rule on each segment.
-std::vector<double> width_growth(const ChartedField& field, const Streamline& line);
+// grad alpha of a field, at vertices the mean of the triangles round them, linear between: that of single triangles has
+// errors of one sign along rows of alike triangles. Near singular points, where it changes within an edge, of each
+// triangle alone.
+class AngleSlopes {
+public:
+    // Keeps a reference. Throws GeometryError (kind "non_manifold_vertex") where parts of the surface only touch.
+    explicit AngleSlopes(const ChartedField& field);
+    const ChartedField& field() const { return field_; }
+    // By what the field's angle grows along a step from z in triangle t.
+    double along(Index t, Complex z, Complex step) const;
+
+private:
+    const ChartedField& field_;
+    std::vector<bool> is_smooth_;                  // (F)
+    std::vector<std::array<Complex, 3>> corners_;  // (F) in the triangle's chart
+};
+
+// (points of the line) by what ln of the width has grown since the first point: the midpoint rule on each segment.
+std::vector<double> width_growth(const AngleSlopes& slopes, const Streamline& line);
 
 // A place on segment `segment` of line `line`, `part` of the way along it.
 struct LinePlace {

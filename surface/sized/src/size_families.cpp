@@ -112,8 +112,9 @@ SizeFamilies size_families(const DirectionField& field, const SurfaceSingulariti
     result.left_out = covering.left_out;
     const detail::ChartedField charted(field, detail::corner_links(field.domain, field.symmetry));
     const auto crossings = all_crossings(charted, result.lines, result.self_crossings);
+    const detail::AngleSlopes slopes(charted);
     std::vector<std::vector<double>> growth;
-    for (const Streamline& line : result.lines) growth.push_back(detail::width_growth(charted, line));
+    for (const Streamline& line : result.lines) growth.push_back(detail::width_growth(slopes, line));
     set_crossings(charted, crossings, growth, result);
     std::vector<detail::RatioTerm> terms;
     for (Index i = 0; i < result.log_widths.rows(); ++i)
