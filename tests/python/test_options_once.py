@@ -28,6 +28,7 @@ STRUCTS = {
     "size_field": [of.surface.SizeFieldOptions],
     "layout_curves": [of.surface.LayoutCurveOptions],
     "quad_layout": [of.surface.LayoutCurveOptions],
+    "fixed_boundary_quads": [of.surface.FixedBoundaryOptions],
 }
 
 
