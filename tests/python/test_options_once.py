@@ -28,6 +28,7 @@ STRUCTS = {
     "size_field": [of.surface.SizeFieldOptions],
     "layout_curves": [of.surface.LayoutCurveOptions],
     "quad_layout": [of.surface.LayoutCurveOptions],
+    "fixed_boundary_quads": [of.surface.FixedBoundaryOptions],
 }
 
 
@@ -57,6 +58,7 @@ def test_a_function_refuses_what_is_no_option(function):
         "detect_features": [box], "remesh": [box, of.FeatureGraph()], "size_field": [box, of.FeatureGraph()],
         "direction_field": [box], "non_orthogonal_field": [box],
         "layout_curves": [of.surface.ImposedField()], "quad_layout": [of.surface.ImposedField()],
+        "fixed_boundary_quads": [of.surface.PlanarOutline()],
     }  # fmt: skip
     tets = of.volume.tetrahedralize(box)
     given = arguments.get(function) or (

@@ -38,28 +38,33 @@ std::vector<Index> to_split(const std::vector<Border>& borders, std::vector<char
     for (const Border& border : borders)
         for (const Index region : border.beside) round[region].push_back(&border);
     std::vector<Way> way(regions + 1);
-    std::vector<Index> order{regions};
-    for (std::size_t at = 0; at < order.size(); ++at) {
-        std::stable_sort(round[order[at]].begin(), round[order[at]].end(),
-                         [](const Border* a, const Border* b) { return a->length > b->length; });
-        for (const Border* border : round[order[at]])
-            for (const Index next : border->beside)
-                if (next != regions && way[next].segment < 0) {
+    std::vector<char> seen(regions + 1, false);
+    std::vector<Index> result;
+    for (Index root = regions; root >= 0; --root) {  // the outside, then what the mesh inside parts from it
+        if (seen[root]) continue;
+        seen[root] = true;
+        std::vector<Index> order{root};
+        for (std::size_t at = 0; at < order.size(); ++at) {
+            std::stable_sort(round[order[at]].begin(), round[order[at]].end(),
+                             [](const Border* a, const Border* b) { return a->length > b->length; });
+            for (const Border* border : round[order[at]])
+                for (const Index next : border->beside) {
+                    if (seen[next]) continue;
+                    seen[next] = true;
                     way[next] = {order[at], border->segment};
                     order.push_back(next);
                 }
-    }
-    std::vector<Index> result;
-    for (std::size_t at = order.size(); at-- > 1;) {
-        const Index region = order[at];
-        if (!odd[region]) continue;
-        odd[way[region].to] = !odd[way[region].to];
-        result.push_back(way[region].segment);
-    }
-    for (Index region = 0; region < regions; ++region)
-        if (odd[region] && way[region].segment < 0)
+        }
+        for (std::size_t at = order.size(); at-- > 1;) {
+            const Index region = order[at];
+            if (!odd[region]) continue;
+            odd[way[region].to] = !odd[way[region].to];
+            result.push_back(way[region].segment);
+        }
+        if (root != regions && odd[root])
             throw GeometryError("the mesh inside has a hole with an odd number of edges; choose another mesh inside",
                                 "odd_interior");
+    }
     std::sort(result.begin(), result.end());
     return result;
 }

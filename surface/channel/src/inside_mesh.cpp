@@ -42,16 +42,6 @@ std::vector<double> local_lengths(const InsideMesh& mesh) {
     return sum;
 }
 
-// A circle round its middle has the quad in it: nothing of the outline comes near enough to be in a quad whose vertices
-// all keep the clearance, unless it is long or small for one of them.
-bool touched(const InsideMesh& mesh, Index q, double least_clearance, const SegmentSearch& search) {
-    Vector2 middle(0, 0);
-    for (int k = 0; k < 4; ++k) middle += mesh.points.row(mesh.quads(q, k)) / 4;
-    double radius = 0;
-    for (int k = 0; k < 4; ++k) radius = std::max(radius, (Vector2(mesh.points.row(mesh.quads(q, k))) - middle).norm());
-    return radius >= least_clearance && search.nearer(middle, radius);
-}
-
 InsideMesh only(const InsideMesh& mesh, const std::vector<char>& kept, const std::vector<char>& loose) {
     std::vector<Index> name(mesh.points.rows(), -1);
     std::vector<Index> vertices;
@@ -126,13 +116,13 @@ InsideMesh trimmed(const InsideMesh& mesh, const Outline& outline, double cleara
         clear[v] = clear[v] && length[v] > 0 && !search.nearer(mesh.points.row(v), clearance * length[v]);
     std::vector<char> kept(mesh.quads.rows(), false), loose = clear;
     for (Index q = 0; q < mesh.quads.rows(); ++q) {
-        double least = std::numeric_limits<double>::infinity();
+        std::array<Vector2, 4> corners;
         bool all = true;
         for (int k = 0; k < 4; ++k) {
+            corners[k] = mesh.points.row(mesh.quads(q, k));
             all = all && clear[mesh.quads(q, k)];
-            least = std::min(least, clearance * length[mesh.quads(q, k)]);
         }
-        kept[q] = all && !touched(mesh, q, least, search);
+        kept[q] = all && !search.meets(corners);
     }
     return only(mesh, kept, loose);
 }

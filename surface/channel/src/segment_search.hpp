@@ -14,11 +14,14 @@ public:
     // cell: near to the distances that will be asked for. Points without a segment count as segments of no length.
     SegmentSearch(const PlanePoints& points, const Edges& segments, double cell);
 
+    using Ends = std::array<Vector2, 2>;
+
     // Whether a segment is nearer to it than that.
     bool nearer(const Vector2& place, double distance) const;
+    // Whether one is, wholly or in part, in a convex quad, counter-clockwise.
+    bool meets(const std::array<Vector2, 4>& quad) const;
 
 private:
-    using Ends = std::array<Vector2, 2>;
     double cell_ = 0;
     Vector2 origin_;
     std::vector<Ends> ends_;
@@ -28,6 +31,9 @@ private:
         return static_cast<Index>(std::floor((place[axis] - origin_[axis]) / cell_));
     }
     void add(const Ends& ends);
+    // Whether the test holds for one of those that are nearer than that, and perhaps of others.
+    template <class Test>
+    bool any_near(const Vector2& place, double distance, const Test& test) const;
 };
 
 // Distance of a point from the segment between two others.

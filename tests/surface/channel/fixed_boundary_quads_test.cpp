@@ -9,7 +9,9 @@
 #include <random>
 #include <set>
 
+#include "inside_mesh.hpp"
 #include "octafield/error.hpp"
+#include "segment_search.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -172,6 +174,17 @@ TEST(FixedBoundaryQuads, HaveLinesThatEndInsideOrDivideTheRegion) {
     require_mesh_of(outline, quads_of(outline, 0.05), 1);
 }
 
+TEST(FixedBoundaryQuads, KeepLinesAcrossWhichGroupsWouldBeBetter) {
+    Curve line;  // a sharp wedge with the boundary
+    for (int i = 0; i < 9; ++i) line.push_back({0.1 * i, 0.02 * i});
+    const PlanarOutline outline = outline_of({divided(unit_square, 0.1)}, {line});
+    FixedBoundaryOptions options;
+    for (int turn = 0; turn < 4; ++turn) {
+        options.rotation = 0.4 * turn;
+        require_mesh_of(outline, fixed_boundary_quads(outline, {}, options), 1);
+    }
+}
+
 TEST(FixedBoundaryQuads, HaveLonePointsAsVertices) {
     PlanarOutline outline = outline_of({divided(unit_square, 0.1)});
     outline.points.conservativeResize(outline.points.rows() + 1, 2);
@@ -207,6 +220,56 @@ TEST(FixedBoundaryQuads, SplitOneLoopOfTwoOddOnesThatTheMeshInsideParts) {
     const FixedBoundaryQuads made = quads_of(outline, 0, OddLoops::split_one);
     EXPECT_EQ(made.split.size(), 2U);
     require_mesh_of(outline, made, area(outline));
+}
+
+TEST(FixedBoundaryQuads, SplitOneSegmentBetweenTwoOddRegions) {
+    Curve ring = circle(0.5, 0.5, 0.2, 9);
+    ring.push_back(ring.front());
+    const PlanarOutline outline = outline_of({divided(unit_square, 0.1)}, {ring});
+    const FixedBoundaryQuads made = quads_of(outline, 0, OddLoops::split_one);
+    require_mesh_of(outline, made, 1);
+    ASSERT_EQ(made.split.size(), 1U);
+    EXPECT_GE(made.split[0], outline.loops.rows());
+    EXPECT_EQ(made.lines.rows(), 10);
+}
+
+TEST(InsideMesh, HasAllSquaresWithTheClearanceAndNoOther) {
+    const PlanarOutline region = outline_of({circle(0, 0, 1, 50)});
+    FixedBoundaryOptions options;
+    options.rotation = 0.3;
+    const detail::InsideMesh all = detail::squares(region.points, 0.1, options);
+    const auto clear = [&](const auto& place) {
+        double least = 9;
+        for (Index s = 0; s < region.loops.rows(); ++s)
+            least = std::min(least, detail::distance(place, region.points.row(region.loops(s, 0)),
+                                                     region.points.row(region.loops(s, 1))));
+        return place.norm() < 1 && least >= 0.95 * 0.1;
+    };
+    Index wanted = 0;
+    for (Index q = 0; q < all.quads.rows(); ++q) {
+        bool kept = true;
+        for (int k = 0; k < 4; ++k) kept = kept && clear(detail::Vector2(all.points.row(all.quads(q, k))));
+        wanted += kept;
+    }
+    const detail::InsideMesh made =
+        detail::trimmed(all, {region.points, region.loops, static_cast<Index>(region.loops.rows())}, 0.95);
+    EXPECT_EQ(made.quads.rows(), wanted);
+    for (Index v = 0; v < made.points.rows(); ++v) EXPECT_TRUE(clear(detail::Vector2(made.points.row(v))));
+}
+
+TEST(InsideMesh, HasNoLargeQuadRoundASmallIsland) {
+    detail::InsideMesh mesh;  // a large quad in a narrow frame
+    mesh.points.resize(8, 2);
+    mesh.points << 0, 0, 4, 0, 4, 4, 0, 4, -0.1, -0.1, 4.1, -0.1, 4.1, 4.1, -0.1, 4.1;
+    mesh.quads.resize(5, 4);
+    mesh.quads << 0, 1, 2, 3, 4, 5, 1, 0, 5, 6, 2, 1, 6, 7, 3, 2, 7, 4, 0, 3;
+    const auto kept = [&](const std::vector<Curve>& loops) {
+        const PlanarOutline region = outline_of(loops);
+        return detail::trimmed(mesh, {region.points, region.loops, static_cast<Index>(region.loops.rows())}, 0.95)
+            .quads.rows();
+    };
+    EXPECT_EQ(kept({circle(2, 2, 20, 40)}), 5);
+    EXPECT_EQ(kept({circle(2, 2, 20, 40), circle(2, 2, 0.1, 6)}), 4);
 }
 
 TEST(FixedBoundaryQuads, KeepTheQuadsOfAMeshOfOnesOwn) {
