@@ -159,11 +159,7 @@ def compare(
     inputs = [inputs] if isinstance(inputs, Source) else list(inputs)
     _check(inputs, representations, boundaries, starts)
     if options.axes == "free":
-        raise InvalidInput(
-            "representations are compared at right angles, and so are given fields; take axes 'orthogonal', or run"
-            " octafield field --axes free for each",
-            "stretched_axes",
-        )
+        raise InvalidInput("fields are compared with axes at right angles; take axes 'orthogonal'", "stretched_axes")
     judges, cells = named_energies(energies), compared_meshes.mesh_options(mesh, hex_options)
     seeds = integer_in("seeds", seeds, 1, LARGEST_SEED - options.seed + 1)
     with staged_folder(output, ROWS_FILE) as folder:
