@@ -1433,6 +1433,7 @@ class QuantizedQuads:
         patch_chords: ArrayLike = ...,
         tiles: ArrayLike = ...,
         arc_counts: ArrayLike = ...,
+        part_counts: ArrayLike = ...,
         fewest_blocks: int = ...,
         t_joints: int = ...,
         irregular: ArrayLike = ...,
@@ -1470,9 +1471,51 @@ class QuantizedQuads:
     @arc_counts.setter
     def arc_counts(self, value: ArrayLike) -> None: ...
     @property
+    def part_counts(self) -> Int32s: ...
+    @part_counts.setter
+    def part_counts(self, value: ArrayLike) -> None: ...
+    @property
     def irregular(self) -> Int32s: ...
     @irregular.setter
     def irregular(self, value: ArrayLike) -> None: ...
+
+class IntegerGridMap:
+    mean_distortion: float
+    largest_distortion: float
+    largest_residual: float
+    steps: int
+    def __init__(
+        self,
+        positions: ArrayLike = ...,
+        triangles: ArrayLike = ...,
+        coordinates: ArrayLike = ...,
+        triangle_origins: ArrayLike = ...,
+        singular: ArrayLike = ...,
+        mean_distortion: float = ...,
+        largest_distortion: float = ...,
+        largest_residual: float = ...,
+        steps: int = ...,
+    ) -> None: ...
+    @property
+    def positions(self) -> Float64s: ...
+    @positions.setter
+    def positions(self, value: ArrayLike) -> None: ...
+    @property
+    def triangles(self) -> Int32s: ...
+    @triangles.setter
+    def triangles(self, value: ArrayLike) -> None: ...
+    @property
+    def coordinates(self) -> Float64s: ...
+    @coordinates.setter
+    def coordinates(self, value: ArrayLike) -> None: ...
+    @property
+    def triangle_origins(self) -> Int32s: ...
+    @triangle_origins.setter
+    def triangle_origins(self, value: ArrayLike) -> None: ...
+    @property
+    def singular(self) -> Int32s: ...
+    @singular.setter
+    def singular(self, value: ArrayLike) -> None: ...
 
 class BaseComplex:
     cut_vertices: int
@@ -1704,6 +1747,9 @@ def fixed_boundary_quads(
     rounds: int = ...,
     progress: Progress | None = None,
 ) -> FixedBoundaryQuads: ...
+def integer_grid_map(
+    layout: QuadLayout, quads: QuantizedQuads, origins: ArrayLike = ..., *, progress: Progress | None = None
+) -> IntegerGridMap: ...
 def arc_shortages(layout: QuadLayout, origins: ArrayLike = ...) -> Float64s: ...
 def moved_by_faces(
     surface: SurfaceDomain | TriangleMesh,

@@ -9,6 +9,7 @@
 #include "octafield/surface/feature_cut.hpp"
 #include "octafield/surface/feature_needles.hpp"
 #include "octafield/surface/fitted_pattern.hpp"
+#include "octafield/surface/integer_grid_map.hpp"
 #include "octafield/surface/quantized_quads.hpp"
 #include "options.hpp"
 
@@ -86,6 +87,8 @@ void bind_t_mesh_results(py::module_& m) {
         .field("tiles", &QuantizedQuads::tiles, "(Q,) int32: patch of the T-mesh of each quad.")
         .field("arc_counts", &QuantizedQuads::arc_counts,
                "int32, quads along each side of the T-mesh; 0 where its ends became one.")
+        .field("part_counts", &QuantizedQuads::part_counts,
+               "int32, quads along each part of the seams and the boundary; integer_grid_map needs them.")
         .field("fewest_blocks", &QuantizedQuads::fewest_blocks,
                "That meshes with these irregular vertices can have: a quarter of the quads' corners there.")
         .field("t_joints", &QuantizedQuads::t_joints, "Of the T-mesh; the quads have none.")
@@ -102,6 +105,24 @@ void bind_t_mesh_results(py::module_& m) {
             return count(q.mesh.quads.rows(), "quad") + " in " +
                    count(static_cast<std::ptrdiff_t>(q.patch_sizes.rows()), "block") + ", least scaled Jacobian " +
                    number(q.least_scaled_jacobian);
+        });
+    Record<IntegerGridMap>(m, "IntegerGridMap", "A surface mapped to the integer grid, as integer_grid_map makes it.")
+        .field("positions", &IntegerGridMap::positions, "(n, 3) float64, input unit, on the surface.")
+        .field("triangles", &IntegerGridMap::triangles, "(m, 3) int32, parts of the surface's.")
+        .field("coordinates", &IntegerGridMap::coordinates,
+               "(3 m, 2) float64: u, v of corner k of triangle t in row 3 t + k.")
+        .field("triangle_origins", &IntegerGridMap::triangle_origins, "(m,) int32: triangle of the layout's surface.")
+        .field("singular", &IntegerGridMap::singular,
+               "int32 vertices inside with another number of quads than four, ascending.")
+        .field("mean_distortion", &IntegerGridMap::mean_distortion,
+               "Of (s + 1 / s) / 2, s the ratio of the two stretches; 1 where squares stay squares.")
+        .field("largest_distortion", &IntegerGridMap::largest_distortion, "Of the same.")
+        .field("largest_residual", &IntegerGridMap::largest_residual,
+               "How far u, v over an edge are from a turn by quarters and a shift by whole numbers.")
+        .field("steps", &IntegerGridMap::steps, "Of Newton's method.")
+        .finish([](const IntegerGridMap& g) {
+            return count(static_cast<std::ptrdiff_t>(g.triangles.rows()), "triangle") + ", mean distortion " +
+                   number(g.mean_distortion);
         });
     Record<BaseComplex>(m, "BaseComplex", "The coarsest block structure of a quad mesh, as base_complex finds it.")
         .field("blocks", &BaseComplex::blocks, "(Q,) int32: block of each quad.")
@@ -170,6 +191,21 @@ void bind_quantized_quads(py::module_& m) {
         "\"no_integers\": no whole numbers fit); SolverError (\"node_limit\", \"solver_failed\", \"folded_map\", "
         "\"inverted_quads\"), Cancelled.");
     list_options<QuantizedQuadsOptions>(m, "quantized_quads");
+    m.def(
+        "integer_grid_map",
+        [](const BoundLayout& layout, const QuantizedQuads& quads, const std::vector<Index>& origins,
+           const std::optional<ProgressCallable>& progress) {
+            return run_interruptible([made = layout.layout, quads, origins](
+                                         Job& job) { return integer_grid_map(*made, quads, origins, job.progress()); },
+                                     progress);
+        },
+        "layout"_a, "quads"_a, "origins"_a = std::vector<Index>(), py::kw_only(), "progress"_a = py::none(),
+        "The whole surface of a T-mesh mapped to the integer grid at once, one to one, as an IntegerGridMap: the lines "
+        "of whole u and v are those of the quads, of which the QuantizedQuads of this layout say how many there are on "
+        "each arc. Over an edge u, v go on after a turn by quarters and a shift by whole numbers; singular points are "
+        "at "
+        "whole numbers, the boundary and seams on lines of them. origins: as of quantized_quads. Raises InvalidInput; "
+        "SolverError (kind \"folded_map\"), Cancelled.");
     m.def(
         "arc_shortages",
         [](const BoundLayout& layout, const std::vector<Index>& origins) {

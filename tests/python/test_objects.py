@@ -130,7 +130,8 @@ def layout_objects():
     layout, t_mesh = of.surface.quad_layout(field), of.surface.motorcycle_graph(field)
     quads = of.surface.quantized_quads(t_mesh, quad_count=12)
     return [
-        t_mesh, quads, of.surface.base_complex(quads.mesh), of.surface.cut_along_features(plate),
+        t_mesh, quads, of.surface.integer_grid_map(t_mesh, quads), of.surface.base_complex(quads.mesh),
+        of.surface.cut_along_features(plate),
         of.surface.FittedPattern(changes=[of.surface.PatternChange(3, True, np.ones((2, 3)))], before=2.0, tried=7),
         of.surface.QuantizedQuadsOptions(quad_count=7, weights="relative"),
         of.surface.FittingOptions(edge_length=0.1, places=3),

@@ -261,3 +261,24 @@ def test_a_corner_on_a_feature_is_refused():
     with pytest.raises(of.InvalidInput, match=message) as caught:
         of.compute_quad_layout(cube(), KEPT, corners=[{"vertex": 0, "quads": 2}])
     assert caught.value.kind == "several_faces"
+
+
+def test_a_map_of_the_whole_surface_has_whole_numbers_over_every_edge():
+    mesh = disk()
+    points = [of.surface.imposed_point(mesh, p["position"], 1) for p in four_points()]
+    field = of.surface.impose_singular_points(mesh, of.surface.SingularPattern(points))
+    layout = of.surface.motorcycle_graph(field)
+    quads = of.surface.quantized_quads(layout, quad_count=150)
+    grid = of.surface.integer_grid_map(layout, quads)
+    places = grid.coordinates.reshape(-1, 3, 2)
+    u, v = places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]
+    areas = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
+    assert (areas > 0).all() and areas.sum() == pytest.approx(len(quads.mesh.quads))
+    assert grid.largest_residual < 1e-9 and 1 <= grid.mean_distortion < 1.1
+    at_points = np.isin(grid.triangles, grid.singular)
+    assert len(grid.singular) == 4 and np.allclose(places[at_points], np.round(places[at_points]), atol=1e-12)
+    with pytest.raises(of.InvalidInput) as caught:
+        of.surface.integer_grid_map(layout, of.surface.QuantizedQuads())
+    assert caught.value.kind == "bad_option"
+    with pytest.raises(of.Cancelled):
+        of.surface.integer_grid_map(layout, quads, progress=lambda phase, fraction, merit: False)

@@ -125,9 +125,13 @@ void walk_patches(LayoutPieces& pieces) {
 
 }  // namespace
 
-LayoutPieces layout_pieces(const ImposedField& field, const Charts& charts, const LayoutPoints& points,
+LayoutPieces layout_pieces(const ImposedField& field, const LocalField& local, const LayoutPoints& points,
                            const std::vector<LayoutCurve>& curves, const CurveEnds& ends) {
+    const Charts& charts = local.charts();
     LayoutPieces pieces;
+    pieces.steps.resize(charts.mesh().triangles.rows(), 3);
+    for (Index t = 0; t < pieces.steps.rows(); ++t)
+        pieces.steps.row(t) = charts.lift_vector(t, local.velocity({t, charts.centroid(t), 0}));
     pieces.cut = cut_surface(charts, curves, ends);
     mark_vertices(pieces, points);
     for (Index c = 0; c < static_cast<Index>(curves.size()); ++c) add_chains(pieces, c, pieces.cut.curves[c]);

@@ -15,6 +15,7 @@ struct NodeChain {
 
 struct LayoutPieces {
     CutSurface cut;
+    Points steps{0, 3};  // (F, 3) one quad of unit size along one of the field's directions, in each triangle's middle
     std::vector<Index> vertex_nodes;    // of each vertex of the layout
     std::vector<Index> vertex_of_node;  // -1: none
     std::vector<NodeChain> chains;      // of each side
@@ -28,7 +29,7 @@ struct LayoutPieces {
 };
 
 // Chains of the curves, then of the boundary. Throws GeometryError (kind "bad_subdivision").
-LayoutPieces layout_pieces(const ImposedField& field, const Charts& charts, const LayoutPoints& points,
+LayoutPieces layout_pieces(const ImposedField& field, const LocalField& local, const LayoutPoints& points,
                            const std::vector<LayoutCurve>& curves, const CurveEnds& ends = {});
 
 }  // namespace octafield::surface::detail

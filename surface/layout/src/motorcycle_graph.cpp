@@ -177,10 +177,10 @@ QuadLayout graph_with(const detail::LayoutInput& input, const Progress& progress
     layout.curves.traced = static_cast<Index>(2 * found.walls.size() + found.tracks.size());
     for (LayoutCurve& curve : curves) detail::tighten(curve, input.local.charts());
     report_or_throw(progress, "cut", 0.9, NAN);
-    detail::assemble(layout, input.points,
-                     std::make_shared<detail::LayoutPieces>(
-                         detail::layout_pieces(input.field, input.local.charts(), input.points, curves,
-                                               [&](const CutSurface& cut) { return ends(cut, found); })));
+    detail::assemble(
+        layout, input.points,
+        std::make_shared<detail::LayoutPieces>(detail::layout_pieces(
+            input.field, input.local, input.points, curves, [&](const CutSurface& cut) { return ends(cut, found); })));
     layout.largest_mismatch = mismatch(layout);
     return layout;
 }

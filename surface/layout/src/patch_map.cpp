@@ -40,7 +40,7 @@ private:
     bool solve(const std::vector<Eigen::Triplet<double>>& weights);
     std::vector<Eigen::Triplet<double>> cotangent_weights() const;
     std::vector<Eigen::Triplet<double>> mean_value_weights() const;
-    Index add_point(const Vector& position);
+    Index add_point(const Vector& position, Index node = -1);
     bool on_one_side(Index a, Index b) const { return (sides_[a] & sides_[b]) != 0; }
     std::array<Vector, 2> sides_from(std::size_t triangle, int k) const;
 
@@ -56,8 +56,9 @@ private:
     std::vector<Vector2> fixed_;
 };
 
-Index Patch::add_point(const Vector& position) {
+Index Patch::add_point(const Vector& position, Index node) {
     positions_.push_back(position);
+    result_.nodes.push_back(node);
     sides_.push_back(0);
     fixed_.push_back(Vector2::Zero());
     return static_cast<Index>(positions_.size() - 1);
@@ -91,7 +92,7 @@ void Patch::add_boundary() {
         const Index part = pieces_.part_of_side[c] + (pieces_.forward[c] ? 0 : 1);
         double at = along_[around[place].side][part];
         if (around[place].reversed) at = extent(around[place]) - at;
-        const Index p = add_point(cut.positions.row(cut.nodes[c]));
+        const Index p = add_point(cut.positions.row(cut.nodes[c]), cut.nodes[c]);
         local_[cut.points[c]] = p;
         sides_[p] = 1u << k;
         if (corner) sides_[p] |= 1u << (k + 3) % 4;
@@ -107,7 +108,7 @@ void Patch::add_polygons() {
         for (Index c = cut.first[polygon]; c < cut.first[polygon + 1]; ++c) {
             auto found = local_.find(cut.points[c]);
             if (found == local_.end())
-                found = local_.emplace(cut.points[c], add_point(cut.positions.row(cut.nodes[c]))).first;
+                found = local_.emplace(cut.points[c], add_point(cut.positions.row(cut.nodes[c]), cut.nodes[c])).first;
             ring.push_back(found->second);
             middle += positions_[ring.back()];
         }

@@ -9,6 +9,7 @@ namespace octafield::surface::detail {
 struct PatchMap {
     Points positions;                             // on the surface
     Rows<double, 2> parameters;                   // in the rectangle [0, width] x [0, height]
+    std::vector<Index> nodes;                     // of the cut surface, -1: added here
     std::vector<std::array<Index, 3>> triangles;  // counter-clockwise in both
     double width = 0, height = 0;                 // first and second side: the sums of their lengths
     bool mean_value = false, folded = false;

@@ -16,7 +16,7 @@ QuadLayout layout_with(const ImposedField& given, const LayoutCurveOptions& opti
     const detail::LayoutInput input(given, options);
     detail::assemble(layout, input.points,
                      std::make_shared<detail::LayoutPieces>(
-                         detail::layout_pieces(input.field, input.local.charts(), input.points, layout.curves.curves)));
+                         detail::layout_pieces(input.field, input.local, input.points, layout.curves.curves)));
     detail::add_chords(layout);
     return layout;
 }

@@ -121,6 +121,7 @@ private:
         if (!same.empty()) detail::merge_vertices(seams_, same, held, quads.mesh, result.on_seams);
         set_blocks(quads);
         quads.arc_counts = std::move(chosen.arcs.counts);
+        quads.part_counts = std::move(chosen.part_counts);
         quads.size = chosen.size;
         quads.deviation = chosen.arcs.deviation;
         quads.bound = chosen.arcs.bound;

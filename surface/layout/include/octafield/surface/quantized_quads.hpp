@@ -53,6 +53,8 @@ struct QuantizedQuads : LayoutQuads {
     Rows<Index, 2> patch_chords{0, 2};  // of each block: chord across its first and second direction
     std::vector<Index> tiles;           // patch of the T-mesh of each quad
     std::vector<int> arc_counts;        // quads along each arc (side) of the T-mesh; 0 where tracks became one
+    std::vector<int> part_counts;       // quads along each part of the seams and the boundary, between all ends of arcs
+                                        // on their two sides; for integer_grid_map
     Index fewest_blocks = 0;            // that meshes with these irregular vertices can have (fewest_blocks)
     Index t_joints = 0;                 // of the T-mesh; the quads have none
     std::vector<Index> irregular;       // vertices inside with other than four quads, of the boundary with other than 2
