@@ -382,3 +382,11 @@ def test_a_pair_on_a_torus_is_refused_or_meshed():
             assert way == "rotate"
             require_conforming(result.mesh, 0)
             assert valences(result.mesh) == {"3": 1, "5": 1}
+
+
+def test_noise_is_no_field():
+    plate = square(24)
+    noise = np.random.default_rng(3).normal(size=(len(plate.triangles), 3)) * [1, 1, 0]
+    with pytest.raises(of.InvalidInput) as error:
+        of.compute_quad_mesh(plate, KEPT, field=noise)
+    assert error.value.kind == "rough_field"

@@ -265,7 +265,13 @@ TEST(OwnLengths, ThatMakeNoTriangleAreTold) {
     EXPECT_FALSE(domain.has_own_lengths());
     // Fields that are aligned in space do not take it.
     EXPECT_THROW(non_orthogonal_field(even), InvalidInput);
-    EXPECT_THROW(direction_field(even), InvalidInput);
+    DirectionFieldOptions guided;
+    guided.guide.directions = Points::Zero(2, 3);
+    guided.guide.directions.col(0).setOnes();
+    guided.guide.weights = Eigen::VectorXd::Ones(2);
+    EXPECT_NO_THROW(direction_field(domain, guided));
+    EXPECT_THROW(direction_field(even, guided), InvalidInput);
+    EXPECT_EQ(direction_field(even).domain.edge_lengths(), even.edge_lengths());
 }
 
 }  // namespace

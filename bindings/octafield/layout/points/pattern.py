@@ -16,6 +16,7 @@ from .point_files import PointRow, corner_rows, point_rows
 from .wanted import Places, PointsWanted
 
 _SAME = 1e-6  # of the diagonal: places that are one
+_ANY_WAY, _TRIANGLES_EACH = 40, 25  # singular points of a user's field, and triangles for each where there are more
 _MOST_QUADS = 16  # at a corner, for points inside that make up for it
 _NEAR = 1e-3  # of the diagonal: how far a corner may be from the boundary
 
@@ -40,6 +41,7 @@ def pattern_of(domain: SurfaceDomain, wanted: PointsWanted, progress: Progress |
             computed = _computed(domain, wanted.options, progress)
         else:
             computed = _of_field(wanted.field(domain))
+            _require_smooth(domain, computed)
         if fitted:
             computed = _core.with_corner_quads(domain, computed, _core.finite_corner_quads(domain, computed))
         source = "computed" if wanted.field is None else wanted.field_name
@@ -104,6 +106,17 @@ def _computed(domain: SurfaceDomain, options: SurfaceFieldOptions, progress: Pro
 
 def _of_field(field: DirectionField) -> SingularPattern:
     return _core.singular_pattern(field, _core.surface_singularities(field))
+
+
+def _require_smooth(domain: SurfaceDomain, found: SingularPattern) -> None:
+    """Of a field that the user has: noise turns by as much as it can in every triangle."""
+    points, triangles = len(found.points), len(domain.triangles)
+    if points > _ANY_WAY and points * _TRIANGLES_EACH > triangles:
+        raise InvalidInput(
+            f"the field has {points} singular points inside on {triangles} triangles; give one that is smooth, one"
+            f" point to {_TRIANGLES_EACH} triangles at most, or shorter triangles",
+            "rough_field",
+        )
 
 
 def _given(domain: SurfaceDomain, places: Places, singularities: Any) -> Pattern:
