@@ -390,3 +390,51 @@ def test_noise_is_no_field():
     with pytest.raises(of.InvalidInput) as error:
         of.compute_quad_mesh(plate, KEPT, field=noise)
     assert error.value.kind == "rough_field"
+
+
+def test_quads_that_cross_are_refused_and_poor_ones_told():
+    """Of a hole in large quads: its loop would cross itself."""
+    outer, hole = coast(40), 0.3 * coast(12)[::-1]
+    for quads in (12, 20, 30, 60):
+        try:
+            result = of.compute_quad_mesh([outer, hole], quad_options=of.QuadMeshOptions(quads=quads))
+        except of.GeometryError as error:
+            assert error.kind == "crossing_quads"
+        else:
+            split = of.surface.split_quads(result.mesh)
+            assert not of.surface.find_defects(split, closed=False)
+            far = result.record.feature_deviation.curves > 0.02
+            assert far == any("of the diagonal away from edges" in note for note in result.record.notes)
+
+
+def test_an_odd_outline_has_one_segment_split():
+    result = of.compute_quad_mesh([coast(41)], quad_options=of.QuadMeshOptions(keep_boundary=True))
+    told = result.record.kept_boundary
+    assert (told.segments, told.kept, told.split) == (41, 40, 1) and "1 segments were split" in result.record.notes[0]
+
+
+def test_a_kept_boundary_sets_the_size_of_quads():
+    square_of_four = [[(0, 0), (1, 0), (1, 1), (0, 1)]]
+    result = of.compute_quad_mesh(square_of_four, quad_options=of.QuadMeshOptions(keep_boundary=True))
+    assert result.record.quads < 10 and result.record.scaled_jacobian.min > 0.1
+
+
+@pytest.mark.parametrize(
+    "given, kind",
+    [
+        ({"field": np.tile([0, 0, 1.0], (49, 1))}, "not_tangent"),
+        ({"field": np.ones((49, 3)), "quad_options": of.QuadMeshOptions(keep_boundary=True)}, "ignored_option"),
+    ],
+)
+def test_fields_that_say_nothing_are_refused(given, kind):
+    with pytest.raises(of.InvalidInput) as error:
+        of.compute_quad_mesh(square(6), KEPT, **given)
+    assert error.value.kind == kind
+
+
+@pytest.mark.parametrize("scale", [1e80, 1e-80])
+def test_units_that_no_number_can_be_squared_in_are_refused(scale):
+    plate = square(3)
+    with pytest.raises(of.InvalidInput) as error:
+        made(of.TriangleMesh(np.asarray(plate.vertices) * scale, plate.triangles))
+    assert error.value.kind == "size_out_of_range"

@@ -26,6 +26,8 @@ Source = str | Path | TriangleMesh | TetMesh | TetDomain
 REPAIR_IGNORED = "repair was ignored: it works on surfaces only"
 TOUCHING = ("non_manifold_edge", "non_manifold_vertex")  # kinds of defects that the boundary of tets may have
 
+_LARGEST = 1e60  # coordinates, input unit
+
 
 def load_surface(path: str | Path, *, repair: str = "default") -> TriangleMesh:
     """Reads a closed surface, repaired up to a level (MeshOptions.repair), and raises GeometryError, InvalidInput or
@@ -68,6 +70,7 @@ def read_sound(
                 source, interfaces=options.interfaces, edge_length=options.edge_length, progress=progress
             )
         with naming(found.name):
+            _require_scale(found)
             found = _sound(found, options, closed=volume)
     with naming(found.name), clock.phase("mesh"):
         locking = None
@@ -79,6 +82,20 @@ def read_sound(
             found.tets = found.tets.with_features(features)
         of_surface = features if sheets is None else _core.features_on_sheets(features, sheets)
     return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), sheets, locking)
+
+
+def _require_scale(found: Input) -> None:
+    """Products of four lengths and their inverses are to be numbers."""
+    points = np.asarray(found.surface.vertices if found.tets is None else found.tets.vertices)
+    if not len(points) or not np.isfinite(points).all():
+        return
+    extent = float((points.max(axis=0) - points.min(axis=0)).max())
+    if np.abs(points).max() > _LARGEST or 0 < extent < 1 / _LARGEST:
+        raise InvalidInput(
+            f"coordinates reach {np.abs(points).max():.2g}, over {extent:.2g}: lengths from {1 / _LARGEST:g} to"
+            f" {_LARGEST:g} are computed with; take another unit",
+            "size_out_of_range",
+        )
 
 
 def split_input(found: Input, options: MeshOptions) -> LockingCounts:

@@ -19,7 +19,7 @@ from .options import MOST_QUADS, QuadLayoutOptions
 from .points.free_axes import pattern_of_lines
 from .points.pattern import Pattern, pattern_of
 from .points.wanted import Points, PointsWanted
-from .quality import QuadFigures, figures_of, require_sound
+from .quality import QuadFigures, figures_of, require_apart, require_sound
 from .t_mesh import MENDED, fitted_points, quads_of_t_mesh
 
 if TYPE_CHECKING:
@@ -75,8 +75,11 @@ def quads_on(
         field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
     except SolverError as error:
         blunted, notes = _blunted(whole) if origins is not None else (whole, [])
-        if error.kind != "unresolved_turns" or not notes:
+        if error.kind != "unresolved_turns":
             raise
+        if not notes:
+            remedy = "; --triangle-length (edge_length of the field's options) gives shorter triangles"
+            raise SolverError(f"{error.args[0]}{remedy}", error.kind, error.elements) from error
         domain, origins = _cut(blunted, wanted, points.singularities, measure)
         domain, pattern = _pattern(domain, wanted, points, progress)
         begun = begun.changed(notes=[*begun.notes, *notes])
@@ -100,7 +103,7 @@ def quads_on(
     announce(progress, "check")
     figures = figures_of(made.mesh, whole, given)
     require_sound(made.mesh, figures, int(_core.euler_characteristic(meshed.surface)))
-    begun = begun.changed(notes=[*begun.notes, *cut_corners(made.mesh, whole)])
+    begun = begun.changed(notes=[*begun.notes, *cut_corners(made.mesh, whole), *require_apart(made.mesh)])
     meter.end()
     return QuadsMade(whole, field, pattern, made, figures, target, inadmissible, begun, meter)
 

@@ -18,10 +18,10 @@ from ..domain.meshing import Source
 from ..fields.direction_field import FieldOnSurface, curves_of
 from ..options import NonOrthogonalOptions
 from ..progress.phases import PeakMemory, PhaseClock, Progress, StopNote, forward
+from .made import inner_features
 from .points.free_axes import corners_of_lines
 from .points.pattern import name_of, require_one_face
 from .points.wanted import Corners, Places, meshed_with_places
-from .quad_layout import inner_features
 
 _OF_LINES = (
     "method",

@@ -8,10 +8,11 @@ import numpy as np
 
 from .. import _core
 from .._core import QuadMesh, SurfaceDomain, TriangleMesh
-from ..errors import SolverError
+from ..errors import GeometryError, SolverError
 from ..meshes.figures import Spread, spread, surface_deviation
 
 _ON_BOUNDARY = 1e-6  # of the diagonal
+_FLAT = 1e-6  # scaled Jacobian: no more than that is none
 _CHORD = 0.35  # of its length: how far its middle may be from the boundary
 
 
@@ -56,6 +57,19 @@ def require_sound(mesh: QuadMesh, figures: QuadFigures, euler_characteristic: in
         )
 
 
+def require_apart(mesh: QuadMesh) -> list[str]:
+    """A note where quads, cut along diagonals, cross one another. Raises GeometryError where all lie in one plane."""
+    found = [d for d in _core.find_defects(_core.split_quads(mesh), closed=False) if d.kind == "self_intersection"]
+    if not found:
+        return []
+    points = np.asarray(mesh.vertices)
+    extents = np.sqrt(np.maximum(np.linalg.eigvalsh(np.cov(points.T)), 0))
+    told = f"{len(found[0].elements)} triangles of the quads cut along diagonals cross one another"
+    if extents[0] <= 1e-9 * extents[2]:
+        raise GeometryError(f"{told}: quads are too large for the boundary; ask for more quads", "crossing_quads")
+    return [f"{told}: more quads keep parts of the surface that are near one another apart"]
+
+
 def figures_of(mesh: QuadMesh, domain: SurfaceDomain, given: TriangleMesh) -> QuadFigures:
     """domain: the surface that the quads are on, for its boundary. given: that they are compared with."""
     points, quads = np.asarray(mesh.vertices), np.asarray(mesh.quads)
@@ -69,7 +83,7 @@ def figures_of(mesh: QuadMesh, domain: SurfaceDomain, given: TriangleMesh) -> Qu
         scaled_jacobians=jacobians,
         jacobians=spread(jacobians),
         angle_quality=spread(np.asarray(_core.quad_angle_quality(mesh))),
-        inverted=int((~(jacobians > 0)).sum()),
+        inverted=int((~(jacobians > _FLAT)).sum()),
         nonconforming_edges=int((count > 2).sum()) + same_sense + len(stray),
         t_junctions=_t_junctions(stray),
         irregular_vertices=int((~on_boundary & (round_vertex != 4)).sum()),

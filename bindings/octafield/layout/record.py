@@ -81,7 +81,7 @@ def of_quads(
         cpu_seconds={name: meter.cpu[name] for name, seconds in meter.wall.items() if seconds},
         phase_peak_mb=meter.peak_mb,
         peak_mb=max(begun.peak_mb, *meter.peak_mb.values()),
-        notes=[*begun.notes, *_of_the_quads(len(made.mesh.quads), int(options["quads"]), figures)],
+        notes=[*begun.notes, *notes_of(len(made.mesh.quads), int(options["quads"]), figures)],
         versions=begun.versions,
         machine=begun.machine,
         options=options,
@@ -111,7 +111,7 @@ def jacobians(values: Spread) -> JacobianFigures:
     return JacobianFigures(min=values.min, p05=values.p05, mean=values.mean)
 
 
-def _of_the_quads(made: int, wanted: int, figures: QuadFigures) -> list[str]:
+def notes_of(made: int, wanted: int, figures: QuadFigures) -> list[str]:
     """Notes where the quads are far from what was asked for, or from the surface."""
     notes = []
     if wanted and not 1 / _OTHER_NUMBER <= made / wanted <= _OTHER_NUMBER:

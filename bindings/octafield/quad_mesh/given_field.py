@@ -17,15 +17,21 @@ FieldGiven = str | Path | ArrayLike
 FieldAt = Callable[[SurfaceDomain], DirectionField]
 
 _FLAT = 0.1  # of its length: a direction whose part in the surface is shorter says nothing there
+_MOST_FLAT = 0.1  # of the triangles
+_AWAY = 0.02  # of the diagonal: a surface that is farther is another one
 _NAMES = ("direction", "directions")  # of data in .vtp files
+
+
+def is_vtp(given: FieldGiven) -> bool:
+    return isinstance(given, (str, Path)) and Path(given).suffix.lower() == ".vtp"
 
 
 def field_at(given: FieldGiven, found: Input) -> FieldAt:
     """given: (V, 3) or (F, 3) directions, one of each cross, at the vertices or triangles of the input; a .npy file of
     these; or a .vtp file of a surface with data `direction`, as `octafield surface-field` writes. Elsewhere on the
     surface the nearest one counts. Raises InvalidInput, IoError."""
-    if isinstance(given, (str, Path)) and Path(given).suffix.lower() == ".vtp":
-        surface, directions, of_triangles = _of_file(Path(given))
+    if is_vtp(given):
+        surface, directions, of_triangles = _of_file(Path(str(given)))
     else:
         name = str(given) if isinstance(given, (str, Path)) else "field"
         values = _load(Path(given)) if isinstance(given, (str, Path)) else given
@@ -93,14 +99,20 @@ def _on(domain: SurfaceDomain, surface: TriangleMesh, directions: np.ndarray, of
     edges, beside = np.asarray(domain.edges), np.asarray(domain.edge_triangles)
     along = points[edges[:, 1]] - points[edges[:, 0]]
     along /= np.linalg.norm(along, axis=1)[:, None]
-    values = np.zeros(len(edges), complex)
+    values, flats = np.zeros(len(edges), complex), 0
     for k in (0, 1):
         at = np.flatnonzero(beside[:, k] >= 0)
         triangle = beside[at, k]
         x = np.einsum("ij,ij->i", there[triangle], along[at])
         y = np.einsum("ij,ij->i", there[triangle], np.cross(normals[triangle], along[at]))
         flat = np.hypot(x, y)
+        flats += int((flat <= _FLAT).sum())
         values[at] += np.where(flat > _FLAT, ((x + 1j * y) / np.maximum(flat, _FLAT)) ** 4, 0)
+    if flats > _MOST_FLAT * (beside >= 0).sum():
+        raise InvalidInput(
+            "the field's directions are nearly normal to the surface in many triangles; give tangent ones",
+            "not_tangent",
+        )
     values[beside.min(axis=1) < 0] = 1
     size = np.abs(values)
     return DirectionField(symmetry=4, domain=domain, values=np.where(size > 0, values / np.maximum(size, 1e-300), 1))
@@ -111,7 +123,15 @@ def _nearest(places: np.ndarray, surface: TriangleMesh, directions: np.ndarray, 
     import pyvista
 
     points, triangles = np.array(surface.vertices), np.array(surface.triangles, int)
-    cells = np.asarray(pyvista.PolyData.from_regular_faces(points, triangles).find_closest_cell(places))
+    given = pyvista.PolyData.from_regular_faces(points, triangles)
+    found, nearest = given.find_closest_cell(places, return_closest_point=True)  # type: ignore[misc]
+    cells = np.asarray(found)
+    away = np.linalg.norm(nearest - places, axis=1).max() / np.linalg.norm(np.ptp(points, axis=0))
+    if away > _AWAY:
+        raise InvalidInput(
+            f"the field is on another surface: up to {100 * away:.2g} % of its diagonal away; give one on this surface",
+            "other_surface",
+        )
     if of_triangles:
         return directions[cells]
     corners = triangles[cells]

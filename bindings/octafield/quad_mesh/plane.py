@@ -61,6 +61,11 @@ def outline_of(source: Any, progress: Progress | None) -> tuple[PlanarOutline, I
     return outline, found
 
 
+def mean_segment(outline: PlanarOutline) -> float:
+    ends = np.asarray(outline.points)[np.asarray(outline.loops)]
+    return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean())
+
+
 def box_round(outline: PlanarOutline, triangle_length: float) -> TriangleMesh:
     """A rectangle round the outline in triangles of about that edge: squares, cut along alternating diagonals."""
     points = np.asarray(outline.points)
@@ -80,8 +85,10 @@ def box_round(outline: PlanarOutline, triangle_length: float) -> TriangleMesh:
 
 
 def kept(outline: PlanarOutline, inside: Any, progress: Progress | None) -> FixedBoundaryResult:
-    """inside: quads that cover the region."""
-    return compute_fixed_boundary_quads(outline, interior=inside, spacing="accept", progress=progress)
+    """inside: quads that cover the region. A segment is split where there is an odd number round a region."""
+    return compute_fixed_boundary_quads(
+        outline, interior=inside, spacing="accept", odd_loops="split_one", progress=progress
+    )
 
 
 def triangle_length(outline: PlanarOutline, sizes: SizeAt, asked: float, most: int = 200_000) -> float:

@@ -29,9 +29,9 @@ from ..options import SurfaceFieldOptions
 from ..planar.read import Outline
 from ..progress.phases import Progress
 from ..view.notebook import Facts, ShownInNotebooks
-from .given_field import FieldGiven, field_at
+from .given_field import FieldGiven, field_at, is_vtp
 from .options import QuadMeshOptions
-from .plane import box_round, input_of_outline, is_outline, kept, outline_of, triangle_length
+from .plane import box_round, input_of_outline, is_outline, kept, mean_segment, outline_of, triangle_length
 from .sized import quads_wanted, size_at, sized
 
 if TYPE_CHECKING:
@@ -120,6 +120,11 @@ def compute_quad_mesh(
     """
     if quad_options.keep_boundary:
         return _kept(source, options, progress, quad_options, sizes, field)
+    if is_outline(source) and field is not None and not is_vtp(field):
+        raise InvalidInput(
+            "an outline has no vertices or triangles that a field could be of; give .vtp of a surface with the field",
+            "wrong_type",
+        )
     read: Any = input_of_outline(source, progress) if is_outline(source) else source
     meshed, places, given = meshed_with_places(read, replace(options, interfaces=False), progress)
     with naming(meshed.name):
@@ -143,7 +148,14 @@ def _kept(
 
     if isinstance(source, MeshedInput):
         source = source.surface
+    if field is not None:
+        raise InvalidInput(
+            "a field cannot be given where the boundary is kept: the field is one of a rectangle round it",
+            "ignored_option",
+        )
     outline, found = outline_of(source, progress)
+    if not (wanted.quads or wanted.edge_length or sizes is not None):
+        wanted = replace(wanted, edge_length=mean_segment(outline))
     with naming(found.name):
         known = None if sizes is None else size_at(sizes, found)
         region = prepare_mesh(found, replace(options, interfaces=False), volume=False, progress=progress)
@@ -152,9 +164,7 @@ def _kept(
         box = box_round(outline, triangle_length(outline, there, options.edge_length))
         round_it = replace(options, remesh=False, edge_length=0.0, features="none", interfaces=False)
         inner = QuadMeshOptions(edge_length=scale if known is None else 0.0, inadmissible=wanted.inadmissible)
-        result = compute_quad_mesh(
-            box, round_it, progress, quad_options=inner, sizes=None if known is None else there, field=field
-        )
+        result = compute_quad_mesh(box, round_it, progress, quad_options=inner, sizes=None if known is None else there)
         made = kept(outline, result.mesh, progress)
         ratios = _size_ratios(made.mesh, known, scale)
         told = record.of_kept_boundary(result.record, made, ratios, found, target, wanted, options)

@@ -9,7 +9,7 @@ from ..domain.inputs import Input
 from ..domain.meshed_input import MeshedInput
 from ..layout.made import QuadsMade
 from ..layout.quality import edges_of, quads_round
-from ..layout.record import jacobians, points_of
+from ..layout.record import jacobians, notes_of, points_of
 from ..meshes.figures import spread, surface_deviation
 from ..options import SurfaceFieldOptions
 from ..planar.quads import FixedBoundaryResult
@@ -25,6 +25,9 @@ from ..records.parts import (
 from ..records.quad_mesh import QuadMeshRecord
 from .features import feature_deviation
 from .options import QuadMeshOptions
+
+_FAR = 0.02  # of the diagonal
+_POOR = 0.1  # scaled Jacobian
 
 
 def of_quad_mesh(
@@ -79,12 +82,21 @@ def of_quad_mesh(
         cpu_seconds={name: meter.cpu[name] for name in wall},
         phase_peak_mb=meter.peak_mb,
         peak_mb=max(begun.peak_mb, *meter.peak_mb.values()),
-        notes=begun.notes,
+        notes=[*begun.notes, *notes_of(len(mesh.quads), target, figures), *_of_features(curves)],
         versions=begun.versions,
         machine=begun.machine,
         options=dict(vars(options)),
         field_options=field_options.recorded(),
     )
+
+
+def _of_features(curves: float) -> list[str]:
+    if curves <= _FAR:
+        return []
+    return [
+        f"features or the boundary are up to {100 * curves:.2g} % of the diagonal away from edges of quads along them:"
+        " more quads follow them more closely"
+    ]
 
 
 def of_kept_boundary(
@@ -108,7 +120,16 @@ def of_kept_boundary(
     deviation = surface_deviation(points, np.zeros((0, 3), np.int32), quads, found.surface)
     low, median, high = np.percentile(size_ratios, [10, 50, 90])
     smallest, largest = quad_angles(mesh)
-    notes = [] if not figures.split_segments else [f"{figures.split_segments} segments were split at their middle"]
+    notes = []
+    if figures.split_segments:
+        notes.append(
+            f"{figures.split_segments} segments were split at their middle: the number round each region has to be even"
+        )
+    if figures.scaled_jacobian.min < _POOR:
+        notes.append(
+            f"the least scaled Jacobian is {figures.scaled_jacobian.min:.2g}: the segments of the outline and the quads"
+            " wanted differ much in length, or corners are acute"
+        )
     return inside.changed(
         input=found.name,
         mesh_sha256=MeshedInput(found.name, "surface", found.surface, FeatureGraph(), "none").digest(),
