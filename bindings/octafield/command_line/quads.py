@@ -191,7 +191,7 @@ def quad_mesh(
             metavar="FILE",
             help=(
                 "A cross field whose singular points become irregular vertices, in place of a computed one: .vtp with"
-                " data `direction` (as surface-field writes), or .npy, a direction per vertex or triangle of INPUT."
+                " data `direction`, or .npy, a direction per vertex or triangle of INPUT."
             ),
         ),
     ] = None,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,9 +18,6 @@ from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..records.record_file import RECORD_FILE, write_record
 from .options import FORMATS
 from .quad_mesh import QuadMeshResult
-
-if TYPE_CHECKING:
-    import pyvista
 
 
 def formats_of(words: str) -> list[str]:
@@ -45,11 +42,11 @@ def write_quad_mesh_result(
     with clock.phase("write"):
         for form, name in zip(formats, names, strict=True):
             if form == "vtu":
-                write_file(folder / name, vtu_bytes(quad_grid(result), metadata))
+                write_file(folder / name, vtu_bytes(result.grid(), metadata))
             elif form in ("obj", "off"):
                 write_file(folder / name, _text(result, form).encode())
             else:
-                through_file(folder / name, f".{form}", lambda plain, form=form: _through_meshio(plain, result, form))
+                through_file(folder / name, f".{form}", partial(_through_meshio, result=result, form=form))
         write_file(folder / "field.vtp", vtp_bytes(field_polydata(result.field), metadata))
     record, peak = result.record, round(memory.megabytes(), 1)
     result.record = record.changed(
@@ -61,17 +58,6 @@ def write_quad_mesh_result(
         files=[*names, "field.vtp", RECORD_FILE],
     )
     write_record(folder / RECORD_FILE, result.record)
-
-
-def quad_grid(result: QuadMeshResult) -> pyvista.UnstructuredGrid:
-    from ..view.datasets import quad_grid as plain
-
-    grid = plain(result.mesh)
-    grid.cell_data["scaled_jacobian"] = result.scaled_jacobians
-    grid.cell_data["size_ratio"] = result.size_ratios
-    grid.point_data["quads"] = result.valences.astype(np.int32)
-    grid.point_data["boundary"] = result.on_boundary.astype(np.uint8)
-    return grid
 
 
 def _text(result: QuadMeshResult, form: str) -> str:

@@ -124,7 +124,7 @@ def _nearest(places: np.ndarray, surface: TriangleMesh, directions: np.ndarray, 
 
     points, triangles = np.array(surface.vertices), np.array(surface.triangles, int)
     given = pyvista.PolyData.from_regular_faces(points, triangles)
-    found, nearest = given.find_closest_cell(places, return_closest_point=True)  # type: ignore[misc]
+    found, nearest = given.find_closest_cell(places, return_closest_point=True)
     cells = np.asarray(found)
     away = np.linalg.norm(nearest - places, axis=1).max() / np.linalg.norm(np.ptp(points, axis=0))
     if away > _AWAY:
@@ -132,8 +132,7 @@ def _nearest(places: np.ndarray, surface: TriangleMesh, directions: np.ndarray, 
             f"the field is on another surface: up to {100 * away:.2g} % of its diagonal away; give one on this surface",
             "other_surface",
         )
-    if of_triangles:
-        return directions[cells]
     corners = triangles[cells]
     near = np.linalg.norm(points[corners] - places[:, None], axis=2).argmin(axis=1)
-    return directions[corners[np.arange(len(cells)), near]]
+    result: np.ndarray = directions[cells if of_triangles else corners[np.arange(len(cells)), near]]
+    return result

@@ -76,9 +76,19 @@ class QuadMeshResult(ShownInNotebooks):
 
     def _drawn(self) -> pyvista.Plotter:
         from ..view.quad_layout import jacobian_scene
-        from .files import quad_grid
 
-        return jacobian_scene(quad_grid(self))
+        return jacobian_scene(self.grid())
+
+    def grid(self) -> pyvista.UnstructuredGrid:
+        """The quads with cell data scaled_jacobian and size_ratio; point data quads (round the vertex), boundary."""
+        from ..view.datasets import quad_grid
+
+        grid = quad_grid(self.mesh)
+        grid.cell_data["scaled_jacobian"] = self.scaled_jacobians
+        grid.cell_data["size_ratio"] = self.size_ratios
+        grid.point_data["quads"] = self.valences.astype(np.int32)
+        grid.point_data["boundary"] = self.on_boundary.astype(np.uint8)
+        return grid
 
 
 def compute_quad_mesh(

@@ -46,8 +46,9 @@ def _from_boundary(surface: TriangleMesh, growth: float) -> SizeAt:
         cells, nearest = lines.find_closest_cell(places, return_closest_point=True)  # type: ignore[misc]
         first, last = rim[np.asarray(cells)].T
         share = np.linalg.norm(nearest - points[first], axis=1) / lengths[np.asarray(cells)]
-        result: np.ndarray = (1 - share) * at_vertex[first] + share * at_vertex[last]
-        return result + growth * np.linalg.norm(nearest - places, axis=1)
+        there = (1 - share) * at_vertex[first] + share * at_vertex[last]
+        result: np.ndarray = there + growth * np.linalg.norm(nearest - places, axis=1)
+        return result
 
     return at
 
