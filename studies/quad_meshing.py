@@ -37,7 +37,8 @@ HEADER = (
 
 def surface_and_features(path: Path) -> tuple[octafield.TriangleMesh, np.ndarray]:
     """As the file has them."""
-    meshed = prepare_mesh(path, octafield.SurfaceFieldOptions(remesh=False), volume=False)
+    kept = octafield.SurfaceFieldOptions(remesh=False, interfaces=False)
+    meshed = prepare_mesh(path, kept, volume=False)
     domain = octafield.surface.SurfaceDomain(meshed.surface, meshed.features)
     rim = np.asarray(domain.edges)[np.asarray(domain.edge_triangles).min(axis=1) < 0]
     return meshed.surface, np.concatenate([np.asarray(meshed.features.edges).reshape(-1, 2), rim])
