@@ -18,6 +18,8 @@ from .points.pattern import Pattern
 
 MENDED = ("no_integers", "no_quad_layout")  # kinds of errors that other singular points may mend
 _TOLD = 3  # places
+_GOOD = _core.QuantizedQuadsOptions().least_jacobian  # scaled Jacobian that is worth more blocks
+_FAIR = 0.3  # that ends the search where blocks do not matter
 
 
 def quads_of_t_mesh(
@@ -37,6 +39,7 @@ def quads_of_t_mesh(
         graph,
         blocks=options.blocks,
         measure=options.measure,
+        least_jacobian=_FAIR if options.measure == "lengths" and options.blocks == "fine" else _GOOD,
         origins=origins,
         release_points=release_points,
         progress=progress,
