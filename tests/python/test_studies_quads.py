@@ -61,3 +61,30 @@ def test_the_study_of_fixed_boundaries_finds_every_mesh_sound(tmp_path):
     assert row.split("|")[3].strip() == "0"  # triangles
     content = (tmp_path / "channel_coast.png").read_bytes()
     assert content[:8] == b"\x89PNG\r\n\x1a\n" and 3_000 < len(content) < 300_000
+
+
+def test_the_judge_of_quads_sees_what_is_wrong():
+    import octafield as of
+    from studies.quad_judge import judged
+
+    plate = of.TriangleMesh([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    features = np.array([[0, 1], [1, 2], [2, 3], [0, 3]])
+    points = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0], [2, 1, 0]], float)
+    quads, no_triangles = np.array([[0, 1, 4, 3], [1, 2, 5, 4]]), np.zeros((0, 3), int)
+    good = judged(points, quads, no_triangles, plate, features, 1.0)
+    assert (good["quads"], good["inverted"], good["nonconforming"], good["irregular"]) == (2, 0, 0, 0)
+    assert good["least"] == good["p10"] == good["p90"] == 1 and good["off_features"] == 0
+    folded = points.copy()
+    folded[4] = [2.5, 0.5, 0]
+    assert judged(folded, quads, no_triangles, plate, features, 1.0)["inverted"] == 1
+    gap = judged(
+        np.vstack([points, points[1:2] + [0, 0.3, 0]]),
+        np.array([[0, 6, 4, 3], [1, 2, 5, 4]]),
+        no_triangles,
+        plate,
+        features,
+        1.0,
+    )
+    assert gap["nonconforming"] > 0
+    short = judged(points * [0.9, 1, 1], quads, no_triangles, plate, features, 1.0)
+    assert short["off_features"] > 0.08
