@@ -4,6 +4,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
+import octafield as of
 import pytest
 
 STUDIES = Path(__file__).parents[2]
@@ -64,7 +66,6 @@ def test_the_study_of_fixed_boundaries_finds_every_mesh_sound(tmp_path):
 
 
 def test_the_judge_of_quads_sees_what_is_wrong():
-    import octafield as of
     from studies.quad_judge import judged
 
     plate = of.TriangleMesh([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
