@@ -135,6 +135,22 @@ def report_notes(record: "InputRecord | HexDominantRecord | QuadLayoutRecord | Q
         log.info("%s: %s", record.input, note)
 
 
+def finish(
+    record: "InputRecord | HexDominantRecord | QuadLayoutRecord | QuadMeshRecord",
+    show: Callable[..., None],
+    target: str | None,
+    quiet: bool,
+    output: Path,
+) -> None:
+    """What a command tells of the run that it wrote: notes, its JSON, a table by `show`, where it is."""
+    report_notes(record)
+    if target:
+        put_json(target, record.to_dict())
+    if target != "-" and not quiet:
+        show(record)
+    log.info("wrote %s", output)
+
+
 @contextlib.contextmanager
 def progress_bar(quiet: bool, whole: bool = False) -> Iterator[Callback | None]:
     """Yields a progress callback; None when quiet. Draws on stderr when that is a terminal, else writes a plain line

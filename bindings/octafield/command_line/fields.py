@@ -19,15 +19,13 @@ from . import files as files_cli
 from . import hexdom as hexdom_cli
 from . import inspect as cli_inspect
 from . import quads as quads_cli
-from .console import carry_out, log
+from .console import carry_out
 from .options import InputFile, Json, Output, Quiet, Verbose, choices, with_options
 from .shell_completion import words
 from .study import app as studies
 
 if TYPE_CHECKING:
     from ..fields.direction_field import FieldOnSurface
-    from ..records.field import FieldRecord
-    from ..records.surface_field import SurfaceFieldRecord
 
 # Of fields of lines: what they share with crosses, and what has another meaning there.
 _SHARED = (*(option.name for option in fields(MeshOptions)), "seed")
@@ -96,7 +94,7 @@ def field(
                 compute_field(input, chosen, progress) if start is None else polish_file(input, start, chosen, progress)
             )
             write_field_result(result, folder, progress)
-        _finish(result.record, json, quiet, output)
+        console.finish(result.record, tables.show_record, json, quiet, output)
 
     carry_out(work, quiet, verbose, json)
 
@@ -182,7 +180,7 @@ def surface_field(
                     input, chosen, progress, singularities=imposed, corners=corners, inadmissible=inadmissible
                 )
             write_surface_result(result, folder, progress)
-        _finish(result.record, json, quiet, output)
+        console.finish(result.record, tables.show_record, json, quiet, output)
 
     carry_out(work, quiet, verbose, json)
 
@@ -217,15 +215,6 @@ def _refuse_unused(non_orthogonal: bool, imposed: bool, corners: bool, inadmissi
             " takes corners)",
             "ignored_options",
         )
-
-
-def _finish(record: "FieldRecord | SurfaceFieldRecord", json: str | None, quiet: bool, output: Path) -> None:
-    console.report_notes(record)
-    if json:
-        console.put_json(json, record.to_dict())
-    if json != "-" and not quiet:
-        tables.show_record(record)
-    log.info("wrote %s", output)
 
 
 def main() -> None:

@@ -9,7 +9,7 @@ import typer
 from ..hexdom.options import CORRECTIONS, POINTS, HexMeshOptions
 from ..options import FieldOptions
 from . import console, tables
-from .console import carry_out, log
+from .console import carry_out
 from .options import InputFile, Json, Output, Quiet, Verbose, with_options
 from .shell_completion import words
 
@@ -89,11 +89,6 @@ def hex_dominant(
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             result = compute_hex_dominant(input, chosen, progress, hex_options=of_cells, sizes=size, field=field)
             write_hex_result(result, folder, progress)
-        console.report_notes(result.record)
-        if json:
-            console.put_json(json, result.record.to_dict())
-        if json != "-" and not quiet:
-            tables.show_hex_record(result.record)
-        log.info("wrote %s", output)
+        console.finish(result.record, tables.show_hex_record, json, quiet, output)
 
     carry_out(work, quiet, verbose, json)

@@ -154,12 +154,7 @@ def quad_layout(
                 input, chosen, progress, layout_options=of_quads, singularities=singularities, corners=corners
             )
             write_layout_result(result, folder, progress)
-        console.report_notes(result.record)
-        if json:
-            console.put_json(json, result.record.to_dict())
-        if json != "-" and not quiet:
-            tables.show_layout_record(result.record)
-        log.info("wrote %s", output)
+        console.finish(result.record, tables.show_layout_record, json, quiet, output)
 
     carry_out(work, quiet, verbose, json)
 
@@ -244,12 +239,7 @@ def quad_mesh(
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             result = compute_quad_mesh(input, chosen, progress, quad_options=of_quads, sizes=size, field=field)
             write_quad_mesh_result(result, folder, written, progress)
-        console.report_notes(result.record)
-        if json:
-            console.put_json(json, result.record.to_dict())
-        if json != "-" and not quiet:
-            tables.show_quad_mesh_record(result.record)
-        log.info("wrote %s", output)
+        console.finish(result.record, tables.show_quad_mesh_record, json, quiet, output)
 
     carry_out(work, quiet, verbose, json)
 
