@@ -9,6 +9,7 @@ import pytest
 from octafield.command_line import fields as cli
 from octafield.domain.generators import generate
 from octafield.quad_mesh.features import feature_deviation
+from octafield.quad_mesh.record import notes_of_features
 from octafield.records.record_file import any_record
 from pipeline_fixtures import octafield
 from quad_mesh_checks import area_of, disk, require_conforming
@@ -120,6 +121,14 @@ def test_sizes_like_the_radius_are_reached_between_circles_without_points():
     radii = np.linalg.norm(np.asarray(mesh.vertices)[np.asarray(mesh.quads)].mean(axis=1), axis=1)
     ratios = np.sqrt(areas(mesh)) / radii
     assert ratios.max() / ratios.min() < 1.25
+
+
+def test_what_is_away_from_features_is_told():
+    assert notes_of_features(0.0, 0.019) == []
+    [corner] = notes_of_features(0.018, 0.019)
+    [curve] = notes_of_features(1e-9, 0.03)
+    assert "corner between features is no vertex of the quads, by up to 1.8 %" in corner
+    assert "up to 3 % of the diagonal away from edges of quads along them" in curve
 
 
 def growing(points):
@@ -315,6 +324,27 @@ def test_sizes_grow_from_a_kept_boundary():
     sizes = np.sqrt(areas(result.mesh))
     assert sizes[from_middle < 0.4].mean() > 2 * sizes[from_middle > 0.9].mean()
     assert result.record.kept_boundary.kept == 96
+
+
+def test_a_flat_surface_keeps_its_boundary_at_its_height():
+    """The same quads wherever it is, and sizes that are a function are asked where they are."""
+    ground = of.surface.outline_triangles(of.planar_outline([coast(40)]))
+    points = np.asarray(ground.vertices) + [0, 0, 5]
+    raised = of.TriangleMesh(points, ground.triangles)
+    options = of.QuadMeshOptions(keep_boundary=True)
+
+    def size(places):
+        assert (abs(places[:, 2] - 5) < 1e-12).all()
+        return 0.1 + 0.1 * abs(places[:, 0])
+
+    for low, high in (("growth=0.4", "growth=0.4"), (lambda p: size(p + [0, 0, 5]), size)):
+        one = of.compute_quad_mesh(ground, KEPT, quad_options=options, sizes=low)
+        other = of.compute_quad_mesh(raised, KEPT, quad_options=options, sizes=high)
+        np.testing.assert_array_equal(one.mesh.quads, other.mesh.quads)
+        np.testing.assert_allclose(np.asarray(one.mesh.vertices) + [0, 0, 5], other.mesh.vertices, atol=1e-9)
+        assert other.record.surface_deviation.max < 1e-9 and other.record.feature_deviation.corners == 0
+        assert other.record.seconds == pytest.approx(sum(other.record.wall_seconds.values()))
+        assert other.record.wall_seconds["channel"] > 0
 
 
 def test_outlines_are_surfaces_where_they_are_not_kept(tmp_path):

@@ -27,7 +27,7 @@ from ..layout.points.wanted import PointsWanted, meshed_with_places
 from ..layout.quality import quads_round
 from ..options import SurfaceFieldOptions
 from ..planar.read import Outline
-from ..progress.phases import Progress
+from ..progress.phases import PhaseClock, Progress
 from ..view.notebook import Facts, ShownInNotebooks
 from .given_field import FieldGiven, field_at, is_vtp
 from .options import QuadMeshOptions
@@ -102,7 +102,7 @@ def compute_quad_mesh(
 ) -> QuadMeshResult:
     """Quads on a surface, open or closed, on the boundary of a tet mesh (paths or meshes in memory), or on a plane
     region by its outline (read_outline, planar_outline: files, GeoJSON, lists of loops), along a cross field whose
-    singular points are their irregular vertices, about as large as wanted; features are followed exactly.
+    singular points are their irregular vertices, about as large as wanted; features are followed.
 
     With keep_boundary every segment of the outline, or of the boundary of a flat surface, is an edge of a quad: the
     quads of a rectangle round it are taken as far as they stay clear of it, and templates go between
@@ -163,7 +163,7 @@ def _kept(
             "a field cannot be given where the boundary is kept: the field is one of a rectangle round it",
             "ignored_option",
         )
-    outline, found = outline_of(source, progress)
+    outline, height, found = outline_of(source, progress)
     if not (wanted.quads or wanted.edge_length or sizes is not None):
         wanted = replace(wanted, edge_length=mean_segment(outline))
     with naming(found.name):
@@ -171,17 +171,19 @@ def _kept(
         region = prepare_mesh(found, replace(options, interfaces=False), volume=False, progress=progress)
         target, scale = _target(region, wanted, known)
         there = _times(known, scale)
-        box = box_round(outline, triangle_length(outline, there, options.edge_length))
+        box = box_round(outline, height, options.edge_length or triangle_length(outline, height, there))
         round_it = replace(options, remesh=False, edge_length=0.0, features="none", interfaces=False)
         inner = QuadMeshOptions(edge_length=scale if known is None else 0.0, inadmissible=wanted.inadmissible)
         result = compute_quad_mesh(box, round_it, progress, quad_options=inner, sizes=None if known is None else there)
-        made = kept(outline, result.mesh, progress)
-        ratios = _size_ratios(made.mesh, known, scale)
-        told = record.of_kept_boundary(result.record, made, ratios, found, target, wanted, options)
-    on_boundary, valences = quads_round(np.asarray(made.mesh.quads), len(made.mesh.vertices))
+        clock = PhaseClock(region.clock)
+        with clock.phase("channel"):
+            mesh, figures = kept(outline, height, result.mesh, progress)
+        ratios = _size_ratios(mesh, known, scale)
+        told = record.of_kept_boundary(result.record, mesh, figures, clock, ratios, found, target, wanted, options)
+    on_boundary, valences = quads_round(np.asarray(mesh.quads), len(mesh.vertices))
     return QuadMeshResult(
-        mesh=made.mesh,
-        scaled_jacobians=np.asarray(_core.scaled_jacobians(made.mesh)),
+        mesh=mesh,
+        scaled_jacobians=np.asarray(_core.scaled_jacobians(mesh)),
         size_ratios=ratios,
         valences=valences,
         on_boundary=on_boundary,

@@ -12,7 +12,8 @@ from ..layout.quality import edges_of, quads_round
 from ..layout.record import jacobians, notes_of, points_of
 from ..meshes.figures import spread, surface_deviation
 from ..options import SurfaceFieldOptions
-from ..planar.quads import FixedBoundaryResult
+from ..planar.quads import FixedBoundaryFigures
+from ..progress.phases import PhaseClock
 from ..records.parts import (
     Deviation,
     EdgeLengths,
@@ -26,7 +27,7 @@ from ..records.quad_mesh import QuadMeshRecord
 from .features import feature_deviation
 from .options import QuadMeshOptions
 
-_FAR = 0.02  # of the diagonal
+_SAME, _FAR = 1e-6, 0.02  # of the diagonal
 _POOR = 0.1  # scaled Jacobian
 
 
@@ -44,6 +45,7 @@ def of_quad_mesh(
     low, median, high = np.percentile(size_ratios, [10, 50, 90])
     smallest, largest = quad_angles(mesh)
     whole = made.quads.whole_numbers
+    assert whole is not None  # of t-meshes, which quad meshes come from
     wall = {name: seconds for name, seconds in meter.wall.items() if seconds}
     return QuadMeshRecord(
         input=begun.input,
@@ -72,17 +74,13 @@ def of_quad_mesh(
         size_ratio=SizeRatios(p10=float(low), median=float(median), p90=float(high)),
         feature_deviation=FeatureDeviation(corners=corners, curves=curves),
         surface_deviation=Deviation(max=figures.deviation[0], rms=figures.deviation[1]),
-        whole_numbers=WholeNumberFigures(
-            objective=0.0 if whole is None else whole.deviation,
-            bound=0.0 if whole is None else whole.bound,
-            optimal=whole is None or whole.optimal,
-        ),
+        whole_numbers=WholeNumberFigures(objective=whole.deviation, bound=whole.bound, optimal=whole.optimal),
         seconds=sum(wall.values()),
         wall_seconds=wall,
         cpu_seconds={name: meter.cpu[name] for name in wall},
         phase_peak_mb=meter.peak_mb,
         peak_mb=max(begun.peak_mb, *meter.peak_mb.values()),
-        notes=[*begun.notes, *notes_of(len(mesh.quads), target, figures), *_of_features(curves)],
+        notes=[*begun.notes, *notes_of(len(mesh.quads), target, figures), *notes_of_features(corners, curves)],
         versions=begun.versions,
         machine=begun.machine,
         options=dict(vars(options)),
@@ -90,26 +88,39 @@ def of_quad_mesh(
     )
 
 
-def _of_features(curves: float) -> list[str]:
-    if curves <= _FAR:
-        return []
-    return [
-        f"features or the boundary are up to {100 * curves:.2g} % of the diagonal away from edges of quads along them:"
-        " more quads follow them more closely"
-    ]
+def notes_of_features(corners: float, curves: float) -> list[str]:
+    notes = []
+    if corners > _SAME:
+        notes.append(
+            f"a corner between features is no vertex of the quads, by up to {100 * corners:.2g} % of the diagonal: two"
+            " quads meet there on either side; more quads come nearer"
+        )
+    if curves > _FAR:
+        notes.append(
+            f"features or the boundary are up to {100 * curves:.2g} % of the diagonal away from edges of quads along"
+            " them: more quads follow them more closely"
+        )
+    return notes
 
 
 def of_kept_boundary(
     inside: QuadMeshRecord,
-    made: FixedBoundaryResult,
+    mesh: QuadMesh,
+    figures: FixedBoundaryFigures,
+    clock: PhaseClock,
     size_ratios: np.ndarray,
     found: Input,
     target: int,
     options: QuadMeshOptions,
     field_options: SurfaceFieldOptions,
 ) -> QuadMeshRecord:
-    """inside: of the quads round the outline, some of which are kept. found: the region as a surface."""
-    figures, mesh = made.figures, made.mesh
+    """inside: of the quads round the outline, some of which are kept. clock: of all but these. found: the region as a
+    surface."""
+    phases = dict.fromkeys([*inside.wall_seconds, *clock.wall])
+    wall, cpu = (
+        {name: a.get(name, 0.0) + b.get(name, 0.0) for name in phases}
+        for a, b in ((inside.wall_seconds, clock.wall), (inside.cpu_seconds, clock.cpu))
+    )
     quads = np.asarray(mesh.quads)
     on_boundary, around = quads_round(quads, len(mesh.vertices))
     edges = edges_of(quads)[0]
@@ -141,7 +152,6 @@ def of_kept_boundary(
         irregular_boundary_vertices=_valences(around[on_boundary], 2),
         inverted=figures.inverted,
         nonconforming_edges=figures.nonconforming_edges,
-        t_junctions=0 if figures.nonconforming_edges == 0 else figures.nonconforming_edges,
         scaled_jacobian=jacobians(figures.scaled_jacobian),
         angle=MinMax(min=smallest, max=largest),
         edge_length=EdgeLengths(
@@ -153,6 +163,9 @@ def of_kept_boundary(
         kept_boundary=KeptBoundary(
             segments=figures.boundary_segments, kept=figures.kept_segments, split=figures.split_segments
         ),
+        seconds=sum(wall.values()),
+        wall_seconds=wall,
+        cpu_seconds=cpu,
         notes=notes,
         options=dict(vars(options)),
         field_options=field_options.recorded(),

@@ -221,7 +221,9 @@ class Deviation(Record):
 class FeatureDeviation(Record):
     """Of quads from features and the boundary, over the diagonal of the surface's box."""
 
-    corners: float = Field(description="the largest distance of a corner of these to the nearest vertex of the quads")
+    corners: float = Field(
+        description="the largest distance of a corner between features to the nearest vertex of the quads"
+    )
     curves: float = Field(
         description="of a point of these to edges of quads with both ends on them: chords, where they are bent"
     )

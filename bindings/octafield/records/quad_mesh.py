@@ -51,7 +51,7 @@ class QuadMeshRecord(Record):
     angle: MinMax = Field(description="between edges of a quad in space, degrees")
     edge_length: EdgeLengths = Field(description="of the edges of the quads, input unit")
     size_ratio: SizeRatios = Field(description="reached over wanted, of quads")
-    feature_deviation: FeatureDeviation = Field(description="0 for straight features that are followed")
+    feature_deviation: FeatureDeviation = Field(description="of the quads from features")
     surface_deviation: Deviation = Field(
         description="between quads and input, both ways, over the diagonal of the input's box"
     )
