@@ -50,6 +50,7 @@ from .planar.geojson import outline_of_geojson
 from .planar.outline import planar_outline, resampled_outline
 from .planar.quads import FixedBoundaryFigures, FixedBoundaryResult, compute_fixed_boundary_quads
 from .planar.read import read_outline
+from .quad_mesh.grid_maps import corner_coordinates, write_grid_map
 from .quad_mesh.options import QuadMeshOptions
 from .quad_mesh.quad_mesh import QuadMeshResult, compute_quad_mesh
 from .records.record_file import read_record, read_surface_record
@@ -102,6 +103,7 @@ __all__ = [
     "compute_quad_mesh",
     "compute_surface_field",
     "convert_file",
+    "corner_coordinates",
     "frame_formats",
     "frames",
     "from_meshio",
@@ -133,5 +135,6 @@ __all__ = [
     "volume",
     "write_cells",
     "write_frames",
+    "write_grid_map",
     "write_surface",
 ]

@@ -1408,12 +1408,17 @@ class QuantizedQuadsOptions:
         origins: ArrayLike = ...,
         smoothing: int = ...,
         release_points: bool = ...,
+        follow: ArrayLike = ...,
         most_nodes: int = ...,
     ) -> None: ...
     @property
     def origins(self) -> Int32s: ...
     @origins.setter
     def origins(self, value: ArrayLike) -> None: ...
+    @property
+    def follow(self) -> Complex128s: ...
+    @follow.setter
+    def follow(self, value: ArrayLike) -> None: ...
 
 class QuantizedQuads:
     fewest_blocks: int
@@ -1727,6 +1732,7 @@ def quantized_quads(
     origins: ArrayLike | None = ...,
     smoothing: int = ...,
     release_points: bool = ...,
+    follow: ArrayLike | None = ...,
     most_nodes: int = ...,
     progress: Progress | None = None,
 ) -> QuantizedQuads: ...

@@ -54,6 +54,9 @@ void bind_t_mesh_options(py::module_& m) {
                "Rounds in which vertices are moved for a larger least scaled Jacobian round them; 0: none.")
         .field("release_points", &QuantizedQuadsOptions::release_points,
                "Let singular points inside move where quads of a scaled Jacobian below 0.3 are left.")
+        .field("follow", &QuantizedQuadsOptions::follow,
+               "A cross field on the layout's surface (DirectionField.values) that edges of quads are drawn to, with "
+               "measure \"lengths\". None: quads are as square as can be.")
         .field("most_nodes", &QuantizedQuadsOptions::most_nodes, "Of branch and bound, for each connected part.")
         .finish([](const QuantizedQuadsOptions& o) {
             return "edge_length=" + number(o.edge_length) + ", quad_count=" + std::to_string(o.quad_count);

@@ -9,7 +9,7 @@ import typer
 
 from ..layout.options import BLOCKS, INADMISSIBLE, LAYOUTS, MEASURES, QuadLayoutOptions
 from ..options import AXES, SurfaceFieldOptions
-from ..quad_mesh.options import FORMATS, QuadMeshOptions
+from ..quad_mesh.options import FOLLOW, FORMATS, QuadMeshOptions
 from . import console, tables
 from .console import carry_out, log
 from .options import InputFile, Json, Output, Quiet, Verbose, choices, with_options
@@ -185,11 +185,19 @@ def quad_mesh(
         typer.Option(
             metavar="FILE",
             help=(
-                "A cross field whose singular points become irregular vertices, in place of a computed one: .vtp with"
-                " data `direction`, or .npy, a direction per vertex or triangle of INPUT."
+                "A cross field that quads follow, in place of a computed one: .vtp with data `direction`, or .npy, a"
+                " direction per vertex or triangle of INPUT. Its singular points become irregular vertices."
             ),
         ),
     ] = None,
+    follow: Annotated[
+        str,
+        typer.Option(
+            metavar=choices(FOLLOW),
+            autocompletion=words(FOLLOW[1:]),
+            help="Of --field: its directions, or its singular points alone. Default: directions.",
+        ),
+    ] = "default",
     keep_boundary: Annotated[
         bool,
         typer.Option(
@@ -208,6 +216,14 @@ def quad_mesh(
     formats: Annotated[
         str, typer.Option(metavar="LIST", help=f"Of the quads, with commas: {', '.join(FORMATS)}.")
     ] = "vtu,obj",
+    parameterization: Annotated[
+        bool,
+        typer.Option(
+            "--parameterization",
+            help="Also parameterization.obj: the surface's triangles with u, v (vt) whose whole numbers are the quads'"
+            " lines.",
+        ),
+    ] = False,
     triangle_length: Annotated[
         float,
         typer.Option(
@@ -233,12 +249,16 @@ def quad_mesh(
 
         chosen = replace(options(), edge_length=triangle_length)
         of_quads = QuadMeshOptions(
-            quads=quads, edge_length=edge_length, keep_boundary=keep_boundary, inadmissible=inadmissible
+            quads=quads,
+            edge_length=edge_length,
+            keep_boundary=keep_boundary,
+            follow=follow,
+            inadmissible=inadmissible,
         )
         written = formats_of(formats)
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             result = compute_quad_mesh(input, chosen, progress, quad_options=of_quads, sizes=size, field=field)
-            write_quad_mesh_result(result, folder, written, progress)
+            write_quad_mesh_result(result, folder, written, progress, parameterization)
         console.finish(result.record, tables.show_quad_mesh_record, json, quiet, output)
 
     carry_out(work, quiet, verbose, json)

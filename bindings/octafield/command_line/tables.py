@@ -120,6 +120,7 @@ def show_quad_mesh_record(record: QuadMeshRecord) -> None:
         ("scaled Jacobian", _several(record.scaled_jacobian, (".3f",) * 3)),
         ("angle, degrees", _several(record.angle, (".1f",) * 2)),
         ("size over the wanted one", _several(record.size_ratio, (".3f",) * 3)),
+        *([("from the field, degrees", _several(record.field_angle, (".2f",) * 2))] if record.field_angle else []),
         ("deviation from features", _several(record.feature_deviation, (".2e",) * 2)),
         ("deviation from the surface", _several(record.surface_deviation, (".2e",) * 2)),
         ("seconds", f"{record.seconds:.1f}"),

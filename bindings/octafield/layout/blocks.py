@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _core
-from .._core import ImposedField, QuadLayout, QuadMesh
+from .._core import ImposedField, QuadLayout, QuadMesh, QuantizedQuads
 from ..progress.phases import Progress
 from .options import QuadLayoutOptions
 
@@ -48,6 +48,15 @@ class WholeNumbers:
 
 
 @dataclass
+class TMesh:
+    """That quads come from, with their whole numbers. origins: of the surface cut open."""
+
+    graph: QuadLayout
+    quads: QuantizedQuads
+    origins: np.ndarray | None
+
+
+@dataclass
 class BlockQuads:
     """mesh: of quads. blocks: (q,) patch of each; chords: (q, 2) the chord across its first and its second pair of
     sides. layout: that it is the grid of; None: there is none of curves."""
@@ -57,6 +66,7 @@ class BlockQuads:
     chords: np.ndarray
     layout: LayoutParts | None = None
     whole_numbers: WholeNumbers | None = None  # of the T-mesh that the quads come from
+    t_mesh: TMesh | None = None
 
 
 def quads_of_separatrices(

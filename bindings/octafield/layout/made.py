@@ -20,7 +20,7 @@ from .points.free_axes import pattern_of_lines
 from .points.pattern import Pattern, pattern_of
 from .points.wanted import Points, PointsWanted
 from .quality import QuadFigures, figures_of, require_apart, require_sound
-from .t_mesh import MENDED, fitted_points, quads_of_t_mesh
+from .t_mesh import MENDED, Follow, fitted_points, quads_of_t_mesh, turn_to
 
 if TYPE_CHECKING:
     from ..progress.meter import PhaseMeter
@@ -52,9 +52,11 @@ def quads_on(
     wanted: QuadLayoutOptions,
     progress: Progress | None,
     measure: Measure | None = None,
+    follow: Follow | None = None,
 ) -> QuadsMade:
     """given: what the quads are compared with. measure: of the surface, cut open along features where these are
-    followed, the same by other edge lengths; the quads are as long as one another in these."""
+    followed, the same by other edge lengths; the quads are as long as one another in these. follow: a cross field that
+    edges of quads are drawn to, by lengths."""
     from ..fields.record import of_input
     from ..progress.meter import PhaseMeter
 
@@ -71,8 +73,15 @@ def quads_on(
     inadmissible = wanted.inadmissible
     if inadmissible == "default":
         inadmissible = "move" if points.singularities is None else "fail"
+
+    def imposed() -> tuple[ImposedField, Pattern, str]:
+        made, changed, way = _imposed(domain, pattern, inadmissible, wanted, meter.report)
+        if follow is not None:
+            turn_to(made, follow)
+        return made, changed, way
+
     try:
-        field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
+        field, pattern, inadmissible = imposed()
     except SolverError as error:
         blunted, notes = _blunted(whole) if origins is not None else (whole, [])
         if error.kind != "unresolved_turns":
@@ -83,20 +92,20 @@ def quads_on(
         domain, origins = _cut(blunted, wanted, points.singularities, measure)
         domain, pattern = _pattern(domain, wanted, points, progress)
         begun = begun.changed(notes=[*begun.notes, *notes])
-        field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
+        field, pattern, inadmissible = imposed()
     computed = points.singularities is None
     made: BlockQuads
     with told_of_points(domain, pattern.pattern, wanted):
         if wanted.layout == "t-mesh":
             try:
-                field, made = quads_of_t_mesh(field, wanted, target, origins, computed, meter.report)
+                field, made = quads_of_t_mesh(field, wanted, target, origins, computed, follow, meter.report)
             except GeometryError as error:
                 if not computed or error.kind not in MENDED:
                     raise
                 pattern = fitted_points(domain, pattern, origins, inadmissible, wanted, target, error, meter.report)
                 begun = begun.changed(notes=[*begun.notes, pattern.notes[-1]])
-                field, pattern, inadmissible = _imposed(domain, pattern, inadmissible, wanted, meter.report)
-                field, made = quads_of_t_mesh(field, wanted, target, origins, computed, meter.report)
+                field, pattern, inadmissible = imposed()
+                field, made = quads_of_t_mesh(field, wanted, target, origins, computed, follow, meter.report)
         else:
             field, made = quads_of_separatrices(field, wanted, target, meter.report)
     meter.begin("check")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -12,10 +13,11 @@ from .._core import ImposedField, SurfaceDomain
 from ..errors import Cancelled, Error, GeometryError
 from ..progress.phases import Progress
 from .block_parts import block_chords, parts_of_blocks
-from .blocks import BlockQuads, WholeNumbers
+from .blocks import BlockQuads, TMesh, WholeNumbers
 from .options import QuadLayoutOptions
 from .points.pattern import Pattern
 
+Follow = Callable[[SurfaceDomain], np.ndarray]  # values of a cross field, as DirectionField.values
 MENDED = ("no_integers", "no_quad_layout")  # kinds of errors that other singular points may mend
 _TOLD = 3  # places
 _GOOD = _core.QuantizedQuadsOptions().least_jacobian  # scaled Jacobian that is worth more blocks
@@ -28,10 +30,11 @@ def quads_of_t_mesh(
     edge_length: float,
     origins: np.ndarray | None,
     release_points: bool,
+    follow: Follow | None,
     progress: Progress | None,
 ) -> tuple[ImposedField, BlockQuads]:
     """By whole numbers on the arcs of a motorcycle graph. origins: where the surface was cut open. release_points:
-    singular points inside may move where bad quads are left. The field comes back turned on closed parts where that
+    singular points inside may move where bad quads are left. follow: a field that edges are drawn to. The field comes back turned on closed parts where that
     makes for few blocks."""
     field, graph = _graph(field, options, progress)
     size = {"quad_count": options.quads} if options.quads else {"edge_length": edge_length}
@@ -42,6 +45,7 @@ def quads_of_t_mesh(
         least_jacobian=_FAIR if options.measure == "lengths" and options.blocks == "fine" else _GOOD,
         origins=origins,
         release_points=release_points,
+        follow=None if follow is None else follow(graph.curves.domain),
         progress=progress,
         **size,
     )
@@ -49,7 +53,28 @@ def quads_of_t_mesh(
     chords = block_chords(quads, blocks, np.asarray(made.patch_chords))
     parts = parts_of_blocks(made.mesh, blocks, chords, graph.largest_mismatch, graph.curves.traced)
     whole = WholeNumbers(made.t_joints, made.deviation, made.bound, made.optimal)
-    return field, BlockQuads(made.mesh, blocks, chords, parts, whole)
+    return field, BlockQuads(made.mesh, blocks, chords, parts, whole, TMesh(graph, made, origins))
+
+
+def turn_to(field: ImposedField, follow: Follow) -> None:
+    """Parts without a boundary are turned as a whole to where they are nearest to the other field: nothing else fixes
+    their angle."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    domain = field.field.domain
+    edges, beside = np.asarray(domain.edges), np.asarray(domain.edge_triangles)
+    size = len(domain.vertices)
+    graph = coo_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(size, size))
+    part = connected_components(graph, directed=False)[1][edges[:, 0]]
+    closed = np.bincount(part, beside.min(axis=1) < 0) == 0
+    if not closed.any():
+        return
+    values, areas = np.array(field.field.values), np.asarray(_core.triangle_areas(domain.mesh))
+    apart = follow(domain) * values.conj() * np.where(beside >= 0, areas[beside], 0).sum(axis=1)
+    sums = np.bincount(part, apart.real) + 1j * np.bincount(part, apart.imag)
+    turns = np.where(closed, np.exp(1j * np.angle(sums)), 1)
+    field.field.values = values * turns[part]
 
 
 def _graph(

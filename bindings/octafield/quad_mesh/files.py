@@ -6,6 +6,7 @@ import json
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,8 +17,12 @@ from ..layout.files import field_polydata
 from ..options import require_one_of
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..records.record_file import RECORD_FILE, write_record
+from .grid_maps import obj_bytes
 from .options import FORMATS
 from .quad_mesh import QuadMeshResult
+
+if TYPE_CHECKING:
+    from ..records.parts import ParameterizationFigures
 
 
 def formats_of(words: str) -> list[str]:
@@ -31,14 +36,20 @@ def formats_of(words: str) -> list[str]:
 
 
 def write_quad_mesh_result(
-    result: QuadMeshResult, folder: Path, formats: Sequence[str] = ("vtu",), progress: Progress | None = None
+    result: QuadMeshResult,
+    folder: Path,
+    formats: Sequence[str] = ("vtu",),
+    progress: Progress | None = None,
+    parameterization: bool = False,
 ) -> None:
     """mesh.* in each format, field.vtp (the crosses and sizes), and the record with their names and the time it took.
-    mesh.vtu has cell data scaled_jacobian and size_ratio, point data quads (round the vertex) and boundary."""
+    mesh.vtu has cell data scaled_jacobian and size_ratio, point data quads (round the vertex) and boundary.
+    parameterization: and parameterization.obj, u, v of the surface (grid_map). Raises as that, IoError."""
     announce(progress, "write")
     memory, clock = PeakMemory(), PhaseClock()
     metadata = _metadata(result)
     names = [f"mesh.{form}" for form in formats]
+    figures = None
     with clock.phase("write"):
         for form, name in zip(formats, names, strict=True):
             if form == "vtu":
@@ -48,8 +59,12 @@ def write_quad_mesh_result(
             else:
                 through_file(folder / name, f".{form}", partial(_through_meshio, result=result, form=form))
         write_file(folder / "field.vtp", vtp_bytes(field_polydata(result.field), metadata))
+        if parameterization:
+            names.append("parameterization.obj")
+            figures = _write_map(result, folder / names[-1], progress)
     record, peak = result.record, round(memory.megabytes(), 1)
     result.record = record.changed(
+        parameterization=figures,
         seconds=record.seconds + clock.wall["write"],
         wall_seconds={**record.wall_seconds, "write": clock.wall["write"]},
         cpu_seconds={**record.cpu_seconds, "write": clock.cpu["write"]},
@@ -58,6 +73,19 @@ def write_quad_mesh_result(
         files=[*names, "field.vtp", RECORD_FILE],
     )
     write_record(folder / RECORD_FILE, result.record)
+
+
+def _write_map(result: QuadMeshResult, path: Path, progress: Progress | None) -> ParameterizationFigures:
+    from ..records.parts import ParameterizationFigures
+
+    found = result.grid_map(progress)
+    write_file(path, obj_bytes(found))
+    return ParameterizationFigures(
+        triangles=len(found.triangles),
+        mean_distortion=found.mean_distortion,
+        largest_distortion=found.largest_distortion,
+        largest_residual=found.largest_residual,
+    )
 
 
 def _text(result: QuadMeshResult, form: str) -> str:

@@ -7,6 +7,7 @@ from ..errors import InvalidInput
 from ..layout.options import INADMISSIBLE, MOST_QUADS
 from ..options import integer_in, require_one_of
 
+FOLLOW = ("default", "directions", "points")
 FORMATS = ("vtu", "obj", "off", "msh", "mesh", "inp")
 
 
@@ -16,6 +17,8 @@ class QuadMeshOptions:
     the sizes as they are. Sizes that are given are taken as ratios where a number or an edge length is told as well.
 
     keep_boundary: every segment of a plane region's outline is an edge of a quad.
+    follow: of a field that is given: its "directions" and "points", the default; or "points" alone: quads are as square
+        as can be round its singular points.
     inadmissible: what to do where the points are in places that no field has them in, as of QuadLayoutOptions.
 
     Raises InvalidInput.
@@ -28,6 +31,7 @@ class QuadMeshOptions:
     quads: int = 0
     edge_length: float = 0.0
     keep_boundary: bool = False
+    follow: str = "default"
     inadmissible: str = "default"
 
     def __post_init__(self) -> None:
@@ -38,4 +42,5 @@ class QuadMeshOptions:
             raise InvalidInput(
                 "an edge length decides the number of quads: leave it or the number of quads out", "option_out_of_range"
             )
+        require_one_of("follow", self.follow, FOLLOW)
         require_one_of("inadmissible", self.inadmissible, INADMISSIBLE)

@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _core
-from .._core import ImposedField, QuadMesh, SurfaceDomain, TriangleMesh
+from .._core import ImposedField, IntegerGridMap, QuadMesh, SurfaceDomain, TriangleMesh
 from ..domain.inputs import from_mesh, naming
 from ..domain.meshed_input import MeshedInput
 from ..domain.meshing import Source, prepare_mesh
 from ..errors import InvalidInput
 from ..hexdom.sizes import SizeAt, Sizes
+from ..layout.blocks import TMesh
 from ..layout.made import quads_on
 from ..layout.options import MOST_QUADS, QuadLayoutOptions
 from ..layout.points.wanted import PointsWanted, meshed_with_places
@@ -29,7 +30,7 @@ from ..options import SurfaceFieldOptions
 from ..planar.read import Outline
 from ..progress.phases import PhaseClock, Progress
 from ..view.notebook import Facts, ShownInNotebooks
-from .given_field import FieldGiven, field_at, is_vtp
+from .given_field import FieldGiven, GivenField, field_at, is_vtp
 from .options import QuadMeshOptions
 from .plane import box_round, input_of_outline, is_outline, kept, mean_segment, outline_of, triangle_length
 from .sized import quads_wanted, size_at, sized
@@ -48,7 +49,7 @@ class QuadMeshResult(ShownInNotebooks):
 
     mesh: the quads. scaled_jacobians: (q,). size_ratios: (q,) square root of the area over the edge length wanted
     there. valences: (V,) quads round each vertex; on_boundary: (V,) bool. field: that they follow, on the surface
-    refined round its singular points. record: all figures, the JSON object of the command line."""
+    refined round its singular points. t_mesh: that they come from; None with a kept boundary. record: all figures, the JSON object of the command line."""
 
     mesh: QuadMesh
     scaled_jacobians: np.ndarray
@@ -57,6 +58,7 @@ class QuadMeshResult(ShownInNotebooks):
     on_boundary: np.ndarray
     field: ImposedField
     record: QuadMeshRecord
+    t_mesh: TMesh | None = None
 
     def __repr__(self) -> str:
         r = self.record
@@ -64,6 +66,21 @@ class QuadMeshResult(ShownInNotebooks):
             f"QuadMeshResult({r.input}: {r.quads:,} quads, {sum(r.irregular_vertices.values()):,} irregular vertices;"
             f" least scaled Jacobian {r.scaled_jacobian.min:.3f})"
         )
+
+    def grid_map(self, progress: Progress | None = None) -> IntegerGridMap:
+        """The surface mapped to the plane so that lines of whole u and v are those of the quads
+        (octafield.surface.integer_grid_map); write_grid_map writes it. Raises SolverError (kind "folded_map", naming
+        how many triangles stay folded and in which of the field's surface), InvalidInput (kind "ignored_option") with a
+        kept boundary, Cancelled."""
+        if self.t_mesh is None:
+            raise InvalidInput(
+                "quads with a kept boundary come from templates there, and no map of the surface; mesh without keeping"
+                " it",
+                "ignored_option",
+            )
+        t_mesh = self.t_mesh
+        origins = [] if t_mesh.origins is None else t_mesh.origins
+        return _core.integer_grid_map(t_mesh.graph, t_mesh.quads, origins, progress=progress)
 
     def _facts(self) -> Facts:
         return str(self.record.input), {name: self.record.to_dict()[name] for name in _SHOWN}
@@ -114,9 +131,9 @@ def compute_quad_mesh(
         place of it, plus 0.2 times the distance. The field is the one of the surface measured in them, so that it
         turns as quads of such sizes have to. None: the same everywhere.
 
-    field: a cross field whose singular points are to be the irregular vertices, in place of a computed one: (V, 3)
-        or (F, 3) directions, one of each cross, at the vertices or triangles of the input, .npy of these, or .vtp of a
-        surface with data `direction`. Quads follow the imposed field of these points.
+    field: a cross field in place of a computed one: (V, 3) or (F, 3) directions, one of each cross, at the vertices or
+        triangles of the input, .npy of these, or .vtp of a surface with data `direction`. Its singular points are to be
+        the irregular vertices, and edges of quads are drawn to its directions (quad_options.follow).
 
     progress(phase, fraction, merit): False cancels. Raises InvalidInput, GeometryError, IoError, SolverError,
     Cancelled.
@@ -140,10 +157,12 @@ def compute_quad_mesh(
     with naming(meshed.name):
         found = places.found or from_mesh(meshed.surface)
         own = None if field is None else field_at(field, found)
+        if own is None and quad_options.follow != "default":
+            raise InvalidInput("no field was given that quads could follow: give one (field)", "ignored_option")
         name = str(field) if isinstance(field, (str, Path)) else "given"
-        points = PointsWanted(places, None, None, options, fitted=True, field=own, field_name=name)
+        points = PointsWanted(places, None, None, options, fitted=True, field=own and own.aligned, field_name=name)
         wanted_at = None if sizes is None else size_at(sizes, found)
-        return _on(meshed, given, points, quad_options, wanted_at, progress)
+        return _on(meshed, given, points, quad_options, wanted_at, progress, own)
 
 
 def _kept(
@@ -205,15 +224,17 @@ def _on(
     wanted: QuadMeshOptions,
     sizes: SizeAt | None,
     progress: Progress | None,
+    own: GivenField | None,
 ) -> QuadMeshResult:
     from . import record
 
     target, scale = _target(meshed, wanted, sizes)
     layout = QuadLayoutOptions(quads=target, blocks="fine", measure="lengths", inadmissible=wanted.inadmissible)
     measure = None if sizes is None else partial(sized, sizes=sizes)
-    found = quads_on(meshed, given, points, layout, progress, measure)
+    follow = None if own is None or wanted.follow == "points" else own.followed
+    found = quads_on(meshed, given, points, layout, progress, measure, follow)
     ratios = _size_ratios(found.quads.mesh, sizes, scale)
-    told = record.of_quad_mesh(found, ratios, target, len(meshed.surface.triangles), wanted, points.options)
+    told = record.of_quad_mesh(found, ratios, target, len(meshed.surface.triangles), wanted, points.options, own)
     return QuadMeshResult(
         mesh=found.quads.mesh,
         scaled_jacobians=found.figures.scaled_jacobians,
@@ -222,6 +243,7 @@ def _on(
         on_boundary=found.figures.on_boundary,
         field=found.field,
         record=told,
+        t_mesh=found.quads.t_mesh,
     )
 
 

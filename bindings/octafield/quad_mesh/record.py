@@ -18,6 +18,7 @@ from ..records.parts import (
     Deviation,
     EdgeLengths,
     FeatureDeviation,
+    FieldAngles,
     KeptBoundary,
     MinMax,
     SizeRatios,
@@ -25,6 +26,8 @@ from ..records.parts import (
 )
 from ..records.quad_mesh import QuadMeshRecord
 from .features import feature_deviation
+from .field_angles import angles_of, notes_of_field
+from .given_field import GivenField
 from .options import QuadMeshOptions
 
 _SAME, _FAR = 1e-6, 0.02  # of the diagonal
@@ -38,10 +41,15 @@ def of_quad_mesh(
     triangles: int,
     options: QuadMeshOptions,
     field_options: SurfaceFieldOptions,
+    own: GivenField | None,
 ) -> QuadMeshRecord:
-    """size_ratios: of each quad. target: number of quads wanted. triangles: of the surface before it was refined."""
+    """size_ratios: of each quad. target: number of quads wanted. triangles: of the surface before it was refined. own:
+    field that was given."""
     begun, figures, mesh, meter = made.begun, made.figures, made.quads.mesh, made.meter
     corners, curves = feature_deviation(mesh, made.whole)
+    notes = notes_of_features(corners, curves)
+    if own is not None:
+        notes += notes_of_field(own, made.whole)
     low, median, high = np.percentile(size_ratios, [10, 50, 90])
     smallest, largest = quad_angles(mesh)
     whole = made.quads.whole_numbers
@@ -80,7 +88,8 @@ def of_quad_mesh(
         cpu_seconds={name: meter.cpu[name] for name in wall},
         phase_peak_mb=meter.peak_mb,
         peak_mb=max(begun.peak_mb, *meter.peak_mb.values()),
-        notes=[*begun.notes, *notes_of(len(mesh.quads), target, figures), *notes_of_features(corners, curves)],
+        field_angle=None if own is None else FieldAngles(**angles_of(mesh, own)),
+        notes=[*begun.notes, *notes_of(len(mesh.quads), target, figures), *notes],
         versions=begun.versions,
         machine=begun.machine,
         options=dict(vars(options)),

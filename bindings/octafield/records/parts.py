@@ -252,6 +252,24 @@ class SizeRatios(Record):
     p90: float = Field(description="90 % are smaller")
 
 
+class FieldAngles(Record):
+    """Of edges of quads: from the nearest of a given field's four directions at their middle, degrees."""
+
+    median: float = Field(description="half of the edges are nearer")
+    p90: float = Field(description="90 % are nearer")
+
+
+class ParameterizationFigures(Record):
+    """Of the surface's map to the integer grid."""
+
+    triangles: int = Field(description="parts of the surface's")
+    mean_distortion: float = Field(description="of (s + 1 / s) / 2 by area, s the ratio of the two stretches")
+    largest_distortion: float = Field(description="of the same")
+    largest_residual: float = Field(
+        description="how far u, v over an edge are from a turn by quarters and a shift by whole numbers"
+    )
+
+
 class WholeNumberFigures(Record):
     """Of quads along the arcs of a T-mesh."""
 

@@ -9,11 +9,13 @@ from .parts import (
     Deviation,
     EdgeLengths,
     FeatureDeviation,
+    FieldAngles,
     ImposedPointFigures,
     JacobianFigures,
     KeptBoundary,
     Machine,
     MinMax,
+    ParameterizationFigures,
     SizeRatios,
     WholeNumberFigures,
 )
@@ -51,12 +53,18 @@ class QuadMeshRecord(Record):
     angle: MinMax = Field(description="between edges of a quad in space, degrees")
     edge_length: EdgeLengths = Field(description="of the edges of the quads, input unit")
     size_ratio: SizeRatios = Field(description="reached over wanted, of quads")
+    field_angle: FieldAngles | None = Field(
+        default=None, description="of edges of the quads, where a field was given: from its directions, degrees"
+    )
     feature_deviation: FeatureDeviation = Field(description="of the quads from features")
     surface_deviation: Deviation = Field(
         description="between quads and input, both ways, over the diagonal of the input's box"
     )
     kept_boundary: KeptBoundary | None = Field(default=None, description="where it was to be kept segment by segment")
     whole_numbers: WholeNumberFigures = Field(description="that the quads come from")
+    parameterization: ParameterizationFigures | None = Field(
+        default=None, description="of parameterization.obj, where it was written"
+    )
     seconds: float = Field(description="by the clock, of all phases")
     wall_seconds: dict[str, float] = Field(description="by the clock, per phase")
     cpu_seconds: dict[str, float] = Field(description="of the processor, all threads, per phase")

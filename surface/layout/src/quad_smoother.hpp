@@ -1,6 +1,7 @@
 // Quads on a surface, made better without leaving it.
 #pragma once
 
+#include "followed_field.hpp"
 #include "octafield/surface/quad_mesh.hpp"
 #include "side_grids.hpp"
 #include "surface_parts.hpp"
@@ -17,6 +18,7 @@ struct SmootherInput {
     const std::vector<Index>& patches;         // of each quad: of the layout
     const std::vector<Index>& fixed;           // vertices inside the surface
     bool release;                              // these, where bad quads are left
+    FollowedField follow;                      // that edges are drawn to
 };
 
 // Bad quads that are left are rescued: what is round them once more from relaxed places, and then with singular points

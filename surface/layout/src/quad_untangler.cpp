@@ -12,7 +12,9 @@ namespace octafield::surface::detail {
 namespace {
 
 using Vector = Eigen::Vector3d;
-constexpr int most_rounds = 25, most_iterations = 15;
+constexpr int most_rounds = 25, most_iterations = 15, most_followed = 50;
+constexpr double of_field = 40;          // beside shapes
+constexpr double least_length = 1e-12;   // square, of the mean square of edges
 constexpr double least_progress = 1e-3;  // of the sum, in a round without inverted corners
 
 // Of the vertices that can move: the values are lengths along seams, or pairs in tangent planes.
@@ -44,6 +46,7 @@ public:
             const Index triangle = input.parts.nearest(movable.part[q], middle).second;
             normals_.push_back(input.parts.normal(triangle));
             wanted_.push_back(input.parts.unit_area(triangle));
+            if (input.follow) set_lines(q, input.follow.direction(triangle, middle));
             for (int k = 0; k < 4; ++k)
                 area_ +=
                     (mesh.vertices.row(mesh.quads(q, (k + 1) % 4)) - mesh.vertices.row(mesh.quads(q, k))).squaredNorm();
@@ -74,10 +77,15 @@ public:
                 const double below = d + root, above = u.squaredNorm() + v.squaredNorm();
                 const double size = below / (2 * wanted_[q]);
                 *cost += above / below + of_sizes_ * (size + 1 / size) / 2;
+                if (input_.follow) *cost += of_field * (off_line(q, k, u) + off_line(q, k + 1, v));
                 if (!gradient) continue;
                 // below grows by below / root with d.
                 const double by_d = -above / (below * root) + of_sizes_ * (size - 1 / size) / (2 * root);
-                const Vector gu = 2 * u / below + by_d * v.cross(n), gv = 2 * v / below + by_d * n.cross(u);
+                Vector gu = 2 * u / below + by_d * v.cross(n), gv = 2 * v / below + by_d * n.cross(u);
+                if (input_.follow) {
+                    gu += of_field * off_line_slope(q, k, u);
+                    gv += of_field * off_line_slope(q, k + 1, v);
+                }
                 slope.row(b) += gu.transpose();
                 slope.row(c) += gv.transpose();
                 slope.row(a) -= (gu + gv).transpose();
@@ -124,6 +132,27 @@ public:
     }
 
 private:
+    // The two pairs of sides go by the two lines of the cross that they are nearer to.
+    void set_lines(Index q, const Vector& line) {
+        const Vector other = normals_[q].cross(line);
+        double nearer = 0;
+        for (int k = 0; k < 4; ++k) {
+            const Vector side = mesh_.vertices.row(mesh_.quads(q, (k + 1) % 4)) - mesh_.vertices.row(mesh_.quads(q, k));
+            const double more = std::pow(side.dot(line), 2) - std::pow(side.dot(other), 2);
+            nearer += k % 2 == 0 ? more : -more;
+        }
+        across_.push_back(nearer < 0 ? std::array{line, other} : std::array{other, line});
+    }
+    // sin^2 of the angle of side k from its line.
+    double off_line(Index q, int k, const Vector& w) const {
+        const double off = w.dot(across_[q][k % 2]);
+        return off * off / (w.squaredNorm() + least_length * area_);
+    }
+    Vector off_line_slope(Index q, int k, const Vector& w) const {
+        const double off = w.dot(across_[q][k % 2]), length = w.squaredNorm() + least_length * area_;
+        return 2 * off / length * (across_[q][k % 2] - off / length * w);
+    }
+
     bool is_on_seam(Index v) const { return v < static_cast<Index>(places_.size()); }
     Vector way_along(Index v, double value) const {
         const Seam& seam = input_.seams.seams[places_[v].seam];
@@ -152,7 +181,8 @@ private:
     std::vector<int> first_;  // value of each vertex; -1: it stays
     std::vector<Eigen::Matrix<double, 3, 2>> bases_;
     std::vector<Vector> normals_;
-    std::vector<double> wanted_;  // area of each quad, in all that of the quads
+    std::vector<double> wanted_;                 // area of each quad, in all that of the quads
+    std::vector<std::array<Vector, 2>> across_;  // the lines of the field that is followed, at each quad
     double of_sizes_;
     int count_ = 0;
     double area_ = 0, softness_ = 0;
@@ -164,7 +194,7 @@ Movable::Movable(const SmootherInput& input, const QuadMesh& mesh)
     : places(input.on_seams), fixed(mesh.vertices.rows(), false) {
     for (std::size_t v = 0; v < places.size(); ++v) fixed[v] = places[v].seam < 0;
     for (const Index v : input.fixed)
-        if (v >= static_cast<Index>(places.size())) {
+        if (!input.follow && v >= static_cast<Index>(places.size())) {
             fixed[v] = true;
             held.push_back(v);
         }
@@ -180,7 +210,7 @@ void untangle(const SmootherInput& input, Movable& movable, double of_sizes, Qua
         for (int k = 0; k < 4; ++k) part[mesh.quads(q, k)] = movable.part[q];
     FLAGS_minloglevel = google::GLOG_FATAL;  // a line search that fails ends a round, no more
     ceres::GradientProblemSolver::Options options;
-    options.max_num_iterations = most_iterations;
+    options.max_num_iterations = input.follow ? most_followed : most_iterations;
     options.logging_type = ceres::SILENT;
     for (int round = 0; round < most_rounds; ++round) {
         auto* energy = new Energy(input, movable, mesh, of_sizes);

@@ -24,7 +24,7 @@ constexpr double most_inverted = 0.04;   // of the quads, before smoothing
 constexpr double most_left = 0.01;       // after all were moved at once
 constexpr std::size_t most_rescued = 2;  // unless all of these have inverted quads
 
-void check(const QuantizedQuadsOptions& options) {
+void check(const QuantizedQuadsOptions& options, Index edges) {
     const bool by_length = options.edge_length > 0 && std::isfinite(options.edge_length);
     if (by_length == (options.quad_count > 0) || !(options.edge_length >= 0) || options.quad_count < 0)
         throw InvalidInput("give either an edge length or a number of quads, > 0", "bad_option");
@@ -32,6 +32,12 @@ void check(const QuantizedQuadsOptions& options) {
         throw InvalidInput("the least scaled Jacobian wanted lies between 0 and 1", "bad_option");
     if (options.smoothing < 0) throw InvalidInput("the number of rounds of smoothing is >= 0", "bad_option");
     if (options.most_nodes < 1) throw InvalidInput("branch and bound needs a node at least", "bad_option");
+    if (options.follow.size() == 0) return;
+    if (options.measure != ArcMeasure::lengths || options.smoothing == 0)
+        throw InvalidInput("a field is followed by quads that are measured by lengths and smoothed", "bad_option");
+    if (options.follow.size() != edges || !options.follow.allFinite())
+        throw InvalidInput("the field to follow has a finite value for each edge of the layout's surface",
+                           "bad_option");
 }
 
 // Without any, each vertex is its own.
@@ -137,7 +143,8 @@ private:
                 attempt.on_seams,
                 attempt.quads.tiles,
                 attempt.quads.irregular,
-                options_.release_points};
+                options_.release_points,
+                {layout_.domain, options_.follow}};
     }
 
     // From where the maps have the vertices (not where some were merged: that is too far from where they belong), or
@@ -254,7 +261,7 @@ QuantizedQuads quantized_quads(const QuadLayout& given, const QuantizedQuadsOpti
                                const Progress& progress) {
     if (!given.pieces || given.patches.empty()) throw InvalidInput("the layout has no patches", "bad_option");
     detail::require_quads(given);
-    check(options);
+    check(options, given.domain.edge_count());
     report_or_throw(progress, "integers", 0, NAN);
     const QuadLayout layout =
         options.measure == ArcMeasure::lengths ? detail::with_lengths_for_parameters(given) : given;

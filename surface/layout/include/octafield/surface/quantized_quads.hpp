@@ -45,6 +45,9 @@ struct QuantizedQuadsOptions {
     int smoothing = 20;
     // Singular points inside are released where quads of a scaled Jacobian below 0.3 are left: for computed points.
     bool release_points = false;
+    // A cross field on the layout's surface, DirectionField::values, that edges of quads are drawn to where vertices
+    // are moved (measure: lengths). None: quads are as square as can be.
+    Eigen::VectorXcd follow = {};
     int most_nodes = 1000;  // of branch and bound, for each connected part
 };
 
