@@ -384,12 +384,16 @@ def turned(plate, by):
 
 
 def test_a_twisted_field_between_circles_has_valid_quads():
-    """Its streamlines wind towards a closed one (a limit cycle), which the imposed field of its points has not."""
+    """Its streamlines wind towards a closed one (a limit cycle), which the imposed field of its points has not. No rows
+    of quads do."""
     plate = ring()
     twisted = turned(plate, lambda r: np.pi / 2 * (r - 1) / 3)
-    result = of.compute_quad_mesh(plate, KEPT, quad_options=of.QuadMeshOptions(quads=400), field=twisted)
-    require_conforming(result.mesh, 0)
-    assert result.record.irregular_vertices == {} and result.record.scaled_jacobian.min > 0.8
+    for follow, least in (("points", 0.8), ("directions", 0.3)):
+        wanted = of.QuadMeshOptions(quads=400, follow=follow)
+        result = of.compute_quad_mesh(plate, KEPT, quad_options=wanted, field=twisted)
+        require_conforming(result.mesh, 0)
+        assert result.record.irregular_vertices == {} and result.record.scaled_jacobian.min > least
+        assert any("do not wind as its lines do" in note for note in result.record.notes) == (follow == "directions")
 
 
 def test_a_pair_on_a_torus_is_refused_or_meshed():

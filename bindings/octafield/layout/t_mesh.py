@@ -34,8 +34,8 @@ def quads_of_t_mesh(
     progress: Progress | None,
 ) -> tuple[ImposedField, BlockQuads]:
     """By whole numbers on the arcs of a motorcycle graph. origins: where the surface was cut open. release_points:
-    singular points inside may move where bad quads are left. follow: a field that edges are drawn to. The field comes back turned on closed parts where that
-    makes for few blocks."""
+    singular points inside may move where bad quads are left. follow: a field that edges are drawn to. The field comes
+    back turned on closed parts where that makes for few blocks."""
     field, graph = _graph(field, options, progress)
     size = {"quad_count": options.quads} if options.quads else {"edge_length": edge_length}
     made = _core.quantized_quads(

@@ -9,7 +9,7 @@ from ..layout.quality import edges_of
 from .features import feature_edges
 from .given_field import GivenField
 
-_TOLD = 10.0  # degrees
+_TOLD, _FAR = 10.0, 20.0  # degrees
 
 
 def angles_of(mesh: QuadMesh, own: GivenField) -> dict[str, float]:
@@ -18,22 +18,29 @@ def angles_of(mesh: QuadMesh, own: GivenField) -> dict[str, float]:
     return {"median": float(np.median(angles)), "p90": float(np.percentile(angles, 90))}
 
 
-def notes_of_field(own: GivenField, domain: SurfaceDomain) -> list[str]:
-    """Where the field does not follow what edges of quads have to."""
+def notes_of_field(own: GivenField, domain: SurfaceDomain, p90: float, followed: bool) -> list[str]:
+    """p90: of the edges. Where the field does not follow what edges of quads have to, and where these do not follow
+    it."""
+    notes = []
     held = feature_edges(domain)
-    if not len(held):
-        return []
-    points = np.asarray(domain.vertices)
-    angles = _angles(points, held, own)
-    lengths = np.linalg.norm(points[held[:, 1]] - points[held[:, 0]], axis=1)
-    share = float(lengths[angles > _TOLD].sum() / lengths.sum())
-    if not share:
-        return []
-    return [
-        f"on {100 * share:.2g} % of the boundary and the features the field's directions are more than {_TOLD:g} degrees"
-        f" away from these, by up to {angles.max():.2g}: edges of quads follow the boundary and the features, and the"
-        " field farther inside alone"
-    ]
+    if len(held):
+        points = np.asarray(domain.vertices)
+        angles = _angles(points, held, own)
+        lengths = np.linalg.norm(points[held[:, 1]] - points[held[:, 0]], axis=1)
+        share = float(lengths[angles > _TOLD].sum() / lengths.sum())
+        if share:
+            notes.append(
+                f"on {100 * share:.0f} % of the boundary and the features the field's directions are more than"
+                f" {_TOLD:g} degrees away from these, by up to {angles.max():.0f}: edges of quads follow the boundary"
+                " and the features, and the field farther inside alone"
+            )
+    if followed and p90 > _FAR:
+        notes.append(
+            f"a tenth of the edges of quads are {p90:.0f} degrees or more from the field's directions: with its"
+            " singular points and this boundary rows of quads do not wind as its lines do; to follow its points alone"
+            " (--follow points) makes better quads"
+        )
+    return notes
 
 
 def _angles(points: np.ndarray, edges: np.ndarray, own: GivenField) -> np.ndarray:

@@ -47,7 +47,7 @@ class GivenField:
         return self._near(places)[:2]
 
     def _near(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Directions: of the nearest triangle, or between those at its corners, as crosses; its normal; how far it is."""
+        """Directions, of the nearest triangle or between those at its corners; its normals; how far it is."""
         import pyvista
 
         points, triangles = np.array(self.surface.vertices), np.array(self.surface.triangles, int)

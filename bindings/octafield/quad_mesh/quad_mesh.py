@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _core
 from .._core import ImposedField, IntegerGridMap, QuadMesh, SurfaceDomain, TriangleMesh
@@ -48,8 +49,9 @@ class QuadMeshResult(ShownInNotebooks):
     """Quads and what led to them.
 
     mesh: the quads. scaled_jacobians: (q,). size_ratios: (q,) square root of the area over the edge length wanted
-    there. valences: (V,) quads round each vertex; on_boundary: (V,) bool. field: that they follow, on the surface
-    refined round its singular points. t_mesh: that they come from; None with a kept boundary. record: all figures, the JSON object of the command line."""
+    there. valences: (V,) quads round each vertex; on_boundary: (V,) bool. field: with their singular points, on the
+    surface refined round these. t_mesh: that they come from; None with a kept boundary. record: all figures, the JSON
+    object of the command line."""
 
     mesh: QuadMesh
     scaled_jacobians: np.ndarray
@@ -79,7 +81,7 @@ class QuadMeshResult(ShownInNotebooks):
                 "ignored_option",
             )
         t_mesh = self.t_mesh
-        origins = [] if t_mesh.origins is None else t_mesh.origins
+        origins: ArrayLike = [] if t_mesh.origins is None else t_mesh.origins
         return _core.integer_grid_map(t_mesh.graph, t_mesh.quads, origins, progress=progress)
 
     def _facts(self) -> Facts:

@@ -48,8 +48,10 @@ def of_quad_mesh(
     begun, figures, mesh, meter = made.begun, made.figures, made.quads.mesh, made.meter
     corners, curves = feature_deviation(mesh, made.whole)
     notes = notes_of_features(corners, curves)
+    off_field = None
     if own is not None:
-        notes += notes_of_field(own, made.whole)
+        off_field = FieldAngles(**angles_of(mesh, own))
+        notes += notes_of_field(own, made.whole, off_field.p90, options.follow != "points")
     low, median, high = np.percentile(size_ratios, [10, 50, 90])
     smallest, largest = quad_angles(mesh)
     whole = made.quads.whole_numbers
@@ -88,7 +90,7 @@ def of_quad_mesh(
         cpu_seconds={name: meter.cpu[name] for name in wall},
         phase_peak_mb=meter.peak_mb,
         peak_mb=max(begun.peak_mb, *meter.peak_mb.values()),
-        field_angle=None if own is None else FieldAngles(**angles_of(mesh, own)),
+        field_angle=off_field,
         notes=[*begun.notes, *notes_of(len(mesh.quads), target, figures), *notes],
         versions=begun.versions,
         machine=begun.machine,
