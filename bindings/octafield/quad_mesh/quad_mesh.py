@@ -162,7 +162,7 @@ def compute_quad_mesh(
         if own is None and quad_options.follow != "default":
             raise InvalidInput("no field was given that quads could follow: give one (field)", "ignored_option")
         name = str(field) if isinstance(field, (str, Path)) else "given"
-        points = PointsWanted(places, None, None, options, fitted=True, field=own and own.aligned, field_name=name)
+        points = PointsWanted(places, None, None, options, fitted=True, field=None if own is None else own.aligned, field_name=name)
         wanted_at = None if sizes is None else size_at(sizes, found)
         return _on(meshed, given, points, quad_options, wanted_at, progress, own)
 
