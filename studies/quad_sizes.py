@@ -4,10 +4,13 @@
 
 The disk, radii and easings are those of studies.sized_fields (Simons gives no radii): quads of the edge `OUTER_EDGE`
 from radius 1.15 on, 10 or 50 times as large within radius 0.25. The strip is the unit square, sigma = 1 + x. Sizes of
-quads are the roots of their areas, by their middles; both are found on arrays. DIR gets summary.md and quad_sizes.png.
+quads are the roots of their areas, by their middles; both are found on arrays. Each mesh of the disk is made in a
+process of its own, stopped at 240 s of CPU time. DIR gets summary.md, quad_sizes.png and the meshes as .npz.
 """
 
 import argparse
+import json
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -15,12 +18,13 @@ import octafield
 from matplotlib.collections import LineCollection
 
 from .benchmarks.pages import when
-from .hex_dominant.rows import markdown_table
+from .hex_dominant.rows import markdown_table, run_words
 from .sized_fields import EASINGS, INNER, OUTER, RADIUS, disk, radial
 from .study_output import new_figure
 from .surface_pictures import save_drawing
 
 OUTER_EDGE = {10: 0.02, 50: 0.008}  # of quads, by the growth
+LIMIT = 240.0  # seconds of CPU time
 TRIANGLES = 0.04  # their edge
 RADII = (0.0, INNER, 0.55, 0.85, OUTER, RADIUS)
 KEPT = octafield.SurfaceFieldOptions(remesh=False)
@@ -40,6 +44,7 @@ def sizes_of(result) -> tuple[np.ndarray, np.ndarray]:
 
 
 def radial_row(easing: str, growth: int):
+    """The row, and the mesh."""
     edge, sizes = OUTER_EDGE[growth], radial(easing, growth)
     wanted = lambda points: edge * sizes(points)
     result = octafield.compute_quad_mesh(disk(TRIANGLES), KEPT, sizes=wanted)
@@ -62,6 +67,20 @@ def radial_row(easing: str, growth: int):
     return told, result
 
 
+def one(easing: str, growth: str, folder: str, out: str) -> None:
+    try:
+        row, result = radial_row(easing, int(growth))
+    except octafield.Error as error:
+        Path(out).write_text(json.dumps({"error": error.kind}))
+        return
+    np.savez(file_of(Path(folder), easing, int(growth)), points=result.mesh.vertices, quads=result.mesh.quads)
+    Path(out).write_text(json.dumps({"row": row}))
+
+
+def file_of(folder: Path, easing: str, growth: int) -> Path:
+    return folder / f"{easing}_x{growth}.npz"
+
+
 def strip_row() -> tuple:
     """A plain grid of n by n squares, cut in two."""
     n = 32
@@ -79,37 +98,41 @@ def strip_row() -> tuple:
     return f"{result.record.quads:,}", f"{result.record.irregular_vertices or 'none'}", *spread, *ends
 
 
-def draw(axes, result, title: str) -> None:
-    corners = np.asarray(result.mesh.vertices)[np.asarray(result.mesh.quads)][:, [0, 1, 2, 3, 0], :2]
-    axes.add_collection(LineCollection(corners, colors="black", linewidths=0.15))
+def draw(axes, points: np.ndarray, quads: np.ndarray, title: str) -> None:
+    axes.add_collection(LineCollection(points[quads[:, [0, 1, 2, 3, 0]], :2], colors="black", linewidths=0.15))
     axes.set(aspect="equal", xticks=(), yticks=(), xlim=(-RADIUS, RADIUS), ylim=(-RADIUS, RADIUS))
     axes.spines[:].set_visible(False)
     axes.set_title(title, fontsize=9)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-o", "--output", type=Path, required=True)
-    parser.add_argument("--only", default="", help="an easing and a growth, linear,x10, in place of all")
-    given = parser.parse_args()
-    given.output.mkdir(parents=True, exist_ok=True)
-    chosen = {word for word in given.only.split(",") if word}
+def radial_rows(output: Path, chosen: set[str]) -> list[tuple]:
     rows = []
     figure, panels = new_figure(9.6, 5.0, 1, 2)
     for panel, growth in zip(np.ravel(panels), OUTER_EDGE, strict=True):
         for easing in EASINGS:
             if chosen and not {easing, f"x{growth}"} <= chosen:
                 continue
-            try:
-                row, result = radial_row(easing, growth)
-            except octafield.Error as error:
-                row = (easing, f"x{growth}", f"{error.kind}: {error}", *[""] * (len(HEADER) - 3))
-            else:
-                if easing == "exponential":
-                    draw(panel, result, f"{easing}, wanted {row[1]}, reached {row[5]}")
+            found = run_words(["studies.quad_sizes", "one", easing, f"{growth}", str(output.absolute())], LIMIT)
+            row = tuple(found.get("row", (easing, f"x{growth}", found.get("error"), *[""] * (len(HEADER) - 3))))
             rows.append(row)
             print(*row, flush=True)
-    save_drawing(figure, given.output / "quad_sizes.png", colours=8)
+            if easing == "exponential" and "row" in found:
+                mesh = np.load(file_of(output, easing, growth))
+                draw(panel, mesh["points"], mesh["quads"], f"{easing}, wanted {row[1]}, reached {row[5]}")
+    save_drawing(figure, output / "quad_sizes.png", colours=8)
+    return rows
+
+
+def main() -> None:
+    if sys.argv[1:2] == ["one"]:
+        one(*sys.argv[2:6])
+        return
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--output", type=Path, required=True)
+    parser.add_argument("--only", default="", help="an easing and a growth, linear,x10, in place of all")
+    given = parser.parse_args()
+    given.output.mkdir(parents=True, exist_ok=True)
+    rows = radial_rows(given.output, {word for word in given.only.split(",") if word})
     text = when() + "\n\n" + markdown_table(HEADER, rows) + "\n" + markdown_table(STRIP, [strip_row()])
     (given.output / "summary.md").write_text(text)
     print(text)

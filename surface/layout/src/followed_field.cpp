@@ -10,9 +10,9 @@ namespace octafield::surface::detail {
 using Vector = Eigen::Vector3d;
 
 Vector FollowedField::direction(Index triangle, const Vector& place) const {
-    const TriangleMesh& mesh = domain_.mesh();
-    const EdgeTopology& topology = domain_.topology();
-    const Vector normal = domain_.normals().row(triangle);
+    const TriangleMesh& mesh = domain_->mesh();
+    const EdgeTopology& topology = domain_->topology();
+    const Vector normal = domain_->normals().row(triangle);
     std::array<Vector, 3> corners;
     for (int k = 0; k < 3; ++k) corners[k] = mesh.vertices.row(mesh.triangles(triangle, k));
     const Vector x = (corners[1] - corners[0]).normalized(), y = normal.cross(x);
@@ -24,7 +24,7 @@ Vector FollowedField::direction(Index triangle, const Vector& place) const {
         const Index edge = topology.triangle_edges(triangle, k);
         const Vector along = mesh.vertices.row(topology.edges(edge, 1)) - mesh.vertices.row(topology.edges(edge, 0));
         const double angle = std::atan2(along.dot(y), along.dot(x));
-        sum += (1 - 2 * opposite) * values_[edge] * std::polar(1.0, 4 * angle);
+        sum += (1 - 2 * opposite) * (*values_)[edge] * std::polar(1.0, 4 * angle);
     }
     if (sum == 0.0) return Vector::Zero();
     const double angle = std::arg(sum) / 4;

@@ -9,16 +9,18 @@ namespace octafield::surface::detail {
 // Directions are those in space, also where the domain has own lengths.
 class FollowedField {
 public:
-    FollowedField(const SurfaceDomain& domain, const Eigen::VectorXcd& values) : domain_(domain), values_(values) {}
-    explicit operator bool() const { return values_.size() > 0; }
+    FollowedField() = default;
+    FollowedField(const SurfaceDomain& domain, const Eigen::VectorXcd& values)
+        : domain_(&domain), values_(values.size() > 0 ? &values : nullptr) {}
+    explicit operator bool() const { return values_; }
 
     // One of the four at a place of the triangle, linear in fourth powers from the middles of the sides: of length 1,
     // in the triangle's plane; 0 where they cancel, as at a singular point.
     Eigen::Vector3d direction(Index triangle, const Eigen::Vector3d& place) const;
 
 private:
-    const SurfaceDomain& domain_;
-    const Eigen::VectorXcd& values_;
+    const SurfaceDomain* domain_ = nullptr;
+    const Eigen::VectorXcd* values_ = nullptr;
 };
 
 }  // namespace octafield::surface::detail

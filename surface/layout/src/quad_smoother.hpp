@@ -18,7 +18,7 @@ struct SmootherInput {
     const std::vector<Index>& patches;         // of each quad: of the layout
     const std::vector<Index>& fixed;           // vertices inside the surface
     bool release;                              // these, where bad quads are left
-    FollowedField follow;                      // that edges are drawn to
+    FollowedField follow = {};                 // that edges are drawn to
 };
 
 // Bad quads that are left are rescued: what is round them once more from relaxed places, and then with singular points
