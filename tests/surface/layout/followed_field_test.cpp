@@ -27,8 +27,7 @@ double off(const Vector& direction, double angle) {
 }
 
 TEST(FollowedField, IsConstantWhereTheFieldIsAndLinearInFourthPowersElsewhere) {
-    const ImposedField field = disk_field(6, {});
-    const SurfaceDomain& domain = field.field.domain;
+    const SurfaceDomain domain(disk(6));
     const auto middle = [&](Index t) -> Vector {
         const auto corners = domain.mesh().triangles.row(t);
         return (domain.mesh().vertices.row(corners[0]) + domain.mesh().vertices.row(corners[1]) +
@@ -48,21 +47,21 @@ TEST(FollowedField, IsConstantWhereTheFieldIsAndLinearInFourthPowersElsewhere) {
     }
 }
 
+// Along lines of one value of y + 0.15 cos(pi x) cos(pi y / 2), which follow two sides of the square [-1, 1]^2 and meet
+// the others at right angles.
 TEST(FollowedField, DrawsEdgesToItsLines) {
-    const ImposedField field = disk_field(26, four_in_disk(0.5, {0, 90, 180, 270}));
+    const ImposedField field = polygon_field(4, 16);
+    const SurfaceDomain& domain = field.field.domain;
     const QuadLayout layout = motorcycle_graph(field);
-    // The field itself, bent inside.
     QuantizedQuadsOptions options;
     options.quad_count = 400;
     options.measure = ArcMeasure::lengths;
     options.blocks = Blocks::fine;
-    Eigen::VectorXcd bent = field.field.values;
-    const SurfaceDomain& domain = field.field.domain;
-    for (Index e = 0; e < domain.edge_count(); ++e) {
-        const auto edge = domain.topology().edges.row(e);
-        const Vector p = (domain.mesh().vertices.row(edge[0]) + domain.mesh().vertices.row(edge[1])) / 2;
-        bent[e] *= std::polar(1.0, 4 * 0.4 * (1 - p.squaredNorm()));
-    }
+    const Eigen::VectorXcd bent = values_of(domain, [](const Vector& p) {
+        const double by_x = -0.15 * pi * std::sin(pi * p.x()) * std::cos(pi * p.y() / 2);
+        const double by_y = 1 - 0.075 * pi * std::cos(pi * p.x()) * std::sin(pi * p.y() / 2);
+        return std::atan2(-by_x, by_y);
+    });
     const FollowedField lines(domain, bent);
     const auto mean_off = [&](const QuadMesh& mesh) {
         double sum = 0;
@@ -93,8 +92,8 @@ TEST(FollowedField, DrawsEdgesToItsLines) {
     const QuantizedQuads drawn = quantized_quads(layout, options);
     expect_conforming(drawn, 1);
     EXPECT_EQ(drawn.mesh.quads, plain.mesh.quads);
-    EXPECT_LT(mean_off(drawn.mesh), 0.35 * mean_off(plain.mesh));
-    EXPECT_GT(drawn.least_scaled_jacobian, 0.5);
+    EXPECT_LT(mean_off(drawn.mesh), 0.15 * mean_off(plain.mesh));
+    EXPECT_GT(drawn.least_scaled_jacobian, 0.9);
     options.measure = ArcMeasure::parameters;
     EXPECT_EQ(kind_of([&] { quantized_quads(layout, options); }), "bad_option");
     options.measure = ArcMeasure::lengths;
