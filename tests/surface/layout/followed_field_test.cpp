@@ -47,8 +47,8 @@ TEST(FollowedField, IsConstantWhereTheFieldIsAndLinearInFourthPowersElsewhere) {
     }
 }
 
-// Along lines of one value of y + 0.15 cos(pi x) cos(pi y / 2), which follow two sides of the square [-1, 1]^2 and meet
-// the others at right angles.
+// Along lines of one value of v + 0.15 cos(pi u) cos(pi v / 2), u = x - y and v = x + y, which follow two sides of the
+// square with corners at distance 1 on the axes, and meet the others at right angles.
 TEST(FollowedField, DrawsEdgesToItsLines) {
     const ImposedField field = polygon_field(4, 16);
     const SurfaceDomain& domain = field.field.domain;
@@ -58,9 +58,10 @@ TEST(FollowedField, DrawsEdgesToItsLines) {
     options.measure = ArcMeasure::lengths;
     options.blocks = Blocks::fine;
     const Eigen::VectorXcd bent = values_of(domain, [](const Vector& p) {
-        const double by_x = -0.15 * pi * std::sin(pi * p.x()) * std::cos(pi * p.y() / 2);
-        const double by_y = 1 - 0.075 * pi * std::cos(pi * p.x()) * std::sin(pi * p.y() / 2);
-        return std::atan2(-by_x, by_y);
+        const double u = p.x() - p.y(), v = p.x() + p.y();
+        const double by_u = -0.15 * pi * std::sin(pi * u) * std::cos(pi * v / 2);
+        const double by_v = 1 - 0.075 * pi * std::cos(pi * u) * std::sin(pi * v / 2);
+        return std::atan2(-by_u - by_v, by_v - by_u);
     });
     const FollowedField lines(domain, bent);
     const auto mean_off = [&](const QuadMesh& mesh) {
