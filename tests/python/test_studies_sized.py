@@ -20,3 +20,19 @@ def test_exponential_growth_is_nearly_reached_and_the_strip_doubles(tmp_path):
     strip = {line[0]: [float(cell) for cell in line[1:]] for line in rows[2][2:]}
     assert 1.7 < strip["along the growth"][0] < 2.3
     assert (tmp_path / "sized_fields.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+def test_quads_of_the_strip_grow_without_irregular_ones():
+    from studies.quad_sizes import STRIP, strip_row
+
+    row = dict(zip(STRIP, strip_row(), strict=True))
+    assert row["irregular"] == "none" and 0.9 < float(row["median"]) < 1.1
+
+
+def test_a_nautilus_is_meshed_with_points_moved_where_they_may_be_and_refused_where_they_are_kept():
+    from studies.limit_cycles import FIELDS, HEADER, row
+
+    name = next(name for name in FIELDS if name.startswith("nautilus"))
+    found = dict(zip(HEADER, row(name), strict=True))
+    assert found["points kept (quad-layout)"] == "no_integers" and found["valence 3, 5"] == "1, 1"
+    assert found["changed"] and float(found["SJ min"]) > 0.5 and float(found["sizes after a turn"]) > 10
