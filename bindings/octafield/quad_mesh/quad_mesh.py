@@ -160,9 +160,14 @@ def compute_quad_mesh(
         found = places.found or from_mesh(meshed.surface)
         own = None if field is None else field_at(field, found)
         if own is None and quad_options.follow != "default":
-            raise InvalidInput("no field was given that quads could follow: give one (field)", "ignored_option")
+            raise InvalidInput(
+                "no field was given that quads could follow: give one (--field, field=), or leave --follow out",
+                "ignored_option",
+            )
         name = str(field) if isinstance(field, (str, Path)) else "given"
-        points = PointsWanted(places, None, None, options, fitted=True, field=None if own is None else own.aligned, field_name=name)
+        points = PointsWanted(
+            places, None, None, options, fitted=True, field=None if own is None else own.aligned, field_name=name
+        )
         wanted_at = None if sizes is None else size_at(sizes, found)
         return _on(meshed, given, points, quad_options, wanted_at, progress, own)
 
