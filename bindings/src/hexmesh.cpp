@@ -133,7 +133,7 @@ void bind_hexmesh(py::module_& m) {
         "map"_a,
         "The blocks that the walls of a SeamlessMap bound, as a BlockComplex. Raises InvalidInput, GeometryError "
         "(kinds "
-        "flipped_tet, torn_map, no_walls, bent_wall, not_a_box).");
+        "flipped_tet, torn_map, bent_wall, not_a_box).");
     m.def(
         "arc_numbers",
         [](const BlockComplex& blocks, double scale, const std::optional<ArrayLike>& least, int most_nodes) {

@@ -77,14 +77,23 @@ def compute_hex_mesh(
     edge_length: float = 0.0,
     threads: int = 0,
 ) -> HexMeshResult:
-    """A mesh of hexahedra alone from a seamless map (octafield.volume.SeamlessMap, or its .hexex file) with the walls of
-    its motorcycle complex: whole numbers of edges for the arcs of its blocks, a grid in each block, vertices moved on
-    the surface and along features.
+    """A mesh of hexahedra alone from a seamless map (octafield.volume.SeamlessMap, or its .hexex file) with the walls
+    of its motorcycle complex: whole numbers of edges for the arcs of its blocks, a grid in each block, vertices moved
+    on the surface and along features.
 
     cells: number of hexahedra wanted. edge_length: in its place, input unit; 0: the mean edge of the boundary.
 
     progress(phase, fraction, merit): False cancels. Raises IoError; InvalidInput; GeometryError whose kind says what
-    stops the map: flipped_tet, torn_map, no_walls, bent_wall, not_a_box; SolverError; Cancelled.
+    stops the map: flipped_tet, torn_map, bent_wall, not_a_box; SolverError; Cancelled.
+
+        >>> import numpy as np, octafield
+        >>> from octafield.domain.generators import generate
+        >>> tets = octafield.prepare_mesh(generate("box")).volume()
+        >>> parameters = np.asarray(tets.vertices)[np.asarray(tets.tets)].reshape(-1, 12)
+        >>> mesh = octafield.TetMesh(tets.vertices, tets.tets)
+        >>> given = octafield.volume.SeamlessMap(mesh, parameters)
+        >>> octafield.compute_hex_mesh(given, cells=64).record.hexahedra
+        64
     """
     integer_in("cells", cells, 0, LARGEST_INT, " (0: by the edge length)")
     clock = PhaseClock()

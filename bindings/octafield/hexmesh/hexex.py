@@ -1,8 +1,9 @@
-"""Seamless maps as .hexex files (Lyon, Bommes, Kobbelt 2016), with the trailers of MC3D (Brueckler et al. 2022): walls of
-the motorcycle complex, then features. Numbers may be rationals, numerator/denominator."""
+"""Seamless maps as .hexex files (Lyon, Bommes, Kobbelt 2016), with the trailers of MC3D (Brueckler et al. 2022): walls
+of the motorcycle complex, then features. Numbers may be rationals, numerator/denominator."""
 
 from __future__ import annotations
 
+import gzip
 from pathlib import Path
 
 import numpy as np
@@ -52,7 +53,8 @@ def write_seamless_map(path: str | Path, given: SeamlessMap) -> None:
     walls, features, corners = (np.asarray(ids).tolist() for ids in (given.walls, given.features, given.corners))
     rows += [str(len(walls)), *(" ".join(map(str, wall)) + " 0" for wall in walls)]
     rows += [f"{len(corners)} {len(features)} 0", *map(str, corners), *(f"{a} {b}" for a, b in features)]
-    write_file(Path(path), ("\n".join(rows) + "\n").encode())
+    text = ("\n".join(rows) + "\n").encode()
+    write_file(Path(path), gzip.compress(text, mtime=0) if str(path).lower().endswith(".gz") else text)
 
 
 def _text(numbers: list[float]) -> str:

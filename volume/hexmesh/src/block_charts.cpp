@@ -16,10 +16,6 @@ constexpr double near = 1e-6;  // of the extent of a block's box
 
 // Rows of the table that are walls, ascending: those of the map, and the boundary.
 std::vector<Index> rows_of_walls(const SeamlessMap& map, const TriangleTable& table, std::vector<char>& is_wall) {
-    if (map.walls.rows() == 0)
-        throw GeometryError(
-            "the map has no walls, so its blocks are not known; give the triangles of its motorcycle complex",
-            "no_walls");
     const TriangleRows find(table);
     std::vector<Index> rows, unknown;
     is_wall.assign(table.triangles.rows(), 0);

@@ -21,7 +21,7 @@ struct BlockCharts {
     std::vector<Index> wall_rows;  // rows of the triangle table that are walls, ascending
 };
 
-// Throws InvalidInput ("index_out_of_range": walls), GeometryError: "no_walls", "bent_wall" (tets), "not_a_box"
+// Throws InvalidInput ("index_out_of_range": walls), GeometryError: "bent_wall" (tets), "not_a_box"
 // (blocks that go round a singular curve).
 BlockCharts block_charts(const SeamlessMap& map, const TriangleTable& table);
 

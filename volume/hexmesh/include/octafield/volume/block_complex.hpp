@@ -54,7 +54,7 @@ struct BlockComplex {
 };
 
 // Near linear. Throws what seamless_report throws, and GeometryError: kinds "flipped_tet", "torn_map" (elements: tets),
-// "no_walls" (none are given), "bent_wall" (tets at walls that are no part of a box's side), "not_a_box" (blocks that
+// "bent_wall" (tets at walls that are no part of a box's side), "not_a_box" (blocks that
 // go round a singular curve, or have sides that are no rectangles).
 BlockComplex block_complex(const SeamlessMap& map);
 
