@@ -16,7 +16,7 @@ SMALL = ("s01c_cube", "s02c_prism", "scof_fanpart", "hexalab_double_torus", "s10
 
 
 def box_map(scale=1.0):
-    tets = of.prepare_mesh(generate("box")).volume()
+    tets = of.prepare_mesh(generate("box"), of.FieldOptions(edge_length=0.4)).volume()
     points = np.asarray(tets.vertices)
     mesh = of.TetMesh(points, np.asarray(tets.tets))
     return of.volume.SeamlessMap(mesh, scale * points[np.asarray(tets.tets)].reshape(-1, 12))
@@ -85,7 +85,7 @@ DAMAGED = {
     "division by zero": (lambda text: text.replace(text.split()[1], "1/0", 1), "finite numbers"),
     "count below zero": (lambda text: "-" + text, "whole number"),
     "count too high": (lambda text: "999999999" + text, "announced"),
-    "count too low": (lambda text: "1" + text[text.index("\n") :], "whole number|finite numbers|announced"),
+    "count too low": (lambda text: "1" + text[text.index("\n") :], "follow|whole number|finite numbers|announced"),
     "words behind": (lambda text: text + "\n1 2 3\n", "follow"),
 }
 

@@ -16,6 +16,7 @@ namespace octafield::volume {
 namespace {
 
 constexpr double fit = 0.1;  // of an edge: how far vertices leave the surface so that chords keep the volume
+constexpr int proof_depth = 8;
 // Of the wanted number, until one leaves no hexahedra inverted.
 constexpr std::array factors{1., 1.05, 0.95, 1.1, 0.9, 1.2, 0.8, 1.4};
 
@@ -218,6 +219,14 @@ AllHexMesh all_hex(const SeamlessMap& given, const AllHexOptions& options, const
     result.wanted = static_cast<Index>(std::lround(wanted));
     std::vector<std::vector<int>> tried;
     std::vector<Index> bad;
+    const auto keep = [&](BlockHexahedra& made, const ArcNumbers& numbers, Index inverted) {
+        require_valid(made.mesh);
+        result.numbers = numbers;
+        result.inverted = inverted;
+        result.mesh = std::move(made.mesh);
+        result.blocks = std::move(made.blocks);
+        result.support = std::move(made.support);
+    };
     for (const double factor : factors) {
         const ArcNumbers numbers = NumberSearch(blocks, volume, factor * wanted, options, progress).nearest_numbers();
         require_few(numbers, options);
@@ -225,22 +234,23 @@ AllHexMesh all_hex(const SeamlessMap& given, const AllHexOptions& options, const
         tried.push_back(numbers.numbers);
         report_or_throw(progress, "hexahedra", -1, std::nan(""));
         BlockHexahedra made = block_hexahedra(map, blocks, numbers.numbers);
-        result.inverted = static_cast<Index>(inverted_cells(made.mesh).size());
+        const auto inverted = static_cast<Index>(inverted_cells(made.mesh).size());
         report_or_throw(progress, "improve", -1, std::nan(""));
         if (options.sweeps > 0) move_vertices(made, surface, features, options);
         const std::vector<Index> left = inverted_cells(made.mesh);
         if (tried.size() == 1) bad = left;
         if (!left.empty()) continue;
-        require_valid(made.mesh);
+        const std::vector<std::uint8_t> proven = proven_positive(made.mesh, proof_depth, options.threads);
+        const bool all_proven = std::find(proven.begin(), proven.end(), 0) == proven.end();
+        if (!all_proven && result.mesh.hexahedra.rows() > 0) continue;
+        keep(made, numbers, inverted);
+        if (!all_proven) continue;
         if (tried.size() > 1)
             result.notes.push_back(
-                "nearer numbers of hexahedra leave some of them inverted, so that another one was taken");
-        result.numbers = numbers;
-        result.mesh = std::move(made.mesh);
-        result.blocks = std::move(made.blocks);
-        result.support = std::move(made.support);
+                "nearer numbers of hexahedra leave some of them turned over in part, so that another one was taken");
         return result;
     }
+    if (result.mesh.hexahedra.rows() > 0) return result;
     throw SolverError("hexahedra " + first_few(bad) +
                           " stay inverted however their vertices move; ask for more cells, or another map",
                       "inverted_cells", bad);
