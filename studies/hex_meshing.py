@@ -1,4 +1,4 @@
-"""Hexahedra from seamless maps of others (MC3D-samples; Brueckler, Gupta, Mandad, Campen 2022) at three numbers of cells.
+"""Hexahedra from the seamless maps of MC3D-samples (Brueckler, Gupta, Mandad, Campen 2022) at three numbers of cells.
 
     python -m studies.hex_meshing -o DIR [--only s05c,scof] [--cells 500,2000,8000]
 
@@ -70,8 +70,8 @@ def summary(rows: list[dict]) -> str:
     kept = [row for row in made if row["volume_error"] < 0.01]
     return (
         f"{len(rows)} runs, {len(made)} meshes, {len(sound)} without a fault. Number within 10 % of that wanted:"
-        f" {len(near)} of {len(made)}; volume within 1 %: {len(kept)} of {len(made)}. {sum(r['cpu'] for r in rows):.0f} s"
-        " of CPU time in all.\n"
+        f" {len(near)} of {len(made)}; volume within 1 %: {len(kept)} of {len(made)}."
+        f" {sum(r['cpu'] for r in rows):.0f} s of CPU time in all.\n"
     )
 
 
