@@ -41,6 +41,7 @@ from .fields.probes import sample_frames, slice_frames
 from .frame_files import FrameFile, FrameFormat, frame_formats, read_frames, write_frames
 from .hexdom.hex_mesh import HexDominantResult, compute_hex_dominant
 from .hexdom.options import HexMeshOptions
+from .hexmesh.hex_mesh import HexMeshResult, compute_hex_mesh
 from .layout.options import QuadLayoutOptions
 from .layout.quad_layout import QuadLayoutResult, compute_quad_layout
 from .meshes.mesh_format import MeshFormat
@@ -75,6 +76,7 @@ __all__ = [
     "GeometryError",
     "HexDominantResult",
     "HexMeshOptions",
+    "HexMeshResult",
     "InvalidInput",
     "IoError",
     "MeshFormat",
@@ -99,6 +101,7 @@ __all__ = [
     "compute_field",
     "compute_fixed_boundary_quads",
     "compute_hex_dominant",
+    "compute_hex_mesh",
     "compute_quad_layout",
     "compute_quad_mesh",
     "compute_surface_field",

@@ -3459,6 +3459,166 @@ class HexDominantOptions:
     @sizes.setter
     def sizes(self, value: ArrayLike) -> None: ...
 
+class SeamlessMap:
+    def __init__(
+        self,
+        mesh: TetMesh = ...,
+        parameters: ArrayLike = ...,
+        walls: ArrayLike = ...,
+        features: ArrayLike = ...,
+        corners: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> TetMesh: ...
+    @property
+    def parameters(self) -> Float64s: ...
+    @parameters.setter
+    def parameters(self, value: ArrayLike) -> None: ...
+    @property
+    def walls(self) -> Int32s: ...
+    @walls.setter
+    def walls(self, value: ArrayLike) -> None: ...
+    @property
+    def features(self) -> Int32s: ...
+    @features.setter
+    def features(self, value: ArrayLike) -> None: ...
+    @property
+    def corners(self) -> Int32s: ...
+    @corners.setter
+    def corners(self, value: ArrayLike) -> None: ...
+
+class SeamlessReport:
+    residual: float
+    unaligned: int
+    volume: float
+    def __init__(
+        self,
+        flipped: ArrayLike = ...,
+        residual: float = ...,
+        torn: ArrayLike = ...,
+        unaligned: int = ...,
+        volume: float = ...,
+    ) -> None: ...
+    @property
+    def flipped(self) -> Int32s: ...
+    @flipped.setter
+    def flipped(self, value: ArrayLike) -> None: ...
+    @property
+    def torn(self) -> Int32s: ...
+    @torn.setter
+    def torn(self, value: ArrayLike) -> None: ...
+
+class BlockArc:
+    feature: bool
+    boundary: bool
+    def __init__(
+        self,
+        vertices: ArrayLike = ...,
+        parameters: ArrayLike = ...,
+        feature: bool = ...,
+        boundary: bool = ...,
+    ) -> None: ...
+    @property
+    def vertices(self) -> Int32s: ...
+    @vertices.setter
+    def vertices(self, value: ArrayLike) -> None: ...
+    @property
+    def parameters(self) -> Float64s: ...
+    @parameters.setter
+    def parameters(self, value: ArrayLike) -> None: ...
+
+class BlockComplex:
+    @property
+    def tet_block(self) -> Int32s: ...
+    @property
+    def charts(self) -> Float64s: ...
+    @property
+    def nodes(self) -> Int32s: ...
+    @property
+    def arcs(self) -> list[BlockArc]: ...
+    @property
+    def sizes(self) -> Float64s: ...
+    @property
+    def patches(self) -> int: ...
+
+class ArcNumbers:
+    deviation: float
+    bound: float
+    hexahedra: int
+    def __init__(
+        self,
+        numbers: ArrayLike = ...,
+        deviation: float = ...,
+        bound: float = ...,
+        hexahedra: int = ...,
+    ) -> None: ...
+    @property
+    def numbers(self) -> Int32s: ...
+    @numbers.setter
+    def numbers(self, value: ArrayLike) -> None: ...
+
+class BlockHexahedra:
+    def __init__(self, mesh: MixedMesh = ..., blocks: ArrayLike = ..., support: ArrayLike = ...) -> None: ...
+    @property
+    def mesh(self) -> MixedMesh: ...
+    @property
+    def blocks(self) -> Int32s: ...
+    @blocks.setter
+    def blocks(self, value: ArrayLike) -> None: ...
+    @property
+    def support(self) -> UInt8s: ...
+    @support.setter
+    def support(self, value: ArrayLike) -> None: ...
+
+class AllHexOptions:
+    cells: int
+    edge_length: float
+    most_nodes: int
+    most_hexahedra: int
+    good: float
+    sweeps: int
+    threads: int
+    def __init__(
+        self,
+        cells: int = ...,
+        edge_length: float = ...,
+        most_nodes: int = ...,
+        most_hexahedra: int = ...,
+        good: float = ...,
+        sweeps: int = ...,
+        threads: int = ...,
+    ) -> None: ...
+
+class AllHexMesh:
+    wanted: int
+    inverted: int
+    block_count: int
+    def __init__(
+        self,
+        mesh: MixedMesh = ...,
+        blocks: ArrayLike = ...,
+        support: ArrayLike = ...,
+        numbers: ArcNumbers = ...,
+        wanted: int = ...,
+        inverted: int = ...,
+        block_count: int = ...,
+        notes: Sequence[str] = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> MixedMesh: ...
+    @property
+    def blocks(self) -> Int32s: ...
+    @blocks.setter
+    def blocks(self, value: ArrayLike) -> None: ...
+    @property
+    def support(self) -> UInt8s: ...
+    @support.setter
+    def support(self, value: ArrayLike) -> None: ...
+    @property
+    def numbers(self) -> ArcNumbers: ...
+    @property
+    def notes(self) -> list[str]: ...
+
 class PeriodicMap:
     inconsistent: int
     turned_over: int
@@ -3640,6 +3800,24 @@ def hex_dominant(
     threads: int = ...,
     progress: Progress | None = None,
 ) -> HexDominantMesh: ...
+def seamless_report(map: SeamlessMap) -> SeamlessReport: ...
+def block_complex(map: SeamlessMap) -> BlockComplex: ...
+def arc_numbers(
+    blocks: BlockComplex, scale: float, *, least: ArrayLike | None = None, most_nodes: int = 2000
+) -> ArcNumbers: ...
+def block_hexahedra(map: SeamlessMap, blocks: BlockComplex, numbers: ArrayLike) -> BlockHexahedra: ...
+def all_hex(
+    map: SeamlessMap,
+    *,
+    cells: int = ...,
+    edge_length: float = ...,
+    most_nodes: int = ...,
+    most_hexahedra: int = ...,
+    good: float = ...,
+    sweeps: int = ...,
+    threads: int = ...,
+    progress: Progress | None = None,
+) -> AllHexMesh: ...
 def refine_tets(domain: TetDomain | TetMesh, marked: ArrayLike) -> tuple[TetDomain, Int32s, Int32s]: ...
 def periodic_map(
     domain: TetDomain | TetMesh,

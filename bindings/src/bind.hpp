@@ -51,6 +51,7 @@ void bind_volume_input(pybind11::module_& module);
 void bind_cells(pybind11::module_& module);
 void bind_hexdom_types(pybind11::module_& module);
 void bind_hexdom(pybind11::module_& module);
+void bind_hexmesh(pybind11::module_& module);
 void bind_axes_stretch(pybind11::module_& module);
 void bind_recipe(pybind11::module_& module);
 void add_examples(pybind11::module_& module);  // to docstrings, after everything else

@@ -41,6 +41,7 @@ struct PeriodicMapOptions;
 struct RecombineOptions;
 struct ImproveOptions;
 struct HexDominantOptions;
+struct AllHexOptions;
 }  // namespace octafield::volume
 
 namespace octafield::bindings {
@@ -72,6 +73,7 @@ void check(const volume::PeriodicMapOptions& options);
 void check(const volume::RecombineOptions& options);
 void check(const volume::ImproveOptions& options);
 void check(const volume::HexDominantOptions& options);
+void check(const volume::AllHexOptions& options);
 
 // Coordinates finite, vertex ids in range. `require_elements`: at least one triangle or tet.
 void check(const surface::TriangleMesh& mesh, bool require_elements = true);

@@ -79,6 +79,7 @@ PYBIND11_MODULE(_core, module) {
     bind_t_meshes(module);
     bind_fixed_boundary(module);
     bind_hexdom(module);
+    bind_hexmesh(module);
     bind_end();
     add_examples(module);
 }

@@ -8,7 +8,7 @@ import types
 import typing
 from pathlib import Path
 
-from octafield.records import field, hex_dominant, parts, quad_layout, quad_mesh, surface_field
+from octafield.records import field, hex_dominant, hex_mesh, parts, quad_layout, quad_mesh, surface_field
 from octafield.records.base import Record
 
 PAGE = Path(__file__).parents[2] / "docs" / "records.md"
@@ -17,6 +17,7 @@ KINDS = (
     field.FieldRecord,
     surface_field.SurfaceFieldRecord,
     hex_dominant.HexDominantRecord,
+    hex_mesh.HexMeshRecord,
     quad_layout.QuadLayoutRecord,
     quad_mesh.QuadMeshRecord,
     field.RunWithField,

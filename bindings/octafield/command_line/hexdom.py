@@ -1,4 +1,4 @@
-"""The command that makes meshes: octafield hex-dominant."""
+"""The commands that make hexahedra: octafield hex-dominant, and hex-mesh."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +20,7 @@ _WITHOUT = ("edge_length", "axes", "sizes", "streamlines", "split_singular")
 
 def register(app: typer.Typer) -> None:
     app.command("hex-dominant")(hex_dominant)
+    app.command("hex-mesh")(hex_mesh)
 
 
 @with_options(FieldOptions, without=_WITHOUT)
@@ -90,5 +91,35 @@ def hex_dominant(
             result = compute_hex_dominant(input, chosen, progress, hex_options=of_cells, sizes=size, field=field)
             write_hex_result(result, folder, progress)
         console.finish(result.record, tables.show_hex_record, json, quiet, output)
+
+    carry_out(work, quiet, verbose, json)
+
+
+def hex_mesh(
+    input: InputFile,
+    output: Output,
+    edge_length: Annotated[
+        float,
+        typer.Option(metavar="LENGTH", help="Wanted edge of the hexahedra, input unit; 0: mean edge of the boundary."),
+    ] = 0.0,
+    cells: Annotated[int, typer.Option(metavar="N", help="In its place: wanted number of hexahedra.")] = 0,
+    threads: Annotated[int, typer.Option(metavar="N", help="0: all. The result does not depend on it.")] = 0,
+    json: Json = None,
+    quiet: Quiet = False,
+    verbose: Verbose = False,
+) -> None:
+    """Mesh of hexahedra alone from INPUT, a seamless map (.hexex) with walls. DIR gets mesh.vtu, mesh.msh, mesh.mesh,
+    result.json."""
+
+    def work() -> None:
+        from ..files.writing import staged_folder
+        from ..hexmesh.files import write_hex_mesh_result
+        from ..hexmesh.hex_mesh import compute_hex_mesh
+        from ..records.record_file import RECORD_FILE
+
+        with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
+            result = compute_hex_mesh(input, progress, cells=cells, edge_length=edge_length, threads=threads)
+            write_hex_mesh_result(result, folder, progress)
+        console.finish(result.record, tables.show_hex_mesh_record, json, quiet, output)
 
     carry_out(work, quiet, verbose, json)

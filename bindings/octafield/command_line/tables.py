@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..records.base import Record
     from ..records.field import FieldRecord
     from ..records.hex_dominant import HexDominantRecord
+    from ..records.hex_mesh import HexMeshRecord
     from ..records.parts import AxesFigures
     from ..records.quad_layout import QuadLayoutRecord
     from ..records.quad_mesh import QuadMeshRecord
@@ -81,6 +82,26 @@ def show_hex_record(record: HexDominantRecord) -> None:
         ("pyramids", _several(steps.pyramids, ("d",) * 3)),
         ("seconds", f"{sum(record.wall_seconds.values()):.1f}"),
         ("peak_mb", f"{record.peak_mb:.0f}"),
+    ]
+    _facts(record.input, facts)
+
+
+def show_hex_mesh_record(record: HexMeshRecord) -> None:
+    irregular = ", ".join(f"{number:,} of valence {valence}" for valence, number in record.irregular_edges.items())
+    facts = [
+        ("blocks", f"{record.blocks:,}"),
+        ("hexahedra", f"{record.hexahedra:,}"),
+        ("wanted", f"{record.target:,}"),
+        ("irregular edges inside", irregular or "none"),
+        ("scaled Jacobian", _several(record.scaled_jacobian, (".3f",) * 3)),
+        ("inverted", str(record.inverted)),
+        ("not proven positive", str(record.unproven)),
+        ("nonconforming faces", str(record.nonconforming_faces)),
+        ("volume error", f"{record.volume_error:.2e}"),
+        ("boundary deviation", _several(record.boundary_deviation, (".2e",) * 2)),
+        ("off features", _several(record.feature_deviation, (".2e",) * 2)),
+        ("edge length", _several(record.edge_length, (".4g",) * 4)),
+        ("seconds", f"{record.seconds:.1f}"),
     ]
     _facts(record.input, facts)
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .base import Record
     from .field import FieldRecord, RunWithField, RunWithoutField
     from .hex_dominant import HexDominantRecord
+    from .hex_mesh import HexMeshRecord
     from .quad_layout import QuadLayoutRecord
     from .quad_mesh import QuadMeshRecord
     from .surface_field import SurfaceFieldRecord
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
         FieldRecord
         | SurfaceFieldRecord
         | HexDominantRecord
+        | HexMeshRecord
         | QuadLayoutRecord
         | QuadMeshRecord
         | RunWithField
@@ -35,6 +37,7 @@ _WHAT = {
     "FieldRecord": "a frame field",
     "GivenFieldRecord": "a frame field",
     "HexDominantRecord": "a hex-dominant mesh",
+    "HexMeshRecord": "a hex mesh",
     "QuadLayoutRecord": "a quad layout",
     "QuadMeshRecord": "a quad mesh",
     "RunWithField": "a frame field",

@@ -1,0 +1,51 @@
+"""Records of all-hex meshes."""
+
+from typing import Any
+
+from pydantic import Field
+
+from .base import Record
+from .parts import Deviation, EdgeLengths, FeatureDeviation, JacobianFigures, Machine, WholeNumberFigures
+
+
+class HexMeshRecord(Record):
+    """`octafield hex-mesh`: result.json and `HexMeshResult.record`. Figures of the hexahedra are found on the mesh's
+    arrays and the input's, not by what made the mesh."""
+
+    input: str = Field(description="path or name of the input")
+    version: str = Field(description="of octafield")
+    input_kind: str = Field(description="seamless map")
+    mesh_sha256: str = Field(description="of the arrays of the tets that the map is on, first 16 hexadecimal digits")
+    tets: int = Field(description="that the map is on")
+    stage: str = Field(description="reached: extracted")
+    blocks: int = Field(description="boxes in the map's parameters that its walls bound")
+    arcs: int = Field(description="where blocks meet, each with a whole number of edges")
+    whole_numbers: WholeNumberFigures = Field(description="of edges on the arcs")
+    target: int = Field(description="number of hexahedra wanted")
+    hexahedra: int = Field(description="how many; there are no other cells")
+    vertices: int = Field(description="of the hexahedra")
+    irregular_edges: dict[str, int] = Field(
+        description="inside, with other than 4 hexahedra: how many by the number of hexahedra"
+    )
+    scaled_jacobian: JacobianFigures = Field(description="of the hexahedra (octafield.volume.scaled_jacobians)")
+    inverted_at_first: int = Field(description="with a scaled Jacobian of 0 or less where the map puts their vertices")
+    inverted: int = Field(description="with a scaled Jacobian of 0 or less: 0")
+    unproven: int = Field(
+        description="whose Jacobian is not proven to be above 0 everywhere (octafield.volume.proven_positive)"
+    )
+    nonconforming_faces: int = Field(description="that do not match: 0")
+    volume_error: float = Field(description="difference of the volumes of mesh and input, over the input's")
+    boundary_deviation: Deviation = Field(
+        description="between the boundaries of mesh and input, both ways, over the diagonal of the input's box"
+    )
+    feature_deviation: FeatureDeviation = Field(description="of the boundary's quads from features")
+    edge_length: EdgeLengths = Field(description="of the edges of the hexahedra, input unit")
+    seconds: float = Field(description="by the clock, of all phases")
+    wall_seconds: dict[str, float] = Field(description="by the clock, per phase")
+    cpu_seconds: dict[str, float] = Field(description="of the processor, all threads, per phase")
+    peak_mb: float = Field(description="largest resident memory, 1e6 bytes, libraries included")
+    notes: list[str] = Field(description="what the mesh does not have")
+    versions: dict[str, str] = Field(description="of octafield, Python, packages and platform")
+    machine: Machine | None = Field(default=None, description="that it ran on")
+    options: dict[str, Any] = Field(description="`compute_hex_mesh(map, **record.options)` makes it again")
+    files: list[str] | None = Field(default=None, description="names of what was written, within the folder")

@@ -1,0 +1,259 @@
+#include "octafield/volume/all_hex.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+
+#include "block_arcs.hpp"
+#include "octafield/error.hpp"
+#include "octafield/volume/cell_quality.hpp"
+
+namespace octafield::volume {
+namespace {
+
+constexpr double fit = 0.1;  // of an edge: how far vertices leave the surface so that chords keep the volume
+constexpr int proof_depth = 8;
+// Of the wanted number, until one leaves no hexahedra inverted.
+constexpr std::array factors{1., 1.05, 0.95, 1.1, 0.9, 1.2, 0.8, 1.4};
+
+void require(const AllHexOptions& options) {
+    const auto refuse = [](const std::string& message) { throw InvalidInput(message, "option_out_of_range"); };
+    if (options.cells < 0) refuse("cells must be 0 or more");
+    if (!(options.edge_length >= 0 && std::isfinite(options.edge_length))) refuse("the edge length must be 0 or more");
+    if (options.cells > 0 && options.edge_length > 0)
+        refuse("an edge length decides the number of cells; give one of both");
+    if (options.most_nodes < 1) refuse("most_nodes must be at least 1");
+    if (options.most_hexahedra < 1) refuse("most_hexahedra must be at least 1");
+    if (options.sweeps < 0) refuse("sweeps must be 0 or more");
+    if (!(options.good > 0 && options.good < 1)) refuse("good must lie between 0 and 1");
+}
+
+double wanted_cells(const SeamlessMap& map, const BoundarySurface& surface, const AllHexOptions& options) {
+    if (options.cells > 0) return options.cells;
+    const double length = options.edge_length > 0 ? options.edge_length : surface::mean_edge_length(surface.mesh);
+    const double wanted = tet_volumes(map.mesh).sum() / std::pow(length, 3);
+    if (wanted > options.most_hexahedra)
+        throw InvalidInput("the edge length asks for about " + std::to_string(static_cast<long long>(wanted)) +
+                               " hexahedra, and at most " + std::to_string(options.most_hexahedra) +
+                               " are made; give a larger one, or more most_hexahedra",
+                           "too_many_cells");
+    return std::max(wanted, 1.);
+}
+
+// Of the surface, in its own numbering: the map's, or edges of 40 degrees.
+surface::FeatureGraph features_of(const SeamlessMap& map, const BoundarySurface& surface) {
+    if (map.features.rows() == 0 && map.corners.empty()) return surface::detect_features(surface.mesh);
+    std::map<Index, Index> number;
+    for (std::size_t v = 0; v < surface.vertex_map.size(); ++v) number[surface.vertex_map[v]] = static_cast<Index>(v);
+    const auto known = [&](Index vertex) {
+        const auto found = number.find(vertex);
+        if (found == number.end())
+            throw InvalidInput("features: vertex " + std::to_string(vertex) + " is not on the boundary",
+                               "index_out_of_range", {vertex});
+        return found->second;
+    };
+    surface::FeatureGraph graph;
+    graph.edges.resize(map.features.rows(), 2);
+    for (Index e = 0; e < map.features.rows(); ++e)
+        graph.edges.row(e) << known(map.features(e, 0)), known(map.features(e, 1));
+    surface::FeatureGraph with_turns = surface::feature_graph(surface.mesh, graph.edges);
+    for (const Index corner : map.corners) with_turns.corners.push_back(known(corner));
+    std::sort(with_turns.corners.begin(), with_turns.corners.end());
+    with_turns.corners.erase(std::unique(with_turns.corners.begin(), with_turns.corners.end()),
+                             with_turns.corners.end());
+    return surface::ordered_features(std::move(with_turns), surface.mesh);
+}
+
+// The map with these features.
+SeamlessMap with_features(SeamlessMap map, const BoundarySurface& surface, const surface::FeatureGraph& features) {
+    map.features.resize(features.edges.rows(), 2);
+    for (Index e = 0; e < features.edges.rows(); ++e)
+        for (int k = 0; k < 2; ++k) map.features(e, k) = surface.vertex_map[features.edges(e, k)];
+    map.corners.clear();
+    for (const Index corner : features.corners) map.corners.push_back(surface.vertex_map[corner]);
+    return map;
+}
+
+void note_lost_features(const SeamlessMap& map, const BlockComplex& blocks, std::vector<std::string>& notes) {
+    std::set<detail::EdgeKey> held;
+    for (const BlockArc& arc : blocks.arcs)
+        for (std::size_t i = 0; i + 1 < arc.vertices.size(); ++i)
+            held.insert(detail::edge_key(arc.vertices[i], arc.vertices[i + 1]));
+    Index lost = 0;
+    for (Index e = 0; e < map.features.rows(); ++e)
+        lost += !held.count(detail::edge_key(map.features(e, 0), map.features(e, 1)));
+    if (lost > 0)
+        notes.push_back(std::to_string(lost) + " of " + std::to_string(map.features.rows()) +
+                        " feature edges lie on no arc of the map: hexahedra cut across them");
+}
+
+// Whole numbers for a wanted number of hexahedra.
+class NumberSearch {
+public:
+    NumberSearch(const BlockComplex& blocks, double volume, double wanted, const AllHexOptions& options,
+                 const Progress& progress)
+        : blocks_(blocks),
+          wanted_(wanted),
+          options_(options),
+          progress_(progress),
+          scale_(std::cbrt(wanted / volume)) {}
+
+    ArcNumbers nearest_numbers() {
+        try_scales();
+        if (miss(nearest()) > near) try_single_arcs();
+        return nearest();
+    }
+
+private:
+    static constexpr int scales = 8, rounds = 3, arcs_tried = 24;
+    static constexpr double near = 0.02, worth = 0.05;
+
+    double miss(const ArcNumbers& numbers) const { return std::abs(std::log(numbers.hexahedra / wanted_)); }
+    const ArcNumbers& nearest() const {
+        return *std::min_element(found_.begin(), found_.end(),
+                                 [&](const ArcNumbers& a, const ArcNumbers& b) { return miss(a) < miss(b); });
+    }
+    ArcNumbers solve(double scale, const std::vector<int>& least) {
+        report_or_throw(progress_, "numbers", -1, std::nan(""));
+        ArcNumbers numbers = arc_numbers(blocks_, scale, least, options_.most_nodes);
+        const bool known = std::any_of(found_.begin(), found_.end(),
+                                       [&](const ArcNumbers& other) { return other.numbers == numbers.numbers; });
+        if (!known) found_.push_back(numbers);
+        return numbers;
+    }
+
+    // Between a scale with too few hexahedra and one with too many.
+    void try_scales() {
+        const std::vector<int> ones(blocks_.arcs.size(), 1);
+        double scale = scale_, many = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < scales; ++k) {
+            const ArcNumbers numbers = solve(scale, ones);
+            if (miss(numbers) < near) return;
+            const double ratio = numbers.hexahedra / wanted_;
+            if (ratio > 1) {
+                many = scale;
+            } else {
+                few_ = scale;
+                low_ = numbers.numbers;
+            }
+            scale = few_ > 0 && std::isfinite(many) ? std::sqrt(few_ * many)
+                                                    : scale / std::cbrt(ratio) * (ratio > 1 ? 0.97 : 1.03);
+        }
+    }
+
+    // Arcs of one length turn to the next number all at once; here one of them and what has to follow does.
+    void try_single_arcs() {
+        if (miss(nearest()) < worth || low_.empty()) return;
+        for (int round = 0; round < rounds; ++round) {
+            std::vector<int> next;
+            double best = std::numeric_limits<double>::infinity();
+            const std::size_t step = std::max<std::size_t>(1, low_.size() / arcs_tried);
+            for (std::size_t a = 0; a < low_.size(); a += step) {
+                std::vector<int> least = low_;
+                ++least[a];
+                const ArcNumbers numbers = solve(few_, least);
+                if (numbers.hexahedra > wanted_ || miss(numbers) >= best) continue;
+                best = miss(numbers);
+                next = numbers.numbers;
+            }
+            if (next.empty() || miss(nearest()) < near) return;
+            low_ = std::move(next);
+        }
+    }
+
+    const BlockComplex& blocks_;
+    double wanted_;
+    const AllHexOptions& options_;
+    const Progress& progress_;
+    double scale_, few_ = 0;
+    std::vector<int> low_;  // of the largest scale with too few hexahedra
+    std::vector<ArcNumbers> found_;
+};
+
+void require_few(const ArcNumbers& numbers, const AllHexOptions& options) {
+    if (numbers.hexahedra > options.most_hexahedra)
+        throw InvalidInput("these blocks get " + std::to_string(numbers.hexahedra) + " hexahedra, and at most " +
+                               std::to_string(options.most_hexahedra) + " are made; allow more most_hexahedra",
+                           "too_many_cells");
+}
+
+std::vector<Index> inverted_cells(const MixedMesh& mesh) {
+    const Eigen::VectorXd quality = scaled_jacobians(mesh);
+    std::vector<Index> result;
+    for (Index c = 0; c < quality.size(); ++c)
+        if (!(quality[c] > 0)) result.push_back(c);
+    return result;
+}
+
+void move_vertices(BlockHexahedra& made, const BoundarySurface& surface, const surface::FeatureGraph& features,
+                   const AllHexOptions& options) {
+    VertexSupport support;
+    for (const std::uint8_t kind : made.support) support.kind.push_back(static_cast<VertexSupport::Kind>(kind));
+    ImproveOptions improve;
+    improve.sweeps = options.sweeps;
+    improve.good = options.good;
+    improve.threads = options.threads;
+    improve.fit_surface = true;
+    improve.tolerance = fit * std::cbrt(cell_volumes(made.mesh).cwiseAbs().mean());
+    made.mesh = improve_cells(std::move(made.mesh), support, surface.mesh, features, improve);
+}
+
+}  // namespace
+
+AllHexMesh all_hex(const SeamlessMap& given, const AllHexOptions& options, const Progress& progress) {
+    require(options);
+    report_or_throw(progress, "blocks", 0, std::nan(""));
+    AllHexMesh result;
+    const double volume = seamless_report(given).volume;
+    const BoundarySurface surface = boundary_surface(given.mesh);
+    const surface::FeatureGraph features = features_of(given, surface);
+    const SeamlessMap map = with_features(given, surface, features);
+    const BlockComplex blocks = block_complex(map);
+    result.block_count = blocks.block_count();
+    note_lost_features(map, blocks, result.notes);
+    const double wanted = wanted_cells(map, surface, options);
+    result.wanted = static_cast<Index>(std::lround(wanted));
+    std::vector<std::vector<int>> tried;
+    std::vector<Index> bad;
+    const auto keep = [&](BlockHexahedra& made, const ArcNumbers& numbers, Index inverted) {
+        require_valid(made.mesh);
+        result.numbers = numbers;
+        result.inverted = inverted;
+        result.mesh = std::move(made.mesh);
+        result.blocks = std::move(made.blocks);
+        result.support = std::move(made.support);
+    };
+    for (const double factor : factors) {
+        const ArcNumbers numbers = NumberSearch(blocks, volume, factor * wanted, options, progress).nearest_numbers();
+        require_few(numbers, options);
+        if (std::find(tried.begin(), tried.end(), numbers.numbers) != tried.end()) continue;
+        tried.push_back(numbers.numbers);
+        report_or_throw(progress, "hexahedra", -1, std::nan(""));
+        BlockHexahedra made = block_hexahedra(map, blocks, numbers.numbers);
+        const auto inverted = static_cast<Index>(inverted_cells(made.mesh).size());
+        report_or_throw(progress, "improve", -1, std::nan(""));
+        if (options.sweeps > 0) move_vertices(made, surface, features, options);
+        const std::vector<Index> left = inverted_cells(made.mesh);
+        if (tried.size() == 1) bad = left;
+        if (!left.empty()) continue;
+        const std::vector<std::uint8_t> proven = proven_positive(made.mesh, proof_depth, options.threads);
+        const bool all_proven = std::find(proven.begin(), proven.end(), 0) == proven.end();
+        if (!all_proven && result.mesh.hexahedra.rows() > 0) continue;
+        keep(made, numbers, inverted);
+        if (!all_proven) continue;
+        if (tried.size() > 1)
+            result.notes.push_back(
+                "nearer numbers of hexahedra leave some of them turned over in part, so that another one was taken");
+        return result;
+    }
+    if (result.mesh.hexahedra.rows() > 0) return result;
+    throw SolverError("hexahedra " + first_few(bad) +
+                          " stay inverted however their vertices move; ask for more cells, or another map",
+                      "inverted_cells", bad);
+}
+
+}  // namespace octafield::volume
