@@ -105,7 +105,8 @@ public:
 
 private:
     Attempt made(const detail::BlockStructure& structure, detail::Rescue rescue) const {
-        detail::SizedCounts chosen = detail::CountChooser(layout_, seams_, options_).wanted(structure.problem);
+        const detail::CountChooser chooser(layout_, seams_, options_);
+        detail::SizedCounts chosen = chooser.nearer(structure.problem, chooser.wanted(structure.problem));
         detail::SideGrids grids = detail::seamed_grids(layout_, seams_, chosen.arcs.counts, chosen.part_counts);
         Attempt result;
         result.on_seams = grids.on_seams;

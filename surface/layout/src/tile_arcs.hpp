@@ -22,4 +22,14 @@ ArcProblem split_problem(const QuadRows& rows, const ArcProblem& arcs);
 
 double total_quads(const QuadLayout& layout, const std::vector<int>& counts);
 
+// Their number near those counts, linear in what counts differ by: a factor for each side, and what is added.
+struct QuadsNear {
+    std::vector<double> factors;
+    double constant;
+};
+QuadsNear quads_near(const QuadLayout& layout, const std::vector<int>& counts);
+
+// Root of the mean square, over quads and their two directions, of the logarithm of steps of parameters over the size.
+double unevenness(const QuadLayout& layout, const std::vector<int>& counts, double size);
+
 }  // namespace octafield::surface::detail
