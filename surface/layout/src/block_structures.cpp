@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "merged_vertices.hpp"
@@ -60,10 +60,17 @@ public:
             return counts_of(layout_, seams_, integer_counts(coarsest, options_.most_nodes), longest);
         });
     }
-    // Of the size wanted, where tracks between which less than half a quad would be become one.
+    // Of the size wanted, where tracks between which less than half a quad would be become one. What must not be one is
+    // found with numbers for one size in each round, before sizes are tried for the number of quads.
     void find_merged() {
-        add_merging([&](const ArcProblem& problem) { return chooser_.wanted(problem); },
-                    [&](const SizedCounts& found) { return chooser_.nearer(merging_, found); });
+        double size = chooser_.first_size();
+        std::optional<SizedCounts> found = merged([&](const ArcProblem& problem) {
+            SizedCounts counts = chooser_.at_size(problem, size);
+            size = chooser_.next_size(counts);
+            return counts;
+        });
+        if (found) found = merged([&](const ArcProblem& problem) { return chooser_.wanted(problem, size); });
+        if (found) add(chooser_.nearer(merging_, std::move(*found)));
     }
     const ArcProblem& sums() const { return sums_; }
     std::vector<BlockStructure> result() && { return std::move(result_); }
@@ -78,16 +85,17 @@ private:
         } catch (const GeometryError&) {
         } catch (const SolverError&) {
         }
-        add_merging(counts, std::identity());
+        if (const auto found = merged(counts)) add(*found);
     }
 
-    template <class Counts, class Last>
-    void add_merging(const Counts& counts, const Last& last) {
+    // None where there are none, or too many rounds are needed.
+    template <class Counts>
+    std::optional<SizedCounts> merged(const Counts& counts) {
         try {
             for (int round = 0; round < most_rounds; ++round) {
-                const SizedCounts found = counts(merging_);
+                SizedCounts found = counts(merging_);
                 const auto wrong = wrongly_merged(layout_, seams_, found.arcs.counts, found.part_counts);
-                if (wrong.empty()) return add(last(found));
+                if (wrong.empty()) return found;
                 for (const std::vector<Index>& way : wrong) {
                     merging_.sums.push_back({{static_cast<Index>(merging_.least.size())}, way});
                     merging_.least.push_back(1);
@@ -96,6 +104,7 @@ private:
         } catch (const GeometryError&) {
         } catch (const SolverError&) {
         }
+        return {};
     }
 
     void add(const SizedCounts& found) {

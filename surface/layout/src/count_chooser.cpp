@@ -40,10 +40,9 @@ SizedCounts CountChooser::at_size(const ArcProblem& sums, double size) const {
     return counts_of(layout_, seams_, integer_counts(problem, options_.most_nodes), size);
 }
 
-SizedCounts CountChooser::with_quads(const ArcProblem& problem, double wanted) const {
+SizedCounts CountChooser::with_quads(const ArcProblem& problem, double wanted, double size) const {
     SizedCounts best;
     double low = 0, high = std::numeric_limits<double>::infinity();
-    double size = std::sqrt(layout_.curves.parameter_area / wanted);
     for (int i = 0; i < most_sizes; ++i) {
         SizedCounts found = at_size(problem, size);
         const double quads = found.quads;
@@ -92,11 +91,16 @@ bool CountChooser::is_better(const SizedCounts& found, const SizedCounts& than, 
            uneven(found) <= std::max(most_uneven, uneven(than));
 }
 
-SizedCounts CountChooser::wanted(const ArcProblem& problem) const {
-    SizedCounts result = options_.quad_count > 0 ? with_quads(problem, static_cast<double>(options_.quad_count))
-                                                 : at_size(problem, options_.edge_length);
+SizedCounts CountChooser::wanted(const ArcProblem& problem, double first) const {
+    SizedCounts result =
+        options_.quad_count > 0 ? with_quads(problem, options_.quad_count, first) : at_size(problem, first);
     if (!(result.quads <= most_quads)) throw InvalidInput("the size would give more than 1e8 quads", "bad_option");
     return result;
+}
+
+double CountChooser::next_size(const SizedCounts& found) const {
+    if (options_.quad_count <= 0 || is_within(found.quads, options_.quad_count, near_enough)) return found.size;
+    return found.size * std::sqrt(found.quads / options_.quad_count);
 }
 
 double CountChooser::first_size() const {

@@ -106,7 +106,8 @@ public:
 private:
     Attempt made(const detail::BlockStructure& structure, detail::Rescue rescue) const {
         const detail::CountChooser chooser(layout_, seams_, options_);
-        detail::SizedCounts chosen = chooser.nearer(structure.problem, chooser.wanted(structure.problem));
+        detail::SizedCounts chosen =
+            chooser.nearer(structure.problem, chooser.wanted(structure.problem, chooser.first_size()));
         detail::SideGrids grids = detail::seamed_grids(layout_, seams_, chosen.arcs.counts, chosen.part_counts);
         Attempt result;
         result.on_seams = grids.on_seams;
