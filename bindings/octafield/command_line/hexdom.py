@@ -91,4 +91,4 @@ def hex_dominant(
             write_hex_result(result, folder, progress)
         console.finish(result.record, tables.show_hex_record, json, quiet, output)
 
-    carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json, output)

@@ -177,7 +177,7 @@ private:
         for (Index q = 0; q < mesh_.quads.rows(); ++q)
             for (int k = 0; k < 4; ++k) {
                 const Index v = mesh_.quads(q, k);
-                if (on_seam(v) && places_[v].seam < 0 && along_seam(q, k) && along_seam(q, (k + 3) % 4))
+                if (on_seam(v) && fixed_[v] && along_seam(q, k) && along_seam(q, (k + 3) % 4))
                     given_corners_[q].push_back(k);
             }
     }
@@ -222,7 +222,7 @@ private:
             const auto count = along_[s].size();
             for (std::size_t i = 0; i < count; ++i) {
                 const Index v = along_[s][i];
-                if (!near[v]) continue;
+                if (!near[v] || fixed_[v]) continue;
                 const double before = i > 0         ? places_[along_[s][i - 1]].at
                                       : seam.closed ? places_[along_[s].back()].at - seam.length
                                                     : 0;

@@ -9,7 +9,7 @@ namespace octafield::surface::detail {
 struct Movable {
     Movable(const SmootherInput& input, const QuadMesh& mesh);
     std::vector<SideGrids::OnSeam> places;  // of the first vertices
-    std::vector<bool> fixed;                // nodes of seams, singular points inside
+    std::vector<bool> fixed;                // nodes and held vertices of seams, singular points inside
     std::vector<Index> held;                // these
     std::vector<Index> part;                // of the surface, of each quad
 };
@@ -17,8 +17,9 @@ struct Movable {
 // Least sum over the corners of quads of (|u|^2 + |v|^2) / (d + sqrt(d^2 + e^2)), u and v the edges there, d their
 // parallelogram as the surface sees it, e falling with the worst d (Garanzha, Kaporin, Kudryavtseva, Protais, Ray,
 // Sokolov 2021, for triangles): by L-BFGS in tangent planes, along seams, and back to the surface, a few times. The
-// caller compares. Places on seams move with the mesh. of_sizes: how much it counts, for each corner, that s + 1 / s is small
-// as well, s the parallelogram over the area that the quad has where all are as large as the surface has them there.
+// caller compares. Places on seams move with the mesh. of_sizes: how much it counts, for each corner, that s + 1 / s is
+// small as well, s the parallelogram over the area that the quad has where all are as large as the surface has them
+// there.
 void untangle(const SmootherInput& input, Movable& movable, double of_sizes, QuadMesh& mesh);
 
 }  // namespace octafield::surface::detail

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "held_bends.hpp"
+
 namespace octafield::surface::detail {
 namespace {
 
@@ -24,7 +26,8 @@ void add_seams(const Seams& seams, Index arcs, ArcProblem& problem) {
     for (std::size_t s = 0; s < seams.seams.size(); ++s) {
         const Seam& seam = seams.seams[s];
         const auto [a, b] = ends(seam);
-        problem.least.push_back(a == b ? 3 : between[{a, b}] > 1 ? 2 : 1);
+        const bool needs_vertex = between[{a, b}] > 1 || !bends(seam).empty();
+        problem.least.push_back(a == b ? 3 : needs_vertex ? 2 : 1);
         problem.sums.push_back({{arcs + parts + static_cast<Index>(s)}, {}});
         for (Index i = 0; i < seam.part_count(); ++i) problem.sums.back().right.push_back(arcs + seam.first_part + i);
     }

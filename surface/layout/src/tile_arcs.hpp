@@ -9,8 +9,8 @@ namespace octafield::surface::detail {
 
 // Equal sums on opposite sides; least: 1, but 2 for arcs between the same two vertices, and 3 for one from a vertex to
 // itself, so that edges of the mesh are different. Behind the arcs the parts of seams, 0 at least, whose sums the arcs
-// on them are, then the seams, 1 at least, 2 between the same two nodes, 3 if closed. set_size: wanted and weights, of
-// parts a quarter, of seams and of what is behind them 0.
+// on them are, then the seams, 1 at least, 2 between the same two nodes and where they bend, 3 if closed. set_size:
+// wanted and weights, of parts a quarter, of seams and of what is behind them 0.
 ArcProblem arc_problem(const QuadLayout& layout, const Seams& seams);
 ArcProblem arc_problem(const std::vector<const QuadLayout*>& layouts, const Seams& seams);  // of parts, in turn
 void set_size(ArcProblem& problem, const QuadLayout& layout, const Seams& seams, double size, ArcWeights weights);
