@@ -34,6 +34,13 @@ QuantizedQuadsOptions with_few_nodes(QuantizedQuadsOptions options) {
     return options;
 }
 
+ArcProblem problem_of(const QuadLayout& layout, const Seams& seams, const QuantizedQuadsOptions& options) {
+    ArcProblem result = arc_problem(layout, seams);
+    if (options.measure == ArcMeasure::lengths)
+        require_bends(result, layout, seams, CountChooser(layout, seams, options).first_size());
+    return result;
+}
+
 // Structures that whole numbers for large quads make.
 class Finder {
 public:
@@ -41,7 +48,7 @@ public:
         : layout_(layout),
           seams_(seams),
           options_(with_few_nodes(options)),
-          sums_(arc_problem(layout, seams)),
+          sums_(problem_of(layout, seams, options)),
           merging_(sums_),
           chooser_(layout, seams, options_) {
         const auto arcs = static_cast<Index>(layout.sides.size());

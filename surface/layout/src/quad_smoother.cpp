@@ -68,7 +68,8 @@ public:
         const bool rescued =
             how != Rescue::where_few || bad_count() <= few_bad * static_cast<double>(mesh_.quads.rows());
         if (rescued) rescue(rounds);
-        if (rescued && input_.release && least_margin(bad) < 0 && release()) {
+        if (rescued && input_.release && !held_.empty() && least_margin(bad) < 0) {
+            hold_points(false);
             optimise(rounds);
             rescue(rounds);
         }
@@ -79,7 +80,11 @@ public:
     void prepare(Start start) {
         if (start == Start::relaxed) relax(std::vector<bool>(around_.size(), true), relaxing_rounds);
         if (start == Start::untangled) untangle(input_, movable_, 0, mesh_);
-        if (start == Start::evened) untangle(input_, movable_, size_share, mesh_);
+        if (start == Start::evened) {
+            hold_points(!input_.release);
+            untangle(input_, movable_, size_share, mesh_);
+            hold_points(true);
+        }
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
     }
 
@@ -91,9 +96,8 @@ public:
     }
 
 private:
-    bool release() {
-        for (const Index v : held_) fixed_[v] = false;
-        return !held_.empty();
+    void hold_points(bool hold) {
+        for (const Index v : held_) fixed_[v] = hold;
     }
 
     void rescue(int rounds) {

@@ -26,8 +26,7 @@ void add_seams(const Seams& seams, Index arcs, ArcProblem& problem) {
     for (std::size_t s = 0; s < seams.seams.size(); ++s) {
         const Seam& seam = seams.seams[s];
         const auto [a, b] = ends(seam);
-        const bool needs_vertex = between[{a, b}] > 1 || !bends(seam).empty();
-        problem.least.push_back(a == b ? 3 : needs_vertex ? 2 : 1);
+        problem.least.push_back(a == b ? 3 : between[{a, b}] > 1 ? 2 : 1);
         problem.sums.push_back({{arcs + parts + static_cast<Index>(s)}, {}});
         for (Index i = 0; i < seam.part_count(); ++i) problem.sums.back().right.push_back(arcs + seam.first_part + i);
     }
@@ -86,6 +85,13 @@ void set_size(ArcProblem& problem, const std::vector<const QuadLayout*>& layouts
     for (const SeamPart& part : seams.parts) add(part.parameters, part_weight);
     problem.wanted.resize(problem.least.size(), 1);
     problem.weights.resize(problem.least.size(), 0);
+}
+
+void require_bends(ArcProblem& problem, const QuadLayout& layout, const Seams& seams, double size) {
+    const std::size_t first = layout.sides.size() + seams.parts.size();
+    for (std::size_t s = 0; s < seams.seams.size(); ++s)
+        if (seams.seams[s].length >= size && !bends(seams.seams[s]).empty())
+            problem.least[first + s] = std::max(problem.least[first + s], 2);
 }
 
 ArcProblem split_problem(const QuadRows& rows, const ArcProblem& arcs) {
