@@ -68,8 +68,7 @@ public:
         const bool rescued =
             how != Rescue::where_few || bad_count() <= few_bad * static_cast<double>(mesh_.quads.rows());
         if (rescued) rescue(rounds);
-        if (rescued && input_.release && !held_.empty() && least_margin(bad) < 0) {
-            hold_points(false);
+        if (rescued && input_.release && least_margin(bad) < 0 && release()) {
             optimise(rounds);
             rescue(rounds);
         }
@@ -80,11 +79,7 @@ public:
     void prepare(Start start) {
         if (start == Start::relaxed) relax(std::vector<bool>(around_.size(), true), relaxing_rounds);
         if (start == Start::untangled) untangle(input_, movable_, 0, mesh_);
-        if (start == Start::evened) {
-            hold_points(!input_.release);
-            untangle(input_, movable_, size_share, mesh_);
-            hold_points(true);
-        }
+        if (start == Start::evened) untangle(input_, movable_, size_share, mesh_);
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
     }
 
@@ -96,8 +91,9 @@ public:
     }
 
 private:
-    void hold_points(bool hold) {
-        for (const Index v : held_) fixed_[v] = hold;
+    bool release() {
+        for (const Index v : held_) fixed_[v] = false;
+        return !held_.empty();
     }
 
     void rescue(int rounds) {

@@ -10,7 +10,7 @@ struct Movable {
     Movable(const SmootherInput& input, const QuadMesh& mesh);
     std::vector<SideGrids::OnSeam> places;  // of the first vertices
     std::vector<bool> fixed;                // nodes and held vertices of seams, singular points inside
-    std::vector<Index> held;                // these
+    std::vector<Index> held;                // these points
     std::vector<Index> part;                // of the surface, of each quad
 };
 
