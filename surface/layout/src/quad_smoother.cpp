@@ -21,7 +21,7 @@ constexpr double softness = 10;
 constexpr double size_share = 0.3;  // of sizes beside shapes
 constexpr int rings[] = {1, 2, 4, 8}, relaxing_rounds = 20;
 constexpr double least_gain = 1e-4;
-constexpr double bend = 0.5;
+constexpr double bend = 2;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
 
 class Smoother {
