@@ -234,6 +234,20 @@ def test_every_format_holds_the_same_quads(folder):
     assert {"scaled_jacobian", "size_ratio"} <= set(whole.cell_data) and {"quads", "boundary"} <= set(whole.point_data)
 
 
+def test_json_of_the_name_of_the_folder_is_refused_before_anything_is_written(folder, capsys):
+    told = CliRunner().invoke(
+        cli.app, ["quad-mesh", str(folder / "disk.obj"), "-o", str(folder / "one"), "--json", str(folder / "one"), "-q"]
+    )
+    assert told.exit_code == 2 and not (folder / "one").exists()
+    assert "--json and -o are both" in told.output + capsys.readouterr().err
+
+
+def test_quads_are_as_many_as_wanted_where_one_size_has_all_arcs_of_a_cube_alike():
+    """Of one size 6 n^2: 150 or 216. 5 x 5 x 6 are 170."""
+    result = made(cube(), quads=172)
+    assert result.record.quads == 170 and result.record.scaled_jacobian.min > 0.99
+
+
 def test_the_record_is_read_back(folder):
     told = json.loads((folder / "out.json").read_text())
     assert told == json.loads((folder / "out" / "result.json").read_text())

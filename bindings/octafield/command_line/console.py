@@ -67,11 +67,17 @@ def error_code(error: BaseException) -> int:
     return DEFECT
 
 
-def carry_out(work: Callable[[], None], quiet: bool, verbose: bool, json: str | None) -> None:
-    """Runs a command; an error becomes one line on stderr, an exit code and, with --json, a document."""
+def carry_out(
+    work: Callable[[], None], quiet: bool, verbose: bool, json: str | None, output: Path | None = None
+) -> None:
+    """Runs a command; an error becomes one line on stderr, an exit code and, with --json, a document. output: the
+    folder that it makes, which --json must not name."""
     set_verbosity(quiet, verbose)
     _written.clear()
     try:
+        if json and json != "-" and output is not None and Path(json).absolute() == output.absolute():
+            named, json = json, None  # nothing is written there
+            raise InvalidInput(f"--json and -o are both {named}: give the figures a file of their own", "same_path")
         check_json_target(json)
         work()
     except typer.Exit:

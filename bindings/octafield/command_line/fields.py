@@ -96,7 +96,7 @@ def field(
             write_field_result(result, folder, progress)
         console.finish(result.record, tables.show_record, json, quiet, output)
 
-    carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json, output)
 
 
 @app.command("surface-field")
@@ -182,7 +182,7 @@ def surface_field(
             write_surface_result(result, folder, progress)
         console.finish(result.record, tables.show_record, json, quiet, output)
 
-    carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json, output)
 
 
 def _of_lines(chosen: SurfaceFieldOptions, lines: NonOrthogonalOptions, wanted: bool) -> NonOrthogonalOptions | None:

@@ -92,7 +92,7 @@ def hex_dominant(
             write_hex_result(result, folder, progress)
         console.finish(result.record, tables.show_hex_record, json, quiet, output)
 
-    carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json, output)
 
 
 def hex_mesh(
@@ -122,4 +122,4 @@ def hex_mesh(
             write_hex_mesh_result(result, folder, progress)
         console.finish(result.record, tables.show_hex_mesh_record, json, quiet, output)
 
-    carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json, output)

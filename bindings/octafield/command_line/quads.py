@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ..layout.options import BLOCKS, INADMISSIBLE, LAYOUTS, MEASURES, QuadLayoutOptions
+from ..meshes.registry import kinds_in_words
 from ..options import AXES, SurfaceFieldOptions
 from ..quad_mesh.options import FOLLOW, FORMATS, QuadMeshOptions
 from . import console, tables
@@ -16,6 +17,41 @@ from .options import InputFile, Json, Output, Quiet, Verbose, choices, with_opti
 from .shell_completion import words
 
 _DEFAULTS = QuadLayoutOptions()
+PlaneInput = Annotated[
+    str,
+    typer.Argument(
+        metavar="INPUT",
+        help=(
+            f"A {kinds_in_words('surface', 'tet mesh', 'CAD model')}, or the outline of a plane region: GeoJSON"
+            " (.geojson, .json), Triangle (.poly), Gmsh (.geo)."
+        ),
+    ),
+]
+Quads = Annotated[
+    int, typer.Option(metavar="N", help="Wanted number of quads; made is the nearest that whole numbers allow.")
+]
+QuadEdgeLength = Annotated[
+    float,
+    typer.Option(metavar="LENGTH", help="In its place: their mean edge, input unit; 0: that of the triangles."),
+]
+Inadmissible = Annotated[
+    str,
+    typer.Option(
+        metavar=choices(INADMISSIBLE),
+        autocompletion=words(INADMISSIBLE[1:]),
+        help=(
+            "Where no field has the singular points in these places: refuse them, move them, or rotate the field."
+            " Default: move those of a computed field, fail with points of a file."
+        ),
+    ),
+]
+TriangleLength = Annotated[
+    float,
+    typer.Option(
+        metavar="LENGTH",
+        help="Edge of the triangles that the field is computed on, input unit; 0: lengths that fit the shape.",
+    ),
+]
 # What has another meaning here, or none: lengths of the triangles have a name of their own.
 _WITHOUT = ("edge_length", "symmetry", "boundary_alignment", "interfaces", "split")
 
@@ -47,13 +83,8 @@ def quad_layout(
             help="Corners of the boundary with other numbers of quads than by angle, .json or .csv: vertex and quads.",
         ),
     ] = None,
-    quads: Annotated[
-        int, typer.Option(metavar="N", help="Wanted number of quads; made is the nearest that the layout allows.")
-    ] = 0,
-    edge_length: Annotated[
-        float,
-        typer.Option(metavar="LENGTH", help="In its place: their mean edge, input unit; 0: that of the triangles."),
-    ] = 0.0,
+    quads: Quads = 0,
+    edge_length: QuadEdgeLength = 0.0,
     layout: Annotated[
         str,
         typer.Option(
@@ -89,17 +120,7 @@ def quad_layout(
             help="Of quads: at right angles, or along two lines at any angle, which follow both sides of corners.",
         ),
     ] = _DEFAULTS.axes,
-    inadmissible: Annotated[
-        str,
-        typer.Option(
-            metavar=choices(INADMISSIBLE),
-            autocompletion=words(INADMISSIBLE[1:]),
-            help=(
-                "Where no field has the points in these places: refuse them, move them, or rotate the field. Default:"
-                " fail with points of a file, move those of a computed field."
-            ),
-        ),
-    ] = "default",
+    inadmissible: Inadmissible = "default",
     tolerance: Annotated[float, typer.Option(metavar="DEG", help="By how much places may be off, degrees.")] = round(
         math.degrees(_DEFAULTS.tolerance), 6
     ),
@@ -113,13 +134,7 @@ def quad_layout(
     max_length: Annotated[
         float, typer.Option(metavar="L", help="Longest separatrix, quad coordinates; 0: default.")
     ] = _DEFAULTS.max_length,
-    triangle_length: Annotated[
-        float,
-        typer.Option(
-            metavar="LENGTH",
-            help="Edge of the triangles that the field is computed on, input unit; 0: lengths that fit the shape.",
-        ),
-    ] = 0.0,
+    triangle_length: TriangleLength = 0.0,
     options: Callable[[], SurfaceFieldOptions] = SurfaceFieldOptions,
     json: Json = None,
     quiet: Quiet = False,
@@ -156,20 +171,15 @@ def quad_layout(
             write_layout_result(result, folder, progress)
         console.finish(result.record, tables.show_layout_record, json, quiet, output)
 
-    carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json, output)
 
 
 @with_options(SurfaceFieldOptions, without=_WITHOUT)
 def quad_mesh(
-    input: InputFile,
+    input: PlaneInput,
     output: Output,
-    quads: Annotated[
-        int, typer.Option(metavar="N", help="Wanted number of quads; made is the nearest that whole numbers allow.")
-    ] = 0,
-    edge_length: Annotated[
-        float,
-        typer.Option(metavar="LENGTH", help="In its place: their mean edge, input unit; 0: that of the triangles."),
-    ] = 0.0,
+    quads: Quads = 0,
+    edge_length: QuadEdgeLength = 0.0,
     size: Annotated[
         str | None,
         typer.Option(
@@ -205,14 +215,7 @@ def quad_mesh(
             help="Every segment of a plane region's outline, or of a flat surface's boundary, is an edge of a quad.",
         ),
     ] = False,
-    inadmissible: Annotated[
-        str,
-        typer.Option(
-            metavar=choices(INADMISSIBLE),
-            autocompletion=words(INADMISSIBLE[1:]),
-            help="Where no field has the singular points in these places: refuse, move them, or rotate. Default: move.",
-        ),
-    ] = "default",
+    inadmissible: Inadmissible = "default",
     formats: Annotated[
         str, typer.Option(metavar="LIST", help=f"Of the quads, with commas: {', '.join(FORMATS)}.")
     ] = "vtu,obj",
@@ -224,13 +227,7 @@ def quad_mesh(
             " lines.",
         ),
     ] = False,
-    triangle_length: Annotated[
-        float,
-        typer.Option(
-            metavar="LENGTH",
-            help="Edge of the triangles that the field is computed on, input unit; 0: lengths that fit the shape.",
-        ),
-    ] = 0.0,
+    triangle_length: TriangleLength = 0.0,
     options: Callable[[], SurfaceFieldOptions] = SurfaceFieldOptions,
     json: Json = None,
     quiet: Quiet = False,
@@ -261,7 +258,7 @@ def quad_mesh(
             write_quad_mesh_result(result, folder, written, progress, parameterization)
         console.finish(result.record, tables.show_quad_mesh_record, json, quiet, output)
 
-    carry_out(work, quiet, verbose, json)
+    carry_out(work, quiet, verbose, json, output)
 
 
 def report(

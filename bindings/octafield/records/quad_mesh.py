@@ -4,79 +4,42 @@ from typing import Any
 
 from pydantic import Field
 
-from .base import Record
 from .parts import (
-    Deviation,
-    EdgeLengths,
     FeatureDeviation,
     FieldAngles,
     ImposedPointFigures,
-    JacobianFigures,
     KeptBoundary,
-    Machine,
     MinMax,
     ParameterizationFigures,
     SizeRatios,
     WholeNumberFigures,
 )
+from .quads import QuadRecord
 
 
-class QuadMeshRecord(Record):
-    """`octafield quad-mesh`: result.json and `QuadMeshResult.record`. Figures of the quads are found on the mesh's
-    arrays and the input's, not by what made the mesh."""
+class QuadMeshRecord(QuadRecord):
+    """`octafield quad-mesh`: result.json and `QuadMeshResult.record`."""
 
-    input: str = Field(description="path or name of the input")
-    version: str = Field(description="of octafield")
-    input_kind: str = Field(description="surface or tets: what the input was")
-    mesh_sha256: str = Field(description="of the arrays of the surface, first 16 hexadecimal digits")
-    triangles: int = Field(description="of the surface that the field is on")
-    field_triangles: int = Field(description="of the surface refined round singular points")
-    feature_source: str = Field(description="file, angle or none: where features come from")
-    feature_edges: int = Field(description="edges of the surface that bend")
-    point_source: str = Field(description="computed or the file: the field that the singular points come from")
     field_singularities: list[ImposedPointFigures] = Field(
         description="of the field that the quads follow, of index other than 0, corners included"
     )
     target: int = Field(description="number of quads wanted")
-    quads: int = Field(description="how many")
-    vertices: int = Field(description="of the quads")
     irregular_vertices: dict[str, int] = Field(
         description="inside, with other than 4 quads: how many by the number of quads"
     )
     irregular_boundary_vertices: dict[str, int] = Field(
         description="on the boundary, with other than 2 quads: how many by the number of quads"
     )
-    inverted: int = Field(description="quads with a scaled Jacobian of 0 or less: 0")
-    nonconforming_edges: int = Field(description="that do not match: 0")
-    t_junctions: int = Field(description="vertices within edges of other quads: 0")
-    scaled_jacobian: JacobianFigures = Field(description="of the quads (octafield.surface.scaled_jacobians)")
     angle: MinMax = Field(description="between edges of a quad in space, degrees")
-    edge_length: EdgeLengths = Field(description="of the edges of the quads, input unit")
     size_ratio: SizeRatios = Field(description="reached over wanted, of quads")
     field_angle: FieldAngles | None = Field(
         default=None, description="of edges of the quads, where a field was given: from its directions, degrees"
     )
     feature_deviation: FeatureDeviation = Field(description="of the quads from features")
-    surface_deviation: Deviation = Field(
-        description="between quads and input, both ways, over the diagonal of the input's box"
-    )
     kept_boundary: KeptBoundary | None = Field(default=None, description="where it was to be kept segment by segment")
     whole_numbers: WholeNumberFigures = Field(description="that the quads come from")
     parameterization: ParameterizationFigures | None = Field(
         default=None, description="of parameterization.obj, where it was written"
     )
     seconds: float = Field(description="by the clock, of all phases")
-    wall_seconds: dict[str, float] = Field(description="by the clock, per phase")
-    cpu_seconds: dict[str, float] = Field(description="of the processor, all threads, per phase")
-    phase_peak_mb: dict[str, float] = Field(
-        description="largest resident memory in each phase after reading, 1e6 bytes, libraries included"
-    )
-    peak_mb: float = Field(description="the largest of all phases")
-    notes: list[str] = Field(description="what was done to the input, and what it was without")
-    versions: dict[str, str] = Field(description="of octafield, Python, packages and platform")
-    machine: Machine | None = Field(default=None, description="that it ran on")
     options: dict[str, Any] = Field(description="`octafield.QuadMeshOptions(**record.options)` makes them again")
-    field_options: dict[str, Any] = Field(
-        description="`octafield.SurfaceFieldOptions(**record.field_options)` makes them again"
-    )
-    files: list[str] | None = Field(default=None, description="names of what was written, within the folder")

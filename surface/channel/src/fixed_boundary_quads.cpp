@@ -88,7 +88,7 @@ void require_convex(const QuadMesh& mesh) {
     throw SolverError(
         std::to_string(bad.size()) + " quads are not convex, the first near (" + where +
             "): the outline leaves no room there, or bends too sharply. Divide its segments there, or try "
-            "another offset, rotation or clearance",
+            "quads of another size inside, or in another place",
         "inverted_quads", bad);
 }
 

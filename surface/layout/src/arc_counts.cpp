@@ -27,6 +27,11 @@ Deviation deviation(double wanted, int least) {
     return {low, std::abs(low - wanted), std::abs(low + 1 - wanted) - std::abs(low - wanted)};
 }
 
+double factor(const ArcProblem& problem, Index arc) {
+    if (!problem.bounded || arc >= static_cast<Index>(problem.bounded->factors.size())) return 0;
+    return problem.bounded->factors[arc];
+}
+
 struct Part {
     std::vector<Index> arcs, sums;
 };
@@ -38,6 +43,12 @@ std::vector<Part> parts_of(const ArcProblem& problem) {
         const Index first = sum.left.front();
         for (const auto* side : {&sum.left, &sum.right})
             for (const Index arc : *side) sets.join(first, arc);
+    }
+    Index bounded = -1;
+    for (Index a = 0; a < static_cast<Index>(problem.wanted.size()); ++a) {
+        if (factor(problem, a) == 0) continue;
+        if (bounded >= 0) sets.join(bounded, a);
+        bounded = a;
     }
     Index count = 0;
     const std::vector<Index> part_of = std::move(sets).numbers(count);
@@ -59,6 +70,7 @@ public:
         const auto arcs = static_cast<int>(part.arcs.size());
         std::vector<std::map<int, double>> columns(4 * static_cast<std::size_t>(arcs));
         std::vector<double> low, high, cost, right;
+        bool bounded = false;
         for (int i = 0; i < arcs; ++i) {
             const Index arc = part.arcs[i];
             const Deviation d = deviation(problem.wanted[arc], problem.least[arc]);
@@ -76,6 +88,16 @@ public:
             for (const Index arc : problem.sums[s].right) columns[4 * place.at(arc)][row] -= 1;
             right.push_back(0);
         }
+        std::vector<double> up_to = right;
+        for (int i = 0; i < arcs; ++i) {
+            const double of_arc = factor(problem, part.arcs[i]);
+            if (of_arc != 0) columns[4 * i][static_cast<int>(right.size())] = of_arc;
+            bounded |= of_arc != 0;
+        }
+        if (bounded) {
+            right.push_back(problem.bounded->low);
+            up_to.push_back(problem.bounded->high);
+        }
         std::vector<int> starts = {0}, rows;
         std::vector<double> values;
         for (const auto& column : columns) {
@@ -87,7 +109,7 @@ public:
             starts.push_back(static_cast<int>(rows.size()));
         }
         Cbc_loadProblem(model_.get(), static_cast<int>(columns.size()), static_cast<int>(right.size()), starts.data(),
-                        rows.data(), values.data(), low.data(), high.data(), cost.data(), right.data(), right.data());
+                        rows.data(), values.data(), low.data(), high.data(), cost.data(), right.data(), up_to.data());
         for (int i = 0; i < arcs && whole; ++i) Cbc_setInteger(model_.get(), 4 * i);
         Cbc_setParameter(model_.get(), "log", "0");
         Cbc_setLogLevel(model_.get(), 0);
@@ -144,7 +166,7 @@ ArcCounts integer_counts(const ArcProblem& problem, int most_nodes) {
     ArcCounts result;
     result.counts.assign(problem.wanted.size(), 0);
     for (const Part& part : parts_of(problem)) {
-        if (part.sums.empty()) {
+        if (part.sums.empty() && factor(problem, part.arcs[0]) == 0) {
             const Index arc = part.arcs[0];
             result.counts[arc] = std::max(problem.least[arc], static_cast<int>(std::lround(problem.wanted[arc])));
             result.bound += problem.weights[arc] * std::abs(result.counts[arc] - problem.wanted[arc]);
@@ -166,7 +188,8 @@ ArcCounts integer_counts(const ArcProblem& problem, int most_nodes) {
 double least_deviation(const ArcProblem& problem) {
     double result = 0;
     for (const Part& part : parts_of(problem))
-        if (!part.sums.empty()) result += Programme(problem, part, false).least_deviation();
+        if (!part.sums.empty() || factor(problem, part.arcs[0]) != 0)
+            result += Programme(problem, part, false).least_deviation();
     return result;
 }
 

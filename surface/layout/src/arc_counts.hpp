@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "octafield/arrays.hpp"
@@ -13,11 +14,18 @@ struct EqualSums {
     std::vector<Index> left, right;
 };
 
+// Counts times factors, added up: within these limits. Arcs behind the last factor have 0.
+struct BoundedSum {
+    std::vector<double> factors;
+    double low, high;
+};
+
 struct ArcProblem {
     std::vector<double> wanted;   // of each arc, >= 0
     std::vector<double> weights;  // >= 0
     std::vector<int> least;       // >= 0
     std::vector<EqualSums> sums;
+    std::optional<BoundedSum> bounded = {};  // arcs with a factor are solved together
 };
 
 struct ArcCounts {

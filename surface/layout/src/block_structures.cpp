@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "merged_vertices.hpp"
@@ -14,23 +14,10 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double most_quads = 1e8;
-constexpr int most_sizes = 6;                    // tried for a number of quads
-constexpr double near_enough = 0.02;             // of that
 constexpr double coarser = std::numbers::sqrt2;  // from size to size
 constexpr int structure_nodes = 50;
 constexpr std::size_t most_structures = 6;  // beside the finest
 constexpr int most_rounds = 20;             // of numbers that merge what must not be one
-
-SizedCounts counts_of(const QuadLayout& layout, const Seams& seams, ArcCounts arcs, double size) {
-    SizedCounts result{std::move(arcs), {}, size, 0};
-    auto& counts = result.arcs.counts;
-    const auto parts = counts.begin() + static_cast<std::ptrdiff_t>(layout.sides.size());
-    result.part_counts.assign(parts, parts + static_cast<std::ptrdiff_t>(seams.parts.size()));
-    counts.erase(parts, counts.end());
-    result.quads = total_quads(layout, counts);
-    return result;
-}
 
 // Few of them, from the one of the fewest blocks to the one of the most.
 std::vector<BlockStructure> spread(std::vector<BlockStructure> structures) {
@@ -41,52 +28,17 @@ std::vector<BlockStructure> spread(std::vector<BlockStructure> structures) {
     return result;
 }
 
-}  // namespace
-
-SizedCounts CountChooser::at_size(const ArcProblem& sums, double size) const {
-    ArcProblem problem = sums;
-    set_size(problem, layout_, seams_, size, options_.weights);
-    const double most = *std::max_element(problem.wanted.begin(), problem.wanted.end());
-    if (!(most * most <= most_quads))
-        throw InvalidInput("the edge length would give more than 1e8 quads", "bad_option");
-    return counts_of(layout_, seams_, integer_counts(problem, options_.most_nodes), size);
-}
-
-SizedCounts CountChooser::with_quads(const ArcProblem& problem, double wanted) const {
-    SizedCounts best;
-    double low = 0, high = std::numeric_limits<double>::infinity();
-    double size = std::sqrt(layout_.curves.parameter_area / wanted);
-    for (int i = 0; i < most_sizes; ++i) {
-        SizedCounts found = at_size(problem, size);
-        const double quads = found.quads;
-        if (i == 0 || std::abs(quads - wanted) < std::abs(best.quads - wanted)) best = std::move(found);
-        if (std::abs(quads - wanted) <= near_enough * wanted) break;
-        (quads > wanted ? low : high) = size;
-        size *= std::sqrt(quads / wanted);
-        if (size <= low || size >= high)
-            size = std::isinf(high) ? 1.5 * low : low > 0 ? std::sqrt(low * high) : high / 1.5;
-    }
-    return best;
-}
-
-SizedCounts CountChooser::wanted(const ArcProblem& problem) const {
-    SizedCounts result = options_.quad_count > 0 ? with_quads(problem, static_cast<double>(options_.quad_count))
-                                                 : at_size(problem, options_.edge_length);
-    if (!(result.quads <= most_quads)) throw InvalidInput("the size would give more than 1e8 quads", "bad_option");
-    return result;
-}
-
-double CountChooser::first_size() const {
-    if (options_.quad_count <= 0) return options_.edge_length;
-    return std::sqrt(layout_.curves.parameter_area / static_cast<double>(options_.quad_count));
-}
-
-namespace {
-
 // Any numbers that fit do for a structure.
 QuantizedQuadsOptions with_few_nodes(QuantizedQuadsOptions options) {
     options.most_nodes = std::min(options.most_nodes, structure_nodes);
     return options;
+}
+
+ArcProblem problem_of(const QuadLayout& layout, const Seams& seams, const QuantizedQuadsOptions& options) {
+    ArcProblem result = arc_problem(layout, seams);
+    if (options.measure == ArcMeasure::lengths)
+        require_bends(result, layout, seams, CountChooser(layout, seams, options).first_size());
+    return result;
 }
 
 // Structures that whole numbers for large quads make.
@@ -96,7 +48,7 @@ public:
         : layout_(layout),
           seams_(seams),
           options_(with_few_nodes(options)),
-          sums_(arc_problem(layout, seams)),
+          sums_(problem_of(layout, seams, options)),
           merging_(sums_),
           chooser_(layout, seams, options_) {
         const auto arcs = static_cast<Index>(layout.sides.size());
@@ -115,9 +67,17 @@ public:
             return counts_of(layout_, seams_, integer_counts(coarsest, options_.most_nodes), longest);
         });
     }
-    // Of the size wanted, where tracks between which less than half a quad would be become one.
+    // Of the size wanted, where tracks between which less than half a quad would be become one. What must not be one is
+    // found with numbers for one size in each round, before sizes are tried for the number of quads.
     void find_merged() {
-        add_merging([&](const ArcProblem& problem) { return chooser_.wanted(problem); });
+        double size = chooser_.first_size();
+        std::optional<SizedCounts> found = merged([&](const ArcProblem& problem) {
+            SizedCounts counts = chooser_.at_size(problem, size);
+            size = chooser_.next_size(counts);
+            return counts;
+        });
+        if (found) found = merged([&](const ArcProblem& problem) { return chooser_.wanted(problem, size); });
+        if (found) add(chooser_.nearer(merging_, std::move(*found)));
     }
     const ArcProblem& sums() const { return sums_; }
     std::vector<BlockStructure> result() && { return std::move(result_); }
@@ -132,16 +92,17 @@ private:
         } catch (const GeometryError&) {
         } catch (const SolverError&) {
         }
-        add_merging(counts);
+        if (const auto found = merged(counts)) add(*found);
     }
 
+    // None where there are none, or too many rounds are needed.
     template <class Counts>
-    void add_merging(const Counts& counts) {
+    std::optional<SizedCounts> merged(const Counts& counts) {
         try {
             for (int round = 0; round < most_rounds; ++round) {
-                const SizedCounts found = counts(merging_);
+                SizedCounts found = counts(merging_);
                 const auto wrong = wrongly_merged(layout_, seams_, found.arcs.counts, found.part_counts);
-                if (wrong.empty()) return add(found);
+                if (wrong.empty()) return found;
                 for (const std::vector<Index>& way : wrong) {
                     merging_.sums.push_back({{static_cast<Index>(merging_.least.size())}, way});
                     merging_.least.push_back(1);
@@ -150,6 +111,7 @@ private:
         } catch (const GeometryError&) {
         } catch (const SolverError&) {
         }
+        return {};
     }
 
     void add(const SizedCounts& found) {

@@ -21,6 +21,7 @@ constexpr double softness = 10;
 constexpr double size_share = 0.3;  // of sizes beside shapes
 constexpr int rings[] = {1, 2, 4, 8}, relaxing_rounds = 20;
 constexpr double least_gain = 1e-4;
+constexpr double bend = 2;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
 
 class Smoother {
@@ -123,13 +124,30 @@ private:
         return result;
     }
 
+    // A vertex is looked at again when it, or a vertex of the quads round it, has moved since.
     void optimise(int rounds) {
+        moved_at_.assign(around_.size(), 0);
+        std::vector<long> looked_at(around_.size(), 0);
+        long now = 0;
         for (int round = 0; round < rounds; ++round) {
             bool moved = false;
-            for (Index v = 0; v < static_cast<Index>(around_.size()); ++v)
-                if (active_[v] && !fixed_[v] && !around_[v].empty()) moved |= improve(v);
+            for (Index v = 0; v < static_cast<Index>(around_.size()); ++v) {
+                if (!active_[v] || fixed_[v] || around_[v].empty() || is_settled(v, looked_at[v])) continue;
+                looked_at[v] = ++now;
+                if (!improve(v)) continue;
+                moved_at_[v] = now;
+                moved = true;
+            }
             if (!moved) return;
         }
+    }
+
+    bool is_settled(Index v, long looked_at) const {
+        return std::all_of(around_[v].begin(), around_[v].end(), [&](Index q) {
+            for (int k = 0; k < 4; ++k)
+                if (moved_at_[mesh_.quads(q, k)] >= looked_at) return false;
+            return true;
+        });
     }
 
     std::vector<bool> grown(std::vector<bool> near, int rings) const {
@@ -159,7 +177,7 @@ private:
         for (Index q = 0; q < mesh_.quads.rows(); ++q)
             for (int k = 0; k < 4; ++k) {
                 const Index v = mesh_.quads(q, k);
-                if (on_seam(v) && places_[v].seam < 0 && along_seam(q, k) && along_seam(q, (k + 3) % 4))
+                if (on_seam(v) && fixed_[v] && along_seam(q, k) && along_seam(q, (k + 3) % 4))
                     given_corners_[q].push_back(k);
             }
     }
@@ -204,7 +222,7 @@ private:
             const auto count = along_[s].size();
             for (std::size_t i = 0; i < count; ++i) {
                 const Index v = along_[s][i];
-                if (!near[v]) continue;
+                if (!near[v] || fixed_[v]) continue;
                 const double before = i > 0         ? places_[along_[s][i - 1]].at
                                       : seam.closed ? places_[along_[s].back()].at - seam.length
                                                     : 0;
@@ -251,17 +269,21 @@ private:
         return soft_ ? -std::log(sum / static_cast<double>(around_[v].size())) / softness : least;
     }
 
-    // Moves it there if that is better than `best`.
-    bool try_at(Index v, const Vector& target, double& best) {
+    double quality_round_at(Index v, const Vector& target) {
         const Vector before = position(v);
         mesh_.vertices.row(v) = target;
         const double found = quality_round(v);
-        if (found > best + least_gain) {
-            best = found;
-            return true;
-        }
         mesh_.vertices.row(v) = before;
-        return false;
+        return found;
+    }
+
+    // Moves it there if that is better than `best`.
+    bool try_at(Index v, const Vector& target, double& best) {
+        const double found = quality_round_at(v, target);
+        if (found <= best + least_gain) return false;
+        mesh_.vertices.row(v) = target;
+        best = found;
+        return true;
     }
 
     bool improve(Index v) {
@@ -292,10 +314,10 @@ private:
 
     bool wander(Index v, const Vector& mean, double edges, double best) {
         const Index part = part_[around_[v][0]];
-        const auto on_surface = [&](const Vector& p) { return parts_.nearest(part, p).first; };
+        const auto try_near = [&](const Vector& p) { return try_at(v, parts_.nearest(part, p).first, best); };
         bool moved = false;
         for (const double step : {1.0, 0.5})
-            if (try_at(v, on_surface(position(v) + step * (mean - position(v))), best)) {
+            if (try_near(position(v) + step * (mean - position(v)))) {
                 moved = true;
                 break;
             }
@@ -305,7 +327,9 @@ private:
             for (int i = 0; i < 8; ++i) {
                 const double angle = i * std::numbers::pi / 4;
                 const Vector way = std::cos(angle) * u + std::sin(angle) * w;
-                moved |= try_at(v, on_surface(position(v) + step * edges * way), best);
+                const Vector target = position(v) + step * edges * way;
+                // The surface is off the tangent plane by about that much of an edge where it is bent.
+                if (quality_round_at(v, target) > best - bend * step * step) moved |= try_near(target);
             }
         return moved;
     }
@@ -321,6 +345,7 @@ private:
     std::vector<std::vector<Index>> along_;  // vertices of each seam, in their order
     std::vector<bool>& fixed_ = movable_.fixed;
     std::vector<bool> active_;
+    std::vector<long> moved_at_;                       // when vertices were moved last
     std::map<Index, std::vector<int>> given_corners_;  // of quads
     const std::vector<Index>&held_ = movable_.held, &part_ = movable_.part;
     std::vector<Vector> normals_;  // of the surface at each quad

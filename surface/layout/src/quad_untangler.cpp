@@ -192,7 +192,7 @@ private:
 
 Movable::Movable(const SmootherInput& input, const QuadMesh& mesh)
     : places(input.on_seams), fixed(mesh.vertices.rows(), false) {
-    for (std::size_t v = 0; v < places.size(); ++v) fixed[v] = places[v].seam < 0;
+    for (std::size_t v = 0; v < places.size(); ++v) fixed[v] = places[v].seam < 0 || places[v].held;
     for (const Index v : input.fixed)
         if (!input.follow && v >= static_cast<Index>(places.size())) {
             fixed[v] = true;

@@ -9,8 +9,8 @@ namespace octafield::surface::detail {
 struct Movable {
     Movable(const SmootherInput& input, const QuadMesh& mesh);
     std::vector<SideGrids::OnSeam> places;  // of the first vertices
-    std::vector<bool> fixed;                // nodes of seams, singular points inside
-    std::vector<Index> held;                // these; none where a field is followed, which tells where they belong
+    std::vector<bool> fixed;                // nodes and held vertices of seams, singular points inside
+    std::vector<Index> held;                // these points; none where a field is followed, which tells where they belong
     std::vector<Index> part;                // of the surface, of each quad
 };
 

@@ -9,6 +9,7 @@
 #include "arc_shortage.hpp"
 #include "block_structures.hpp"
 #include "even_sides.hpp"
+#include "held_bends.hpp"
 #include "merged_vertices.hpp"
 #include "octafield/error.hpp"
 #include "quad_builder.hpp"
@@ -111,7 +112,9 @@ public:
 
 private:
     Attempt made(const detail::BlockStructure& structure, detail::Rescue rescue) const {
-        detail::SizedCounts chosen = detail::CountChooser(layout_, seams_, options_).wanted(structure.problem);
+        const detail::CountChooser chooser(layout_, seams_, options_);
+        detail::SizedCounts chosen =
+            chooser.nearer(structure.problem, chooser.wanted(structure.problem, chooser.first_size()));
         detail::SideGrids grids = detail::seamed_grids(layout_, seams_, chosen.arcs.counts, chosen.part_counts);
         Attempt result;
         result.on_seams = grids.on_seams;
@@ -125,6 +128,7 @@ private:
         const auto held = builder.held();
         static_cast<LayoutQuads&>(quads) = std::move(builder).result();
         if (!same.empty()) detail::merge_vertices(seams_, same, held, quads.mesh, result.on_seams);
+        if (options_.measure == ArcMeasure::lengths) detail::hold_bends(seams_, quads.mesh, result.on_seams);
         set_blocks(quads);
         quads.arc_counts = std::move(chosen.arcs.counts);
         quads.part_counts = std::move(chosen.part_counts);

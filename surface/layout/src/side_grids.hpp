@@ -9,8 +9,9 @@ struct SideGrids {
     std::vector<Eigen::Vector3d> positions;
     std::vector<std::vector<Index>> vertices;  // along each side of the layout, both ends; its first if without quads
     struct OnSeam {
-        Index seam;  // -1: a node
-        double at;   // length along it
+        Index seam;         // -1: a node
+        double at;          // length along it
+        bool held = false;  // stays there, though it is no node
     };
     std::vector<OnSeam> on_seams;               // of the first vertices; the others are inside the surface
     std::vector<Eigen::VectorXd> along;         // of each point of a side: its place, counted in quads; increasing

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "held_bends.hpp"
+
 namespace octafield::surface::detail {
 namespace {
 
@@ -85,6 +87,13 @@ void set_size(ArcProblem& problem, const std::vector<const QuadLayout*>& layouts
     problem.weights.resize(problem.least.size(), 0);
 }
 
+void require_bends(ArcProblem& problem, const QuadLayout& layout, const Seams& seams, double size) {
+    const std::size_t first = layout.sides.size() + seams.parts.size();
+    for (std::size_t s = 0; s < seams.seams.size(); ++s)
+        if (seams.seams[s].length >= size && !bends(seams.seams[s]).empty())
+            problem.least[first + s] = std::max(problem.least[first + s], 2);
+}
+
 ArcProblem split_problem(const QuadRows& rows, const ArcProblem& arcs) {
     ArcProblem problem = arcs;
     const auto known = static_cast<Index>(arcs.least.size());
@@ -101,16 +110,59 @@ ArcProblem split_problem(const QuadRows& rows, const ArcProblem& arcs) {
     return problem;
 }
 
+namespace {
+
+// Of each patch: quads along its first two sides, and the mean of opposite lengths.
+struct TileGrid {
+    double counts[2] = {0, 0}, lengths[2] = {0, 0};
+};
+
+TileGrid grid_of(const QuadLayout& layout, const LayoutPatch& patch, const std::vector<int>& counts) {
+    TileGrid result;
+    const auto sides = four_sides(patch);
+    for (int k = 0; k < 4; ++k)
+        for (const DirectedSide& s : sides[k]) {
+            result.lengths[k % 2] += layout.sides[s.side].length() / 2;
+            if (k < 2) result.counts[k] += counts[s.side];
+        }
+    return result;
+}
+
+}  // namespace
+
 double total_quads(const QuadLayout& layout, const std::vector<int>& counts) {
     double sum = 0;
     for (const LayoutPatch& patch : layout.patches) {
-        const auto sides = four_sides(patch);
-        double along[2] = {0, 0};
-        for (int k = 0; k < 2; ++k)
-            for (const DirectedSide& s : sides[k]) along[k] += counts[s.side];
-        sum += along[0] * along[1];
+        const TileGrid grid = grid_of(layout, patch, counts);
+        sum += grid.counts[0] * grid.counts[1];
     }
     return sum;
+}
+
+QuadsNear quads_near(const QuadLayout& layout, const std::vector<int>& counts) {
+    QuadsNear result{std::vector<double>(layout.sides.size(), 0), 0};
+    for (const LayoutPatch& patch : layout.patches) {
+        const TileGrid grid = grid_of(layout, patch, counts);
+        const auto sides = four_sides(patch);
+        for (int k = 0; k < 2; ++k)
+            for (const DirectedSide& s : sides[k]) result.factors[s.side] += grid.counts[1 - k];
+        result.constant -= grid.counts[0] * grid.counts[1];
+    }
+    return result;
+}
+
+double unevenness(const QuadLayout& layout, const std::vector<int>& counts, double size) {
+    double sum = 0, quads = 0;
+    for (const LayoutPatch& patch : layout.patches) {
+        const TileGrid grid = grid_of(layout, patch, counts);
+        const double here = grid.counts[0] * grid.counts[1];
+        quads += here;
+        for (int k = 0; k < 2 && here > 0; ++k) {
+            const double ratio = std::log(grid.lengths[k] / (grid.counts[k] * size));
+            sum += here * ratio * ratio / 2;
+        }
+    }
+    return std::sqrt(sum / std::max(1.0, quads));
 }
 
 }  // namespace octafield::surface::detail

@@ -29,6 +29,16 @@ TEST(QuantizedQuads, OfTheLShapeAreSquares) {
     EXPECT_GT(quads.least_scaled_jacobian, 0.999);
 }
 
+// Of one size there are 3 n^2: all arcs are as long as one another. 5 x 4 + 4 x 4 + 5 x 5 are 61.
+TEST(QuantizedQuads, AreAsManyAsWantedWhereAllArcsAreOfOneLength) {
+    const QuadLayout layout = motorcycle_graph(l_shape_field(8));
+    for (const Index wanted : {56, 60, 90}) {
+        const QuantizedQuads quads = quantized(layout, wanted);
+        expect_conforming(quads, 1);
+        EXPECT_LE(std::abs(quads.mesh.quads.rows() - wanted), 0.02 * wanted) << wanted;
+    }
+}
+
 TEST(QuantizedQuads, OfTheKiteHaveNoJoints) {
     const auto sources = four_in_disk(0.85009, {0, 85, 180, 275});
     const ImposedField field = disk_field(26, sources);
