@@ -1,0 +1,121 @@
+#include "chart_maker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "chart_paths.hpp"
+#include "octafield/disjoint_sets.hpp"
+#include "split_region.hpp"
+
+namespace octafield::surface::detail {
+namespace {
+
+constexpr int relief_rounds = 8, paths_per_round = 4;
+constexpr double relieved_scale = 0.2;   // cuts go to where the map is smaller than this, against its mean
+constexpr double least_evenness = 0.01;  // charts more uneven than this are cut or split
+constexpr Index least_split = 16;        // triangles; fewer are not split for the sake of conformity
+
+// The triangles of each connected part.
+std::vector<std::vector<Index>> parts_of(const ChartMesh& chart) {
+    DisjointSets sets(chart.triangle_count());
+    for (Index t = 0; t < chart.triangle_count(); ++t)
+        for (int k = 0; k < 3; ++k)
+            if (chart.neighbours(t, k) >= 0) sets.join(t, chart.neighbours(t, k));
+    Index count = 0;
+    const std::vector<Index> part = std::move(sets).numbers(count);
+    std::vector<std::vector<Index>> parts(count);
+    for (Index t = 0; t < chart.triangle_count(); ++t) parts[part[t]].push_back(chart.parents[t]);
+    return parts;
+}
+
+}  // namespace
+
+ChartMaker::ChartMaker(const SurfaceDomain& domain, std::vector<bool> barrier, const AtlasOptions& options)
+    : domain_(domain),
+      barrier_(std::move(barrier)),
+      slit_(domain.edge_count(), false),
+      costs_(cut_costs(domain)),
+      options_(options) {}
+
+ChartMesh ChartMaker::uncut(const std::vector<Index>& region) const {
+    return chart_mesh(domain_, region, [&](Index e) { return barrier_[e]; });
+}
+
+std::vector<std::vector<Index>> ChartMaker::faces() const {
+    std::vector<Index> all(domain_.triangle_count());
+    std::iota(all.begin(), all.end(), 0);
+    return parts_of(uncut(all));
+}
+
+bool ChartMaker::as_asked(const MappedChart& chart) const {
+    return chart.one_to_one && chart.figures.conformity >= options_.conformity &&
+           chart.figures.evenness >= least_evenness;
+}
+
+bool ChartMaker::can_stay(const MappedChart& chart) const {
+    return as_asked(chart) || (chart.one_to_one && chart.figures.triangles < least_split);
+}
+
+void ChartMaker::cut(const std::vector<Index>& edges, std::vector<Index>& all) {
+    for (const Index e : edges) slit_[e] = true;
+    all.insert(all.end(), edges.begin(), edges.end());
+}
+
+// With the fewest cuts that make it as asked, or those with which it is best.
+MappedChart ChartMaker::best_map(const std::vector<Index>& region, const ChartMesh& whole) {
+    std::vector<Index> slits;
+    cut(opening_cuts(domain_, ChartPaths(domain_, whole, costs_), whole, costs_), slits);
+    MappedChart best;
+    for (int round = 0; round < relief_rounds; ++round) {
+        ChartMesh mesh = chart_mesh(domain_, region, [&](Index e) { return barrier_[e] || slit_[e]; });
+        if (mesh.components > 1 || mesh.loops.empty() || mesh.genus() > 0) break;
+        MappedChart chart = mapped_chart(std::move(mesh));
+        const auto merit = [&](const MappedChart& c) {
+            return c.one_to_one ? std::min(c.figures.conformity, c.figures.evenness / least_evenness) : -1;
+        };
+        const std::vector<Index> more = as_asked(chart)
+                                            ? std::vector<Index>{}
+                                            : relieving_cuts(ChartPaths(domain_, chart.mesh, costs_), chart.mesh,
+                                                             chart.scale, relieved_scale, paths_per_round);
+        if (round == 0 || merit(chart) > merit(best)) best = std::move(chart);
+        if (more.empty()) break;
+        cut(more, slits);
+    }
+    for (const Index e : slits) slit_[e] = false;
+    return best;
+}
+
+std::vector<MappedChart> ChartMaker::charts(std::vector<Index> face) {
+    std::vector<MappedChart> done;
+    std::vector<std::vector<Index>> waiting = {std::move(face)};
+    while (!waiting.empty()) {
+        const std::vector<Index> region = std::move(waiting.back());
+        waiting.pop_back();
+        const ChartMesh whole = uncut(region);
+        if (whole.components > 1) {
+            for (auto& part : parts_of(whole)) waiting.push_back(std::move(part));
+            continue;
+        }
+        const Index count = whole.triangle_count();
+        double share = 0.5;
+        if (count > options_.max_triangles) {
+            const Index parts = (count + options_.max_triangles - 1) / options_.max_triangles;
+            share = static_cast<double>(parts / 2) / parts;
+        } else {
+            MappedChart chart = best_map(region, whole);
+            if (can_stay(chart) || count == 1) {
+                chart.figures.as_asked = as_asked(chart);
+                done.push_back(std::move(chart));
+                continue;
+            }
+        }
+        const std::vector<bool> second = split_in_two(domain_, whole, costs_, share);
+        std::vector<Index> parts[2];
+        for (Index t = 0; t < count; ++t) parts[second[t]].push_back(region[t]);
+        for (auto& part : parts) waiting.push_back(std::move(part));
+    }
+    return done;
+}
+
+}  // namespace octafield::surface::detail
