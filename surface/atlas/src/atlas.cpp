@@ -17,8 +17,9 @@ using detail::ChartMaker;
 using detail::ChartMesh;
 using detail::MappedChart;
 
-constexpr Index few_inner_vertices = 30;  // coarse faces have fewer
-constexpr int bisection_rounds = 4;       // each halves the longest edges
+constexpr Index inner_per_boundary = 2;  // coarse faces have fewer vertices inside for each one of the boundary
+constexpr Index few_triangles = 5000;    // faces of more are not bisected
+constexpr int bisection_rounds = 5;      // each halves the longest edges
 
 void require_options(const SurfaceDomain& domain, const AtlasOptions& options) {
     if (domain.triangle_count() == 0) throw GeometryError("the surface has no triangles", "empty");
@@ -37,23 +38,30 @@ std::vector<bool> barriers(const SurfaceDomain& domain) {
     return result;
 }
 
-Index inner_vertices(const ChartMesh& chart) {
-    Index count = chart.vertex_count();
-    for (const auto& loop : chart.loops) count -= static_cast<Index>(loop.size());
-    return count;
+bool is_coarse(const ChartMesh& face) {
+    Index boundary = 0;
+    for (const auto& loop : face.loops) boundary += static_cast<Index>(loop.size());
+    return face.vertex_count() - boundary < inner_per_boundary * std::max<Index>(boundary, 1);
 }
 
-// Bounds for the edges of coarse faces that do not become one chart as asked; infinite elsewhere.
-Eigen::VectorXd coarse_bounds(const SurfaceDomain& domain, const AtlasOptions& options) {
+// Bounds for the edges of coarse faces that do not become one chart as asked; infinite elsewhere. coarse: by triangle
+// of the input, found in the first round.
+Eigen::VectorXd coarse_bounds(const Atlas& atlas, const AtlasOptions& options, std::vector<bool>& coarse) {
+    const SurfaceDomain& domain = atlas.domain;
     ChartMaker maker(domain, barriers(domain), options);
+    const bool first = coarse.empty();
+    if (first) coarse.assign(domain.triangle_count(), false);
     Eigen::VectorXd bounds =
         Eigen::VectorXd::Constant(domain.triangle_count(), std::numeric_limits<double>::infinity());
     for (const std::vector<Index>& face : maker.faces()) {
+        if (static_cast<Index>(face.size()) > few_triangles || (!first && !coarse[atlas.parents[face.front()]]))
+            continue;
         const ChartMesh whole = maker.uncut(face);
-        if (inner_vertices(whole) >= few_inner_vertices) continue;
+        if (first && !is_coarse(whole)) continue;
         const std::vector<MappedChart> charts = maker.charts(face);
         if (charts.size() == 1 && charts[0].figures.as_asked) continue;
         for (const Index t : face) bounds[t] = whole.lengths.maxCoeff() / 2;
+        for (const Index t : face) coarse[atlas.parents[t]] = true;
     }
     return bounds;
 }
@@ -84,9 +92,10 @@ Atlas atlas(const SurfaceDomain& input, const AtlasOptions& options, const Progr
     result.domain = input;
     result.parents.resize(input.triangle_count());
     std::iota(result.parents.begin(), result.parents.end(), 0);
+    std::vector<bool> coarse;
     for (int round = 0; options.bisect && round < bisection_rounds; ++round) {
         report_or_throw(progress, "bisecting", static_cast<double>(round) / bisection_rounds, std::nan(""));
-        const Eigen::VectorXd bounds = coarse_bounds(result.domain, options);
+        const Eigen::VectorXd bounds = coarse_bounds(result, options, coarse);
         if (!std::isfinite(bounds.minCoeff())) break;
         BisectedEdges finer = bisected_edges(result.domain, bounds);
         for (Index& parent : finer.parents) parent = result.parents[parent];

@@ -29,6 +29,16 @@ std::vector<std::vector<Index>> parts_of(const ChartMesh& chart) {
     return parts;
 }
 
+// So that both parts can be split into as few of at most `most` triangles as the whole, with half the room on either
+// side of even parts left to later splits.
+SplitBounds bounds_of(Index count, Index most) {
+    const std::int64_t parts = (static_cast<std::int64_t>(count) + most - 1) / most, first = parts / 2;
+    const auto even = static_cast<Index>(count * first / parts);
+    const auto least = static_cast<Index>(std::max<std::int64_t>(0, count - (parts - first) * most));
+    const auto largest = static_cast<Index>(std::min<std::int64_t>(count, first * most));
+    return {even - (even - least) / 2, even + (largest - even) / 2};
+}
+
 }  // namespace
 
 ChartMaker::ChartMaker(const SurfaceDomain& domain, std::vector<bool> barrier, const AtlasOptions& options)
@@ -98,10 +108,9 @@ std::vector<MappedChart> ChartMaker::charts(std::vector<Index> face) {
             continue;
         }
         const Index count = whole.triangle_count();
-        double share = 0.5;
+        SplitBounds bounds{count / 4, count - count / 4};
         if (count > options_.max_triangles) {
-            const Index parts = (count + options_.max_triangles - 1) / options_.max_triangles;
-            share = static_cast<double>(parts / 2) / parts;
+            bounds = bounds_of(count, options_.max_triangles);
         } else {
             MappedChart chart = best_map(region, whole);
             if (can_stay(chart) || count == 1) {
@@ -110,7 +119,7 @@ std::vector<MappedChart> ChartMaker::charts(std::vector<Index> face) {
                 continue;
             }
         }
-        const std::vector<bool> second = split_in_two(domain_, whole, costs_, share);
+        const std::vector<bool> second = split_in_two(domain_, whole, costs_, bounds);
         std::vector<Index> parts[2];
         for (Index t = 0; t < count; ++t) parts[second[t]].push_back(region[t]);
         for (auto& part : parts) waiting.push_back(std::move(part));

@@ -226,9 +226,14 @@ std::vector<Index> opening_cuts(const SurfaceDomain& domain, const ChartPaths& p
     return chart.loops.empty() ? slit(paths, chart) : std::vector<Index>{};
 }
 
-std::vector<Index> relieving_cuts(const ChartPaths& paths, const ChartMesh& chart, const Eigen::VectorXd& scale,
-                                  double bound, int most) {
-    std::vector<bool> least(chart.vertex_count(), true), reached(chart.vertex_count(), false);
+namespace {
+
+// Vertices where the map is least round them and below the bound, the least first. Holes come before what lies beside
+// them: a cut that reaches them opens what is round them, too.
+std::vector<Index> tips_of(const ChartPaths& paths, const ChartMesh& chart, Eigen::VectorXd scale, double bound) {
+    for (std::size_t i = 1; i < chart.loops.size(); ++i)
+        for (const Index v : chart.loops[i]) scale[v] /= 2;
+    std::vector<bool> least(chart.vertex_count(), true);
     for (Index s = 0; s < 3 * chart.triangle_count(); ++s) {
         const Index a = paths.start(s), b = paths.end(s);
         least[std::pair(scale[a], a) < std::pair(scale[b], b) ? b : a] = false;
@@ -237,26 +242,29 @@ std::vector<Index> relieving_cuts(const ChartPaths& paths, const ChartMesh& char
     for (Index v = 0; v < chart.vertex_count(); ++v)
         if (least[v] && scale[v] < bound) tips.push_back(v);
     std::stable_sort(tips.begin(), tips.end(), [&](Index a, Index b) { return scale[a] < scale[b]; });
-    const ChartPaths::Tree tree = paths.tree(chart.loops.front());
-    std::vector<Index> sides;
+    return tips;
+}
+
+}  // namespace
+
+std::vector<Index> relieving_cuts(const ChartPaths& paths, const ChartMesh& chart, const Eigen::VectorXd& scale,
+                                  double bound, int most) {
+    const std::vector<Index> tips = tips_of(paths, chart, scale, bound);
+    if (tips.empty()) return {};
+    std::vector<Index> sources = chart.loops.front(), sides;
+    ChartPaths::Tree tree = paths.tree(sources);
+    const std::vector<double> outward = tree.distance;
     int made = 0;
     for (const Index tip : tips) {
-        if (made == most) break;
-        const std::vector<Index> path = paths.path(tree, tip);
-        // What mostly follows an earlier path ends near it, which may be enough.
-        double fresh = 0;
-        for (Index v = tip; const Index s : path) {
-            if (reached[v]) break;
-            fresh += paths.cost(s);
+        // What has come much nearer by an earlier cut may be well now.
+        if (!(tree.distance[tip] > outward[tip] / 2)) continue;
+        for (Index v = tip; const Index s : paths.path(tree, tip)) {
+            sides.push_back(s);
+            sources.push_back(v);
             v = paths.other_end(s, v);
         }
-        if (!(fresh > tree.distance[tip] / 2)) continue;
-        for (Index v = tip; const Index s : path) {
-            reached[v] = true;
-            v = paths.other_end(s, v);
-        }
-        sides.insert(sides.end(), path.begin(), path.end());
-        ++made;
+        if (++made == most) break;
+        tree = paths.tree(sources);
     }
     return edges_of(paths, sides);
 }

@@ -12,7 +12,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double largest_band = 30000;  // triangles among which the cut is looked for
+constexpr double largest_band = 30000.0;  // triangles among which the cut is looked for
 
 std::vector<double> distances_from(const SurfaceDomain& domain, const ChartMesh& chart, Index seed) {
     std::vector<double> distance(chart.triangle_count(), std::numeric_limits<double>::infinity());
@@ -48,7 +48,7 @@ Index farthest(const std::vector<double>& distance) {
 }  // namespace
 
 std::vector<bool> split_in_two(const SurfaceDomain& domain, const ChartMesh& chart, const Eigen::VectorXd& costs,
-                               double share) {
+                               SplitBounds bounds) {
     const Index count = chart.triangle_count();
     const Index first = farthest(distances_from(domain, chart, 0));
     const std::vector<double> from_first = distances_from(domain, chart, first);
@@ -63,9 +63,10 @@ std::vector<bool> split_in_two(const SurfaceDomain& domain, const ChartMesh& cha
               [&](Index a, Index b) { return std::pair(key(a), a) < std::pair(key(b), b); });
     for (Index i = 0; i < count; ++i) rank[order[i]] = i;
 
-    const double band = std::min({0.5, largest_band / count, 1.6 * std::min(share, 1 - share)});
-    const auto low = std::clamp<Index>(static_cast<Index>((share - band / 2) * count), 1, count - 1);
-    const auto high = std::clamp<Index>(static_cast<Index>((share + band / 2) * count), low, count - 1);
+    const double narrower = std::min(1.0, largest_band / std::max<Index>(1, bounds.most - bounds.least));
+    const double middle = (bounds.least + bounds.most) / 2.0, reach = narrower * (bounds.most - bounds.least) / 2;
+    const auto low = std::clamp<Index>(static_cast<Index>(std::ceil(middle - reach)), 1, count - 1);
+    const auto high = std::clamp<Index>(static_cast<Index>(middle + reach), low, count - 1);
     // Nodes: the head, what is between, the tail.
     const auto node = [&](Index t) { return rank[t] < low ? 0 : rank[t] >= high ? high - low + 1 : rank[t] - low + 1; };
     double mean = 0;

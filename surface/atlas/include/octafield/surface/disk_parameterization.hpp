@@ -5,11 +5,10 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "octafield/surface/plane_points.hpp"
 #include "octafield/surface/surface_domain.hpp"
 
 namespace octafield::surface {
-
-using PlanePoints = Rows<double, 2>;  // (n, 2) u, v
 
 // Weights lambda_ij = (tan(theta/2) + tan(theta'/2)) / l_ij, (V, V), rows i, in the two triangles beside edge ij, with
 // their angles at i and lengths; at the boundary of the one triangle there. All positive; not symmetric; the diagonal
