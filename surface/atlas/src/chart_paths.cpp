@@ -16,7 +16,7 @@ namespace {
 
 constexpr double bend = 40 * std::numbers::pi / 180;  // along edges that bend so much, a cut costs twice its length
 constexpr double along_boundary = 1e-6;               // cost of what is cut already, per cost
-constexpr int roots_tried = 6;
+constexpr int roots_tried = 4;
 
 }  // namespace
 
@@ -64,6 +64,13 @@ ChartPaths::ChartPaths(const SurfaceDomain& domain, const ChartMesh& chart, cons
     const Index count = 3 * chart.triangle_count();
     side_costs_.resize(count);
     first_.assign(chart.vertex_count() + 1, 0);
+    mates_.assign(count, -1);
+    for (Index s = 0; s < count; ++s) {
+        const Index other = chart.neighbours(s / 3, s % 3);
+        // Two triangles may share two edges, so look for the edge.
+        for (int k = 0; other >= 0 && k < 3; ++k)
+            if (edge(3 * other + k) == edge(s)) mates_[s] = 3 * other + k;
+    }
     const auto for_each_start = [&](const auto& visit) {
         for (Index s = 0; s < count; ++s) {
             visit(start(s), s);
@@ -80,15 +87,6 @@ ChartPaths::ChartPaths(const SurfaceDomain& domain, const ChartMesh& chart, cons
 
 Index ChartPaths::edge(Index side) const {
     return domain_.topology().triangle_edges(chart_.parents[side / 3], side % 3);
-}
-
-Index ChartPaths::mate(Index side) const {
-    const Index other = chart_.neighbours(side / 3, side % 3);
-    if (other < 0) return -1;
-    // Two triangles may share two edges, so look for the edge.
-    for (int k = 0; k < 3; ++k)
-        if (edge(3 * other + k) == edge(side)) return 3 * other + k;
-    return -1;
 }
 
 ChartPaths::Tree ChartPaths::tree(const std::vector<Index>& sources) const {

@@ -26,8 +26,8 @@ public:
     Tree tree(const std::vector<Index>& sources) const;
 
     double cost(Index side) const { return side_costs_[side]; }
-    Index edge(Index side) const;  // of the surface
-    Index mate(Index side) const;  // the side of the other triangle; -1: boundary
+    Index edge(Index side) const;                          // of the surface
+    Index mate(Index side) const { return mates_[side]; }  // the side of the other triangle; -1: boundary
     Index start(Index side) const { return chart_.triangles(side / 3, side % 3); }
     Index end(Index side) const { return chart_.triangles(side / 3, (side % 3 + 1) % 3); }
     Index other_end(Index side, Index vertex) const { return start(side) == vertex ? end(side) : start(side); }
@@ -38,6 +38,7 @@ private:
     const SurfaceDomain& domain_;
     const ChartMesh& chart_;
     std::vector<double> side_costs_;    // (3 F)
+    std::vector<Index> mates_;          // (3 F)
     std::vector<Index> first_, sides_;  // of each vertex, sides that start there, and those of the boundary that end
 };
 

@@ -12,7 +12,7 @@
 namespace octafield::surface::detail {
 namespace {
 
-constexpr double largest_band = 30000.0;  // triangles among which the cut is looked for
+constexpr double largest_band = 10000.0;  // triangles among which the cut is looked for
 
 std::vector<double> distances_from(const SurfaceDomain& domain, const ChartMesh& chart, Index seed) {
     std::vector<double> distance(chart.triangle_count(), std::numeric_limits<double>::infinity());
