@@ -66,7 +66,8 @@ class AtlasResult(ShownInNotebooks):
 
         atlas = self.atlas
         points = np.asarray(atlas.domain.mesh.vertices)[np.asarray(atlas.origins)]
-        surface = pyvista.PolyData.from_regular_faces(points, np.asarray(atlas.uv_triangles))
+        triangles: np.ndarray = np.asarray(atlas.uv_triangles)
+        surface: pyvista.PolyData = pyvista.PolyData.from_regular_faces(points, triangles)
         surface.point_data["uv"] = np.array(atlas.uv)
         surface.point_data["vertex"] = np.array(atlas.origins)
         surface.cell_data["chart"] = np.array(atlas.charts)

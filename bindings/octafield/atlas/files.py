@@ -19,8 +19,8 @@ ATLAS_FILES = ("charts.vtp", "atlas.obj")
 
 
 def write_atlas_result(result: AtlasResult, folder: Path, progress: Progress | None = None) -> None:
-    """charts.vtp (AtlasResult.dataset), atlas.obj (the surface with texture coordinates: charts side by side in the unit
-    square, at one scale), and the record with their names and the time it took."""
+    """charts.vtp (AtlasResult.dataset), atlas.obj (the surface with texture coordinates: charts side by side in the
+    unit square, at one scale), and the record with their names and the time it took."""
     announce(progress, "write")
     memory, clock = PeakMemory(), PhaseClock()
     record = result.record
