@@ -15,6 +15,7 @@ constexpr int relief_rounds = 8, paths_per_round = 4;
 constexpr double relieved_scale = 0.2;   // cuts go to where the map is smaller than this, against its mean
 constexpr double least_evenness = 0.01;  // charts more uneven than this are cut or split
 constexpr Index least_split = 16;        // triangles; fewer are not split for the sake of conformity
+constexpr double least_success = 0.5;    // of the area of a chart split for its sake, that it must be reached for
 
 // The triangles of each connected part.
 std::vector<std::vector<Index>> parts_of(const ChartMesh& chart) {
@@ -58,14 +59,13 @@ std::vector<std::vector<Index>> ChartMaker::faces() const {
     return parts_of(uncut(all));
 }
 
-bool ChartMaker::as_asked(const MappedChart& chart) const {
-    return chart.one_to_one && chart.figures.conformity >= options_.conformity &&
-           chart.figures.evenness >= least_evenness;
+double ChartMaker::merit(const MappedChart& chart) const {
+    if (!chart.one_to_one) return -1;
+    const double even = chart.figures.evenness / least_evenness;
+    return std::min({1.0, even, options_.conformity > 0 ? chart.figures.conformity / options_.conformity : 1.0});
 }
 
-bool ChartMaker::can_stay(const MappedChart& chart) const {
-    return as_asked(chart) || (chart.one_to_one && chart.figures.triangles < least_split);
-}
+bool ChartMaker::as_asked(const MappedChart& chart) const { return merit(chart) >= 1; }
 
 void ChartMaker::cut(const std::vector<Index>& edges, std::vector<Index>& all) {
     for (const Index e : edges) slit_[e] = true;
@@ -81,9 +81,6 @@ MappedChart ChartMaker::best_map(const std::vector<Index>& region, const ChartMe
         ChartMesh mesh = chart_mesh(domain_, region, [&](Index e) { return barrier_[e] || slit_[e]; });
         if (mesh.components > 1 || mesh.loops.empty() || mesh.genus() > 0) break;
         MappedChart chart = mapped_chart(std::move(mesh));
-        const auto merit = [&](const MappedChart& c) {
-            return c.one_to_one ? std::min(c.figures.conformity, c.figures.evenness / least_evenness) : -1;
-        };
         const std::vector<Index> more = as_asked(chart)
                                             ? std::vector<Index>{}
                                             : relieving_cuts(ChartPaths(domain_, chart.mesh, costs_), chart.mesh,
@@ -96,35 +93,37 @@ MappedChart ChartMaker::best_map(const std::vector<Index>& region, const ChartMe
     return best;
 }
 
-std::vector<MappedChart> ChartMaker::charts(std::vector<Index> face) {
-    std::vector<MappedChart> done;
-    std::vector<std::vector<Index>> waiting = {std::move(face)};
-    while (!waiting.empty()) {
-        const std::vector<Index> region = std::move(waiting.back());
-        waiting.pop_back();
-        const ChartMesh whole = uncut(region);
-        if (whole.components > 1) {
-            for (auto& part : parts_of(whole)) waiting.push_back(std::move(part));
-            continue;
-        }
-        const Index count = whole.triangle_count();
-        SplitBounds bounds{count / 4, count - count / 4};
-        if (count > options_.max_triangles) {
-            bounds = bounds_of(count, options_.max_triangles);
-        } else {
-            MappedChart chart = best_map(region, whole);
-            if (can_stay(chart) || count == 1) {
-                chart.figures.as_asked = as_asked(chart);
-                done.push_back(std::move(chart));
-                continue;
-            }
-        }
-        const std::vector<bool> second = split_in_two(domain_, whole, costs_, bounds);
-        std::vector<Index> parts[2];
-        for (Index t = 0; t < count; ++t) parts[second[t]].push_back(region[t]);
-        for (auto& part : parts) waiting.push_back(std::move(part));
+std::vector<MappedChart> ChartMaker::charts(const std::vector<Index>& region) {
+    const ChartMesh whole = uncut(region);
+    std::vector<MappedChart> made;
+    const auto add = [&](const std::vector<Index>& part) {
+        for (MappedChart& chart : charts(part)) made.push_back(std::move(chart));
+    };
+    if (whole.components > 1) {
+        for (const auto& part : parts_of(whole)) add(part);
+        return made;
     }
-    return done;
+    const Index count = whole.triangle_count();
+    const bool fits = count <= options_.max_triangles;
+    MappedChart chart;
+    if (fits) chart = best_map(region, whole);
+    chart.figures.as_asked = as_asked(chart);
+    if (fits && (chart.figures.as_asked || count == 1 || (chart.one_to_one && count < least_split))) {
+        made.push_back(std::move(chart));
+        return made;
+    }
+    const SplitBounds bounds =
+        fits ? SplitBounds{count / 4, count - count / 4} : bounds_of(count, options_.max_triangles);
+    const std::vector<bool> second = split_in_two(domain_, whole, costs_, bounds);
+    std::vector<Index> parts[2];
+    for (Index t = 0; t < count; ++t) parts[second[t]].push_back(region[t]);
+    for (const auto& part : parts) add(part);
+    if (!chart.one_to_one) return made;
+    double well = 0;  // area of charts that are as asked
+    for (const MappedChart& part : made)
+        if (part.figures.as_asked) well += part.figures.area;
+    if (well < least_success * chart.figures.area) made.assign(1, std::move(chart));
+    return made;
 }
 
 }  // namespace octafield::surface::detail

@@ -15,13 +15,14 @@ public:
 
     // Connected parts between barriers, each ascending, by their first triangles.
     std::vector<std::vector<Index>> faces() const;
-    // The face's charts.
-    std::vector<MappedChart> charts(std::vector<Index> face);
+    // Of the region, whose triangles ascend.
+    std::vector<MappedChart> charts(const std::vector<Index>& region);
     ChartMesh uncut(const std::vector<Index>& region) const;
 
 private:
+    // 1: as asked; below 0: not one-to-one.
+    double merit(const MappedChart& chart) const;
     bool as_asked(const MappedChart& chart) const;
-    bool can_stay(const MappedChart& chart) const;
     MappedChart best_map(const std::vector<Index>& region, const ChartMesh& whole);
     void cut(const std::vector<Index>& edges, std::vector<Index>& all);
 
