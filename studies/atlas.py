@@ -5,9 +5,9 @@
 All of the data's surfaces (bad ones after the repair that is advised), the boundaries of HexMe's files, examples of
 pyvista and level sets (studies.atlas_shapes). Each is made and mapped in a process of its own, by `octafield.atlas`
 with its defaults and by Gmsh (classifySurfaces with 40 degrees and createGeometry, its own atlas of the same thesis),
-which are stopped at 120 s of CPU time. That every triangle is positive is told by octafield.surface.not_positive and again
-with whole numbers of any size, which know nothing of the library. --growth: seconds of potatoes and foams of up to
-a million triangles. DIR gets rows.jsonl, atlas.md, growth.md and when.md.
+which are stopped at 120 s of CPU time. That every triangle is positive is told by octafield.surface.not_positive and
+again with whole numbers of any size, which know nothing of the library. --growth: seconds of potatoes and foams of up
+to a million triangles. DIR gets rows.jsonl, atlas.md, growth.md and when.md.
 """
 
 import argparse
