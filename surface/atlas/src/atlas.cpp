@@ -46,9 +46,10 @@ bool is_coarse(const ChartMesh& face) {
 
 // Bounds for the edges of coarse faces that do not become one chart as asked; infinite elsewhere. coarse: by triangle
 // of the input, found in the first round.
-Eigen::VectorXd coarse_bounds(const Atlas& atlas, const AtlasOptions& options, std::vector<bool>& coarse) {
+Eigen::VectorXd coarse_bounds(const Atlas& atlas, const AtlasOptions& options, const Progress& progress,
+                              std::vector<bool>& coarse) {
     const SurfaceDomain& domain = atlas.domain;
-    ChartMaker maker(domain, barriers(domain), options);
+    ChartMaker maker(domain, barriers(domain), options, progress, "bisecting");
     const bool first = coarse.empty();
     if (first) coarse.assign(domain.triangle_count(), false);
     Eigen::VectorXd bounds =
@@ -94,8 +95,7 @@ Atlas atlas(const SurfaceDomain& input, const AtlasOptions& options, const Progr
     std::iota(result.parents.begin(), result.parents.end(), 0);
     std::vector<bool> coarse;
     for (int round = 0; options.bisect && round < bisection_rounds; ++round) {
-        report_or_throw(progress, "bisecting", static_cast<double>(round) / bisection_rounds, std::nan(""));
-        const Eigen::VectorXd bounds = coarse_bounds(result, options, coarse);
+        const Eigen::VectorXd bounds = coarse_bounds(result, options, progress, coarse);
         if (!std::isfinite(bounds.minCoeff())) break;
         BisectedEdges finer = bisected_edges(result.domain, bounds);
         for (Index& parent : finer.parents) parent = result.parents[parent];
@@ -109,16 +109,13 @@ Atlas atlas(const SurfaceDomain& input, const AtlasOptions& options, const Progr
     result.uv_triangles.resize(count, 3);
     result.conformity.resize(count);
     std::vector<bool> is_cut(domain.edge_count(), false);
-    ChartMaker maker(domain, barriers(domain), options);
+    ChartMaker maker(domain, barriers(domain), options, progress, "mapping");
     std::vector<MappedChart> charts;
-    double done = 0;
     for (const std::vector<Index>& face : maker.faces()) {
         const ChartMesh whole = maker.uncut(face);
         for (const Index t : face) result.faces[t] = static_cast<Index>(result.face_list.size());
         result.face_list.push_back({whole.genus(), static_cast<int>(whole.loops.size()), whole.triangle_count()});
         for (MappedChart& chart : maker.charts(face)) charts.push_back(std::move(chart));
-        done += static_cast<double>(face.size());
-        report_or_throw(progress, "mapping", done / count, std::nan(""));
     }
     std::sort(charts.begin(), charts.end(), [](const MappedChart& a, const MappedChart& b) {
         return a.mesh.parents.front() < b.mesh.parents.front();

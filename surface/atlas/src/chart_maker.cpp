@@ -42,12 +42,19 @@ SplitBounds bounds_of(Index count, Index most) {
 
 }  // namespace
 
-ChartMaker::ChartMaker(const SurfaceDomain& domain, std::vector<bool> barrier, const AtlasOptions& options)
+ChartMaker::ChartMaker(const SurfaceDomain& domain, std::vector<bool> barrier, const AtlasOptions& options,
+                       const Progress& progress, const char* phase)
     : domain_(domain),
       barrier_(std::move(barrier)),
       slit_(domain.edge_count(), false),
       costs_(cut_costs(domain)),
-      options_(options) {}
+      options_(options),
+      progress_(progress),
+      phase_(phase) {}
+
+void ChartMaker::tell() const {
+    report_or_throw(progress_, phase_, std::min(1.0, done_ / domain_.triangle_count()), std::nan(""));
+}
 
 ChartMesh ChartMaker::uncut(const std::vector<Index>& region) const {
     return chart_mesh(domain_, region, [&](Index e) { return barrier_[e]; });
@@ -78,6 +85,7 @@ MappedChart ChartMaker::best_map(const std::vector<Index>& region, const ChartMe
     cut(opening_cuts(domain_, ChartPaths(domain_, whole, costs_), whole, costs_), slits);
     MappedChart best;
     for (int round = 0; round < relief_rounds; ++round) {
+        tell();
         ChartMesh mesh = chart_mesh(domain_, region, [&](Index e) { return barrier_[e] || slit_[e]; });
         if (mesh.components > 1 || mesh.loops.empty() || mesh.genus() > 0) break;
         MappedChart chart = mapped_chart(std::move(mesh));
@@ -110,6 +118,7 @@ std::vector<MappedChart> ChartMaker::charts(const std::vector<Index>& region) {
     chart.figures.as_asked = as_asked(chart);
     if (fits && (chart.figures.as_asked || count == 1 || (chart.one_to_one && count < least_split))) {
         made.push_back(std::move(chart));
+        done_ += count;
         return made;
     }
     const SplitBounds bounds =
