@@ -1,6 +1,6 @@
 """Charts of surfaces of all sorts, beside Gmsh's patches.
 
-    python -m studies.atlas -o DIR [--only s05u,nut] [--growth]
+    python -m studies.atlas -o DIR [--only s05u,nut] [--growth | --picture]
 
 All of the data's surfaces (bad ones after the repair that is advised), the boundaries of HexMe's files, examples of
 pyvista and level sets (studies.atlas_shapes). Each is made and mapped in a process of its own, by `octafield.atlas`
@@ -34,6 +34,7 @@ HEADER = (
     "Gmsh's patches", "CPU s", "note",
 )  # fmt: skip
 GROWTH_HEADER = ("surface", "triangles", "charts", "not one-to-one", "conformity 5 %", "CPU s", "µs per triangle")
+PICTURED = ("torus", "double torus", "vessel", "gyroid", "foam", "nut")
 GROWTH = {"potato": (potato, (80, 140, 235, 428)), "foam": (foam, (45, 80, 140, 260))}
 
 
@@ -168,6 +169,20 @@ def growth(output: Path) -> None:
     (output / "growth.md").write_text(markdown_table(GROWTH_HEADER, lines))
 
 
+def picture(output: Path) -> None:
+    """Charts in colours, of level sets and examples, without features where they are smooth."""
+    from PIL import Image
+
+    width, height = 700, 525
+    whole = Image.new("RGB", (3 * width, 2 * height), "white")
+    for place, name in enumerate(PICTURED):
+        features = "angle" if name in ("nut", "scanned part") else "none"
+        result = octafield.compute_atlas(SHAPES[name](), octafield.MeshOptions(remesh=False, features=features))
+        image = Image.fromarray(result.scene().screenshot(return_img=True)).resize((width, height))
+        whole.paste(image, (place % 3 * width, place // 3 * height))
+    whole.convert("P", palette=Image.Palette.ADAPTIVE).save(output / "atlas.png", optimize=True)
+
+
 def main() -> None:
     if sys.argv[1:2] == ["one"]:
         what, name, path, out = sys.argv[2:6]
@@ -178,8 +193,11 @@ def main() -> None:
     parser.add_argument("--data", type=Path, default=DATA)
     parser.add_argument("--only", default="", help="names with commas")
     parser.add_argument("--growth", action="store_true", help="seconds by size, instead")
+    parser.add_argument("--picture", action="store_true", help="atlas.png, instead")
     given = parser.parse_args()
     given.output.mkdir(parents=True, exist_ok=True)
+    if given.picture:
+        return picture(given.output)
     if given.growth:
         growth(given.output)
     else:
