@@ -29,6 +29,7 @@ from ._core import (
     require_valid,
     write_surface,
 )
+from .atlas.atlas import AtlasResult, compute_atlas
 from .domain.cell_files import read_cells, write_cells
 from .domain.meshed_input import MeshedInput
 from .domain.meshing import prepare_mesh
@@ -62,6 +63,7 @@ from .view import arrays as _arrays  # noqa: F401
 
 __all__ = [
     "AnalysedField",
+    "AtlasResult",
     "Cancelled",
     "Comparison",
     "Conversion",
@@ -98,6 +100,7 @@ __all__ = [
     "__version__",
     "analyse",
     "compare",
+    "compute_atlas",
     "compute_field",
     "compute_fixed_boundary_quads",
     "compute_hex_dominant",

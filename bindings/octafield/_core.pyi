@@ -986,6 +986,165 @@ def extended_region(
 def extended_sizes(region: ExtendedRegion, lengths: ArrayLike) -> Float64s: ...
 def restricted_field(field: DirectionField, region: SurfaceDomain | TriangleMesh) -> DirectionField: ...
 
+class DiskParameterization:
+    def __init__(
+        self,
+        uv: ArrayLike = ...,
+        loops: list[ArrayLike] = ...,
+    ) -> None: ...
+    @property
+    def uv(self) -> Float64s: ...
+    @uv.setter
+    def uv(self, value: ArrayLike) -> None: ...
+    @property
+    def loops(self) -> list[Int32s]: ...
+
+class MapDistortion:
+    def __init__(
+        self,
+        singular_values: ArrayLike = ...,
+        conformity: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def singular_values(self) -> Float64s: ...
+    @singular_values.setter
+    def singular_values(self, value: ArrayLike) -> None: ...
+    @property
+    def conformity(self) -> Float64s: ...
+    @conformity.setter
+    def conformity(self, value: ArrayLike) -> None: ...
+
+class BisectedEdges:
+    def __init__(
+        self,
+        domain: SurfaceDomain = ...,
+        parents: ArrayLike = ...,
+    ) -> None: ...
+    @property
+    def domain(self) -> SurfaceDomain: ...
+    @property
+    def parents(self) -> Int32s: ...
+    @parents.setter
+    def parents(self, value: ArrayLike) -> None: ...
+
+class AtlasOptions:
+    conformity: float
+    max_triangles: int
+    bisect: bool
+    def __init__(
+        self,
+        conformity: float = ...,
+        max_triangles: int = ...,
+        bisect: bool = ...,
+    ) -> None: ...
+
+class AtlasChart:
+    triangles: int
+    area: float
+    loops: int
+    conformity: float
+    least_conformity: float
+    mean_conformity: float
+    evenness: float
+    as_asked: bool
+    def __init__(
+        self,
+        triangles: int = ...,
+        area: float = ...,
+        loops: int = ...,
+        conformity: float = ...,
+        least_conformity: float = ...,
+        mean_conformity: float = ...,
+        evenness: float = ...,
+        as_asked: bool = ...,
+    ) -> None: ...
+
+class AtlasFace:
+    genus: int
+    loops: int
+    triangles: int
+    def __init__(
+        self,
+        genus: int = ...,
+        loops: int = ...,
+        triangles: int = ...,
+    ) -> None: ...
+
+class Atlas:
+    def __init__(
+        self,
+        domain: SurfaceDomain = ...,
+        parents: ArrayLike = ...,
+        faces: ArrayLike = ...,
+        charts: ArrayLike = ...,
+        uv: ArrayLike = ...,
+        uv_triangles: ArrayLike = ...,
+        origins: ArrayLike = ...,
+        cuts: ArrayLike = ...,
+        conformity: ArrayLike = ...,
+        face_list: list[AtlasFace] = ...,
+        chart_list: list[AtlasChart] = ...,
+    ) -> None: ...
+    @property
+    def domain(self) -> SurfaceDomain: ...
+    @property
+    def parents(self) -> Int32s: ...
+    @parents.setter
+    def parents(self, value: ArrayLike) -> None: ...
+    @property
+    def faces(self) -> Int32s: ...
+    @faces.setter
+    def faces(self, value: ArrayLike) -> None: ...
+    @property
+    def charts(self) -> Int32s: ...
+    @charts.setter
+    def charts(self, value: ArrayLike) -> None: ...
+    @property
+    def uv(self) -> Float64s: ...
+    @uv.setter
+    def uv(self, value: ArrayLike) -> None: ...
+    @property
+    def uv_triangles(self) -> Int32s: ...
+    @uv_triangles.setter
+    def uv_triangles(self, value: ArrayLike) -> None: ...
+    @property
+    def origins(self) -> Int32s: ...
+    @origins.setter
+    def origins(self, value: ArrayLike) -> None: ...
+    @property
+    def cuts(self) -> Int32s: ...
+    @cuts.setter
+    def cuts(self, value: ArrayLike) -> None: ...
+    @property
+    def conformity(self) -> Float64s: ...
+    @conformity.setter
+    def conformity(self, value: ArrayLike) -> None: ...
+    @property
+    def face_list(self) -> list[AtlasFace]: ...
+    @property
+    def chart_list(self) -> list[AtlasChart]: ...
+
+def mean_value_weights(surface: SurfaceDomain | TriangleMesh) -> tuple[Int32s, Float64s]: ...
+def boundary_loops(surface: SurfaceDomain | TriangleMesh) -> list[Int32s]: ...
+def parameterize_disk(surface: SurfaceDomain | TriangleMesh, *, fill_holes: bool = True) -> DiskParameterization: ...
+def not_positive(uv: ArrayLike, triangles: ArrayLike) -> Int32s: ...
+def map_distortion(surface: SurfaceDomain | TriangleMesh, uv: ArrayLike, uv_triangles: ArrayLike) -> MapDistortion: ...
+def plane_metric(
+    surface: SurfaceDomain | TriangleMesh, uv: ArrayLike, uv_triangles: ArrayLike, h: float
+) -> Float64s: ...
+def bisected_edges(
+    surface: SurfaceDomain | TriangleMesh, longest: ArrayLike, *, most_triangles: int = 50000000
+) -> BisectedEdges: ...
+def atlas(
+    surface: SurfaceDomain | TriangleMesh,
+    *,
+    conformity: float = ...,
+    max_triangles: int = ...,
+    bisect: bool = ...,
+    progress: Progress | None = None,
+) -> Atlas: ...
+def packed_uv(atlas: Atlas) -> tuple[Float64s, float]: ...
+
 class SizeFamilies:
     worst_anisotropy: float
     mean_anisotropy: float

@@ -25,6 +25,8 @@ void bind_sized_field_types(pybind11::module_& module);
 void bind_sized_fields(pybind11::module_& module);
 void bind_size_family_types(pybind11::module_& module);
 void bind_size_families(pybind11::module_& module);
+void bind_atlas_types(pybind11::module_& module);
+void bind_atlas(pybind11::module_& module);
 void bind_quad_layout_types(pybind11::module_& module);
 void bind_quad_layouts(pybind11::module_& module);
 void bind_fixed_boundary(pybind11::module_& module);

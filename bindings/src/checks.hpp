@@ -16,6 +16,7 @@
 #include "octafield/volume/vertex_constraints.hpp"
 
 namespace octafield::surface {
+struct AtlasOptions;
 struct FeatureOptions;
 struct RemeshOptions;
 struct SizeFieldOptions;
@@ -50,6 +51,7 @@ double finite(double value, std::string_view name);
 int threads_option(int threads);
 
 // Numbers of options are finite (but for those that may be infinite), threads 0 or more; functions check the rest.
+void check(const surface::AtlasOptions& options);
 void check(const surface::FeatureOptions& options);
 void check(const surface::RemeshOptions& options);
 void check(const surface::SizeFieldOptions& options);

@@ -280,6 +280,7 @@ void bind_surface(py::module_& m) {
     bind_imposed_fields(m);
     bind_sized_fields(m);
     bind_size_families(m);
+    bind_atlas(m);
     bind_renormalised_energy(m);
 }
 

@@ -112,6 +112,7 @@ void bind_surface_types(py::module_& m) {
     bind_imposed_field_types(m);
     bind_sized_field_types(m);
     bind_size_family_types(m);
+    bind_atlas_types(m);
 }
 
 }  // namespace octafield::bindings

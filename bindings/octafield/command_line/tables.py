@@ -15,6 +15,7 @@ from ..report.numbers.columns import terminal_table
 from ..report.numbers.records import Results, Run
 
 if TYPE_CHECKING:
+    from ..records.atlas import AtlasRecord
     from ..records.base import Record
     from ..records.field import FieldRecord
     from ..records.hex_dominant import HexDominantRecord
@@ -145,6 +146,23 @@ def show_quad_mesh_record(record: QuadMeshRecord) -> None:
         ("deviation from features", _several(record.feature_deviation, (".2e",) * 2)),
         ("deviation from the surface", _several(record.surface_deviation, (".2e",) * 2)),
         ("seconds", f"{record.seconds:.1f}"),
+        ("peak_mb", f"{record.peak_mb:.0f}"),
+    ]
+    _facts(record.input, facts)
+
+
+def show_atlas_record(record: AtlasRecord) -> None:
+    facts = [
+        ("triangles", f"{record.triangles:,}"),
+        ("added in coarse faces", f"{record.added_triangles:,}"),
+        ("faces", f"{record.faces:,}"),
+        ("handles", f"{record.handles:,}"),
+        ("charts", f"{record.charts:,}"),
+        ("not positive in the plane", f"{record.not_positive:,}"),
+        ("conformity", _several(record.conformity, (".3g",) * 3)),
+        ("charts below", f"{record.charts_below:,}"),
+        ("edges cut", f"{record.cut_edges:,}"),
+        ("seconds", f"{sum(record.wall_seconds.values()):.1f}"),
         ("peak_mb", f"{record.peak_mb:.0f}"),
     ]
     _facts(record.input, facts)

@@ -218,6 +218,26 @@ class Deviation(Record):
     rms: float = Field(description="root mean square by area")
 
 
+class ConformityFigures(Record):
+    """Of maps to the plane: the smaller over the larger stretch of a triangle."""
+
+    min: float = Field(description="the least")
+    p05: float = Field(description="5 % of the area have less")
+    mean: float = Field(description="by area")
+
+
+class ChartFigures(Record):
+    """One chart of an atlas."""
+
+    triangles: int = Field(description="how many")
+    area: float = Field(description="on the surface, input unit squared")
+    loops: int = Field(description="boundary curves; all but the outer one are holes")
+    conformity: ConformityFigures = Field(description="of its triangles")
+    evenness: float = Field(
+        description="root of plane over surface area, over its mean, at least; 5 % of the area have less"
+    )
+
+
 class FeatureDeviation(Record):
     """Of quads from features and the boundary, over the diagonal of the surface's box."""
 

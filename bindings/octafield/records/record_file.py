@@ -13,6 +13,7 @@ from ..files.writing import write_json
 if TYPE_CHECKING:
     from pydantic import ValidationError
 
+    from .atlas import AtlasRecord
     from .base import Record
     from .field import FieldRecord, RunWithField, RunWithoutField
     from .hex_dominant import HexDominantRecord
@@ -28,12 +29,14 @@ if TYPE_CHECKING:
         | HexMeshRecord
         | QuadLayoutRecord
         | QuadMeshRecord
+        | AtlasRecord
         | RunWithField
         | RunWithoutField
     )
 
 RECORD_FILE = "result.json"
 _WHAT = {
+    "AtlasRecord": "an atlas",
     "FieldRecord": "a frame field",
     "GivenFieldRecord": "a frame field",
     "HexDominantRecord": "a hex-dominant mesh",
@@ -116,7 +119,7 @@ def record_of(content: Any, name: object) -> AnyRecord:
 
 
 def _kind(content: dict[str, Any]) -> type[AnyRecord]:
-    from . import field, hex_dominant, quad_layout, quad_mesh, surface_field
+    from . import atlas, field, hex_dominant, quad_layout, quad_mesh, surface_field
 
     if content.get("state", "done") != "done":
         return field.RunWithoutField
@@ -126,6 +129,8 @@ def _kind(content: dict[str, Any]) -> type[AnyRecord]:
         return hex_dominant.HexDominantRecord
     if "index_sum" in content and "patches" in content:
         return quad_layout.QuadLayoutRecord
+    if "chart_list" in content:
+        return atlas.AtlasRecord
     if "size_ratio" in content:
         return quad_mesh.QuadMeshRecord
     if "symmetry" in content:

@@ -48,6 +48,29 @@ def jacobian_scene_of_folder(folder: Path) -> pyvista.Plotter:
     return jacobian_scene(_read(folder)[0])
 
 
+def chart_scene(points: np.ndarray, triangles: np.ndarray, charts: np.ndarray) -> pyvista.Plotter:
+    """charts: (t,) of each triangle. Their edges are left out where there are many."""
+    shape = scene.plotter()
+    colours = colours_of(triangles, charts)[charts]
+    for number, colour in enumerate(COLOURS):
+        if (colours == number).any():
+            part = pyvista.PolyData.from_regular_faces(points, triangles[colours == number])
+            shape.add_mesh(
+                part,
+                color=colour,
+                ambient=0.45,
+                diffuse=0.6,
+                specular=0,
+                show_edges=len(triangles) < 10000,
+                edge_color=_EDGES,
+            )
+    lines = _between_blocks(points, triangles, charts)
+    if lines.n_cells:
+        shape.add_mesh(lines.tube(radius=0.0015 * scene.diagonal(points), n_sides=8), color=scene.INK, lighting=False)
+    _look(shape, points)
+    return shape
+
+
 def jacobian_scene(grid: pyvista.UnstructuredGrid) -> pyvista.Plotter:
     """grid: with cell data scaled_jacobian."""
     flat = _is_flat(np.asarray(grid.points))
@@ -138,10 +161,11 @@ def _look(shape: pyvista.Plotter, points: np.ndarray) -> None:
 
 
 def _edges_with_quads(quads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Edges (e, 2), and for each side of a quad its edge and its quad."""
-    sides = np.sort(np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
+    """Edges (e, 2), and for each side of a quad, or of a triangle, its edge and its quad."""
+    corners = quads.shape[1]
+    sides = np.sort(np.concatenate([quads[:, [k, (k + 1) % corners]] for k in range(corners)]), axis=1)
     edges, group = np.unique(sides, axis=0, return_inverse=True)
-    return edges, group.reshape(-1), np.tile(np.arange(len(quads)), 4)
+    return edges, group.reshape(-1), np.tile(np.arange(len(quads)), corners)
 
 
 def _neighbours(quads: np.ndarray, blocks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "octafield/cell_arrays.hpp"
+#include "octafield/surface/plane_points.hpp"
 #include "octafield/surface/triangle_mesh.hpp"
 
 namespace octafield::surface {
-
-using PlanePoints = Rows<double, 2>;
 
 // A plane straight-line graph. Inside is what an odd number of loops goes round, so holes and islands in them are loops
 // as well, in either sense.

@@ -1,0 +1,1 @@
+"""Surfaces as one-to-one charts."""
