@@ -52,6 +52,8 @@ from .planar.quads import FixedBoundaryFigures, FixedBoundaryResult, compute_fix
 from .planar.read import read_outline
 from .quad_mesh.options import QuadMeshOptions
 from .quad_mesh.quad_mesh import QuadMeshResult, compute_quad_mesh
+from .remeshing.options import RemeshingOptions
+from .remeshing.remesh import RemeshedSurface, compute_remesh
 from .records.record_file import read_record, read_surface_record
 from .runs.compare import Comparison, compare
 from .runs.conversion import Conversion, convert_file
@@ -85,6 +87,8 @@ __all__ = [
     "QuadLayoutResult",
     "QuadMeshOptions",
     "QuadMeshResult",
+    "RemeshedSurface",
+    "RemeshingOptions",
     "SingularGraph",
     "SolverError",
     "SurfaceFieldOptions",
@@ -100,6 +104,7 @@ __all__ = [
     "compute_hex_dominant",
     "compute_quad_layout",
     "compute_quad_mesh",
+    "compute_remesh",
     "compute_surface_field",
     "convert_file",
     "frame_formats",

@@ -250,6 +250,47 @@ class RepairAdvice:
     @not_tried.setter
     def not_tried(self, value: str) -> None: ...
 
+class CloseRemeshOptions:
+    vertices: float
+    deviation: float
+    quality: float
+    max_vertices: float
+    iterations: int
+    def __init__(
+        self,
+        vertices: float = ...,
+        deviation: float = ...,
+        quality: float = ...,
+        max_vertices: float = ...,
+        iterations: int = ...,
+    ) -> None: ...
+
+class CloseRemeshResult:
+    def __init__(
+        self,
+        mesh: TriangleMesh = ...,
+        features: FeatureGraph = ...,
+        notes: Sequence[str] = ...,
+        deviation: float = ...,
+        own_deviation: float = ...,
+        off_surface: float = ...,
+        poor: int = ...,
+        forced: int = ...,
+        kept: bool = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> TriangleMesh: ...
+    @property
+    def features(self) -> FeatureGraph: ...
+    @property
+    def notes(self) -> list[str]: ...
+    deviation: float
+    own_deviation: float
+    off_surface: float
+    poor: int
+    forced: int
+    kept: bool
+
 class RemeshResult:
     def __init__(
         self,
@@ -621,6 +662,19 @@ def remesh(
     max_cells: float = ...,
     progress: Progress | None = None,
 ) -> RemeshResult: ...
+def close_remesh(
+    mesh: TriangleMesh,
+    features: FeatureGraph,
+    lengths: ArrayLike,
+    *,
+    vertices: float = ...,
+    deviation: float = ...,
+    quality: float = ...,
+    max_vertices: float = ...,
+    iterations: int = ...,
+    progress: Progress | None = None,
+) -> CloseRemeshResult: ...
+def triangle_qualities(mesh: TriangleMesh) -> Float64s: ...
 def size_field(
     mesh: TriangleMesh,
     features: FeatureGraph,

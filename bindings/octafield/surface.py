@@ -3,6 +3,8 @@ them, and quad layouts."""
 
 from ._core import (
     BaseComplex,
+    CloseRemeshOptions,
+    CloseRemeshResult,
     CornerChoice,
     CornerQuads,
     Defect,
@@ -74,6 +76,7 @@ from ._core import (
     blunted_features,
     boundary_sizes,
     bounding_box_diagonal,
+    close_remesh,
     coordinate_precision,
     core_energy,
     cut_along_features,
@@ -151,6 +154,7 @@ from ._core import (
     triangle_areas,
     triangle_directions,
     triangle_normals,
+    triangle_qualities,
     turned_for_layout,
     vertex_directions,
     vertex_normals,
@@ -162,6 +166,8 @@ from ._core import (
 
 __all__ = [
     "BaseComplex",
+    "CloseRemeshOptions",
+    "CloseRemeshResult",
     "CornerChoice",
     "CornerQuads",
     "Defect",
@@ -233,6 +239,7 @@ __all__ = [
     "blunted_features",
     "boundary_sizes",
     "bounding_box_diagonal",
+    "close_remesh",
     "coordinate_precision",
     "core_energy",
     "cut_along_features",
@@ -310,6 +317,7 @@ __all__ = [
     "triangle_areas",
     "triangle_directions",
     "triangle_normals",
+    "triangle_qualities",
     "turned_for_layout",
     "vertex_directions",
     "vertex_normals",

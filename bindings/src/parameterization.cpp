@@ -18,7 +18,7 @@ using surface::FeatureGraph;
 
 namespace {
 
-std::string number(double x) { return py::str(py::float_(x)).cast<std::string>(); }
+std::string digits_of(double x) { return py::str(py::float_(x)).cast<std::string>(); }
 
 void bind_combing_types(py::module_& m) {
     Record<FaceMatchings>(m, "FaceMatchings", "Matchings of frames in the tets across every triangle between two.")
@@ -94,8 +94,8 @@ void bind_scaling_types(py::module_& m) {
         .field("jump_max", &ScaledIntegrability::jump_max, "The largest.")
         .field("curl", &ScaledIntegrability::curl, "(m,) float64, per tet.")
         .finish([](const ScaledIntegrability& s) {
-            return "curl " + number(s.curl_rms) + ", at most " + number(s.curl_max) + "; jump " + number(s.jump_rms) +
-                   ", at most " + number(s.jump_max);
+            return "curl " + digits_of(s.curl_rms) + ", at most " + digits_of(s.curl_max) + "; jump " + digits_of(s.jump_rms) +
+                   ", at most " + digits_of(s.jump_max);
         });
 
     Record<IsotropicScale>(m, "IsotropicScale", "One log-density H for all axes: grid cells of size exp(-H).")
@@ -106,7 +106,7 @@ void bind_scaling_types(py::module_& m) {
         .field("parts", &IsotropicScale::parts, "Parts of the mesh.")
         .field("iterations", &IsotropicScale::iterations, "Of conjugate gradients.")
         .finish([](const IsotropicScale& s) {
-            return "curl " + number(s.before.curl_rms) + " before, " + number(s.after.curl_rms) + " after";
+            return "curl " + digits_of(s.before.curl_rms) + " before, " + digits_of(s.after.curl_rms) + " after";
         });
 
     Record<AxisScales>(m, "AxisScales", "One log-density H_i per axis: grid cells of sizes exp(-H_i).")
@@ -123,7 +123,7 @@ void bind_scaling_types(py::module_& m) {
                "Sets of axes: three per part of the mesh, less where singular curves exchange them.")
         .field("iterations", &AxisScales::iterations, "Of conjugate gradients.")
         .finish([](const AxisScales& s) {
-            return "curl " + number(s.before.curl_rms) + " before, " + number(s.after.curl_rms) + " after; " +
+            return "curl " + digits_of(s.before.curl_rms) + " before, " + digits_of(s.after.curl_rms) + " after; " +
                    count(s.parts, "set") + " of axes";
         });
 }

@@ -19,6 +19,7 @@ from . import files as files_cli
 from . import hexdom as hexdom_cli
 from . import inspect as cli_inspect
 from . import quads as quads_cli
+from . import surfaces as surfaces_cli
 from .console import carry_out
 from .options import InputFile, Json, Output, Quiet, Verbose, choices, with_options
 from .shell_completion import words
@@ -45,6 +46,7 @@ files_cli.register(app)
 compare_cli.register(app)
 hexdom_cli.register(app)
 quads_cli.register(app)
+surfaces_cli.register(app)
 
 
 def _show_version(wanted: bool) -> None:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .hex_dominant import HexDominantRecord
     from .quad_layout import QuadLayoutRecord
     from .quad_mesh import QuadMeshRecord
+    from .remesh import RemeshRecord
     from .surface_field import SurfaceFieldRecord
 
     AnyRecord = (
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
         | HexDominantRecord
         | QuadLayoutRecord
         | QuadMeshRecord
+        | RemeshRecord
         | RunWithField
         | RunWithoutField
     )
@@ -37,6 +39,7 @@ _WHAT = {
     "HexDominantRecord": "a hex-dominant mesh",
     "QuadLayoutRecord": "a quad layout",
     "QuadMeshRecord": "a quad mesh",
+    "RemeshRecord": "a remeshed surface",
     "RunWithField": "a frame field",
     "RunWithoutField": "a run of a study that ended without a field",
     "SurfaceFieldRecord": "a surface field",
@@ -113,7 +116,7 @@ def record_of(content: Any, name: object) -> AnyRecord:
 
 
 def _kind(content: dict[str, Any]) -> type[AnyRecord]:
-    from . import field, hex_dominant, quad_layout, quad_mesh, surface_field
+    from . import field, hex_dominant, quad_layout, quad_mesh, remesh, surface_field
 
     if content.get("state", "done") != "done":
         return field.RunWithoutField
@@ -125,6 +128,8 @@ def _kind(content: dict[str, Any]) -> type[AnyRecord]:
         return quad_layout.QuadLayoutRecord
     if "size_ratio" in content:
         return quad_mesh.QuadMeshRecord
+    if "off_surface" in content:
+        return remesh.RemeshRecord
     if "symmetry" in content:
         return surface_field.SurfaceFieldRecord
     return field.GivenFieldRecord if "label" in content and "objective" not in content else field.FieldRecord

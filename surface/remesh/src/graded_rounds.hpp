@@ -27,8 +27,6 @@ private:
         CGAL::AABB_tree<CGAL::AABB_traits<Flat, CGAL::AABB_segment_primitive<Flat, Segments::const_iterator>>>;
 
     void place_on_curve(Working& work, Vertex v) const;
-    void collapse_short(Working& work) const;
-    void flip(Working& work) const;
     void relax(Working& work, const std::function<void(double)>& alive, double fraction) const;
 
     const Background& ground_;

@@ -10,10 +10,10 @@
 
 namespace octafield::surface {
 
-RemeshJudge::RemeshJudge(const TriangleMesh& mesh, const FeatureGraph& features)
+RemeshJudge::RemeshJudge(const TriangleMesh& mesh, const FeatureGraph& features, double told)
     : mesh_(mesh),
       topology_(topology_of(mesh)),
-      told_(deviation_told * shape_size(mesh)),
+      told_(told),
       input_(mark(mesh, features)) {}
 
 RemeshJudge::Topology RemeshJudge::topology_of(const TriangleMesh& mesh) {

@@ -20,7 +20,8 @@ struct Attempt {
 // Compares with the input, which must outlive it.
 class RemeshJudge {
 public:
-    RemeshJudge(const TriangleMesh& mesh, const FeatureGraph& features);
+    // told: distance from the input up to which the surface is followed, input unit.
+    RemeshJudge(const TriangleMesh& mesh, const FeatureGraph& features, double told);
 
     // None where the result is unsound: fault and crossing say why.
     std::optional<Attempt> judge(Marked& marked, double length);

@@ -57,19 +57,16 @@ double squared_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& a, cons
     return (p - a - at * along).squaredNorm();
 }
 
-// Of edges at a wall or strip of this width. Much narrower ones stay flat between edges of any length.
-double fitting(const Background& ground, double width) {
-    return kPerWidth * width < ground.longest / kNarrow ? ground.longest : std::max(kPerWidth * width, ground.shortest);
+// Of edges at a wall or strip of this width. Those that ask for less than `least` stay flat between edges of any length.
+double fitting(const Background& ground, double width, double least) {
+    return kPerWidth * width < least ? ground.longest : std::max(kPerWidth * width, ground.shortest);
 }
 
-// Feature curves between corners.
-struct Curves {
-    std::vector<Index> of_edge;             // (n) curve of each feature edge
-    std::vector<std::set<Index>> corners;   // per curve: at its ends
-    std::vector<double> length;
-    std::vector<std::vector<Index>> edges;  // (V) feature edges at each vertex
-    std::vector<bool> is_corner;            // (V)
-};
+bool meet(const std::set<Index>& a, const std::set<Index>& b) {
+    return std::ranges::any_of(a, [&](Index v) { return b.contains(v); });
+}
+
+}  // namespace
 
 Curves curves_of(const Background& ground) {
     const Edges& edges = ground.features.edges;
@@ -107,13 +104,9 @@ Curves curves_of(const Background& ground) {
     return curves;
 }
 
-bool meet(const std::set<Index>& a, const std::set<Index>& b) {
-    return std::ranges::any_of(a, [&](Index v) { return b.contains(v); });
-}
+double least_length(const Background& ground) { return ground.longest / kNarrow; }
 
-}  // namespace
-
-void bound_by_curves(Background& ground, double angle) {
+void bound_by_curves(Background& ground, double angle, double least) {
     const Curves curves = curves_of(ground);
     const Edges& edges = ground.features.edges;
     const auto lower = [&](Index v, double length) {
@@ -121,7 +114,7 @@ void bound_by_curves(Background& ground, double angle) {
     };
     for (Index v = 0; v < ground.mesh.vertices.rows(); ++v) {
         if (curves.is_corner[v]) {
-            for (const Index e : curves.edges[v]) lower(v, fitting(ground, curves.length[curves.of_edge[e]]));
+            for (const Index e : curves.edges[v]) lower(v, fitting(ground, curves.length[curves.of_edge[e]], least));
             continue;
         }
         if (curves.edges[v].size() != 2) continue;
@@ -158,14 +151,14 @@ void bound_by_widths(Background& ground) {
             const Index other = static_cast<Index>(hit->second - triangles.begin());
             if (-normals.row(other).dot(normal) < kFacing) continue;
             const double bend = std::max(ground.bend[t], ground.bend[other]);
-            const double most = std::min(fitting(ground, width), std::sqrt(8 * kSagShare * width / bend));
+            const double most = std::min(fitting(ground, width, least_length(ground)), std::sqrt(8 * kSagShare * width / bend));
             for (const Index v : mesh.triangles.row(t))
                 ground.length[v] = std::min(ground.length[v], std::max(ground.shortest, most));
         }
     }
 }
 
-void bound_by_strips(Background& ground) {
+void bound_by_strips(Background& ground, double least) {
     const Curves curves = curves_of(ground);
     const Edges& edges = ground.features.edges;
     const auto point = [&](Index v) -> Eigen::Vector3d { return ground.mesh.vertices.row(v); };
@@ -202,7 +195,7 @@ void bound_by_strips(Background& ground) {
                 return Flat::Segment_3(flat(point(edges(e, 0))), flat(point(edges(e, 1))));
             };
             const double width = std::sqrt(CGAL::squared_distance(segment(now.edge), segment(nearest[w])));
-            const double most = fitting(ground, width);
+            const double most = fitting(ground, width, least);
             for (const Index e : {now.edge, nearest[w]})
                 for (const Index v : edges.row(e)) ground.length[v] = std::min(ground.length[v], most);
         }

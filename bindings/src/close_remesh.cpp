@@ -1,0 +1,96 @@
+// Triangles of given lengths on a surface, and how good triangles are.
+#include "arrays.hpp"
+#include "bind_remeshing.hpp"
+#include "checks.hpp"
+#include "interruptible.hpp"
+#include "octafield/surface/close_remesh.hpp"
+#include "octafield/surface/triangle_quality.hpp"
+#include "options.hpp"
+
+namespace octafield::bindings {
+
+using namespace surface;
+using py::literals::operator""_a;
+
+void check(const CloseRemeshOptions& options) {
+    finite(options.vertices, "vertices");
+    finite(options.deviation, "deviation");
+    finite(options.quality, "quality");
+    finite(options.max_vertices, "max_vertices");
+}
+
+namespace {
+
+void bind_types(py::module_& m) {
+    Record<CloseRemeshOptions>(m, "CloseRemeshOptions", "Options of close_remesh: its keyword arguments.")
+        .field("vertices", &CloseRemeshOptions::vertices,
+               "Wanted number: lengths are multiplied until it is met; 0: lengths as they are.")
+        .field("deviation", &CloseRemeshOptions::deviation,
+               "Input unit: lengths become shorter where either surface is farther from the other; 0: any.")
+        .field("quality", &CloseRemeshOptions::quality, "That every triangle is to have, in [0, 0.5].")
+        .field("max_vertices", &CloseRemeshOptions::max_vertices, "deviation asks for no more than about so many.")
+        .field("iterations", &CloseRemeshOptions::iterations, "Rounds before anything is measured, at least 1.")
+        .finish([](const CloseRemeshOptions& o) {
+            return "vertices=" + number(o.vertices) + ", deviation=" + number(o.deviation) +
+                   ", quality=" + number(o.quality);
+        });
+    Record<CloseRemeshResult>(m, "CloseRemeshResult", "What close_remesh made.")
+        .field("mesh", &CloseRemeshResult::mesh, "The new TriangleMesh.")
+        .field("features", &CloseRemeshResult::features,
+               "FeatureGraph of the new mesh: pieces of the old curves, corners at the old places.")
+        .field("notes", &CloseRemeshResult::notes, "What a user should know, one sentence each.")
+        .field("deviation", &CloseRemeshResult::deviation,
+               "Input unit: no vertex of the input is farther from the new triangles.")
+        .field("own_deviation", &CloseRemeshResult::own_deviation,
+               "Input unit: no middle of a new triangle, or of a side of one, is farther from the input.")
+        .field("off_surface", &CloseRemeshResult::off_surface,
+               "Input unit: no new vertex is farther from the input; rounding.")
+        .field("poor", &CloseRemeshResult::poor, "Triangles below the quality asked for.")
+        .field("forced", &CloseRemeshResult::forced, "Of these, those between two feature edges.")
+        .field("kept", &CloseRemeshResult::kept, "No sound mesh was found: these are the input's triangles.")
+        .finish([](const CloseRemeshResult& r) {
+            return count(r.mesh.triangles.rows(), "triangle") + ", deviation=" +
+                   number(std::max(r.deviation, r.own_deviation)) + ", poor=" + std::to_string(r.poor);
+        });
+}
+
+}  // namespace
+
+void bind_close_remesh(py::module_& m) {
+    bind_types(m);
+    m.def(
+        "close_remesh",
+        [](const TriangleMesh& mesh, const FeatureGraph& features, const ArrayLike& lengths,
+           const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+            const auto [options] = options_of<CloseRemeshOptions>("close_remesh", given);
+            return run_interruptible(
+                [mesh = mesh, features = features, options = options,
+                 lengths = from_python<Eigen::VectorXd>(lengths, "lengths")](Job& job) mutable {
+                    check(mesh);
+                    features = ordered_features(std::move(features), mesh);
+                    return close_remesh(mesh, features, lengths, options, job.progress());
+                },
+                progress);
+        },
+        "mesh"_a, "features"_a, "lengths"_a, py::kw_only(), "progress"_a = py::none(),
+        "Triangles with edges of given lengths, all of good shape, whose vertices lie on the input, as a "
+        "CloseRemeshResult. lengths: (V,) wanted at the vertices of the input, input unit, positive. Steps walk on the "
+        "input's triangles from where a vertex was, so that near sheets (thin walls, rolls) are never mistaken for each "
+        "other; feature curves are followed, their corners kept. The input must be valid; the result is as sound, with "
+        "its topology. Lengths become shorter where feature curves lie near one another and where triangles would "
+        "cross. Raises InvalidInput, GeometryError, Cancelled.");
+    list_options<CloseRemeshOptions>(m, "close_remesh");
+    m.def(
+        "triangle_qualities",
+        [](const TriangleMesh& mesh) {
+            return own(run_interruptible([mesh = mesh](Job&) {
+                check(mesh);
+                return triangle_qualities(mesh);
+            }));
+        },
+        "mesh"_a,
+        "(F,) twice the inscribed over the circumscribed radius of each triangle (Gmsh's gamma), in [0, 1]: 1 for "
+        "equilateral ones, 0 without area.");
+}
+
+}  // namespace octafield::bindings

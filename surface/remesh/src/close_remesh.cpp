@@ -1,0 +1,284 @@
+#include "octafield/surface/close_remesh.hpp"
+
+#include <CGAL/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "better_triangles.hpp"
+#include "octafield/error.hpp"
+#include "octafield/surface/validate.hpp"
+#include "remesh_checks.hpp"
+#include "remesh_judge.hpp"
+#include "short_number.hpp"
+
+namespace octafield::surface {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr int kTries = 15, kCounts = 8, kMendings = 20;
+constexpr double kCountWithin = 0.02;   // of the number of vertices wanted
+constexpr double kMore = 0.05;          // quality that is aimed at above the one asked for
+constexpr double kWhereCrossing = 0.6;    // lengths there, of those before
+constexpr double kShortestPart = 1. / 64;   // of the longest
+constexpr double kAnyTurn = 1e9;        // radians along an edge of a feature curve
+constexpr double kNear = 0.75;          // of the deviation asked for: where lengths become shorter, when it is exceeded
+constexpr double kSag = 1. / 6;         // curvature times squared length: between a sphere and its triangles' middles
+
+void require_options(const TriangleMesh& mesh, const Eigen::VectorXd& lengths, const CloseRemeshOptions& options) {
+    if (lengths.size() != mesh.vertices.rows())
+        throw InvalidInput("there are " + std::to_string(lengths.size()) + " lengths for " +
+                               std::to_string(mesh.vertices.rows()) + " vertices; give one each",
+                           "wrong_shape");
+    for (Index v = 0; v < lengths.size(); ++v)
+        if (!(lengths[v] > 0 && std::isfinite(lengths[v])))
+            throw InvalidInput("the length at vertex " + std::to_string(v) + " is not positive; give positive lengths",
+                               "invalid_option", {v});
+    if (options.iterations < 1) throw InvalidInput("remeshing needs at least 1 iteration", "invalid_option");
+    for (const double number : {options.vertices, options.deviation})
+        if (!(number >= 0 && std::isfinite(number)))
+            throw InvalidInput("vertices and deviation must not be negative (0: not asked for)", "invalid_option");
+    if (!(options.quality >= 0 && options.quality <= 0.5))
+        throw InvalidInput("quality must be in [0, 0.5]; more cannot be reached everywhere", "invalid_option");
+    if (!(options.max_vertices >= 1 && std::isfinite(options.max_vertices)))
+        throw InvalidInput("max_vertices must be at least 1", "invalid_option");
+}
+
+// The factor of lengths where the surface is farther off than asked for, or nearly.
+double shorter(double excess) { return std::clamp(std::sqrt(0.8 * kNear / excess), 0.4, 0.95); }
+
+// What the triangles' middles and their sides' are from the input, and where on it that is.
+struct Departure {
+    double most = 0;
+    Places places;
+};
+
+Departure departure_of(const Working& work, const GroundTrees& input, const Background& ground, double told) {
+    Departure found;
+    const SurfaceMesh& mesh = work.marked.mesh;
+    for (const Face f : mesh.faces()) {
+        std::array<Vector, 3> at;
+        int k = 0;
+        for (const Vertex v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) at[k++] = work.at(v);
+        for (const Vector& p : {Vector((at[0] + at[1] + at[2]) / 3), Vector((at[0] + at[1]) / 2),
+                                Vector((at[1] + at[2]) / 2), Vector((at[2] + at[0]) / 2)}) {
+            const auto nearest = input.nearest(work.marked.patch[f], p);
+            const double distance = (nearest.point - p).norm();
+            found.most = std::max(found.most, distance);
+            if (told == 0 || distance <= kNear * told) continue;
+            for (const Index v : ground.mesh.triangles.row(nearest.triangle))
+                found.places.emplace_back(v, shorter(distance / told));
+        }
+    }
+    return found;
+}
+
+class CloseRemesher {
+public:
+    CloseRemesher(const TriangleMesh& mesh, const FeatureGraph& features, const CloseRemeshOptions& options,
+                  const Progress& progress)
+        : mesh_(mesh),
+          features_(features),
+          options_(options),
+          progress_(progress),
+          judge_(mesh, features,
+                 options.deviation > 0 ? options.deviation : std::numeric_limits<double>::infinity()) {}
+
+    CloseRemeshResult run(const Eigen::VectorXd& lengths) {
+        plan(lengths);
+        CloseRounds rounds(ground_);
+        const GroundTrees input(ground_);
+        Working work(ground_.mesh, ground_.features);
+        rounds.begin(work);
+        rounds.run(work, options_.iterations, alive());
+        for (int attempt = 0; attempt < kTries; ++attempt) {
+            begun_ = static_cast<double>(attempt + 1) / (kTries + 1);
+            meet_count(work, rounds);
+            better_triangles(work, rounds, options_.quality + kMore, kMendings, [&] { alive()(0); });
+            const Places places = judged(work, input);
+            if (places.empty() || !lower(ground_, places) || too_many()) break;
+            rounds.take_lengths(work);
+            rounds.run(work, 3, alive());
+        }
+        if (!best_) return kept();
+        tell();
+        return std::move(*best_);
+    }
+
+private:
+    void plan(const Eigen::VectorXd& lengths) {
+        double scale = 1;
+        if (options_.vertices > 0) {
+            const double expected = vertices_at(mesh_, lengths);
+            scale = std::sqrt(expected / options_.vertices);
+        }
+        const double longest = scale * lengths.maxCoeff();
+        ground_ = background_of(mesh_, features_, scale * lengths, longest,
+                                std::min(kShortestPart * longest, scale * lengths.minCoeff()));
+        if (options_.deviation > 0) bound_by_deviation();
+        bound_by_curves(ground_, kAnyTurn, 0);  // triangles of good shape need short edges beside short ones
+        bound_by_strips(ground_, 0);
+        limit_growth(ground_, SizeFieldOptions{}.growth);
+    }
+
+    static double vertices_at(const TriangleMesh& mesh, const Eigen::VectorXd& lengths) {
+        const Eigen::VectorXd areas = triangle_areas(mesh);
+        double sum = 0;
+        for (Index t = 0; t < areas.size(); ++t) {
+            double length = 0;
+            for (const Index v : mesh.triangles.row(t)) length += lengths[v] / 3;
+            sum += areas[t] / (length * length);
+        }
+        return 2 / std::numbers::sqrt3 * sum;  // half as many as triangles of area sqrt(3) / 4
+    }
+
+    bool too_many() const { return vertices_at(ground_.mesh, ground_.length) > options_.max_vertices; }
+
+    void bound_by_deviation() {
+        for (Index t = 0; t < ground_.mesh.triangles.rows(); ++t) {
+            const double fitting = std::sqrt(0.8 * options_.deviation / (kSag * ground_.bend[t]));
+            for (const Index v : ground_.mesh.triangles.row(t))
+                ground_.length[v] = std::min(ground_.length[v], std::max(ground_.shortest, fitting));
+        }
+        while (too_many()) ground_.length *= 1.1;  // noise; what is measured lowers them again where it matters
+    }
+
+    void meet_count(Working& work, CloseRounds& rounds) {
+        if (options_.vertices == 0) return;
+        for (int k = 0; k < kCounts; ++k) {
+            const double ratio = work.marked.mesh.number_of_vertices() / options_.vertices;
+            if (std::abs(ratio - 1) <= kCountWithin) return;
+            const double by = std::clamp(std::sqrt(ratio), 0.5, 2.);
+            ground_.length *= by;
+            ground_.longest *= by;
+            ground_.shortest *= by;
+            rounds.take_lengths(work);
+            rounds.run(work, 2, alive());
+        }
+    }
+
+    // Where lengths must become shorter. Takes the mesh where it is the best so far.
+    Places judged(Working& work, const GroundTrees& input) {
+        auto found = judge_.judge(work.marked, ground_.length.minCoeff());
+        if (!found) return places_of_crossings(work);
+        const Departure own = departure_of(work, input, ground_, options_.deviation);
+        CloseRemeshResult result;
+        result.mesh = std::move(found->result.mesh);
+        result.features = std::move(found->result.features);
+        result.deviation = found->result.deviation;
+        result.own_deviation = own.most;
+        result.off_surface = off_surface(work, input);
+        count_poor(work, result);
+        const double excess = std::max(result.deviation, own.most);
+        if (!best_ || excess < std::max(best_->deviation, best_->own_deviation)) best_ = std::move(result);
+        if (excess <= options_.deviation || options_.deviation == 0) return {};
+        Places places = own.places;
+        for (Index v = 0; v < judge_.excess.size(); ++v)
+            if (judge_.excess[v] > kNear) places.emplace_back(v, shorter(judge_.excess[v]));
+        return places;
+    }
+
+    Places places_of_crossings(const Working& work) {
+        if (fault_.empty()) fault_ = judge_.fault;
+        Places places;
+        for (const Index t : judge_.crossing)
+            for (const Vertex v : CGAL::vertices_around_face(work.marked.mesh.halfedge(Face(t)), work.marked.mesh)) {
+                const Carrier at = work.carrier[v];
+                if (at.on == Carrier::On::vertex) places.emplace_back(at.id, kWhereCrossing);
+                if (at.on == Carrier::On::segment)
+                    for (const Index w : ground_.features.edges.row(at.id)) places.emplace_back(w, kWhereCrossing);
+                if (at.on == Carrier::On::triangle)
+                    for (const Index w : ground_.mesh.triangles.row(at.id)) places.emplace_back(w, kWhereCrossing);
+            }
+        return places;
+    }
+
+    static double off_surface(const Working& work, const GroundTrees& input) {
+        double most = 0;
+        for (const Vertex v : work.marked.mesh.vertices()) {
+            const Vector p = work.at(v);
+            most = std::max(most, (input.nearest(patch_at(work.marked, v), p).point - p).norm());
+        }
+        return most;
+    }
+
+    void count_poor(const Working& work, CloseRemeshResult& result) {
+        const SurfaceMesh& mesh = work.marked.mesh;
+        worst_ = 1;
+        for (const Face f : mesh.faces()) {
+            const double quality = quality_of(work, f);
+            if (quality < worst_) {
+                worst_ = quality;
+                worst_at_ = work.at(mesh.target(mesh.halfedge(f)));
+            }
+            if (quality >= options_.quality) continue;
+            ++result.poor;
+            int features = 0;
+            for (const HalfEdgeOf h : CGAL::halfedges_around_face(mesh.halfedge(f), mesh))
+                features += work.marked.feature[mesh.edge(h)];
+            result.forced += features >= 2;
+        }
+    }
+
+    void tell() {
+        std::vector<std::string>& notes = best_->notes;
+        if (!fault_.empty())
+            notes.push_back("edges are shorter than wanted where they would spoil the surface (" + fault_ + ")");
+        const double most = std::max(best_->deviation, best_->own_deviation);
+        if (options_.deviation > 0 && most > options_.deviation)
+            notes.push_back("the new surface departs from the input by up to " + short_number(most) + ", more than " +
+                            short_number(options_.deviation) + ": more vertices follow it more closely");
+        const double count = static_cast<double>(best_->mesh.vertices.rows());
+        if (options_.vertices > 0 && std::abs(count / options_.vertices - 1) > 0.05)
+            notes.push_back("the number of vertices wanted cannot be met: features and corners of the input hold some "
+                            "in place");
+        const Index free = best_->poor - best_->forced;
+        if (best_->forced > 0)
+            notes.push_back(std::to_string(best_->forced) + " triangles of a quality below " +
+                            short_number(options_.quality) + " lie in corners of the input between two feature edges");
+        if (free > 0)
+            notes.push_back(std::to_string(free) + " triangles have a quality below " + short_number(options_.quality) +
+                            ", and no local step makes them better without leaving the surface or its features");
+    }
+
+    CloseRemeshResult kept() const {
+        CloseRemeshResult result;
+        result.mesh = mesh_;
+        result.features = features_;
+        result.kept = true;
+        result.notes.push_back("no sound surface was found at these lengths (" + fault_ +
+                               "): the triangles of the input were kept");
+        return result;
+    }
+
+    std::function<void(double)> alive() const {
+        return [this](double) { report_or_throw(progress_, "remesh", begun_, kNone); };
+    }
+
+    const TriangleMesh& mesh_;
+    const FeatureGraph& features_;
+    const CloseRemeshOptions& options_;
+    const Progress& progress_;
+    RemeshJudge judge_;
+    Background ground_;
+    std::optional<CloseRemeshResult> best_;
+    std::string fault_;  // of the first attempt that was unsound
+    double begun_ = 0, worst_ = 1;
+    Vector worst_at_ = Vector::Zero();
+};
+
+}  // namespace
+
+CloseRemeshResult close_remesh(const TriangleMesh& mesh, const FeatureGraph& features, const Eigen::VectorXd& lengths,
+                               const CloseRemeshOptions& options, const Progress& progress) {
+    report_or_throw(progress, "remesh", 0, kNone);
+    require_remeshable(mesh, features);
+    require_options(mesh, lengths, options);
+    return CloseRemesher(mesh, features, options, progress).run(lengths);
+}
+
+}  // namespace octafield::surface
