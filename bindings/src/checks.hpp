@@ -18,6 +18,7 @@
 namespace octafield::surface {
 struct FeatureOptions;
 struct RemeshOptions;
+struct CloseRemeshOptions;
 struct SizeFieldOptions;
 struct DirectionFieldOptions;
 struct NonOrthogonalFieldOptions;
@@ -51,6 +52,7 @@ int threads_option(int threads);
 // Numbers of options are finite (but for those that may be infinite), threads 0 or more; functions check the rest.
 void check(const surface::FeatureOptions& options);
 void check(const surface::RemeshOptions& options);
+void check(const surface::CloseRemeshOptions& options);
 void check(const surface::SizeFieldOptions& options);
 void check(const surface::DirectionFieldOptions& options);
 void check(const surface::NonOrthogonalFieldOptions& options);

@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include "bind.hpp"
-#include "bind_remeshing.hpp"
 #include "gil.hpp"
 #include "octafield/error.hpp"
 #include "octafield/volume/operators.hpp"
@@ -54,7 +53,7 @@ PYBIND11_MODULE(_core, module) {
     bind_surface_types(module);
     bind_option_types(module);
     bind_surface(module);
-    bind_close_remesh(module);
+    bind_remeshing(module);
     bind_volume_types(module);
     bind_field_analysis_types(module);
     bind_parameterization_types(module);

@@ -123,7 +123,8 @@ bool lower(Background& ground, const Places& places) {
             ground.length[now.vertex] = now.length;
         }
         for (const Index w : round[now.vertex]) {
-            const double reach = now.reach - (ground.mesh.vertices.row(now.vertex) - ground.mesh.vertices.row(w)).norm();
+            const double reach =
+                now.reach - (ground.mesh.vertices.row(now.vertex) - ground.mesh.vertices.row(w)).norm();
             if (reach > reached[w] || (reach > 0 && now.length < ground.length[w]))
                 if (reach > 0) farthest.push({reach, w, now.length});
         }

@@ -20,9 +20,9 @@ struct Background {
     std::vector<Index> pinned;  // vertices that stay where they are, besides the corners
     std::vector<int> patch;     // (F) between features
     int patches = 0;
-    Eigen::VectorXd bend;     // (F) the larger principal curvature, its size
-    Eigen::VectorXd length;   // (V) bounds of the length so far
-    Eigen::VectorXd depth;    // (F) to the surface opposite, inward; 0: not looked at
+    Eigen::VectorXd bend;    // (F) the larger principal curvature, its size
+    Eigen::VectorXd length;  // (V) bounds of the length so far
+    Eigen::VectorXd depth;   // (F) to the surface opposite, inward; 0: not looked at
     double longest = 0, shortest = 0;
 };
 
@@ -35,7 +35,7 @@ void bound_by_curvature(Background& ground, double angle);
 // least: strips, and curves between corners, that ask for shorter edges are not looked at, input unit.
 double least_length(const Background& ground);  // that is usual
 void bound_by_curves(Background& ground, double angle, double least);
-void bound_by_widths(Background& ground);   // walls and gaps; sets depth
+void bound_by_widths(Background& ground);                // walls and gaps; sets depth
 void bound_by_strips(Background& ground, double least);  // between feature curves
 void limit_growth(Background& ground, double growth);
 
@@ -46,8 +46,8 @@ bool lower(Background& ground, const Places& places);
 
 // Feature curves between corners.
 struct Curves {
-    std::vector<Index> of_edge;             // (n) curve of each feature edge
-    std::vector<std::set<Index>> corners;   // per curve: at its ends
+    std::vector<Index> of_edge;            // (n) curve of each feature edge
+    std::vector<std::set<Index>> corners;  // per curve: at its ends
     std::vector<double> length;
     std::vector<std::vector<Index>> edges;  // (V) feature edges at each vertex
     std::vector<bool> is_corner;            // (V)

@@ -27,8 +27,8 @@ std::array<Vector, 3> corners_of(const Working& work, Face face) {
     return at;
 }
 
-// The least quality of the triangles round v, once it is at a place; below 0 where one is turned over. Those at `without`
-// are left out.
+// The least quality of the triangles round v, once it is at a place; below 0 where one is turned over. Those at
+// `without` are left out.
 double least_round(const Working& work, Vertex v, const Vector& at, Vertex without) {
     const SurfaceMesh& mesh = work.marked.mesh;
     double least = 1;
@@ -69,8 +69,8 @@ private:
     bool flip(Edge edge) {
         if (!may_flip(work_, edge)) return false;
         const HalfEdgeOf h = mesh_.halfedge(edge), o = mesh_.opposite(h);
-        const Vector a = work_.at(mesh_.source(h)), b = work_.at(mesh_.target(h)), c = work_.at(mesh_.target(mesh_.next(h))),
-                     d = work_.at(mesh_.target(mesh_.next(o)));
+        const Vector a = work_.at(mesh_.source(h)), b = work_.at(mesh_.target(h)),
+                     c = work_.at(mesh_.target(mesh_.next(h))), d = work_.at(mesh_.target(mesh_.next(o)));
         const double before = std::min(radius_ratio(a, b, c), radius_ratio(b, a, d));
         if (std::min(radius_ratio(d, b, c), radius_ratio(a, d, c)) < before + kGain) return false;
         const Flip both = flip_of(work_, edge);
@@ -125,7 +125,8 @@ private:
     std::vector<Vector> directions(Vertex v) const {
         Vector normal = Vector::Zero(), first = Vector::Zero();
         for (const HalfEdgeOf h : CGAL::halfedges_around_target(v, mesh_)) {
-            const Vector b = work_.at(mesh_.target(mesh_.next(h))) - work_.at(v), c = work_.at(mesh_.source(h)) - work_.at(v);
+            const Vector b = work_.at(mesh_.target(mesh_.next(h))) - work_.at(v),
+                         c = work_.at(mesh_.source(h)) - work_.at(v);
             normal += b.cross(c);
             if (c.squaredNorm() > first.squaredNorm()) first = c;
         }

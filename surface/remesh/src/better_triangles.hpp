@@ -5,9 +5,9 @@
 
 namespace octafield::surface {
 
-// Triangles of a quality below `bound` (triangle_qualities), the worst first: an edge is flipped, collapsed or split, or a
-// corner moved on the input, whichever first makes the worst triangle concerned better and turns none over. Rounds until
-// none is left or nothing helps, `rounds` at most. alive: called now and then, may throw.
+// Triangles of a quality below `bound` (triangle_qualities), the worst first: an edge is flipped, collapsed or split,
+// or a corner moved on the input, whichever first makes the worst triangle concerned better and turns none over. Rounds
+// until none is left or nothing helps, `rounds` at most. alive: called now and then, may throw.
 void better_triangles(Working& work, CloseRounds& on_input, double bound, int rounds,
                       const std::function<void()>& alive);
 

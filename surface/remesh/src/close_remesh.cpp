@@ -1,9 +1,9 @@
 #include "octafield/surface/close_remesh.hpp"
 
-#include <CGAL/exceptions.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -21,13 +21,13 @@ using Vector = Eigen::Vector3d;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kTries = 15, kCounts = 8, kMendings = 20;
-constexpr double kCountWithin = 0.02;   // of the number of vertices wanted
-constexpr double kMore = 0.05;          // quality that is aimed at above the one asked for
-constexpr double kWhereCrossing = 0.6;    // lengths there, of those before
-constexpr double kShortestPart = 1. / 64;   // of the longest
-constexpr double kAnyTurn = 1e9;        // radians along an edge of a feature curve
-constexpr double kNear = 0.75;          // of the deviation asked for: where lengths become shorter, when it is exceeded
-constexpr double kSag = 1. / 6;         // curvature times squared length: between a sphere and its triangles' middles
+constexpr double kCountWithin = 0.02;      // of the number of vertices wanted
+constexpr double kMore = 0.05;             // quality that is aimed at above the one asked for
+constexpr double kWhereCrossing = 0.6;     // lengths there, of those before
+constexpr double kShortestPart = 1. / 64;  // of the longest
+constexpr double kAnyTurn = 1e9;           // radians along an edge of a feature curve
+constexpr double kNear = 0.75;   // of the deviation asked for: where lengths become shorter, when it is exceeded
+constexpr double kSag = 1. / 6;  // curvature times squared length: between a sphere and its triangles' middles
 
 void require_options(const TriangleMesh& mesh, const Eigen::VectorXd& lengths, const CloseRemeshOptions& options) {
     if (lengths.size() != mesh.vertices.rows())
@@ -51,13 +51,19 @@ void require_options(const TriangleMesh& mesh, const Eigen::VectorXd& lengths, c
 // The factor of lengths where the surface is farther off than asked for, or nearly.
 double shorter(double excess) { return std::clamp(std::sqrt(0.8 * kNear / excess), 0.4, 0.95); }
 
-// What the triangles' middles and their sides' are from the input, and where on it that is.
+// The largest distance between two surfaces, and where lengths must become shorter for that.
 struct Departure {
     double most = 0;
     Places places;
+    void add(double distance, double told, const auto& vertices) {
+        most = std::max(most, distance);
+        if (told == 0 || distance <= kNear * told) return;
+        for (const Index v : vertices) places.emplace_back(v, shorter(distance / told));
+    }
 };
 
-Departure departure_of(const Working& work, const GroundTrees& input, const Background& ground, double told) {
+// Of the triangles' middles and their sides' from the input.
+Departure departure_of(const Working& work, CloseRounds& rounds, const Background& ground, double told) {
     Departure found;
     const SurfaceMesh& mesh = work.marked.mesh;
     for (const Face f : mesh.faces()) {
@@ -65,15 +71,42 @@ Departure departure_of(const Working& work, const GroundTrees& input, const Back
         int k = 0;
         for (const Vertex v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) at[k++] = work.at(v);
         for (const Vector& p : {Vector((at[0] + at[1] + at[2]) / 3), Vector((at[0] + at[1]) / 2),
-                                Vector((at[1] + at[2]) / 2), Vector((at[2] + at[0]) / 2)}) {
-            const auto nearest = input.nearest(work.marked.patch[f], p);
-            const double distance = (nearest.point - p).norm();
-            found.most = std::max(found.most, distance);
-            if (told == 0 || distance <= kNear * told) continue;
-            for (const Index v : ground.mesh.triangles.row(nearest.triangle))
-                found.places.emplace_back(v, shorter(distance / told));
-        }
+                                Vector((at[1] + at[2]) / 2), Vector((at[2] + at[0]) / 2)})
+            if (const auto place = rounds.place_near(work, f, p))
+                found.add((place->point - p).norm(), told, ground.mesh.triangles.row(place->carrier.id));
     }
+    return found;
+}
+
+// The triangles as they are, with their patches.
+Background as_ground(const Working& work) {
+    Background now;
+    const SurfaceMesh& mesh = work.marked.mesh;
+    now.mesh.vertices.resize(mesh.num_vertices(), 3);
+    now.mesh.triangles.resize(mesh.number_of_faces(), 3);
+    now.patches = work.marked.patches;
+    for (const Vertex v : mesh.vertices()) now.mesh.vertices.row(static_cast<Index>(v)) = work.at(v);
+    for (const Face f : mesh.faces()) {
+        int k = 0;
+        for (const Vertex v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
+            now.mesh.triangles(static_cast<Index>(now.patch.size()), k++) = static_cast<Index>(v);
+        now.patch.push_back(work.marked.patch[f]);
+    }
+    return now;
+}
+
+// Of the input's vertices, which are the first of the ground's, from the triangles.
+Departure departure_of(const TriangleMesh& input, const Background& ground, const Background& now, double told) {
+    Departure found;
+    const GroundTrees trees(now);
+    std::vector<bool> seen(input.vertices.rows(), false);
+    for (Index t = 0; t < ground.mesh.triangles.rows(); ++t)
+        for (const Index v : ground.mesh.triangles.row(t)) {
+            if (v >= input.vertices.rows() || seen[v]) continue;
+            seen[v] = true;
+            const Vector p = input.vertices.row(v);
+            found.add((trees.nearest(ground.patch[t], p).point - p).norm(), told, std::array{v});
+        }
     return found;
 }
 
@@ -81,17 +114,11 @@ class CloseRemesher {
 public:
     CloseRemesher(const TriangleMesh& mesh, const FeatureGraph& features, const CloseRemeshOptions& options,
                   const Progress& progress)
-        : mesh_(mesh),
-          features_(features),
-          options_(options),
-          progress_(progress),
-          judge_(mesh, features,
-                 options.deviation > 0 ? options.deviation : std::numeric_limits<double>::infinity()) {}
+        : mesh_(mesh), features_(features), options_(options), progress_(progress), judge_(mesh, features) {}
 
     CloseRemeshResult run(const Eigen::VectorXd& lengths) {
         plan(lengths);
         CloseRounds rounds(ground_);
-        const GroundTrees input(ground_);
         Working work(ground_.mesh, ground_.features);
         rounds.begin(work);
         rounds.run(work, options_.iterations, alive());
@@ -99,8 +126,8 @@ public:
             begun_ = static_cast<double>(attempt + 1) / (kTries + 1);
             meet_count(work, rounds);
             better_triangles(work, rounds, options_.quality + kMore, kMendings, [&] { alive()(0); });
-            const Places places = judged(work, input);
-            if (places.empty() || !lower(ground_, places) || too_many()) break;
+            const Places places = places_of(work, rounds, attempt + 1 == kTries);
+            if (places.empty() || !lower(ground_, places)) break;
             rounds.take_lengths(work);
             rounds.run(work, 3, alive());
         }
@@ -161,25 +188,26 @@ private:
         }
     }
 
-    // Where lengths must become shorter. Takes the mesh where it is the best so far.
-    Places judged(Working& work, const GroundTrees& input) {
+    // Where lengths must become shorter. Takes the mesh where it follows the input, or as it is where it shall be the
+    // last, if it is sound.
+    Places places_of(Working& work, CloseRounds& rounds, bool last) {
+        const double told = options_.deviation;
+        Departure own = departure_of(work, rounds, ground_, told),
+                  of_input = departure_of(mesh_, ground_, as_ground(work), told);
+        if (told > 0 && std::max(own.most, of_input.most) > told && !last && !too_many()) {
+            std::ranges::move(of_input.places, std::back_inserter(own.places));
+            return own.places;
+        }
         auto found = judge_.judge(work.marked, ground_.length.minCoeff());
         if (!found) return places_of_crossings(work);
-        const Departure own = departure_of(work, input, ground_, options_.deviation);
-        CloseRemeshResult result;
-        result.mesh = std::move(found->result.mesh);
-        result.features = std::move(found->result.features);
-        result.deviation = found->result.deviation;
-        result.own_deviation = own.most;
-        result.off_surface = off_surface(work, input);
-        count_poor(work, result);
-        const double excess = std::max(result.deviation, own.most);
-        if (!best_ || excess < std::max(best_->deviation, best_->own_deviation)) best_ = std::move(result);
-        if (excess <= options_.deviation || options_.deviation == 0) return {};
-        Places places = own.places;
-        for (Index v = 0; v < judge_.excess.size(); ++v)
-            if (judge_.excess[v] > kNear) places.emplace_back(v, shorter(judge_.excess[v]));
-        return places;
+        best_.emplace();
+        best_->mesh = std::move(found->result.mesh);
+        best_->features = std::move(found->result.features);
+        best_->deviation = of_input.most;
+        best_->own_deviation = own.most;
+        best_->off_surface = off_surface(work);
+        count_poor(work, *best_);
+        return {};
     }
 
     Places places_of_crossings(const Working& work) {
@@ -197,7 +225,9 @@ private:
         return places;
     }
 
-    static double off_surface(const Working& work, const GroundTrees& input) {
+    // By the nearest points, which have nothing to do with how they were placed.
+    double off_surface(const Working& work) const {
+        const GroundTrees input(ground_);
         double most = 0;
         for (const Vertex v : work.marked.mesh.vertices()) {
             const Vector p = work.at(v);
@@ -208,14 +238,8 @@ private:
 
     void count_poor(const Working& work, CloseRemeshResult& result) {
         const SurfaceMesh& mesh = work.marked.mesh;
-        worst_ = 1;
         for (const Face f : mesh.faces()) {
-            const double quality = quality_of(work, f);
-            if (quality < worst_) {
-                worst_ = quality;
-                worst_at_ = work.at(mesh.target(mesh.halfedge(f)));
-            }
-            if (quality >= options_.quality) continue;
+            if (quality_of(work, f) >= options_.quality) continue;
             ++result.poor;
             int features = 0;
             for (const HalfEdgeOf h : CGAL::halfedges_around_face(mesh.halfedge(f), mesh))
@@ -234,8 +258,9 @@ private:
                             short_number(options_.deviation) + ": more vertices follow it more closely");
         const double count = static_cast<double>(best_->mesh.vertices.rows());
         if (options_.vertices > 0 && std::abs(count / options_.vertices - 1) > 0.05)
-            notes.push_back("the number of vertices wanted cannot be met: features and corners of the input hold some "
-                            "in place");
+            notes.push_back(
+                "the number of vertices wanted cannot be met: features and corners of the input hold some "
+                "in place");
         const Index free = best_->poor - best_->forced;
         if (best_->forced > 0)
             notes.push_back(std::to_string(best_->forced) + " triangles of a quality below " +
@@ -267,8 +292,7 @@ private:
     Background ground_;
     std::optional<CloseRemeshResult> best_;
     std::string fault_;  // of the first attempt that was unsound
-    double begun_ = 0, worst_ = 1;
-    Vector worst_at_ = Vector::Zero();
+    double begun_ = 0;
 };
 
 }  // namespace

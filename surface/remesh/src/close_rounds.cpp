@@ -57,6 +57,14 @@ void CloseRounds::put(Working& work, Vertex v, const Place& place) {
     work.length[v] = place.length;
 }
 
+std::optional<Place> CloseRounds::place_near(const Working& work, Face face, const Vector& target) {
+    std::array<Carrier, 3> at;
+    int k = 0;
+    for (const Vertex v : CGAL::vertices_around_face(work.marked.mesh.halfedge(face), work.marked.mesh))
+        at[k++] = work.carrier[v];
+    return walk_.on_surface(at, work.marked.patch[face], target);
+}
+
 std::optional<Vertex> CloseRounds::split_at(Working& work, Edge edge, const Place& place) {
     const SurfaceMesh& mesh = work.marked.mesh;
     const HalfEdgeOf side = mesh.halfedge(edge);

@@ -19,6 +19,7 @@ public:
     // Where on an edge's patch or curve, or v's, one comes nearest to a target. None where v is fixed.
     std::optional<Place> place_on(const Working& work, Edge edge, const Eigen::Vector3d& target);
     std::optional<Place> place_of(const Working& work, Vertex v, const Eigen::Vector3d& target);
+    std::optional<Place> place_near(const Working& work, Face face, const Eigen::Vector3d& target);  // of its patch
     static void put(Working& work, Vertex v, const Place& place);
     // None where triangles would be turned over.
     std::optional<Vertex> split_at(Working& work, Edge edge, const Place& place);

@@ -12,11 +12,11 @@ namespace octafield::surface {
 namespace {
 
 constexpr int kAttempts = 8;
-constexpr double kBent = 0.05;           // radians along an edge, above which it takes volume
-constexpr double kShorter = 0.25;        // than the shortest of the plan, where that is not enough
-constexpr double kAtCrossings = 0.6;     // lengths there, of those before
-constexpr double kMostPinned = 0.02;     // of the input's vertices
-constexpr double kMostCells = 2;  // of max_cells, to be sound and to follow
+constexpr double kBent = 0.05;        // radians along an edge, above which it takes volume
+constexpr double kShorter = 0.25;     // than the shortest of the plan, where that is not enough
+constexpr double kAtCrossings = 0.6;  // lengths there, of those before
+constexpr double kMostPinned = 0.02;  // of the input's vertices
+constexpr double kMostCells = 2;      // of max_cells, to be sound and to follow
 
 Places crossings(const Background& ground, const GradedRounds& rounds, const Working& work, const RemeshJudge& judge) {
     Places places;
@@ -25,7 +25,8 @@ Places crossings(const Background& ground, const GradedRounds& rounds, const Wor
         Eigen::Vector3d centre = Eigen::Vector3d::Zero();
         for (const Vertex v : CGAL::vertices_around_face(work.marked.mesh.halfedge(face), work.marked.mesh))
             centre += work.at(v) / 3;
-        for (const Index v : ground.mesh.triangles.row(rounds.trees().nearest(work.marked.patch[face], centre).triangle))
+        for (const Index v :
+             ground.mesh.triangles.row(rounds.trees().nearest(work.marked.patch[face], centre).triangle))
             places.emplace_back(v, kAtCrossings);
     }
     return places;
@@ -49,8 +50,8 @@ std::vector<Index> bent(const Background& ground) {
 
 }  // namespace
 
-GradedResult graded_remesh(const TriangleMesh& mesh, const FeatureGraph& features, RemeshJudge& judge,
-                           double max_cells, int rounds, const std::function<void(double)>& alive) {
+GradedResult graded_remesh(const TriangleMesh& mesh, const FeatureGraph& features, RemeshJudge& judge, double max_cells,
+                           int rounds, const std::function<void(double)>& alive) {
     GradedResult graded;
     alive(0);
     Background ground = planned_ground(mesh, features, {.max_cells = max_cells});
@@ -90,7 +91,8 @@ GradedResult graded_remesh(const TriangleMesh& mesh, const FeatureGraph& feature
             judge.fault = failure.what();
             break;
         }
-        if (!(lower(ground, places) || pinned) || expected_cells(ground, volume, 1).most() > kMostCells * max_cells) break;
+        if (!(lower(ground, places) || pinned) || expected_cells(ground, volume, 1).most() > kMostCells * max_cells)
+            break;
     }
     return graded;
 }

@@ -31,8 +31,8 @@ std::optional<Eigen::Vector3d> centre_of_star(const Working& work, Vertex v);
 // Ends of an edge become one: in the middle where both are free, or always at one of them.
 enum class Collapse { to_middle, to_end };
 
-// Makes `gone` one with `kept`, at `to`, whatever becomes of the triangles' shapes. False, and nothing is done, where the
-// topology or the features would change.
+// Makes `gone` one with `kept`, at `to`, whatever becomes of the triangles' shapes. False, and nothing is done, where
+// the topology or the features would change.
 bool join(Working& work, Vertex gone, Vertex kept, const Eigen::Vector3d& to, double length);
 // Whether `gone` may go into `kept` as far as features are concerned.
 bool may_join(const Working& work, Edge edge, Vertex gone, Vertex kept);

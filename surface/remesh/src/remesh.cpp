@@ -81,7 +81,7 @@ class Remesher {
 public:
     Remesher(const TriangleMesh& mesh, const FeatureGraph& features, const RemeshOptions& options,
              const Progress& progress)
-        : mesh_(mesh), features_(features), options_(options), judge_(mesh, features, deviation_told * shape_size(mesh)), progress_(progress) {}
+        : mesh_(mesh), features_(features), options_(options), judge_(mesh, features), progress_(progress) {}
 
     RemeshResult run() {
         RemeshResult result = remeshed();

@@ -10,10 +10,10 @@
 
 namespace octafield::surface {
 
-RemeshJudge::RemeshJudge(const TriangleMesh& mesh, const FeatureGraph& features, double told)
+RemeshJudge::RemeshJudge(const TriangleMesh& mesh, const FeatureGraph& features)
     : mesh_(mesh),
       topology_(topology_of(mesh)),
-      told_(told),
+      told_(deviation_told * shape_size(mesh)),
       input_(mark(mesh, features)) {}
 
 RemeshJudge::Topology RemeshJudge::topology_of(const TriangleMesh& mesh) {

@@ -20,8 +20,7 @@ struct Attempt {
 // Compares with the input, which must outlive it.
 class RemeshJudge {
 public:
-    // told: distance from the input up to which the surface is followed, input unit.
-    RemeshJudge(const TriangleMesh& mesh, const FeatureGraph& features, double told);
+    RemeshJudge(const TriangleMesh& mesh, const FeatureGraph& features);
 
     // None where the result is unsound: fault and crossing say why.
     std::optional<Attempt> judge(Marked& marked, double length);

@@ -14,11 +14,11 @@
 namespace octafield::surface {
 namespace {
 
-constexpr double kPerWidth = 2;          // an edge may be so many times as long as a wall or a strip is wide
-constexpr double kNarrow = 4;            // for the sake of widths alone edges become no shorter than longest / kNarrow
-constexpr Index kMostRays = 60000;       // triangles looked from
-constexpr double kFacing = 0.8660254;    // two faces within 30 degrees of parallel are a wall
-constexpr double kSagShare = 0.5;       // of a wall's width that the arc over an edge may take
+constexpr double kPerWidth = 2;        // an edge may be so many times as long as a wall or a strip is wide
+constexpr double kNarrow = 4;          // for the sake of widths alone edges become no shorter than longest / kNarrow
+constexpr Index kMostRays = 60000;     // triangles looked from
+constexpr double kFacing = 0.8660254;  // two faces within 30 degrees of parallel are a wall
+constexpr double kSagShare = 0.5;      // of a wall's width that the arc over an edge may take
 
 using Flat = CGAL::Simple_cartesian<double>;
 using FlatTriangles = std::vector<Flat::Triangle_3>;
@@ -57,7 +57,8 @@ double squared_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& a, cons
     return (p - a - at * along).squaredNorm();
 }
 
-// Of edges at a wall or strip of this width. Those that ask for less than `least` stay flat between edges of any length.
+// Of edges at a wall or strip of this width. Those that ask for less than `least` stay flat between edges of any
+// length.
 double fitting(const Background& ground, double width, double least) {
     return kPerWidth * width < least ? ground.longest : std::max(kPerWidth * width, ground.shortest);
 }
@@ -87,7 +88,8 @@ Curves curves_of(const Background& ground) {
         while (!stack.empty()) {
             const Index e = stack.back();
             stack.pop_back();
-            curves.length[curve] += (ground.mesh.vertices.row(edges(e, 0)) - ground.mesh.vertices.row(edges(e, 1))).norm();
+            curves.length[curve] +=
+                (ground.mesh.vertices.row(edges(e, 0)) - ground.mesh.vertices.row(edges(e, 1))).norm();
             for (const Index v : edges.row(e)) {
                 if (curves.is_corner[v]) {
                     curves.corners[curve].insert(v);
@@ -151,7 +153,8 @@ void bound_by_widths(Background& ground) {
             const Index other = static_cast<Index>(hit->second - triangles.begin());
             if (-normals.row(other).dot(normal) < kFacing) continue;
             const double bend = std::max(ground.bend[t], ground.bend[other]);
-            const double most = std::min(fitting(ground, width, least_length(ground)), std::sqrt(8 * kSagShare * width / bend));
+            const double most =
+                std::min(fitting(ground, width, least_length(ground)), std::sqrt(8 * kSagShare * width / bend));
             for (const Index v : mesh.triangles.row(t))
                 ground.length[v] = std::min(ground.length[v], std::max(ground.shortest, most));
         }

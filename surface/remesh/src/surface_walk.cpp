@@ -24,7 +24,8 @@ Vector nearest_on_triangle(const Vector& p, const Vector& a, const Vector& b, co
     const Vector normal = (b - a).cross(c - a);
     const double square = normal.squaredNorm();
     if (square > 0) {
-        const double second = (p - a).cross(c - a).dot(normal) / square, third = (b - a).cross(p - a).dot(normal) / square;
+        const double second = (p - a).cross(c - a).dot(normal) / square,
+                     third = (b - a).cross(p - a).dot(normal) / square;
         if (second >= 0 && third >= 0 && second + third <= 1) return a + second * (b - a) + third * (c - a);
     }
     Vector best = nearest_on_segment(p, a, b);
@@ -59,8 +60,8 @@ Carrier SurfaceWalk::carrier_of(Index v) const {
 
 template <class Neighbours, class Nearest>
 std::optional<std::pair<Index, Vector>> SurfaceWalk::walk(std::span<const Index> starts, const Vector& target,
-                                                             std::vector<int>& seen, const Neighbours& neighbours,
-                                                             const Nearest& nearest) {
+                                                          std::vector<int>& seen, const Neighbours& neighbours,
+                                                          const Nearest& nearest) {
     if (starts.empty()) return std::nullopt;
     ++walks_;
     using Entry = std::pair<double, Index>;

@@ -43,7 +43,7 @@ private:
 
     const Background& ground_;
     Curves curves_;
-    std::vector<std::vector<Index>> round_;        // (V) triangles
+    std::vector<std::vector<Index>> round_;         // (V) triangles
     std::vector<std::array<Index, 3>> neighbours_;  // (F) across the side from corner k, -1: none
     std::vector<int> seen_triangle_, seen_segment_;
     int walks_ = 0;

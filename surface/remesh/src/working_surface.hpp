@@ -33,8 +33,8 @@ struct Working {
 
     Marked marked;
     SurfaceMesh::Property_map<Vertex, double> length;
-    SurfaceMesh::Property_map<Vertex, bool> pinned;  // stays where it is, as corners do
-    SurfaceMesh::Property_map<Face, double> bend;    // curvature
+    SurfaceMesh::Property_map<Vertex, bool> pinned;      // stays where it is, as corners do
+    SurfaceMesh::Property_map<Face, double> bend;        // curvature
     SurfaceMesh::Property_map<Vertex, Carrier> carrier;  // for those who walk on the input
     SurfaceMesh::Property_map<Edge, int> curve;          // of the input's feature curves; -1: none, or not told
 };

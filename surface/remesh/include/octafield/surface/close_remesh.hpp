@@ -20,19 +20,19 @@ struct CloseRemeshOptions {
 
 struct CloseRemeshResult {
     TriangleMesh mesh;
-    FeatureGraph features;  // of the new mesh: pieces of the old curves, corners at the old corners' positions
+    FeatureGraph features;           // of the new mesh: pieces of the old curves, corners at the old corners' positions
     std::vector<std::string> notes;  // what a user should know, one sentence each
-    double deviation = 0;      // the larger of both, input unit: of the input's vertices from the new triangles,
-    double own_deviation = 0;  // and of these triangles' middles and their sides' from the input
-    double off_surface = 0;    // of the new vertices from the input: rounding
-    Index poor = 0, forced = 0;  // triangles below the quality; of these, those that two features hold at an angle
-    bool kept = false;           // no sound mesh was found: the input's triangles
+    double deviation = 0;            // the larger of both, input unit: of the input's vertices from the new triangles,
+    double own_deviation = 0;        // and of these triangles' middles and their sides' from the input
+    double off_surface = 0;          // of the new vertices from the input: rounding
+    Index poor = 0, forced = 0;      // triangles below the quality; of these, those that two features hold at an angle
+    bool kept = false;               // no sound mesh was found: the input's triangles
 };
 
 // lengths: (V) wanted at the vertices of the input, linear between, input unit, positive. Where feature curves lie near
-// one another, and where triangles would cross, they become shorter. Each step keeps every vertex on the input: it walks
-// there from where it was (no nearest points, which jump between near sheets), along its curve where it is on a feature.
-// Then the worst triangles are mended one by one. The result is as sound as the input, with its topology.
+// one another, and where triangles would cross, they become shorter. Each step keeps every vertex on the input: it
+// walks there from where it was (no nearest points, which jump between near sheets), along its curve where it is on a
+// feature. Then the worst triangles are mended one by one. The result is as sound as the input, with its topology.
 // Throws InvalidInput, GeometryError (the input is not valid). Cancelled by progress ("remesh").
 CloseRemeshResult close_remesh(const TriangleMesh& mesh, const FeatureGraph& features, const Eigen::VectorXd& lengths,
                                const CloseRemeshOptions& options = {}, const Progress& progress = {});

@@ -1,6 +1,6 @@
 // Triangles of given lengths on a surface, and how good triangles are.
 #include "arrays.hpp"
-#include "bind_remeshing.hpp"
+#include "bind.hpp"
 #include "checks.hpp"
 #include "interruptible.hpp"
 #include "octafield/surface/close_remesh.hpp"
@@ -21,7 +21,7 @@ void check(const CloseRemeshOptions& options) {
 
 namespace {
 
-void bind_types(py::module_& m) {
+void bind_remeshing_types(py::module_& m) {
     Record<CloseRemeshOptions>(m, "CloseRemeshOptions", "Options of close_remesh: its keyword arguments.")
         .field("vertices", &CloseRemeshOptions::vertices,
                "Wanted number: lengths are multiplied until it is met; 0: lengths as they are.")
@@ -49,15 +49,15 @@ void bind_types(py::module_& m) {
         .field("forced", &CloseRemeshResult::forced, "Of these, those between two feature edges.")
         .field("kept", &CloseRemeshResult::kept, "No sound mesh was found: these are the input's triangles.")
         .finish([](const CloseRemeshResult& r) {
-            return count(r.mesh.triangles.rows(), "triangle") + ", deviation=" +
-                   number(std::max(r.deviation, r.own_deviation)) + ", poor=" + std::to_string(r.poor);
+            return count(r.mesh.triangles.rows(), "triangle") +
+                   ", deviation=" + number(std::max(r.deviation, r.own_deviation)) + ", poor=" + std::to_string(r.poor);
         });
 }
 
 }  // namespace
 
-void bind_close_remesh(py::module_& m) {
-    bind_types(m);
+void bind_remeshing(py::module_& m) {
+    bind_remeshing_types(m);
     m.def(
         "close_remesh",
         [](const TriangleMesh& mesh, const FeatureGraph& features, const ArrayLike& lengths,
@@ -75,7 +75,8 @@ void bind_close_remesh(py::module_& m) {
         "mesh"_a, "features"_a, "lengths"_a, py::kw_only(), "progress"_a = py::none(),
         "Triangles with edges of given lengths, all of good shape, whose vertices lie on the input, as a "
         "CloseRemeshResult. lengths: (V,) wanted at the vertices of the input, input unit, positive. Steps walk on the "
-        "input's triangles from where a vertex was, so that near sheets (thin walls, rolls) are never mistaken for each "
+        "input's triangles from where a vertex was, so that near sheets (thin walls, rolls) are never mistaken for "
+        "each "
         "other; feature curves are followed, their corners kept. The input must be valid; the result is as sound, with "
         "its topology. Lengths become shorter where feature curves lie near one another and where triangles would "
         "cross. Raises InvalidInput, GeometryError, Cancelled.");
