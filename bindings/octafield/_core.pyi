@@ -291,6 +291,21 @@ class CloseRemeshResult:
     forced: int
     kept: bool
 
+class WinslowOptions:
+    rounds: int
+    tolerance: float
+    def __init__(self, rounds: int = ..., tolerance: float = ...) -> None: ...
+
+class WinslowResult:
+    points: Float64s
+    before: float
+    after: float
+    rounds: int
+    moved: int
+    def __init__(
+        self, points: ArrayLike = ..., before: float = ..., after: float = ..., rounds: int = ..., moved: int = ...
+    ) -> None: ...
+
 class RemeshResult:
     def __init__(
         self,
@@ -674,6 +689,18 @@ def close_remesh(
     iterations: int = ...,
     progress: Progress | None = None,
 ) -> CloseRemeshResult: ...
+def winslow_smooth(
+    surface: TriangleMesh,
+    features: FeatureGraph,
+    points: ArrayLike,
+    *,
+    triangles: ArrayLike = ...,
+    quads: ArrayLike = ...,
+    fixed: Sequence[int] = ...,
+    rounds: int = ...,
+    tolerance: float = ...,
+    progress: Progress | None = None,
+) -> WinslowResult: ...
 def triangle_qualities(mesh: TriangleMesh) -> Float64s: ...
 def size_field(
     mesh: TriangleMesh,

@@ -19,6 +19,7 @@ namespace octafield::surface {
 struct FeatureOptions;
 struct RemeshOptions;
 struct CloseRemeshOptions;
+struct WinslowOptions;
 struct SizeFieldOptions;
 struct DirectionFieldOptions;
 struct NonOrthogonalFieldOptions;
@@ -53,6 +54,7 @@ int threads_option(int threads);
 void check(const surface::FeatureOptions& options);
 void check(const surface::RemeshOptions& options);
 void check(const surface::CloseRemeshOptions& options);
+void check(const surface::WinslowOptions& options);
 void check(const surface::SizeFieldOptions& options);
 void check(const surface::DirectionFieldOptions& options);
 void check(const surface::NonOrthogonalFieldOptions& options);

@@ -5,6 +5,7 @@
 #include "interruptible.hpp"
 #include "octafield/surface/close_remesh.hpp"
 #include "octafield/surface/triangle_quality.hpp"
+#include "octafield/surface/winslow.hpp"
 #include "options.hpp"
 
 namespace octafield::bindings {
@@ -18,6 +19,8 @@ void check(const CloseRemeshOptions& options) {
     finite(options.quality, "quality");
     finite(options.max_vertices, "max_vertices");
 }
+
+void check(const WinslowOptions& options) { finite(options.tolerance, "tolerance"); }
 
 namespace {
 
@@ -51,6 +54,21 @@ void bind_remeshing_types(py::module_& m) {
         .finish([](const CloseRemeshResult& r) {
             return count(r.mesh.triangles.rows(), "triangle") +
                    ", deviation=" + number(std::max(r.deviation, r.own_deviation)) + ", poor=" + std::to_string(r.poor);
+        });
+    Record<WinslowOptions>(m, "WinslowOptions", "Options of winslow_smooth: its keyword arguments.")
+        .field("rounds", &WinslowOptions::rounds, "In which each vertex is moved once, at most.")
+        .field("tolerance", &WinslowOptions::tolerance,
+               "Relative decrease of the functional in a round, at which it stops.")
+        .finish([](const WinslowOptions& o) { return "rounds=" + std::to_string(o.rounds); });
+    Record<WinslowResult>(m, "WinslowResult", "What winslow_smooth made.")
+        .field("points", &WinslowResult::points, "(n, 3) float64.")
+        .field("before", &WinslowResult::before,
+               "Mean of the functional over triangles and corners of quads; 1 is best.")
+        .field("after", &WinslowResult::after, "The same, of these points.")
+        .field("rounds", &WinslowResult::rounds, "That it took.")
+        .field("moved", &WinslowResult::moved, "Vertices that are not where they were.")
+        .finish([](const WinslowResult& r) {
+            return count(r.points.rows(), "point") + ", " + number(r.before) + " before, " + number(r.after) + " after";
         });
 }
 
@@ -92,6 +110,31 @@ void bind_remeshing(py::module_& m) {
         "mesh"_a,
         "(F,) twice the inscribed over the circumscribed radius of each triangle (Gmsh's gamma), in [0, 1]: 1 for "
         "equilateral ones, 0 without area.");
+    m.def(
+        "winslow_smooth",
+        [](const TriangleMesh& surface, const FeatureGraph& features, const ArrayLike& points,
+           const ArrayLike& triangles, const ArrayLike& quads, const std::vector<Index>& fixed,
+           const std::optional<ProgressCallable>& progress, const py::kwargs& given) {
+            const auto [options] = options_of<WinslowOptions>("winslow_smooth", given);
+            return run_interruptible(
+                [surface = surface, features = features, points = from_python<Points>(points, "points"),
+                 triangles = from_python<Triangles>(triangles, "triangles"), quads = from_python<Quads>(quads, "quads"),
+                 fixed = fixed, options = options](Job& job) mutable {
+                    check(surface);
+                    features = ordered_features(std::move(features), surface);
+                    return winslow_smooth(surface, features, points, triangles, quads, fixed, options, job.progress());
+                },
+                progress);
+        },
+        "surface"_a, "features"_a, "points"_a, py::kw_only(), "triangles"_a = py::list(), "quads"_a = py::list(),
+        "fixed"_a = std::vector<Index>(), "progress"_a = py::none(),
+        "Moves points, the corners of triangles (t, 3) and quads (q, 4), on a surface so that the integral of (|x_u|^2 "
+        "+ "
+        "|x_v|^2) / J over cells becomes least, as a WinslowResult (Winslow 1966; without structure: Knupp 1999): "
+        "cells "
+        "near equilateral triangles and squares, none turned over. Vertices of the cells' boundary, on features and of "
+        "fixed stay. Raises InvalidInput, GeometryError, Cancelled.");
+    list_options<WinslowOptions>(m, "winslow_smooth");
 }
 
 }  // namespace octafield::bindings

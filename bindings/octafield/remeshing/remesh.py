@@ -78,7 +78,7 @@ def compute_remesh(
 
         >>> import octafield
         >>> from octafield.domain.generators import generate
-        >>> result = octafield.compute_remesh(generate("sphere"), remeshing=octafield.RemeshingOptions(vertices=500))
+        >>> result = octafield.compute_remesh(generate("ball"), remeshing=octafield.RemeshingOptions(vertices=500))
         >>> result.record.watertight, result.record.quality.min > 0.3, abs(result.record.vertices - 500) < 25
         (True, True, True)
     """

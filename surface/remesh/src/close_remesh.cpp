@@ -21,6 +21,7 @@ using Vector = Eigen::Vector3d;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kTries = 15, kCounts = 8, kMendings = 20;
+constexpr double kMost = 2.5e7;            // vertices
 constexpr double kCountWithin = 0.02;      // of the number of vertices wanted
 constexpr double kMore = 0.05;             // quality that is aimed at above the one asked for
 constexpr double kWhereCrossing = 0.6;     // lengths there, of those before
@@ -110,6 +111,25 @@ Departure departure_of(const TriangleMesh& input, const Background& ground, cons
     return found;
 }
 
+double vertices_at(const TriangleMesh& mesh, const Eigen::VectorXd& lengths) {
+    const Eigen::VectorXd areas = triangle_areas(mesh);
+    double sum = 0;
+    for (Index t = 0; t < areas.size(); ++t) {
+        double length = 0;
+        for (const Index v : mesh.triangles.row(t)) length += lengths[v] / 3;
+        sum += areas[t] / (length * length);
+    }
+    return 2 / std::numbers::sqrt3 * sum;  // half as many as triangles of area sqrt(3) / 4
+}
+
+void require_possible(const TriangleMesh& mesh, const Eigen::VectorXd& lengths, const CloseRemeshOptions& options) {
+    const double expected = options.vertices > 0 ? options.vertices : vertices_at(mesh, lengths);
+    if (expected > kMost)
+        throw InvalidInput("these lengths would give about " + short_number(expected) +
+                               " vertices; ask for longer edges or fewer vertices",
+                           "too_many_cells");
+}
+
 class CloseRemesher {
 public:
     CloseRemesher(const TriangleMesh& mesh, const FeatureGraph& features, const CloseRemeshOptions& options,
@@ -150,17 +170,6 @@ private:
         bound_by_curves(ground_, kAnyTurn, 0);  // triangles of good shape need short edges beside short ones
         bound_by_strips(ground_, 0);
         limit_growth(ground_, SizeFieldOptions{}.growth);
-    }
-
-    static double vertices_at(const TriangleMesh& mesh, const Eigen::VectorXd& lengths) {
-        const Eigen::VectorXd areas = triangle_areas(mesh);
-        double sum = 0;
-        for (Index t = 0; t < areas.size(); ++t) {
-            double length = 0;
-            for (const Index v : mesh.triangles.row(t)) length += lengths[v] / 3;
-            sum += areas[t] / (length * length);
-        }
-        return 2 / std::numbers::sqrt3 * sum;  // half as many as triangles of area sqrt(3) / 4
     }
 
     bool too_many() const { return vertices_at(ground_.mesh, ground_.length) > options_.max_vertices; }
@@ -302,6 +311,7 @@ CloseRemeshResult close_remesh(const TriangleMesh& mesh, const FeatureGraph& fea
     report_or_throw(progress, "remesh", 0, kNone);
     require_remeshable(mesh, features);
     require_options(mesh, lengths, options);
+    require_possible(mesh, lengths, options);
     return CloseRemesher(mesh, features, options, progress).run(lengths);
 }
 

@@ -12,13 +12,13 @@ using Vector = Eigen::Vector3d;
 
 constexpr int kPatience = 40;  // triangles, or segments, that bring one no nearer
 
+}  // namespace
+
 Vector nearest_on_segment(const Vector& p, const Vector& a, const Vector& b) {
     const double square = (b - a).squaredNorm();
     const double at = square > 0 ? std::clamp((p - a).dot(b - a) / square, 0., 1.) : 0;
     return at == 1 ? b : Vector(a + at * (b - a));
 }
-
-}  // namespace
 
 Vector nearest_on_triangle(const Vector& p, const Vector& a, const Vector& b, const Vector& c) {
     const Vector normal = (b - a).cross(c - a);
