@@ -8,7 +8,7 @@ import types
 import typing
 from pathlib import Path
 
-from octafield.records import field, hex_dominant, parts, quad_layout, quad_mesh, surface_field
+from octafield.records import field, hex_dominant, parts, quad_layout, quad_mesh, remesh, surface_field
 from octafield.records.base import Record
 
 PAGE = Path(__file__).parents[2] / "docs" / "records.md"
@@ -19,6 +19,7 @@ KINDS = (
     hex_dominant.HexDominantRecord,
     quad_layout.QuadLayoutRecord,
     quad_mesh.QuadMeshRecord,
+    remesh.RemeshRecord,
     field.RunWithField,
     field.RunWithoutField,
 )
