@@ -220,7 +220,7 @@ def cases(rows: list[tuple[str, int, int]]) -> str:
     return markdown_table(CASE_HEADER, made)
 
 
-GROWTH = [("foam", 76, 50_000), ("foam", 130, 50_000), ("foam", 236, 50_000)]
+GROWTH = [("foam", 47, 30_000), ("foam", 80, 30_000), ("foam", 146, 30_000)]
 CASES = [("scanned part", 230, 0), ("foam", 150, 0), ("vessel", 130, 0), ("bone", 110, 0)]
 
 

@@ -255,6 +255,7 @@ class CloseRemeshOptions:
     deviation: float
     quality: float
     max_vertices: float
+    keep_stubs: bool
     iterations: int
     def __init__(
         self,
@@ -262,6 +263,7 @@ class CloseRemeshOptions:
         deviation: float = ...,
         quality: float = ...,
         max_vertices: float = ...,
+        keep_stubs: bool = ...,
         iterations: int = ...,
     ) -> None: ...
 
@@ -269,6 +271,7 @@ class CloseRemeshResult:
     def __init__(
         self,
         mesh: TriangleMesh = ...,
+        stubs: ArrayLike = ...,
         features: FeatureGraph = ...,
         notes: Sequence[str] = ...,
         deviation: float = ...,
@@ -284,6 +287,7 @@ class CloseRemeshResult:
     def features(self) -> FeatureGraph: ...
     @property
     def notes(self) -> list[str]: ...
+    stubs: Int32s
     deviation: float
     own_deviation: float
     off_surface: float
@@ -686,6 +690,7 @@ def close_remesh(
     deviation: float = ...,
     quality: float = ...,
     max_vertices: float = ...,
+    keep_stubs: bool = ...,
     iterations: int = ...,
     progress: Progress | None = None,
 ) -> CloseRemeshResult: ...

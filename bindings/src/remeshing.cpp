@@ -32,6 +32,8 @@ void bind_remeshing_types(py::module_& m) {
                "Input unit: lengths become shorter where either surface is farther from the other; 0: any.")
         .field("quality", &CloseRemeshOptions::quality, "That every triangle is to have, in [0, 0.5].")
         .field("max_vertices", &CloseRemeshOptions::max_vertices, "deviation asks for no more than about so many.")
+        .field("keep_stubs", &CloseRemeshOptions::keep_stubs,
+               "Feature curves that end inside the surface and are shorter than two edges, as noise makes.")
         .field("iterations", &CloseRemeshOptions::iterations, "Rounds before anything is measured, at least 1.")
         .finish([](const CloseRemeshOptions& o) {
             return "vertices=" + number(o.vertices) + ", deviation=" + number(o.deviation) +
@@ -39,6 +41,8 @@ void bind_remeshing_types(py::module_& m) {
         });
     Record<CloseRemeshResult>(m, "CloseRemeshResult", "What close_remesh made.")
         .field("mesh", &CloseRemeshResult::mesh, "The new TriangleMesh.")
+        .field("stubs", &CloseRemeshResult::stubs,
+               "(k, 2) int32: feature edges of the input that were not followed (keep_stubs).")
         .field("features", &CloseRemeshResult::features,
                "FeatureGraph of the new mesh: pieces of the old curves, corners at the old places.")
         .field("notes", &CloseRemeshResult::notes, "What a user should know, one sentence each.")

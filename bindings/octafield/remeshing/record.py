@@ -49,7 +49,7 @@ def of_remesh(
         smallest_angle=smallest_angle(mesh),
         deviation=BothWays(of_input=made.deviation / diagonal, of_mesh=made.own_deviation / diagonal),
         off_surface=made.off_surface / diagonal,
-        features=kept_features(surface, sound.features, mesh, made.features),
+        features=kept_features(surface, followed(sound.features, made), mesh, made.features),
         watertight=bool((sides >= 0).all()),
         open_edges=int((sides < 0).any(axis=1).sum()),
         kept=made.kept,
@@ -71,6 +71,15 @@ def smallest_angle(mesh: TriangleMesh) -> float:
     u, v = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
     angles = np.arctan2(np.linalg.norm(np.cross(u, v), axis=2), (u * v).sum(axis=2))
     return float(np.degrees(angles.min()))
+
+
+def followed(features: FeatureGraph, made: CloseRemeshResult) -> FeatureGraph:
+    """Without what noise made, if that was left out."""
+    edges = {tuple(sorted(edge)) for edge in np.asarray(features.edges).tolist()}
+    edges -= {tuple(sorted(edge)) for edge in np.asarray(made.stubs).tolist()}
+    kept = np.array(sorted(edges), np.int32).reshape(-1, 2)
+    there = set(kept.ravel().tolist())
+    return FeatureGraph(kept, [corner for corner in features.corners if corner in there])
 
 
 def kept_features(

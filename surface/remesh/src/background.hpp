@@ -37,6 +37,7 @@ double least_length(const Background& ground);  // that is usual
 void bound_by_curves(Background& ground, double angle, double least);
 void bound_by_widths(Background& ground);                // walls and gaps; sets depth
 void bound_by_strips(Background& ground, double least);  // between feature curves
+void bound_by_near_features(Background& ground);         // that share a triangle
 void limit_growth(Background& ground, double growth);
 
 // A place where lengths must become shorter: a vertex of the background, the factor.

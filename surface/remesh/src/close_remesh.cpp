@@ -13,6 +13,7 @@
 #include "remesh_checks.hpp"
 #include "remesh_judge.hpp"
 #include "short_number.hpp"
+#include "stubs.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -137,6 +138,7 @@ public:
         : mesh_(mesh), features_(features), options_(options), progress_(progress), judge_(mesh, features) {}
 
     CloseRemeshResult run(const Eigen::VectorXd& lengths) {
+        if (!options_.keep_stubs) stubs_ = without_stubs(mesh_, features_, scale_of(lengths) * lengths);
         plan(lengths);
         CloseRounds rounds(ground_);
         Working work(ground_.mesh, ground_.features);
@@ -153,22 +155,24 @@ public:
         }
         if (!best_) return kept();
         tell();
+        best_->stubs = stubs_;
         return std::move(*best_);
     }
 
 private:
+    double scale_of(const Eigen::VectorXd& lengths) const {
+        return options_.vertices > 0 ? std::sqrt(vertices_at(mesh_, lengths) / options_.vertices) : 1;
+    }
+
     void plan(const Eigen::VectorXd& lengths) {
-        double scale = 1;
-        if (options_.vertices > 0) {
-            const double expected = vertices_at(mesh_, lengths);
-            scale = std::sqrt(expected / options_.vertices);
-        }
+        const double scale = scale_of(lengths);
         const double longest = scale * lengths.maxCoeff();
         ground_ = background_of(mesh_, features_, scale * lengths, longest,
                                 std::min(kShortestPart * longest, scale * lengths.minCoeff()));
         if (options_.deviation > 0) bound_by_deviation();
         bound_by_curves(ground_, kAnyTurn, 0);  // triangles of good shape need short edges beside short ones
         bound_by_strips(ground_, 0);
+        bound_by_near_features(ground_);
         limit_growth(ground_, SizeFieldOptions{}.growth);
     }
 
@@ -265,6 +269,10 @@ private:
         if (options_.deviation > 0 && most > options_.deviation)
             notes.push_back("the new surface departs from the input by up to " + short_number(most) + ", more than " +
                             short_number(options_.deviation) + ": more vertices follow it more closely");
+        if (stubs_.rows() > 0)
+            notes.push_back(std::to_string(stubs_.rows()) +
+                            " feature edges, of curves that end inside the surface and are "
+                            "shorter than two edges, were not followed");
         const double count = static_cast<double>(best_->mesh.vertices.rows());
         if (options_.vertices > 0 && std::abs(count / options_.vertices - 1) > 0.05)
             notes.push_back(
@@ -294,7 +302,8 @@ private:
     }
 
     const TriangleMesh& mesh_;
-    const FeatureGraph& features_;
+    FeatureGraph features_;
+    Edges stubs_{0, 2};
     const CloseRemeshOptions& options_;
     const Progress& progress_;
     RemeshJudge judge_;

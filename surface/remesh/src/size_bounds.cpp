@@ -205,4 +205,29 @@ void bound_by_strips(Background& ground, double least) {
     }
 }
 
+void bound_by_near_features(Background& ground) {
+    const Curves curves = curves_of(ground);
+    const auto point = [&](Index v) -> Eigen::Vector3d { return ground.mesh.vertices.row(v); };
+    const auto lower = [&](Index v, double width) {
+        ground.length[v] = std::min(ground.length[v], std::max(ground.shortest, kPerWidth * width));
+    };
+    const auto joined = [&](Index a, Index b) {
+        return std::ranges::any_of(curves.edges[a], [&](Index e) {
+            return ground.features.edges(e, 0) == b || ground.features.edges(e, 1) == b;
+        });
+    };
+    const auto on_feature = [&](Index v) { return !curves.edges[v].empty(); };
+    for (const auto t : ground.mesh.triangles.rowwise())
+        for (int k = 0; k < 3; ++k) {
+            const Index a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+            if (!on_feature(a) || !on_feature(b)) continue;
+            if (!joined(a, b)) {
+                if (joined(a, c) || joined(b, c)) continue;  // neighbours at a bend, or across a corner
+                for (const Index v : {a, b}) lower(v, (point(a) - point(b)).norm());
+            } else if (on_feature(c) && !joined(a, c) && !joined(b, c)) {
+                for (const Index v : {a, b, c}) lower(v, std::sqrt(squared_distance(point(c), point(a), point(b))));
+            }
+        }
+}
+
 }  // namespace octafield::surface

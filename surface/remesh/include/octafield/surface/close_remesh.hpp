@@ -15,11 +15,13 @@ struct CloseRemeshOptions {
     double deviation = 0;  // input unit: lengths become shorter where either surface is farther from the other; 0: any
     double quality = 0.3;  // that every triangle is to have (triangle_qualities), in [0, 0.5]
     double max_vertices = 1e6;  // deviation asks for no more than about so many
+    bool keep_stubs = false;    // feature curves that end inside the surface, shorter than two edges, as noise makes
     int iterations = 5;         // rounds of split, collapse, flip, relax before anything is measured, at least 1
 };
 
 struct CloseRemeshResult {
     TriangleMesh mesh;
+    Edges stubs{0, 2};               // (k, 2) feature edges of the input that were not followed (keep_stubs)
     FeatureGraph features;           // of the new mesh: pieces of the old curves, corners at the old corners' positions
     std::vector<std::string> notes;  // what a user should know, one sentence each
     double deviation = 0;            // the larger of both, input unit: of the input's vertices from the new triangles,
