@@ -44,7 +44,9 @@ def surface_of(name: str) -> octafield.TriangleMesh:
         poly = pyvista.read(PYVISTA[name]).triangulate().clean()
         return octafield.TriangleMesh(np.asarray(poly.points, float), poly.faces.reshape(-1, 4)[:, 1:].astype(np.int32))
     if name in HEXME:
-        found = octafield.prepare_mesh(DATA / "hexme" / f"{name}.vtk.gz", octafield.MeshOptions(interfaces=False), volume=False)
+        found = octafield.prepare_mesh(
+            DATA / "hexme" / f"{name}.vtk.gz", octafield.MeshOptions(interfaces=False), volume=False
+        )
         return found.surface
     file = f"bad_{name[4:]}" if name.startswith("bad ") else f"{name}_surface"
     return octafield.read_surface(DATA / "surfaces" / f"{file}.obj")
@@ -95,7 +97,12 @@ def own(name: str) -> dict:
     seconds = time.process_time() - began
     found = figures(np.asarray(result.mesh.vertices), np.asarray(result.mesh.triangles), given)
     notes = [note for note in result.record.notes if note not in actions]
-    return found | {"triangles": len(given.triangles), "seconds": seconds, "told": "; ".join(notes), "kept": result.record.kept}
+    return found | {
+        "triangles": len(given.triangles),
+        "seconds": seconds,
+        "told": "; ".join(notes),
+        "kept": result.record.kept,
+    }
 
 
 def gmsh_of(name: str, vertices: int) -> dict:
@@ -123,7 +130,11 @@ def gmsh_of(name: str, vertices: int) -> dict:
     cells = place[corners.astype(int)].reshape(-1, 3)
     seconds = time.process_time() - began
     gmsh.finalize()
-    return figures(coordinates.reshape(-1, 3), cells, given) | {"triangles": len(triangles), "seconds": seconds, "told": ""}
+    return figures(coordinates.reshape(-1, 3), cells, given) | {
+        "triangles": len(triangles),
+        "seconds": seconds,
+        "told": "",
+    }
 
 
 def case(kind: str, side: int, wanted: int) -> dict:
@@ -135,7 +146,8 @@ def case(kind: str, side: int, wanted: int) -> dict:
     result = octafield.compute_remesh(given, octafield.MeshOptions(repair="safe"), remeshing=remeshing)
     record = result.record
     return {
-        "triangles": len(triangles), "out": record.triangles, "genus": genus(given), "seconds": time.process_time() - cpu,
+        "triangles": len(triangles), "out": record.triangles, "genus": genus(given),
+        "seconds": time.process_time() - cpu,
         "wall": time.perf_counter() - began, "worst": record.quality.min, "poor": record.poor,
         "deviation": max(record.deviation.of_input, record.deviation.of_mesh), "closed": record.watertight,
         "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6, "kept": record.kept,
@@ -194,12 +206,25 @@ def table(only: str | None) -> str:
     done = [found for found in own_rows if "error" not in found]
     good = sum(found["worst"] >= 0.3 for found in done)
     near = sum(found["deviation"] <= 1.2e-3 for found in done)
-    return markdown_table(HEADER, rows) + f"\n{len(done)} of {len(own_rows)} done; worst triangle 0.3 or better: {good};" + (
-        f" deviation within 0.12 %: {near}; closed: {sum(found['open'] == 0 for found in done)}.\n"
+    return (
+        markdown_table(HEADER, rows)
+        + f"\n{len(done)} of {len(own_rows)} done; worst triangle 0.3 or better: {good};"
+        + (f" deviation within 0.12 %: {near}; closed: {sum(found['open'] == 0 for found in done)}.\n")
     )
 
 
-CASE_HEADER = ("case", "triangles", "genus", "new triangles", "worst", "below 0.3", "deviation %", "closed", "CPU s", "GB")
+CASE_HEADER = (
+    "case",
+    "triangles",
+    "genus",
+    "new triangles",
+    "worst",
+    "below 0.3",
+    "deviation %",
+    "closed",
+    "CPU s",
+    "GB",
+)
 
 
 def cases(rows: list[tuple[str, int, int]]) -> str:
@@ -211,9 +236,16 @@ def cases(rows: list[tuple[str, int, int]]) -> str:
         else:
             made.append(
                 (
-                    kind, f"{found['triangles']:,}", found["genus"], f"{found['out']:,}", f"{found['worst']:.3f}",
-                    found["poor"], f"{100 * found['deviation']:.3f}", "yes" if found["closed"] else "no",
-                    f"{found['seconds']:.0f}", f"{found['memory']:.1f}",
+                    kind,
+                    f"{found['triangles']:,}",
+                    found["genus"],
+                    f"{found['out']:,}",
+                    f"{found['worst']:.3f}",
+                    found["poor"],
+                    f"{100 * found['deviation']:.3f}",
+                    "yes" if found["closed"] else "no",
+                    f"{found['seconds']:.0f}",
+                    f"{found['memory']:.1f}",
                 )  # fmt: skip
             )
         print(markdown_table(CASE_HEADER, made[-1:]), flush=True)

@@ -123,5 +123,10 @@ GENERATED: dict[str, Callable[[], Mesh]] = {
                 -np.sin(3 * t)], axis=1)[:-1], 300).tube(radius=0.3, n_sides=24, capping=True)
     ),
 }  # fmt: skip
-PYVISTA = {"ant": examples.antfile, "airplane": examples.planefile, "sphere": examples.spherefile, "nut": examples.nutfile}
+PYVISTA = {
+    "ant": examples.antfile,
+    "airplane": examples.planefile,
+    "sphere": examples.spherefile,
+    "nut": examples.nutfile,
+}
 INDUSTRIAL = {"scanned part": scanned_part, "foam": foam, "vessel": vessel, "bone": skull}

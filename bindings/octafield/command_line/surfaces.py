@@ -23,7 +23,8 @@ def register(app: typer.Typer) -> None:
 def remesh(
     input: InputFile,
     output: Annotated[
-        Path, typer.Option("-o", "--output", metavar="OUT", help="The surface file to write; its suffix tells the kind.")
+        Path,
+        typer.Option("-o", "--output", metavar="OUT", help="The surface file to write; its suffix tells the kind."),
     ],
     edge_length: Annotated[
         float, typer.Option(metavar="LENGTH", help="Of the triangles, input unit; 0: from --deviation.")

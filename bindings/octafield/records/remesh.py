@@ -27,7 +27,9 @@ class RemeshRecord(Record):
     forced: int = Field(description="of these, in corners of the input between two feature edges")
     smallest_angle: float = Field(description="of all triangles, degrees")
     deviation: BothWays = Field(description="between mesh and input")
-    off_surface: float = Field(description="the largest distance of a vertex from the input, over its diagonal: rounding")
+    off_surface: float = Field(
+        description="the largest distance of a vertex from the input, over its diagonal: rounding"
+    )
     features: KeptFeatures = Field(description="what became of them")
     watertight: bool = Field(description="no open edges, and each edge is of two triangles")
     open_edges: int = Field(description="of one triangle")

@@ -44,6 +44,6 @@ class RemeshingOptions:
             raise InvalidInput("the quality must lie between 0 and 0.5", "option_out_of_range")
         if self.edge_length and (self.vertices or self.curvature):
             raise InvalidInput(
-                "an edge length decides how many vertices there are, and where: leave it, or vertices and curvature, out",
+                "an edge length decides how many vertices there are and where: leave it out, or vertices and curvature",
                 "option_out_of_range",
             )

@@ -73,8 +73,9 @@ def compute_remesh(
     """Triangles of wanted sizes on a surface, open or closed, or on the boundary of a tet mesh. Its feature edges and
     corners are kept, its topology too; every vertex lies on it.
 
-    options: of reading, repair and features; what they say of lengths, interfaces and splitting is not used. sizes: edge
-    lengths wanted, as compute_quad_mesh takes them. progress(phase, fraction, merit): False cancels.
+    options: of reading, repair and features; what they say of lengths, interfaces and splitting is not used. Repair
+    from level "fill" on fills holes; below that an open surface keeps its rims. sizes: edge lengths wanted, as
+    compute_quad_mesh takes them. progress(phase, fraction, merit): False cancels.
     Raises InvalidInput, GeometryError, IoError, Cancelled.
 
         >>> import octafield
@@ -136,8 +137,13 @@ def _made(
     sound: SoundInput, surface: TriangleMesh, wanted: RemeshingOptions, sizes: Sizes | None, progress: Progress | None
 ) -> CloseRemeshResult:
     features, deviation = sound.features, wanted.deviation
-    remesh = partial(_core.close_remesh, vertices=wanted.vertices, quality=wanted.quality, progress=progress,
-        keep_stubs=sound.feature_source != "angle")
+    remesh = partial(
+        _core.close_remesh,
+        vertices=wanted.vertices,
+        quality=wanted.quality,
+        progress=progress,
+        keep_stubs=sound.feature_source != "angle",
+    )
     if sizes is not None:
         surface, features = _refined(surface, features)
         lengths = size_at(sizes, sound.found)(np.asarray(surface.vertices))

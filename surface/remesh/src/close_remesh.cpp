@@ -9,6 +9,7 @@
 
 #include "better_triangles.hpp"
 #include "octafield/error.hpp"
+#include "octafield/surface/remesh.hpp"
 #include "octafield/surface/validate.hpp"
 #include "remesh_checks.hpp"
 #include "remesh_judge.hpp"
@@ -28,6 +29,7 @@ constexpr double kMore = 0.05;             // quality that is aimed at above the
 constexpr double kWhereCrossing = 0.6;     // lengths there, of those before
 constexpr double kShortestPart = 1. / 64;  // of the longest
 constexpr double kAnyTurn = 1e9;           // radians along an edge of a feature curve
+constexpr double kWithin = 0.9;            // of the deviation asked for: there are points between those looked at
 constexpr double kNear = 0.75;   // of the deviation asked for: where lengths become shorter, when it is exceeded
 constexpr double kSag = 1. / 6;  // curvature times squared length: between a sphere and its triangles' middles
 
@@ -204,7 +206,7 @@ private:
     // Where lengths must become shorter. Takes the mesh where it follows the input, or as it is where it shall be the
     // last, if it is sound.
     Places places_of(Working& work, CloseRounds& rounds, bool last) {
-        const double told = options_.deviation;
+        const double told = kWithin * options_.deviation;
         Departure own = departure_of(work, rounds, ground_, told),
                   of_input = departure_of(mesh_, ground_, as_ground(work), told);
         if (told > 0 && std::max(own.most, of_input.most) > told && !last && !too_many()) {
@@ -266,6 +268,9 @@ private:
         if (!fault_.empty())
             notes.push_back("edges are shorter than wanted where they would spoil the surface (" + fault_ + ")");
         const double most = std::max(best_->deviation, best_->own_deviation);
+        if (options_.deviation == 0 && most > deviation_told * shape_size(mesh_))
+            notes.push_back("the new surface departs from the input by up to " + short_number(most) +
+                            ": shorter edges, or a deviation that is asked for, follow it more closely");
         if (options_.deviation > 0 && most > options_.deviation)
             notes.push_back("the new surface departs from the input by up to " + short_number(most) + ", more than " +
                             short_number(options_.deviation) + ": more vertices follow it more closely");

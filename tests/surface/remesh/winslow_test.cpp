@@ -78,8 +78,9 @@ TEST(Winslow, VerticesStayOnARoundSurfaceAndOnesThatAreHeldInPlace) {
     EXPECT_EQ(result.points.row(7), coarse.vertices.row(7));
     EXPECT_EQ(result.points.row(11), coarse.vertices.row(11));
     for (Index v = 0; v < result.points.rows(); ++v)
-        if (v != 7 && v != 11)
+        if (v != 7 && v != 11) {
             EXPECT_NEAR(result.points.row(v).norm(), 1, 0.003) << "no farther than the ball's triangles";
+        }
     EXPECT_LT(result.after - 1, 0.6 * (result.before - 1));
 }
 
@@ -91,7 +92,9 @@ TEST(Winslow, FeaturesAreNotLeft) {
     for (Index v = 0; v < fine.vertices.rows(); ++v) {
         int sides = 0;
         for (int k = 0; k < 3; ++k) sides += fine.vertices(v, k) == 0 || fine.vertices(v, k) == 1;
-        if (sides > 1) EXPECT_EQ(result.points.row(v), fine.vertices.row(v));
+        if (sides > 1) {
+            EXPECT_EQ(result.points.row(v), fine.vertices.row(v));
+        }
     }
 }
 
