@@ -699,11 +699,11 @@ def winslow_smooth(
     features: FeatureGraph,
     points: ArrayLike,
     *,
+    rounds: int = ...,
+    tolerance: float = ...,
     triangles: ArrayLike = ...,
     quads: ArrayLike = ...,
     fixed: Sequence[int] = ...,
-    rounds: int = ...,
-    tolerance: float = ...,
     progress: Progress | None = None,
 ) -> WinslowResult: ...
 def triangle_qualities(mesh: TriangleMesh) -> Float64s: ...

@@ -39,7 +39,7 @@ void bind_remeshing_types(py::module_& m) {
             return "vertices=" + number(o.vertices) + ", deviation=" + number(o.deviation) +
                    ", quality=" + number(o.quality);
         });
-    Record<CloseRemeshResult>(m, "CloseRemeshResult", "What close_remesh made.")
+    Record<CloseRemeshResult>(m, "CloseRemeshResult", "A surface remeshed by close_remesh, its features and how far it departs.")
         .field("mesh", &CloseRemeshResult::mesh, "The new TriangleMesh.")
         .field("stubs", &CloseRemeshResult::stubs,
                "(k, 2) int32: feature edges of the input that were not followed (keep_stubs).")
@@ -64,7 +64,7 @@ void bind_remeshing_types(py::module_& m) {
         .field("tolerance", &WinslowOptions::tolerance,
                "Relative decrease of the functional in a round, at which it stops.")
         .finish([](const WinslowOptions& o) { return "rounds=" + std::to_string(o.rounds); });
-    Record<WinslowResult>(m, "WinslowResult", "What winslow_smooth made.")
+    Record<WinslowResult>(m, "WinslowResult", "Points moved by winslow_smooth, and what became of its functional.")
         .field("points", &WinslowResult::points, "(n, 3) float64.")
         .field("before", &WinslowResult::before,
                "Mean of the functional over triangles and corners of quads; 1 is best.")

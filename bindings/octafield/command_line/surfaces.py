@@ -57,7 +57,7 @@ def remesh(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Other triangles of a surface: of wanted sizes, all of good shape, vertices on it, features
+    """Other triangles of a surface. Of wanted sizes and good shape, vertices on it, features
     kept."""
 
     def work() -> None:

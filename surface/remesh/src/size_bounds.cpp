@@ -222,7 +222,7 @@ void bound_by_near_features(Background& ground) {
             const Index a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
             if (!on_feature(a) || !on_feature(b)) continue;
             if (!joined(a, b)) {
-                if (joined(a, c) || joined(b, c)) continue;  // neighbours at a bend, or across a corner
+                if (joined(a, c) && joined(b, c)) continue;  // beside a bend or a corner
                 for (const Index v : {a, b}) lower(v, (point(a) - point(b)).norm());
             } else if (on_feature(c) && !joined(a, c) && !joined(b, c)) {
                 for (const Index v : {a, b, c}) lower(v, std::sqrt(squared_distance(point(c), point(a), point(b))));
