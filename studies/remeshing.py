@@ -175,7 +175,7 @@ def in_process(*words: object, limit: float) -> dict:
             return {"error": f"not done after {limit:g} s"}
         if not out.exists():
             lines = done.stderr.strip().splitlines() or [f"status {done.returncode}"]
-            return {"error": lines[-1][:160]}
+            return {"error": next((line for line in reversed(lines) if "Error" in line), lines[-1])[:160]}
         return json.loads(out.read_text())
 
 

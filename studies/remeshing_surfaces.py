@@ -105,6 +105,19 @@ def drilled_ball() -> Mesh:
     return level_set(value, 56)
 
 
+def knot(around: int = 300, sides: int = 24, radius: float = 0.3) -> Mesh:
+    """A tube along a trefoil."""
+    t = np.linspace(0, 2 * np.pi, around, endpoint=False)
+    centre = np.stack([np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)], axis=1)
+    along = np.roll(centre, -1, axis=0) - np.roll(centre, 1, axis=0)
+    first = np.cross(along, [0.0, 0.0, 1.0])
+    second = np.cross(along, first)
+    first, second = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (first, second))
+    angle = np.linspace(0, 2 * np.pi, sides, endpoint=False)[None, :, None]
+    points = centre[:, None] + radius * (np.cos(angle) * first[:, None] + np.sin(angle) * second[:, None])
+    return outward((points.reshape(-1, 3), grid_faces(around, sides, True, True)))
+
+
 GENERATED: dict[str, Callable[[], Mesh]] = {
     "noisy ball": lambda: noisy_ball(0.003),
     "drilled ball": drilled_ball,
@@ -117,12 +130,8 @@ GENERATED: dict[str, Callable[[], Mesh]] = {
     "ellipsoid 1 : 7": lambda: of_poly(pyvista.Icosphere(nsub=4).scale([7, 1, 1])),
     "cone": lambda: of_poly(pyvista.Cone(resolution=60)),
     "torus": lambda: of_poly(pyvista.ParametricTorus(u_res=60, v_res=30, w_res=30)),
-    "tube knot": lambda: of_poly(
-        pyvista.Spline(
-            np.stack([np.sin(t := np.linspace(0, 2 * np.pi, 40)) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t),
-                -np.sin(3 * t)], axis=1)[:-1], 300).tube(radius=0.3, n_sides=24, capping=True)
-    ),
-}  # fmt: skip
+    "tube knot": knot,
+}
 PYVISTA = {
     "ant": examples.antfile,
     "airplane": examples.planefile,
