@@ -11,6 +11,7 @@ Seconds are of the processor. A process is stopped after 60 s (Gmsh), 300 s (oct
 import argparse
 import json
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -168,10 +169,22 @@ def genus(mesh: octafield.TriangleMesh) -> int:
 def in_process(*words: object, limit: float) -> dict:
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "figures.json"
-        command = [sys.executable, "-m", "studies.remeshing", "one", *map(str, words), "-o", str(out)]
+        command = [
+            sys.executable,
+            "-m",
+            "studies.remeshing",
+            "one",
+            *map(str, words),
+            "-o",
+            str(out),
+            "--limit",
+            f"{limit:g}",
+        ]
         try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
+            done = subprocess.run(command, capture_output=True, text=True, timeout=20 * limit, check=False)
         except subprocess.TimeoutExpired:
+            return {"error": f"not done after {20 * limit:g} s by the clock"}
+        if done.returncode == -signal.SIGXCPU:
             return {"error": f"not done after {limit:g} s"}
         if not out.exists():
             lines = done.stderr.strip().splitlines() or [f"status {done.returncode}"]
@@ -269,8 +282,10 @@ def main() -> None:
     parser.add_argument("words", nargs="*")
     parser.add_argument("--only")
     parser.add_argument("-o", type=Path)
+    parser.add_argument("--limit", type=int, default=600, help="seconds of the processor")
     given = parser.parse_args()
     if given.part == "one":
+        resource.setrlimit(resource.RLIMIT_CPU, (given.limit, given.limit + 5))
         given.o.write_text(json.dumps(one(given.words)))
         return
     text = table(given.only) if given.part == "table" else cases(GROWTH if given.part == "growth" else CASES)
