@@ -56,6 +56,8 @@ from .quad_mesh.grid_maps import corner_coordinates, write_grid_map
 from .quad_mesh.options import QuadMeshOptions
 from .quad_mesh.quad_mesh import QuadMeshResult, compute_quad_mesh
 from .records.record_file import read_record, read_surface_record
+from .remeshing.options import RemeshingOptions
+from .remeshing.remesh import RemeshedSurface, compute_remesh
 from .runs.compare import Comparison, compare
 from .runs.conversion import Conversion, convert_file
 from .runs.interop import from_meshio, from_pandas, from_pyvista, to_meshio, to_pandas, to_pyvista, to_scipy
@@ -90,6 +92,8 @@ __all__ = [
     "QuadLayoutResult",
     "QuadMeshOptions",
     "QuadMeshResult",
+    "RemeshedSurface",
+    "RemeshingOptions",
     "SingularGraph",
     "SolverError",
     "SurfaceFieldOptions",
@@ -107,6 +111,7 @@ __all__ = [
     "compute_hex_mesh",
     "compute_quad_layout",
     "compute_quad_mesh",
+    "compute_remesh",
     "compute_surface_field",
     "convert_file",
     "corner_coordinates",

@@ -250,6 +250,66 @@ class RepairAdvice:
     @not_tried.setter
     def not_tried(self, value: str) -> None: ...
 
+class CloseRemeshOptions:
+    vertices: float
+    deviation: float
+    quality: float
+    max_vertices: float
+    keep_stubs: bool
+    iterations: int
+    def __init__(
+        self,
+        vertices: float = ...,
+        deviation: float = ...,
+        quality: float = ...,
+        max_vertices: float = ...,
+        keep_stubs: bool = ...,
+        iterations: int = ...,
+    ) -> None: ...
+
+class CloseRemeshResult:
+    def __init__(
+        self,
+        mesh: TriangleMesh = ...,
+        stubs: ArrayLike = ...,
+        features: FeatureGraph = ...,
+        notes: Sequence[str] = ...,
+        deviation: float = ...,
+        own_deviation: float = ...,
+        off_surface: float = ...,
+        poor: int = ...,
+        forced: int = ...,
+        kept: bool = ...,
+    ) -> None: ...
+    @property
+    def mesh(self) -> TriangleMesh: ...
+    @property
+    def features(self) -> FeatureGraph: ...
+    @property
+    def notes(self) -> list[str]: ...
+    stubs: Int32s
+    deviation: float
+    own_deviation: float
+    off_surface: float
+    poor: int
+    forced: int
+    kept: bool
+
+class WinslowOptions:
+    rounds: int
+    tolerance: float
+    def __init__(self, rounds: int = ..., tolerance: float = ...) -> None: ...
+
+class WinslowResult:
+    points: Float64s
+    before: float
+    after: float
+    rounds: int
+    moved: int
+    def __init__(
+        self, points: ArrayLike = ..., before: float = ..., after: float = ..., rounds: int = ..., moved: int = ...
+    ) -> None: ...
+
 class RemeshResult:
     def __init__(
         self,
@@ -621,6 +681,32 @@ def remesh(
     max_cells: float = ...,
     progress: Progress | None = None,
 ) -> RemeshResult: ...
+def close_remesh(
+    mesh: TriangleMesh,
+    features: FeatureGraph,
+    lengths: ArrayLike,
+    *,
+    vertices: float = ...,
+    deviation: float = ...,
+    quality: float = ...,
+    max_vertices: float = ...,
+    keep_stubs: bool = ...,
+    iterations: int = ...,
+    progress: Progress | None = None,
+) -> CloseRemeshResult: ...
+def winslow_smooth(
+    surface: TriangleMesh,
+    features: FeatureGraph,
+    points: ArrayLike,
+    *,
+    rounds: int = ...,
+    tolerance: float = ...,
+    triangles: ArrayLike = ...,
+    quads: ArrayLike = ...,
+    fixed: Sequence[int] = ...,
+    progress: Progress | None = None,
+) -> WinslowResult: ...
+def triangle_qualities(mesh: TriangleMesh) -> Float64s: ...
 def size_field(
     mesh: TriangleMesh,
     features: FeatureGraph,

@@ -14,6 +14,7 @@ void bind_metrics(pybind11::module_& module);
 void bind_surface_types(pybind11::module_& module);
 void bind_surface_domain(pybind11::module_& module);
 void bind_surface(pybind11::module_& module);
+void bind_remeshing(pybind11::module_& module);
 void bind_direction_field_types(pybind11::module_& module);
 void bind_direction_fields(pybind11::module_& module);
 void bind_non_orthogonal_types(pybind11::module_& module);

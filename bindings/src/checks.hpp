@@ -19,6 +19,8 @@ namespace octafield::surface {
 struct AtlasOptions;
 struct FeatureOptions;
 struct RemeshOptions;
+struct CloseRemeshOptions;
+struct WinslowOptions;
 struct SizeFieldOptions;
 struct DirectionFieldOptions;
 struct NonOrthogonalFieldOptions;
@@ -54,6 +56,8 @@ int threads_option(int threads);
 void check(const surface::AtlasOptions& options);
 void check(const surface::FeatureOptions& options);
 void check(const surface::RemeshOptions& options);
+void check(const surface::CloseRemeshOptions& options);
+void check(const surface::WinslowOptions& options);
 void check(const surface::SizeFieldOptions& options);
 void check(const surface::DirectionFieldOptions& options);
 void check(const surface::NonOrthogonalFieldOptions& options);

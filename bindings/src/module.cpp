@@ -53,6 +53,7 @@ PYBIND11_MODULE(_core, module) {
     bind_surface_types(module);
     bind_option_types(module);
     bind_surface(module);
+    bind_remeshing(module);
     bind_volume_types(module);
     bind_field_analysis_types(module);
     bind_parameterization_types(module);

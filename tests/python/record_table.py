@@ -8,7 +8,7 @@ import types
 import typing
 from pathlib import Path
 
-from octafield.records import atlas, field, hex_dominant, hex_mesh, parts, quad_layout, quad_mesh, surface_field
+from octafield.records import atlas, field, hex_dominant, hex_mesh, parts, quad_layout, quad_mesh, remesh, surface_field
 from octafield.records.base import Record
 
 PAGE = Path(__file__).parents[2] / "docs" / "records.md"
@@ -21,6 +21,7 @@ KINDS = (
     quad_layout.QuadLayoutRecord,
     quad_mesh.QuadMeshRecord,
     atlas.AtlasRecord,
+    remesh.RemeshRecord,
     field.RunWithField,
     field.RunWithoutField,
 )

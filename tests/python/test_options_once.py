@@ -25,6 +25,8 @@ STRUCTS = {
     "non_orthogonal_field": [of.surface.NonOrthogonalFieldOptions],
     "detect_features": [of.surface.FeatureOptions],
     "remesh": [of.surface.RemeshOptions],
+    "close_remesh": [of.surface.CloseRemeshOptions],
+    "winslow_smooth": [of.surface.WinslowOptions],
     "size_field": [of.surface.SizeFieldOptions],
     "layout_curves": [of.surface.LayoutCurveOptions],
     "quad_layout": [of.surface.LayoutCurveOptions],
@@ -56,6 +58,7 @@ def test_a_function_refuses_what_is_no_option(function):
     box = generate("box")
     arguments = {
         "detect_features": [box], "remesh": [box, of.FeatureGraph()], "size_field": [box, of.FeatureGraph()],
+        "close_remesh": [box, of.FeatureGraph(), np.ones(8)], "winslow_smooth": [box, of.FeatureGraph(), box.vertices],
         "direction_field": [box], "non_orthogonal_field": [box],
         "layout_curves": [of.surface.ImposedField()], "quad_layout": [of.surface.ImposedField()],
         "fixed_boundary_quads": [of.surface.PlanarOutline()],

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from ..records.hex_dominant import HexDominantRecord
     from ..records.quad_layout import QuadLayoutRecord
     from ..records.quad_mesh import QuadMeshRecord
+    from ..records.remesh import RemeshRecord
+
+    Told = InputRecord | HexDominantRecord | QuadLayoutRecord | QuadMeshRecord | RemeshRecord
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 # kinds of SolverError that another option or another mesh avoids
@@ -136,13 +139,13 @@ def _say(message: str) -> None:
     print("octafield: " + " ".join(message.split()), file=sys.stderr, flush=True)
 
 
-def report_notes(record: "InputRecord | HexDominantRecord | QuadLayoutRecord | QuadMeshRecord") -> None:
+def report_notes(record: "Told") -> None:
     for note in record.notes:
         log.info("%s: %s", record.input, note)
 
 
 def finish(
-    record: "InputRecord | HexDominantRecord | QuadLayoutRecord | QuadMeshRecord",
+    record: "Told",
     show: Callable[..., None],
     target: str | None,
     quiet: bool,

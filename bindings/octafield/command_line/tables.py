@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ..records.parts import AxesFigures
     from ..records.quad_layout import QuadLayoutRecord
     from ..records.quad_mesh import QuadMeshRecord
+    from ..records.remesh import RemeshRecord
     from ..records.surface_field import SurfaceFieldRecord
 
 
@@ -163,6 +164,23 @@ def show_atlas_record(record: AtlasRecord) -> None:
         ("charts below", f"{record.charts_below:,}"),
         ("edges cut", f"{record.cut_edges:,}"),
         ("seconds", f"{sum(record.wall_seconds.values()):.1f}"),
+        ("peak_mb", f"{record.peak_mb:.0f}"),
+    ]
+    _facts(record.input, facts)
+
+
+def show_remesh_record(record: RemeshRecord) -> None:
+    facts = [
+        ("vertices", f"{record.vertices:,}"),
+        ("triangles", f"{record.triangles:,}"),
+        ("mean edge", f"{record.mean_edge:.4g}"),
+        ("quality", _several(record.quality, (".3f",) * 3)),
+        ("smallest angle, degrees", f"{record.smallest_angle:.1f}"),
+        ("deviation over the diagonal", _several(record.deviation, (".2e",) * 2)),
+        ("vertices off the surface", f"{record.off_surface:.1e}"),
+        ("corners missed", f"{record.features.missed_corners} of {record.features.corners}"),
+        ("watertight", "yes" if record.watertight else f"no: {record.open_edges:,} open edges"),
+        ("seconds", f"{record.seconds:.1f}"),
         ("peak_mb", f"{record.peak_mb:.0f}"),
     ]
     _facts(record.input, facts)

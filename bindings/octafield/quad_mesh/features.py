@@ -23,12 +23,12 @@ def feature_deviation(mesh: QuadMesh, domain: SurfaceDomain) -> tuple[float, flo
         return 0.0, 0.0
     diagonal = float(np.linalg.norm(vertices.max(axis=0) - vertices.min(axis=0)))
     points, edges = np.asarray(mesh.vertices), edges_of(np.asarray(mesh.quads))[0]
-    curves = _lines(vertices, lines)
-    on = _distance(curves, points) <= _ON * diagonal
+    curves = lines_of(vertices, lines)
+    on = distance_to(curves, points) <= _ON * diagonal
     along = edges[on[edges].all(axis=1)]
     if len(along):
         lengths = np.linalg.norm(points[along[:, 0]] - points[along[:, 1]], axis=1)
-        along = along[_distance(curves, points[along].mean(axis=1)) <= _CHORD * lengths]
+        along = along[distance_to(curves, points[along].mean(axis=1)) <= _CHORD * lengths]
     corners = np.asarray(domain.features.corners)
     cloud = pyvista.PolyData(points)
     missed = 0.0
@@ -37,7 +37,7 @@ def feature_deviation(mesh: QuadMesh, domain: SurfaceDomain) -> tuple[float, flo
     if not len(along):
         return missed / diagonal, float("inf")
     places = np.concatenate([vertices[np.unique(lines)], vertices[lines].mean(axis=1)])
-    return missed / diagonal, float(_distance(_lines(points, along), places).max()) / diagonal
+    return missed / diagonal, float(distance_to(lines_of(points, along), places).max()) / diagonal
 
 
 def feature_edges(domain: SurfaceDomain) -> np.ndarray:
@@ -48,13 +48,13 @@ def feature_edges(domain: SurfaceDomain) -> np.ndarray:
     return result
 
 
-def _lines(points: np.ndarray, edges: np.ndarray):  # type: ignore[no-untyped-def]
+def lines_of(points: np.ndarray, edges: np.ndarray):  # type: ignore[no-untyped-def]
     import pyvista
 
     return pyvista.PolyData(points.copy(), lines=np.column_stack([np.full(len(edges), 2), edges]).ravel())
 
 
-def _distance(lines, places: np.ndarray) -> np.ndarray:  # type: ignore[no-untyped-def]
+def distance_to(lines, places: np.ndarray) -> np.ndarray:  # type: ignore[no-untyped-def]
     _, nearest = lines.find_closest_cell(places, return_closest_point=True)
     result: np.ndarray = np.linalg.norm(np.asarray(nearest) - places, axis=1)
     return result

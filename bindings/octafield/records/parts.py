@@ -211,6 +211,30 @@ class JacobianFigures(Record):
     mean: float = Field(description="of all")
 
 
+class QualityFigures(Record):
+    """Of twice the inscribed over the circumscribed radius of triangles, in [0, 1]."""
+
+    min: float = Field(description="the smallest")
+    p05: float = Field(description="5 % are smaller")
+    mean: float = Field(description="of all")
+
+
+class BothWays(Record):
+    """Distances between two surfaces, over the diagonal of the input's box."""
+
+    of_input: float = Field(description="the largest of a vertex of the input from the new triangles")
+    of_mesh: float = Field(description="the largest of a middle of a new triangle, or of a side of one, from the input")
+
+
+class KeptFeatures(Record):
+    """Corners and curves between features. Distances are over the diagonal of the input's box."""
+
+    corners: int = Field(description="of the input")
+    missed_corners: int = Field(description="of these, no vertex of the mesh, to the last bit: 0")
+    edges: int = Field(description="of the mesh along features")
+    off_curves: float = Field(description="the largest distance of a vertex along features from the input's features")
+
+
 class Deviation(Record):
     """Between two surfaces, the larger of both ways."""
 

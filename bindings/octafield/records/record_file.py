@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .hex_mesh import HexMeshRecord
     from .quad_layout import QuadLayoutRecord
     from .quad_mesh import QuadMeshRecord
+    from .remesh import RemeshRecord
     from .surface_field import SurfaceFieldRecord
 
     AnyRecord = (
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
         | QuadLayoutRecord
         | QuadMeshRecord
         | AtlasRecord
+        | RemeshRecord
         | RunWithField
         | RunWithoutField
     )
@@ -43,6 +45,7 @@ _WHAT = {
     "HexMeshRecord": "a hex mesh",
     "QuadLayoutRecord": "a quad layout",
     "QuadMeshRecord": "a quad mesh",
+    "RemeshRecord": "a remeshed surface",
     "RunWithField": "a frame field",
     "RunWithoutField": "a run of a study that ended without a field",
     "SurfaceFieldRecord": "a surface field",
@@ -119,7 +122,7 @@ def record_of(content: Any, name: object) -> AnyRecord:
 
 
 def _kind(content: dict[str, Any]) -> type[AnyRecord]:
-    from . import atlas, field, hex_dominant, quad_layout, quad_mesh, surface_field
+    from . import atlas, field, hex_dominant, hex_mesh, quad_layout, quad_mesh, remesh, surface_field
 
     if content.get("state", "done") != "done":
         return field.RunWithoutField
@@ -133,6 +136,10 @@ def _kind(content: dict[str, Any]) -> type[AnyRecord]:
         return atlas.AtlasRecord
     if "size_ratio" in content:
         return quad_mesh.QuadMeshRecord
+    if "blocks" in content and "arcs" in content:
+        return hex_mesh.HexMeshRecord
+    if "off_surface" in content:
+        return remesh.RemeshRecord
     if "symmetry" in content:
         return surface_field.SurfaceFieldRecord
     return field.GivenFieldRecord if "label" in content and "objective" not in content else field.FieldRecord

@@ -26,12 +26,13 @@ Eigen::VectorXd largest_curvatures(const TriangleMesh& mesh, const FeatureGraph&
 
 }  // namespace
 
-Background background_of(const TriangleMesh& mesh, const FeatureGraph& features, double longest, double shortest) {
+Background background_of(const TriangleMesh& mesh, const FeatureGraph& features, const Eigen::VectorXd& lengths,
+                         double longest, double shortest) {
     Working work(mesh, features);
     const Eigen::VectorXd bend = largest_curvatures(mesh, features);
-    for (const Vertex v : work.marked.mesh.vertices()) work.length[v] = longest;
+    for (const Vertex v : work.marked.mesh.vertices()) work.length[v] = lengths[static_cast<Index>(v)];
     for (const Face f : work.marked.mesh.faces()) work.bend[f] = bend[static_cast<Index>(f)];
-    split_long(work, 1, [](Vertex) {});
+    split_long(work, 1, [&](Edge e) { return std::optional(split(work, e)); });
 
     Background ground;
     const SurfaceMesh& fine = work.marked.mesh;
@@ -39,7 +40,11 @@ Background background_of(const TriangleMesh& mesh, const FeatureGraph& features,
     ground.mesh.triangles.resize(fine.number_of_faces(), 3);
     ground.patch.resize(fine.number_of_faces());
     ground.bend.resize(fine.number_of_faces());
-    for (const Vertex v : fine.vertices()) ground.mesh.vertices.row(static_cast<Index>(v)) = work.at(v);
+    ground.length.resize(fine.number_of_vertices());
+    for (const Vertex v : fine.vertices()) {
+        ground.mesh.vertices.row(static_cast<Index>(v)) = work.at(v);
+        ground.length[static_cast<Index>(v)] = work.length[v];
+    }
     for (const Face f : fine.faces()) {
         int k = 0;
         for (const Vertex v : CGAL::vertices_around_face(fine.halfedge(f), fine))
@@ -57,7 +62,6 @@ Background background_of(const TriangleMesh& mesh, const FeatureGraph& features,
         ground.features.edges.row(static_cast<Index>(i)) << edges[i].first, edges[i].second;
     ground.features.corners = features.corners;
     ground.patches = work.marked.patches;
-    ground.length = Eigen::VectorXd::Constant(ground.mesh.vertices.rows(), longest);
     ground.depth = Eigen::VectorXd::Zero(ground.mesh.triangles.rows());
     ground.longest = longest;
     ground.shortest = shortest;
@@ -92,6 +96,41 @@ void limit_growth(Background& ground, double growth) {
             shortest.emplace(next, w);
         }
     }
+}
+
+bool lower(Background& ground, const Places& places) {
+    std::vector<std::vector<Index>> round(ground.mesh.vertices.rows());
+    for (const auto t : ground.mesh.triangles.rowwise())
+        for (int k = 0; k < 3; ++k) round[t[k]].push_back(t[(k + 1) % 3]), round[t[(k + 1) % 3]].push_back(t[k]);
+    struct Entry {
+        double reach;  // how much farther it goes
+        Index vertex;
+        double length;
+        bool operator<(const Entry& other) const { return reach < other.reach; }
+    };
+    std::priority_queue<Entry> farthest;
+    for (const auto& [v, factor] : places)
+        farthest.push({ground.length[v], v, std::max(ground.shortest, factor * ground.length[v])});
+    std::vector<double> reached(ground.mesh.vertices.rows(), -1);
+    bool lowered = false;
+    while (!farthest.empty()) {
+        const Entry now = farthest.top();
+        farthest.pop();
+        if (reached[now.vertex] >= 0 && now.length >= ground.length[now.vertex]) continue;
+        reached[now.vertex] = std::max(reached[now.vertex], now.reach);
+        if (now.length < ground.length[now.vertex]) {
+            lowered = lowered || now.length < 0.99 * ground.length[now.vertex];
+            ground.length[now.vertex] = now.length;
+        }
+        for (const Index w : round[now.vertex]) {
+            const double reach =
+                now.reach - (ground.mesh.vertices.row(now.vertex) - ground.mesh.vertices.row(w)).norm();
+            if (reach > reached[w] || (reach > 0 && now.length < ground.length[w]))
+                if (reach > 0) farthest.push({reach, w, now.length});
+        }
+    }
+    if (lowered) limit_growth(ground, SizeFieldOptions{}.growth);
+    return lowered;
 }
 
 Cells expected_cells(const Background& ground, double volume, double scale) {
@@ -134,17 +173,17 @@ GroundTrees::Nearest GroundTrees::nearest(int patch, const Eigen::Vector3d& poin
     return {{at.x(), at.y(), at.z()}, ids_[patch][primitive - triangles_[patch].begin()]};
 }
 
-double GroundTrees::length(const Nearest& found) const {
+double length_at(const Background& ground, Index triangle, const Eigen::Vector3d& point) {
     const auto corner = [&](int k) -> Eigen::Vector3d {
-        return ground_.mesh.vertices.row(ground_.mesh.triangles(found.triangle, k));
+        return ground.mesh.vertices.row(ground.mesh.triangles(triangle, k));
     };
-    const Eigen::Vector3d a = corner(0), u = corner(1) - a, v = corner(2) - a, p = found.point - a;
+    const Eigen::Vector3d a = corner(0), u = corner(1) - a, v = corner(2) - a, p = point - a;
     const Eigen::Vector3d normal = u.cross(v);
     const double square = normal.squaredNorm();
     const auto clamped = [&](double x) { return square > 0 ? std::clamp(x / square, 0., 1.) : 1. / 3; };
     const double second = clamped(p.cross(v).dot(normal)), third = clamped(u.cross(p).dot(normal));
     const double first = std::max(0., 1 - second - third), sum = first + second + third;
-    const auto length = [&](int k) { return ground_.length[ground_.mesh.triangles(found.triangle, k)]; };
+    const auto length = [&](int k) { return ground.length[ground.mesh.triangles(triangle, k)]; };
     return (first * length(0) + second * length(1) + third * length(2)) / sum;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
 
 #include "graded_rounds.hpp"
 #include "planned_sizes.hpp"
@@ -13,50 +12,11 @@ namespace octafield::surface {
 namespace {
 
 constexpr int kAttempts = 8;
-constexpr double kBent = 0.05;           // radians along an edge, above which it takes volume
-constexpr double kShorter = 0.25;        // than the shortest of the plan, where that is not enough
-constexpr double kAtCrossings = 0.6;     // lengths there, of those before
-constexpr double kMostPinned = 0.02;     // of the input's vertices
-constexpr double kGrowth = SizeFieldOptions{}.growth;
-constexpr double kMostCells = 2;  // of max_cells, to be sound and to follow
-
-// A place where lengths must become shorter: a vertex of the background, the factor.
-using Places = std::vector<std::pair<Index, double>>;
-
-// As far as one edge round each place. False where all lengths there are the shortest already.
-bool lower(Background& ground, const Places& places) {
-    std::vector<std::vector<Index>> round(ground.mesh.vertices.rows());
-    for (const auto t : ground.mesh.triangles.rowwise())
-        for (int k = 0; k < 3; ++k) round[t[k]].push_back(t[(k + 1) % 3]), round[t[(k + 1) % 3]].push_back(t[k]);
-    struct Entry {
-        double reach;  // how much farther it goes
-        Index vertex;
-        double length;
-        bool operator<(const Entry& other) const { return reach < other.reach; }
-    };
-    std::priority_queue<Entry> farthest;
-    for (const auto& [v, factor] : places)
-        farthest.push({ground.length[v], v, std::max(ground.shortest, factor * ground.length[v])});
-    std::vector<double> reached(ground.mesh.vertices.rows(), -1);
-    bool lowered = false;
-    while (!farthest.empty()) {
-        const Entry now = farthest.top();
-        farthest.pop();
-        if (reached[now.vertex] >= 0 && now.length >= ground.length[now.vertex]) continue;
-        reached[now.vertex] = std::max(reached[now.vertex], now.reach);
-        if (now.length < ground.length[now.vertex]) {
-            lowered = lowered || now.length < 0.99 * ground.length[now.vertex];
-            ground.length[now.vertex] = now.length;
-        }
-        for (const Index w : round[now.vertex]) {
-            const double reach = now.reach - (ground.mesh.vertices.row(now.vertex) - ground.mesh.vertices.row(w)).norm();
-            if (reach > reached[w] || (reach > 0 && now.length < ground.length[w]))
-                if (reach > 0) farthest.push({reach, w, now.length});
-        }
-    }
-    if (lowered) limit_growth(ground, kGrowth);
-    return lowered;
-}
+constexpr double kBent = 0.05;        // radians along an edge, above which it takes volume
+constexpr double kShorter = 0.25;     // than the shortest of the plan, where that is not enough
+constexpr double kAtCrossings = 0.6;  // lengths there, of those before
+constexpr double kMostPinned = 0.02;  // of the input's vertices
+constexpr double kMostCells = 2;      // of max_cells, to be sound and to follow
 
 Places crossings(const Background& ground, const GradedRounds& rounds, const Working& work, const RemeshJudge& judge) {
     Places places;
@@ -65,7 +25,8 @@ Places crossings(const Background& ground, const GradedRounds& rounds, const Wor
         Eigen::Vector3d centre = Eigen::Vector3d::Zero();
         for (const Vertex v : CGAL::vertices_around_face(work.marked.mesh.halfedge(face), work.marked.mesh))
             centre += work.at(v) / 3;
-        for (const Index v : ground.mesh.triangles.row(rounds.trees().nearest(work.marked.patch[face], centre).triangle))
+        for (const Index v :
+             ground.mesh.triangles.row(rounds.trees().nearest(work.marked.patch[face], centre).triangle))
             places.emplace_back(v, kAtCrossings);
     }
     return places;
@@ -89,8 +50,8 @@ std::vector<Index> bent(const Background& ground) {
 
 }  // namespace
 
-GradedResult graded_remesh(const TriangleMesh& mesh, const FeatureGraph& features, RemeshJudge& judge,
-                           double max_cells, int rounds, const std::function<void(double)>& alive) {
+GradedResult graded_remesh(const TriangleMesh& mesh, const FeatureGraph& features, RemeshJudge& judge, double max_cells,
+                           int rounds, const std::function<void(double)>& alive) {
     GradedResult graded;
     alive(0);
     Background ground = planned_ground(mesh, features, {.max_cells = max_cells});
@@ -130,7 +91,8 @@ GradedResult graded_remesh(const TriangleMesh& mesh, const FeatureGraph& feature
             judge.fault = failure.what();
             break;
         }
-        if (!(lower(ground, places) || pinned) || expected_cells(ground, volume, 1).most() > kMostCells * max_cells) break;
+        if (!(lower(ground, places) || pinned) || expected_cells(ground, volume, 1).most() > kMostCells * max_cells)
+            break;
     }
     return graded;
 }

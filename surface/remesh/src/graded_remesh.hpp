@@ -17,7 +17,7 @@ struct GradedResult {
 };
 
 // alive: called now and then with a fraction; may throw.
-GradedResult graded_remesh(const TriangleMesh& mesh, const FeatureGraph& features, RemeshJudge& judge,
-                           double max_cells, int rounds, const std::function<void(double)>& alive);
+GradedResult graded_remesh(const TriangleMesh& mesh, const FeatureGraph& features, RemeshJudge& judge, double max_cells,
+                           int rounds, const std::function<void(double)>& alive);
 
 }  // namespace octafield::surface

@@ -11,8 +11,9 @@
 
 namespace octafield::surface {
 
-// Split, collapse, flip, relax and project (Botsch, Kobbelt 2004; lengths that vary: Dunyach and others 2013). Steps that
-// would turn a triangle over, join feature curves or change the topology are not taken; crossings are not looked for.
+// Split, collapse, flip, relax and project (Botsch, Kobbelt 2004; lengths that vary: Dunyach and others 2013). Steps
+// that would turn a triangle over, join feature curves or change the topology are not taken; crossings are not looked
+// for.
 class GradedRounds {
 public:
     explicit GradedRounds(const Background& ground);
@@ -23,12 +24,9 @@ public:
 private:
     using Flat = CGAL::Simple_cartesian<double>;
     using Segments = std::vector<Flat::Segment_3>;
-    using Tree =
-        CGAL::AABB_tree<CGAL::AABB_traits<Flat, CGAL::AABB_segment_primitive<Flat, Segments::const_iterator>>>;
+    using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Flat, CGAL::AABB_segment_primitive<Flat, Segments::const_iterator>>>;
 
     void place_on_curve(Working& work, Vertex v) const;
-    void collapse_short(Working& work) const;
-    void flip(Working& work) const;
     void relax(Working& work, const std::function<void(double)>& alive, double fraction) const;
 
     const Background& ground_;

@@ -12,6 +12,7 @@
 #include "graded_remesh.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/validate.hpp"
+#include "remesh_checks.hpp"
 #include "short_number.hpp"
 
 namespace octafield::surface {
@@ -192,16 +193,20 @@ private:
 
 }  // namespace
 
-double default_edge_length(const TriangleMesh& mesh) { return shape_size(mesh) / 25; }
-
-RemeshResult remesh(const TriangleMesh& mesh, const FeatureGraph& features, const RemeshOptions& options,
-                    const Progress& progress) {
-    report_or_throw(progress, "remesh", 0, kNone);
+void require_remeshable(const TriangleMesh& mesh, const FeatureGraph& features) {
     require_valid(mesh, {.closed = false});
     feature_graph(mesh, features.edges);  // throws where they are no edges of the mesh
     for (const Index v : features.corners)
         if (v < 0 || v >= mesh.vertices.rows())
             throw InvalidInput("corner " + std::to_string(v) + " is no vertex of the mesh", "index_out_of_range", {v});
+}
+
+double default_edge_length(const TriangleMesh& mesh) { return shape_size(mesh) / 25; }
+
+RemeshResult remesh(const TriangleMesh& mesh, const FeatureGraph& features, const RemeshOptions& options,
+                    const Progress& progress) {
+    report_or_throw(progress, "remesh", 0, kNone);
+    require_remeshable(mesh, features);
     require_options(mesh, options);
     return Remesher(mesh, features, options, progress).run();
 }

@@ -14,11 +14,11 @@
 namespace octafield::surface {
 namespace {
 
-constexpr double kPerWidth = 2;          // an edge may be so many times as long as a wall or a strip is wide
-constexpr double kNarrow = 4;            // for the sake of widths alone edges become no shorter than longest / kNarrow
-constexpr Index kMostRays = 60000;       // triangles looked from
-constexpr double kFacing = 0.8660254;    // two faces within 30 degrees of parallel are a wall
-constexpr double kSagShare = 0.5;       // of a wall's width that the arc over an edge may take
+constexpr double kPerWidth = 2;        // an edge may be so many times as long as a wall or a strip is wide
+constexpr double kNarrow = 4;          // for the sake of widths alone edges become no shorter than longest / kNarrow
+constexpr Index kMostRays = 60000;     // triangles looked from
+constexpr double kFacing = 0.8660254;  // two faces within 30 degrees of parallel are a wall
+constexpr double kSagShare = 0.5;      // of a wall's width that the arc over an edge may take
 
 using Flat = CGAL::Simple_cartesian<double>;
 using FlatTriangles = std::vector<Flat::Triangle_3>;
@@ -57,19 +57,17 @@ double squared_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& a, cons
     return (p - a - at * along).squaredNorm();
 }
 
-// Of edges at a wall or strip of this width. Much narrower ones stay flat between edges of any length.
-double fitting(const Background& ground, double width) {
-    return kPerWidth * width < ground.longest / kNarrow ? ground.longest : std::max(kPerWidth * width, ground.shortest);
+// Of edges at a wall or strip of this width. Those that ask for less than `least` stay flat between edges of any
+// length.
+double fitting(const Background& ground, double width, double least) {
+    return kPerWidth * width < least ? ground.longest : std::max(kPerWidth * width, ground.shortest);
 }
 
-// Feature curves between corners.
-struct Curves {
-    std::vector<Index> of_edge;             // (n) curve of each feature edge
-    std::vector<std::set<Index>> corners;   // per curve: at its ends
-    std::vector<double> length;
-    std::vector<std::vector<Index>> edges;  // (V) feature edges at each vertex
-    std::vector<bool> is_corner;            // (V)
-};
+bool meet(const std::set<Index>& a, const std::set<Index>& b) {
+    return std::ranges::any_of(a, [&](Index v) { return b.contains(v); });
+}
+
+}  // namespace
 
 Curves curves_of(const Background& ground) {
     const Edges& edges = ground.features.edges;
@@ -90,7 +88,8 @@ Curves curves_of(const Background& ground) {
         while (!stack.empty()) {
             const Index e = stack.back();
             stack.pop_back();
-            curves.length[curve] += (ground.mesh.vertices.row(edges(e, 0)) - ground.mesh.vertices.row(edges(e, 1))).norm();
+            curves.length[curve] +=
+                (ground.mesh.vertices.row(edges(e, 0)) - ground.mesh.vertices.row(edges(e, 1))).norm();
             for (const Index v : edges.row(e)) {
                 if (curves.is_corner[v]) {
                     curves.corners[curve].insert(v);
@@ -107,13 +106,9 @@ Curves curves_of(const Background& ground) {
     return curves;
 }
 
-bool meet(const std::set<Index>& a, const std::set<Index>& b) {
-    return std::ranges::any_of(a, [&](Index v) { return b.contains(v); });
-}
+double least_length(const Background& ground) { return ground.longest / kNarrow; }
 
-}  // namespace
-
-void bound_by_curves(Background& ground, double angle) {
+void bound_by_curves(Background& ground, double angle, double least) {
     const Curves curves = curves_of(ground);
     const Edges& edges = ground.features.edges;
     const auto lower = [&](Index v, double length) {
@@ -121,7 +116,7 @@ void bound_by_curves(Background& ground, double angle) {
     };
     for (Index v = 0; v < ground.mesh.vertices.rows(); ++v) {
         if (curves.is_corner[v]) {
-            for (const Index e : curves.edges[v]) lower(v, fitting(ground, curves.length[curves.of_edge[e]]));
+            for (const Index e : curves.edges[v]) lower(v, fitting(ground, curves.length[curves.of_edge[e]], least));
             continue;
         }
         if (curves.edges[v].size() != 2) continue;
@@ -158,14 +153,15 @@ void bound_by_widths(Background& ground) {
             const Index other = static_cast<Index>(hit->second - triangles.begin());
             if (-normals.row(other).dot(normal) < kFacing) continue;
             const double bend = std::max(ground.bend[t], ground.bend[other]);
-            const double most = std::min(fitting(ground, width), std::sqrt(8 * kSagShare * width / bend));
+            const double most =
+                std::min(fitting(ground, width, least_length(ground)), std::sqrt(8 * kSagShare * width / bend));
             for (const Index v : mesh.triangles.row(t))
                 ground.length[v] = std::min(ground.length[v], std::max(ground.shortest, most));
         }
     }
 }
 
-void bound_by_strips(Background& ground) {
+void bound_by_strips(Background& ground, double least) {
     const Curves curves = curves_of(ground);
     const Edges& edges = ground.features.edges;
     const auto point = [&](Index v) -> Eigen::Vector3d { return ground.mesh.vertices.row(v); };
@@ -202,11 +198,36 @@ void bound_by_strips(Background& ground) {
                 return Flat::Segment_3(flat(point(edges(e, 0))), flat(point(edges(e, 1))));
             };
             const double width = std::sqrt(CGAL::squared_distance(segment(now.edge), segment(nearest[w])));
-            const double most = fitting(ground, width);
+            const double most = fitting(ground, width, least);
             for (const Index e : {now.edge, nearest[w]})
                 for (const Index v : edges.row(e)) ground.length[v] = std::min(ground.length[v], most);
         }
     }
+}
+
+void bound_by_near_features(Background& ground) {
+    const Curves curves = curves_of(ground);
+    const auto point = [&](Index v) -> Eigen::Vector3d { return ground.mesh.vertices.row(v); };
+    const auto lower = [&](Index v, double width) {
+        ground.length[v] = std::min(ground.length[v], std::max(ground.shortest, kPerWidth * width));
+    };
+    const auto joined = [&](Index a, Index b) {
+        return std::ranges::any_of(curves.edges[a], [&](Index e) {
+            return ground.features.edges(e, 0) == b || ground.features.edges(e, 1) == b;
+        });
+    };
+    const auto on_feature = [&](Index v) { return !curves.edges[v].empty(); };
+    for (const auto t : ground.mesh.triangles.rowwise())
+        for (int k = 0; k < 3; ++k) {
+            const Index a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+            if (!on_feature(a) || !on_feature(b)) continue;
+            if (!joined(a, b)) {
+                if (joined(a, c) && joined(b, c)) continue;  // beside a bend or a corner
+                for (const Index v : {a, b}) lower(v, (point(a) - point(b)).norm());
+            } else if (on_feature(c) && !joined(a, c) && !joined(b, c)) {
+                for (const Index v : {a, b, c}) lower(v, std::sqrt(squared_distance(point(c), point(a), point(b))));
+            }
+        }
 }
 
 }  // namespace octafield::surface

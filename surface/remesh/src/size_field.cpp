@@ -53,10 +53,11 @@ double fitting_scale(const Background& ground, double volume, double max_cells) 
 Background planned_ground(const TriangleMesh& mesh, const FeatureGraph& features, const SizeFieldOptions& options) {
     const double longest = options.longest > 0 ? options.longest : default_edge_length(mesh);
     Background ground =
-        background_of(mesh, features, longest, options.shortest > 0 ? std::min(options.shortest, longest) : longest / 16);
+        background_of(mesh, features, Eigen::VectorXd::Constant(mesh.vertices.rows(), longest), longest,
+                      options.shortest > 0 ? std::min(options.shortest, longest) : longest / 16);
     bound_by_curvature(ground, options.angle);
-    bound_by_curves(ground, options.angle);
-    bound_by_strips(ground);
+    bound_by_curves(ground, options.angle, least_length(ground));
+    bound_by_strips(ground, least_length(ground));
     bound_by_widths(ground);
     limit_growth(ground, options.growth);
     return ground;

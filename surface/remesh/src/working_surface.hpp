@@ -2,12 +2,20 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 
 #include "marked_surface.hpp"
 
 namespace octafield::surface {
 
 using HalfEdgeOf = SurfaceMesh::Halfedge_index;
+
+// Where on the input a vertex is: on a triangle, on a feature segment (a row of the features' edges) or at a vertex.
+struct Carrier {
+    enum class On : std::uint8_t { triangle, segment, vertex };
+    On on = On::triangle;
+    Index id = -1;  // -1: not told
+};
 
 // Handles of CGAL's properties refer to the mesh they were made for: it is never copied or moved.
 struct Working {
@@ -25,15 +33,18 @@ struct Working {
 
     Marked marked;
     SurfaceMesh::Property_map<Vertex, double> length;
-    SurfaceMesh::Property_map<Vertex, bool> pinned;  // stays where it is, as corners do
-    SurfaceMesh::Property_map<Face, double> bend;    // curvature
+    SurfaceMesh::Property_map<Vertex, bool> pinned;      // stays where it is, as corners do
+    SurfaceMesh::Property_map<Face, double> bend;        // curvature
+    SurfaceMesh::Property_map<Vertex, Carrier> carrier;  // for those who walk on the input
+    SurfaceMesh::Property_map<Edge, int> curve;          // of the input's feature curves; -1: none, or not told
 };
 
 // At the edge's middle. Halves of triangles keep patch and curvature, halves of feature edges are features.
 Vertex split(Working& work, Edge edge);
-// Splits edges of more than `most` times their wanted length, the worst first; moved(v) may place the new vertices.
-template <class Moved>
-void split_long(Working& work, double most, const Moved& moved);
+// Splits edges of more than `most` times their wanted length, the worst first. split_one(edge) gives the new vertex, or
+// none where it leaves the edge whole.
+template <class SplitOne>
+void split_long(Working& work, double most, const SplitOne& split_one);
 
 }  // namespace octafield::surface
 
@@ -41,8 +52,8 @@ void split_long(Working& work, double most, const Moved& moved);
 
 namespace octafield::surface {
 
-template <class Moved>
-void split_long(Working& work, double most, const Moved& moved) {
+template <class SplitOne>
+void split_long(Working& work, double most, const SplitOne& split_one) {
     std::priority_queue<std::pair<double, std::uint32_t>> longest;
     const auto look = [&](Edge e) {
         if (const double ratio = work.ratio(e); ratio > most) longest.emplace(ratio, static_cast<std::uint32_t>(e));
@@ -52,9 +63,9 @@ void split_long(Working& work, double most, const Moved& moved) {
         const auto [ratio, id] = longest.top();
         longest.pop();
         if (work.ratio(Edge(id)) != ratio) continue;  // it was split in the meantime
-        const Vertex v = split(work, Edge(id));
-        moved(v);
-        for (const HalfEdgeOf h : CGAL::halfedges_around_target(v, work.marked.mesh)) look(work.marked.mesh.edge(h));
+        const std::optional<Vertex> v = split_one(Edge(id));
+        if (!v) continue;
+        for (const HalfEdgeOf h : CGAL::halfedges_around_target(*v, work.marked.mesh)) look(work.marked.mesh.edge(h));
     }
 }
 

@@ -73,6 +73,18 @@ double one_sided_distance(const TriangleMesh& from, const TriangleMesh& to) {
     return std::sqrt(most);
 }
 
+Points nearest_points(const Points& points, const TriangleMesh& to) {
+    const std::vector<Kernel::Triangle_3> triangles = triangles_of(to);
+    if (triangles.empty()) return points;
+    const Tree tree(triangles.cbegin(), triangles.cend());
+    Points nearest(points.rows(), 3);
+    for (Index i = 0; i < points.rows(); ++i) {
+        const auto found = tree.closest_point({points(i, 0), points(i, 1), points(i, 2)});
+        nearest.row(i) << found.x(), found.y(), found.z();
+    }
+    return nearest;
+}
+
 double turned_share(const TriangleMesh& from, const TriangleMesh& to, double angle) {
     constexpr std::size_t most = 20000;
     const std::vector<Kernel::Triangle_3> there = triangles_of(from), here = triangles_of(to);

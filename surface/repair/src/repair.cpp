@@ -14,6 +14,7 @@
 #include "resolve_crossings.hpp"
 #include "short_edges.hpp"
 #include "short_number.hpp"
+#include "snap.hpp"
 #include "triangle_tests.hpp"
 #include "wrap.hpp"
 
@@ -25,6 +26,7 @@ constexpr double kOnePlace = 1e-13;  // diagonals: ends of an edge that TetGen c
 constexpr double kRoundings = 2;     // of the coordinates' precision, between two points meant as one
 constexpr double kWrapParts = 50;    // wrap_alpha in a diagonal
 constexpr double kOffsetParts = 20;  // wrap_offset in wrap_alpha
+constexpr double kSnapOffsets = 3;  // from the surface: vertices of a wrap farther away bridge a gap
 // Of a wrap, twice its volume over its area. Round sheets that enclose nothing it is 2 offsets, and up to 0.16 alphas.
 constexpr double kThinInAlphas = 0.4, kThinInOffsets = 3;
 
@@ -177,10 +179,12 @@ private:
                                       "opening wider than alpha, or encloses nothing (--wrap-alpha, --wrap-offset)");
             return;
         }
+        const std::size_t snapped = snap(wrapped, input, kSnapOffsets * offset);
         const double outside = one_sided_distance(wrapped, input), lost = one_sided_distance(input, wrapped);
         result_.actions.push_back("wrapped anew (" + sizes + "): " +
-                                  counted(static_cast<std::size_t>(wrapped.triangles.rows()), "triangle") +
-                                  " up to " + short_number(outside) + " away from the surface, which lies up to " +
+                                  counted(static_cast<std::size_t>(wrapped.triangles.rows()), "triangle") + ", " +
+                                  std::to_string(snapped) + " of " + std::to_string(wrapped.vertices.rows()) +
+                                  " vertices drawn onto the surface, up to " + short_number(outside) + " away from the surface, which lies up to " +
                                   short_number(lost) + " inside");
         mesh_ = std::move(wrapped);
         moved(std::max(outside, lost));

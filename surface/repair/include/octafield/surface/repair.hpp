@@ -17,7 +17,8 @@ namespace octafield::surface {
 //            small_hole_edges edges; unused vertices.
 //   fill:    holes of at most max_hole_edges edges: smooth patches of new vertices where these cross nothing.
 //   resolve: triangles that cross: closed pieces are united, others are smoothed, or cut out and filled anew.
-//   wrap:    what is still unsound is replaced by an alpha wrap (Portaneri et al. 2022), which lies around it.
+//   wrap:    what is still unsound is replaced by an alpha wrap (Portaneri et al. 2022), which lies around it and is drawn
+//            onto it where that leaves it sound.
 enum class RepairLevel { none, merge, safe, fill, resolve, wrap };
 
 // The word of a level, as above. Throws InvalidInput where a word is none of them.

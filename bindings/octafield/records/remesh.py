@@ -1,0 +1,46 @@
+"""Records of remeshed surfaces."""
+
+from typing import Any
+
+from pydantic import Field
+
+from .base import Record
+from .parts import BothWays, KeptFeatures, Machine, QualityFigures
+
+
+class RemeshRecord(Record):
+    """`octafield remesh`: what --json writes, and `RemeshedSurface.record`."""
+
+    input: str = Field(description="path or name of the input")
+    version: str = Field(description="of octafield")
+    input_kind: str = Field(description="surface or tets: what the input was")
+    input_vertices: int = Field(description="of the surface, after repair")
+    input_triangles: int = Field(description="of the surface, after repair")
+    feature_source: str = Field(description="file, angle or none: where features come from")
+    target_vertices: int | None = Field(default=None, description="number of vertices wanted")
+    target_length: float | None = Field(default=None, description="edge length wanted, input unit")
+    vertices: int = Field(description="of the mesh")
+    triangles: int = Field(description="of the mesh")
+    mean_edge: float = Field(description="of the mesh, input unit")
+    quality: QualityFigures = Field(description="of the triangles")
+    poor: int = Field(description="triangles below the quality asked for")
+    forced: int = Field(description="of these, in corners of the input between two feature edges")
+    smallest_angle: float = Field(description="of all triangles, degrees")
+    deviation: BothWays = Field(description="between mesh and input")
+    off_surface: float = Field(
+        description="the largest distance of a vertex from the input, over its diagonal: rounding"
+    )
+    features: KeptFeatures = Field(description="what became of them")
+    watertight: bool = Field(description="no open edges, and each edge is of two triangles")
+    open_edges: int = Field(description="of one triangle")
+    kept: bool = Field(description="no sound mesh was found, and the triangles are those of the input")
+    seconds: float = Field(description="by the clock, of all phases")
+    wall_seconds: dict[str, float] = Field(description="by the clock, per phase")
+    cpu_seconds: dict[str, float] = Field(description="of the processor, all threads, per phase")
+    peak_mb: float = Field(description="largest resident memory, 1e6 bytes, libraries included")
+    notes: list[str] = Field(description="what was done to the input, and what the mesh is without")
+    versions: dict[str, str] = Field(description="of octafield, Python, packages and platform")
+    machine: Machine | None = Field(default=None, description="that it ran on")
+    options: dict[str, Any] = Field(description="`octafield.RemeshingOptions(**record.options)` makes them again")
+    mesh_options: dict[str, Any] = Field(description="`octafield.MeshOptions(**record.mesh_options)` makes them again")
+    output: str | None = Field(default=None, description="the file that was written")

@@ -1,0 +1,332 @@
+#include "octafield/surface/close_remesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+
+#include "better_triangles.hpp"
+#include "octafield/error.hpp"
+#include "octafield/surface/remesh.hpp"
+#include "octafield/surface/validate.hpp"
+#include "remesh_checks.hpp"
+#include "remesh_judge.hpp"
+#include "short_number.hpp"
+#include "stubs.hpp"
+
+namespace octafield::surface {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr int kTries = 15, kCounts = 8, kMendings = 20;
+constexpr double kMost = 2.5e7;            // vertices
+constexpr double kCountWithin = 0.02;      // of the number of vertices wanted
+constexpr double kMore = 0.05;             // quality that is aimed at above the one asked for
+constexpr double kWhereCrossing = 0.6;     // lengths there, of those before
+constexpr double kShortestPart = 1. / 64;  // of the longest
+constexpr double kAnyTurn = 1e9;           // radians along an edge of a feature curve
+constexpr double kWithin = 0.9;            // of the deviation asked for: there are points between those looked at
+constexpr double kNear = 0.75;   // of the deviation asked for: where lengths become shorter, when it is exceeded
+constexpr double kSag = 1. / 6;  // curvature times squared length: between a sphere and its triangles' middles
+
+void require_options(const TriangleMesh& mesh, const Eigen::VectorXd& lengths, const CloseRemeshOptions& options) {
+    if (lengths.size() != mesh.vertices.rows())
+        throw InvalidInput("there are " + std::to_string(lengths.size()) + " lengths for " +
+                               std::to_string(mesh.vertices.rows()) + " vertices; give one each",
+                           "wrong_shape");
+    for (Index v = 0; v < lengths.size(); ++v)
+        if (!(lengths[v] > 0 && std::isfinite(lengths[v])))
+            throw InvalidInput("the length at vertex " + std::to_string(v) + " is not positive; give positive lengths",
+                               "invalid_option", {v});
+    if (options.iterations < 1) throw InvalidInput("remeshing needs at least 1 iteration", "invalid_option");
+    for (const double number : {options.vertices, options.deviation})
+        if (!(number >= 0 && std::isfinite(number)))
+            throw InvalidInput("vertices and deviation must not be negative (0: not asked for)", "invalid_option");
+    if (!(options.quality >= 0 && options.quality <= 0.5))
+        throw InvalidInput("quality must be in [0, 0.5]; more cannot be reached everywhere", "invalid_option");
+    if (!(options.max_vertices >= 1 && std::isfinite(options.max_vertices)))
+        throw InvalidInput("max_vertices must be at least 1", "invalid_option");
+}
+
+// The factor of lengths where the surface is farther off than asked for, or nearly.
+double shorter(double excess) { return std::clamp(std::sqrt(0.8 * kNear / excess), 0.4, 0.95); }
+
+// The largest distance between two surfaces, and where lengths must become shorter for that.
+struct Departure {
+    double most = 0;
+    Places places;
+    void add(double distance, double told, const auto& vertices) {
+        most = std::max(most, distance);
+        if (told == 0 || distance <= kNear * told) return;
+        for (const Index v : vertices) places.emplace_back(v, shorter(distance / told));
+    }
+};
+
+// Of the triangles' middles and their sides' from the input.
+Departure departure_of(const Working& work, CloseRounds& rounds, const Background& ground, double told) {
+    Departure found;
+    const SurfaceMesh& mesh = work.marked.mesh;
+    for (const Face f : mesh.faces()) {
+        std::array<Vector, 3> at;
+        int k = 0;
+        for (const Vertex v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) at[k++] = work.at(v);
+        for (const Vector& p : {Vector((at[0] + at[1] + at[2]) / 3), Vector((at[0] + at[1]) / 2),
+                                Vector((at[1] + at[2]) / 2), Vector((at[2] + at[0]) / 2)})
+            if (const auto place = rounds.place_near(work, f, p))
+                found.add((place->point - p).norm(), told, ground.mesh.triangles.row(place->carrier.id));
+    }
+    return found;
+}
+
+// The triangles as they are, with their patches.
+Background as_ground(const Working& work) {
+    Background now;
+    const SurfaceMesh& mesh = work.marked.mesh;
+    now.mesh.vertices.resize(mesh.num_vertices(), 3);
+    now.mesh.triangles.resize(mesh.number_of_faces(), 3);
+    now.patches = work.marked.patches;
+    for (const Vertex v : mesh.vertices()) now.mesh.vertices.row(static_cast<Index>(v)) = work.at(v);
+    for (const Face f : mesh.faces()) {
+        int k = 0;
+        for (const Vertex v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
+            now.mesh.triangles(static_cast<Index>(now.patch.size()), k++) = static_cast<Index>(v);
+        now.patch.push_back(work.marked.patch[f]);
+    }
+    return now;
+}
+
+// Of the input's vertices, which are the first of the ground's, from the triangles.
+Departure departure_of(const TriangleMesh& input, const Background& ground, const Background& now, double told) {
+    Departure found;
+    const GroundTrees trees(now);
+    std::vector<bool> seen(input.vertices.rows(), false);
+    for (Index t = 0; t < ground.mesh.triangles.rows(); ++t)
+        for (const Index v : ground.mesh.triangles.row(t)) {
+            if (v >= input.vertices.rows() || seen[v]) continue;
+            seen[v] = true;
+            const Vector p = input.vertices.row(v);
+            found.add((trees.nearest(ground.patch[t], p).point - p).norm(), told, std::array{v});
+        }
+    return found;
+}
+
+double vertices_at(const TriangleMesh& mesh, const Eigen::VectorXd& lengths) {
+    const Eigen::VectorXd areas = triangle_areas(mesh);
+    double sum = 0;
+    for (Index t = 0; t < areas.size(); ++t) {
+        double length = 0;
+        for (const Index v : mesh.triangles.row(t)) length += lengths[v] / 3;
+        sum += areas[t] / (length * length);
+    }
+    return 2 / std::numbers::sqrt3 * sum;  // half as many as triangles of area sqrt(3) / 4
+}
+
+void require_possible(const TriangleMesh& mesh, const Eigen::VectorXd& lengths, const CloseRemeshOptions& options) {
+    const double expected = options.vertices > 0 ? options.vertices : vertices_at(mesh, lengths);
+    if (expected > kMost)
+        throw InvalidInput("these lengths would give about " + short_number(expected) +
+                               " vertices; ask for longer edges or fewer vertices",
+                           "too_many_cells");
+}
+
+class CloseRemesher {
+public:
+    CloseRemesher(const TriangleMesh& mesh, const FeatureGraph& features, const CloseRemeshOptions& options,
+                  const Progress& progress)
+        : mesh_(mesh), features_(features), options_(options), progress_(progress), judge_(mesh, features) {}
+
+    CloseRemeshResult run(const Eigen::VectorXd& lengths) {
+        if (!options_.keep_stubs) stubs_ = without_stubs(mesh_, features_, scale_of(lengths) * lengths);
+        plan(lengths);
+        CloseRounds rounds(ground_);
+        Working work(ground_.mesh, ground_.features);
+        rounds.begin(work);
+        rounds.run(work, options_.iterations, alive());
+        for (int attempt = 0; attempt < kTries; ++attempt) {
+            begun_ = static_cast<double>(attempt + 1) / (kTries + 1);
+            meet_count(work, rounds);
+            better_triangles(work, rounds, options_.quality + kMore, kMendings, [&] { alive()(0); });
+            const Places places = places_of(work, rounds, attempt + 1 == kTries);
+            if (places.empty() || !lower(ground_, places)) break;
+            rounds.take_lengths(work);
+            rounds.run(work, 3, alive());
+        }
+        if (!best_) return kept();
+        tell();
+        best_->stubs = stubs_;
+        return std::move(*best_);
+    }
+
+private:
+    double scale_of(const Eigen::VectorXd& lengths) const {
+        return options_.vertices > 0 ? std::sqrt(vertices_at(mesh_, lengths) / options_.vertices) : 1;
+    }
+
+    void plan(const Eigen::VectorXd& lengths) {
+        const double scale = scale_of(lengths);
+        const double longest = scale * lengths.maxCoeff();
+        ground_ = background_of(mesh_, features_, scale * lengths, longest,
+                                std::min(kShortestPart * longest, scale * lengths.minCoeff()));
+        if (options_.deviation > 0) bound_by_deviation();
+        bound_by_curves(ground_, kAnyTurn, 0);  // triangles of good shape need short edges beside short ones
+        bound_by_strips(ground_, 0);
+        bound_by_near_features(ground_);
+        limit_growth(ground_, SizeFieldOptions{}.growth);
+    }
+
+    bool too_many() const { return vertices_at(ground_.mesh, ground_.length) > options_.max_vertices; }
+
+    void bound_by_deviation() {
+        for (Index t = 0; t < ground_.mesh.triangles.rows(); ++t) {
+            const double fitting = std::sqrt(0.8 * options_.deviation / (kSag * ground_.bend[t]));
+            for (const Index v : ground_.mesh.triangles.row(t))
+                ground_.length[v] = std::min(ground_.length[v], std::max(ground_.shortest, fitting));
+        }
+        while (too_many()) ground_.length *= 1.1;  // noise; what is measured lowers them again where it matters
+    }
+
+    void meet_count(Working& work, CloseRounds& rounds) {
+        if (options_.vertices == 0) return;
+        for (int k = 0; k < kCounts; ++k) {
+            const double ratio = work.marked.mesh.number_of_vertices() / options_.vertices;
+            if (std::abs(ratio - 1) <= kCountWithin) return;
+            const double by = std::clamp(std::sqrt(ratio), 0.5, 2.);
+            ground_.length *= by;
+            ground_.longest *= by;
+            ground_.shortest *= by;
+            rounds.take_lengths(work);
+            rounds.run(work, 2, alive());
+        }
+    }
+
+    // Where lengths must become shorter. Takes the mesh where it follows the input, or as it is where it shall be the
+    // last, if it is sound.
+    Places places_of(Working& work, CloseRounds& rounds, bool last) {
+        const double told = kWithin * options_.deviation;
+        Departure own = departure_of(work, rounds, ground_, told),
+                  of_input = departure_of(mesh_, ground_, as_ground(work), told);
+        if (told > 0 && std::max(own.most, of_input.most) > told && !last && !too_many()) {
+            std::ranges::move(of_input.places, std::back_inserter(own.places));
+            return own.places;
+        }
+        auto found = judge_.judge(work.marked, ground_.length.minCoeff());
+        if (!found) return places_of_crossings(work);
+        best_.emplace();
+        best_->mesh = std::move(found->result.mesh);
+        best_->features = std::move(found->result.features);
+        best_->deviation = of_input.most;
+        best_->own_deviation = own.most;
+        best_->off_surface = off_surface(work);
+        count_poor(work, *best_);
+        return {};
+    }
+
+    Places places_of_crossings(const Working& work) {
+        if (fault_.empty()) fault_ = judge_.fault;
+        Places places;
+        for (const Index t : judge_.crossing)
+            for (const Vertex v : CGAL::vertices_around_face(work.marked.mesh.halfedge(Face(t)), work.marked.mesh)) {
+                const Carrier at = work.carrier[v];
+                if (at.on == Carrier::On::vertex) places.emplace_back(at.id, kWhereCrossing);
+                if (at.on == Carrier::On::segment)
+                    for (const Index w : ground_.features.edges.row(at.id)) places.emplace_back(w, kWhereCrossing);
+                if (at.on == Carrier::On::triangle)
+                    for (const Index w : ground_.mesh.triangles.row(at.id)) places.emplace_back(w, kWhereCrossing);
+            }
+        return places;
+    }
+
+    // By the nearest points, which have nothing to do with how they were placed.
+    double off_surface(const Working& work) const {
+        const GroundTrees input(ground_);
+        double most = 0;
+        for (const Vertex v : work.marked.mesh.vertices()) {
+            const Vector p = work.at(v);
+            most = std::max(most, (input.nearest(patch_at(work.marked, v), p).point - p).norm());
+        }
+        return most;
+    }
+
+    void count_poor(const Working& work, CloseRemeshResult& result) {
+        const SurfaceMesh& mesh = work.marked.mesh;
+        for (const Face f : mesh.faces()) {
+            if (quality_of(work, f) >= options_.quality) continue;
+            ++result.poor;
+            int features = 0;
+            for (const HalfEdgeOf h : CGAL::halfedges_around_face(mesh.halfedge(f), mesh))
+                features += work.marked.feature[mesh.edge(h)];
+            result.forced += features >= 2;
+        }
+    }
+
+    void tell() {
+        std::vector<std::string>& notes = best_->notes;
+        if (!fault_.empty())
+            notes.push_back("edges are shorter than wanted where they would spoil the surface (" + fault_ + ")");
+        const double most = std::max(best_->deviation, best_->own_deviation);
+        if (options_.deviation == 0 && most > deviation_told * shape_size(mesh_))
+            notes.push_back("the new surface departs from the input by up to " + short_number(most) +
+                            ": shorter edges, or a deviation that is asked for, follow it more closely");
+        if (options_.deviation > 0 && most > options_.deviation)
+            notes.push_back("the new surface departs from the input by up to " + short_number(most) + ", more than " +
+                            short_number(options_.deviation) + ": more vertices follow it more closely");
+        if (stubs_.rows() > 0)
+            notes.push_back(std::to_string(stubs_.rows()) +
+                            " feature edges, of curves that end inside the surface and are "
+                            "shorter than two edges, were not followed");
+        const double count = static_cast<double>(best_->mesh.vertices.rows());
+        if (options_.vertices > 0 && std::abs(count / options_.vertices - 1) > 0.05)
+            notes.push_back(
+                "the number of vertices wanted cannot be met: features and corners of the input hold some "
+                "in place");
+        const Index free = best_->poor - best_->forced;
+        if (best_->forced > 0)
+            notes.push_back(std::to_string(best_->forced) + " triangles of a quality below " +
+                            short_number(options_.quality) + " lie in corners of the input between two feature edges");
+        if (free > 0)
+            notes.push_back(std::to_string(free) + " triangles have a quality below " + short_number(options_.quality) +
+                            ", and no local step makes them better without leaving the surface or its features");
+    }
+
+    CloseRemeshResult kept() const {
+        CloseRemeshResult result;
+        result.mesh = mesh_;
+        result.features = features_;
+        result.kept = true;
+        result.notes.push_back("no sound surface was found at these lengths (" + fault_ +
+                               "): the triangles of the input were kept");
+        return result;
+    }
+
+    std::function<void(double)> alive() const {
+        return [this](double) { report_or_throw(progress_, "remesh", begun_, kNone); };
+    }
+
+    const TriangleMesh& mesh_;
+    FeatureGraph features_;
+    Edges stubs_{0, 2};
+    const CloseRemeshOptions& options_;
+    const Progress& progress_;
+    RemeshJudge judge_;
+    Background ground_;
+    std::optional<CloseRemeshResult> best_;
+    std::string fault_;  // of the first attempt that was unsound
+    double begun_ = 0;
+};
+
+}  // namespace
+
+CloseRemeshResult close_remesh(const TriangleMesh& mesh, const FeatureGraph& features, const Eigen::VectorXd& lengths,
+                               const CloseRemeshOptions& options, const Progress& progress) {
+    report_or_throw(progress, "remesh", 0, kNone);
+    require_remeshable(mesh, features);
+    require_options(mesh, lengths, options);
+    require_possible(mesh, lengths, options);
+    return CloseRemesher(mesh, features, options, progress).run(lengths);
+}
+
+}  // namespace octafield::surface
