@@ -13,7 +13,6 @@ from ..quad_mesh.features import distance_to, lines_of
 from ..records.parts import BothWays, KeptFeatures, Machine, QualityFigures
 from ..records.remesh import RemeshRecord
 from .options import RemeshingOptions
-from .remesh import diagonal_of
 
 
 def of_remesh(
@@ -25,7 +24,7 @@ def of_remesh(
     memory: PeakMemory,
 ) -> RemeshRecord:
     """surface: that was remeshed. Figures of triangles and features are found on the arrays, not by what made them."""
-    found, mesh, diagonal = sound.found, made.mesh, diagonal_of(surface)
+    found, mesh, diagonal = sound.found, made.mesh, _core.bounding_box_diagonal(surface.vertices)
     qualities = np.asarray(_core.triangle_qualities(mesh))
     sides = np.asarray(_core.edge_topology(mesh).edge_triangles)
     wall = {name: seconds for name, seconds in sound.clock.wall.items() if seconds}
@@ -96,5 +95,5 @@ def kept_features(
         corners=len(corners),
         missed_corners=sum(tuple(corner) not in there for corner in corners.tolist()),
         edges=len(edges),
-        off_curves=off / diagonal_of(surface),
+        off_curves=off / _core.bounding_box_diagonal(surface.vertices),
     )

@@ -129,10 +129,6 @@ def require_surface_format(path: str | Path) -> None:
         )
 
 
-def diagonal_of(surface: TriangleMesh) -> float:
-    return float(_core.bounding_box_diagonal(surface.vertices))
-
-
 def _made(
     sound: SoundInput, surface: TriangleMesh, wanted: RemeshingOptions, sizes: Sizes | None, progress: Progress | None
 ) -> CloseRemeshResult:
@@ -155,14 +151,14 @@ def _made(
         lengths = np.full(len(surface.vertices), length)
         if not (wanted.edge_length or wanted.vertices or deviation):
             deviation = DEVIATION
-    return remesh(surface, features, lengths, deviation=deviation * diagonal_of(surface))
+    return remesh(surface, features, lengths, deviation=deviation * _core.bounding_box_diagonal(surface.vertices))
 
 
 def _refined(surface: TriangleMesh, features: FeatureGraph) -> tuple[TriangleMesh, FeatureGraph]:
     """Each triangle as four until sides are short, so that sizes between vertices are seen, too."""
     points, triangles = np.asarray(surface.vertices), np.asarray(surface.triangles).astype(np.int64)
     edges = np.asarray(features.edges).astype(np.int64).reshape(-1, 2)
-    shortest = diagonal_of(surface) / _PARTS
+    shortest = _core.bounding_box_diagonal(surface.vertices) / _PARTS
     while 4 * len(triangles) <= _MOST:
         sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
         unique, place = np.unique(sides, axis=0, return_inverse=True)
