@@ -42,6 +42,12 @@ void bind_map_types(py::module_& m) {
         });
 }
 
+// The blocks with the map that they are made of again when they are copied.
+struct BoundBlocks {
+    SeamlessMap map;
+    BlockComplex blocks;
+};
+
 void bind_block_types(py::module_& m) {
     Record<BlockArc>(m, "BlockArc", "A curve where blocks meet, from node to node.")
         .field("vertices", &BlockArc::vertices, "int32, of the tet mesh, in order.")
@@ -61,27 +67,33 @@ void bind_block_types(py::module_& m) {
         .field("support", &BlockHexahedra::support,
                "uint8 per vertex: 0 inside, 1 on the boundary, 2 on a feature, 3 a corner.")
         .finish([](const BlockHexahedra& h) { return count(h.mesh.hexahedra.rows(), "hexahedron", "hexahedra"); });
-    py::class_<BlockComplex>(m, "BlockComplex",
-                             "Blocks of a SeamlessMap: boxes in its parameters that meet in rectangles, arcs, nodes.")
+    py::class_<BoundBlocks>(m, "BlockComplex",
+                            "Blocks of a SeamlessMap: boxes in its parameters that meet in rectangles, arcs, nodes.")
         .def_property_readonly(
-            "tet_block", [](const py::object& self) { return view(self.cast<BlockComplex&>().tet_block, self); },
+            "tet_block", [](const py::object& self) { return view(self.cast<BoundBlocks&>().blocks.tet_block, self); },
             "(m,) int32: the block of each tet.")
         .def_property_readonly(
-            "charts", [](const py::object& self) { return view(self.cast<BlockComplex&>().charts, self); },
+            "charts", [](const py::object& self) { return view(self.cast<BoundBlocks&>().blocks.charts, self); },
             "(m, 12) float64 parameters, the same throughout a block.")
         .def_property_readonly(
-            "nodes", [](const py::object& self) { return view(self.cast<BlockComplex&>().nodes, self); },
+            "nodes", [](const py::object& self) { return view(self.cast<BoundBlocks&>().blocks.nodes, self); },
             "int32 vertices where arcs meet, and feature corners on arcs.")
         .def_property_readonly(
-            "arcs", [](const BlockComplex& self) { return self.arcs; }, "A list of BlockArc.")
+            "arcs", [](const BoundBlocks& self) { return self.blocks.arcs; }, "A list of BlockArc.")
         .def_property_readonly(
-            "sizes", [](const BlockComplex& self) { return own(Rows<double, 3>(self.high - self.low)); },
+            "sizes", [](const BoundBlocks& self) { return own(Rows<double, 3>(self.blocks.high - self.blocks.low)); },
             "(b, 3) float64 extents of the blocks in parameters.")
         .def_property_readonly(
-            "patches", [](const BlockComplex& self) { return self.patches.size(); },
+            "patches", [](const BoundBlocks& self) { return self.blocks.patches.size(); },
             "Number of rectangles between blocks and on the boundary.")
-        .def("__repr__", [](const BlockComplex& self) {
-            return "BlockComplex(" + count(self.block_count(), "block") + ", " + count(self.arcs.size(), "arc") + ")";
+        .def("__repr__",
+             [](const BoundBlocks& self) {
+                 return "BlockComplex(" + count(self.blocks.block_count(), "block") + ", " +
+                        count(self.blocks.arcs.size(), "arc") + ")";
+             })
+        .def("__reduce__", [](const BoundBlocks& self) {
+            return py::make_tuple(py::module_::import("octafield._core").attr("block_complex"),
+                                  py::make_tuple(self.map));
         });
 }
 
@@ -129,18 +141,20 @@ void bind_hexmesh(py::module_& m) {
         "InvalidInput, GeometryError.");
     m.def(
         "block_complex",
-        [](const SeamlessMap& map) { return run_interruptible([map = map](Job&) { return block_complex(map); }); },
+        [](const SeamlessMap& map) {
+            return run_interruptible([map = map](Job&) { return BoundBlocks{map, block_complex(map)}; });
+        },
         "map"_a,
         "The blocks that the walls of a SeamlessMap bound, as a BlockComplex. Raises InvalidInput, GeometryError "
         "(kinds "
         "flipped_tet, torn_map, bent_wall, not_a_box).");
     m.def(
         "arc_numbers",
-        [](const BlockComplex& blocks, double scale, const std::optional<ArrayLike>& least, int most_nodes) {
+        [](const BoundBlocks& bound, double scale, const std::optional<ArrayLike>& least, int most_nodes) {
             finite(scale, "scale");
             auto numbers =
-                least ? from_python<std::vector<int>>(*least, "least") : std::vector<int>(blocks.arcs.size(), 1);
-            return run_interruptible([blocks = blocks, scale, numbers = std::move(numbers), most_nodes](Job&) {
+                least ? from_python<std::vector<int>>(*least, "least") : std::vector<int>(bound.blocks.arcs.size(), 1);
+            return run_interruptible([blocks = bound.blocks, scale, numbers = std::move(numbers), most_nodes](Job&) {
                 return arc_numbers(blocks, scale, numbers, most_nodes);
             });
         },
@@ -149,9 +163,9 @@ void bind_hexmesh(py::module_& m) {
         "where none are given. Raises InvalidInput, GeometryError, SolverError.");
     m.def(
         "block_hexahedra",
-        [](const SeamlessMap& map, const BlockComplex& blocks, const ArrayLike& numbers) {
+        [](const SeamlessMap& map, const BoundBlocks& bound, const ArrayLike& numbers) {
             return run_interruptible(
-                [map = map, blocks = blocks, numbers = from_python<std::vector<int>>(numbers, "numbers")](Job&) {
+                [map = map, blocks = bound.blocks, numbers = from_python<std::vector<int>>(numbers, "numbers")](Job&) {
                     return block_hexahedra(map, blocks, numbers);
                 });
         },

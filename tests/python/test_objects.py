@@ -119,6 +119,7 @@ def objects(field, tmp_path_factory):
         of.volume.hex_dominant(tets, frames, edge_length=0.6, refinements=0),
         of.volume.HexDominantOptions(edge_length=0.1, points="frontal"), of.volume.ImproveOptions(sweeps=3),
         of.volume.PeriodicMapOptions(rounds=2), of.volume.RecombineOptions(min_scaled_jacobian=0.2),
+        *hex_objects(box.volume()),
         coordinates, of.volume.lattice_cells(tets, coordinates),
         of.volume.recombine(of.volume.MixedMesh(tets.vertices, tets=tets.tets)),
         of.volume.conform(of.volume.MixedMesh(tets.vertices, tets=tets.tets)),
@@ -130,6 +131,19 @@ def objects(field, tmp_path_factory):
     for thing in everything:
         collect(thing, found)
     return found
+
+
+def hex_objects(tets):
+    """Of a box as a seamless map: all there is on the way to its hexahedra."""
+    parameters = np.asarray(tets.vertices)[np.asarray(tets.tets)].reshape(-1, 12)
+    given = of.volume.SeamlessMap(tets.mesh, parameters)
+    blocks = of.volume.block_complex(given)
+    numbers = of.volume.arc_numbers(blocks, 2.0)
+    return [
+        given, of.volume.seamless_report(given), blocks, numbers, of.volume.all_hex(given, cells=8),
+        of.volume.block_hexahedra(given, blocks, numbers.numbers), of.volume.AllHexOptions(cells=8),
+        of.compute_hex_mesh(given, cells=8),
+    ]  # fmt: skip
 
 
 def layout_objects():

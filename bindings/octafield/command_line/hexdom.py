@@ -108,8 +108,8 @@ def hex_mesh(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Mesh of hexahedra alone from INPUT, a seamless map (.hexex) with walls. DIR gets mesh.vtu, mesh.msh, mesh.mesh,
-    result.json."""
+    """Hexahedra alone, from a seamless map. INPUT is a .hexex file with walls; DIR gets mesh.vtu,
+    mesh.msh, mesh.mesh, result.json."""
 
     def work() -> None:
         from ..files.writing import staged_folder

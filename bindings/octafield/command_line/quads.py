@@ -267,7 +267,7 @@ def report(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """A page about a quad layout: its blocks and quads drawn, its record as tables. DIR gets
+    """A page about a quad layout. Its blocks and quads drawn, its record as tables. DIR gets
     report.html, figures/, tables/. Reports of studies: octafield study report."""
 
     def work() -> None:

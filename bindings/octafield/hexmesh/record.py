@@ -40,7 +40,7 @@ def of_mesh(
         input=name,
         version=octafield_version(),
         input_kind="seamless map",
-        mesh_sha256=MeshedInput(name, "tets", domain, features, "none").digest(),
+        mesh_sha256=MeshedInput(name, "tets", domain.surface.mesh, features, "none", domain).digest(),
         tets=len(given.mesh.tets),
         stage="extracted",
         blocks=made.block_count,
