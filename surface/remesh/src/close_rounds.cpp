@@ -8,6 +8,8 @@ namespace octafield::surface {
 
 using Vector = Eigen::Vector3d;
 
+constexpr double kShorterBy = 0.95;  // at least, of an edge, are both its parts
+
 Vector centre_on_curve(const Working& work, Vertex v) {
     Vector sum = Vector::Zero();
     double weight = 0;
@@ -68,6 +70,9 @@ std::optional<Place> CloseRounds::place_near(const Working& work, Face face, con
 std::optional<Vertex> CloseRounds::split_at(Working& work, Edge edge, const Place& place) {
     const SurfaceMesh& mesh = work.marked.mesh;
     const HalfEdgeOf side = mesh.halfedge(edge);
+    // An edge from fold to fold whose middle comes to lie at one of its ends could be split for ever.
+    for (const Vertex end : {mesh.source(side), mesh.target(side)})
+        if ((work.at(end) - place.point).norm() > kShorterBy * work.edge_length(edge)) return std::nullopt;
     for (const HalfEdgeOf h : {side, mesh.opposite(side)}) {
         if (mesh.is_border(h)) continue;
         const Vector a = work.at(mesh.source(h)), b = work.at(mesh.target(h)), c = work.at(mesh.target(mesh.next(h)));
