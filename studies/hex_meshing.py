@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import octafield
-from octafield.hexmesh.hex_mesh import compute_hex_mesh, domain_of
+from octafield.hexmesh.hex_mesh import compute_hex_mesh
 
 from .benchmarks.pages import when
 from .hex_dominant import checker
@@ -36,7 +36,7 @@ def run(path: Path, cells: int, output: Path) -> dict:
         return {**row, "error": f"{error.kind}: {error}", "cpu": time.process_time() - begun}
     row["cpu"] = time.process_time() - begun
     record, given = result.record, result.map
-    domain = domain_of(given)
+    domain = octafield.volume.map_domain(given)
     edges = np.asarray(domain.surface.vertex_map)[np.asarray(domain.features.edges)]
     figures = checker.check(
         np.asarray(result.mesh.vertices), {"hexahedra": np.asarray(result.mesh.hexahedra)},

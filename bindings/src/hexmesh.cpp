@@ -140,6 +140,12 @@ void bind_hexmesh(py::module_& m) {
         "Whether a SeamlessMap is seamless, aligned with the boundary and without folds, as a SeamlessReport. Raises "
         "InvalidInput, GeometryError.");
     m.def(
+        "map_domain",
+        [](const SeamlessMap& map) { return run_interruptible([map = map](Job&) { return map_domain(map); }); },
+        "map"_a,
+        "The TetDomain of a SeamlessMap: its tets with its features, or, where it has neither edges nor corners, with "
+        "edges of 40 degrees. Raises InvalidInput, GeometryError.");
+    m.def(
         "block_complex",
         [](const SeamlessMap& map) {
             return run_interruptible([map = map](Job&) { return BoundBlocks{map, block_complex(map)}; });

@@ -26,7 +26,9 @@ KINDS = (
     field.RunWithoutField,
 )
 PARTS = tuple(
-    one for one in vars(parts).values() if isinstance(one, type) and issubclass(one, Record) and one is not Record
+    one
+    for one in vars(parts).values()
+    if isinstance(one, type) and issubclass(one, Record) and one is not Record and one.__name__[0] != "_"
 )
 PLAIN = {str: "text", int: "integer", float: "number", bool: "true or false", typing.Any: "anything"}
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..domain.cell_files import write_cells
 from ..files.writing import vtu_bytes, write_file
-from ..progress.phases import PhaseClock, Progress, announce
+from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
 from ..records.record_file import RECORD_FILE, write_record
 from ..view.datasets import cell_grid
 from .hex_mesh import HexMeshResult
@@ -19,7 +19,7 @@ def write_hex_mesh_result(result: HexMeshResult, folder: Path, progress: Progres
     """mesh.vtu (cell data block and scaled_jacobian, point data support), mesh.msh and mesh.mesh, and the record with
     their names and the time it took."""
     announce(progress, "write")
-    clock = PhaseClock()
+    memory, clock = PeakMemory(), PhaseClock()
     record = result.record
     with clock.phase("write"):
         grid = cell_grid(result.mesh)
@@ -35,10 +35,13 @@ def write_hex_mesh_result(result: HexMeshResult, folder: Path, progress: Progres
         write_file(folder / MESH_FILES[0], vtu_bytes(grid, metadata))
         for name in MESH_FILES[1:]:
             write_cells(folder / name, result.mesh)
+    peak = round(memory.megabytes(), 1)
     result.record = record.changed(
         seconds=record.seconds + clock.wall["write"],
         wall_seconds={**record.wall_seconds, "write": clock.wall["write"]},
         cpu_seconds={**record.cpu_seconds, "write": clock.cpu["write"]},
+        phase_peak_mb={**record.phase_peak_mb, "write": peak},
+        peak_mb=max(record.peak_mb, peak),
         files=[*MESH_FILES, RECORD_FILE],
     )
     write_record(folder / RECORD_FILE, result.record)

@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _core
-from .._core import FeatureGraph, MixedMesh, SeamlessMap, TetDomain
+from .._core import MixedMesh, SeamlessMap
 from ..domain.inputs import naming
 from ..errors import InvalidInput
 from ..hexdom.hex_mesh import require_sound
 from ..options import LARGEST_INT, integer_in
-from ..progress.phases import PhaseClock, Progress, announce
+from ..progress.meter import PhaseMeter
+from ..progress.phases import Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
 from .hexex import is_seamless_map, read_seamless_map
 
@@ -96,12 +97,12 @@ def compute_hex_mesh(
         64
     """
     integer_in("cells", cells, 0, LARGEST_INT, " (0: by the edge length)")
-    clock = PhaseClock()
-    with clock.phase("read"):
-        announce(progress, "read")
-        given, name = _map_of(source)
+    meter = PhaseMeter(None, progress)
+    meter.begin("read")
+    announce(progress, "read")
+    given, name = _map_of(source)
     with naming(name):
-        return _made(given, name, clock, progress, {"cells": cells, "edge_length": edge_length, "threads": threads})
+        return _made(given, name, meter, progress, {"cells": cells, "edge_length": edge_length, "threads": threads})
 
 
 def _map_of(source: object) -> tuple[SeamlessMap, str]:
@@ -117,20 +118,19 @@ def _map_of(source: object) -> tuple[SeamlessMap, str]:
 
 
 def _made(
-    given: SeamlessMap, name: str, clock: PhaseClock, progress: Progress | None, options: dict[str, Any]
+    given: SeamlessMap, name: str, meter: PhaseMeter, progress: Progress | None, options: dict[str, Any]
 ) -> HexMeshResult:
     from ..hexdom.quality import figures_of
     from . import record
 
-    with clock.phase("mesh"):
-        announce(progress, "mesh")
-        made = _core.all_hex(given, progress=progress, **options)
-    with clock.phase("check"):
-        announce(progress, "check")
-        require_sound(made.mesh)
-        domain = domain_of(given)
-        figures = figures_of(made.mesh, None, domain, None, options["threads"])
-        told = record.of_mesh(made, figures, domain, given, name, clock, options)
+    made = _core.all_hex(given, progress=meter.report, **options)
+    meter.begin("check")
+    announce(progress, "check")
+    require_sound(made.mesh)
+    domain = _core.map_domain(given)
+    figures = figures_of(made.mesh, None, domain, None, options["threads"])
+    meter.end()
+    told = record.of_mesh(made, figures, domain, given, name, meter, options)
     if told.volume_error > _COARSE:
         note = (
             f"the mesh has another volume than the input, by {told.volume_error:.1%}: the hexahedra are large for how"
@@ -145,17 +145,3 @@ def _made(
         map=given,
         record=told,
     )
-
-
-def domain_of(given: SeamlessMap) -> TetDomain:
-    """The tets with the features of the map, or, where it has none, edges of 40 degrees."""
-    domain = TetDomain(given.mesh)
-    edges, corners = np.asarray(given.features), np.asarray(given.corners)
-    surface = domain.surface
-    if not len(edges) and not len(corners):
-        return domain.with_features(_core.detect_features(surface.mesh))
-    number = np.full(len(given.mesh.vertices), -1, np.int32)
-    number[np.asarray(surface.vertex_map)] = np.arange(len(surface.vertex_map), dtype=np.int32)
-    graph = _core.feature_graph(surface.mesh, number[edges])
-    both = np.union1d(np.asarray(graph.corners), number[corners])
-    return domain.with_features(FeatureGraph(graph.edges, both.astype(np.int32)))

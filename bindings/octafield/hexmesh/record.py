@@ -10,7 +10,8 @@ from .. import _core
 from .._core import AllHexMesh, MixedMesh, SeamlessMap, SurfaceDomain, TetDomain
 from ..domain.meshed_input import MeshedInput
 from ..hexdom.quality import MeshFigures
-from ..progress.phases import PeakMemory, PhaseClock, machine, octafield_version, versions
+from ..progress.meter import PhaseMeter
+from ..progress.phases import machine, octafield_version, versions
 from ..quad_mesh.features import feature_deviation
 from ..records.hex_mesh import HexMeshRecord
 from ..records.parts import Deviation, EdgeLengths, FeatureDeviation, JacobianFigures, Machine, WholeNumberFigures
@@ -24,13 +25,12 @@ def of_mesh(
     domain: TetDomain,
     given: SeamlessMap,
     name: str,
-    clock: PhaseClock,
+    meter: PhaseMeter,
     options: dict[str, Any],
 ) -> HexMeshRecord:
     boundary = _core.cell_boundary(made.mesh)
     features = domain.features
     corners, curves = feature_deviation(boundary.mesh, SurfaceDomain(domain.surface.mesh, features))
-    wall = {phase: seconds for phase, seconds in clock.wall.items() if seconds}
     quality, edges = figures.jacobians["hexahedra"], figures.edges
     hexahedra = figures.cells["hexahedra"]
     wanted_edge = options["edge_length"] or float(
@@ -63,10 +63,11 @@ def of_mesh(
         boundary_deviation=Deviation(max=figures.deviation[0], rms=figures.deviation[1]),
         feature_deviation=FeatureDeviation(corners=corners, curves=curves),
         edge_length=EdgeLengths(target=wanted_edge, median=edges.median, p05=edges.p05, p95=edges.p95),
-        seconds=sum(wall.values()),
-        wall_seconds=wall,
-        cpu_seconds={phase: clock.cpu[phase] for phase in wall},
-        peak_mb=round(PeakMemory().megabytes(), 1),
+        seconds=sum(meter.wall.values()),
+        wall_seconds=meter.wall,
+        cpu_seconds=meter.cpu,
+        phase_peak_mb=meter.peak_mb,
+        peak_mb=max(meter.peak_mb.values()),
         notes=list(made.notes),
         versions=versions(),
         machine=Machine.model_validate(machine()),

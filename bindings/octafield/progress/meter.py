@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import time
+from typing import TYPE_CHECKING
 
-from ..records.field import InputRecord
 from .phases import PHASES, PeakMemory, Progress
+
+if TYPE_CHECKING:
+    from ..records.field import InputRecord
 
 
 class PhaseMeter:
-    """wall, cpu: seconds, those of the field before; peak_mb: of the phases that begin here. Two phases of the core
-    that have a name of one before get "mesh_" before it. `report` is a callback for the core that passes its reports
-    on."""
+    """wall, cpu: seconds, those of the record before, if there is one; peak_mb: of the phases that begin here. Two
+    phases of the core that have a name of one before get "mesh_" before it. `report` is a callback for the core that
+    passes its reports on."""
 
-    def __init__(self, before: InputRecord, progress: Progress | None):
-        self.wall: dict[str, float] = {name: float(seconds) for name, seconds in before.wall_seconds.items()}
-        self.cpu: dict[str, float] = {name: float(seconds) for name, seconds in before.cpu_seconds.items()}
+    def __init__(self, before: InputRecord | None, progress: Progress | None):
+        seconds = (before.wall_seconds, before.cpu_seconds) if before else ({}, {})
+        self.wall, self.cpu = ({name: float(s) for name, s in of_phases.items()} for of_phases in seconds)
         self.wall.pop("write", None)
         self.cpu.pop("write", None)
+        self._taken = PHASES if before else ()
         self.peak_mb: dict[str, float] = {}
         self._progress = progress
         self._phase = ""
@@ -29,7 +33,7 @@ class PhaseMeter:
 
     def begin(self, phase: str) -> None:
         name = phase.replace(" ", "_")
-        name = f"mesh_{name}" if name in PHASES and name != "write" else name
+        name = f"mesh_{name}" if name in self._taken and name != "write" else name
         if name == self._phase:
             return
         self.end()

@@ -16,7 +16,8 @@ from pydantic import BaseModel, ConfigDict
 class Record(BaseModel, Mapping[str, Any]):
     """A JSON object. Keys it has no name for, of another version, are kept and come last.
 
-    FIRST, LAST: names that are written before and after the others, which are written in the order of the class."""
+    FIRST, LAST: names that are written before and after the others, which are written in the order of the class. A
+    class need not have all of LAST."""
 
     model_config = ConfigDict(extra="allow", frozen=True)
     FIRST: ClassVar[tuple[str, ...]] = ()
@@ -27,7 +28,8 @@ class Record(BaseModel, Mapping[str, Any]):
     def order(cls) -> dict[str, bool]:
         """All names in the order they are written, and which of them every record has."""
         ends = {*cls.FIRST, *cls.LAST}
-        names = (*cls.FIRST, *(name for name in cls.model_fields if name not in ends), *cls.LAST)
+        last = (name for name in cls.LAST if name in cls.model_fields)
+        names = (*cls.FIRST, *(name for name in cls.model_fields if name not in ends), *last)
         return {name: cls.model_fields[name].is_required() for name in names}
 
     def __iter__(self) -> Iterator[str]:  # type: ignore[override]

@@ -4,7 +4,7 @@ from typing import Any
 
 from pydantic import Field
 
-from .base import Record
+from .measured import MeasuredRecord
 from .parts import (
     CellCounts,
     Deviation,
@@ -12,18 +12,14 @@ from .parts import (
     FieldOfMesh,
     JacobianFigures,
     LatticeSteps,
-    Machine,
     Quantiles,
 )
 
 
-class HexDominantRecord(Record):
+class HexDominantRecord(MeasuredRecord):
     """`octafield hex-dominant`: result.json and `HexDominantResult.record`. Figures are found on the mesh's arrays and
     the input's, not by what made the mesh."""
 
-    input: str = Field(description="path or name of the input")
-    version: str = Field(description="of octafield")
-    input_kind: str = Field(description="surface or tets: what the input was")
     mesh_sha256: str = Field(description="of the arrays of the tets that the field is on, first 16 hexadecimal digits")
     tets: int = Field(description="of the mesh that the field is on")
     regions: int = Field(description="how many")
@@ -54,15 +50,9 @@ class HexDominantRecord(Record):
         default=None, description="lengths of edges over the size wanted at their middles, where sizes are given"
     )
     steps: LatticeSteps = Field(description="what became of the cells of the lattice")
-    wall_seconds: dict[str, float] = Field(description="by the clock, per phase")
-    cpu_seconds: dict[str, float] = Field(description="of the processor, all threads, per phase")
     phase_peak_mb: dict[str, float] = Field(
         description="largest resident memory in each phase of the meshing, 1e6 bytes, libraries included"
     )
-    peak_mb: float = Field(description="the largest of all phases")
-    notes: list[str] = Field(description="what was done to the input, and what it was without")
-    versions: dict[str, str] = Field(description="of octafield, Python, packages and platform")
-    machine: Machine | None = Field(default=None, description="that it ran on")
     options: dict[str, Any] = Field(description="those of octafield.hexdom.options.HexMeshOptions, by name, and sizes")
     field_options: dict[str, Any] = Field(description="`octafield.FieldOptions(**record.field_options)` makes them")
     files: list[str] | None = Field(default=None, description="names of what was written, within the folder")

@@ -4,17 +4,14 @@ from typing import Any
 
 from pydantic import Field
 
-from .base import Record
-from .parts import Deviation, EdgeLengths, FeatureDeviation, JacobianFigures, Machine, WholeNumberFigures
+from .measured import MeasuredRecord
+from .parts import Deviation, EdgeLengths, FeatureDeviation, JacobianFigures, WholeNumberFigures
 
 
-class HexMeshRecord(Record):
+class HexMeshRecord(MeasuredRecord):
     """`octafield hex-mesh`: result.json and `HexMeshResult.record`. Figures of the hexahedra are found on the mesh's
     arrays and the input's, not by what made the mesh."""
 
-    input: str = Field(description="path or name of the input")
-    version: str = Field(description="of octafield")
-    input_kind: str = Field(description="seamless map")
     mesh_sha256: str = Field(description="of the arrays of the tets that the map is on, first 16 hexadecimal digits")
     tets: int = Field(description="that the map is on")
     stage: str = Field(description="reached: extracted")
@@ -41,11 +38,8 @@ class HexMeshRecord(Record):
     feature_deviation: FeatureDeviation = Field(description="of the boundary's quads from features")
     edge_length: EdgeLengths = Field(description="of the edges of the hexahedra, input unit")
     seconds: float = Field(description="by the clock, of all phases")
-    wall_seconds: dict[str, float] = Field(description="by the clock, per phase")
-    cpu_seconds: dict[str, float] = Field(description="of the processor, all threads, per phase")
-    peak_mb: float = Field(description="largest resident memory, 1e6 bytes, libraries included")
-    notes: list[str] = Field(description="what the mesh does not have")
-    versions: dict[str, str] = Field(description="of octafield, Python, packages and platform")
-    machine: Machine | None = Field(default=None, description="that it ran on")
+    phase_peak_mb: dict[str, float] = Field(
+        description="largest resident memory in each phase of the meshing, 1e6 bytes, libraries included"
+    )
     options: dict[str, Any] = Field(description="`compute_hex_mesh(map, **record.options)` makes it again")
     files: list[str] | None = Field(default=None, description="names of what was written, within the folder")

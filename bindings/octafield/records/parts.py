@@ -203,20 +203,18 @@ class CellCounts(Record):
     pyramids: int = Field(description="how many")
 
 
-class JacobianFigures(Record):
+class _Lowest(Record):
+    min: float = Field(description="the smallest")
+    p05: float = Field(description="5 % are smaller")
+    mean: float = Field(description="of all")
+
+
+class JacobianFigures(_Lowest):
     """Least scaled Jacobians of the cells of a kind: 1 for the best shape, 0 and less where a corner is inverted."""
 
-    min: float = Field(description="the smallest")
-    p05: float = Field(description="5 % are smaller")
-    mean: float = Field(description="of all")
 
-
-class QualityFigures(Record):
+class QualityFigures(_Lowest):
     """Of twice the inscribed over the circumscribed radius of triangles, in [0, 1]."""
-
-    min: float = Field(description="the smallest")
-    p05: float = Field(description="5 % are smaller")
-    mean: float = Field(description="of all")
 
 
 class BothWays(Record):

@@ -4,8 +4,8 @@ from typing import Any
 
 from pydantic import Field
 
+from .measured import QuadRecord
 from .parts import ImposedPointFigures, JacobianFigures, Misalignment
-from .quads import QuadRecord
 
 
 class QuadLayoutRecord(QuadRecord):

@@ -4,6 +4,7 @@ from typing import Any
 
 from pydantic import Field
 
+from .measured import QuadRecord
 from .parts import (
     FeatureDeviation,
     FieldAngles,
@@ -14,7 +15,6 @@ from .parts import (
     SizeRatios,
     WholeNumberFigures,
 )
-from .quads import QuadRecord
 
 
 class QuadMeshRecord(QuadRecord):

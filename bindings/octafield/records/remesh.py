@@ -4,16 +4,13 @@ from typing import Any
 
 from pydantic import Field
 
-from .base import Record
-from .parts import BothWays, KeptFeatures, Machine, QualityFigures
+from .measured import MeasuredRecord
+from .parts import BothWays, KeptFeatures, QualityFigures
 
 
-class RemeshRecord(Record):
+class RemeshRecord(MeasuredRecord):
     """`octafield remesh`: what --json writes, and `RemeshedSurface.record`."""
 
-    input: str = Field(description="path or name of the input")
-    version: str = Field(description="of octafield")
-    input_kind: str = Field(description="surface or tets: what the input was")
     input_vertices: int = Field(description="of the surface, after repair")
     input_triangles: int = Field(description="of the surface, after repair")
     feature_source: str = Field(description="file, angle or none: where features come from")
@@ -35,12 +32,6 @@ class RemeshRecord(Record):
     open_edges: int = Field(description="of one triangle")
     kept: bool = Field(description="no sound mesh was found, and the triangles are those of the input")
     seconds: float = Field(description="by the clock, of all phases")
-    wall_seconds: dict[str, float] = Field(description="by the clock, per phase")
-    cpu_seconds: dict[str, float] = Field(description="of the processor, all threads, per phase")
-    peak_mb: float = Field(description="largest resident memory, 1e6 bytes, libraries included")
-    notes: list[str] = Field(description="what was done to the input, and what the mesh is without")
-    versions: dict[str, str] = Field(description="of octafield, Python, packages and platform")
-    machine: Machine | None = Field(default=None, description="that it ran on")
     options: dict[str, Any] = Field(description="`octafield.RemeshingOptions(**record.options)` makes them again")
     mesh_options: dict[str, Any] = Field(description="`octafield.MeshOptions(**record.mesh_options)` makes them again")
     output: str | None = Field(default=None, description="the file that was written")

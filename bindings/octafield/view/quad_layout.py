@@ -51,24 +51,23 @@ def jacobian_scene_of_folder(folder: Path) -> pyvista.Plotter:
 def chart_scene(points: np.ndarray, triangles: np.ndarray, charts: np.ndarray) -> pyvista.Plotter:
     """charts: (t,) of each triangle. Their edges are left out where there are many."""
     shape = scene.plotter()
-    colours = colours_of(triangles, charts)[charts]
-    for number, colour in enumerate(COLOURS):
-        if (colours == number).any():
-            part = pyvista.PolyData.from_regular_faces(points, triangles[colours == number])
-            shape.add_mesh(
-                part,
-                color=colour,
-                ambient=0.45,
-                diffuse=0.6,
-                specular=0,
-                show_edges=len(triangles) < 10000,
-                edge_color=_EDGES,
-            )
+    _add_in_colours(shape, points, triangles, charts, show_edges=len(triangles) < 10000)
     lines = _between_blocks(points, triangles, charts)
     if lines.n_cells:
         shape.add_mesh(lines.tube(radius=0.0015 * scene.diagonal(points), n_sides=8), color=scene.INK, lighting=False)
     _look(shape, points)
     return shape
+
+
+def _add_in_colours(
+    shape: pyvista.Plotter, points: np.ndarray, faces: np.ndarray, parts: np.ndarray, **edges: float
+) -> None:
+    """parts: number of the part that each face is of; neighbours get different colours."""
+    colours = colours_of(faces, parts)[parts]
+    for number, colour in enumerate(COLOURS):
+        if (colours == number).any():
+            part = pyvista.PolyData.from_regular_faces(points, faces[colours == number])
+            shape.add_mesh(part, color=colour, ambient=0.5, diffuse=0.6, specular=0, edge_color=_EDGES, **edges)  # type: ignore[arg-type]
 
 
 def jacobian_scene(grid: pyvista.UnstructuredGrid) -> pyvista.Plotter:
@@ -122,20 +121,7 @@ def _drawn(grid: pyvista.UnstructuredGrid, sides: pyvista.PolyData | None) -> py
     size = scene.diagonal(points)
     blocks = np.asarray(grid.cell_data["block"])
     width = _edge_width(grid)
-    colours = colours_of(quads, blocks)[blocks]
-    for number, colour in enumerate(COLOURS):
-        if (colours == number).any():
-            part = pyvista.PolyData.from_regular_faces(points, quads[colours == number])
-            shape.add_mesh(
-                part,
-                color=colour,
-                ambient=0.5,
-                diffuse=0.6,
-                specular=0,
-                show_edges=True,
-                edge_color=_EDGES,
-                line_width=width,
-            )
+    _add_in_colours(shape, points, quads, blocks, show_edges=True, line_width=width)
     lines = _between_blocks(points, quads, blocks) if sides is None else sides
     if lines.n_cells:
         shape.add_mesh(lines.tube(radius=0.0018 * size, n_sides=8), color=scene.INK, lighting=False)

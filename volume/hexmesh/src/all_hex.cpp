@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 #include <string>
 
@@ -32,49 +31,27 @@ void require(const AllHexOptions& options) {
     if (!(options.good > 0 && options.good < 1)) refuse("good must lie between 0 and 1");
 }
 
-double wanted_cells(const SeamlessMap& map, const BoundarySurface& surface, const AllHexOptions& options) {
-    if (options.cells > 0) return options.cells;
-    const double length = options.edge_length > 0 ? options.edge_length : surface::mean_edge_length(surface.mesh);
-    const double wanted = tet_volumes(map.mesh).sum() / std::pow(length, 3);
+double wanted_cells(const TetDomain& domain, const AllHexOptions& options) {
+    const double length =
+        options.edge_length > 0 ? options.edge_length : surface::mean_edge_length(domain.surface().mesh);
+    const double wanted = options.cells > 0 ? options.cells : tet_volumes(domain.mesh()).sum() / std::pow(length, 3);
     if (wanted > options.most_hexahedra)
-        throw InvalidInput("the edge length asks for about " + std::to_string(static_cast<long long>(wanted)) +
-                               " hexahedra, and at most " + std::to_string(options.most_hexahedra) +
-                               " are made; give a larger one, or more most_hexahedra",
+        throw InvalidInput("about " + std::to_string(static_cast<long long>(std::min(wanted, 1e18))) +
+                               " hexahedra are asked for, and at most " + std::to_string(options.most_hexahedra) +
+                               " are made; ask for fewer or larger ones, or for more most_hexahedra",
                            "too_many_cells");
     return std::max(wanted, 1.);
 }
 
-// Of the surface, in its own numbering: the map's, or edges of 40 degrees.
-surface::FeatureGraph features_of(const SeamlessMap& map, const BoundarySurface& surface) {
-    if (map.features.rows() == 0 && map.corners.empty()) return surface::detect_features(surface.mesh);
-    std::map<Index, Index> number;
-    for (std::size_t v = 0; v < surface.vertex_map.size(); ++v) number[surface.vertex_map[v]] = static_cast<Index>(v);
-    const auto known = [&](Index vertex) {
-        const auto found = number.find(vertex);
-        if (found == number.end())
-            throw InvalidInput("features: vertex " + std::to_string(vertex) + " is not on the boundary",
-                               "index_out_of_range", {vertex});
-        return found->second;
-    };
-    surface::FeatureGraph graph;
-    graph.edges.resize(map.features.rows(), 2);
-    for (Index e = 0; e < map.features.rows(); ++e)
-        graph.edges.row(e) << known(map.features(e, 0)), known(map.features(e, 1));
-    surface::FeatureGraph with_turns = surface::feature_graph(surface.mesh, graph.edges);
-    for (const Index corner : map.corners) with_turns.corners.push_back(known(corner));
-    std::sort(with_turns.corners.begin(), with_turns.corners.end());
-    with_turns.corners.erase(std::unique(with_turns.corners.begin(), with_turns.corners.end()),
-                             with_turns.corners.end());
-    return surface::ordered_features(std::move(with_turns), surface.mesh);
-}
-
-// The map with these features.
-SeamlessMap with_features(SeamlessMap map, const BoundarySurface& surface, const surface::FeatureGraph& features) {
+// The map with the features of the domain.
+SeamlessMap with_features(SeamlessMap map, const TetDomain& domain) {
+    const surface::FeatureGraph& features = domain.features();
+    const std::vector<Index>& vertices = domain.surface().vertex_map;
     map.features.resize(features.edges.rows(), 2);
     for (Index e = 0; e < features.edges.rows(); ++e)
-        for (int k = 0; k < 2; ++k) map.features(e, k) = surface.vertex_map[features.edges(e, k)];
+        for (int k = 0; k < 2; ++k) map.features(e, k) = vertices[features.edges(e, k)];
     map.corners.clear();
-    for (const Index corner : features.corners) map.corners.push_back(surface.vertex_map[corner]);
+    for (const Index corner : features.corners) map.corners.push_back(vertices[corner]);
     return map;
 }
 
@@ -189,8 +166,7 @@ std::vector<Index> inverted_cells(const MixedMesh& mesh) {
     return result;
 }
 
-void move_vertices(BlockHexahedra& made, const BoundarySurface& surface, const surface::FeatureGraph& features,
-                   const AllHexOptions& options) {
+void move_vertices(BlockHexahedra& made, const TetDomain& domain, const AllHexOptions& options) {
     VertexSupport support;
     for (const std::uint8_t kind : made.support) support.kind.push_back(static_cast<VertexSupport::Kind>(kind));
     ImproveOptions improve;
@@ -199,7 +175,7 @@ void move_vertices(BlockHexahedra& made, const BoundarySurface& surface, const s
     improve.threads = options.threads;
     improve.fit_surface = true;
     improve.tolerance = fit * std::cbrt(cell_volumes(made.mesh).cwiseAbs().mean());
-    made.mesh = improve_cells(std::move(made.mesh), support, surface.mesh, features, improve);
+    made.mesh = improve_cells(std::move(made.mesh), support, domain.surface().mesh, domain.features(), improve);
 }
 
 }  // namespace
@@ -209,13 +185,12 @@ AllHexMesh all_hex(const SeamlessMap& given, const AllHexOptions& options, const
     report_or_throw(progress, "blocks", 0, std::nan(""));
     AllHexMesh result;
     const double volume = seamless_report(given).volume;
-    const BoundarySurface surface = boundary_surface(given.mesh);
-    const surface::FeatureGraph features = features_of(given, surface);
-    const SeamlessMap map = with_features(given, surface, features);
+    const TetDomain domain = map_domain(given);
+    const SeamlessMap map = with_features(given, domain);
     const BlockComplex blocks = block_complex(map);
     result.block_count = blocks.block_count();
     note_lost_features(map, blocks, result.notes);
-    const double wanted = wanted_cells(map, surface, options);
+    const double wanted = wanted_cells(domain, options);
     result.wanted = static_cast<Index>(std::lround(wanted));
     std::vector<std::vector<int>> tried;
     std::vector<Index> bad;
@@ -229,14 +204,15 @@ AllHexMesh all_hex(const SeamlessMap& given, const AllHexOptions& options, const
     };
     for (const double factor : factors) {
         const ArcNumbers numbers = NumberSearch(blocks, volume, factor * wanted, options, progress).nearest_numbers();
-        require_few(numbers, options);
+        if (factor == factors[0]) require_few(numbers, options);
+        if (numbers.hexahedra > options.most_hexahedra) continue;
         if (std::find(tried.begin(), tried.end(), numbers.numbers) != tried.end()) continue;
         tried.push_back(numbers.numbers);
         report_or_throw(progress, "hexahedra", -1, std::nan(""));
         BlockHexahedra made = block_hexahedra(map, blocks, numbers.numbers);
         const auto inverted = static_cast<Index>(inverted_cells(made.mesh).size());
         report_or_throw(progress, "improve", -1, std::nan(""));
-        if (options.sweeps > 0) move_vertices(made, surface, features, options);
+        if (options.sweeps > 0) move_vertices(made, domain, options);
         const std::vector<Index> left = inverted_cells(made.mesh);
         if (tried.size() == 1) bad = left;
         if (!left.empty()) continue;
@@ -251,9 +227,11 @@ AllHexMesh all_hex(const SeamlessMap& given, const AllHexOptions& options, const
         return result;
     }
     if (result.mesh.hexahedra.rows() > 0) return result;
-    throw SolverError("hexahedra " + first_few(bad) +
-                          " stay inverted however their vertices move; ask for more cells, or another map",
-                      "inverted_cells", bad);
+    throw SolverError(
+        "hexahedra " + first_few(bad) +
+            (options.sweeps > 0 ? " stay inverted however their vertices move; ask for more cells, or another map"
+                                : " are inverted where the map puts them; allow sweeps that move vertices"),
+        "inverted_cells", bad);
 }
 
 }  // namespace octafield::volume

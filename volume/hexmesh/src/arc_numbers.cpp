@@ -29,7 +29,7 @@ ArcNumbers arc_numbers(const BlockComplex& blocks, double scale, const std::vect
     const surface::detail::ArcCounts found = surface::detail::integer_counts(problem, most_nodes);
     ArcNumbers result{found.counts, found.deviation, found.bound, 0};
     for (const detail::Vector3i& size : detail::block_grids(blocks, result.numbers).sizes)
-        result.hexahedra += size.prod();
+        result.hexahedra += size.cast<std::int64_t>().prod();
     return result;
 }
 

@@ -75,4 +75,26 @@ SeamlessReport seamless_report(const SeamlessMap& map) {
     return report;
 }
 
+TetDomain map_domain(const SeamlessMap& map) {
+    require_arrays(map);
+    const TetDomain domain(map.mesh);
+    const BoundarySurface& surface = domain.surface();
+    if (map.features.rows() == 0 && map.corners.empty())
+        return domain.with_features(surface::detect_features(surface.mesh));
+    std::vector<Index> number(map.mesh.vertices.rows(), -1);
+    for (std::size_t v = 0; v < surface.vertex_map.size(); ++v) number[surface.vertex_map[v]] = static_cast<Index>(v);
+    const auto known = [&](Index vertex) {
+        if (number[vertex] < 0)
+            throw InvalidInput("features: vertex " + std::to_string(vertex) + " is not on the boundary",
+                               "index_out_of_range", {vertex});
+        return number[vertex];
+    };
+    Edges edges(map.features.rows(), 2);
+    for (Index e = 0; e < edges.rows(); ++e)
+        for (int k = 0; k < 2; ++k) edges(e, k) = known(map.features(e, k));
+    surface::FeatureGraph features = surface::feature_graph(surface.mesh, edges);
+    for (const Index corner : map.corners) features.corners.push_back(known(corner));
+    return domain.with_features(std::move(features));
+}
+
 }  // namespace octafield::volume

@@ -1,6 +1,7 @@
 // Hexahedra of a seamless map: whole numbers for the arcs of its blocks, a grid in each block, vertices moved.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct ArcNumbers {
     std::vector<int> numbers;
     double deviation = 0;  // sum of |number - wanted| / max(wanted, 1/2)
     double bound = 0;      // that no choice is below
-    Index hexahedra = 0;
+    std::int64_t hexahedra = 0;
 };
 
 // wanted: length of an arc times `scale`. least: the least number of each arc, 0 or more. The same result each run:

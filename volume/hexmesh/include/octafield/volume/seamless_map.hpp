@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "octafield/arrays.hpp"
-#include "octafield/volume/tet_mesh.hpp"
+#include "octafield/volume/tet_domain.hpp"
 
 namespace octafield::volume {
 
@@ -30,5 +30,9 @@ struct SeamlessReport {
 // Throws what require_valid and triangle_table throw, and InvalidInput: kinds "wrong_size", "non_finite_parameter",
 // "index_out_of_range" (walls, features, corners), all naming rows.
 SeamlessReport seamless_report(const SeamlessMap& map);
+
+// The tets with the map's features, or where it has neither edges nor corners, with edges of 40 degrees. Throws what
+// TetDomain throws, and InvalidInput ("index_out_of_range": features beyond the mesh or inside it).
+TetDomain map_domain(const SeamlessMap& map);
 
 }  // namespace octafield::volume

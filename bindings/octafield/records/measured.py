@@ -1,4 +1,4 @@
-"""What records of quads have in common."""
+"""What records of runs that make meshes have in common."""
 
 from typing import Any, ClassVar
 
@@ -8,10 +8,11 @@ from .base import Record
 from .parts import Deviation, EdgeLengths, JacobianFigures, Machine
 
 
-class QuadRecord(Record):
-    """Figures of the quads are found on the mesh's arrays and the input's, not by what made the mesh."""
+class MeasuredRecord(Record):
+    """What the run took, and on what."""
 
     LAST: ClassVar = (
+        "seconds",
         "wall_seconds",
         "cpu_seconds",
         "phase_peak_mb",
@@ -20,13 +21,26 @@ class QuadRecord(Record):
         "versions",
         "machine",
         "options",
+        "mesh_options",
         "field_options",
         "files",
+        "output",
     )
 
     input: str = Field(description="path or name of the input")
     version: str = Field(description="of octafield")
-    input_kind: str = Field(description="surface or tets: what the input was")
+    input_kind: str = Field(description="surface, tets or seamless map: what the input was")
+    wall_seconds: dict[str, float] = Field(description="by the clock, per phase")
+    cpu_seconds: dict[str, float] = Field(description="of the processor, all threads, per phase")
+    peak_mb: float = Field(description="largest resident memory of all phases, 1e6 bytes, libraries included")
+    notes: list[str] = Field(description="what was done to the input, and what it or the mesh is without")
+    versions: dict[str, str] = Field(description="of octafield, Python, packages and platform")
+    machine: Machine | None = Field(default=None, description="that it ran on")
+
+
+class QuadRecord(MeasuredRecord):
+    """Figures of the quads are found on the mesh's arrays and the input's, not by what made the mesh."""
+
     mesh_sha256: str = Field(description="of the arrays of the surface, first 16 hexadecimal digits")
     triangles: int = Field(description="of the surface that the field is on")
     field_triangles: int = Field(description="of the surface refined round singular points")
@@ -43,15 +57,9 @@ class QuadRecord(Record):
     surface_deviation: Deviation = Field(
         description="between quads and input, both ways, over the diagonal of the input's box"
     )
-    wall_seconds: dict[str, float] = Field(description="by the clock, per phase")
-    cpu_seconds: dict[str, float] = Field(description="of the processor, all threads, per phase")
     phase_peak_mb: dict[str, float] = Field(
         description="largest resident memory in each phase after reading, 1e6 bytes, libraries included"
     )
-    peak_mb: float = Field(description="the largest of all phases")
-    notes: list[str] = Field(description="what was done to the input, and what it was without")
-    versions: dict[str, str] = Field(description="of octafield, Python, packages and platform")
-    machine: Machine | None = Field(default=None, description="that it ran on")
     field_options: dict[str, Any] = Field(
         description="`octafield.SurfaceFieldOptions(**record.field_options)` makes them again"
     )
