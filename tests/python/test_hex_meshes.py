@@ -39,6 +39,13 @@ def test_maps_of_others_become_sound_meshes_of_hexahedra_alone(shared_data, name
     assert result.record.hexahedra == pytest.approx(700, rel=0.2)
 
 
+def test_every_phase_has_its_seconds_and_memory():
+    record = of.compute_hex_mesh(box_map(), cells=64).record
+    phases = ["read", "blocks", "numbers", "hexahedra", "improve", "check"]
+    assert list(record.wall_seconds) == list(record.cpu_seconds) == list(record.phase_peak_mb) == phases
+    assert record.peak_mb == max(record.phase_peak_mb.values()) and record.seconds >= record.wall_seconds["improve"]
+
+
 def test_irregular_edges_are_those_of_the_map(shared_data):
     """A prism over a triangle has one curve of valence 3, through all layers; a cube none."""
     assert of.compute_hex_mesh(map_file(shared_data, "s01c_cube"), cells=100).record.irregular_edges == {}

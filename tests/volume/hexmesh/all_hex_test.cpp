@@ -96,6 +96,12 @@ TEST(BlockComplex, ParametersOfATetMayBeTurnedAndMoved) {
     const BlockComplex blocks = block_complex(map);
     EXPECT_EQ(blocks.block_count(), 2);
     EXPECT_EQ(blocks.arcs.size(), block_complex(l_shape()).arcs.size());
+    // Charts of the two blocks are turned against each other, so the wall between them is seen in two ways.
+    std::vector<int> numbers;
+    for (const BlockArc& arc : blocks.arcs) numbers.push_back(static_cast<int>(std::lround(3 * arc.length())));
+    const BlockHexahedra made = block_hexahedra(map, blocks, numbers);
+    require_valid(made.mesh);
+    EXPECT_LT((cell_volumes(made.mesh).array() - 1. / 27).abs().maxCoeff(), 1e-12);
 }
 
 TEST(BlockComplex, WhatIsNoMapOfBlocksIsNamed) {
@@ -118,6 +124,11 @@ TEST(BlockComplex, WhatIsNoMapOfBlocksIsNamed) {
     lost = l_shape();
     lost.parameters(2, 2) = std::nan("");
     EXPECT_EQ(kind_of([&] { block_complex(lost); }), "non_finite_parameter");
+}
+
+TEST(ArcNumbers, HexahedraAreCountedBeyondThirtyTwoBits) {
+    const BlockComplex blocks = block_complex(identity_map(kuhn_grid(1, 1, 1, 1)));
+    EXPECT_EQ(arc_numbers(blocks, 5000, std::vector<int>(12, 1)).hexahedra, 125000000000);
 }
 
 TEST(ArcNumbers, OppositeSidesOfPatchesHaveTheSameSum) {
@@ -208,6 +219,13 @@ TEST(AllHex, OptionsAreBounded) {
     EXPECT_EQ(with([](AllHexOptions& o) { o.edge_length = o.cells = 1; }), "option_out_of_range");
     EXPECT_EQ(with([](AllHexOptions& o) { o.good = 1; }), "option_out_of_range");
     EXPECT_EQ(with([](AllHexOptions& o) { o.edge_length = 1e-4; }), "too_many_cells");
+    EXPECT_EQ(with([](AllHexOptions& o) { o.edge_length = 1e-200; }), "too_many_cells");
+    EXPECT_EQ(with([](AllHexOptions& o) { o.cells = 2000000000; }), "too_many_cells");
+    EXPECT_EQ(with([](AllHexOptions& o) {
+                  o.cells = 100;
+                  o.most_hexahedra = 50;
+              }),
+              "too_many_cells");
 }
 
 }  // namespace
