@@ -33,7 +33,9 @@ double angle_at(const LocalField& local, const LayoutPoint& point, Index t, int 
 PassedPoints::PassedPoints(const LocalField& local, const LayoutPoints& points, double tolerance)
     : local_(local), points_(points), tolerance_(tolerance), near_of_(local.charts().mesh().triangles.rows(), -1) {
     find_near();
-    for (NearTriangle& near : near_) fill(near);
+    entered_.reserve(3 * near_.size());
+    for (const Index t : near_)
+        for (int k = 0; k < 3; ++k) entered_.push_back(entered(t, k));
     seen_.assign(near_.size(), 0);
 }
 
@@ -71,31 +73,45 @@ void PassedPoints::find_near() {
     for (Index t = 0; t < triangles.rows(); ++t) {
         if (near_of_[t] < 0) continue;
         near_of_[t] = static_cast<Index>(near_.size());
-        near_.emplace_back().triangle = t;
+        near_.push_back(t);
     }
 }
 
-void PassedPoints::fill(NearTriangle& near) const {
+PassedPoints::Way PassedPoints::way_through(Index t, int side, const LocalField::Place& from) const {
     const Charts& charts = local_.charts();
-    const Index t = near.triangle;
-    for (int k = 0; k < 3; ++k) {
-        near.is_point[k] = points_.of_vertex[charts.mesh().triangles(t, k)] >= 0;
-        const LocalField::Place middle{t, charts.on_side(t, k, 0.5), 0};
-        for (int i = 0; i < 3; ++i) {
-            near.corners[k][i] = local_.parameters(middle, charts.corners(t)[i]);
-            near.middles[k][i] = local_.parameters(middle, charts.on_side(t, i, 0.5));
-        }
-        const Charts::Side over = charts.across({t, k});
-        near.across[k] = over.triangle < 0 ? -1 : near_of_[over.triangle];
-        if (near.across[k] < 0) continue;
-        near.entry[k] = over.side;
-        // Both sides have the same four directions at the middle.
-        near.quarters[k] = quarters_of(local_.across({t, k}, 0.5, local_.heading(middle), 0).turn);
-    }
+    const Charts::Side over = charts.across({t, side});
+    const Index beyond = over.triangle < 0 ? -1 : near_of_[over.triangle];
+    const Triangles& triangles = charts.mesh().triangles;
+    const int next = (side + 1) % 3;
+    if (beyond < 0 || points_.of_vertex[triangles(t, side)] >= 0 || points_.of_vertex[triangles(t, next)] >= 0)
+        return {};
+    // Both sides have the same four directions at the middle.
+    const LocalField::Place middle{t, charts.on_side(t, side, 0.5), 0};
+    return {3 * beyond + over.side, quarters_of(local_.across({t, side}, 0.5, local_.heading(middle), 0).turn),
+            local_.parameters(from, charts.corners(t)[side]), local_.parameters(from, charts.corners(t)[next]),
+            local_.parameters(from, middle.z)};
 }
 
-void PassedPoints::look_at(const LocalField::Place& at, Complex offset, int k, const Part& part,
+PassedPoints::Entered PassedPoints::entered(Index t, int entry) const {
+    const Charts& charts = local_.charts();
+    const LocalField::Place middle{t, charts.on_side(t, entry, 0.5), 0};
+    Entered result{{}, false};
+    for (int k = 0, i = 0; k < 3; ++k) {
+        result.at_point |= points_.of_vertex[charts.mesh().triangles(t, k)] >= 0;
+        if (k != entry) result.ways[i++] = way_through(t, k, middle);
+    }
+    return result;
+}
+
+void PassedPoints::look_at(const LocalField::Place& at, Complex offset, const Part& part,
                            std::vector<Nearest>& found) const {
+    for (int k = 0; k < 3; ++k)
+        if (points_.of_vertex[local_.charts().mesh().triangles(at.t, k)] >= 0)
+            look_at_corner(at, offset, k, part, found);
+}
+
+void PassedPoints::look_at_corner(const LocalField::Place& at, Complex offset, int k, const Part& part,
+                                  std::vector<Nearest>& found) const {
     const double tolerance = part.tolerance, from = part.from;
 
     const Charts& charts = local_.charts();
@@ -138,33 +154,27 @@ void PassedPoints::look_round(const LocalField::Place& start, const Part& part, 
     std::array<Complex, 4> turned;
     for (int q = 0; q < 4; ++q) turned[q] = std::polar(1.0, -shear - q * quarter);
     ++round_;
-    front_ = {{near_of_[start.t], -1, quarters_of(start.turn - shear), from}};
+    front_.clear();
+    const auto go_on = [&](const Way& way, int quarters, Complex offset, Complex turn) {
+        if (way.to < 0 || seen_[way.to / 3] == round_) return;
+        const Complex a = offset + turn * way.from, b = offset + turn * way.until;
+        if (std::min(a.imag(), b.imag()) > tolerance || std::max(a.imag(), b.imag()) < -tolerance ||
+            std::min(a.real(), b.real()) > to + tolerance || std::max(a.real(), b.real()) < from - tolerance)
+            return;
+        seen_[way.to / 3] = round_;
+        front_.push_back({way.to, (quarters + way.quarters) & 3, offset + turn * way.middle});
+    };
     seen_[near_of_[start.t]] = round_;
+    look_at(start, from, part, found);
+    for (int k = 0; k < 3; ++k) go_on(way_through(start.t, k, start), quarters_of(start.turn - shear), from, 1.0);
     for (std::size_t i = 0; i < front_.size(); ++i) {
-        const auto [place, entry, quarters, offset] = front_[i];
-        const NearTriangle& near = near_[place];
-        const Index t = near.triangle;
-        for (int k = 0; k < 3; ++k)
-            if (near.is_point[k])
-                look_at(
-                    entry < 0 ? start : LocalField::Place{t, charts.on_side(t, entry, 0.5), shear + quarters * quarter},
-                    offset, k, part, found);
-        for (int k = 0; k < 3; ++k) {
-            const int next = (k + 1) % 3;
-            if (near.across[k] < 0 || near.is_point[k] || near.is_point[next] || seen_[near.across[k]] == round_)
-                continue;
-            const Complex a = offset + (entry < 0 ? local_.parameters(start, charts.corners(t)[k])
-                                                  : turned[quarters] * near.corners[entry][k]);
-            const Complex b = offset + (entry < 0 ? local_.parameters(start, charts.corners(t)[next])
-                                                  : turned[quarters] * near.corners[entry][next]);
-            if (std::min(a.imag(), b.imag()) > tolerance || std::max(a.imag(), b.imag()) < -tolerance ||
-                std::min(a.real(), b.real()) > to + tolerance || std::max(a.real(), b.real()) < from - tolerance)
-                continue;
-            seen_[near.across[k]] = round_;
-            const Complex way = entry < 0 ? local_.parameters(start, charts.on_side(t, k, 0.5))
-                                          : turned[quarters] * near.middles[entry][k];
-            front_.push_back({near.across[k], near.entry[k], (quarters + near.quarters[k]) & 3, offset + way});
+        const auto [place, quarters, offset] = front_[i];
+        const Entered& entered = entered_[place];
+        if (entered.at_point) {
+            const Index t = near_[place / 3];
+            look_at({t, charts.on_side(t, place % 3, 0.5), shear + quarters * quarter}, offset, part, found);
         }
+        for (const Way& way : entered.ways) go_on(way, quarters, offset, turned[quarters]);
     }
 }
 

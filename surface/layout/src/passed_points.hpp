@@ -35,7 +35,7 @@ double spoke_length(const LocalField& local, const LayoutPoint& point, Index t, 
 double angle_at(const LocalField& local, const LayoutPoint& point, Index t, int k, Complex z);
 
 // Unfolds the triangles within a tolerance of a curve. What that takes is kept for all triangles within three
-// tolerances of a point, about 350 bytes each; others cost nothing. Not for several threads at once.
+// tolerances of a point, about 400 bytes each; others cost nothing. Not for several threads at once.
 class PassedPoints {
 public:
     struct Nearest {
@@ -54,31 +54,37 @@ public:
     void look_round(const LocalField::Place& start, const Part& part, std::vector<Nearest>& found) const;
 
 private:
-    // Entered at the middle of a side, along the direction of the field that the chart tells.
-    struct NearTriangle {
-        Index triangle;
-        std::array<bool, 3> is_point;        // of its corners
-        std::array<Index, 3> across;         // place of the triangle beyond each side, -1: none near points
-        std::array<int, 3> entry, quarters;  // side of that one, and turns of the direction in its chart
-        std::array<Complex, 3> corners[3];   // parameters, by the side entered
-        std::array<Complex, 3> middles[3];   // of sides
+    // A way on through a side, unless a point is at an end of it.
+    struct Way {
+        Index to = -1;                // place in entered_, -1: none near points
+        int quarters = 0;             // turns of the direction in the chart beyond
+        Complex from, until, middle;  // parameters of the side
+    };
+    // A near triangle entered at the middle of a side, along the direction of the field that the chart tells: three of
+    // each, by side, as searches spend nearly all their time here.
+    struct Entered {
+        std::array<Way, 2> ways;  // by the other sides
+        bool at_point;            // it has a corner there
     };
     struct Unfolded {
-        Index place;
-        int entry, quarters;
+        Index entered;
+        int quarters;
         Complex offset;  // parameters where it is entered
     };
 
     void find_near();
-    void fill(NearTriangle& near) const;
-    void look_at(const LocalField::Place& at, Complex offset, int k, const Part& part,
-                 std::vector<Nearest>& found) const;
+    Way way_through(Index t, int side, const LocalField::Place& from) const;
+    Entered entered(Index t, int entry) const;
+    void look_at(const LocalField::Place& at, Complex offset, const Part& part, std::vector<Nearest>& found) const;
+    void look_at_corner(const LocalField::Place& at, Complex offset, int k, const Part& part,
+                        std::vector<Nearest>& found) const;
 
     const LocalField& local_;
     const LayoutPoints& points_;
     double tolerance_;
-    std::vector<Index> near_of_;  // (F) place, -1: no point may be within the tolerance
-    std::vector<NearTriangle> near_;
+    std::vector<Index> near_of_;       // (F) place, -1: no point may be within the tolerance
+    std::vector<Index> near_;          // triangles
+    std::vector<Entered> entered_;     // three of each
     mutable std::vector<Index> seen_;  // round of each near triangle
     mutable Index round_ = 0;
     mutable std::vector<Unfolded> front_;
