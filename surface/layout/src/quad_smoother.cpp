@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "quad_untangler.hpp"
@@ -20,6 +21,8 @@ constexpr int beside = 8;            // rings round what is relaxed that are opt
 constexpr double softness = 10;
 constexpr double size_share = 0.3;  // of sizes beside shapes
 constexpr int rings[] = {1, 2, 4, 8}, relaxing_rounds = 20;
+constexpr int evened_rings[] = {4, 8, 16};
+constexpr std::size_t most_evened = 40;  // bad quads
 constexpr double least_gain = 1e-4;
 constexpr double bend = 2;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
@@ -71,6 +74,7 @@ public:
         if (rescued && input_.release && least_margin(bad) < 0 && release()) {
             optimise(rounds);
             rescue(rounds);
+            if (input_.by_sizes) even_bad(rounds);
         }
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
         return rescued;
@@ -117,6 +121,58 @@ private:
         }
         active_.assign(around_.size(), true);
     }
+
+    // Rows of quads that are too narrow next to singular points only give way together with these, by many vertices:
+    // round each bad quad all are moved at once, in growing rings.
+    void even_bad(int rounds) {
+        const std::vector<bool> fixed = fixed_;
+        std::vector<std::pair<double, Index>> order;
+        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+            if (const double margin = margin_of(q); margin < 0) order.emplace_back(margin, q);
+        std::sort(order.begin(), order.end());
+        order.resize(std::min(order.size(), most_evened));
+        for (const auto& [margin, q] : order)
+            for (const int ring : evened_rings) {
+                if (margin_of(q) >= 0) break;
+                even_round(q, ring, rounds);
+                fixed_ = fixed;
+            }
+        active_.assign(around_.size(), true);
+        movable_.quads.resize(mesh_.quads.rows());
+        std::iota(movable_.quads.begin(), movable_.quads.end(), 0);
+    }
+
+    // Kept where the worst of the quads that are moved gets better.
+    void even_round(Index bad_quad, int ring, int rounds) {
+        std::vector<bool> near(around_.size(), false);
+        for (int k = 0; k < 4; ++k) near[mesh_.quads(bad_quad, k)] = true;
+        active_ = grown(std::move(near), ring);
+        movable_.quads.clear();
+        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+            if (std::any_of(mesh_.quads.row(q).begin(), mesh_.quads.row(q).end(), [&](Index v) { return active_[v]; }))
+                movable_.quads.push_back(q);
+        for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v] = fixed_[v] || !active_[v];
+        const auto worst = [&] {
+            double least = 1;
+            for (const Index q : movable_.quads) least = std::min(least, margin_of(q));
+            return least;
+        };
+        const auto see = [&] {
+            for (const Index q : movable_.quads) normals_[q] = surface_normal(q);
+        };
+        const double before = worst();
+        const Points vertices = mesh_.vertices;
+        const auto places = places_;
+        untangle(input_, movable_, size_share, mesh_);
+        see();
+        optimise(rounds);
+        if (worst() > before) return;
+        mesh_.vertices = vertices;
+        places_ = places;
+        see();
+    }
+
+    double margin_of(Index q) const { return quality(q) - reachable_of(q, bad); }
 
     Index bad_count() const {
         Index result = 0;

@@ -18,11 +18,12 @@ struct SmootherInput {
     const std::vector<Index>& patches;         // of each quad: of the layout
     const std::vector<Index>& fixed;           // vertices inside the surface
     bool release;                              // these, where bad quads are left
+    bool by_sizes;                             // quads are to be of their sizes
     FollowedField follow = {};                 // that edges are drawn to
 };
 
-// Bad quads that are left are rescued: what is round them once more from relaxed places, and then with singular points
-// released.
+// Bad quads that are left are rescued: what is round them once more from relaxed places, then with singular points
+// released, and last, where quads are to be of their sizes, all at once round one after the other.
 enum class Rescue {
     where_few,  // near them, if they are few of all
     near_them,

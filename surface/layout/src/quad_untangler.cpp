@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace octafield::surface::detail {
 namespace {
@@ -24,37 +25,37 @@ public:
         : input_(input),
           places_(movable.places),
           mesh_(mesh),
+          quads_(mesh.quads(movable.quads, Eigen::all)),
           first_(mesh.vertices.rows(), -1),
           bases_(mesh.vertices.rows()),
           of_sizes_(of_sizes) {
-        std::vector<Index> quad(mesh.vertices.rows(), -1);
-        for (Index q = 0; q < mesh.quads.rows(); ++q)
-            for (int k = 0; k < 4; ++k) quad[mesh.quads(q, k)] = q;
+        std::vector<Index> part(mesh.vertices.rows(), -1);
+        for (Index q = 0; q < quads_.rows(); ++q)
+            for (int k = 0; k < 4; ++k) part[quads_(q, k)] = movable.part[movable.quads[q]];
         for (Index v = 0; v < mesh.vertices.rows(); ++v) {
-            if (movable.fixed[v] || quad[v] < 0) continue;
+            if (movable.fixed[v] || part[v] < 0) continue;
             first_[v] = count_;
             count_ += is_on_seam(v) ? 1 : 2;
             if (is_on_seam(v)) continue;
             const Vector at = mesh.vertices.row(v);
-            const Vector n = input.parts.normal(input.parts.nearest(movable.part[quad[v]], at).second);
+            const Vector n = input.parts.normal(input.parts.nearest(part[v], at).second);
             bases_[v].col(0) = n.unitOrthogonal();
             bases_[v].col(1) = n.cross(bases_[v].col(0));
         }
-        for (Index q = 0; q < mesh.quads.rows(); ++q) {
+        for (Index q = 0; q < quads_.rows(); ++q) {
             Vector middle = Vector::Zero();
-            for (int k = 0; k < 4; ++k) middle += Vector(mesh.vertices.row(mesh.quads(q, k))) / 4;
-            const Index triangle = input.parts.nearest(movable.part[q], middle).second;
+            for (int k = 0; k < 4; ++k) middle += Vector(mesh.vertices.row(quads_(q, k))) / 4;
+            const Index triangle = input.parts.nearest(movable.part[movable.quads[q]], middle).second;
             normals_.push_back(input.parts.normal(triangle));
             wanted_.push_back(input.parts.unit_area(triangle));
             if (input.follow) set_lines(q, input.follow.direction(triangle, middle));
             for (int k = 0; k < 4; ++k)
-                area_ +=
-                    (mesh.vertices.row(mesh.quads(q, (k + 1) % 4)) - mesh.vertices.row(mesh.quads(q, k))).squaredNorm();
+                area_ += (mesh.vertices.row(quads_(q, (k + 1) % 4)) - mesh.vertices.row(quads_(q, k))).squaredNorm();
         }
-        area_ /= 4 * std::max<double>(1, static_cast<double>(mesh.quads.rows()));
+        area_ /= 4 * std::max<double>(1, static_cast<double>(quads_.rows()));
         double sum = 0, wanted = 0;
-        for (Index q = 0; q < mesh.quads.rows(); ++q) {
-            const auto p = [&](int k) -> Vector { return mesh.vertices.row(mesh.quads(q, k)); };
+        for (Index q = 0; q < quads_.rows(); ++q) {
+            const auto p = [&](int k) -> Vector { return mesh.vertices.row(quads_(q, k)); };
             sum += (p(2) - p(0)).cross(p(3) - p(1)).norm() / 2;
             wanted += wanted_[q];
         }
@@ -69,9 +70,9 @@ public:
         const Points at = positions(values);
         Points slope = Points::Zero(gradient ? at.rows() : 0, 3);
         *cost = 0;
-        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+        for (Index q = 0; q < quads_.rows(); ++q)
             for (int k = 0; k < 4; ++k) {
-                const Index a = mesh_.quads(q, k), b = mesh_.quads(q, (k + 1) % 4), c = mesh_.quads(q, (k + 3) % 4);
+                const Index a = quads_(q, k), b = quads_(q, (k + 1) % 4), c = quads_(q, (k + 3) % 4);
                 const Vector u = at.row(b) - at.row(a), v = at.row(c) - at.row(a), &n = normals_[q];
                 const double d = u.cross(v).dot(n), root = std::sqrt(d * d + softness_ * softness_);
                 const double below = d + root, above = u.squaredNorm() + v.squaredNorm();
@@ -122,10 +123,10 @@ public:
     // Parallelogram of a corner.
     double least(const Points& at) const {
         double result = std::numeric_limits<double>::infinity();
-        for (Index q = 0; q < mesh_.quads.rows(); ++q)
+        for (Index q = 0; q < quads_.rows(); ++q)
             for (int k = 0; k < 4; ++k) {
-                const Vector p = at.row(mesh_.quads(q, k)), u = at.row(mesh_.quads(q, (k + 1) % 4)),
-                             v = at.row(mesh_.quads(q, (k + 3) % 4));
+                const Vector p = at.row(quads_(q, k)), u = at.row(quads_(q, (k + 1) % 4)),
+                             v = at.row(quads_(q, (k + 3) % 4));
                 result = std::min(result, (u - p).cross(v - p).dot(normals_[q]));
             }
         return result;
@@ -137,7 +138,7 @@ private:
         const Vector other = normals_[q].cross(line);
         double nearer = 0;
         for (int k = 0; k < 4; ++k) {
-            const Vector side = mesh_.vertices.row(mesh_.quads(q, (k + 1) % 4)) - mesh_.vertices.row(mesh_.quads(q, k));
+            const Vector side = mesh_.vertices.row(quads_(q, (k + 1) % 4)) - mesh_.vertices.row(quads_(q, k));
             const double more = std::pow(side.dot(line), 2) - std::pow(side.dot(other), 2);
             nearer += k % 2 == 0 ? more : -more;
         }
@@ -178,6 +179,7 @@ private:
     const SmootherInput& input_;
     const std::vector<SideGrids::OnSeam>& places_;
     const QuadMesh& mesh_;
+    const Quads quads_;       // that count
     std::vector<int> first_;  // value of each vertex; -1: it stays
     std::vector<Eigen::Matrix<double, 3, 2>> bases_;
     std::vector<Vector> normals_;
@@ -201,6 +203,8 @@ Movable::Movable(const SmootherInput& input, const QuadMesh& mesh)
     std::vector<Index> part_of_patch;
     for (const LayoutPatch& patch : input.layout.patches) part_of_patch.push_back(input.parts.part_of(patch));
     for (const Index patch : input.patches) part.push_back(part_of_patch[patch]);
+    quads.resize(mesh.quads.rows());
+    std::iota(quads.begin(), quads.end(), 0);
 }
 
 void untangle(const SmootherInput& input, Movable& movable, double of_sizes, QuadMesh& mesh) {

@@ -148,6 +148,7 @@ private:
                 attempt.quads.tiles,
                 attempt.quads.irregular,
                 options_.release_points,
+                options_.measure == ArcMeasure::lengths,
                 {layout_.domain, options_.follow}};
     }
 

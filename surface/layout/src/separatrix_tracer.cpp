@@ -11,10 +11,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int most_shots = 8;
-constexpr std::size_t most_passing = 8;              // what a curve passes later is out of its reach
-constexpr double clearance = 1e-7;                   // of an edge, from its ends
-constexpr double beside = pi / 4;                    // off the boundary
-constexpr double least_off = 1e-9, most_off = 1e-6;  // of edges, beside it
+constexpr std::size_t most_passing = 8;                  // what a curve passes later is out of its reach
+constexpr double before_target = 2, after_target = 0.5;  // tolerances along a shot
+constexpr double clearance = 1e-7;                       // of an edge, from its ends
+constexpr double beside = pi / 4;                        // off the boundary
+constexpr double least_off = 1e-9, most_off = 1e-6;      // of edges, beside it
 
 LayoutCurvePoint edge_point(const Charts& charts, Index t, int side, double fraction, double length) {
     const Index edge = charts.topology().triangle_edges(t, side);
@@ -58,6 +59,12 @@ bool SeparatrixTracer::arrives(const Passing& target, const LocalField::Place& a
     if (local_.charts().mesh().triangles(at.t, k) != p.vertex || length < target.length / 2) return false;
     const double off = angle_at(local_, p, at.t, k, at.z) - p.slots[target.slot.slot];
     return std::abs(p.boundary ? off : wrapped(off, p.angle)) < sector_part * p.angle / p.quads;
+}
+
+// A shot at a point looks for that one alone, which is seen from behind it and at no more than a tolerance.
+bool SeparatrixTracer::comes_by(const Passing& target, const Walk& walk, double step) {
+    return walk.length < target.length + after_target * walk.tolerance &&
+           walk.length + step > target.length - before_target * walk.tolerance;
 }
 
 std::vector<Passing> SeparatrixTracer::Walk::passing() const {
@@ -118,7 +125,7 @@ bool SeparatrixTracer::step(Walk& walk, bool looking, const std::optional<Passin
     }
     LocalField::Exit exit = local_.exit(at, entry);
     if (charts.across({at.t, exit.side}).triangle < 0) exit = kept_inside(at, exit, walk.length);
-    if (looking && walk.found.size() < most_passing)
+    if (looking && walk.found.size() < most_passing && (!target || comes_by(*target, walk, exit.length)))
         near_.look_round(at, {walk.shear, walk.tolerance, walk.length, walk.length + exit.length}, walk.found);
     walk.length += exit.length;
     walk.side = {at.t, exit.side};

@@ -46,6 +46,8 @@ private:
     LocalField::Exit kept_inside(const LocalField::Place& at, const LocalField::Exit& exit, double length) const;
     bool arrives(const Passing& target, const LocalField::Place& at, int entry, double length) const;
 
+    static bool comes_by(const Passing& target, const Walk& walk, double step);
+
     const LocalField& local_;
     const LayoutPoints& points_;
     PassedPoints near_;
