@@ -156,7 +156,8 @@ def _imposed(
     wanted: QuadLayoutOptions,
     progress: Progress | None,
 ) -> tuple[ImposedField, Pattern, str]:
-    """T-meshes take rotated fields: in faces where points of a computed field cannot be moved, the field is rotated."""
+    """T-meshes take rotated fields: in faces where points of a computed field cannot be moved, the field is rotated.
+    Points move face by face: on the whole surface at once each step takes as long, and one face can stop all."""
     may_rotate = wanted.inadmissible == "default" and inadmissible == "move" and wanted.layout == "t-mesh"
 
     def imposed(pattern: Pattern, way: str) -> tuple[ImposedField, Pattern, str]:
@@ -165,15 +166,18 @@ def _imposed(
         )
         return field, pattern, way
 
-    try:
+    if not may_rotate:
         return imposed(pattern, inadmissible)
-    except SolverError as error:
-        if not may_rotate:
-            raise
-        if error.kind == "move_failed":
-            moved = _core.moved_by_faces(domain, pattern.pattern, tolerance=wanted.tolerance, progress=progress)
-            pattern = replace(pattern, pattern=moved)
-        return imposed(pattern, "rotate")
+    field, _, _ = imposed(pattern, "rotate")
+    if _admissible(field, wanted):
+        return field, pattern, inadmissible
+    moved = _core.moved_by_faces(domain, pattern.pattern, tolerance=wanted.tolerance, progress=progress)
+    field, pattern, _ = imposed(replace(pattern, pattern=moved), "rotate")
+    return field, pattern, inadmissible if _admissible(field, wanted) else "rotate"
+
+
+def _admissible(field: ImposedField, wanted: QuadLayoutOptions) -> bool:
+    return all(abs(condition.angle) <= wanted.tolerance for condition in field.conditions)
 
 
 def _edge_length(surface: TriangleMesh, wanted: QuadLayoutOptions) -> float:

@@ -22,7 +22,7 @@ constexpr double softness = 10;
 constexpr double size_share = 0.3;  // of sizes beside shapes
 constexpr int rings[] = {1, 2, 4, 8}, relaxing_rounds = 20;
 constexpr int evened_rings[] = {4, 8, 16};
-constexpr std::size_t most_evened = 40;  // bad quads
+constexpr int most_evened = 40;  // places
 constexpr double least_gain = 1e-4;
 constexpr double bend = 2;
 constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
@@ -130,13 +130,20 @@ private:
         for (Index q = 0; q < mesh_.quads.rows(); ++q)
             if (const double margin = margin_of(q); margin < 0) order.emplace_back(margin, q);
         std::sort(order.begin(), order.end());
-        order.resize(std::min(order.size(), most_evened));
-        for (const auto& [margin, q] : order)
+        std::vector<bool> seen(around_.size(), false);
+        int places = 0;
+        for (const auto& [margin, q] : order) {
+            if (places == most_evened) break;
+            if (margin_of(q) >= 0 || seen[mesh_.quads(q, 0)]) continue;
+            ++places;
             for (const int ring : evened_rings) {
                 if (margin_of(q) >= 0) break;
                 even_round(q, ring, rounds);
                 fixed_ = fixed;
+                for (std::size_t v = 0; v < seen.size() && ring == evened_rings[0]; ++v)
+                    seen[v] = seen[v] || active_[v];
             }
+        }
         active_.assign(around_.size(), true);
         movable_.quads.resize(mesh_.quads.rows());
         std::iota(movable_.quads.begin(), movable_.quads.end(), 0);
