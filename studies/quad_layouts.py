@@ -25,7 +25,7 @@ from .hex_dominant.rows import markdown_table, run_words
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 LIMIT = 240.0  # seconds of CPU time
 HEADER = (
-    "file", "triangles", "points inside", "T-joints", "blocks", "at least", "ratio", "irregular", "quads",
+    "file", "triangles", "points inside", "T-joints", "blocks", "at least", "ratio", "coarsest", "ratio to it", "irregular", "quads",
     "SJ min", "mean", "deviation %", "layout and quads, CPU s", "all, CPU s", "error",
 )  # fmt: skip
 MADE = ("trace", "cut", "integers", "map", "mesh_smooth")  # phases of the layout and its quads
@@ -43,6 +43,7 @@ def measure(path: Path, quads: int, axes: str) -> dict:
         "t_joints": record.t_joints,
         "blocks": record.patches,
         "fewest": record.fewest_patches,
+        "coarsest": record.coarsest_patches,
         "irregular": record.irregular_vertices,
         "quads": record.quads,
         "least": record.scaled_jacobian.min,
@@ -57,7 +58,8 @@ def cells(row: dict) -> list[str]:
     if "error" in row:
         return [row["file"], *[""] * (len(HEADER) - 2), row.get("kind") or row["error"]]
     counts = [f"{row[name]:,}" for name in ("triangles", "points", "t_joints", "blocks", "fewest")]
-    counts += [f"{row['blocks'] / row['fewest']:.1f}", f"{row['irregular']:,}", f"{row['quads']:,}"]
+    counts += [f"{row['blocks'] / row['fewest']:.1f}", f"{row['coarsest']:,}"]
+    counts += [f"{row['blocks'] / row['coarsest']:.1f}", f"{row['irregular']:,}", f"{row['quads']:,}"]
     quality = [f"{row['least']:.2f}", f"{row['mean']:.3f}", f"{100 * row['deviation']:.2f}"]
     return [row["file"], *counts, *quality, f"{row['made']:.1f}", f"{row['cpu']:.1f}", ""]
 
@@ -79,7 +81,9 @@ def hexme(data: Path, output: Path, only: list[str], quads: int, axes: str) -> N
         fair = sum(row["least"] >= 0.3 for row in sound)
         head = f"{len(rows)} surfaces, {len(sound)} meshes, {fair} of them with a least scaled Jacobian of 0.3 or more,"
         few = sum(row["blocks"] <= 4 * row["fewest"] for row in sound)
-        head += f" {few} with at most 4 times the fewest blocks that there could be."
+        most = max((row["blocks"] / row["coarsest"] for row in sound), default=0)
+        head += f" {few} with at most 4 times the fewest blocks that there could be, all with at most {most:.1f} times"
+        head += " those that the coarsest whole numbers on their T-meshes make."
         (output / "hexme.md").write_text(head + "\n\n" + markdown_table(HEADER, [cells(row) for row in rows]))
     (output / "when.md").write_text(when())
 

@@ -1667,6 +1667,7 @@ class QuantizedQuadsOptions:
 
 class QuantizedQuads:
     fewest_blocks: int
+    coarsest_blocks: int
     t_joints: int
     size: float
     deviation: float
@@ -1685,6 +1686,7 @@ class QuantizedQuads:
         arc_counts: ArrayLike = ...,
         part_counts: ArrayLike = ...,
         fewest_blocks: int = ...,
+        coarsest_blocks: int = ...,
         t_joints: int = ...,
         irregular: ArrayLike = ...,
         size: float = ...,

@@ -94,6 +94,10 @@ void bind_t_mesh_results(py::module_& m) {
                "int32, quads along each part of the seams and the boundary; integer_grid_map needs them.")
         .field("fewest_blocks", &QuantizedQuads::fewest_blocks,
                "That meshes with these irregular vertices can have: a quarter of the quads' corners there.")
+        .field(
+            "coarsest_blocks", &QuantizedQuads::coarsest_blocks,
+            "Of blocks=\"few\": the fewest that whole numbers on the T-mesh were found to make, whatever the shapes of "
+            "the quads; else as many as there are.")
         .field("t_joints", &QuantizedQuads::t_joints, "Of the T-mesh; the quads have none.")
         .field("irregular", &QuantizedQuads::irregular,
                "int32 vertices inside with other than four quads, of the boundary with other than two.")

@@ -39,12 +39,14 @@ class LayoutParts:
 @dataclass
 class WholeNumbers:
     """On the arcs of a T-mesh. t_joints: of the T-mesh. deviation: from the lengths wanted, over all arcs; bound: what
-    it cannot be below; optimal: whether the two are the same."""
+    it cannot be below; optimal: whether the two are the same. coarsest: the fewest blocks that whole numbers were found
+    to make."""
 
     t_joints: int
     deviation: float
     bound: float
     optimal: bool
+    coarsest: int
 
 
 @dataclass

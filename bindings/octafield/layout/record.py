@@ -62,6 +62,7 @@ def of_quads(
         separatrices=None if layout is None else layout.separatrices,
         patches=len(np.unique(made.blocks)),
         fewest_patches=int(_core.fewest_blocks(made.mesh)),
+        coarsest_patches=None if whole is None else whole.coarsest,
         chords=len(np.unique(made.chords)),
         largest_mismatch=None if layout is None else layout.largest_mismatch,
         vertices=len(made.mesh.vertices),

@@ -20,8 +20,6 @@ from .points.pattern import Pattern
 Follow = Callable[[SurfaceDomain], np.ndarray]  # values of a cross field, as DirectionField.values
 MENDED = ("no_integers", "no_quad_layout")  # kinds of errors that other singular points may mend
 _TOLD = 3  # places
-_GOOD = _core.QuantizedQuadsOptions().least_jacobian  # scaled Jacobian that is worth more blocks
-_FAIR = 0.3  # that ends the search where blocks do not matter
 
 
 def quads_of_t_mesh(
@@ -42,7 +40,6 @@ def quads_of_t_mesh(
         graph,
         blocks=options.blocks,
         measure=options.measure,
-        least_jacobian=_FAIR if options.measure == "lengths" and options.blocks == "fine" else _GOOD,
         origins=origins,
         release_points=release_points,
         follow=None if follow is None else follow(graph.curves.domain),
@@ -52,7 +49,7 @@ def quads_of_t_mesh(
     quads, blocks = np.asarray(made.mesh.quads), np.array(made.patches)
     chords = block_chords(quads, blocks, np.asarray(made.patch_chords))
     parts = parts_of_blocks(made.mesh, blocks, chords, graph.largest_mismatch, graph.curves.traced)
-    whole = WholeNumbers(made.t_joints, made.deviation, made.bound, made.optimal)
+    whole = WholeNumbers(made.t_joints, made.deviation, made.bound, made.optimal, made.coarsest_blocks)
     return field, BlockQuads(made.mesh, blocks, chords, parts, whole, TMesh(graph, made, origins))
 
 

@@ -29,6 +29,10 @@ class QuadLayoutRecord(QuadRecord):
     fewest_patches: int = Field(
         description="at least this many there are for these irregular vertices: a quarter of the quads' corners there"
     )
+    coarsest_patches: int | None = Field(
+        default=None,
+        description="the fewest that whole numbers on the T-mesh were found to make, whatever the shapes of quads",
+    )
     chords: int = Field(description="of the layout: rows of blocks")
     largest_mismatch: float | None = Field(
         default=None, description="of opposite sides of a patch in quad coordinates, over their mean length"

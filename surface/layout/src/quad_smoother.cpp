@@ -74,7 +74,7 @@ public:
         if (rescued && input_.release && least_margin(bad) < 0 && release()) {
             optimise(rounds);
             rescue(rounds);
-            if (input_.by_sizes) even_bad(rounds);
+            even_bad(rounds);
         }
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
         return rescued;
@@ -83,7 +83,11 @@ public:
     void prepare(Start start) {
         if (start == Start::relaxed) relax(std::vector<bool>(around_.size(), true), relaxing_rounds);
         if (start == Start::untangled) untangle(input_, movable_, 0, mesh_);
-        if (start == Start::evened) untangle(input_, movable_, size_share, mesh_);
+        if (start == Start::freed) {
+            release();
+            relax(std::vector<bool>(around_.size(), true), relaxing_rounds);
+        }
+        if (start == Start::evened || start == Start::freed) untangle(input_, movable_, size_share, mesh_);
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
     }
 

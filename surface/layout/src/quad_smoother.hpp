@@ -18,12 +18,11 @@ struct SmootherInput {
     const std::vector<Index>& patches;         // of each quad: of the layout
     const std::vector<Index>& fixed;           // vertices inside the surface
     bool release;                              // these, where bad quads are left
-    bool by_sizes;                             // quads are to be of their sizes
     FollowedField follow = {};                 // that edges are drawn to
 };
 
 // Bad quads that are left are rescued: what is round them once more from relaxed places, then with singular points
-// released, and last, where quads are to be of their sizes, all at once round one after the other.
+// released, and last all at once round one after the other.
 enum class Rescue {
     where_few,  // near them, if they are few of all
     near_them,
@@ -42,6 +41,7 @@ enum class Start {
     relaxed,    // vertices at the means of their neighbours
     untangled,  // all moved at once, for the shapes of quads (quad_untangler.hpp)
     evened,     // and for their sizes
+    freed,      // likewise, from relaxed places, with the singular points that are released otherwise
 };
 void prepare(const SmootherInput& input, Start start, QuadMesh& mesh);
 

@@ -19,8 +19,7 @@
 namespace octafield::surface {
 namespace {
 
-constexpr double as_good = 0.7;          // of the best least scaled Jacobian, where none is as good as wanted
-constexpr double as_bad = 0.95;          // of it, where it is bad
+constexpr double as_bad = 0.8;           // of the best least scaled Jacobian, where all are bad
 constexpr double most_inverted = 0.04;   // of the quads, before smoothing
 constexpr double most_left = 0.01;       // after all were moved at once
 constexpr std::size_t most_rescued = 2;  // unless all of these have inverted quads
@@ -148,7 +147,6 @@ private:
                 attempt.quads.tiles,
                 attempt.quads.irregular,
                 options_.release_points,
-                options_.measure == ArcMeasure::lengths,
                 {layout_.domain, options_.follow}};
     }
 
@@ -179,6 +177,7 @@ private:
         if (finest) return {Start::mapped};
         std::vector<Start> result = {Start::relaxed, Start::untangled};
         if (!merged) result.insert(result.begin(), Start::mapped);
+        if (options_.release_points) result.push_back(Start::freed);
         return result;
     }
 
@@ -238,7 +237,7 @@ private:
         for (const Attempt& attempt : attempts) any_fair |= attempt.fair;
         for (const Attempt& attempt : attempts)
             if (attempt.fair >= any_fair) best = std::max(best, attempt.least);
-        const double needed = best < detail::bad ? as_bad * best : std::max(detail::bad, as_good * best);
+        const double needed = best < detail::bad ? as_bad * best : detail::bad;
         std::stable_sort(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
             return a.quads.patch_sizes.rows() < b.quads.patch_sizes.rows();
         });
@@ -274,6 +273,7 @@ QuantizedQuads quantized_quads(const QuadLayout& given, const QuantizedQuadsOpti
     const auto structures = detail::block_structures(layout, seams, options);
     QuantizedQuads result = Maker(layout, seams, options, progress).fewest_of(structures);
     result.fewest_blocks = fewest_blocks(result.mesh);
+    result.coarsest_blocks = std::min(structures.front().blocks, static_cast<Index>(result.patch_sizes.rows()));
     for (const LayoutVertex& vertex : layout.vertices) result.t_joints += vertex.kind == LayoutVertexKind::t_joint;
     return result;
 }

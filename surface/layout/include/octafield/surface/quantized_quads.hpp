@@ -32,9 +32,9 @@ struct QuantizedQuadsOptions {
     Index quad_count = 0;    // wanted; sizes are tried until the number is near
     Blocks blocks = Blocks::few;
     // Of `few`: structures of more blocks are tried until all quads have this scaled Jacobian, as far as the angles
-    // between features allow. If none has it, the fewest blocks are taken that have 0.7 of the best one's, and 0.3 at
-    // least (0.95 of the best one's where that is below 0.3). 0: the fewest.
-    double least_jacobian = 0.4;
+    // between features allow. If none has it, the fewest blocks are taken that have 0.3 (0.8 of the best one's where
+    // that is below 0.3). 0: the fewest.
+    double least_jacobian = 0.3;
     ArcWeights weights = ArcWeights::equal;
     ArcMeasure measure = ArcMeasure::parameters;
     // For a surface cut open (FeatureCut::origins): parts of its boundary with the same origins are one curve again,
@@ -59,6 +59,8 @@ struct QuantizedQuads : LayoutQuads {
     std::vector<int> part_counts;       // quads along each part of the seams and the boundary, between all ends of arcs
                                         // on their two sides; for integer_grid_map
     Index fewest_blocks = 0;            // that meshes with these irregular vertices can have (fewest_blocks)
+    Index coarsest_blocks = 0;          // of `few`: the fewest that whole numbers on the T-mesh were found to make,
+                                        // whatever the shapes of quads; else those of `patches`
     Index t_joints = 0;                 // of the T-mesh; the quads have none
     std::vector<Index> irregular;       // vertices inside with other than four quads, of the boundary with other than 2
     double size = 0;                    // that lengths were divided by
