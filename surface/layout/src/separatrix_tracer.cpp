@@ -67,7 +67,7 @@ bool SeparatrixTracer::comes_by(const Passing& target, const Walk& walk, double 
            walk.length + step > target.length - before_target * walk.tolerance;
 }
 
-std::vector<Passing> SeparatrixTracer::Walk::passing() const {
+std::vector<Passing> by_slot(const std::vector<PassedPoints::Nearest>& found) {
     std::vector<Passing> result;
     for (const PassedPoints::Nearest& n : found) result.push_back(n.passing);
     std::sort(result.begin(), result.end(), [](const Passing& a, const Passing& b) { return a.slot < b.slot; });
@@ -150,7 +150,7 @@ Trace SeparatrixTracer::trace_to(const Slot& start, double shear, const std::opt
     Walk walk = begin(start, shear);
     while (!walk.trace.arrived && walk.length <= longest && step(walk, true, target)) {
     }
-    walk.trace.passing = walk.passing();
+    walk.trace.passing = by_slot(walk.found);
     return std::move(walk.trace);
 }
 
