@@ -7,6 +7,7 @@ import octafield as of
 import pytest
 from octafield.layout.made import _imposed
 from octafield.layout.points.pattern import Pattern
+from pipeline_fixtures import SHARED_TETS, shared
 from quad_mesh_checks import irregular
 
 KEPT = of.SurfaceFieldOptions(feature_angle=math.radians(30))
@@ -211,3 +212,9 @@ def test_layouts_move_points_face_by_face_and_tell_the_largest_move():
     alone = Pattern(of.surface.SingularPattern(pair), "computed", "default", [])
     field, found, way = _imposed(both, alone, "move", of.QuadLayoutOptions(layout="t-mesh"), None)
     assert way == "rotate" and field.largest_move > 1e-3
+
+
+def test_rows_too_narrow_at_a_needle_are_moved_all_at_once_with_the_singular_points():
+    """One vertex after the other leaves a least scaled Jacobian of 0.01 there."""
+    found = of.compute_quad_mesh(shared(SHARED_TETS / "i11c.vtk.gz"), quad_options=of.QuadMeshOptions(quads=1706))
+    assert found.record.inverted == 0 and found.record.scaled_jacobian.min >= 0.3
