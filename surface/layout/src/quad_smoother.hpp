@@ -18,7 +18,7 @@ struct SmootherInput {
     const std::vector<Index>& patches;         // of each quad: of the layout
     const std::vector<Index>& fixed;           // vertices inside the surface
     bool release;                              // these, where bad quads are left
-    bool by_sizes;                             // quads are to be of their sizes
+    bool by_sizes = false;                     // quads are to be of their sizes
     FollowedField follow = {};                 // that edges are drawn to
 };
 

@@ -11,11 +11,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int most_shots = 8;
-constexpr std::size_t most_passing = 8;                  // what a curve passes later is out of its reach
-constexpr double before_target = 2, after_target = 0.5;  // tolerances along a shot
-constexpr double clearance = 1e-7;                       // of an edge, from its ends
-constexpr double beside = pi / 4;                        // off the boundary
-constexpr double least_off = 1e-9, most_off = 1e-6;      // of edges, beside it
+constexpr std::size_t most_passing = 8;                    // what a curve passes later is out of its reach
+constexpr double before_target = 0.5, after_target = 0.5;  // tolerances along a shot
+constexpr double clearance = 1e-7;                         // of an edge, from its ends
+constexpr double beside = pi / 4;                          // off the boundary
+constexpr double least_off = 1e-9, most_off = 1e-6;        // of edges, beside it
 
 LayoutCurvePoint edge_point(const Charts& charts, Index t, int side, double fraction, double length) {
     const Index edge = charts.topology().triangle_edges(t, side);
