@@ -5,6 +5,9 @@ import math
 import numpy as np
 import octafield as of
 import pytest
+from octafield.layout.made import _imposed
+from octafield.layout.points.pattern import Pattern
+from pipeline_fixtures import SHARED_TETS, shared
 from quad_mesh_checks import irregular
 
 KEPT = of.SurfaceFieldOptions(feature_angle=math.radians(30))
@@ -178,3 +181,40 @@ def test_a_face_whose_points_cannot_be_moved_leaves_the_others_alone():
     # What cannot be mended by moving is told.
     with pytest.raises(of.InvalidInput):
         of.surface.moved_by_faces(both, of.surface.SingularPattern(pair[:1]))
+
+
+def test_layouts_move_points_face_by_face_and_tell_the_largest_move():
+    """Of two rings that need it one has points that can move: the other's field is rotated."""
+    turn = math.radians(20)
+    first, second = square_ring(turn), square_ring(turn, 5.0)
+    both = of.surface.SurfaceDomain(of.TriangleMesh(
+        np.vstack([first.vertices, second.vertices]),
+        np.vstack([np.asarray(second.triangles) + len(first.vertices), first.triangles]),
+    ))  # fmt: skip
+    pair = [of.surface.imposed_point(both, [x, y, 0], four) for x, y, four in ((0.7, 0.1, 1), (-0.1, 0.72, -1))]
+    away = [of.surface.imposed_point(both, [5 + x, y, 0], four) for x, y, four in ((0.7, 0.1, 1), (-0.1, 0.72, -1))]
+    pattern = Pattern(of.surface.SingularPattern([*pair, *away]), "computed", "default", [])
+    field, found, way = _imposed(both, pattern, "move", of.QuadLayoutOptions(layout="t-mesh"), None)
+    turned = [abs(condition.angle) for condition in field.conditions]
+    assert way == "move" and max(turned) <= of.QuadLayoutOptions().tolerance
+    # Faces come in the order of their triangles.
+    assert [of.surface.imposed_position(both, point)[0] > 2 for point in found.pattern.points] == [
+        True,
+        True,
+        False,
+        False,
+    ]
+    moves = [
+        np.linalg.norm(np.subtract(of.surface.imposed_position(both, a), of.surface.imposed_position(both, b)))
+        for a, b in zip([*away, *pair], found.pattern.points, strict=True)
+    ]
+    assert math.isclose(field.largest_move, max(moves), abs_tol=1e-6) and min(moves) > 1e-3
+    alone = Pattern(of.surface.SingularPattern(pair), "computed", "default", [])
+    field, found, way = _imposed(both, alone, "move", of.QuadLayoutOptions(layout="t-mesh"), None)
+    assert way == "rotate" and field.largest_move > 1e-3
+
+
+def test_rows_too_narrow_at_a_needle_are_moved_all_at_once_with_the_singular_points():
+    """One vertex after the other leaves a least scaled Jacobian of 0.01 there."""
+    found = of.compute_quad_mesh(shared(SHARED_TETS / "i11c.vtk.gz"), quad_options=of.QuadMeshOptions(quads=1706))
+    assert found.record.inverted == 0 and found.record.scaled_jacobian.min >= 0.3

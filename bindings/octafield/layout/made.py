@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .. import _core
-from .._core import ImposedField, SurfaceDomain, TriangleMesh
+from .._core import ImposedField, ImposedPoint, SurfaceDomain, TriangleMesh
 from ..domain.meshed_input import MeshedInput
 from ..errors import GeometryError, InvalidInput, SolverError
 from ..progress.phases import PeakMemory, PhaseClock, Progress, announce
@@ -171,13 +171,32 @@ def _imposed(
     field, _, _ = imposed(pattern, "rotate")
     if _admissible(field, wanted):
         return field, pattern, inadmissible
+    before = field.pattern.points
     moved = _core.moved_by_faces(domain, pattern.pattern, tolerance=wanted.tolerance, progress=progress)
     field, pattern, _ = imposed(replace(pattern, pattern=moved), "rotate")
+    field.largest_move = _largest_move(domain, before, moved.points)
     return field, pattern, inadmissible if _admissible(field, wanted) else "rotate"
 
 
 def _admissible(field: ImposedField, wanted: QuadLayoutOptions) -> bool:
     return all(abs(condition.angle) <= wanted.tolerance for condition in field.conditions)
+
+
+def _largest_move(domain: SurfaceDomain, before: Sequence[ImposedPoint], after: Sequence[ImposedPoint]) -> float:
+    """In a straight line. after: face by face, in the order of their lowest triangles."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    edges, size = np.asarray(domain.edges), len(domain.vertices)
+    graph = coo_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(size, size))
+    part = connected_components(graph, directed=False)[1][np.asarray(domain.mesh.triangles)[:, 0]]
+    _, lowest, face = np.unique(part, return_index=True, return_inverse=True)
+    order = np.argsort([lowest[face[point.triangle]] for point in before], kind="stable")
+    ways = [
+        np.subtract(_core.imposed_position(domain, before[i]), _core.imposed_position(domain, point))
+        for i, point in zip(order, after, strict=True)
+    ]
+    return float(np.linalg.norm(ways, axis=1).max()) if ways else 0.0
 
 
 def _edge_length(surface: TriangleMesh, wanted: QuadLayoutOptions) -> float:

@@ -86,13 +86,14 @@ Tracks joined_tracks(const detail::LayoutInput& input, const Progress& progress)
     Tracks result;
     std::set<Slot> taken;
     std::set<Pair> refused;
+    detail::KnownWalks known;
     while (true) {
         report_or_throw(progress, "trace", 0.5, NAN);
         std::vector<Slot> slots;
         for (Index p = 0; p < static_cast<Index>(input.points.points.size()); ++p)
             for (int s = 0; s < static_cast<int>(input.points.points[p].slots.size()); ++s)
                 if (!taken.contains({p, s})) slots.push_back({p, s});
-        result.tracks = detail::race(input.local, tracer, result.walls, slots, input.max_length);
+        result.tracks = detail::race(input.local, tracer, result.walls, slots, input.max_length, known);
         std::size_t before = result.walls.size();
         for (const auto& candidates : {passed_points(result.tracks), opposite_ends(result.tracks, tracer)}) {
             if (result.walls.size() > before) break;

@@ -20,6 +20,7 @@ struct Passing {
     Slot slot;
     double length;  // from the start to the point, in parameters
     double offset;  // of the point, to the left
+    bool operator==(const Passing&) const = default;
 };
 
 constexpr double sector_part = 0.35;  // of the angle between separatrices: off their own direction
@@ -42,6 +43,7 @@ public:
         Passing passing;
         double behind;  // angle, in parameters, between the way back and where it was looked at from
         double from;    // how far along the curve
+        bool operator==(const Nearest&) const = default;
     };
 
     PassedPoints(const LocalField& local, const LayoutPoints& points, double tolerance);

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "given_corners.hpp"
 #include "quad_untangler.hpp"
 
 namespace octafield::surface::detail {
@@ -52,7 +53,7 @@ public:
             std::stable_sort(vertices.begin(), vertices.end(),
                              [&](Index a, Index b) { return places_[a].at < places_[b].at; });
         for (Index q = 0; q < mesh.quads.rows(); ++q) normals_.push_back(surface_normal(q));
-        find_given_corners();
+        given_corners_ = given_corners(mesh, movable_);
     }
 
     std::vector<Index> facing_away() const {
@@ -224,29 +225,6 @@ private:
                 for (const Index n : neighbours_[v]) near[v] = near[v] || inner[n];
         }
         return near;
-    }
-
-    // Corners of quads between two edges on seams at a vertex that stays: the surface gives their angles.
-    void find_given_corners() {
-        std::map<std::pair<Index, Index>, std::vector<Index>> beside;
-        const auto edge = [&](Index q, int k) -> std::pair<Index, Index> {
-            return std::minmax(mesh_.quads(q, k), mesh_.quads(q, (k + 1) % 4));
-        };
-        for (Index q = 0; q < mesh_.quads.rows(); ++q)
-            for (int k = 0; k < 4; ++k)
-                if (on_seam(mesh_.quads(q, k)) && on_seam(mesh_.quads(q, (k + 1) % 4))) beside[edge(q, k)].push_back(q);
-        const auto along_seam = [&](Index q, int k) {
-            const auto found = beside.find(edge(q, k));
-            if (found == beside.end()) return false;
-            const std::vector<Index>& quads = found->second;
-            return quads.size() == 1 || part_[quads[0]] != part_[quads[1]];
-        };
-        for (Index q = 0; q < mesh_.quads.rows(); ++q)
-            for (int k = 0; k < 4; ++k) {
-                const Index v = mesh_.quads(q, k);
-                if (on_seam(v) && fixed_[v] && along_seam(q, k) && along_seam(q, (k + 3) % 4))
-                    given_corners_[q].push_back(k);
-            }
     }
 
     // No quad is better than an angle that it is given.

@@ -11,11 +11,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr int most_shots = 8;
-constexpr std::size_t most_passing = 8;                  // what a curve passes later is out of its reach
-constexpr double before_target = 2, after_target = 0.5;  // tolerances along a shot
-constexpr double clearance = 1e-7;                       // of an edge, from its ends
-constexpr double beside = pi / 4;                        // off the boundary
-constexpr double least_off = 1e-9, most_off = 1e-6;      // of edges, beside it
+constexpr std::size_t most_passing = 8;                    // what a curve passes later is out of its reach
+constexpr double before_target = 0.5, after_target = 0.5;  // tolerances along a shot
+constexpr double clearance = 1e-7;                         // of an edge, from its ends
+constexpr double beside = pi / 4;                          // off the boundary
+constexpr double least_off = 1e-9, most_off = 1e-6;        // of edges, beside it
 
 LayoutCurvePoint edge_point(const Charts& charts, Index t, int side, double fraction, double length) {
     const Index edge = charts.topology().triangle_edges(t, side);
@@ -67,7 +67,7 @@ bool SeparatrixTracer::comes_by(const Passing& target, const Walk& walk, double 
            walk.length + step > target.length - before_target * walk.tolerance;
 }
 
-std::vector<Passing> SeparatrixTracer::Walk::passing() const {
+std::vector<Passing> by_slot(const std::vector<PassedPoints::Nearest>& found) {
     std::vector<Passing> result;
     for (const PassedPoints::Nearest& n : found) result.push_back(n.passing);
     std::sort(result.begin(), result.end(), [](const Passing& a, const Passing& b) { return a.slot < b.slot; });
@@ -150,7 +150,7 @@ Trace SeparatrixTracer::trace_to(const Slot& start, double shear, const std::opt
     Walk walk = begin(start, shear);
     while (!walk.trace.arrived && walk.length <= longest && step(walk, true, target)) {
     }
-    walk.trace.passing = walk.passing();
+    walk.trace.passing = by_slot(walk.found);
     return std::move(walk.trace);
 }
 

@@ -61,8 +61,9 @@ struct SeparatrixTracer::Walk {
     Charts::Side side;  // that it ends on
     double fraction, heading;
     std::vector<PassedPoints::Nearest> found;
-    std::vector<Passing> passing() const;  // by slot
 };
+
+std::vector<Passing> by_slot(const std::vector<PassedPoints::Nearest>& found);
 
 // Takes out what leaves a triangle by the side it came in by, and runs along a side of its first or last triangle.
 void tighten(LayoutCurve& curve, const Charts& charts);

@@ -36,9 +36,8 @@ Complex place_of(const Charts& charts, Index t, double ring) {
 class Race {
 public:
     Race(const LocalField& local, const SeparatrixTracer& tracer, const std::vector<LayoutCurve>& walls,
-         const std::vector<Slot>& slots, double max_length)
+         const std::vector<Slot>& slots, double max_length, KnownWalks& known)
         : charts_(local.charts()),
-          tracer_(tracer),
           walls_(walls),
           max_length_(max_length),
           in_triangle_(charts_.mesh().triangles.rows()) {
@@ -50,7 +49,7 @@ public:
             tracks_.back().slot = slot;
             stops_.push_back(never);
             last_place_.push_back(-1);
-            walks_.push_back(tracer.begin(slot));
+            walks_.push_back({&known.try_emplace(slot, tracer, slot).first->second, 1});
         }
     }
 
@@ -70,6 +69,17 @@ public:
     }
 
 private:
+    struct Walk {
+        KnownWalk* known;
+        Index triangles;  // as far as it has gone
+        double length() const { return known->length(triangles); }
+        bool at_boundary() const { return known->at_boundary(triangles); }
+        bool go_on() {
+            const bool on = known->goes_on(triangles);
+            triangles += on;
+            return on;
+        }
+    };
     struct Part {
         Index curve, place;  // walls first; triangle of the curve
         double from, to;     // ring places
@@ -126,9 +136,9 @@ private:
 
     // The last triangle of its walk is new.
     void enter(Index track) {
-        const LayoutCurve& curve = walks_[track].trace.curve;
-        const auto place = static_cast<Index>(curve.triangles.size()) - 1;
-        const Index t = curve.triangles.back();
+        const LayoutCurve& curve = walks_[track].known->curve();
+        const Index place = walks_[track].triangles - 1;
+        const Index t = curve.triangles[place];
         const Part own = part(curve, static_cast<Index>(walls_.size()) + track, place);
         for (const Part& other : in_triangle_[t]) {
             if (!cross_one_another(own, other)) continue;
@@ -147,12 +157,12 @@ private:
             }
         }
         in_triangle_[t].push_back(own);
-        if (!walks_[track].trace.boundary && walks_[track].length <= max_length_)
-            events_.push({walks_[track].length, false, track, -1, -1, 0, false});
+        if (const Walk& walk = walks_[track]; !walk.at_boundary() && walk.length() <= max_length_)
+            events_.push({walk.length(), false, track, -1, -1, 0, false});
     }
 
     void go_on(Index track) {
-        tracer_.step(walks_[track]);
+        walks_[track].go_on();
         enter(track);
     }
 
@@ -168,29 +178,27 @@ private:
 
     void finish(std::size_t i) {
         Track& track = tracks_[i];
-        SeparatrixTracer::Walk& walk = walks_[i];
-        track.curve = walk.trace.curve;
-        track.ended = walk.trace.boundary || track.stopped_by >= 0;
-        track.length = std::min(stops_[i], walk.length);
-        if (track.stopped_by >= 0) {
-            track.curve.triangles.resize(last_place_[i] + 1);
-            track.curve.points.resize(last_place_[i] + 2);
+        Walk& walk = walks_[i];
+        track.curve = walk.known->curve();
+        track.ended = walk.at_boundary() || track.stopped_by >= 0;
+        track.length = std::min(stops_[i], walk.length());
+        const Index triangles = track.stopped_by >= 0 ? last_place_[i] + 1 : walk.triangles;
+        track.curve.triangles.resize(triangles);
+        track.curve.points.resize(triangles + 1);
+        const double last = track.length + look_on * walk.known->tolerance();
+        while (track.ended && walk.length() < last && walk.go_on()) {
         }
-        const double last = track.length + look_on * walk.tolerance;
-        while (track.ended && walk.length < last && tracer_.step(walk)) {
-        }
-        for (const Passing& p : walk.passing())
+        for (const Passing& p : walk.known->passing(walk.triangles))
             if (p.length < last) track.passing.push_back(p);
     }
 
     const Charts& charts_;
-    const SeparatrixTracer& tracer_;
     const std::vector<LayoutCurve>& walls_;
     double max_length_;
     std::vector<std::vector<Part>> in_triangle_;
     std::vector<Track> tracks_;
     std::vector<double> stops_;
-    std::vector<SeparatrixTracer::Walk> walks_;
+    std::vector<Walk> walks_;
     std::vector<Index> last_place_;
     std::priority_queue<Event> events_;
 };
@@ -198,8 +206,8 @@ private:
 }  // namespace
 
 std::vector<Track> race(const LocalField& local, const SeparatrixTracer& tracer, const std::vector<LayoutCurve>& walls,
-                        const std::vector<Slot>& slots, double max_length) {
-    return Race(local, tracer, walls, slots, max_length).run();
+                        const std::vector<Slot>& slots, double max_length, KnownWalks& known) {
+    return Race(local, tracer, walls, slots, max_length, known).run();
 }
 
 }  // namespace octafield::surface::detail

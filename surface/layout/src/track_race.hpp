@@ -2,8 +2,8 @@
 // canonical quad mesh partitioning", 2008), on the exact curves of the field.
 #pragma once
 
+#include "known_walk.hpp"
 #include "layout_input.hpp"
-#include "separatrix_tracer.hpp"
 
 namespace octafield::surface::detail {
 
@@ -20,8 +20,8 @@ struct Track {
 
 // One track from each slot, all at unit speed in parameters. One that crosses a track, as told by the order of their
 // points round a triangle, stops if the other one was there before it, or at the same time and comes before it in
-// `slots`. Walls are there from the start.
+// `slots`. Walls are there from the start. known: of races before by the same tracer, and of this one afterwards.
 std::vector<Track> race(const LocalField& local, const SeparatrixTracer& tracer, const std::vector<LayoutCurve>& walls,
-                        const std::vector<Slot>& slots, double max_length);
+                        const std::vector<Slot>& slots, double max_length, KnownWalks& known);
 
 }  // namespace octafield::surface::detail
