@@ -25,8 +25,9 @@ using Vector = Eigen::Vector3d;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kTries = 15, kMoreTries = 6, kCounts = 8, kMendings = 20;
-constexpr double kLess = 0.8;              // of what was wrong in the attempt before: it becomes better
-constexpr double kMost = 2.5e7;            // vertices
+constexpr double kLess = 0.8;    // of what was wrong in the attempt before: it becomes better
+constexpr int kPursued = 3;      // attempts that crossed: no more vertices are saved elsewhere for those that it takes
+constexpr double kMost = 2.5e7;  // vertices
 constexpr double kCountWithin = 0.02;      // of the number of vertices wanted
 constexpr double kMore = 0.05;             // quality that is aimed at above the one asked for
 constexpr double kWhereCrossing = 0.6;     // lengths there, of those before
@@ -154,7 +155,7 @@ private:
         if (options_.vertices == 0) return;
         for (int k = 0; k < kCounts; ++k) {
             const double ratio = work.marked.mesh.number_of_vertices() / options_.vertices;
-            if (std::abs(ratio - 1) <= kCountWithin) return;
+            if (std::abs(ratio - 1) <= kCountWithin || (ratio > 1 && crossed_ >= kPursued)) return;
             scale_lengths(std::clamp(std::sqrt(ratio), 0.5, 2.));
             rounds.take_lengths(work);
             rounds.run(work, 2, alive());
@@ -164,8 +165,7 @@ private:
     // Those that had to become shorter stay so.
     void scale_lengths(double by) {
         ground_.length = (by * ground_.length).cwiseMin(most_);
-        ground_.longest *= by;
-        ground_.shortest *= by;
+        if (by < 1) ground_.shortest *= by;
         if (by > 1 && std::isfinite(most_.minCoeff())) limit_growth(ground_, SizeFieldOptions{}.growth);
     }
 
@@ -176,7 +176,7 @@ private:
         return true;
     }
 
-    // Whether what is wrong has not become less since the last time, or has not yet.
+    // Whether the surface has come no nearer since the last time.
     static bool stuck(double wrong, double& before) {
         const bool is = wrong > kLess * before;
         before = is ? std::numeric_limits<double>::infinity() : wrong;
@@ -197,7 +197,8 @@ private:
         }
         auto found = judge_.sound(work.marked);
         if (!found) {
-            stuck_ = stuck(static_cast<double>(judge_.crossing.size()), crossing_before_);
+            stuck_ = true;
+            ++crossed_;
             return places_of_crossings(work);
         }
         best_.emplace();
@@ -294,9 +295,9 @@ private:
     Background ground_;
     std::optional<CloseRemeshResult> best_;
     Eigen::VectorXd most_;  // (V) of the background: lengths that had to become shorter, else infinite
-    int narrow_ = 0;
+    int narrow_ = 0, crossed_ = 0;
     bool stuck_ = false;
-    double most_before_ = std::numeric_limits<double>::infinity(), crossing_before_ = most_before_;
+    double most_before_ = std::numeric_limits<double>::infinity();
     std::string fault_;  // of the first attempt that was unsound
     double begun_ = 0;
 };
