@@ -202,13 +202,6 @@ def foam():
     return mesh_of(points, triangles)
 
 
-def test_a_foam_is_followed_where_coarse_triangles_had_bridged_its_slits(foam):
-    done = of.compute_remesh(foam)
-    assert not done.record.kept and of.surface.find_defects(done.mesh) == [] and done.record.poor == 0
-    assert of.surface.euler_characteristic(done.mesh) == of.surface.euler_characteristic(foam)
-    assert max(done.record.deviation.of_input, done.record.deviation.of_mesh) <= 1e-3
-
-
 @pytest.mark.parametrize("wanted", [600, 1200])
 def test_few_vertices_on_a_foam_give_a_sound_surface_though_they_may_be_more(foam, wanted):
     """Triangles cross at first; what is shortened there is not lengthened again to meet the number."""
