@@ -5,7 +5,8 @@ their arrays.
 
     python -m studies.remeshing [table|growth|cases] [--only NAME] [-o FILE.md]
 
-Seconds are of the processor. A process is stopped after 60 s (Gmsh), 300 s (octafield, table), 900 s (others).
+Seconds are of the processor, limits too: 60 s (Gmsh), 300 s (octafield, table), 900 s (others). Reading counts for the
+limits, not for the seconds.
 """
 
 import argparse
@@ -139,7 +140,7 @@ def gmsh_of(name: str, vertices: int) -> dict:
 
 
 def case(kind: str, side: int, wanted: int) -> dict:
-    """A level set on side^3 points. wanted: vertices; 0: twice as many as the input has."""
+    """A level set on side^3 points. wanted: vertices; 0: as many as the input has, by curvature."""
     points, triangles = INDUSTRIAL[kind](side)
     given = octafield.TriangleMesh(points, triangles.astype(np.int32))
     began, cpu = time.perf_counter(), time.process_time()

@@ -15,6 +15,8 @@ from octafield.records.record_file import any_record
 from octafield.remeshing.options import RemeshingOptions
 from typer.testing import CliRunner
 
+from studies import remeshing_surfaces
+
 
 def edge_counts(mesh):
     triangles = np.asarray(mesh.triangles)
@@ -191,6 +193,23 @@ def test_a_wrap_is_drawn_onto_the_surface_and_stays_sound():
     on = np.linalg.norm(near - points, axis=1) < 1e-12
     assert on.mean() > 0.9
     assert abs(of.surface.signed_volume(done.mesh) - 2) < 0.02
+
+
+@pytest.fixture(scope="module")
+def foam():
+    """Both walls of a gyroid, cut by a box: genus 27, features along stairs, triangles of any shape."""
+    points, triangles = remeshing_surfaces.foam(24, 1.0)
+    return mesh_of(points, triangles)
+
+
+@pytest.mark.parametrize("wanted", [600, 1200])
+def test_few_vertices_on_a_foam_give_a_sound_surface_though_they_may_be_more(foam, wanted):
+    """Triangles cross at first; what is shortened there is not lengthened again to meet the number."""
+    done = of.compute_remesh(foam, remeshing=RemeshingOptions(vertices=wanted))
+    assert not done.record.kept and of.surface.find_defects(done.mesh) == [] and done.record.quality.min > 0.25
+    assert of.surface.euler_characteristic(done.mesh) == of.surface.euler_characteristic(foam)
+    told = any("cannot be met" in note for note in done.record.notes)
+    assert told == (abs(done.record.vertices / wanted - 1) > 0.05) and done.record.vertices < 3 * wanted
 
 
 def test_turns_of_a_tight_roll_are_not_mixed_up():

@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "better_triangles.hpp"
+#include "departure.hpp"
+#include "narrow_corners.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/remesh.hpp"
 #include "octafield/surface/validate.hpp"
@@ -22,15 +24,17 @@ namespace {
 using Vector = Eigen::Vector3d;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr int kTries = 15, kCounts = 8, kMendings = 20;
-constexpr double kMost = 2.5e7;            // vertices
+constexpr int kTries = 15, kMoreTries = 6, kCounts = 8, kMendings = 20;
+constexpr double kLess = 0.8;    // of what was wrong in the attempt before: it becomes better
+constexpr int kPursued = 3;      // attempts that crossed: no more vertices are saved elsewhere for those that it takes
+constexpr double kMost = 2.5e7;  // vertices
 constexpr double kCountWithin = 0.02;      // of the number of vertices wanted
 constexpr double kMore = 0.05;             // quality that is aimed at above the one asked for
 constexpr double kWhereCrossing = 0.6;     // lengths there, of those before
 constexpr double kShortestPart = 1. / 64;  // of the longest
+constexpr double kBeside = 1. / 8;         // of the shortest: between feature curves, and where triangles cross
 constexpr double kAnyTurn = 1e9;           // radians along an edge of a feature curve
 constexpr double kWithin = 0.9;            // of the deviation asked for: there are points between those looked at
-constexpr double kNear = 0.75;   // of the deviation asked for: where lengths become shorter, when it is exceeded
 constexpr double kSag = 1. / 6;  // curvature times squared length: between a sphere and its triangles' middles
 
 void require_options(const TriangleMesh& mesh, const Eigen::VectorXd& lengths, const CloseRemeshOptions& options) {
@@ -50,68 +54,6 @@ void require_options(const TriangleMesh& mesh, const Eigen::VectorXd& lengths, c
         throw InvalidInput("quality must be in [0, 0.5]; more cannot be reached everywhere", "invalid_option");
     if (!(options.max_vertices >= 1 && std::isfinite(options.max_vertices)))
         throw InvalidInput("max_vertices must be at least 1", "invalid_option");
-}
-
-// The factor of lengths where the surface is farther off than asked for, or nearly.
-double shorter(double excess) { return std::clamp(std::sqrt(0.8 * kNear / excess), 0.4, 0.95); }
-
-// The largest distance between two surfaces, and where lengths must become shorter for that.
-struct Departure {
-    double most = 0;
-    Places places;
-    void add(double distance, double told, const auto& vertices) {
-        most = std::max(most, distance);
-        if (told == 0 || distance <= kNear * told) return;
-        for (const Index v : vertices) places.emplace_back(v, shorter(distance / told));
-    }
-};
-
-// Of the triangles' middles and their sides' from the input.
-Departure departure_of(const Working& work, CloseRounds& rounds, const Background& ground, double told) {
-    Departure found;
-    const SurfaceMesh& mesh = work.marked.mesh;
-    for (const Face f : mesh.faces()) {
-        std::array<Vector, 3> at;
-        int k = 0;
-        for (const Vertex v : CGAL::vertices_around_face(mesh.halfedge(f), mesh)) at[k++] = work.at(v);
-        for (const Vector& p : {Vector((at[0] + at[1] + at[2]) / 3), Vector((at[0] + at[1]) / 2),
-                                Vector((at[1] + at[2]) / 2), Vector((at[2] + at[0]) / 2)})
-            if (const auto place = rounds.place_near(work, f, p))
-                found.add((place->point - p).norm(), told, ground.mesh.triangles.row(place->carrier.id));
-    }
-    return found;
-}
-
-// The triangles as they are, with their patches.
-Background as_ground(const Working& work) {
-    Background now;
-    const SurfaceMesh& mesh = work.marked.mesh;
-    now.mesh.vertices.resize(mesh.num_vertices(), 3);
-    now.mesh.triangles.resize(mesh.number_of_faces(), 3);
-    now.patches = work.marked.patches;
-    for (const Vertex v : mesh.vertices()) now.mesh.vertices.row(static_cast<Index>(v)) = work.at(v);
-    for (const Face f : mesh.faces()) {
-        int k = 0;
-        for (const Vertex v : CGAL::vertices_around_face(mesh.halfedge(f), mesh))
-            now.mesh.triangles(static_cast<Index>(now.patch.size()), k++) = static_cast<Index>(v);
-        now.patch.push_back(work.marked.patch[f]);
-    }
-    return now;
-}
-
-// Of the input's vertices, which are the first of the ground's, from the triangles.
-Departure departure_of(const TriangleMesh& input, const Background& ground, const Background& now, double told) {
-    Departure found;
-    const GroundTrees trees(now);
-    std::vector<bool> seen(input.vertices.rows(), false);
-    for (Index t = 0; t < ground.mesh.triangles.rows(); ++t)
-        for (const Index v : ground.mesh.triangles.row(t)) {
-            if (v >= input.vertices.rows() || seen[v]) continue;
-            seen[v] = true;
-            const Vector p = input.vertices.row(v);
-            found.add((trees.nearest(ground.patch[t], p).point - p).norm(), told, std::array{v});
-        }
-    return found;
 }
 
 double vertices_at(const TriangleMesh& mesh, const Eigen::VectorXd& lengths) {
@@ -143,17 +85,24 @@ public:
         if (!options_.keep_stubs) stubs_ = without_stubs(mesh_, features_, scale_of(lengths) * lengths);
         plan(lengths);
         CloseRounds rounds(ground_);
-        Working work(ground_.mesh, ground_.features);
-        rounds.begin(work);
-        rounds.run(work, options_.iterations, alive());
-        for (int attempt = 0; attempt < kTries; ++attempt) {
-            begun_ = static_cast<double>(attempt + 1) / (kTries + 1);
-            meet_count(work, rounds);
-            better_triangles(work, rounds, options_.quality + kMore, kMendings, [&] { alive()(0); });
-            const Places places = places_of(work, rounds, attempt + 1 == kTries);
-            if (places.empty() || !lower(ground_, places)) break;
-            rounds.take_lengths(work);
-            rounds.run(work, 3, alive());
+        std::optional<Working> work;
+        begin(work, rounds);
+        for (int attempt = 0; attempt < kTries + kMoreTries; ++attempt) {
+            begun_ = static_cast<double>(attempt + 1) / (kTries + kMoreTries + 1);
+            meet_count(*work, rounds);
+            better_triangles(*work, rounds, options_.quality + kMore, kMendings, [&] { alive()(0); });
+            const Places places = places_of(*work, rounds, attempt + 1 >= kTries);
+            if (places.empty()) break;
+            if (!make_shorter(places)) {
+                places_of(*work, rounds, true);  // as it is
+                break;
+            }
+            if (stuck_) {
+                begin(work, rounds);
+            } else {
+                rounds.take_lengths(*work);
+                rounds.run(*work, 3, alive());
+            }
         }
         if (!best_) return kept();
         tell();
@@ -166,16 +115,29 @@ private:
         return options_.vertices > 0 ? std::sqrt(vertices_at(mesh_, lengths) / options_.vertices) : 1;
     }
 
+    // From the input's triangles. What coarse triangles have lost, as a slit that they bridge, comes back only from
+    // them.
+    void begin(std::optional<Working>& work, CloseRounds& rounds) {
+        work.emplace(ground_.mesh, ground_.features);
+        rounds.begin(*work);
+        rounds.run(*work, options_.iterations, alive());
+    }
+
     void plan(const Eigen::VectorXd& lengths) {
         const double scale = scale_of(lengths);
         const double longest = scale * lengths.maxCoeff();
         ground_ = background_of(mesh_, features_, scale * lengths, longest,
                                 std::min(kShortestPart * longest, scale * lengths.minCoeff()));
         if (options_.deviation > 0) bound_by_deviation();
+        if (!options_.keep_stubs)
+            narrow_ = let_go_narrow_corners(
+                ground_, options_.deviation > 0 ? options_.deviation / 2 : deviation_told * shape_size(mesh_));
+        ground_.shortest *= kBeside;
         bound_by_curves(ground_, kAnyTurn, 0);  // triangles of good shape need short edges beside short ones
         bound_by_strips(ground_, 0);
         bound_by_near_features(ground_);
         limit_growth(ground_, SizeFieldOptions{}.growth);
+        most_ = Eigen::VectorXd::Constant(ground_.length.size(), std::numeric_limits<double>::infinity());
     }
 
     bool too_many() const { return vertices_at(ground_.mesh, ground_.length) > options_.max_vertices; }
@@ -193,34 +155,58 @@ private:
         if (options_.vertices == 0) return;
         for (int k = 0; k < kCounts; ++k) {
             const double ratio = work.marked.mesh.number_of_vertices() / options_.vertices;
-            if (std::abs(ratio - 1) <= kCountWithin) return;
-            const double by = std::clamp(std::sqrt(ratio), 0.5, 2.);
-            ground_.length *= by;
-            ground_.longest *= by;
-            ground_.shortest *= by;
+            if (std::abs(ratio - 1) <= kCountWithin || (ratio > 1 && crossed_ >= kPursued)) return;
+            scale_lengths(std::clamp(std::sqrt(ratio), 0.5, 2.));
             rounds.take_lengths(work);
             rounds.run(work, 2, alive());
         }
+    }
+
+    // Those that had to become shorter stay so.
+    void scale_lengths(double by) {
+        ground_.length = (by * ground_.length).cwiseMin(most_);
+        if (by < 1) ground_.shortest *= by;
+        if (by > 1 && std::isfinite(most_.minCoeff())) limit_growth(ground_, SizeFieldOptions{}.growth);
+    }
+
+    bool make_shorter(const Places& places) {
+        const Eigen::VectorXd before = ground_.length;
+        if (!lower(ground_, places)) return false;
+        most_ = (ground_.length.array() < before.array()).select(ground_.length, most_);
+        return true;
+    }
+
+    // Whether the surface has come no nearer since the last time.
+    static bool stuck(double wrong, double& before) {
+        const bool is = wrong > kLess * before;
+        before = is ? std::numeric_limits<double>::infinity() : wrong;
+        return is;
     }
 
     // Where lengths must become shorter. Takes the mesh where it follows the input, or as it is where it shall be the
     // last, if it is sound.
     Places places_of(Working& work, CloseRounds& rounds, bool last) {
         const double told = kWithin * options_.deviation;
-        Departure own = departure_of(work, rounds, ground_, told),
-                  of_input = departure_of(mesh_, ground_, as_ground(work), told);
-        if (told > 0 && std::max(own.most, of_input.most) > told && !last && !too_many()) {
+        Departure own = departure_of_mesh(work, rounds, ground_, told),
+                  of_input = departure_of_input(mesh_, ground_, work, told);
+        const double most = std::max(own.most, of_input.most);
+        if (told > 0 && most > told && !last && !too_many()) {
             std::ranges::move(of_input.places, std::back_inserter(own.places));
+            stuck_ = stuck(most, most_before_);
             return own.places;
         }
-        auto found = judge_.judge(work.marked, ground_.length.minCoeff());
-        if (!found) return places_of_crossings(work);
+        auto found = judge_.sound(work.marked);
+        if (!found) {
+            stuck_ = true;
+            ++crossed_;
+            return places_of_crossings(work);
+        }
         best_.emplace();
-        best_->mesh = std::move(found->result.mesh);
-        best_->features = std::move(found->result.features);
+        best_->mesh = std::move(found->mesh);
+        best_->features = std::move(found->features);
         best_->deviation = of_input.most;
         best_->own_deviation = own.most;
-        best_->off_surface = off_surface(work);
+        best_->off_surface = surface::off_surface(work, ground_);
         count_poor(work, *best_);
         return {};
     }
@@ -238,17 +224,6 @@ private:
                     for (const Index w : ground_.mesh.triangles.row(at.id)) places.emplace_back(w, kWhereCrossing);
             }
         return places;
-    }
-
-    // By the nearest points, which have nothing to do with how they were placed.
-    double off_surface(const Working& work) const {
-        const GroundTrees input(ground_);
-        double most = 0;
-        for (const Vertex v : work.marked.mesh.vertices()) {
-            const Vector p = work.at(v);
-            most = std::max(most, (input.nearest(patch_at(work.marked, v), p).point - p).norm());
-        }
-        return most;
     }
 
     void count_poor(const Working& work, CloseRemeshResult& result) {
@@ -278,6 +253,11 @@ private:
             notes.push_back(std::to_string(stubs_.rows()) +
                             " feature edges, of curves that end inside the surface and are "
                             "shorter than two edges, were not followed");
+        if (narrow_ > 0)
+            notes.push_back(
+                "where feature curves meet at less than 12 degrees, one of the two is not followed until "
+                "they are apart (" +
+                std::to_string(narrow_) + " times)");
         const double count = static_cast<double>(best_->mesh.vertices.rows());
         if (options_.vertices > 0 && std::abs(count / options_.vertices - 1) > 0.05)
             notes.push_back(
@@ -314,6 +294,10 @@ private:
     RemeshJudge judge_;
     Background ground_;
     std::optional<CloseRemeshResult> best_;
+    Eigen::VectorXd most_;  // (V) of the background: lengths that had to become shorter, else infinite
+    int narrow_ = 0, crossed_ = 0;
+    bool stuck_ = false;
+    double most_before_ = std::numeric_limits<double>::infinity();
     std::string fault_;  // of the first attempt that was unsound
     double begun_ = 0;
 };

@@ -22,19 +22,25 @@ RemeshJudge::Topology RemeshJudge::topology_of(const TriangleMesh& mesh) {
     return {euler_characteristic(mesh), *std::ranges::max_element(piece) + 1, edges.edge_triangles.minCoeff() >= 0};
 }
 
-std::optional<Attempt> RemeshJudge::judge(Marked& marked, double length) {
+std::optional<RemeshResult> RemeshJudge::sound(Marked& marked) {
     fault.clear();
     crossing.clear();
-    Attempt attempt{to_arrays(marked), length};
-    const auto defects = find_defects(attempt.result.mesh, {.closed = topology_.closed});
+    RemeshResult result = to_arrays(marked);
+    const auto defects = find_defects(result.mesh, {.closed = topology_.closed});
     if (!defects.empty()) {
         fault = defects.front().message.substr(0, defects.front().message.find("; "));
         for (const Defect& defect : defects)
             if (defect.kind == "self_intersection") crossing = defect.elements;
-    } else if (topology_of(attempt.result.mesh) != topology_) {
+    } else if (topology_of(result.mesh) != topology_) {
         fault = "holes or pieces of the surface were lost";
     }
-    if (!fault.empty()) return std::nullopt;
+    return fault.empty() ? std::optional(std::move(result)) : std::nullopt;
+}
+
+std::optional<Attempt> RemeshJudge::judge(Marked& marked, double length) {
+    auto result = sound(marked);
+    if (!result) return std::nullopt;
+    Attempt attempt{std::move(*result), length};
     measure(marked, attempt);
     return attempt;
 }

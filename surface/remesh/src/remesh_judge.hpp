@@ -13,8 +13,8 @@ constexpr double kVolumeTold = 0.01;  // relative change of the volume that a de
 // One attempt at remeshing, sound.
 struct Attempt {
     RemeshResult result;
-    double length = 0, volume_change = 0;              // the latter relative
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();   // of the largest deviation
+    double length = 0, volume_change = 0;             // the latter relative
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();  // of the largest deviation
 };
 
 // Compares with the input, which must outlive it.
@@ -22,7 +22,9 @@ class RemeshJudge {
 public:
     RemeshJudge(const TriangleMesh& mesh, const FeatureGraph& features);
 
-    // None where the result is unsound: fault and crossing say why.
+    // None where the result is unsound: fault and crossing say why. Patches do not matter.
+    std::optional<RemeshResult> sound(Marked& marked);
+    // And how far it departs, by patches, which are the input's.
     std::optional<Attempt> judge(Marked& marked, double length);
     double excess_of(const Attempt& attempt) const;  // above 1: the surface is not followed
     std::string departure(const Attempt& attempt) const;
