@@ -143,13 +143,14 @@ class MeshOptions:
         for name in ("wrap_alpha", "wrap_offset"):
             _require(
                 math.isfinite(getattr(self, name)) and getattr(self, name) >= 0,
-                f"{name.replace('_', ' ')} must be positive (0: default)",
+                f"{name.replace('_', ' ')} must be positive and finite (0: default)",
             )
         for name in ("remesh", "interfaces", "split"):
             _make_boolean(self, name)
         _require(0 < self.feature_angle < math.pi, "the feature angle must lie between 0 and 180 degrees")
         _require(
-            math.isfinite(self.edge_length) and self.edge_length >= 0, "the edge length must be positive (0: default)"
+            math.isfinite(self.edge_length) and self.edge_length >= 0,
+            "the edge length must be positive and finite (0: default)",
         )
         _require(
             self.edge_length == 0 or self.max_cells == 0,
@@ -194,7 +195,7 @@ class SurfaceFieldOptions(MeshOptions):
         require_one_of("boundary_alignment", self.boundary_alignment, ALIGNMENTS)
         require_one_of("feature_alignment", self.feature_alignment, ALIGNMENTS)
         _make_integer(self, "symmetry", 1, LARGEST_SYMMETRY)
-        _require(math.isfinite(self.epsilon) and self.epsilon >= 0, "epsilon must be positive (0: default)")
+        _require(math.isfinite(self.epsilon) and self.epsilon >= 0, "epsilon must be positive and finite (0: default)")
         _require(
             math.isfinite(self.least_feature_angle) and 0 <= self.least_feature_angle < math.pi,
             "the least feature angle must lie between 0 and 180 degrees",

@@ -151,6 +151,26 @@ def test_smooth_closed_surfaces_need_one_chart_whatever_their_handles():
         assert record.cut_edges > 0 and record.conformity.p05 > 0.2
 
 
+def open_ball():
+    ball = generate("ball")
+    points, triangles = np.asarray(ball.vertices), np.asarray(ball.triangles)
+    return surface.TriangleMesh(points, triangles[points[triangles, 2].mean(axis=1) < 0.7])
+
+
+def test_holes_are_filled_from_level_fill_on_and_rims_kept_below():
+    for repair, closed in (("safe", False), ("fill", True), ("wrap", True)):
+        options = of.SurfaceFieldOptions(remesh=False, features="none", repair=repair)
+        atlas = of.compute_atlas(open_ball(), options).atlas
+        rim = (np.asarray(atlas.domain.edge_triangles) < 0).any()
+        assert rim == (not closed or repair == "safe")
+
+
+def test_quads_are_of_the_filled_surface():
+    options = of.SurfaceFieldOptions(features="none", repair="fill")
+    record = of.compute_quad_mesh(open_ball(), options, quad_options=of.QuadMeshOptions(quads=200)).record
+    assert record.irregular_boundary_vertices == {} and any("hole" in note for note in record.notes)
+
+
 def test_the_command_writes_charts_texture_coordinates_and_a_record(tmp_path):
     surface.write_surface(generate("torus"), tmp_path / "torus.obj")
     done = octafield("atlas", tmp_path / "torus.obj", "-o", tmp_path / "out", "--json", tmp_path / "r.json", "-q")

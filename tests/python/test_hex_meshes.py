@@ -159,6 +159,27 @@ def test_the_command_writes_a_whole_folder_or_none(tmp_path):
     assert not (tmp_path / "none").exists()
 
 
+def test_hexahedra_that_stay_turned_over_in_part_are_no_result(shared_data):
+    given = read_seamless_map(map_file(shared_data, "s07c_notch"))
+    stretched = np.array(given.parameters) * np.tile([1, 1, 100], 4)
+    map_ = of.volume.SeamlessMap(given.mesh, stretched, given.walls)
+    with pytest.raises(of.SolverError, match="more cells") as error:
+        of.compute_hex_mesh(map_, cells=500)
+    assert error.value.kind == "inverted_cells" and len(error.value.elements)
+
+
+def test_a_number_that_blocks_do_not_allow_is_told(shared_data, tmp_path):
+    result = of.compute_hex_mesh(map_file(shared_data, "s10c_cyl_cutsphere"), cells=60).record
+    assert result.hexahedra > 66 and any("60 wanted" in note for note in result.notes)
+    assert not any("wanted" in note for note in of.compute_hex_mesh(box_map(), cells=64).record.notes)
+
+
+def test_the_command_blames_the_number_where_hexahedra_stay_inverted(shared_data, tmp_path):
+    path = map_file(shared_data, "s10c_cyl_cutsphere")
+    done = octafield("hex-mesh", path, "-o", tmp_path / "none", "--edge-length", "1e9", "-q")
+    assert done.returncode in (0, 2) and "please report" not in done.stderr
+
+
 def test_parts_give_what_the_whole_gives(shared_data):
     given = read_seamless_map(map_file(shared_data, "s02c_prism"))
     report = of.volume.seamless_report(given)

@@ -98,6 +98,15 @@ def test_features_and_corners_are_followed_exactly():
     assert corners > 1e-3 and curves > 1e-3
 
 
+def test_how_features_are_followed_does_not_depend_on_where_the_surface_is():
+    quads, shift = made(cube(), quads=300).mesh, np.array([1e8, -1e8, 0])
+    moved = of.TriangleMesh(np.asarray(cube().vertices) + shift, cube().triangles)
+    whole = of.surface.SurfaceDomain(moved, of.surface.detect_features(moved))
+    there = of.surface.QuadMesh(np.asarray(quads.vertices) + shift, quads=np.asarray(quads.quads))
+    corners, curves = feature_deviation(there, whole)
+    assert corners < 1e-7 and curves < 1e-7
+
+
 def ring(n=48, rings=16):
     """Between the circles of radius 1 and 4."""
     angles, radii = 2 * np.pi * np.arange(n) / n, 4.0 ** (np.arange(rings + 1) / rings)

@@ -1,7 +1,9 @@
 """Every surface of the shared test data has fields whose indices add up to its Euler characteristic."""
 
+import numpy as np
 import octafield as of
 import pytest
+from octafield.domain.generators import generate
 from octafield.domain.meshing import prepare_mesh
 from octafield.options import MeshOptions
 from pipeline_fixtures import SHARED_SURFACES, SHARED_TETS, shared
@@ -49,3 +51,27 @@ def test_a_hole_is_a_boundary_of_the_surface():
         of.surface.direction_field(of.surface.SurfaceDomain(meshed.surface, meshed.features))
     )
     assert found.agree and found.euler_characteristic == 1
+
+
+def test_stl_files_are_refused_where_single_precision_flattens_triangles(tmp_path):
+    box = generate("box")
+    far = of.TriangleMesh(np.asarray(box.vertices) + 1e8, box.triangles)
+    with pytest.raises(of.IoError, match="no area") as error:
+        of.write_surface(far, tmp_path / "far.stl")
+    assert error.value.kind == "single_precision" and not (tmp_path / "far.stl").exists()
+    of.write_surface(far, tmp_path / "far.ply")
+    of.write_surface(box, tmp_path / "near.stl")
+
+
+def test_one_sided_surfaces_are_named_as_such():
+    turns = np.linspace(0, 2 * np.pi, 40, endpoint=False)
+    ways = [np.stack([(2 + s * np.cos(turns / 2)) * np.cos(turns), (2 + s * np.cos(turns / 2)) * np.sin(turns),
+                      s * np.sin(turns / 2)], axis=1) for s in (-0.5, 0.5)]  # fmt: skip
+    points = np.concatenate(ways)
+    following = [(i + 1) % 40 for i in range(40)]
+    other = [40 * (i == 39) for i in range(40)]  # the ends meet turned over
+    rows = [[(i, following[i] + o, 40 + i), (40 + i, following[i] + o, (40 + following[i]) - o)]
+            for i, o in enumerate(other)]  # fmt: skip
+    strip = of.TriangleMesh(points, np.array(rows).reshape(-1, 3).astype(np.int32))
+    with pytest.raises(of.GeometryError, match="one-sided"):
+        of.compute_atlas(strip, of.MeshOptions(remesh=False, features="none"))

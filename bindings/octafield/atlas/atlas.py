@@ -100,7 +100,9 @@ def compute_atlas(
 
     memory = PeakMemory()
     meshed = (
-        source if isinstance(source, MeshedInput) else prepare_mesh(source, options, volume=False, progress=progress)
+        source
+        if isinstance(source, MeshedInput)
+        else prepare_mesh(source, options, volume=False, fills=True, progress=progress)
     )
     clock = PhaseClock(meshed.clock)
     with naming(meshed.name), clock.phase("surface"):

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 Array = np.ndarray[Any, Any]
 Source = str | Path | TriangleMesh | TetMesh | TetDomain
+FILLING = ("fill", "resolve", "wrap")  # levels of repair
 REPAIR_IGNORED = "repair was ignored: it works on surfaces only"
 TOUCHING = ("non_manifold_edge", "non_manifold_vertex")  # kinds of defects that the boundary of tets may have
 
@@ -33,7 +34,7 @@ def load_surface(path: str | Path, *, repair: str = "default") -> TriangleMesh:
     """Reads a closed surface, repaired up to a level (MeshOptions.repair), and raises GeometryError, InvalidInput or
     IoError naming the defect unless it is sound."""
     with naming(str(path)):
-        return _sound(read_input(path), MeshOptions(repair=repair), closed=True).surface
+        return _sound(read_input(path), MeshOptions(repair=repair), closed=True, fills=True).surface
 
 
 @dataclass
@@ -54,9 +55,11 @@ def read_sound(
     options: MeshOptions = MeshOptions(),
     *,
     volume: bool = True,
+    fills: bool = False,
     progress: Progress | None = None,
 ) -> SoundInput:
-    """Reads, validates and finds features: everything that can show an input unfit in short time."""
+    """Reads, validates and finds features: everything that can show an input unfit in short time. fills: where no
+    volume is asked for, levels of repair from "fill" on fill holes all the same; else rims stay."""
     memory = PeakMemory()
     clock = PhaseClock()
     with clock.phase("read"):
@@ -71,7 +74,7 @@ def read_sound(
             )
         with naming(found.name):
             _require_scale(found)
-            found = _sound(found, options, closed=volume)
+            found = _sound(found, options, closed=volume, fills=volume or fills)
     with naming(found.name), clock.phase("mesh"):
         locking = None
         if found.tets is not None:
@@ -116,11 +119,13 @@ def prepare_mesh(
     options: MeshOptions = MeshOptions(),
     *,
     volume: bool = True,
+    fills: bool = False,
     progress: Progress | None = None,
 ) -> MeshedInput:
     """Reads, validates, finds features, remeshes and (volume) fills with tets.
 
-    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for.
+    Tet meshes are kept; their boundary is the surface. An open surface is accepted where no volume is asked for; with
+    `fills` levels of repair from "fill" on fill its holes, else rims stay.
     source: a path, TriangleMesh or TetMesh. Raises InvalidInput, GeometryError (naming the defect), IoError, Cancelled.
 
         >>> import octafield
@@ -130,7 +135,7 @@ def prepare_mesh(
         (8, 'angle')
     """
     if not isinstance(source, SoundInput):
-        source = read_sound(source, options, volume=volume, progress=progress)
+        source = read_sound(source, options, volume=volume, fills=fills, progress=progress)
     memory = PeakMemory()
     found, clock = source.found, source.clock
     with naming(found.name), clock.phase("mesh"):
@@ -159,18 +164,18 @@ def prepare_mesh(
     return meshed
 
 
-def _sound(found: Input, options: MeshOptions, closed: bool) -> Input:
+def _sound(found: Input, options: MeshOptions, *, closed: bool, fills: bool) -> Input:
     """Repairs as far as the level says, then raises unless the surface is sound."""
-    repair_surface(found, options, closed)
+    repair_surface(found, options, closed or (fills and options.repair in FILLING))
     if found.tets is not None:
         # Tets of positive volume rarely cross, and the test is slow. Interfaces are sound where the tets are.
-        _require_valid(found, options, self_intersection=False)
+        _require_valid(found, options, fills, self_intersection=False)
     else:
-        _require_valid(found, options, closed=closed)
+        _require_valid(found, options, fills, closed=closed)
     return found
 
 
-def _require_valid(found: Input, options: MeshOptions, **tests: bool) -> None:
+def _require_valid(found: Input, options: MeshOptions, fills: bool, **tests: bool) -> None:
     surface = found.surface
     if found.interface_triangles and found.tets is not None:
         surface = found.tets.boundary.mesh
@@ -182,7 +187,8 @@ def _require_valid(found: Input, options: MeshOptions, **tests: bool) -> None:
                 raise
             _accept_touching(found, surface)
     except GeometryError as error:
-        message = message_with_remedy(str(error), error.kind, found, options, tests.get("closed", True))
+        closed = tests.get("closed", True)
+        message = message_with_remedy(str(error), error.kind, found, options, closed, fills=fills)
         raise GeometryError(message, error.kind, error.elements) from error
 
 

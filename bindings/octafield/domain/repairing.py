@@ -39,13 +39,24 @@ def repair_surface(found: Input, options: MeshOptions, closed: bool = True) -> N
         _carry_lines(found, before)
 
 
-def advise(found: Input, options: MeshOptions, closed: bool = True) -> RepairAdvice:
-    """Tries the levels above that of the options on a copy of a surface."""
-    return _core.advise_repair(found.surface, level=level_of(found, options), closed=closed, **_bounds(options))
+def advise(found: Input, options: MeshOptions, closed: bool = True, fills: bool = False) -> RepairAdvice:
+    """Tries the levels above that of the options on a copy of a surface. fills: with its holes filled as well, where
+    rims need not be but nothing else helps."""
+    level = level_of(found, options)
+    advice = _core.advise_repair(found.surface, level=level, closed=closed, **_bounds(options))
+    if closed or not fills or advice.level != "none":
+        return advice
+    return _core.advise_repair(found.surface, level=level, closed=True, **_bounds(options))
 
 
 def message_with_remedy(
-    message: str, kind: str, found: Input, options: MeshOptions, closed: bool = True, advice: RepairAdvice | None = None
+    message: str,
+    kind: str,
+    found: Input,
+    options: MeshOptions,
+    closed: bool = True,
+    advice: RepairAdvice | None = None,
+    fills: bool = False,
 ) -> str:
     """The message of a defect with what helps instead of the general advice. advice: of `advise`, where it is there
     already."""
@@ -60,7 +71,7 @@ def message_with_remedy(
             f"{'export the model as solids' if found.of_cad else where}, or take octafield surface-field, which needs"
             " no volume"
         )
-    return f"{fact}; {remedy(advice or advise(found, options, closed), level_of(found, options), where)}"
+    return f"{fact}; {remedy(advice or advise(found, options, closed, fills), level_of(found, options), where)}"
 
 
 def remedy(advice: RepairAdvice, done: str, where: str) -> str:
@@ -71,6 +82,8 @@ def remedy(advice: RepairAdvice, done: str, where: str) -> str:
         return f"--repair merge, safe and fill do not make it sound, and {advice.not_tried}; {where}"
     left = advice.left[0].message.partition("; ")[0] if advice.left else ""
     why = next((f", {action}" for action in advice.actions if action.startswith("not wrapped")), "")
+    if any(defect.kind == "inconsistent_orientation" for defect in advice.left):
+        where = "one-sided surfaces, as Moebius strips are, have to be cut open; else " + where
     after = f"after --repair {done}" if done == REPAIR_LEVELS[-1] else f"after --repair {REPAIR_LEVELS[-1]}"
     return f"no level of --repair makes it sound ({after}: {left}{why}); {where}"
 

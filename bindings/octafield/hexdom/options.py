@@ -41,7 +41,9 @@ class HexMeshOptions:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.edge_length) and self.edge_length >= 0):
-            raise InvalidInput("the edge length of the cells must be positive (0: default)", "option_out_of_range")
+            raise InvalidInput(
+                "the edge length of the cells must be positive and finite (0: default)", "option_out_of_range"
+            )
         object.__setattr__(self, "cells", integer_in("cells", self.cells, 0, LARGEST_INT, " (0: default)"))
         if self.edge_length and self.cells:
             raise InvalidInput(

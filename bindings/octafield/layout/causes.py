@@ -82,7 +82,7 @@ def cut_corners(mesh: QuadMesh, domain: SurfaceDomain) -> list[str]:
     return [
         f"{int((away > _SAME).sum())} corners of the boundary are no vertices of the quads, the farthest by"
         f" {away.max():.2g} of the diagonal, at ({worst}): two quads meet there; another number of quads at the corner"
-        " (--corners), or more quads, follow it"
+        " (quad-layout --corners), or more quads, follow it"
     ]
 
 

@@ -55,7 +55,9 @@ class QuadLayoutOptions:
     def __post_init__(self) -> None:
         object.__setattr__(self, "quads", integer_in("quads", self.quads, 0, MOST_QUADS, " (0: default)"))
         if not (math.isfinite(self.edge_length) and self.edge_length >= 0):
-            raise InvalidInput("the edge length of the quads must be positive (0: default)", "option_out_of_range")
+            raise InvalidInput(
+                "the edge length of the quads must be positive and finite (0: default)", "option_out_of_range"
+            )
         if self.edge_length and self.quads:
             raise InvalidInput(
                 "an edge length decides the number of quads: leave it or the number of quads out", "option_out_of_range"
@@ -70,4 +72,6 @@ class QuadLayoutOptions:
         for name in ("end_tolerance", "max_length"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0):
-                raise InvalidInput(f"{name.replace('_', ' ')} must be positive (0: default)", "option_out_of_range")
+                raise InvalidInput(
+                    f"{name.replace('_', ' ')} must be positive and finite (0: default)", "option_out_of_range"
+                )

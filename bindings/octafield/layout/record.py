@@ -20,7 +20,7 @@ from .quality import QuadFigures
 if TYPE_CHECKING:
     from ..records.field import InputRecord
 
-_OTHER_NUMBER = 1.5  # times the number of quads wanted
+_OTHER_NUMBER = 1.05  # times the number of quads wanted
 _FAR = 0.02  # of the diagonal
 
 

@@ -132,7 +132,7 @@ def fitted_points(
         rest = f"{found.left:g} quads missing on arcs" if math.isfinite(found.left) else "a face without quads"
         raise GeometryError(
             f"{error.args[0]}. Of {found.tried} other patterns of points tried in faces none fits, {len(found.changes)}"
-            f" changes leave {rest}; give points (--singularities), or take fewer features",
+            f" changes leave {rest}; give points (quad-layout --singularities), or take fewer features",
             error.kind,
             error.elements,
         ) from error

@@ -21,8 +21,11 @@ def feature_deviation(mesh: QuadMesh, domain: SurfaceDomain) -> tuple[float, flo
     lines = feature_edges(domain)
     if not len(lines):
         return 0.0, 0.0
-    diagonal = float(np.linalg.norm(vertices.max(axis=0) - vertices.min(axis=0)))
-    points, edges = np.asarray(mesh.vertices), edges_of(np.asarray(mesh.quads))[0]
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    diagonal = float(np.linalg.norm(high - low))
+    middle = (low + high) / 2  # far from the origin VTK's tolerances are larger than the surface
+    vertices = vertices - middle
+    points, edges = np.asarray(mesh.vertices) - middle, edges_of(np.asarray(mesh.quads))[0]
     curves = lines_of(vertices, lines)
     on = distance_to(curves, points) <= _ON * diagonal
     along = edges[on[edges].all(axis=1)]

@@ -91,7 +91,7 @@ def _load(path: Path) -> np.ndarray:
         array: np.ndarray = np.load(io.BytesIO(read_bytes(path)), allow_pickle=False)
     except (ValueError, EOFError, OSError) as error:
         raise IoError(
-            f"{path}: no field ({error}); give .npy of (V, 3) or (F, 3) directions, or .vtp", "bad_field"
+            f"{path}: no field: no .npy file of numbers; give .npy of (V, 3) or (F, 3) directions, or .vtp", "bad_field"
         ) from error
     return array
 
@@ -123,7 +123,8 @@ def _checked(values: ArrayLike, surface: TriangleMesh, name: str) -> tuple[np.nd
             f" triangle ({triangles}, 3) of the input",
             "wrong_shape",
         )
-    bad = np.flatnonzero(~np.isfinite(array).all(axis=1) | (np.linalg.norm(array, axis=1) == 0))
+    array = array / np.maximum(np.abs(array).max(axis=1, initial=0), 5e-324)[:, None]  # squares stay numbers
+    bad = np.flatnonzero(~np.isfinite(array).all(axis=1) | (array == 0).all(axis=1))
     if len(bad):
         raise InvalidInput(
             f"{name}: {len(bad)} directions are 0 or not finite, the first at row {bad[0]} (from 0); correct them",

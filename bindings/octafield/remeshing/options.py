@@ -39,7 +39,9 @@ class RemeshingOptions:
         for name in ("edge_length", "deviation"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0):
-                raise InvalidInput(f"the {name.replace('_', ' ')} must be positive (0: default)", "option_out_of_range")
+                raise InvalidInput(
+                    f"the {name.replace('_', ' ')} must be positive and finite (0: default)", "option_out_of_range"
+                )
         if not 0 <= self.quality <= 0.5:
             raise InvalidInput("the quality must lie between 0 and 0.5", "option_out_of_range")
         if self.edge_length and (self.vertices or self.curvature):

@@ -16,10 +16,9 @@ import numpy as np
 
 from .. import _core
 from .._core import CloseRemeshResult, FeatureGraph, TriangleMesh
-from ..domain.inputs import Input, from_mesh, naming, read_input
+from ..domain.inputs import Input, naming
 from ..domain.mesh_writers import write_mesh
 from ..domain.meshing import SoundInput, Source, read_sound
-from ..domain.repairing import repair_surface
 from ..errors import InvalidInput
 from ..hexdom.sizes import Sizes
 from ..meshes.registry import find_mesh_format, written_suffixes
@@ -91,7 +90,8 @@ def compute_remesh(
     if sizes is not None and (remeshing.edge_length or remeshing.curvature):
         raise InvalidInput("sizes decide on the lengths: leave the edge length and curvature out", "ignored_option")
     memory = PeakMemory()
-    sound = _read(source, replace(options, interfaces=False, split=False), progress)
+    wanted = replace(options, interfaces=False, split=False)
+    sound = read_sound(source, wanted, volume=False, fills=True, progress=progress)
     with naming(sound.found.name):
         surface = sound.found.surface if sound.sheets is None else sound.sheets.mesh
         with sound.clock.phase("remesh"):
@@ -103,20 +103,6 @@ def compute_remesh(
     return RemeshedSurface(
         mesh=made.mesh, features=made.features, qualities=np.asarray(_core.triangle_qualities(made.mesh)), record=record
     )
-
-
-def _read(source: Source, options: MeshOptions, progress: Progress | None) -> SoundInput:
-    """Levels that fill holes do so; those below keep the rims of an open surface."""
-    if options.repair not in ("fill", "resolve", "wrap"):
-        return read_sound(source, options, volume=False, progress=progress)
-    if isinstance(source, (str, Path)):
-        found = read_input(source, interfaces=False, progress=progress)
-    else:
-        found = from_mesh(source)
-    if found.tets is None:
-        with naming(found.name):
-            repair_surface(found, options, closed=True)
-    return read_sound(found, replace(options, repair="none"), volume=False, progress=progress)
 
 
 def require_surface_format(path: str | Path) -> None:

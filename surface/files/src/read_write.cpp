@@ -92,6 +92,24 @@ void store(const std::string& bytes, const fs::path& path) {
     file.move_to_target();
 }
 
+void require_single_precision(const TriangleMesh& mesh, const fs::path& path) {
+    std::vector<Index> flat;
+    for (Index t = 0; t < mesh.triangles.rows(); ++t) {
+        Eigen::Matrix<double, 2, 3> exact, rounded;  // two edges
+        for (int k = 0; k < 2; ++k) {
+            const auto a = mesh.vertices.row(mesh.triangles(t, 0)), b = mesh.vertices.row(mesh.triangles(t, k + 1));
+            exact.row(k) = b - a;
+            rounded.row(k) = b.cast<float>().cast<double>() - a.cast<float>().cast<double>();
+        }
+        const auto is_flat = [](const auto& edges) { return edges.row(0).cross(edges.row(1)).isZero(0); };
+        if (!is_flat(exact) && is_flat(rounded)) flat.push_back(t);
+    }
+    if (!flat.empty())
+        throw IoError("cannot write " + path.string() + ": STL files hold single precision, in which triangles " +
+                          first_few(flat) + " have no area; write .ply or .obj, or move the part to the origin",
+                      "single_precision");
+}
+
 }  // namespace
 
 TriangleMesh read_surface(const fs::path& path) {
@@ -109,6 +127,7 @@ void write_surface(const TriangleMesh& mesh, const fs::path& path) {
     if (mesh.triangles.size() && (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertices.rows()))
         throw InvalidInput("cannot write " + path.string() + ": a triangle uses a vertex that does not exist",
                            "index_out_of_range");
+    if (format.format == format_stl) require_single_precision(mesh, path);
     store(format.format(mesh), path);
 }
 

@@ -36,10 +36,11 @@ double wanted_cells(const TetDomain& domain, const AllHexOptions& options) {
         options.edge_length > 0 ? options.edge_length : surface::mean_edge_length(domain.surface().mesh);
     const double wanted = options.cells > 0 ? options.cells : tet_volumes(domain.mesh()).sum() / std::pow(length, 3);
     if (wanted > options.most_hexahedra)
-        throw InvalidInput("about " + std::to_string(static_cast<long long>(std::min(wanted, 1e18))) +
-                               " hexahedra are asked for, and at most " + std::to_string(options.most_hexahedra) +
-                               " are made; ask for fewer or larger ones, or for more most_hexahedra",
-                           "too_many_cells");
+        throw InvalidInput(
+            (wanted < 1e15 ? "about " + std::to_string(std::llround(wanted)) : std::string("over 1e15")) +
+                " hexahedra are asked for, and at most " + std::to_string(options.most_hexahedra) +
+                " are made (most_hexahedra); ask for fewer or larger ones",
+            "too_many_cells");
     return std::max(wanted, 1.);
 }
 
@@ -154,8 +155,15 @@ private:
 void require_few(const ArcNumbers& numbers, const AllHexOptions& options) {
     if (numbers.hexahedra > options.most_hexahedra)
         throw InvalidInput("these blocks get " + std::to_string(numbers.hexahedra) + " hexahedra, and at most " +
-                               std::to_string(options.most_hexahedra) + " are made; allow more most_hexahedra",
+                               std::to_string(options.most_hexahedra) +
+                               " are made (most_hexahedra); ask for fewer or larger ones",
                            "too_many_cells");
+}
+
+void note_other_number(const ArcNumbers& numbers, double wanted, std::vector<std::string>& notes) {
+    if (std::abs(std::log(numbers.hexahedra / wanted)) <= std::log(1.1)) return;
+    notes.push_back(std::to_string(numbers.hexahedra) + " hexahedra, " + std::to_string(std::lround(wanted)) +
+                    " wanted: each arc of the blocks has one at least, and few numbers fit all arcs");
 }
 
 std::vector<Index> inverted_cells(const MixedMesh& mesh) {
@@ -163,6 +171,14 @@ std::vector<Index> inverted_cells(const MixedMesh& mesh) {
     std::vector<Index> result;
     for (Index c = 0; c < quality.size(); ++c)
         if (!(quality[c] > 0)) result.push_back(c);
+    return result;
+}
+
+std::vector<Index> unproven_cells(const MixedMesh& mesh, int threads) {
+    const std::vector<std::uint8_t> proven = proven_positive(mesh, proof_depth, threads);
+    std::vector<Index> result;
+    for (std::size_t c = 0; c < proven.size(); ++c)
+        if (!proven[c]) result.push_back(static_cast<Index>(c));
     return result;
 }
 
@@ -193,7 +209,7 @@ AllHexMesh all_hex(const SeamlessMap& given, const AllHexOptions& options, const
     const double wanted = wanted_cells(domain, options);
     result.wanted = static_cast<Index>(std::lround(wanted));
     std::vector<std::vector<int>> tried;
-    std::vector<Index> bad;
+    std::vector<Index> bad, bad_in_part;
     const auto keep = [&](BlockHexahedra& made, const ArcNumbers& numbers, Index inverted) {
         require_valid(made.mesh);
         result.numbers = numbers;
@@ -216,17 +232,21 @@ AllHexMesh all_hex(const SeamlessMap& given, const AllHexOptions& options, const
         const std::vector<Index> left = inverted_cells(made.mesh);
         if (tried.size() == 1) bad = left;
         if (!left.empty()) continue;
-        const std::vector<std::uint8_t> proven = proven_positive(made.mesh, proof_depth, options.threads);
-        const bool all_proven = std::find(proven.begin(), proven.end(), 0) == proven.end();
-        if (!all_proven && result.mesh.hexahedra.rows() > 0) continue;
+        const std::vector<Index> unproven = unproven_cells(made.mesh, options.threads);
+        if (bad_in_part.empty()) bad_in_part = unproven;
+        if (!unproven.empty()) continue;
         keep(made, numbers, inverted);
-        if (!all_proven) continue;
         if (tried.size() > 1)
             result.notes.push_back(
                 "nearer numbers of hexahedra leave some of them turned over in part, so that another one was taken");
+        note_other_number(numbers, wanted, result.notes);
         return result;
     }
-    if (result.mesh.hexahedra.rows() > 0) return result;
+    if (bad.empty())
+        throw SolverError(
+            "hexahedra " + first_few(bad_in_part) +
+                " stay turned over in part however their vertices move; ask for more cells, or another map",
+            "inverted_cells", bad_in_part);
     throw SolverError(
         "hexahedra " + first_few(bad) +
             (options.sweeps > 0 ? " stay inverted however their vertices move; ask for more cells, or another map"

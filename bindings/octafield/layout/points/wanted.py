@@ -92,7 +92,7 @@ def meshed_with_places(
     announce(progress, "read")
     found = _read(source, options, progress)
     places, seconds, peak = _places_of(found), time.perf_counter() - before, memory.megabytes()
-    sound = read_sound(found, options, volume=False, progress=progress)
+    sound = read_sound(found, options, volume=False, fills=True, progress=progress)
     sound.clock.wall["read"] += seconds
     meshed = prepare_mesh(sound, options, volume=False, progress=progress)
     meshed.peak_mb = max(meshed.peak_mb, peak)

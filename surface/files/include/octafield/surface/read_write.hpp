@@ -14,7 +14,7 @@ namespace octafield::surface {
 TriangleMesh read_surface(const std::filesystem::path& path);
 
 // Writes by extension (.stl binary, .obj, .off, .ply; 17 significant digits where the format is text) to a temporary
-// file beside the target, then renames. Throws IoError.
+// file beside the target, then renames. Throws IoError ("single_precision": triangles that have no area in STL).
 void write_surface(const TriangleMesh& mesh, const std::filesystem::path& path);
 
 }  // namespace octafield::surface
