@@ -25,8 +25,8 @@ from .hex_dominant.rows import markdown_table, run_words
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 LIMIT = 240.0  # seconds of CPU time
 HEADER = (
-    "file", "triangles", "points inside", "T-joints", "blocks", "at least", "ratio", "coarsest", "ratio to it", "irregular", "quads",
-    "SJ min", "mean", "deviation %", "layout and quads, CPU s", "all, CPU s", "error",
+    "file", "triangles", "points inside", "T-joints", "blocks", "at least", "ratio", "coarsest", "ratio to it",
+    "irregular", "quads", "SJ min", "mean", "deviation %", "layout and quads, CPU s", "all, CPU s", "error",
 )  # fmt: skip
 MADE = ("trace", "cut", "integers", "map", "mesh_smooth")  # phases of the layout and its quads
 
