@@ -20,6 +20,7 @@ CutTets::CutTets(const SeamlessMap& map) {
     double sum = 0;
     for (Index t = 0; t < tet_count(); ++t) {
         CutTet& tet = tets_[t];
+        tet.root = t;
         tet.wall = tet.over = tet.next = {-1, -1, -1, -1};
         for (int k = 0; k < 4; ++k) {
             tet.vertices[k] = mesh.tets(t, k);
@@ -177,13 +178,14 @@ Index CutTets::split(const EdgeKey& edge, double share) {
     return middle;
 }
 
-void CutTets::add_wall(Index tet, int face, int axis, const std::array<Eigen::Vector3d, 2>& source) {
+Index CutTets::add_wall(Index tet, int face, int axis, const std::array<Eigen::Vector3d, 2>& source) {
     const Index number = static_cast<Index>(walls_.size()), next = tets_[tet].next[face];
     tets_[tet].wall[face] = number;
     if (next >= 0) tets_[next].wall[back(tet, face)] = number;
     walls_.push_back({tet, face, axis, source});
     const auto v = triangle(tet, face);
     for (int k = 0; k < 3; ++k) new_edges_.push_back({number, edge_key(v[k], v[(k + 1) % 3])});
+    return number;
 }
 
 void CutTets::remove_wall(Index wall) {

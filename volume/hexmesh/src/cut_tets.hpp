@@ -13,15 +13,16 @@
 namespace octafield::volume::detail {
 
 struct CutTet {
+    Index root;                         // the tet of the given mesh that it is part of
     std::array<Index, 4> vertices;
     std::array<Eigen::Vector3d, 4> at;  // parameters of the corners
     std::array<Index, 4> next;          // tet across the triangle opposite a corner; -1: the boundary
     std::array<Index, 4> over;          // transition into that tet's parameters; -1: the same parameters
     std::array<Index, 4> wall;          // number of the wall there; -1: none
     int corner(Index vertex) const {
-        int k = 0;
-        while (vertices[k] != vertex) ++k;
-        return k;
+        for (int k = 0; k < 3; ++k)
+            if (vertices[k] == vertex) return k;
+        return 3;
     }
 };
 
@@ -68,8 +69,8 @@ public:
 
     // Cuts the tets at an edge where `share` of its way from its first to its second vertex is gone. The new vertex.
     Index split(const EdgeKey& edge, double share);
-    // Makes a triangle a wall; source and axis in the tet's parameters.
-    void add_wall(Index tet, int face, int axis, const std::array<Eigen::Vector3d, 2>& source);
+    // Makes a triangle a wall; source and axis in the tet's parameters. Its number.
+    Index add_wall(Index tet, int face, int axis, const std::array<Eigen::Vector3d, 2>& source);
     void remove_wall(Index wall);
 
     // Sides of walls that are new since the last call, also because an edge was split.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 #include "octafield/error.hpp"
@@ -114,7 +115,7 @@ WallSpread::Found WallSpread::look(View view, const EdgeKey& edge) const {
         "not_a_box", {edge[0], edge[1]});
 }
 
-void WallSpread::go_on(Index number, const EdgeKey& edge) {
+std::optional<WallSpread::Found> WallSpread::next(Index number, const EdgeKey& edge) const {
     const WallTriangle wall = tets_.walls()[number];
     const auto corners = tets_.triangle(wall.tet, wall.face);
     Index third = -1;
@@ -125,7 +126,7 @@ void WallSpread::go_on(Index number, const EdgeKey& edge) {
         else
             third = v;
     }
-    if (known < 2 || tets_.irregular.count(edge)) return;
+    if (known < 2 || tets_.irregular.count(edge)) return std::nullopt;
     const CutTet& tet = tets_.tet(wall.tet);
     const Eigen::Vector3d &p = place(tet, edge[0]), &q = place(tet, edge[1]);
     Eigen::Vector3d forward = Eigen::Vector3d::Unit(wall.axis).cross(q - p);
@@ -137,13 +138,39 @@ void WallSpread::go_on(Index number, const EdgeKey& edge) {
         const int face = at.corner(found.view.from);
         return at.wall[face] >= 0 || at.next[face] < 0;
     };
-    if (one.kind == Found::triangle && is_wall(one)) return;
-    if (tet.next[wall.face] < 0) return;
+    if (one.kind == Found::triangle && is_wall(one)) return std::nullopt;
+    if (tet.next[wall.face] < 0) return std::nullopt;
     const Found other = look(across(view, wall.face), edge);
-    if (one.crossed && other.crossed) return;
+    if (one.crossed && other.crossed) return std::nullopt;
     const Found& found = one.kind == Found::boundary ? other : one;
-    if (found.kind == Found::boundary || (found.kind == Found::triangle && is_wall(found))) return;
-    make(found, edge);
+    if (found.kind == Found::boundary || (found.kind == Found::triangle && is_wall(found))) return std::nullopt;
+    return found;
+}
+
+// A wall goes on to the end of the given tet at once: two walls that took turns in it could come nearer to where they
+// cross for ever.
+void WallSpread::go_on(Index wall, const EdgeKey& edge) {
+    std::vector<CutTets::WallEdge> open{{wall, edge}};
+    Index root = -1;
+    while (!open.empty()) {
+        const auto [from, side] = open.back();
+        open.pop_back();
+        const std::optional<Found> found = next(from, side);
+        if (!found) continue;
+        const Index there = tets_.tet(found->view.tet).root;
+        if (root < 0) root = there;
+        if (there != root) {
+            push(from, side);
+            continue;
+        }
+        const Index made = make(*found, side);
+        for (const auto& fresh : tets_.take_new_edges()) {
+            if (fresh.wall == made)
+                open.push_back(fresh);
+            else
+                push(fresh.wall, fresh.edge);
+        }
+    }
 }
 
 double WallSpread::share(const View& view, Index a, Index b) const {
@@ -151,7 +178,7 @@ double WallSpread::share(const View& view, Index a, Index b) const {
     return low / (low - high);
 }
 
-void WallSpread::make(const Found& found, const EdgeKey& edge) {
+Index WallSpread::make(const Found& found, const EdgeKey& edge) {
     const View& view = found.view;
     Index tet = view.tet, end = found.to;
     if (found.kind == Found::inside) {
@@ -161,13 +188,17 @@ void WallSpread::make(const Found& found, const EdgeKey& edge) {
     const auto& vertices = tets_.tet(tet).vertices;
     for (int k = 0; k < 4; ++k)
         if (vertices[k] != edge[0] && vertices[k] != edge[1] && vertices[k] != end)
-            tets_.add_wall(tet, k, view.axis, view.source);
-    queue_new_edges();
+            return tets_.add_wall(tet, k, view.axis, view.source);
+    throw std::logic_error("a tet has four vertices");
 }
 
 void WallSpread::queue_new_edges() {
     for (const auto& [wall, edge] : tets_.take_new_edges())
-        queue_.push({distance_to_source(tets_, wall, edge), age_++, wall, edge});
+        push(wall, edge);
+}
+
+void WallSpread::push(Index wall, const EdgeKey& edge) {
+    queue_.push({distance_to_source(tets_, wall, edge), age_++, wall, edge});
 }
 
 void WallSpread::require_end() const {
@@ -266,12 +297,14 @@ bool WallSpread::start_at_corner(Index t, int corner, int axis) {
             there.tet = wedge.tet;
             there.from = alone_vertex;
             make({Found::inside, there, far, false}, edge);
+            queue_new_edges();
             return true;
         }
         return false;
     }
     const EdgeKey edge = edge_key(tet.vertices[corner], tet.vertices[level[0]]);
     make({Found::inside, view, tet.vertices[below[0]], false}, edge);
+    queue_new_edges();
     return true;
 }
 

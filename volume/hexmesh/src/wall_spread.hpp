@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <queue>
 #include <tuple>
 
@@ -60,9 +61,12 @@ private:
     void start_at_edge(const EdgeKey& edge);
     bool start_in(const EdgeKey& edge, const Wedge& wedge);
     void go_on(Index wall, const EdgeKey& edge);
+    // Where the wall goes on over one of its edges; none: it ends there, or is there already.
+    std::optional<Found> next(Index wall, const EdgeKey& edge) const;
+    void push(Index wall, const EdgeKey& edge);
     Found look(View view, const EdgeKey& edge) const;
     View across(const View& view, int face) const;
-    void make(const Found& found, const EdgeKey& edge);
+    Index make(const Found& found, const EdgeKey& edge);
     double share(const View& view, Index a, Index b) const;
     double height(const View& view, Index vertex) const;
     void queue_new_edges();
