@@ -9,6 +9,7 @@ namespace octafield::volume::detail {
 namespace {
 
 constexpr double same = 1e-8;  // of the mean extent of the tets
+constexpr double least_left = 0.2;  // of the volume of a tet, when a vertex of it moves
 
 }  // namespace
 
@@ -176,6 +177,37 @@ Index CutTets::split(const EdgeKey& edge, double share) {
         }
     }
     return middle;
+}
+
+bool CutTets::slide(Index first, Index vertex, Index towards, double share) {
+    const auto volume = [](const auto& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]); };
+    const CutTet& start = tets_[first];
+    const Eigen::Vector3d way = share * (start.at[start.corner(towards)] - start.at[start.corner(vertex)]);
+    const Eigen::Vector3d point = points_[vertex] + share * (points_[towards] - points_[vertex]);
+    std::vector<std::pair<Index, Eigen::Vector3d>> star{{first, way}};
+    std::set<Index> known{first};
+    for (std::size_t i = 0; i < star.size(); ++i) {
+        const auto [here, moved] = star[i];
+        const CutTet& tet = tets_[here];
+        const int corner = tet.corner(vertex);
+        auto at = tet.at, points = tet.at;
+        for (int k = 0; k < 4; ++k) {
+            points[k] = points_[tet.vertices[k]];
+            if (k == corner) continue;
+            if (irregular.count(edge_key(vertex, tet.vertices[k])) || tet.next[k] < 0) return false;
+            if (tet.wall[k] >= 0 && walls_[tet.wall[k]].tet == here &&
+                std::abs(moved[walls_[tet.wall[k]].axis]) > tolerance_ / 1000)
+                return false;
+            if (known.insert(tet.next[k]).second) star.emplace_back(tet.next[k], over(here, k).rotation * moved);
+        }
+        const double before = volume(tet.at), space = volume(points);
+        at[corner] += moved;
+        points[corner] = point;
+        if (volume(at) < least_left * before || volume(points) < least_left * space) return false;
+    }
+    points_[vertex] = point;
+    for (const auto& [here, moved] : star) tets_[here].at[tets_[here].corner(vertex)] += moved;
+    return true;
 }
 
 Index CutTets::add_wall(Index tet, int face, int axis, const std::array<Eigen::Vector3d, 2>& source) {

@@ -83,6 +83,29 @@ private:
             if (!straight(edge, here))
                 for (const Index w : here) found[sets.lowest(w)].rim.emplace_back(edge, walls[w].tet);
         patches_.clear();
+        if (getenv("DBGW"))
+            for (const auto& [edge, here] : at) {
+                const WallsAround around = walls_around(tets_, edge, walls[here[0]].tet);
+                std::array<int, 5> n{};
+                for (const auto& [wall, quarter] : around.places) ++n[quarter];
+                bool bad = false;
+                for (int i = 0; i < 5; ++i) bad |= n[i] > 1;
+                if (around.closed && !tets_.irregular.count(edge)) {
+                    for (int i = 0; i < 4; ++i)
+                        bad |= n[i] && !n[(i + 2) % 4] && !(n[(i + 1) % 4] && n[(i + 3) % 4]);
+                    bad |= around.quarters != 4;
+                }
+                if (!around.closed && !tets_.irregular.count(edge)) bad |= around.quarters != 2 || here.size() != 1;
+                if (tets_.irregular.count(edge)) bad |= (int)here.size() != around.quarters-(around.closed?0:1);
+                if (bad) {
+                    fprintf(stderr, "edge %d %d closed %d quarters %d irr %d:", edge[0], edge[1], around.closed, around.quarters,
+                            (int)tets_.irregular.count(edge));
+                    for (const auto& [wall, quarter] : around.places) fprintf(stderr, " %d@%d", wall, quarter);
+                    const auto& T=tets_.tet(walls[here[0]].tet);
+                    auto P=T.at[T.corner(edge[0])],Q=T.at[T.corner(edge[1])];
+                    fprintf(stderr, "  %.12g %.12g %.12g - %.12g %.12g %.12g tol %g\n",P[0],P[1],P[2],Q[0],Q[1],Q[2],tets_.tolerance());
+                }
+            }
         for (auto& [unused, patch] : found) patches_.push_back(std::move(patch));
     }
 

@@ -12,6 +12,8 @@
 namespace octafield::volume::detail {
 namespace {
 
+constexpr double reach = 0.3;  // of an edge: a vertex that is nearer to a plane moves there
+
 double distance(const Eigen::Vector3d& x, const std::array<Eigen::Vector3d, 2>& segment) {
     const Eigen::Vector3d way = segment[1] - segment[0];
     const double length = way.squaredNorm();
@@ -183,7 +185,13 @@ Index WallSpread::make(const Found& found, const EdgeKey& edge) {
     Index tet = view.tet, end = found.to;
     if (found.kind == Found::inside) {
         const EdgeKey cut = edge_key(view.from, found.to);
-        end = tets_.split(cut, share(view, cut[0], cut[1]));
+        const double part = share(view, cut[0], cut[1]);
+        const int nearer = part < 0.5 ? 0 : 1;
+        const double way = nearer ? 1 - part : part;
+        if (way < reach && tets_.slide(tet, cut[nearer], cut[1 - nearer], way))
+            end = cut[nearer];
+        else
+            end = tets_.split(cut, part);
     }
     const auto& vertices = tets_.tet(tet).vertices;
     for (int k = 0; k < 4; ++k)
