@@ -179,11 +179,17 @@ Index CutTets::split(const EdgeKey& edge, double share) {
     return middle;
 }
 
-bool CutTets::slide(Index first, Index vertex, Index towards, double share) {
+bool CutTets::slide(Index first, Index vertex, int axis, double value) {
     const auto volume = [](const auto& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]); };
     const CutTet& start = tets_[first];
-    const Eigen::Vector3d way = share * (start.at[start.corner(towards)] - start.at[start.corner(vertex)]);
-    const Eigen::Vector3d point = points_[vertex] + share * (points_[towards] - points_[vertex]);
+    const int own = start.corner(vertex);
+    const Eigen::Vector3d way = Eigen::Vector3d::Unit(axis) * (value - start.at[own][axis]);
+    Eigen::Matrix3d parameters, space;  // edges of the tet
+    for (int j = 0; j < 3; ++j) {
+        parameters.col(j) = start.at[(own + j + 1) % 4] - start.at[own];
+        space.col(j) = points_[start.vertices[(own + j + 1) % 4]] - points_[vertex];
+    }
+    const Eigen::Vector3d point = points_[vertex] + space * parameters.inverse() * way;
     std::vector<std::pair<Index, Eigen::Vector3d>> star{{first, way}};
     std::set<Index> known{first};
     for (std::size_t i = 0; i < star.size(); ++i) {
@@ -200,10 +206,10 @@ bool CutTets::slide(Index first, Index vertex, Index towards, double share) {
                 return false;
             if (known.insert(tet.next[k]).second) star.emplace_back(tet.next[k], over(here, k).rotation * moved);
         }
-        const double before = volume(tet.at), space = volume(points);
+        const double before = volume(tet.at), before_in_space = volume(points);
         at[corner] += moved;
         points[corner] = point;
-        if (volume(at) < least_left * before || volume(points) < least_left * space) return false;
+        if (volume(at) < least_left * before || volume(points) < least_left * before_in_space) return false;
     }
     points_[vertex] = point;
     for (const auto& [here, moved] : star) tets_[here].at[tets_[here].corner(vertex)] += moved;

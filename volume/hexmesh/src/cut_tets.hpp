@@ -69,9 +69,9 @@ public:
 
     // Cuts the tets at an edge where `share` of its way from its first to its second vertex is gone. The new vertex.
     Index split(const EdgeKey& edge, double share);
-    // Moves a vertex towards another one of the tet, by `share` of the way. False, and nothing is done, where it lies on
+    // Moves a vertex so that its parameter `axis`, as the tet has it, is `value`. False, and nothing is done, where it lies on
     // the boundary or an irregular edge, would leave a wall, or where a tet would lose most of its volume.
-    bool slide(Index tet, Index vertex, Index towards, double share);
+    bool slide(Index tet, Index vertex, int axis, double value);
     // Makes a triangle a wall; source and axis in the tet's parameters. Its number.
     Index add_wall(Index tet, int face, int axis, const std::array<Eigen::Vector3d, 2>& source);
     void remove_wall(Index wall);

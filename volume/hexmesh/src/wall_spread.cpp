@@ -188,7 +188,7 @@ Index WallSpread::make(const Found& found, const EdgeKey& edge) {
         const double part = share(view, cut[0], cut[1]);
         const int nearer = part < 0.5 ? 0 : 1;
         const double way = nearer ? 1 - part : part;
-        if (way < reach && tets_.slide(tet, cut[nearer], cut[1 - nearer], way))
+        if (way < reach && tets_.slide(tet, cut[nearer], view.axis, view.source[0][view.axis]))
             end = cut[nearer];
         else
             end = tets_.split(cut, part);
