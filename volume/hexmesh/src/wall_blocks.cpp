@@ -36,7 +36,7 @@ public:
     bool pass() {
         collect();
         std::sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) {
-            return std::pair(-a.distance, a.walls[0]) < std::pair(-b.distance, b.walls[0]);
+            return std::pair(a.area, a.walls[0]) < std::pair(b.area, b.walls[0]);
         });
         bool any = false;
         for (const Patch& patch : patches_)
@@ -51,13 +51,19 @@ private:
     struct Patch {
         std::vector<Index> walls;
         std::vector<std::pair<EdgeKey, Index>> rim;  // edges on arcs, with a tet there
-        double distance = 0;
+        double area = 0;                             // in parameters
     };
 
     template <class Visit>
     void for_edges(Index wall, const Visit& visit) const {
         const auto v = tets_.triangle(tets_.walls()[wall].tet, tets_.walls()[wall].face);
         for (int k = 0; k < 3; ++k) visit(edge_key(v[k], v[(k + 1) % 3]));
+    }
+
+    double area(const WallTriangle& wall) const {
+        const auto& at = tets_.tet(wall.tet).at;
+        const auto& [a, b, c] = tet_face[wall.face];
+        return (at[b] - at[a]).cross(at[c] - at[a]).norm() / 2;
     }
 
     // Walls that are joined by edges where they go straight on and no other wall is.
@@ -77,35 +83,12 @@ private:
             if (walls[w].kept) {
                 Patch& patch = found[sets.lowest(w)];
                 patch.walls.push_back(w);
-                patch.distance = std::max(patch.distance, distance_to_source(tets_, w));
+                patch.area += area(walls[w]);
             }
         for (const auto& [edge, here] : at)
             if (!straight(edge, here))
                 for (const Index w : here) found[sets.lowest(w)].rim.emplace_back(edge, walls[w].tet);
         patches_.clear();
-        if (getenv("DBGW"))
-            for (const auto& [edge, here] : at) {
-                const WallsAround around = walls_around(tets_, edge, walls[here[0]].tet);
-                std::array<int, 5> n{};
-                for (const auto& [wall, quarter] : around.places) ++n[quarter];
-                bool bad = false;
-                for (int i = 0; i < 5; ++i) bad |= n[i] > 1;
-                if (around.closed && !tets_.irregular.count(edge)) {
-                    for (int i = 0; i < 4; ++i)
-                        bad |= n[i] && !n[(i + 2) % 4] && !(n[(i + 1) % 4] && n[(i + 3) % 4]);
-                    bad |= around.quarters != 4;
-                }
-                if (!around.closed && !tets_.irregular.count(edge)) bad |= around.quarters != 2 || here.size() != 1;
-                if (tets_.irregular.count(edge)) bad |= (int)here.size() != around.quarters-(around.closed?0:1);
-                if (bad) {
-                    fprintf(stderr, "edge %d %d closed %d quarters %d irr %d:", edge[0], edge[1], around.closed, around.quarters,
-                            (int)tets_.irregular.count(edge));
-                    for (const auto& [wall, quarter] : around.places) fprintf(stderr, " %d@%d", wall, quarter);
-                    const auto& T=tets_.tet(walls[here[0]].tet);
-                    auto P=T.at[T.corner(edge[0])],Q=T.at[T.corner(edge[1])];
-                    fprintf(stderr, "  %.12g %.12g %.12g - %.12g %.12g %.12g tol %g\n",P[0],P[1],P[2],Q[0],Q[1],Q[2],tets_.tolerance());
-                }
-            }
         for (auto& [unused, patch] : found) patches_.push_back(std::move(patch));
     }
 

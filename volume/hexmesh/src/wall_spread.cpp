@@ -39,19 +39,6 @@ int quarters(double angle) { return static_cast<int>(std::lround(angle / (std::n
 
 }  // namespace
 
-double distance_to_source(const CutTets& tets, Index number, const EdgeKey& edge) {
-    const WallTriangle& wall = tets.walls()[number];
-    const CutTet& tet = tets.tet(wall.tet);
-    return distance((place(tet, edge[0]) + place(tet, edge[1])) / 2, wall.source);
-}
-
-double distance_to_source(const CutTets& tets, Index number) {
-    const WallTriangle& wall = tets.walls()[number];
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Index v : tets.triangle(wall.tet, wall.face)) sum += place(tets.tet(wall.tet), v);
-    return distance(sum / 3, wall.source);
-}
-
 int quarters_around(const CutTets& tets, const EdgeRing& ring, const EdgeKey& edge) {
     double sum = 0;
     for (const Wedge& wedge : ring.wedges) sum += angle(tets.tet(wedge.tet), wedge, edge);
@@ -201,12 +188,14 @@ Index WallSpread::make(const Found& found, const EdgeKey& edge) {
 }
 
 void WallSpread::queue_new_edges() {
-    for (const auto& [wall, edge] : tets_.take_new_edges())
-        push(wall, edge);
+    for (const auto& [wall, edge] : tets_.take_new_edges()) push(wall, edge);
 }
 
 void WallSpread::push(Index wall, const EdgeKey& edge) {
-    queue_.push({distance_to_source(tets_, wall, edge), age_++, wall, edge});
+    const WallTriangle& at = tets_.walls()[wall];
+    const CutTet& tet = tets_.tet(at.tet);
+    const Eigen::Vector3d middle = (place(tet, edge[0]) + place(tet, edge[1])) / 2;
+    queue_.push({distance(middle, at.source), age_++, wall, edge});
 }
 
 void WallSpread::require_end() const {
