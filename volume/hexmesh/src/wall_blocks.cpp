@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "octafield/disjoint_sets.hpp"
 
@@ -27,6 +28,33 @@ std::vector<int> axes_of(const Transition& way, double tolerance) {
     int axis = 0;
     way.translation.cwiseAbs().maxCoeff(&axis);
     return {axis};
+}
+
+// Breadth first from a tet that is in no block yet.
+void fill_block(const CutTets& tets, Index first, CutBlocks& blocks) {
+    const double apart = far * tets.tolerance();
+    std::set<int> axes;
+    std::vector<Index> reached{first};
+    blocks.of[first] = blocks.count;
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        const Index here = reached[i];
+        for (int k = 0; k < 4; ++k) {
+            const Index next = tets.tet(here).next[k];
+            if (next < 0 || tets.tet(here).wall[k] >= 0) continue;
+            const Transition chart = then(tets.over(next, tets.back(here, k)), blocks.charts[here]);
+            if (blocks.of[next] < 0) {
+                blocks.of[next] = blocks.count;
+                blocks.charts[next] = chart;
+                reached.push_back(next);
+                continue;
+            }
+            const Transition round = then(inverse(blocks.charts[next]), chart);  // of the block's chart
+            if (round.rotation.isIdentity(1e-9) && round.translation.norm() <= apart) continue;
+            for (const int axis : axes_of(round, apart)) axes.insert(axis);
+        }
+    }
+    if (!axes.empty()) blocks.windings.push_back({blocks.count, {axes.begin(), axes.end()}});
+    ++blocks.count;
 }
 
 class Removal {
@@ -100,16 +128,19 @@ private:
                            [&](const auto& end) { return sound_without(patch, end.first, end.second); });
     }
 
-    // Each wall that is left at the edge goes straight on or ends at one that does.
+    // No block gets an angle of more than two quarters at the edge. Walls at irregular edges of the boundary stay:
+    // without them the boundary's part of the side of a box need not be a rectangle.
     bool sound_without(const Patch& patch, const EdgeKey& edge, Index tet) const {
-        if (tets_.irregular.count(edge)) return false;
+        const bool irregular = tets_.irregular.count(edge) != 0;
         const WallsAround around = walls_around(tets_, edge, tet);
-        if (!around.closed) return true;
-        std::array<bool, 4> left{};
+        if (!around.closed) return !irregular;
+        std::vector<int> left;
         for (const auto& [wall, quarter] : around.places)
-            if (!std::binary_search(patch.walls.begin(), patch.walls.end(), wall)) left[quarter % 4] = true;
-        for (int i = 0; i < 4; ++i)
-            if (left[i] && !left[(i + 2) % 4] && !(left[(i + 1) % 4] && left[(i + 3) % 4])) return false;
+            if (!std::binary_search(patch.walls.begin(), patch.walls.end(), wall)) left.push_back(quarter);
+        if (left.empty()) return !irregular;
+        left.push_back(left[0] + around.quarters);
+        for (std::size_t i = 0; i + 1 < left.size(); ++i)
+            if (left[i + 1] - left[i] > 2) return false;
         return true;
     }
 
@@ -131,37 +162,8 @@ CutBlocks cut_blocks(const CutTets& tets) {
     CutBlocks result;
     result.of.assign(tets.tet_count(), -1);
     result.charts.resize(tets.tet_count());
-    auto& charts = result.charts;
-    const double apart = far * tets.tolerance();
-    for (Index first = 0; first < tets.tet_count(); ++first) {
-        if (result.of[first] >= 0) continue;
-        std::vector<Index> reached{first};
-        result.of[first] = result.count;
-        bool winds = false;
-        for (std::size_t i = 0; i < reached.size(); ++i) {
-            const Index here = reached[i];
-            const CutTet& tet = tets.tet(here);
-            for (int k = 0; k < 4; ++k) {
-                if (tet.next[k] < 0 || tet.wall[k] >= 0) continue;
-                const Index next = tet.next[k];
-                const Transition chart = then(tets.over(next, tets.back(here, k)), charts[here]);
-                if (result.of[next] < 0) {
-                    result.of[next] = result.count;
-                    charts[next] = chart;
-                    reached.push_back(next);
-                    continue;
-                }
-                if (winds) continue;
-                const Transition round = then(inverse(charts[next]), chart);  // of the block's parameters
-                const Eigen::Vector3d moved = round.rotation * charts[next](tets.tet(next).at[0]) + round.translation;
-                if (!round.rotation.isIdentity(1e-9) || (moved - charts[next](tets.tet(next).at[0])).norm() > apart) {
-                    winds = true;
-                    result.windings.push_back({result.count, axes_of(round, apart)});
-                }
-            }
-        }
-        ++result.count;
-    }
+    for (Index first = 0; first < tets.tet_count(); ++first)
+        if (result.of[first] < 0) fill_block(tets, first, result);
     return result;
 }
 

@@ -275,7 +275,14 @@ bool WallSpread::start_at_corner(Index t, int corner, int axis) {
         const double height = tet.at[k][axis] - at[axis];
         (std::abs(height) <= tets_.tolerance() ? level : height > 0 ? above : below).push_back(k);
     }
-    if (level.size() >= 2 || above.empty() || below.empty()) return false;
+    if (level.size() == 2) {
+        const int face = (above.empty() ? below : above)[0];
+        if (tet.next[face] < 0 || tet.wall[face] >= 0) return false;
+        tets_.add_wall(t, face, axis, {at, at});
+        queue_new_edges();
+        return true;
+    }
+    if (above.empty() || below.empty()) return false;
     // The edge from the corner to a crossing, or to a level vertex; the wall goes on from there within the tet.
     const View view{t, tet.vertices[above[0]], axis, {at, at}, Eigen::Vector3d::Zero()};
     if (level.empty()) {
