@@ -105,6 +105,18 @@ void cut_windings(const CutTets& tets, const CutBlocks& blocks, WallSpread& spre
     spread.spread();
 }
 
+void require_volume(const CutTets& tets, const TetMesh& mesh) {
+    try {
+        require_valid(mesh);
+    } catch (const GeometryError& error) {
+        std::set<Index> flat;
+        for (const Index t : error.elements()) flat.insert(tets.tet(t).root);
+        throw SolverError("walls lie so near each other in tets " + first_few({flat.begin(), flat.end()}) +
+                              " that tets between them have no volume; singular edges there need the same parameter",
+                          "walls_too_near", {flat.begin(), flat.end()});
+    }
+}
+
 }  // namespace
 
 SeamlessMap motorcycle_complex(const SeamlessMap& map, const Progress& progress) {
@@ -119,7 +131,9 @@ SeamlessMap motorcycle_complex(const SeamlessMap& map, const Progress& progress)
     for (CutBlocks blocks = cut_blocks(tets); !blocks.windings.empty(); blocks = cut_blocks(tets))
         cut_windings(tets, blocks, spread);
     remove_walls(tets);
-    return tets.map(map.corners);
+    SeamlessMap walled = tets.map(map.corners);
+    require_volume(tets, walled.mesh);
+    return walled;
 }
 
 }  // namespace octafield::volume

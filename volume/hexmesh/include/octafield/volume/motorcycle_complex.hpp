@@ -18,7 +18,8 @@ namespace octafield::volume {
 // run. Progress names the phase "walls". Throws what seamless_report throws, GeometryError: kinds "flipped_tet",
 // "torn_map" (tets), "unaligned_boundary" (tets with a boundary triangle without a constant parameter), "winding_edge"
 // (vertices of edges with a wrong number of quarter turns that lie along no axis), "not_a_box" (blocks that no plane
-// cuts), SolverError ("endless_walls": walls that wind without an end).
+// cuts), SolverError ("endless_walls": walls that wind without an end; "walls_too_near": tets of the given mesh in
+// which planes are so near each other that what is cut between them has no volume).
 SeamlessMap motorcycle_complex(const SeamlessMap& map, const Progress& progress = {});
 
 }  // namespace octafield::volume
