@@ -1,9 +1,9 @@
 """Hexahedra from the seamless maps of MC3D-samples (Brueckler, Gupta, Mandad, Campen 2022) at three numbers of cells.
 
-    python -m studies.hex_meshing -o DIR [--only s05c,scof] [--cells 500,2000,8000]
+    python -m studies.hex_meshing -o DIR [--only s05c,scof] [--cells 500,2000,8000] [--walls own]
 
 The meshes are judged by studies.hex_dominant.checker, which knows arrays alone. DIR gets
-rows.jsonl, maps.md and when.md, and pictures of two meshes cut open.
+rows.jsonl, maps.md and when.md, with --walls own walls.md, and pictures of two meshes cut open.
 """
 
 import argparse
@@ -13,7 +13,8 @@ from pathlib import Path
 
 import numpy as np
 import octafield
-from octafield.hexmesh.hex_mesh import compute_hex_mesh
+from octafield.hexmesh.hex_mesh import WALLS, compute_hex_mesh
+from octafield.hexmesh.hexex import read_seamless_map
 
 from .benchmarks.pages import when
 from .hex_dominant import checker
@@ -27,11 +28,15 @@ HEADER = (
 PICTURES = {("s12c_cube_rounded_1", 8000), ("hexalab_fandisk", 8000)}
 
 
-def run(path: Path, cells: int, output: Path) -> dict:
-    name, begun = path.name.removesuffix(".hexex.gz"), time.process_time()
+def name_of(path: Path) -> str:
+    return path.name.removesuffix(".hexex.gz")
+
+
+def run(path: Path, cells: int, walls: str, output: Path) -> dict:
+    name, begun = name_of(path), time.process_time()
     row: dict = {"map": name, "wanted": cells}
     try:
-        result = compute_hex_mesh(path, cells=cells)
+        result = compute_hex_mesh(path, cells=cells, walls=walls)
     except octafield.Error as error:
         return {**row, "error": f"{error.kind}: {error}", "cpu": time.process_time() - begun}
     row["cpu"] = time.process_time() - begun
@@ -75,11 +80,34 @@ def summary(rows: list[dict]) -> str:
     )
 
 
+WALLS_HEADER = ("map", "tets", "cut", "their blocks", "ours", "hexahedra", "SJ min", "volume error %", "CPU s")
+
+
+def walls_cells(path: Path, rows: list[dict]) -> list[str]:
+    """One row for all numbers of cells: walls of the file beside those of our own."""
+    given = read_seamless_map(path)
+    walled = octafield.volume.motorcycle_complex(given)
+    blocks = [str(len(octafield.volume.block_complex(map_).sizes)) for map_ in (given, walled)]
+    made = [row for row in rows if "error" not in row]
+    hexahedra = ", ".join("none" if "error" in row else f"{row['hexahedra']:,}" for row in rows)
+    return [
+        rows[0]["map"], f"{len(given.mesh.tets):,}", f"{len(walled.mesh.tets):,}", *blocks, hexahedra,
+        f"{min(row['hex_sj_min'] for row in made):.2f}", f"{100 * max(row['volume_error'] for row in made):.2f}",
+        f"{sum(row['cpu'] for row in rows):.1f}",
+    ]  # fmt: skip
+
+
+def walls_table(paths: list[Path], rows: list[dict]) -> str:
+    of_map = {path: [row for row in rows if row["map"] == name_of(path)] for path in paths}
+    return markdown_table(WALLS_HEADER, (walls_cells(path, found) for path, found in of_map.items()))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m studies.hex_meshing", description=__doc__)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--only", default="", help="beginnings of names with commas")
     parser.add_argument("--cells", default="500,2000,8000")
+    parser.add_argument("--walls", choices=WALLS, default="file")
     a = parser.parse_args()
     a.output.mkdir(parents=True, exist_ok=True)
     only = tuple(filter(None, a.only.split(","))) or ("",)
@@ -88,10 +116,12 @@ def main() -> None:
     with (a.output / "rows.jsonl").open("w") as file:
         for path in paths:
             for cells in map(int, a.cells.split(",")):
-                rows.append(run(path, cells, a.output))
+                rows.append(run(path, cells, a.walls, a.output))
                 file.write(json.dumps(rows[-1]) + "\n")
                 print(" | ".join(cells_of(rows[-1])), flush=True)
     (a.output / "maps.md").write_text(summary(rows) + "\n" + markdown_table(HEADER, map(cells_of, rows)))
+    if a.walls == "own":
+        (a.output / "walls.md").write_text(walls_table(paths, rows))
     (a.output / "when.md").write_text(when())
     print(summary(rows))
 
