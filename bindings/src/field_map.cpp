@@ -2,27 +2,17 @@
 #include "octafield/volume/field_map.hpp"
 
 #include "bind.hpp"
+#include "checks.hpp"
 #include "domain.hpp"
 #include "field_map.hpp"
 #include "interruptible.hpp"
-#include "options.hpp"
 
 namespace octafield::bindings {
 
 using namespace volume;
 using py::literals::operator""_a;
 
-void check(const FieldMapOptions& options) {
-    finite(options.edge_length, "edge_length");
-    threads_option(options.threads);
-}
-
 void bind_field_map(py::module_& m) {
-    Record<FieldMapOptions>(m, "FieldMapOptions", "Options of field_map: its keyword arguments, with their defaults.")
-        .field("edge_length", &FieldMapOptions::edge_length,
-               "Of a unit of the parameters, input unit; 0: the mean edge of the tets.")
-        .field("threads", &FieldMapOptions::threads, "0: all; the result does not depend on it.")
-        .finish([](const FieldMapOptions& o) { return "edge_length=" + number(o.edge_length); });
     Record<FieldMap>(m, "FieldMap", "A seamless map of a frame field, and how it came about.")
         .field("map", &FieldMap::map, "SeamlessMap without walls; its tets are parts of the field's.")
         .field("parent", &FieldMap::parent, "(m,) int32: the tet of the field that each is part of.")
@@ -43,22 +33,23 @@ void bind_field_map(py::module_& m) {
     m.def(
         "field_map",
         [](const DomainOrMesh& mesh, const ArrayLike& frames, const std::optional<ProgressCallable>& progress,
-           const py::kwargs& given) {
-            const auto [options] = options_of<FieldMapOptions>("field_map", given);
+           double edge_length, int threads) {
+            finite(edge_length, "edge_length");
+            threads_option(threads);
             const TetDomain domain = domain_of(mesh);
             auto rows = from_python<Quaternions>(frames, "frames");
             return run_interruptible(
-                [=, rows = std::move(rows), options = options](Job& job) mutable {
+                [=, rows = std::move(rows)](Job& job) mutable {
                     check_unit(rows, domain.vertex_count(), "frames");
-                    return field_map(domain, rows, options, job.progress());
+                    return field_map(domain, rows, {edge_length, threads}, job.progress());
                 },
                 progress);
         },
         "domain"_a, "frames"_a, py::kw_only(), "progress"_a = py::none(),
+        "edge_length"_a = FieldMapOptions{}.edge_length, "threads"_a = FieldMapOptions{}.threads,
         "The seamless map of (n, 4) frames at the vertices, as a FieldMap: singular curves become edges, parameters "
         "follow the axes as near as transitions, surface and features allow, folded tets are unfolded. Raises "
         "InvalidInput, GeometryError, SolverError, Cancelled.");
-    list_options<FieldMapOptions>(m, "field_map");
 }
 
 }  // namespace octafield::bindings

@@ -72,7 +72,8 @@ public:
         for (std::size_t v = 0; v < points_.size(); ++v) mesh.vertices.row(v) = points_[v].transpose();
         for (std::size_t t = 0; t < tets_.size(); ++t)
             for (int k = 0; k < 4; ++k) mesh.tets(t, k) = tets_[t][k];
-        MatchedField result{with_features_of(domain, std::move(mesh)), Quaternions(tets_.size(), 4), {}, parent_, curves()};
+        MatchedField result{
+            with_features_of(domain, std::move(mesh)), Quaternions(tets_.size(), 4), {}, parent_, curves()};
         for (std::size_t t = 0; t < tets_.size(); ++t) result.frames.row(t) = mean_frame(known_[t]).transpose();
         const TriangleTable& table = result.domain.triangles();
         for (Index row = 0; row < table.triangles.rows(); ++row)
@@ -123,8 +124,8 @@ private:
         const Eigen::Vector4d first = frames_.row(known[0]).transpose();
         Eigen::Vector4d sum = first;
         for (int k = 1; k < 4 && known[k] >= 0; ++k) {
-            const Quaternion q =
-                frames::from_wxyz(frames_.row(known[k])) * frames::octahedral_group()[step(frames_, known[k], known[0])];
+            const Quaternion q = frames::from_wxyz(frames_.row(known[k])) *
+                                 frames::octahedral_group()[step(frames_, known[k], known[0])];
             const Eigen::Vector4d other = frames::to_wxyz(q);
             sum += other.dot(first) < 0 ? Eigen::Vector4d(-other) : other;
         }
@@ -149,8 +150,9 @@ private:
     const TriangleTable& table_;
     const Quaternions& frames_;
     std::vector<Eigen::Vector3d> points_;
-    std::vector<Index> of_triangle_, of_tet_;  // the vertex on each triangle; inside each tet, or on the one in `inside_`
-    std::vector<Index> inside_;                // row of the triangle that a tet shares with the other of its pair
+    std::vector<Index> of_triangle_,
+        of_tet_;                 // the vertex on each triangle; inside each tet, or on the one in `inside_`
+    std::vector<Index> inside_;  // row of the triangle that a tet shares with the other of its pair
     std::vector<std::array<Index, 4>> tets_;
     std::vector<Index> parent_;
     std::vector<Known> known_;

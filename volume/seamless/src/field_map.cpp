@@ -6,8 +6,8 @@
 #include "map_room.hpp"
 #include "map_unknowns.hpp"
 #include "matched_combing.hpp"
-#include "octafield/frames/octahedral_group.hpp"
 #include "octafield/error.hpp"
+#include "octafield/frames/octahedral_group.hpp"
 #include "unfolded_tets.hpp"
 
 namespace octafield::volume {
@@ -65,7 +65,8 @@ double mean_angle(const TetProblem& problem, const Eigen::VectorXd& values) {
         for (int i = 0; i < 3; ++i) {
             const Eigen::Vector3d gradient = j.row(i);
             const double along = gradient[i];
-            sum += problem.volumes[t] / 3 * std::atan2(std::sqrt(std::max(0.0, gradient.squaredNorm() - along * along)), along);
+            sum += problem.volumes[t] / 3 *
+                   std::atan2(std::sqrt(std::max(0.0, gradient.squaredNorm() - along * along)), along);
         }
         volume += problem.volumes[t];
     }
@@ -118,8 +119,7 @@ FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const Fie
         throw InvalidInput("edge_length is 0 or a positive length", "option_out_of_range");
     report_or_throw(progress, "comb", 0, std::nan(""));
     const SingularGraph graph = singular_graph(domain, frames, options.threads);
-    const auto [combed, field] =
-        combed_field(make_room(split_along_curves(domain, frames, graph)), options.threads);
+    const auto [combed, field] = combed_field(make_room(split_along_curves(domain, frames, graph)), options.threads);
     report_or_throw(progress, "unknowns", 0, std::nan(""));
     MapUnknowns unknowns = map_unknowns(field, combed);
     const double size = options.edge_length > 0 ? options.edge_length : mean_edge(domain.mesh());

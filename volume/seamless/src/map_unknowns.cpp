@@ -45,8 +45,7 @@ Sheets sheets_of(const MatchedField& field, const std::vector<std::uint8_t>& cut
         if (crossed.size() != 2) return;
         const auto forward = [&](int k) { return table.sides(crossed[k]->triangle, 0) / 4 == crossed[k]->tet; };
         const bool turned = forward(0) == forward(1);
-        for (int k = 0; k < 2; ++k)
-            neighbours[crossed[k]->triangle].push_back({crossed[1 - k]->triangle, turned});
+        for (int k = 0; k < 2; ++k) neighbours[crossed[k]->triangle].push_back({crossed[1 - k]->triangle, turned});
     });
     Sheets sheets{std::vector<Index>(cut.size(), -1), std::vector<std::uint8_t>(cut.size(), 0), 0};
     std::deque<Index> queue;
@@ -147,16 +146,16 @@ private:
         std::sort(sides.begin(), sides.end());
         for (const auto e : field_.domain.features().edges.rowwise()) {
             const auto found = std::lower_bound(sides.begin(), sides.end(), std::array<Index, 3>{e[0], e[1], -1});
-            if (found != sides.end() && (*found)[0] == e[0] && (*found)[1] == e[1]) align_feature(e[0], e[1], (*found)[2]);
+            if (found != sides.end() && (*found)[0] == e[0] && (*found)[1] == e[1])
+                align_feature(e[0], e[1], (*found)[2]);
         }
     }
     void align_feature(Index one, Index other, Index triangle) {
         const std::vector<Index>& map = field_.domain.surface().vertex_map;
         const Index tet = behind(triangle), a = map[one], b = map[other];
         const auto equal = [&](int i) { return values_.are_equal(number(tet, a, i), number(tet, b, i)); };
-        const Eigen::Vector3d way =
-            frames::from_wxyz(field_.frames.row(tet)).conjugate() *
-            Eigen::Vector3d((mesh_.vertices.row(b) - mesh_.vertices.row(a)).transpose());
+        const Eigen::Vector3d way = frames::from_wxyz(field_.frames.row(tet)).conjugate() *
+                                    Eigen::Vector3d((mesh_.vertices.row(b) - mesh_.vertices.row(a)).transpose());
         int kept = 0, least = -1;
         for (int i = 0; i < 3; ++i) {
             if (equal(i)) {

@@ -39,8 +39,7 @@ public:
     }
     Form reduced(const Form& form) const {
         Form result;
-        for (const auto& [t, c] : form)
-            result = is_pivot_[t] ? sum(result, c, of_[t]) : sum(result, c, {{t, 1.0}});
+        for (const auto& [t, c] : form) result = is_pivot_[t] ? sum(result, c, of_[t]) : sum(result, c, {{t, 1.0}});
         return result;
     }
     bool is_pivot(Index t) const { return is_pivot_[t]; }

@@ -12,8 +12,8 @@ namespace octafield::volume::detail {
 using Form = std::vector<std::pair<Index, double>>;
 Form sum(const Form& a, double factor, const Form& b);  // a + factor b
 
-// Numbers joined by equations a = sign b + form: sets in which each is known by one of them. Near linear where forms are
-// short.
+// Numbers joined by equations a = sign b + form: sets in which each is known by one of them. Near linear where forms
+// are short.
 class RelatedValues {
 public:
     RelatedValues(Index numbers, Index translations);
@@ -43,7 +43,7 @@ private:
     std::vector<Index> parent_, size_;
     std::vector<double> sign_;
     std::vector<Form> form_;
-    std::vector<std::uint8_t> pinned_;  // roots that are a form alone
+    std::vector<std::uint8_t> pinned_;   // roots that are a form alone
     std::vector<Form> pin_, relations_;  // forms that are 0
 };
 

@@ -40,8 +40,8 @@ public:
                 for (std::size_t j = 0; j <= i; ++j) {
                     const int* first = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[local.unknowns[j]];
                     const int* last = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[local.unknowns[j] + 1];
-                    local.places.push_back(static_cast<Index>(std::lower_bound(first, last, local.unknowns[i]) -
-                                                              matrix_.innerIndexPtr()));
+                    local.places.push_back(
+                        static_cast<Index>(std::lower_bound(first, last, local.unknowns[i]) - matrix_.innerIndexPtr()));
                 }
         if (problem.free.count > 0)
             cholesky_ = std::make_unique<surface::detail::SparseCholesky<double>>(

@@ -11,9 +11,9 @@ namespace octafield::volume::detail {
 
 struct TetProblem {
     const RelatedValues::Free& free;
-    Tets corners;                           // (m, 4): coordinate i of corner k of a tet is number 3 corners(t, k) + i
-    std::vector<Eigen::Matrix3d> to_unit;   // of each tet: the inverse of its three edges from corner 0 in the target
-    std::vector<double> volumes;            // there
+    Tets corners;                          // (m, 4): coordinate i of corner k of a tet is number 3 corners(t, k) + i
+    std::vector<Eigen::Matrix3d> to_unit;  // of each tet: the inverse of its three edges from corner 0 in the target
+    std::vector<double> volumes;           // there
     int threads = 0;
 };
 
