@@ -2,68 +2,61 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
-#include "map_transitions.hpp"
+#include "octafield/disjoint_sets.hpp"
 #include "octafield/frames/octahedral_group.hpp"
-#include "octafield/volume/triangle_table.hpp"
+#include "seen_point.hpp"
 
 namespace octafield::volume::detail {
 namespace {
 
 using frames::Quaternion;
 
-constexpr double least_weight = 0.15;  // of a corner in the vertex on a triangle
-
-// From the frame of one vertex to that of another, alike whoever asks.
-int step(const Quaternions& frames, Index from, Index to) {
-    if (from == to) return 0;
-    const auto q = [&](Index v) { return frames::from_wxyz(frames.row(v)); };
-    return from < to ? frames::matching(q(from), q(to)) : frames::octahedral_inverse(frames::matching(q(to), q(from)));
+// Turns that no edge of a hex mesh has.
+bool is_complex(int holonomy) {
+    const auto found = frames::octahedral_class(holonomy);
+    return found == frames::OctahedralClass::third_turn || found == frames::OctahedralClass::edge_half_turn;
 }
 
-Eigen::Vector3d point_on(const TetMesh& mesh, const SingularTriangle& triangle) {
-    Eigen::Matrix3d corners;
-    corners << mesh.vertices.row(triangle.a).transpose(), mesh.vertices.row(triangle.b).transpose(),
-        mesh.vertices.row(triangle.c).transpose();
-    const Eigen::Vector3d u = corners.col(1) - corners.col(0), v = corners.col(2) - corners.col(0), n = u.cross(v),
-                          p = triangle.point - corners.col(0);
-    const double s = p.cross(v).dot(n) / n.squaredNorm(), t = u.cross(p).dot(n) / n.squaredNorm();
-    const Eigen::Vector3d weights =
-        Eigen::Vector3d(1 - s - t, s, t).cwiseMax(0) * (1 - 3 * least_weight) + Eigen::Vector3d::Constant(least_weight);
-    return corners * (weights / weights.sum());
+void sort_unique(std::vector<Index>& ids) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 class Cutter {
 public:
-    Cutter(const TetDomain& domain, const Quaternions& frames, const SingularGraph& graph)
-        : mesh_(domain.mesh()), table_(domain.triangles()), frames_(frames) {
+    Cutter(const TetDomain& domain, const Quaternions& frames, const EdgeMatchings& matchings)
+        : mesh_(domain.mesh()),
+          table_(domain.triangles()),
+          frames_(frames),
+          step_(matchings),
+          on_triangle_(table_.triangles.rows(), -1),
+          in_tet_(mesh_.tets.rows(), -1),
+          joined_(table_.triangles.rows(), 0) {
         for (const auto p : mesh_.vertices.rowwise()) points_.push_back(p.transpose());
-        of_triangle_.assign(table_.triangles.rows(), -1);
-        of_tet_.assign(mesh_.tets.rows(), -1);
-        inside_.assign(mesh_.tets.rows(), -1);
-        const TriangleRows row_of(table_);
-        std::vector<Index> rows;
-        for (const SingularTriangle& t : graph.triangles) {
-            rows.push_back(row_of({t.a, t.b, t.c}));
-            of_triangle_[rows.back()] = added(point_on(mesh_, t));
-        }
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            if (graph.triangles[i].quarter_turns == 0) join_across(rows[i]);
-        for (const Index row : rows)
-            for (int side = 0; side < 2; ++side)
-                if (table_.sides(row, side) >= 0) place_in(table_.sides(row, side) / 4);
+        std::vector<Index> singular;
+        for (Index row = 0; row < table_.triangles.rows(); ++row)
+            if (step_.holonomy(row) != 0) singular.push_back(row);
+        join_at_complex(singular);
+        for (const Index row : singular)
+            if (!joined_[row]) on_triangle_[row] = added_mean(table_.triangles.row(row));
+        for (const Index row : singular)
+            for (int side = 0; side < 2 && table_.sides(row, side) >= 0; ++side)
+                if (const Index tet = table_.sides(row, side) / 4; in_tet_[tet] < 0)
+                    in_tet_[tet] = added_mean(mesh_.tets.row(tet));
     }
 
     void cut() {
         for (Index t = 0; t < mesh_.tets.rows(); ++t) {
-            if (of_tet_[t] < 0) {
+            if (in_tet_[t] < 0) {
                 const auto tet = mesh_.tets.row(t);
                 add({tet[0], tet[1], tet[2], tet[3]}, t, {tet[0], tet[1], tet[2], tet[3]});
                 continue;
             }
             for (int k = 0; k < 4; ++k)
-                if (table_.tet_triangles(t, k) != inside_[t]) cut_face(t, k);
+                if (!joined_[table_.tet_triangles(t, k)]) cut_face(t, k);
         }
     }
 
@@ -83,28 +76,42 @@ public:
     }
 
 private:
-    using Known = std::array<Index, 4>;  // old vertices of a tet, -1: none; the first one gives the labels
+    using Known = std::array<Index, 4>;  // old vertices of a tet, ascending, then -1: the first one gives the labels
 
-    Index added(const Eigen::Vector3d& point) {
-        points_.push_back(point);
+    template <class Ids>
+    Index added_mean(const Ids& vertices) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const Index v : vertices) sum += mesh_.vertices.row(v).transpose();
+        points_.push_back(sum / static_cast<double>(vertices.size()));
         return static_cast<Index>(points_.size() - 1);
     }
-    void join_across(Index row) {
-        const Index first = table_.sides(row, 0) / 4, second = table_.sides(row, 1) / 4;
-        if (table_.sides(row, 1) < 0 || of_tet_[first] >= 0 || of_tet_[second] >= 0) return;
-        of_tet_[first] = of_tet_[second] = of_triangle_[row];
-        inside_[first] = inside_[second] = row;
+
+    // Tets with complex triangles between them get one vertex together, where one sees all their outer triangles.
+    void join_at_complex(const std::vector<Index>& singular) {
+        DisjointSets sets(mesh_.tets.rows());
+        std::vector<Index> complex;
+        for (const Index row : singular)
+            if (table_.sides(row, 1) >= 0 && is_complex(step_.holonomy(row))) complex.push_back(row);
+        for (const Index row : complex) sets.join(table_.sides(row, 0) / 4, table_.sides(row, 1) / 4);
+        std::map<Index, std::vector<Index>> rows;
+        for (const Index row : complex) rows[sets.lowest(table_.sides(row, 0) / 4)].push_back(row);
+        for (const auto& [lowest, inner] : rows) {
+            std::vector<Index> tets;
+            for (const Index row : inner)
+                for (int side = 0; side < 2; ++side) tets.push_back(table_.sides(row, side) / 4);
+            sort_unique(tets);
+            const auto point = seen_point(mesh_, table_, tets, inner);
+            if (!point) continue;
+            points_.push_back(*point);
+            for (const Index t : tets) in_tet_[t] = static_cast<Index>(points_.size() - 1);
+            for (const Index row : inner) joined_[row] = 1;
+        }
     }
-    void place_in(Index tet) {
-        if (of_tet_[tet] >= 0) return;
-        Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-        for (int k = 0; k < 4; ++k) mean += mesh_.vertices.row(mesh_.tets(tet, k)).transpose() / 4;
-        of_tet_[tet] = added(mean);
-    }
+
     void cut_face(Index tet, int corner) {
         std::array<Index, 3> face;
         for (int i = 0; i < 3; ++i) face[i] = mesh_.tets(tet, tet_face[corner][i]);
-        const Index apex = of_tet_[tet], on = of_triangle_[table_.tet_triangles(tet, corner)];
+        const Index apex = in_tet_[tet], on = on_triangle_[table_.tet_triangles(tet, corner)];
         if (on < 0) {
             add({face[0], face[2], face[1], apex}, tet, {face[0], face[1], face[2], -1});
             return;
@@ -124,8 +131,8 @@ private:
         const Eigen::Vector4d first = frames_.row(known[0]).transpose();
         Eigen::Vector4d sum = first;
         for (int k = 1; k < 4 && known[k] >= 0; ++k) {
-            const Quaternion q = frames::from_wxyz(frames_.row(known[k])) *
-                                 frames::octahedral_group()[step(frames_, known[k], known[0])];
+            const Quaternion q =
+                frames::from_wxyz(frames_.row(known[k])) * frames::octahedral_group()[step_(known[k], known[0])];
             const Eigen::Vector4d other = frames::to_wxyz(q);
             sum += other.dot(first) < 0 ? Eigen::Vector4d(-other) : other;
         }
@@ -134,8 +141,8 @@ private:
     std::uint8_t matching(Index first, Index second) const {
         for (const Index v : known_[first])
             if (v >= 0 && std::find(known_[second].begin(), known_[second].end(), v) != known_[second].end())
-                return static_cast<std::uint8_t>(frames::octahedral_product(step(frames_, known_[first][0], v),
-                                                                            step(frames_, v, known_[second][0])));
+                return static_cast<std::uint8_t>(
+                    frames::octahedral_product(step_(known_[first][0], v), step_(v, known_[second][0])));
         return 0;
     }
     Edges curves() const {
@@ -146,13 +153,14 @@ private:
         for (std::size_t e = 0; e < sorted.size(); ++e) result.row(e) << sorted[e][0], sorted[e][1];
         return result;
     }
+
     const TetMesh& mesh_;
     const TriangleTable& table_;
     const Quaternions& frames_;
+    const EdgeMatchings& step_;
     std::vector<Eigen::Vector3d> points_;
-    std::vector<Index> of_triangle_,
-        of_tet_;                 // the vertex on each triangle; inside each tet, or on the one in `inside_`
-    std::vector<Index> inside_;  // row of the triangle that a tet shares with the other of its pair
+    std::vector<Index> on_triangle_, in_tet_;  // new vertices; -1: none
+    std::vector<std::uint8_t> joined_;         // triangles between tets that have one vertex together
     std::vector<std::array<Index, 4>> tets_;
     std::vector<Index> parent_;
     std::vector<Known> known_;
@@ -173,8 +181,8 @@ TetDomain with_features_of(const TetDomain& old, TetMesh mesh) {
     return domain.with_features(std::move(features));
 }
 
-MatchedField split_along_curves(const TetDomain& domain, const Quaternions& frames, const SingularGraph& graph) {
-    Cutter cutter(domain, frames, graph);
+MatchedField split_along_curves(const TetDomain& domain, const Quaternions& frames, const EdgeMatchings& matchings) {
+    Cutter cutter(domain, frames, matchings);
     cutter.cut();
     return cutter.field(domain);
 }
@@ -192,7 +200,7 @@ MatchedField of_parts(const MatchedField& field, TetDomain domain, const std::ve
         const Index first = parent[table.sides(row, 0) / 4], second = parent[table.sides(row, 1) / 4];
         for (int k = 0; k < 4 && first != second; ++k) {
             const Index between = old.tet_triangles(first, k);
-            const bool forward = old.sides(between, 1) / 4 == second && old.sides(between, 1) >= 0;
+            const bool forward = old.sides(between, 1) >= 0 && old.sides(between, 1) / 4 == second;
             if (!forward && old.sides(between, 0) / 4 != second) continue;
             const int m = field.matching[between];
             result.matching.back() = static_cast<std::uint8_t>(forward ? m : frames::octahedral_inverse(m));

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "octafield/volume/singularities.hpp"
+#include "edge_matchings.hpp"
 
 namespace octafield::volume::detail {
 
@@ -17,13 +17,13 @@ struct MatchedField {
     Edges curves;                        // (e, 2) singular edges, lower vertex first, in order
 };
 
-// Every singular triangle gets a vertex on it, each tet next to one a vertex inside, and the tet becomes the cone of
-// its cut faces; so the curve of singular_graph (singularities.hpp) runs along edges from triangle to tet to triangle.
-// Two tets with a complex triangle between them become one cone from the vertex on that triangle: both of their nodes
-// are then one. A tet has the frame of the mean of those vertices of its face that the old mesh had, by the labels of
-// one of them; matchings go by the vertices that two tets share. So round each new edge the frames turn as round its
-// triangle, and round no other edge. Near linear.
-MatchedField split_along_curves(const TetDomain& domain, const Quaternions& frames, const SingularGraph& graph);
+// Every singular triangle gets a vertex in its middle, each tet next to one a vertex inside, and the tet becomes the
+// cone of its cut faces; so curves run along edges from triangle to tet to triangle, as in singular_graph
+// (singularities.hpp). Tets with complex triangles between them become one cone where a point sees all its faces: their
+// nodes are then one. A tet has the mean frame of those of its vertices that the old mesh had, by the labels of one of
+// them; matchings go by the vertices that two tets share. So round each new edge the frames turn as round its triangle,
+// and round no other edge. Near linear.
+MatchedField split_along_curves(const TetDomain& domain, const Quaternions& frames, const EdgeMatchings& matchings);
 
 // The mesh, which has the vertices of the old one first and more inside and on the surface but for features, with the
 // old one's features.

@@ -118,8 +118,10 @@ FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const Fie
     if (!(options.edge_length >= 0) || !std::isfinite(options.edge_length))
         throw InvalidInput("edge_length is 0 or a positive length", "option_out_of_range");
     report_or_throw(progress, "comb", 0, std::nan(""));
-    const SingularGraph graph = singular_graph(domain, frames, options.threads);
-    const auto [combed, field] = combed_field(make_room(split_along_curves(domain, frames, graph)), options.threads);
+    EdgeMatchings matchings(domain, frames);
+    matchings.shorten_curves();
+    const auto [combed, field] =
+        combed_field(make_room(split_along_curves(domain, frames, matchings)), options.threads);
     report_or_throw(progress, "unknowns", 0, std::nan(""));
     MapUnknowns unknowns = map_unknowns(field, combed);
     const double size = options.edge_length > 0 ? options.edge_length : mean_edge(domain.mesh());

@@ -15,8 +15,8 @@ using Matrix9 = Eigen::Matrix<double, 9, 9>;
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 using Slopes = Eigen::Matrix<double, 4, 3>;  // places of the corners, as columns, times these: the derivative
 
-constexpr int most_steps = 150, most_after = 10;  // of Newton's method; without folds
-constexpr int most_inner = 4;                     // before the softness falls
+constexpr int most_steps = 60, most_after = 10;  // of Newton's method; without folds
+constexpr int most_inner = 4;                    // before the softness falls
 constexpr int most_halvings = 30;
 constexpr double slow = 0.02, settled = 1e-2;  // what a step takes off the energy
 constexpr double least_gain = 0.5;             // by which the softness falls, in part
