@@ -20,6 +20,7 @@ constexpr int most_inner = 4;                    // before the softness falls
 constexpr int most_halvings = 30;
 constexpr double slow = 0.02, settled = 1e-2;  // what a step takes off the energy
 constexpr double least_gain = 0.5;             // by which the softness falls, in part
+constexpr double least_softness = 1e-7;        // below it folds are there to stay
 
 Slopes slopes(const Matrix3& to_unit) {
     Slopes result;
@@ -141,7 +142,7 @@ private:
         const auto wanted = [&] { return std::sqrt(1e-12 + 0.04 * std::min(least, 0.0) * std::min(least, 0.0)); };
         double softness = std::max(wanted(), 1e-3);
         double first = value(result_.values, softness);
-        for (int inner = 0; !(least > 0) && result_.steps < most_steps;) {
+        for (int inner = 0; !(least > 0) && softness > least_softness && result_.steps < most_steps;) {
             const double before = value(result_.values, softness);
             const double now = step(before, softness);
             least = this->least();
