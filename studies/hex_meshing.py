@@ -1,6 +1,6 @@
 """Hexahedra from the seamless maps of MC3D-samples (Brueckler, Gupta, Mandad, Campen 2022) at three numbers of cells.
 
-    python -m studies.hex_meshing -o DIR [--only s05c,scof] [--cells 500,2000,8000]
+    python -m studies.hex_meshing -o DIR [--only s05c,scof] [--cells 500,2000,8000] [--walls own]
 
 The meshes are judged by studies.hex_dominant.checker, which knows arrays alone. DIR gets
 rows.jsonl, maps.md and when.md, and pictures of two meshes cut open.
@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import octafield
-from octafield.hexmesh.hex_mesh import compute_hex_mesh
+from octafield.hexmesh.hex_mesh import WALLS, compute_hex_mesh
 
 from .benchmarks.pages import when
 from .hex_dominant import checker
@@ -27,11 +27,11 @@ HEADER = (
 PICTURES = {("s12c_cube_rounded_1", 8000), ("hexalab_fandisk", 8000)}
 
 
-def run(path: Path, cells: int, output: Path) -> dict:
+def run(path: Path, cells: int, walls: str, output: Path) -> dict:
     name, begun = path.name.removesuffix(".hexex.gz"), time.process_time()
     row: dict = {"map": name, "wanted": cells}
     try:
-        result = compute_hex_mesh(path, cells=cells)
+        result = compute_hex_mesh(path, cells=cells, walls=walls)
     except octafield.Error as error:
         return {**row, "error": f"{error.kind}: {error}", "cpu": time.process_time() - begun}
     row["cpu"] = time.process_time() - begun
@@ -80,6 +80,7 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--only", default="", help="beginnings of names with commas")
     parser.add_argument("--cells", default="500,2000,8000")
+    parser.add_argument("--walls", choices=WALLS, default="file")
     a = parser.parse_args()
     a.output.mkdir(parents=True, exist_ok=True)
     only = tuple(filter(None, a.only.split(","))) or ("",)
@@ -88,7 +89,7 @@ def main() -> None:
     with (a.output / "rows.jsonl").open("w") as file:
         for path in paths:
             for cells in map(int, a.cells.split(",")):
-                rows.append(run(path, cells, a.output))
+                rows.append(run(path, cells, a.walls, a.output))
                 file.write(json.dumps(rows[-1]) + "\n")
                 print(" | ".join(cells_of(rows[-1])), flush=True)
     (a.output / "maps.md").write_text(summary(rows) + "\n" + markdown_table(HEADER, map(cells_of, rows)))

@@ -3,6 +3,7 @@
 #include "field_map.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/all_hex.hpp"
+#include "octafield/volume/motorcycle_complex.hpp"
 #include "options.hpp"
 
 namespace octafield::bindings {
@@ -147,6 +148,16 @@ void bind_hexmesh(py::module_& m) {
         "map"_a,
         "The TetDomain of a SeamlessMap: its tets with its features, or, where it has neither edges nor corners, with "
         "edges of 40 degrees. Raises InvalidInput, GeometryError.");
+    m.def(
+        "motorcycle_complex",
+        [](const SeamlessMap& map, const std::optional<ProgressCallable>& progress) {
+            return run_interruptible([map = map](Job& job) { return motorcycle_complex(map, job.progress()); },
+                                     progress);
+        },
+        "map"_a, py::kw_only(), "progress"_a = py::none(),
+        "The SeamlessMap on tets that are cut along walls of its own, so that block_complex finds boxes; walls of the "
+        "given one are not used. Raises InvalidInput, GeometryError (kinds flipped_tet, torn_map, unaligned_boundary, "
+        "not_a_box), SolverError (endless_walls), Cancelled.");
     m.def(
         "block_complex",
         [](const SeamlessMap& map) {

@@ -14,6 +14,7 @@ from .options import InputFile, Json, Output, Quiet, Verbose, with_options
 from .shell_completion import words
 
 _DEFAULTS = HexMeshOptions()
+WALLS = ("file", "own")
 # What has another meaning here, or none: lengths of the tets have names of their own.
 _WITHOUT = ("edge_length", "axes", "sizes", "streamlines", "split_singular")
 
@@ -103,13 +104,21 @@ def hex_mesh(
         typer.Option(metavar="LENGTH", help="Wanted edge of the hexahedra, input unit; 0: mean edge of the boundary."),
     ] = 0.0,
     cells: Annotated[int, typer.Option(metavar="N", help="In its place: wanted number of hexahedra.")] = 0,
+    walls: Annotated[
+        str,
+        typer.Option(
+            metavar="|".join(WALLS),
+            autocompletion=words(WALLS),
+            help="That cut the map into blocks: the file's, or own ones where it has none; or own ones always.",
+        ),
+    ] = WALLS[0],
     threads: Annotated[int, typer.Option(metavar="N", help="0: all. The result does not depend on it.")] = 0,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Hexahedra alone, from a seamless map. INPUT is a .hexex file with walls; DIR gets mesh.vtu,
-    mesh.msh, mesh.mesh, result.json."""
+    """Hexahedra alone, from a seamless map. INPUT is a .hexex file; DIR gets mesh.vtu, mesh.msh, mesh.mesh,
+    result.json."""
 
     def work() -> None:
         from ..files.writing import staged_folder
@@ -118,7 +127,9 @@ def hex_mesh(
         from ..records.record_file import RECORD_FILE
 
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
-            result = compute_hex_mesh(input, progress, cells=cells, edge_length=edge_length, threads=threads)
+            result = compute_hex_mesh(
+                input, progress, cells=cells, edge_length=edge_length, walls=walls, threads=threads
+            )
             write_hex_mesh_result(result, folder, progress)
         console.finish(result.record, tables.show_hex_mesh_record, json, quiet, output)
 

@@ -18,7 +18,7 @@ from .._core import MixedMesh, SeamlessMap
 from ..domain.inputs import naming
 from ..errors import InvalidInput
 from ..hexdom.hex_mesh import require_sound
-from ..options import LARGEST_INT, integer_in
+from ..options import LARGEST_INT, integer_in, require_one_of
 from ..progress.meter import PhaseMeter
 from ..progress.phases import Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
     from ..records.hex_mesh import HexMeshRecord
 
+WALLS = ("file", "own")  # compute_hex_mesh
+
 _SHOWN = ("hexahedra", "target", "irregular_edges", "scaled_jacobian", "volume_error", "feature_deviation")
 _COARSE = 0.01  # difference of the volume that is worth a note
 
@@ -38,7 +40,7 @@ class HexMeshResult(ShownInNotebooks):
     """Hexahedra and what led to them.
 
     mesh: the hexahedra. blocks: (h,) int32, the block of each. support: (n,) uint8 per vertex, 0 inside, 1 on the
-    surface, 2 on a feature curve, 3 a corner. scaled_jacobians: (h,). map: that they come from. record: all figures,
+    surface, 2 on a feature curve, 3 a corner. scaled_jacobians: (h,). map: that they come from, with the walls of the blocks. record: all figures,
     the JSON object of the command line."""
 
     mesh: MixedMesh
@@ -76,16 +78,18 @@ def compute_hex_mesh(
     *,
     cells: int = 0,
     edge_length: float = 0.0,
+    walls: str = "file",
     threads: int = 0,
 ) -> HexMeshResult:
-    """A mesh of hexahedra alone from a seamless map (octafield.volume.SeamlessMap, or its .hexex file) with the walls
-    of its motorcycle complex: whole numbers of edges for the arcs of its blocks, a grid in each block, vertices moved
-    on the surface and along features.
+    """A mesh of hexahedra alone from a seamless map (octafield.volume.SeamlessMap, or its .hexex file): walls that cut
+    it into blocks, whole numbers of edges for the arcs of these, a grid in each block, vertices moved on the surface
+    and along features.
 
     cells: number of hexahedra wanted. edge_length: in its place, input unit; 0: the mean edge of the boundary.
+    walls: "file": the map's, or where it has none, own ones (octafield.volume.motorcycle_complex); "own": these always.
 
     progress(phase, fraction, merit): False cancels. Raises IoError; InvalidInput; GeometryError whose kind says what
-    stops the map: flipped_tet, torn_map, bent_wall, not_a_box; SolverError; Cancelled.
+    stops the map: flipped_tet, torn_map, unaligned_boundary, bent_wall, not_a_box; SolverError; Cancelled.
 
         >>> import numpy as np, octafield
         >>> from octafield.domain.generators import generate
@@ -97,12 +101,14 @@ def compute_hex_mesh(
         64
     """
     integer_in("cells", cells, 0, LARGEST_INT, " (0: by the edge length)")
+    require_one_of("walls", walls, WALLS)
     meter = PhaseMeter(None, progress)
     meter.begin("read")
     announce(progress, "read")
     given, name = _map_of(source)
     with naming(name):
-        return _made(given, name, meter, progress, {"cells": cells, "edge_length": edge_length, "threads": threads})
+        options = {"cells": cells, "edge_length": edge_length, "walls": walls, "threads": threads}
+        return _made(given, name, meter, progress, options)
 
 
 def _map_of(source: object) -> tuple[SeamlessMap, str]:
@@ -123,14 +129,17 @@ def _made(
     from ..hexdom.quality import figures_of
     from . import record
 
-    made = _core.all_hex(given, progress=meter.report, **options)
+    own = options["walls"] == "own" or not len(given.walls)
+    walled = _core.motorcycle_complex(given, progress=meter.report) if own else given
+    of_all_hex = {name: value for name, value in options.items() if name != "walls"}
+    made = _core.all_hex(walled, progress=meter.report, **of_all_hex)
     meter.begin("check")
     announce(progress, "check")
     require_sound(made.mesh)
     domain = _core.map_domain(given)
     figures = figures_of(made.mesh, None, domain, None, options["threads"])
     meter.end()
-    told = record.of_mesh(made, figures, domain, given, name, meter, options)
+    told = record.of_mesh(made, figures, domain, given, "own" if own else "file", name, meter, options)
     if told.volume_error > _COARSE:
         note = (
             f"the mesh has another volume than the input, by {told.volume_error:.1%}: the hexahedra are large for how"
@@ -142,6 +151,6 @@ def _made(
         blocks=np.asarray(made.blocks),
         support=np.asarray(made.support),
         scaled_jacobians=figures.scaled_jacobians,
-        map=given,
+        map=walled,
         record=told,
     )

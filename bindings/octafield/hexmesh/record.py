@@ -24,6 +24,7 @@ def of_mesh(
     figures: MeshFigures,
     domain: TetDomain,
     given: SeamlessMap,
+    walls: str,
     name: str,
     meter: PhaseMeter,
     options: dict[str, Any],
@@ -43,6 +44,7 @@ def of_mesh(
         mesh_sha256=MeshedInput(name, "tets", domain.surface.mesh, features, "none", domain).digest(),
         tets=len(given.mesh.tets),
         stage="extracted",
+        walls=walls,
         blocks=made.block_count,
         arcs=len(made.numbers.numbers),
         whole_numbers=WholeNumberFigures(

@@ -15,6 +15,7 @@ class HexMeshRecord(MeasuredRecord):
     mesh_sha256: str = Field(description="of the arrays of the tets that the map is on, first 16 hexadecimal digits")
     tets: int = Field(description="that the map is on")
     stage: str = Field(description="reached: extracted")
+    walls: str = Field(description="file or own: where those come from that bound the blocks")
     blocks: int = Field(description="boxes in the map's parameters that its walls bound")
     arcs: int = Field(description="where blocks meet, each with a whole number of edges")
     whole_numbers: WholeNumberFigures = Field(description="of edges on the arcs")

@@ -122,17 +122,18 @@ private:
     DisjointSets sets_;
 };
 
-// Side of its block's box that a wall lies in; -1: in none.
+// Side of its block's box that a wall lies in; -1: in none. Its normal decides: thin triangles are near two sides.
 int side_of(const BlockCharts& charts, Index block, const std::array<Eigen::Vector3d, 3>& triangle) {
     const Eigen::Vector3d low = charts.low.row(block).transpose(), high = charts.high.row(block).transpose();
     const double tolerance = near * (high - low).maxCoeff();
-    for (int axis = 0; axis < 3; ++axis)
-        for (int end = 0; end < 2; ++end) {
-            const double at = end ? high[axis] : low[axis];
-            bool inside = true;
-            for (const auto& point : triangle) inside &= std::abs(point[axis] - at) < tolerance;
-            if (inside) return 2 * axis + end;
-        }
+    int axis = 0;
+    (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).cwiseAbs().maxCoeff(&axis);
+    for (int end = 0; end < 2; ++end) {
+        const double at = end ? high[axis] : low[axis];
+        bool inside = true;
+        for (const auto& point : triangle) inside &= std::abs(point[axis] - at) < tolerance;
+        if (inside) return 2 * axis + end;
+    }
     return -1;
 }
 

@@ -184,15 +184,7 @@ private:
 }  // namespace
 
 BlockComplex block_complex(const SeamlessMap& map) {
-    const SeamlessReport report = seamless_report(map);
-    if (!report.flipped.empty())
-        throw GeometryError("the map turns tets " + first_few(report.flipped) +
-                                " over, or flattens them; only maps without such tets have blocks",
-                            "flipped_tet", report.flipped);
-    if (!report.torn.empty())
-        throw GeometryError("parameters do not go on by a rotation of the cube and a translation between tets " +
-                                first_few(report.torn) + "; only seamless maps have blocks",
-                            "torn_map", report.torn);
+    require_seamless(map);
     return Assembly(map).make();
 }
 

@@ -45,6 +45,9 @@ private:
     const TriangleTable& table_;
 };
 
+// Throws what seamless_report throws, and GeometryError: kinds "flipped_tet", "torn_map" (tets).
+void require_seamless(const SeamlessMap& map);
+
 // Largest extent of the parameters of a tet.
 double extent(const Rows<double, 12>& parameters, Index tet);
 
