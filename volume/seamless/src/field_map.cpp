@@ -133,6 +133,7 @@ FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const Fie
         result.flipped_at_first += !(mapped_edges(problem, start, t).determinant() > 0);
     UnfoldedTets found{start};
     if (unknowns.locked.empty()) found = unfolded_tets(problem, start, progress);
+    if (static_cast<Index>(found.folded.size()) > result.flipped_at_first) found.values = start;
     result.steps = found.steps;
     result.angle = mean_angle(problem, found.values);
     result.map = map_of(field, unknowns, found.values);
