@@ -106,10 +106,11 @@ def summary(rows: list[dict]) -> str:
         return sum(row["stage"] in stages for row in rows)
 
     made = [row for row in rows if row["stage"] == "extracted"]
+    seamless, injective = count("seamless", "injective", "extracted"), count("injective", "extracted")
+    sound = sum(not row["faults"] for row in made)
     return (
-        f"{len(rows)} files: {count('seamless', 'injective', 'extracted')} seamless maps, {count('injective', 'extracted')}"
-        f" of them without a fold, {len(made)} meshes of hexahedra alone ({sum(not r['faults'] for r in made)} without a"
-        f" fault). {sum(r['cpu'] for r in rows):.0f} s of CPU time in all.\n"
+        f"{len(rows)} files: {seamless} seamless maps, {injective} of them without a fold, {len(made)} meshes of"
+        f" hexahedra alone ({sound} without a fault). {sum(row['cpu'] for row in rows):.0f} s of CPU time in all.\n"
     )
 
 

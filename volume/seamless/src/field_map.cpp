@@ -8,6 +8,7 @@
 #include "matched_combing.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/octahedral_group.hpp"
+#include "require_frames.hpp"
 #include "unfolded_tets.hpp"
 
 namespace octafield::volume {
@@ -117,6 +118,7 @@ FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const Fie
                    const Progress& progress) {
     if (!(options.edge_length >= 0) || !std::isfinite(options.edge_length))
         throw InvalidInput("edge_length is 0 or a positive length", "option_out_of_range");
+    require_frames(frames, domain.vertex_count());
     report_or_throw(progress, "comb", 0, std::nan(""));
     EdgeMatchings matchings(domain, frames);
     matchings.shorten_curves();

@@ -27,7 +27,7 @@ public:
     struct Free {
         std::vector<Form> rows;  // of the numbers, then of the translations
         Index count = 0;
-        double multiple = 1;  // all numbers are whole where unknowns are multiples of it
+        double multiple = 1;  // of which unknowns are multiples so that all terms are whole, thirds rounded
     };
     Free free();
 
