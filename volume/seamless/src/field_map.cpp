@@ -16,7 +16,8 @@ namespace {
 
 using namespace detail;
 
-constexpr int bits = 40;  // of the parameters
+constexpr int bits = 40;        // of the parameters
+constexpr int most_rounds = 4;  // of splitting tets that stay flat
 
 double mean_edge(const TetMesh& mesh) {
     double sum = 0;
@@ -112,6 +113,37 @@ SeamlessMap map_of(const MatchedField& field, const MapUnknowns& unknowns, const
     return map;
 }
 
+struct Attempt {
+    FieldMap made;
+    std::vector<Index> crushed;
+};
+
+Attempt attempt(const MatchedField& uncombed, double size, int threads, const Progress& progress) {
+    report_or_throw(progress, "unknowns", 0, std::nan(""));
+    const auto [combed, field] = combed_field(uncombed, threads);
+    MapUnknowns unknowns = map_unknowns(field, combed);
+    const TetProblem problem = problem_of(field, unknowns, size, threads);
+    Attempt result;
+    FieldMap& made = result.made;
+    const Eigen::VectorXd start = nearest_map(problem);
+    made.angle_at_first = mean_angle(problem, start);
+    for (Index t = 0; t < problem.corners.rows(); ++t)
+        made.flipped_at_first += !(mapped_edges(problem, start, t).determinant() > 0);
+    UnfoldedTets found{start};
+    if (unknowns.locked.empty()) found = unfolded_tets(problem, start, progress);
+    if (!found.folded.empty()) result.crushed = std::move(found.crushed);
+    if (static_cast<Index>(found.folded.size()) > made.flipped_at_first) found.values = start;
+    made.steps = found.steps;
+    made.angle = mean_angle(problem, found.values);
+    made.map = map_of(field, unknowns, found.values);
+    made.flipped = seamless_report(made.map).flipped;
+    made.parent = field.parent;
+    made.curves = field.curves;
+    made.unknowns = unknowns.free.count;
+    made.locked = std::move(unknowns.locked);
+    return result;
+}
+
 }  // namespace
 
 FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const FieldMapOptions& options,
@@ -122,30 +154,19 @@ FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const Fie
     report_or_throw(progress, "comb", 0, std::nan(""));
     EdgeMatchings matchings(domain, frames);
     matchings.shorten_curves();
-    const auto [combed, field] =
-        combed_field(make_room(split_along_curves(domain, frames, matchings)), options.threads);
-    report_or_throw(progress, "unknowns", 0, std::nan(""));
-    MapUnknowns unknowns = map_unknowns(field, combed);
+    MatchedField field = make_room(split_along_curves(domain, frames, matchings));
     const double size = options.edge_length > 0 ? options.edge_length : mean_edge(domain.mesh());
-    const TetProblem problem = problem_of(field, unknowns, size, options.threads);
-    FieldMap result;
-    const Eigen::VectorXd start = nearest_map(problem);
-    result.angle_at_first = mean_angle(problem, start);
-    for (Index t = 0; t < problem.corners.rows(); ++t)
-        result.flipped_at_first += !(mapped_edges(problem, start, t).determinant() > 0);
-    UnfoldedTets found{start};
-    if (unknowns.locked.empty()) found = unfolded_tets(problem, start, progress);
-    if (static_cast<Index>(found.folded.size()) > result.flipped_at_first) found.values = start;
-    result.steps = found.steps;
-    result.angle = mean_angle(problem, found.values);
-    result.map = map_of(field, unknowns, found.values);
-    result.flipped = seamless_report(result.map).flipped;
-    result.parent = field.parent;
-    result.curves = field.curves;
-    result.added_vertices = field.domain.vertex_count() - domain.vertex_count();
-    result.unknowns = unknowns.free.count;
-    result.locked = std::move(unknowns.locked);
-    return result;
+    Attempt best = attempt(field, size, options.threads, progress), last = best;
+    int steps = best.made.steps;
+    for (int round = 0; round < most_rounds && !last.crushed.empty(); ++round) {
+        field = split_round(field, last.crushed);
+        last = attempt(field, size, options.threads, progress);
+        steps += last.made.steps;
+        if (last.made.flipped.size() < best.made.flipped.size()) best = last;
+    }
+    best.made.steps = steps;
+    best.made.added_vertices = static_cast<Index>(best.made.map.mesh.vertices.rows()) - domain.vertex_count();
+    return std::move(best.made);
 }
 
 }  // namespace octafield::volume

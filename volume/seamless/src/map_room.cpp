@@ -122,4 +122,20 @@ MatchedField make_room(const MatchedField& field) {
     return of_parts(apart, with_features_of(apart.domain, std::move(split.mesh)), split.parent);
 }
 
+MatchedField split_round(const MatchedField& field, const std::vector<Index>& tets) {
+    const TetMesh& mesh = field.domain.mesh();
+    std::vector<Key<2>> held = keys_of(field.curves), split;
+    for (const Key<2>& key : surface_edges(field.domain)) held.push_back(key);
+    splitting::sort_unique(held);
+    const auto list = splitting::list_of(mesh.tets);
+    for (const Index t : tets)
+        for (const auto& corners : splitting::edge_corners)
+            if (const Key<2> key = splitting::key_of(list[t], corners); !splitting::contains(held, key))
+                split.push_back(key);
+    splitting::sort_unique(split);
+    splitting::Splitter splitter(mesh, splitting::surface_of(field.domain));
+    splitter.split(split, splitting::edge_corners);
+    return of_parts(field, with_features_of(field.domain, splitter.mesh()), splitter.parent());
+}
+
 }  // namespace octafield::volume::detail

@@ -20,6 +20,7 @@ constexpr int most_inner = 4;                    // before the softness falls
 constexpr int most_halvings = 30;
 constexpr double slow = 0.02, settled = 1e-2;  // what a step takes off the energy
 constexpr double least_gain = 0.5;             // by which the softness falls, in part
+constexpr double crushed = 1e-3;               // of the target's volume
 constexpr double least_softness = 1e-7;        // below it folds are there to stay
 
 Slopes slopes(const Matrix3& to_unit) {
@@ -218,8 +219,11 @@ Eigen::VectorXd nearest_map(const TetProblem& problem) {
 UnfoldedTets unfolded_tets(const TetProblem& problem, Eigen::VectorXd start, const Progress& progress) {
     UnfoldedTets result{std::move(start)};
     if (problem.free.count > 0) Descent(problem, result, progress).run();
-    for (Index t = 0; t < problem.corners.rows(); ++t)
-        if (!(mapped_edges(problem, result.values, t).determinant() > 0)) result.folded.push_back(t);
+    for (Index t = 0; t < problem.corners.rows(); ++t) {
+        const double volume = mapped_edges(problem, result.values, t).determinant();
+        if (!(volume > 0)) result.folded.push_back(t);
+        if (!(volume > crushed * 6 * problem.volumes[t])) result.crushed.push_back(t);
+    }
     return result;
 }
 

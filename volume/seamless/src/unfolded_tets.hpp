@@ -26,8 +26,9 @@ Eigen::VectorXd nearest_map(const TetProblem& problem);
 
 struct UnfoldedTets {
     Eigen::VectorXd values{};
-    int steps = 0;                // of Newton's method
-    std::vector<Index> folded{};  // tets that are not mapped with their sense
+    int steps = 0;                 // of Newton's method
+    std::vector<Index> folded{};   // tets that are not mapped with their sense
+    std::vector<Index> crushed{};  // these, and tets with less than a thousandth of the target's volume
 };
 
 // The least sum over the tets of |J|^2 / chi^(2/3) + (d^2 + 1) / chi, J the map's derivative in the target's frame, d
