@@ -49,7 +49,7 @@ def test_what_stops_a_map_is_told_with_its_places(shared_data):
     assert record.non_meshable_junctions > 0 and record.stage == "seamless" and record.stopped_by == "flipped_tet"
     assert record.flipped == len(result.flipped) > 0 and least_determinant(result.map) <= 0
     corners = np.asarray(result.map.mesh.vertices)[np.asarray(result.map.mesh.tets)[result.flipped[0]]]
-    assert record.stopped_at[0] == pytest.approx(tuple(corners.mean(axis=0)))
+    assert record.stopped_at[0] == pytest.approx(corners.mean(axis=0).tolist())
 
 
 def test_the_command_goes_from_a_ball_to_hexahedra_alone(shared_data, tmp_path):
@@ -86,5 +86,8 @@ def test_other_fields_and_options_are_refused(tmp_path):
     tets = of.prepare_mesh(box).volume()
     with pytest.raises(of.InvalidInput):
         of.volume.field_map(tets, np.full((len(tets.vertices), 4), np.nan))
+    halves = of.TetDomain(tets, regions=np.arange(len(tets.tets)) % 2)
+    with pytest.raises(of.InvalidInput, match="region"):
+        of.volume.field_map(halves, np.eye(1, 4).repeat(len(tets.vertices), axis=0))
     write_seamless_map(tmp_path / "box.hexex", of.compute_seamless_map(box).map)
     octafield("hex-mesh", tmp_path / "box.hexex", "-o", tmp_path / "out", "--tet-length", "1", "-q", check=2)

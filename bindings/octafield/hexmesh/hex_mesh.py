@@ -40,8 +40,8 @@ class HexMeshResult(ShownInNotebooks):
     """Hexahedra and what led to them.
 
     mesh: the hexahedra. blocks: (h,) int32, the block of each. support: (n,) uint8 per vertex, 0 inside, 1 on the
-    surface, 2 on a feature curve, 3 a corner. scaled_jacobians: (h,). map: that they come from, with the walls of the blocks. record: all figures,
-    the JSON object of the command line."""
+    surface, 2 on a feature curve, 3 a corner. scaled_jacobians: (h,). map: that they come from, with the walls of the
+    blocks. record: all figures, the JSON object of the command line."""
 
     mesh: MixedMesh
     blocks: np.ndarray

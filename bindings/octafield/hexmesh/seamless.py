@@ -150,9 +150,10 @@ def _mapped(field: AnalysedField, unit: float, progress: Progress | None) -> Sea
     )
 
 
-def _middles(given: SeamlessMap, tets: np.ndarray) -> list[tuple[float, float, float]]:
+def _middles(given: SeamlessMap, tets: np.ndarray) -> list[list[float]]:
     corners = np.asarray(given.mesh.vertices)[np.asarray(given.mesh.tets)[tets[:100]]]
-    return [(float(x), float(y), float(z)) for x, y, z in corners.mean(axis=1)]
+    middles: list[list[float]] = corners.mean(axis=1).tolist()
+    return middles
 
 
 def write_seamless_result(result: SeamlessMapResult, folder: Path) -> None:

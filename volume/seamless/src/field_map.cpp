@@ -151,6 +151,9 @@ FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const Fie
     if (!(options.edge_length >= 0) || !std::isfinite(options.edge_length))
         throw InvalidInput("edge_length is 0 or a positive length", "option_out_of_range");
     require_frames(frames, domain.vertex_count());
+    if (domain.interface_triangles() > 0)
+        throw InvalidInput("seamless maps are made of one region so far; give the mesh without region ids",
+                           "several_regions");
     report_or_throw(progress, "comb", 0, std::nan(""));
     EdgeMatchings matchings(domain, frames);
     matchings.shorten_curves();
