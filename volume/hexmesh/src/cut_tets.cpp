@@ -8,7 +8,7 @@
 namespace octafield::volume::detail {
 namespace {
 
-constexpr double same = 1e-8;  // of the mean extent of the tets
+constexpr double same = 1e-8;       // of the mean extent of the tets
 constexpr double least_left = 0.2;  // of the volume of a tet, when a vertex of it moves
 
 }  // namespace

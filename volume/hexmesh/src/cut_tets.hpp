@@ -13,7 +13,7 @@
 namespace octafield::volume::detail {
 
 struct CutTet {
-    Index root;                         // the tet of the given mesh that it is part of
+    Index root;  // the tet of the given mesh that it is part of
     std::array<Index, 4> vertices;
     std::array<Eigen::Vector3d, 4> at;  // parameters of the corners
     std::array<Index, 4> next;          // tet across the triangle opposite a corner; -1: the boundary
@@ -69,8 +69,8 @@ public:
 
     // Cuts the tets at an edge where `share` of its way from its first to its second vertex is gone. The new vertex.
     Index split(const EdgeKey& edge, double share);
-    // Moves a vertex so that its parameter `axis`, as the tet has it, is `value`. False, and nothing is done, where it lies on
-    // the boundary or an irregular edge, would leave a wall, or where a tet would lose most of its volume.
+    // Moves a vertex so that its parameter `axis`, as the tet has it, is `value`. False, and nothing is done, where it
+    // lies on the boundary or an irregular edge, would leave a wall, or where a tet would lose most of its volume.
     bool slide(Index tet, Index vertex, int axis, double value);
     // Makes a triangle a wall; source and axis in the tet's parameters. Its number.
     Index add_wall(Index tet, int face, int axis, const std::array<Eigen::Vector3d, 2>& source);

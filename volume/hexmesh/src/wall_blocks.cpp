@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "octafield/disjoint_sets.hpp"
 
@@ -29,6 +30,33 @@ std::vector<int> axes_of(const Transition& way, double tolerance) {
     return {axis};
 }
 
+// Breadth first from a tet that is in no block yet.
+void fill_block(const CutTets& tets, Index first, CutBlocks& blocks) {
+    const double apart = far * tets.tolerance();
+    std::set<int> axes;
+    std::vector<Index> reached{first};
+    blocks.of[first] = blocks.count;
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        const Index here = reached[i];
+        for (int k = 0; k < 4; ++k) {
+            const Index next = tets.tet(here).next[k];
+            if (next < 0 || tets.tet(here).wall[k] >= 0) continue;
+            const Transition chart = then(tets.over(next, tets.back(here, k)), blocks.charts[here]);
+            if (blocks.of[next] < 0) {
+                blocks.of[next] = blocks.count;
+                blocks.charts[next] = chart;
+                reached.push_back(next);
+                continue;
+            }
+            const Transition round = then(inverse(blocks.charts[next]), chart);  // of the block's chart
+            if (round.rotation.isIdentity(1e-9) && round.translation.norm() <= apart) continue;
+            for (const int axis : axes_of(round, apart)) axes.insert(axis);
+        }
+    }
+    if (!axes.empty()) blocks.windings.push_back({blocks.count, {axes.begin(), axes.end()}});
+    ++blocks.count;
+}
+
 class Removal {
 public:
     explicit Removal(CutTets& tets) : tets_(tets), blocks_(cut_blocks(tets)), joined_(blocks_.count) {}
@@ -36,7 +64,7 @@ public:
     bool pass() {
         collect();
         std::sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) {
-            return std::pair(-a.distance, a.walls[0]) < std::pair(-b.distance, b.walls[0]);
+            return std::pair(a.area, a.walls[0]) < std::pair(b.area, b.walls[0]);
         });
         bool any = false;
         for (const Patch& patch : patches_)
@@ -51,13 +79,19 @@ private:
     struct Patch {
         std::vector<Index> walls;
         std::vector<std::pair<EdgeKey, Index>> rim;  // edges on arcs, with a tet there
-        double distance = 0;
+        double area = 0;                             // in parameters
     };
 
     template <class Visit>
     void for_edges(Index wall, const Visit& visit) const {
         const auto v = tets_.triangle(tets_.walls()[wall].tet, tets_.walls()[wall].face);
         for (int k = 0; k < 3; ++k) visit(edge_key(v[k], v[(k + 1) % 3]));
+    }
+
+    double area(const WallTriangle& wall) const {
+        const auto& at = tets_.tet(wall.tet).at;
+        const auto& [a, b, c] = tet_face[wall.face];
+        return (at[b] - at[a]).cross(at[c] - at[a]).norm() / 2;
     }
 
     // Walls that are joined by edges where they go straight on and no other wall is.
@@ -77,35 +111,12 @@ private:
             if (walls[w].kept) {
                 Patch& patch = found[sets.lowest(w)];
                 patch.walls.push_back(w);
-                patch.distance = std::max(patch.distance, distance_to_source(tets_, w));
+                patch.area += area(walls[w]);
             }
         for (const auto& [edge, here] : at)
             if (!straight(edge, here))
                 for (const Index w : here) found[sets.lowest(w)].rim.emplace_back(edge, walls[w].tet);
         patches_.clear();
-        if (getenv("DBGW"))
-            for (const auto& [edge, here] : at) {
-                const WallsAround around = walls_around(tets_, edge, walls[here[0]].tet);
-                std::array<int, 5> n{};
-                for (const auto& [wall, quarter] : around.places) ++n[quarter];
-                bool bad = false;
-                for (int i = 0; i < 5; ++i) bad |= n[i] > 1;
-                if (around.closed && !tets_.irregular.count(edge)) {
-                    for (int i = 0; i < 4; ++i)
-                        bad |= n[i] && !n[(i + 2) % 4] && !(n[(i + 1) % 4] && n[(i + 3) % 4]);
-                    bad |= around.quarters != 4;
-                }
-                if (!around.closed && !tets_.irregular.count(edge)) bad |= around.quarters != 2 || here.size() != 1;
-                if (tets_.irregular.count(edge)) bad |= (int)here.size() != around.quarters-(around.closed?0:1);
-                if (bad) {
-                    fprintf(stderr, "edge %d %d closed %d quarters %d irr %d:", edge[0], edge[1], around.closed, around.quarters,
-                            (int)tets_.irregular.count(edge));
-                    for (const auto& [wall, quarter] : around.places) fprintf(stderr, " %d@%d", wall, quarter);
-                    const auto& T=tets_.tet(walls[here[0]].tet);
-                    auto P=T.at[T.corner(edge[0])],Q=T.at[T.corner(edge[1])];
-                    fprintf(stderr, "  %.12g %.12g %.12g - %.12g %.12g %.12g tol %g\n",P[0],P[1],P[2],Q[0],Q[1],Q[2],tets_.tolerance());
-                }
-            }
         for (auto& [unused, patch] : found) patches_.push_back(std::move(patch));
     }
 
@@ -117,16 +128,19 @@ private:
                            [&](const auto& end) { return sound_without(patch, end.first, end.second); });
     }
 
-    // Each wall that is left at the edge goes straight on or ends at one that does.
+    // No block gets an angle of more than two quarters at the edge. Walls at irregular edges of the boundary stay:
+    // without them the boundary's part of the side of a box need not be a rectangle.
     bool sound_without(const Patch& patch, const EdgeKey& edge, Index tet) const {
-        if (tets_.irregular.count(edge)) return false;
+        const bool irregular = tets_.irregular.count(edge) != 0;
         const WallsAround around = walls_around(tets_, edge, tet);
-        if (!around.closed) return true;
-        std::array<bool, 4> left{};
+        if (!around.closed) return !irregular;
+        std::vector<int> left;
         for (const auto& [wall, quarter] : around.places)
-            if (!std::binary_search(patch.walls.begin(), patch.walls.end(), wall)) left[quarter % 4] = true;
-        for (int i = 0; i < 4; ++i)
-            if (left[i] && !left[(i + 2) % 4] && !(left[(i + 1) % 4] && left[(i + 3) % 4])) return false;
+            if (!std::binary_search(patch.walls.begin(), patch.walls.end(), wall)) left.push_back(quarter);
+        if (left.empty()) return !irregular;
+        left.push_back(left[0] + around.quarters);
+        for (std::size_t i = 0; i + 1 < left.size(); ++i)
+            if (left[i + 1] - left[i] > 2) return false;
         return true;
     }
 
@@ -148,37 +162,8 @@ CutBlocks cut_blocks(const CutTets& tets) {
     CutBlocks result;
     result.of.assign(tets.tet_count(), -1);
     result.charts.resize(tets.tet_count());
-    auto& charts = result.charts;
-    const double apart = far * tets.tolerance();
-    for (Index first = 0; first < tets.tet_count(); ++first) {
-        if (result.of[first] >= 0) continue;
-        std::vector<Index> reached{first};
-        result.of[first] = result.count;
-        bool winds = false;
-        for (std::size_t i = 0; i < reached.size(); ++i) {
-            const Index here = reached[i];
-            const CutTet& tet = tets.tet(here);
-            for (int k = 0; k < 4; ++k) {
-                if (tet.next[k] < 0 || tet.wall[k] >= 0) continue;
-                const Index next = tet.next[k];
-                const Transition chart = then(tets.over(next, tets.back(here, k)), charts[here]);
-                if (result.of[next] < 0) {
-                    result.of[next] = result.count;
-                    charts[next] = chart;
-                    reached.push_back(next);
-                    continue;
-                }
-                if (winds) continue;
-                const Transition round = then(inverse(charts[next]), chart);  // of the block's parameters
-                const Eigen::Vector3d moved = round.rotation * charts[next](tets.tet(next).at[0]) + round.translation;
-                if (!round.rotation.isIdentity(1e-9) || (moved - charts[next](tets.tet(next).at[0])).norm() > apart) {
-                    winds = true;
-                    result.windings.push_back({result.count, axes_of(round, apart)});
-                }
-            }
-        }
-        ++result.count;
-    }
+    for (Index first = 0; first < tets.tet_count(); ++first)
+        if (result.of[first] < 0) fill_block(tets, first, result);
     return result;
 }
 

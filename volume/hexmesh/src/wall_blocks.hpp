@@ -7,10 +7,10 @@
 
 namespace octafield::volume::detail {
 
-// A block whose tets do not fit into one chart, as a way in it leads round.
+// A block whose tets do not fit into one chart, as ways in it lead round.
 struct Winding {
     Index block;
-    std::vector<int> axes;  // of the block's chart: planes of these cut the way
+    std::vector<int> axes;  // of the block's chart: planes of these cut the ways
 };
 
 struct CutBlocks {

@@ -39,19 +39,6 @@ int quarters(double angle) { return static_cast<int>(std::lround(angle / (std::n
 
 }  // namespace
 
-double distance_to_source(const CutTets& tets, Index number, const EdgeKey& edge) {
-    const WallTriangle& wall = tets.walls()[number];
-    const CutTet& tet = tets.tet(wall.tet);
-    return distance((place(tet, edge[0]) + place(tet, edge[1])) / 2, wall.source);
-}
-
-double distance_to_source(const CutTets& tets, Index number) {
-    const WallTriangle& wall = tets.walls()[number];
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Index v : tets.triangle(wall.tet, wall.face)) sum += place(tets.tet(wall.tet), v);
-    return distance(sum / 3, wall.source);
-}
-
 int quarters_around(const CutTets& tets, const EdgeRing& ring, const EdgeKey& edge) {
     double sum = 0;
     for (const Wedge& wedge : ring.wedges) sum += angle(tets.tet(wedge.tet), wedge, edge);
@@ -201,12 +188,14 @@ Index WallSpread::make(const Found& found, const EdgeKey& edge) {
 }
 
 void WallSpread::queue_new_edges() {
-    for (const auto& [wall, edge] : tets_.take_new_edges())
-        push(wall, edge);
+    for (const auto& [wall, edge] : tets_.take_new_edges()) push(wall, edge);
 }
 
 void WallSpread::push(Index wall, const EdgeKey& edge) {
-    queue_.push({distance_to_source(tets_, wall, edge), age_++, wall, edge});
+    const WallTriangle& at = tets_.walls()[wall];
+    const CutTet& tet = tets_.tet(at.tet);
+    const Eigen::Vector3d middle = (place(tet, edge[0]) + place(tet, edge[1])) / 2;
+    queue_.push({distance(middle, at.source), age_++, wall, edge});
 }
 
 void WallSpread::require_end() const {
@@ -286,7 +275,14 @@ bool WallSpread::start_at_corner(Index t, int corner, int axis) {
         const double height = tet.at[k][axis] - at[axis];
         (std::abs(height) <= tets_.tolerance() ? level : height > 0 ? above : below).push_back(k);
     }
-    if (level.size() >= 2 || above.empty() || below.empty()) return false;
+    if (level.size() == 2) {
+        const int face = (above.empty() ? below : above)[0];
+        if (tet.next[face] < 0 || tet.wall[face] >= 0) return false;
+        tets_.add_wall(t, face, axis, {at, at});
+        queue_new_edges();
+        return true;
+    }
+    if (above.empty() || below.empty()) return false;
     // The edge from the corner to a crossing, or to a level vertex; the wall goes on from there within the tet.
     const View view{t, tet.vertices[above[0]], axis, {at, at}, Eigen::Vector3d::Zero()};
     if (level.empty()) {

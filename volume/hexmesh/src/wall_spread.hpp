@@ -26,10 +26,6 @@ struct WallsAround {
 int quarters_around(const CutTets& tets, const EdgeRing& ring, const EdgeKey& edge);
 WallsAround walls_around(const CutTets& tets, const EdgeKey& edge, Index tet);
 
-// From the source of a wall to the middle of one of its triangles, or of an edge of it.
-double distance_to_source(const CutTets& tets, Index wall);
-double distance_to_source(const CutTets& tets, Index wall, const EdgeKey& edge);
-
 class WallSpread {
 public:
     WallSpread(CutTets& tets, Index most_tets, const Progress& progress)

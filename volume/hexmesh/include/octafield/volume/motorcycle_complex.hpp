@@ -11,11 +11,14 @@ namespace octafield::volume {
 // two (a box's edge has one), and from features that lie in a flat part of it, walls spread in planes of a constant
 // parameter, the nearest to their source first, and end at the boundary, at such edges, and at walls that they would
 // cross (the motorcycle complex; Brueckler, Gupta, Mandad, Campen 2022). Blocks that close in themselves are cut once
-// more. Then walls are taken away, the farthest first, as long as boxes remain. Tets keep the parameters of the tet
-// they are part of; features are split with their edges; vertices of the given mesh keep their numbers. Near linear in
-// the tets and the triangles of walls. The same result each run. Progress names the phase "walls". Throws what
-// block_complex throws, GeometryError ("unaligned_boundary": tets whose boundary triangle has no constant parameter),
-// SolverError ("endless_walls": walls that wind without an end).
+// more. Then walls are taken away, the smallest first, as long as boxes remain. Tets keep the parameters of the tet
+// they are part of, features are split with their edges, vertices of the given mesh keep their numbers; some inside
+// move with their parameters to walls that pass near them, so that no thin tets are cut. Coordinates that differ by
+// less than 1e-8 of a mean tet are the same. Near linear in the tets and the triangles of walls. The same result each
+// run. Progress names the phase "walls". Throws what seamless_report throws, GeometryError: kinds "flipped_tet",
+// "torn_map" (tets), "unaligned_boundary" (tets with a boundary triangle without a constant parameter), "not_a_box" (a
+// block that no plane cuts, an edge that parameters wind round), SolverError ("endless_walls": walls that wind without
+// an end).
 SeamlessMap motorcycle_complex(const SeamlessMap& map, const Progress& progress = {});
 
 }  // namespace octafield::volume
