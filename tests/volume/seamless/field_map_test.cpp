@@ -5,12 +5,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <random>
 
+#include "cylinder_field.hpp"
 #include "field_fixtures.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/octahedral_group.hpp"
@@ -19,6 +19,8 @@
 namespace octafield::volume {
 namespace {
 
+using testing::cylinder;
+using testing::four_curves;
 using testing::kuhn_grid;
 constexpr double pi = std::numbers::pi;
 
@@ -94,33 +96,6 @@ void expect_seamless(const SeamlessMap& map) {
         }
         EXPECT_TRUE(fits) << triangle[0] << " " << triangle[1] << " " << triangle[2];
     }
-}
-
-// Along z the square goes to the unit disk.
-TetMesh cylinder(int n, int layers) {
-    TetMesh mesh = kuhn_grid(n, n, layers, 2.0 / n, {-1, -1, 0});
-    for (Index v = 0; v < mesh.vertices.rows(); ++v) {
-        const double x = mesh.vertices(v, 0), y = mesh.vertices(v, 1);
-        mesh.vertices(v, 0) = x * std::sqrt(1 - y * y / 2);
-        mesh.vertices(v, 1) = y * std::sqrt(1 - x * x / 2);
-    }
-    return mesh;
-}
-
-// Four curves of index 1/4 along z; on the unit circle one axis is radial.
-Quaternions four_curves(const TetMesh& mesh) {
-    Quaternions result(mesh.vertices.rows(), 4);
-    for (Index v = 0; v < mesh.vertices.rows(); ++v) {
-        const std::complex<double> z(mesh.vertices(v, 0), mesh.vertices(v, 1));
-        std::complex<double> product = 1;
-        for (int k = 0; k < 4; ++k) {
-            const auto at = std::polar(0.61, pi / 4 + k * pi / 2 + 0.05);
-            product *= (z - at) * (1.0 - std::conj(at) * z);
-        }
-        const double angle = std::arg(product) / 4;
-        result.row(v) << std::cos(angle / 2), 0, 0, std::sin(angle / 2);
-    }
-    return result;
 }
 
 TEST(FieldMap, ACubeAlongItsAxesIsMappedByScaleAndTranslation) {
