@@ -16,8 +16,9 @@ namespace {
 
 using namespace detail;
 
-constexpr int bits = 40;        // of the parameters
-constexpr int most_rounds = 4;  // of splitting tets that stay flat
+constexpr int bits = 40;               // of the parameters
+constexpr int most_rounds = 4;         // of splitting tets that stay flat
+constexpr double most_crushed = 0.05;  // of the tets: where more are flat the whole map has no room
 
 double mean_edge(const TetMesh& mesh) {
     double sum = 0;
@@ -161,7 +162,11 @@ FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const Fie
     const double size = options.edge_length > 0 ? options.edge_length : mean_edge(domain.mesh());
     Attempt best = attempt(field, size, options.threads, progress), last = best;
     int steps = best.made.steps;
-    for (int round = 0; round < most_rounds && !last.crushed.empty(); ++round) {
+    const auto is_local = [](const Attempt& a) {
+        return !a.crushed.empty() &&
+               static_cast<double>(a.crushed.size()) < most_crushed * static_cast<double>(a.made.parent.size());
+    };
+    for (int round = 0; round < most_rounds && is_local(last); ++round) {
         field = split_round(field, last.crushed);
         last = attempt(field, size, options.threads, progress);
         steps += last.made.steps;

@@ -21,7 +21,7 @@ constexpr int most_halvings = 30;
 constexpr double slow = 0.02, settled = 1e-2;  // what a step takes off the energy
 constexpr double least_gain = 0.5;             // by which the softness falls, in part
 constexpr double crushed = 1e-3;               // of the target's volume
-constexpr double least_softness = 1e-7;        // below it folds are there to stay
+constexpr double least_softness = 1e-6;        // below it folds are there to stay
 
 Slopes slopes(const Matrix3& to_unit) {
     Slopes result;
