@@ -3,7 +3,7 @@
     python -m studies.hex_meshing -o DIR [--only s05c,scof] [--cells 500,2000,8000] [--walls own]
 
 The meshes are judged by studies.hex_dominant.checker, which knows arrays alone. DIR gets
-rows.jsonl, maps.md and when.md, and pictures of two meshes cut open.
+rows.jsonl, maps.md and when.md, with --walls own walls.md, and pictures of two meshes cut open.
 """
 
 import argparse
@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import octafield
 from octafield.hexmesh.hex_mesh import WALLS, compute_hex_mesh
+from octafield.hexmesh.hexex import read_seamless_map
 
 from .benchmarks.pages import when
 from .hex_dominant import checker
@@ -27,8 +28,12 @@ HEADER = (
 PICTURES = {("s12c_cube_rounded_1", 8000), ("hexalab_fandisk", 8000)}
 
 
+def name_of(path: Path) -> str:
+    return path.name.removesuffix(".hexex.gz")
+
+
 def run(path: Path, cells: int, walls: str, output: Path) -> dict:
-    name, begun = path.name.removesuffix(".hexex.gz"), time.process_time()
+    name, begun = name_of(path), time.process_time()
     row: dict = {"map": name, "wanted": cells}
     try:
         result = compute_hex_mesh(path, cells=cells, walls=walls)
@@ -75,6 +80,28 @@ def summary(rows: list[dict]) -> str:
     )
 
 
+WALLS_HEADER = ("map", "tets", "cut", "their blocks", "ours", "hexahedra", "SJ min", "volume error %", "CPU s")
+
+
+def walls_cells(path: Path, rows: list[dict]) -> list[str]:
+    """One row for all numbers of cells: walls of the file beside those of our own."""
+    given = read_seamless_map(path)
+    walled = octafield.volume.motorcycle_complex(given)
+    blocks = [str(len(octafield.volume.block_complex(map_).sizes)) for map_ in (given, walled)]
+    made = [row for row in rows if "error" not in row]
+    hexahedra = ", ".join("none" if "error" in row else f"{row['hexahedra']:,}" for row in rows)
+    return [
+        rows[0]["map"], f"{len(given.mesh.tets):,}", f"{len(walled.mesh.tets):,}", *blocks, hexahedra,
+        f"{min(row['hex_sj_min'] for row in made):.2f}", f"{100 * max(row['volume_error'] for row in made):.2f}",
+        f"{sum(row['cpu'] for row in rows):.1f}",
+    ]  # fmt: skip
+
+
+def walls_table(paths: list[Path], rows: list[dict]) -> str:
+    of_map = {path: [row for row in rows if row["map"] == name_of(path)] for path in paths}
+    return markdown_table(WALLS_HEADER, (walls_cells(path, found) for path, found in of_map.items()))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m studies.hex_meshing", description=__doc__)
     parser.add_argument("-o", "--output", type=Path, required=True)
@@ -93,6 +120,8 @@ def main() -> None:
                 file.write(json.dumps(rows[-1]) + "\n")
                 print(" | ".join(cells_of(rows[-1])), flush=True)
     (a.output / "maps.md").write_text(summary(rows) + "\n" + markdown_table(HEADER, map(cells_of, rows)))
+    if a.walls == "own":
+        (a.output / "walls.md").write_text(walls_table(paths, rows))
     (a.output / "when.md").write_text(when())
     print(summary(rows))
 

@@ -39,9 +39,74 @@ def test_maps_of_others_become_sound_meshes_of_hexahedra_alone(shared_data, name
     assert result.record.hexahedra == pytest.approx(700, rel=0.2)
 
 
+WALLED = ("s02c_prism", "s10c_cyl_cutsphere", "n12c_limit_cycle_genus0", "hexalab_fandisk")
+
+
+@pytest.mark.parametrize("name", WALLED)
+def test_walls_of_our_own_bound_fewer_blocks_than_those_of_the_file(shared_data, name):
+    given = read_seamless_map(map_file(shared_data, name))
+    walled = of.volume.motorcycle_complex(given)
+    report = of.volume.seamless_report(walled)
+    assert not len(report.flipped) and not len(report.torn)
+    assert report.volume == pytest.approx(of.volume.seamless_report(given).volume, rel=1e-9)
+    blocks, theirs = of.volume.block_complex(walled), of.volume.block_complex(given)
+    assert len(blocks.sizes) < len(theirs.sizes)
+    assert np.prod(np.asarray(blocks.sizes), axis=1).sum() == pytest.approx(report.volume)
+
+
+def test_maps_without_walls_get_their_own(shared_data):
+    given = read_seamless_map(map_file(shared_data, "s02c_prism"))
+    bare = of.volume.SeamlessMap(
+        given.mesh, given.parameters, np.zeros((0, 3), np.int32), given.features, given.corners
+    )
+    result = of.compute_hex_mesh(bare, cells=300)
+    require_conforming(result.mesh)
+    assert result.record.walls == "own" and set(result.record.irregular_edges) == {"3"}
+    anew = of.compute_hex_mesh(given, cells=300, walls="own")
+    assert np.array_equal(anew.mesh.vertices, result.mesh.vertices)
+    assert of.compute_hex_mesh(given, cells=300).record.walls == "file"
+    with pytest.raises(of.InvalidInput, match="walls"):
+        of.compute_hex_mesh(given, walls="none")
+
+
+def moved_inside(given, seed):
+    """Parameters of vertices moved whose tets all have the same charts, so that no wall goes along triangles."""
+    rng = np.random.default_rng(seed)
+    tets, parameters = np.asarray(given.mesh.tets), np.array(given.parameters).reshape(-1, 4, 3)
+    places: dict[int, set] = {}
+    for tet, at in zip(tets.tolist(), np.round(parameters, 9).tolist(), strict=True):
+        for vertex, place in zip(tet, at, strict=True):
+            places.setdefault(vertex, set()).add(tuple(place))
+    outside = set(np.asarray(of.volume.boundary_surface(given.mesh).vertex_map).tolist())
+    one_place = np.array([len(places[v]) == 1 for v in range(len(given.mesh.vertices))])
+    for vertex in sorted(set(places) - outside):
+        here = tets == vertex
+        star, before = here.any(axis=1), parameters.copy()
+        if not one_place[tets[star]].all():
+            continue
+        parameters[here] += rng.normal(size=3) * 0.05 * np.ptp(parameters[star], axis=(0, 1))
+        old, new = (np.linalg.det(p[star, 1:] - p[star, :1]) for p in (before, parameters))
+        if (new < 0.3 * old).any():
+            parameters = before
+    return of.volume.SeamlessMap(given.mesh, parameters.reshape(-1, 12), features=given.features)
+
+
+@pytest.mark.parametrize("name", ["s02c_prism", "scof_fanpart"])
+def test_walls_cut_tets_that_lie_in_their_way(shared_data, name):
+    given = moved_inside(read_seamless_map(map_file(shared_data, name)), 1)
+    walled = of.volume.motorcycle_complex(given)
+    report = of.volume.seamless_report(walled)
+    assert not len(report.flipped) and not len(report.torn)
+    sizes = np.asarray(of.volume.block_complex(walled).sizes)
+    assert np.prod(sizes, axis=1).sum() == pytest.approx(report.volume)
+    moved = not np.array_equal(walled.mesh.vertices, given.mesh.vertices)
+    assert moved or len(walled.mesh.tets) > len(given.mesh.tets)
+    require_conforming(of.volume.all_hex(walled, cells=500).mesh)
+
+
 def test_every_phase_has_its_seconds_and_memory():
     record = of.compute_hex_mesh(box_map(), cells=64).record
-    phases = ["read", "blocks", "numbers", "hexahedra", "improve", "check"]
+    phases = ["read", "walls", "blocks", "numbers", "hexahedra", "improve", "check"]
     assert list(record.wall_seconds) == list(record.cpu_seconds) == list(record.phase_peak_mb) == phases
     assert record.peak_mb == max(record.phase_peak_mb.values()) and record.seconds >= record.wall_seconds["improve"]
 
@@ -123,11 +188,12 @@ def test_maps_that_have_no_blocks_are_refused_by_kind(shared_data):
     }.items():
         changed = parameters.copy()
         change(changed)
-        with pytest.raises(of.GeometryError) as error:
-            of.compute_hex_mesh(of.volume.SeamlessMap(given.mesh, changed, given.walls))
-        assert error.value.kind == kind and 7 in error.value.elements
+        for walls in ("file", "own"):
+            with pytest.raises(of.GeometryError) as error:
+                of.compute_hex_mesh(of.volume.SeamlessMap(given.mesh, changed, given.walls), walls=walls)
+            assert error.value.kind == kind and 7 in error.value.elements
     with pytest.raises(of.GeometryError) as error:
-        of.compute_hex_mesh(of.volume.SeamlessMap(given.mesh, parameters))
+        of.volume.block_complex(of.volume.SeamlessMap(given.mesh, parameters))
     assert error.value.kind in ("not_a_box", "bent_wall")
 
 

@@ -95,6 +95,7 @@ void cut_windings(const CutTets& tets, const CutBlocks& blocks, WallSpread& spre
 }  // namespace
 
 SeamlessMap motorcycle_complex(const SeamlessMap& map, const Progress& progress) {
+    report_or_throw(progress, "walls", 0, std::nan(""));
     require_seamless(map);
     CutTets tets(map);
     require_aligned(tets);
