@@ -86,7 +86,7 @@ def test_other_fields_and_options_are_refused(tmp_path):
     tets = of.prepare_mesh(box).volume()
     with pytest.raises(of.InvalidInput):
         of.volume.field_map(tets, np.full((len(tets.vertices), 4), np.nan))
-    halves = of.TetDomain(tets, regions=np.arange(len(tets.tets)) % 2)
+    halves = of.TetDomain(tets.mesh, regions=np.arange(len(tets.tets)) % 2)
     with pytest.raises(of.InvalidInput, match="region"):
         of.volume.field_map(halves, np.eye(1, 4).repeat(len(tets.vertices), axis=0))
     write_seamless_map(tmp_path / "box.hexex", of.compute_seamless_map(box).map)
