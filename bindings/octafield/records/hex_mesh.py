@@ -61,9 +61,7 @@ class SeamlessMapRecord(MeasuredRecord):
     stopped_by: str | None = Field(
         description="locked_tet, flipped_tet, or the kind of the error after the map; none: hexahedra were made"
     )
-    stopped_at: list[list[float]] = Field(
-        description="where: middles of such tets, input unit, the first 100"
-    )
+    stopped_at: list[list[float]] = Field(description="where: middles of such tets, input unit, the first 100")
     singular_edges: int = Field(description="of the map's tets")
     unknowns: int = Field(description="numbers that were free")
     locked: int = Field(description="tets that are flat in every map with these singular curves and this surface")
