@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,6 +12,9 @@ from . import console, tables
 from .console import carry_out
 from .options import InputFile, Json, Output, Quiet, Verbose, with_options
 from .shell_completion import words
+
+if TYPE_CHECKING:
+    from ..records.hex_mesh import HexMeshRecord, SeamlessMapRecord
 
 _DEFAULTS = HexMeshOptions()
 WALLS = ("file", "own")
@@ -124,9 +127,9 @@ def hex_mesh(
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Hexahedra alone, from a seamless map: INPUT, a .hexex file, or that of a frame field on INPUT. DIR gets
-    mesh.vtu, mesh.msh, mesh.mesh, result.json; of a field seamless.hexex and seamless.json, too, and where the map
-    does not become hexahedra these alone, with result.json that says what stops it."""
+    """Hexahedra alone, from a mesh or a seamless map. Of a mesh by a frame field and its map, of a .hexex file by the
+    map in it. DIR gets mesh.vtu, mesh.msh, mesh.mesh, result.json; of a field seamless.hexex and seamless.json, too,
+    and where the map does not become hexahedra these alone, with result.json that says what stops it."""
 
     def work() -> None:
         from dataclasses import replace
@@ -144,16 +147,17 @@ def hex_mesh(
         if given and chosen != FieldOptions(threads=chosen.threads):
             raise InvalidInput("a map has its field; leave the options of fields out", "option_out_of_range")
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
+            told: HexMeshRecord | SeamlessMapRecord
             if given:
                 result = compute_hex_mesh(
                     input, progress, cells=cells, edge_length=edge_length, walls=walls, threads=chosen.threads
                 )
                 write_hex_mesh_result(result, folder, progress)
-                record = result.record
+                told = result.record
             else:
-                record = hex_mesh_of_field(
+                told = hex_mesh_of_field(
                     input, chosen, folder, progress, cells=cells, edge_length=edge_length, walls=walls
                 )
-        console.finish(record, tables.show_hex_mesh_record, json, quiet, output)
+        console.finish(told, tables.show_hex_mesh_record, json, quiet, output)
 
     carry_out(work, quiet, verbose, json, output)

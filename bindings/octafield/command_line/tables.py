@@ -89,7 +89,9 @@ def show_hex_record(record: HexDominantRecord) -> None:
 
 
 def show_hex_mesh_record(record: HexMeshRecord | SeamlessMapRecord) -> None:
-    if hasattr(record, "flipped_at_first"):
+    from ..records.hex_mesh import SeamlessMapRecord
+
+    if isinstance(record, SeamlessMapRecord):
         _show_map_record(record)
         return
     irregular = ", ".join(f"{number:,} of valence {valence}" for valence, number in record.irregular_edges.items())

@@ -74,8 +74,8 @@ class SeamlessMapRecord(MeasuredRecord):
         " leaves"
     )
     angle_deg: float = Field(description="the same in the end")
-    non_meshable_vertices: int = Field(description="of the field before curves were shortened")
-    non_meshable_junctions: int = Field(description="those where curves meet")
+    non_meshable_vertices: int | None = Field(description="of the field before curves were shortened")
+    non_meshable_junctions: int | None = Field(description="those where curves meet")
     seconds: float = Field(description="by the clock, of all phases")
     phase_peak_mb: dict[str, float] = Field(
         description="largest resident memory in each phase of the mapping, 1e6 bytes, libraries included"
