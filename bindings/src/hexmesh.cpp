@@ -157,7 +157,7 @@ void bind_hexmesh(py::module_& m) {
         "map"_a, py::kw_only(), "progress"_a = py::none(),
         "The SeamlessMap on tets that are cut along walls of its own, so that block_complex finds boxes; walls of the "
         "given one are not used. Raises InvalidInput, GeometryError (kinds flipped_tet, torn_map, unaligned_boundary, "
-        "not_a_box), SolverError (endless_walls), Cancelled.");
+        "winding_edge, not_a_box), SolverError (endless_walls), Cancelled.");
     m.def(
         "block_complex",
         [](const SeamlessMap& map) {

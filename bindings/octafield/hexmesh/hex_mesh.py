@@ -89,7 +89,8 @@ def compute_hex_mesh(
     walls: "file": the map's, or where it has none, own ones (octafield.volume.motorcycle_complex); "own": these always.
 
     progress(phase, fraction, merit): False cancels. Raises IoError; InvalidInput; GeometryError whose kind says what
-    stops the map: flipped_tet, torn_map, unaligned_boundary, bent_wall, not_a_box; SolverError; Cancelled.
+    stops the map: flipped_tet, torn_map, unaligned_boundary, winding_edge, bent_wall, not_a_box; SolverError;
+    Cancelled.
 
         >>> import numpy as np, octafield
         >>> from octafield.domain.generators import generate

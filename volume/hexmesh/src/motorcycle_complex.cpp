@@ -15,9 +15,15 @@ using namespace detail;
 
 constexpr Index growth = 40, least_room = 200000;  // how many tets walls may make of those that are given
 
+// Whether two parameters are the same all along an edge of a tet.
+bool along_an_axis(const CutTets& tets, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    return ((to - from).array().abs() <= tets.tolerance()).count() >= 2;
+}
+
 // Edges where blocks meet in other ways than inside a box or on its sides.
 void find_irregular(CutTets& tets) {
     std::set<EdgeKey> known;
+    std::vector<Index> winding;
     for (Index t = 0; t < tets.tet_count(); ++t)
         for (int a = 0; a < 4; ++a)
             for (int b = a + 1; b < 4; ++b) {
@@ -26,8 +32,15 @@ void find_irregular(CutTets& tets) {
                 const EdgeRing ring = tets.ring(edge, t);
                 const int quarters = quarters_around(tets, ring, edge);
                 const bool flat_feature = !ring.closed && quarters == 2 && tets.features().count(edge);
-                if (ring.closed ? quarters != 4 : quarters > 2 || flat_feature) tets.irregular.insert(edge);
+                if (ring.closed ? quarters == 4 : quarters <= 2 && !flat_feature) continue;
+                tets.irregular.insert(edge);
+                if (!flat_feature && !along_an_axis(tets, tets.tet(t).at[a], tets.tet(t).at[b]))
+                    winding.insert(winding.end(), {edge[0], edge[1]});
             }
+    if (!winding.empty())
+        throw GeometryError("parameters wind round edges at vertices " + first_few(winding) +
+                                " that lie along no axis; blocks need a map whose singular edges do",
+                            "winding_edge", winding);
 }
 
 void require_aligned(const CutTets& tets) {

@@ -101,7 +101,7 @@ WallSpread::Found WallSpread::look(View view, const EdgeKey& edge) const {
     }
     throw GeometryError(
         "parameters wind round the edge of vertices " + std::to_string(edge[0]) + " and " + std::to_string(edge[1]),
-        "not_a_box", {edge[0], edge[1]});
+        "winding_edge", {edge[0], edge[1]});
 }
 
 std::optional<WallSpread::Found> WallSpread::next(Index number, const EdgeKey& edge) const {

@@ -16,9 +16,9 @@ namespace octafield::volume {
 // move with their parameters to walls that pass near them, so that no thin tets are cut. Coordinates that differ by
 // less than 1e-8 of a mean tet are the same. Near linear in the tets and the triangles of walls. The same result each
 // run. Progress names the phase "walls". Throws what seamless_report throws, GeometryError: kinds "flipped_tet",
-// "torn_map" (tets), "unaligned_boundary" (tets with a boundary triangle without a constant parameter), "not_a_box" (a
-// block that no plane cuts, an edge that parameters wind round), SolverError ("endless_walls": walls that wind without
-// an end).
+// "torn_map" (tets), "unaligned_boundary" (tets with a boundary triangle without a constant parameter), "winding_edge"
+// (vertices of edges with a wrong number of quarter turns that lie along no axis), "not_a_box" (blocks that no plane
+// cuts), SolverError ("endless_walls": walls that wind without an end).
 SeamlessMap motorcycle_complex(const SeamlessMap& map, const Progress& progress = {});
 
 }  // namespace octafield::volume
