@@ -43,6 +43,7 @@ from .frame_files import FrameFile, FrameFormat, frame_formats, read_frames, wri
 from .hexdom.hex_mesh import HexDominantResult, compute_hex_dominant
 from .hexdom.options import HexMeshOptions
 from .hexmesh.hex_mesh import HexMeshResult, compute_hex_mesh
+from .hexmesh.seamless import SeamlessMapResult, compute_seamless_map
 from .layout.options import QuadLayoutOptions
 from .layout.quad_layout import QuadLayoutResult, compute_quad_layout
 from .meshes.mesh_format import MeshFormat
@@ -94,6 +95,7 @@ __all__ = [
     "QuadMeshResult",
     "RemeshedSurface",
     "RemeshingOptions",
+    "SeamlessMapResult",
     "SingularGraph",
     "SolverError",
     "SurfaceFieldOptions",
@@ -112,6 +114,7 @@ __all__ = [
     "compute_quad_layout",
     "compute_quad_mesh",
     "compute_remesh",
+    "compute_seamless_map",
     "compute_surface_field",
     "convert_file",
     "corner_coordinates",

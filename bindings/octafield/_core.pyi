@@ -3755,6 +3755,45 @@ class SeamlessReport:
     @torn.setter
     def torn(self, value: ArrayLike) -> None: ...
 
+class FieldMap:
+    map: SeamlessMap
+    added_vertices: int
+    unknowns: int
+    flipped_at_first: int
+    steps: int
+    angle_at_first: float
+    angle: float
+    def __init__(
+        self,
+        map: SeamlessMap = ...,
+        parent: ArrayLike = ...,
+        curves: ArrayLike = ...,
+        added_vertices: int = ...,
+        unknowns: int = ...,
+        locked: ArrayLike = ...,
+        flipped: ArrayLike = ...,
+        flipped_at_first: int = ...,
+        steps: int = ...,
+        angle_at_first: float = ...,
+        angle: float = ...,
+    ) -> None: ...
+    @property
+    def parent(self) -> Int32s: ...
+    @parent.setter
+    def parent(self, value: ArrayLike) -> None: ...
+    @property
+    def curves(self) -> Int32s: ...
+    @curves.setter
+    def curves(self, value: ArrayLike) -> None: ...
+    @property
+    def locked(self) -> Int32s: ...
+    @locked.setter
+    def locked(self, value: ArrayLike) -> None: ...
+    @property
+    def flipped(self) -> Int32s: ...
+    @flipped.setter
+    def flipped(self, value: ArrayLike) -> None: ...
+
 class BlockArc:
     feature: bool
     boundary: bool
@@ -4047,6 +4086,14 @@ def hex_dominant(
     threads: int = ...,
     progress: Progress | None = None,
 ) -> HexDominantMesh: ...
+def field_map(
+    domain: TetDomain | TetMesh,
+    frames: ArrayLike,
+    *,
+    progress: Progress | None = None,
+    edge_length: float = 0.0,
+    threads: int = 0,
+) -> FieldMap: ...
 def seamless_report(map: SeamlessMap) -> SeamlessReport: ...
 def map_domain(map: SeamlessMap) -> TetDomain: ...
 def motorcycle_complex(map: SeamlessMap, *, progress: Progress | None = None) -> SeamlessMap: ...

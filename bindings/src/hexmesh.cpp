@@ -1,5 +1,6 @@
 // All-hex meshes from seamless maps, in one call or in parts.
 #include "bind.hpp"
+#include "field_map.hpp"
 #include "interruptible.hpp"
 #include "octafield/volume/all_hex.hpp"
 #include "octafield/volume/motorcycle_complex.hpp"
@@ -134,6 +135,7 @@ void bind_hexmesh(py::module_& m) {
     bind_map_types(m);
     bind_block_types(m);
     bind_result_types(m);
+    bind_field_map(m);
     m.def(
         "seamless_report",
         [](const SeamlessMap& map) { return run_interruptible([map = map](Job&) { return seamless_report(map); }); },

@@ -18,6 +18,7 @@ KINDS = (
     surface_field.SurfaceFieldRecord,
     hex_dominant.HexDominantRecord,
     hex_mesh.HexMeshRecord,
+    hex_mesh.SeamlessMapRecord,
     quad_layout.QuadLayoutRecord,
     quad_mesh.QuadMeshRecord,
     atlas.AtlasRecord,

@@ -142,7 +142,8 @@ def hex_objects(tets):
     return [
         given, of.volume.seamless_report(given), blocks, numbers, of.volume.all_hex(given, cells=8),
         of.volume.block_hexahedra(given, blocks, numbers.numbers), of.volume.AllHexOptions(cells=8),
-        of.compute_hex_mesh(given, cells=8),
+        of.compute_hex_mesh(given, cells=8), of.compute_seamless_map(tets),
+        of.volume.field_map(tets, np.eye(1, 4).repeat(len(tets.vertices), axis=0)),
     ]  # fmt: skip
 
 

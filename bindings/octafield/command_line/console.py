@@ -24,12 +24,20 @@ from ..progress.phases import Progress as Callback
 if TYPE_CHECKING:
     from ..records.field import InputRecord
     from ..records.hex_dominant import HexDominantRecord
-    from ..records.hex_mesh import HexMeshRecord
+    from ..records.hex_mesh import HexMeshRecord, SeamlessMapRecord
     from ..records.quad_layout import QuadLayoutRecord
     from ..records.quad_mesh import QuadMeshRecord
     from ..records.remesh import RemeshRecord
 
-    Told = InputRecord | HexDominantRecord | HexMeshRecord | QuadLayoutRecord | QuadMeshRecord | RemeshRecord
+    Told = (
+        InputRecord
+        | HexDominantRecord
+        | HexMeshRecord
+        | SeamlessMapRecord
+        | QuadLayoutRecord
+        | QuadMeshRecord
+        | RemeshRecord
+    )
 
 OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 # kinds of SolverError that another option or another mesh avoids

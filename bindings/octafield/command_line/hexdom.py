@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,6 +12,9 @@ from . import console, tables
 from .console import carry_out
 from .options import InputFile, Json, Output, Quiet, Verbose, with_options
 from .shell_completion import words
+
+if TYPE_CHECKING:
+    from ..records.hex_mesh import HexMeshRecord, SeamlessMapRecord
 
 _DEFAULTS = HexMeshOptions()
 WALLS = ("file", "own")
@@ -96,6 +99,7 @@ def hex_dominant(
     carry_out(work, quiet, verbose, json, output)
 
 
+@with_options(FieldOptions, without=_WITHOUT)
 def hex_mesh(
     input: InputFile,
     output: Output,
@@ -112,25 +116,48 @@ def hex_mesh(
             help="That cut the map into blocks: the file's, or own ones where it has none; or own ones always.",
         ),
     ] = WALLS[0],
-    threads: Annotated[int, typer.Option(metavar="N", help="0: all. The result does not depend on it.")] = 0,
+    tet_length: Annotated[
+        float,
+        typer.Option(
+            metavar="LENGTH", help="Edge of the tets that the field is computed on, where INPUT has none; 0: what fits."
+        ),
+    ] = 0.0,
+    options: Callable[[], FieldOptions] = FieldOptions,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
-    """Hexahedra alone, from a seamless map. INPUT is a .hexex file; DIR gets mesh.vtu, mesh.msh, mesh.mesh,
-    result.json."""
+    """Hexahedra alone, from a mesh or a seamless map. Of a mesh by a frame field and its map, of a .hexex file by the
+    map in it. DIR gets mesh.vtu, mesh.msh, mesh.mesh, result.json; of a field seamless.hexex and seamless.json, too,
+    and where the map does not become hexahedra these alone, with result.json that says what stops it."""
 
     def work() -> None:
+        from dataclasses import replace
+
+        from ..errors import InvalidInput
         from ..files.writing import staged_folder
         from ..hexmesh.files import write_hex_mesh_result
         from ..hexmesh.hex_mesh import compute_hex_mesh
+        from ..hexmesh.hexex import is_seamless_map
+        from ..hexmesh.stages import hex_mesh_of_field
         from ..records.record_file import RECORD_FILE
 
+        chosen = replace(options(), edge_length=tet_length)
+        given = is_seamless_map(input)
+        if given and chosen != FieldOptions(threads=chosen.threads):
+            raise InvalidInput("a map has its field; leave the options of fields out", "option_out_of_range")
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
-            result = compute_hex_mesh(
-                input, progress, cells=cells, edge_length=edge_length, walls=walls, threads=threads
-            )
-            write_hex_mesh_result(result, folder, progress)
-        console.finish(result.record, tables.show_hex_mesh_record, json, quiet, output)
+            told: HexMeshRecord | SeamlessMapRecord
+            if given:
+                result = compute_hex_mesh(
+                    input, progress, cells=cells, edge_length=edge_length, walls=walls, threads=chosen.threads
+                )
+                write_hex_mesh_result(result, folder, progress)
+                told = result.record
+            else:
+                told = hex_mesh_of_field(
+                    input, chosen, folder, progress, cells=cells, edge_length=edge_length, walls=walls
+                )
+        console.finish(told, tables.show_hex_mesh_record, json, quiet, output)
 
     carry_out(work, quiet, verbose, json, output)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..records.base import Record
     from ..records.field import FieldRecord
     from ..records.hex_dominant import HexDominantRecord
-    from ..records.hex_mesh import HexMeshRecord
+    from ..records.hex_mesh import HexMeshRecord, SeamlessMapRecord
     from ..records.parts import AxesFigures
     from ..records.quad_layout import QuadLayoutRecord
     from ..records.quad_mesh import QuadMeshRecord
@@ -88,7 +88,12 @@ def show_hex_record(record: HexDominantRecord) -> None:
     _facts(record.input, facts)
 
 
-def show_hex_mesh_record(record: HexMeshRecord) -> None:
+def show_hex_mesh_record(record: HexMeshRecord | SeamlessMapRecord) -> None:
+    from ..records.hex_mesh import SeamlessMapRecord
+
+    if isinstance(record, SeamlessMapRecord):
+        _show_map_record(record)
+        return
     irregular = ", ".join(f"{number:,} of valence {valence}" for valence, number in record.irregular_edges.items())
     facts = [
         ("blocks", f"{record.blocks:,}"),
@@ -103,6 +108,21 @@ def show_hex_mesh_record(record: HexMeshRecord) -> None:
         ("boundary deviation", _several(record.boundary_deviation, (".2e",) * 2)),
         ("off features", _several(record.feature_deviation, (".2e",) * 2)),
         ("edge length", _several(record.edge_length, (".4g",) * 4)),
+        ("seconds", f"{record.seconds:.1f}"),
+    ]
+    _facts(record.input, facts)
+
+
+def _show_map_record(record: SeamlessMapRecord) -> None:
+    facts = [
+        ("reached", record.stage),
+        ("stopped by", record.stopped_by or "nothing"),
+        ("tets", f"{record.tets:,}"),
+        ("singular edges", f"{record.singular_edges:,}"),
+        ("locked tets", f"{record.locked:,}"),
+        ("flipped at first", f"{record.flipped_at_first:,}"),
+        ("flipped", f"{record.flipped:,}"),
+        ("axes to gradients, degrees", f"{record.angle_deg:.3g}"),
         ("seconds", f"{record.seconds:.1f}"),
     ]
     _facts(record.input, facts)

@@ -118,8 +118,8 @@ def _map_of(source: object) -> tuple[SeamlessMap, str]:
     if is_seamless_map(source):
         return read_seamless_map(source), str(source)  # type: ignore[arg-type]
     raise InvalidInput(
-        f"{source}: hex meshes are made from seamless maps (.hexex); of surfaces, CAD models and tet meshes"
-        " octafield hex-dominant makes meshes that are mostly hexahedra",
+        f"{source}: hex meshes are made from seamless maps (.hexex); octafield.compute_seamless_map and octafield"
+        " hex-mesh make these of tet meshes and surfaces",
         "not_a_map",
     )
 

@@ -44,3 +44,42 @@ class HexMeshRecord(MeasuredRecord):
     )
     options: dict[str, Any] = Field(description="`compute_hex_mesh(map, **record.options)` makes it again")
     files: list[str] | None = Field(default=None, description="names of what was written, within the folder")
+
+
+class SeamlessMapRecord(MeasuredRecord):
+    """`SeamlessMapResult.record`, seamless.json of `octafield hex-mesh`, and its result.json where it ends without
+    hexahedra."""
+
+    mesh_sha256: str = Field(description="of the arrays of the tets that the field is on, first 16 hexadecimal digits")
+    tets: int = Field(description="that the map is on")
+    field_tets: int = Field(description="that the field is on")
+    added_vertices: int = Field(description="of the map's tets")
+    stage: str = Field(
+        description="reached: field, meshable (no tet is flat in every map), seamless (a map, with folds) or injective"
+        " (without)"
+    )
+    stopped_by: str | None = Field(
+        description="locked_tet, flipped_tet, or the kind of the error after the map; none: hexahedra were made"
+    )
+    stopped_at: list[list[float]] = Field(description="where: middles of such tets, input unit, the first 100")
+    singular_edges: int = Field(description="of the map's tets")
+    unknowns: int = Field(description="numbers that were free")
+    locked: int = Field(description="tets that are flat in every map with these singular curves and this surface")
+    flipped_at_first: int = Field(description="tets turned over or flat in the map of least squares")
+    flipped: int = Field(description="in the end")
+    steps: int = Field(description="of Newton's method between the two")
+    residual: float = Field(description="largest distance of a corner from where a transition takes it, parameters")
+    angle_at_first_deg: float = Field(
+        description="between axes and gradients of least squares, mean over axes, by volume: what the curl of the field"
+        " leaves"
+    )
+    angle_deg: float = Field(description="the same in the end")
+    non_meshable_vertices: int | None = Field(description="of the field before curves were shortened")
+    non_meshable_junctions: int | None = Field(description="those where curves meet")
+    seconds: float = Field(description="by the clock, of all phases")
+    phase_peak_mb: dict[str, float] = Field(
+        description="largest resident memory in each phase of the mapping, 1e6 bytes, libraries included"
+    )
+    options: dict[str, Any] = Field(description="of the map")
+    field_options: dict[str, Any] = Field(description="of the field")
+    files: list[str] | None = Field(default=None, description="names of what was written, within the folder")

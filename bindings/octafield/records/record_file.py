@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .base import Record
     from .field import FieldRecord, RunWithField, RunWithoutField
     from .hex_dominant import HexDominantRecord
-    from .hex_mesh import HexMeshRecord
+    from .hex_mesh import HexMeshRecord, SeamlessMapRecord
     from .quad_layout import QuadLayoutRecord
     from .quad_mesh import QuadMeshRecord
     from .remesh import RemeshRecord
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         | SurfaceFieldRecord
         | HexDominantRecord
         | HexMeshRecord
+        | SeamlessMapRecord
         | QuadLayoutRecord
         | QuadMeshRecord
         | AtlasRecord
@@ -48,6 +49,7 @@ _WHAT = {
     "RemeshRecord": "a remeshed surface",
     "RunWithField": "a frame field",
     "RunWithoutField": "a run of a study that ended without a field",
+    "SeamlessMapRecord": "a seamless map",
     "SurfaceFieldRecord": "a surface field",
 }
 _REMEDY = "write it again with the command that made it, or give the result.json of another run"
@@ -138,6 +140,8 @@ def _kind(content: dict[str, Any]) -> type[AnyRecord]:
         return quad_mesh.QuadMeshRecord
     if "blocks" in content and "arcs" in content:
         return hex_mesh.HexMeshRecord
+    if "flipped_at_first" in content:
+        return hex_mesh.SeamlessMapRecord
     if "off_surface" in content:
         return remesh.RemeshRecord
     if "symmetry" in content:

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "edge_loops.hpp"
+#include "matched_combing.hpp"
 #include "octafield/frames/octahedral_group.hpp"
 #include "require_frames.hpp"
 
@@ -127,10 +128,14 @@ FaceMatchings face_matchings(const TetDomain& domain, const Quaternions& of_tets
 }
 
 CombedField comb(const TetDomain& domain, const Quaternions& of_tets, int threads) {
+    require_frames(of_tets, domain.mesh().tets.rows());
+    return comb_matched(domain, of_tets, triangle_matchings(domain.triangles(), of_tets, threads), threads);
+}
+
+CombedField comb_matched(const TetDomain& domain, const Quaternions& of_tets, std::vector<std::uint8_t> matching,
+                         int threads) {
     const TetMesh& mesh = domain.mesh();
-    require_frames(of_tets, mesh.tets.rows());
     const TriangleTable& table = domain.triangles();
-    std::vector<std::uint8_t> matching = triangle_matchings(table, of_tets, threads);
     SpanningTree tree = spanning_tree(table, matching, of_tets);
     std::vector<std::uint8_t> cut(matching.size(), 0);
     for (std::size_t t = 0; t < cut.size(); ++t) cut[t] = table.sides(t, 1) >= 0 && !tree.in_tree[t];

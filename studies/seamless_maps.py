@@ -1,0 +1,138 @@
+"""How far octafield hex-mesh gets from the meshes of HexMe (Beaufort et al. 2022): fields, seamless maps, hexahedra.
+
+    python -m studies.seamless_maps -o DIR [--only s01,s17c] [--cells 2000]
+
+The map is judged here, by determinants and by edges over triangles, not by what made it; the hexahedra by
+studies.hex_dominant.checker. DIR gets rows.jsonl, stages.md and when.md.
+"""
+
+import argparse
+import json
+import time
+from pathlib import Path
+
+import numpy as np
+import octafield
+from octafield.hexmesh.hex_mesh import compute_hex_mesh
+from octafield.hexmesh.seamless import compute_seamless_map
+
+from .benchmarks.pages import when
+from .hex_dominant import checker
+from .study_output import markdown_table
+
+DATA = Path(__file__).resolve().parents[2] / "shared" / "data" / "hexme"
+FIRST = ("s01", "s02", "s12", "s13", "s14", "s15", "s16", "s17", "s05", "s08", "s11")
+HEADER = (
+    "file", "tets", "non-meshable", "map's tets", "angle °", "flipped at first", "flipped", "steps", "stage",
+    "stopped by", "hexahedra", "SJ min", "volume error %", "irregular edges", "CPU s",
+)  # fmt: skip
+
+
+def order(path: Path) -> tuple:
+    name = path.name
+    found = [i for i, beginning in enumerate(FIRST) if name.startswith(beginning)]
+    return (found[0] if found else len(FIRST), path.stat().st_size if not found else 0, name)
+
+
+def judged(given: octafield.volume.SeamlessMap) -> tuple[int, float]:
+    """Tets that are not mapped with their sense; the largest difference of an edge's length, in parameters, between
+    two tets: rotations and translations keep it."""
+    tets = np.asarray(given.mesh.tets)
+    at = np.asarray(given.parameters).reshape(-1, 4, 3)
+    flipped = int((np.linalg.det(at[:, 1:] - at[:, :1]) <= 0).sum())
+    lengths: dict[tuple[int, int], tuple[float, float]] = {}
+    for a in range(4):
+        for b in range(a):
+            found = np.linalg.norm(at[:, a] - at[:, b], axis=1)
+            for edge, length in zip(np.sort(tets[:, [a, b]], axis=1).tolist(), found.tolist(), strict=True):
+                low, high = lengths.get((edge[0], edge[1]), (length, length))
+                lengths[edge[0], edge[1]] = (min(low, length), max(high, length))
+    return flipped, max(high - low for low, high in lengths.values())
+
+
+def run(path: Path, cells: int) -> dict:
+    name, begun = path.name.removesuffix(".vtk.gz"), time.process_time()
+    row: dict = {"file": name}
+    try:
+        result = compute_seamless_map(path)
+    except octafield.Error as error:
+        return {**row, "stage": "none", "stopped_by": error.kind, "cpu": time.process_time() - begun}
+    record = result.record
+    flipped, torn = judged(result.map)
+    if (flipped == 0) != (record.stage == "injective") and record.stage != "field" or torn > 1e-6:
+        raise AssertionError(f"{name}: {flipped} flipped, edges differ by {torn}; the record says {record.stage}")
+    row |= {
+        "tets": record.field_tets, "non_meshable": record.non_meshable_junctions, "map_tets": record.tets,
+        "angle": record.angle_deg, "first": record.flipped_at_first, "flipped": flipped, "steps": record.steps,
+        "stage": record.stage, "stopped_by": record.stopped_by, "at": record.stopped_at,
+    }  # fmt: skip
+    if record.stage == "injective":
+        row |= hexahedra(result, cells)
+    row["cpu"] = time.process_time() - begun
+    return row
+
+
+def hexahedra(result: octafield.SeamlessMapResult, cells: int) -> dict:
+    try:
+        made = compute_hex_mesh(result.map, cells=cells)
+    except octafield.Error as error:
+        return {"stopped_by": error.kind, "message": str(error)}
+    given = result.map.mesh
+    edges = np.asarray(result.map.features)
+    figures = checker.check(
+        np.asarray(made.mesh.vertices), {"hexahedra": np.asarray(made.mesh.hexahedra)}, np.asarray(given.vertices),
+        np.asarray(given.tets), made.record.edge_length.median, edges,
+    )  # fmt: skip
+    return {
+        "stage": "extracted", "stopped_by": None, "hexahedra": made.record.hexahedra, "faults": figures["faults"],
+        "sj": figures["hex_sj_min"], "volume": figures["volume_error"], "irregular": made.record.irregular_edges,
+    }  # fmt: skip
+
+
+def cells_of(row: dict) -> list[str]:
+    def shown(name: str, form: str = ",", factor: float = 1) -> str:
+        return "" if row.get(name) is None else format(row[name] * factor, form)
+
+    irregular = ", ".join(f"{n} of {valence}" for valence, n in row.get("irregular", {}).items())
+    return [
+        row["file"], shown("tets"), shown("non_meshable"), shown("map_tets"), shown("angle", ".1f"), shown("first"),
+        shown("flipped"), shown("steps"), row["stage"], row.get("stopped_by") or "", shown("hexahedra"),
+        shown("sj", ".2f"), shown("volume", ".2f", 100), irregular, f"{row['cpu']:.1f}",
+    ]  # fmt: skip
+
+
+def summary(rows: list[dict]) -> str:
+    def count(*stages: str) -> int:
+        return sum(row["stage"] in stages for row in rows)
+
+    made = [row for row in rows if row["stage"] == "extracted"]
+    seamless, injective = count("seamless", "injective", "extracted"), count("injective", "extracted")
+    sound = sum(not row["faults"] for row in made)
+    return (
+        f"{len(rows)} files: {seamless} seamless maps, {injective} of them without a fold, {len(made)} meshes of"
+        f" hexahedra alone ({sound} without a fault). {sum(row['cpu'] for row in rows):.0f} s of CPU time in all.\n"
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="python -m studies.seamless_maps", description=__doc__)
+    parser.add_argument("-o", "--output", type=Path, required=True)
+    parser.add_argument("--only", default="", help="beginnings of names with commas")
+    parser.add_argument("--cells", type=int, default=2000)
+    a = parser.parse_args()
+    a.output.mkdir(parents=True, exist_ok=True)
+    only = tuple(filter(None, a.only.split(","))) or ("",)
+    rows = []
+    with (a.output / "rows.jsonl").open("w") as file:
+        for path in sorted((p for p in DATA.glob("*.vtk.gz") if p.name.startswith(only)), key=order):
+            rows.append(run(path, a.cells))
+            file.write(json.dumps(rows[-1]) + "\n")
+            file.flush()
+            print(" | ".join(cells_of(rows[-1])), flush=True)
+    (a.output / "stages.md").write_text(summary(rows) + "\n" + markdown_table(HEADER, map(cells_of, rows)))
+    (a.output / "when.md").write_text(when())
+    print(summary(rows))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,93 @@
+"""Seamless maps of our own fields, and octafield hex-mesh from a mesh: judged by the tests' own code."""
+
+import json
+
+import numpy as np
+import octafield as of
+import pytest
+from hex_mesh_checks import require_conforming, volume_of
+from octafield.domain.generators import generate
+from octafield.hexmesh.hexex import read_seamless_map, write_seamless_map
+from octafield.records.record_file import any_record
+from pipeline_fixtures import octafield
+
+
+def hexme(shared_data, name):
+    return shared_data / "hexme" / f"{name}.vtk.gz"
+
+
+def least_determinant(given):
+    at = np.asarray(given.parameters).reshape(-1, 4, 3)
+    return np.linalg.det(at[:, 1:] - at[:, :1]).min()
+
+
+@pytest.mark.parametrize("name", ["s01c", "s02c", "s13c", "s17c"])
+def test_fields_of_simple_parts_have_seamless_maps_without_folds(shared_data, name):
+    result = of.compute_seamless_map(hexme(shared_data, name))
+    assert result.record.stage == "injective" and result.record.stopped_by is None
+    assert least_determinant(result.map) > 0
+    report = of.volume.seamless_report(result.map)
+    assert report.residual < 1e-12 and report.unaligned == 0 and not len(report.torn)
+    tets = result.field.tets
+    parts = np.bincount(result.parent, of.volume.tet_volumes(result.map.mesh), len(tets.tets))
+    if name != "s17c":  # tets of cells with one vertex together share their volumes
+        assert parts == pytest.approx(of.volume.tet_volumes(tets), rel=1e-9)
+    assert parts.sum() == pytest.approx(of.volume.tet_volumes(tets).sum(), rel=1e-12)
+
+
+def test_the_unit_scales_the_map():
+    box = of.compute_field(generate("box"), of.FieldOptions(edge_length=0.5))
+    volumes = [of.volume.seamless_report(of.compute_seamless_map(box, unit=u).map).volume for u in (0.25, 0.5)]
+    solid = of.volume.tet_volumes(box.tets).sum()
+    assert volumes == pytest.approx([solid / 0.25**3, solid / 0.5**3], rel=1e-6)
+
+
+def test_what_stops_a_map_is_told_with_its_places(shared_data):
+    """The field of the notch has a node that no hex mesh has."""
+    result = of.compute_seamless_map(hexme(shared_data, "s07c"))
+    record = result.record
+    assert record.non_meshable_junctions > 0 and record.stage == "seamless" and record.stopped_by == "flipped_tet"
+    assert record.flipped == len(result.flipped) > 0 and least_determinant(result.map) <= 0
+    corners = np.asarray(result.map.mesh.vertices)[np.asarray(result.map.mesh.tets)[result.flipped[0]]]
+    assert record.stopped_at[0] == pytest.approx(corners.mean(axis=0).tolist())
+
+
+def test_the_command_goes_from_a_ball_to_hexahedra_alone(shared_data, tmp_path):
+    folder = tmp_path / "out"
+    octafield("hex-mesh", hexme(shared_data, "s17c"), "-o", folder, "--cells", "500", "-q", check=0)
+    names = ["mesh.mesh", "mesh.msh", "mesh.vtu", "result.json", "seamless.hexex", "seamless.json"]
+    assert sorted(path.name for path in folder.iterdir()) == names
+    mesh = of.read_cells(folder / "mesh.vtu")
+    require_conforming(mesh)
+    given = read_seamless_map(folder / "seamless.hexex")
+    assert volume_of(mesh) == pytest.approx(of.volume.tet_volumes(given.mesh).sum(), rel=0.02)
+    told = any_record(folder / "result.json")
+    assert told.stage == "extracted" and told.inverted == 0 and set(told.irregular_edges) == {"3"}
+    assert sorted(told.files) == names
+    assert any_record(folder / "seamless.json").stage == "injective"
+
+
+def test_the_command_tells_what_stops_it(shared_data, tmp_path):
+    octafield("hex-mesh", hexme(shared_data, "s07c"), "-o", tmp_path / "out", "--json", tmp_path / "told.json", "-q",
+              check=0)  # fmt: skip
+    names = ["result.json", "seamless.hexex", "seamless.json"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == names
+    told = json.loads((tmp_path / "told.json").read_text())
+    assert told["stage"] == "seamless" and told["stopped_by"] == "flipped_tet" and told["stopped_at"]
+
+
+def test_other_fields_and_options_are_refused(tmp_path):
+    box = generate("box")
+    for options in (of.FieldOptions(axes="free"), of.FieldOptions(sampling="tets")):
+        with pytest.raises(of.InvalidInput):
+            of.compute_seamless_map(box, options)
+    with pytest.raises(of.InvalidInput):
+        of.compute_seamless_map(box, unit=-1.0)
+    tets = of.prepare_mesh(box).volume()
+    with pytest.raises(of.InvalidInput):
+        of.volume.field_map(tets, np.full((len(tets.vertices), 4), np.nan))
+    halves = of.TetDomain(tets.mesh, regions=np.arange(len(tets.tets)) % 2)
+    with pytest.raises(of.InvalidInput, match="region"):
+        of.volume.field_map(halves, np.eye(1, 4).repeat(len(tets.vertices), axis=0))
+    write_seamless_map(tmp_path / "box.hexex", of.compute_seamless_map(box).map)
+    octafield("hex-mesh", tmp_path / "box.hexex", "-o", tmp_path / "out", "--tet-length", "1", "-q", check=2)
