@@ -17,9 +17,9 @@ namespace {
 constexpr double kMostVertices = 2.5e7;               // vertices
 constexpr double kPerArea = 2 / std::numbers::sqrt3;  // over a squared length: half as many as equilateral triangles
 constexpr double kCutOff = 4;                         // of an edge's length times turn: its distance, cut off by
-constexpr double kOverArc = 4.8;                      // of curvature times squared length, on a ball
-const double kBesideCreases =
-    2 * kPerArea / SizeFieldOptions{}.growth;  // per length along an edge, over lengths that grow
+constexpr double kOverArc = 4.8;  // of both curvatures' sum times squared length: that of one, on a ball
+// Per length along an edge, over the length there: of vertices on both sides, where lengths grow.
+const double kBesideCreases = 2 * kPerArea / SizeFieldOptions{}.growth;
 
 // The fewest of any closed triangulated surface (Ringel, Youngs 1968), of several balls: of each.
 double fewest(int euler) { return euler > 1 ? 2 * euler : std::ceil((7 + std::sqrt(49 - 24. * euler)) / 2); }
