@@ -39,7 +39,7 @@ TEST(AskedLengths, AreTheMeanOfEdgesWhateverTheInputsTrianglesAre) {
 
 // Halves of triangles beside a corner go from curve to curve, and are no strip.
 TEST(AskedLengths, AreNotShorterAtCornersWhereTheInputIsFine) {
-    const TriangleMesh coarse = cube_surface(1), fine = cube_surface(24);
+    const TriangleMesh coarse = cube_surface(1), fine = cube_surface(60);
     const auto vertices = [](const TriangleMesh& cube) {
         return close_remesh(cube, detect_features(cube), all_of(cube, 0.25)).mesh.vertices.rows();
     };
