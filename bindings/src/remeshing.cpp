@@ -31,7 +31,7 @@ void bind_remeshing_types(py::module_& m) {
         .field("deviation", &CloseRemeshOptions::deviation,
                "Input unit: lengths become shorter where either surface is farther from the other; 0: any.")
         .field("quality", &CloseRemeshOptions::quality, "That every triangle is to have, in [0, 0.5].")
-        .field("max_vertices", &CloseRemeshOptions::max_vertices, "deviation asks for no more than about so many.")
+        .field("max_vertices", &CloseRemeshOptions::max_vertices, "A deviation that would take more is refused.")
         .field("keep_stubs", &CloseRemeshOptions::keep_stubs,
                "Feature curves that end inside the surface and are shorter than two edges, as noise makes.")
         .field("iterations", &CloseRemeshOptions::iterations, "Rounds before anything is measured, at least 1.")

@@ -53,6 +53,32 @@ def test_the_number_of_vertices_is_met(wanted):
     assert abs(record.vertices / wanted - 1) < 0.05 and record.quality.min > 0.3
 
 
+def mean_away_from_features(result):
+    points, on_feature = np.asarray(result.mesh.vertices), np.zeros(len(result.mesh.vertices), bool)
+    on_feature[np.asarray(result.features.edges).ravel()] = True
+    ends = np.asarray(of.surface.edge_topology(result.mesh).edges)
+    ends = ends[~on_feature[ends].any(axis=1)]
+    return np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1).mean()
+
+
+@pytest.mark.parametrize(("name", "length"), [("ball", 0.1), ("ball", 0.25), ("torus", 0.15), ("box", 0.08)])
+def test_edges_are_as_long_as_asked_for_by_a_length_or_by_sizes(name, length):
+    surface = generate(name)
+    by_length = of.compute_remesh(surface, remeshing=RemeshingOptions(edge_length=length))
+    by_sizes = of.compute_remesh(surface, sizes=lambda points: np.full(len(points), length))
+    for result in (by_length, by_sizes):
+        assert mean_away_from_features(result) == pytest.approx(length, rel=0.05)
+    assert by_sizes.record.vertices == pytest.approx(by_length.record.vertices, rel=0.1)
+    assert not any("mean length" in note for note in by_length.record.notes)
+
+
+def test_edges_that_the_deviation_makes_shorter_than_asked_for_are_told():
+    asked = RemeshingOptions(edge_length=0.5, deviation=2e-3)
+    result = of.compute_remesh(ball(4), remeshing=asked)
+    assert mean_away_from_features(result) < 0.25 and max(vars(result.record.deviation).values()) <= 2e-3
+    assert [note for note in result.record.notes if "the deviation is kept" in note]
+
+
 def test_lengths_by_curvature_are_shorter_where_the_surface_bends():
     points, triangles = parts(ball(4))
     egg = mesh_of(points * [1, 1, 4], triangles)
@@ -114,6 +140,7 @@ def test_tets_give_their_boundary():
         (["--quality", "0.9"], "option_out_of_range"),
         (["--curvature", "--size", "growth=0.1"], "ignored_option"),
         (["--edge-length", "1e-7"], "too_many_cells"),
+        (["--vertices", "100000000"], "option_out_of_range"),
     ],
 )
 def test_what_cannot_be_done_is_refused_before_a_file_is_written(arguments, kind, tmp_path):
@@ -123,6 +150,15 @@ def test_what_cannot_be_done_is_refused_before_a_file_is_written(arguments, kind
     )
     assert done.exit_code == 2 and json.loads(done.stdout)["error"]["kind"] == kind
     assert not (tmp_path / "o.stl").exists()
+
+
+@pytest.mark.parametrize(
+    ("wanted", "kind"), [({"deviation": 1e-9}, "too_many_cells"), ({"edge_length": 3.0}, "too_few_cells")]
+)
+def test_what_no_triangles_of_the_surface_give_is_refused(wanted, kind):
+    with pytest.raises(of.InvalidInput) as refused:
+        of.compute_remesh(generate("torus"), remeshing=RemeshingOptions(**wanted))
+    assert refused.value.kind == kind
 
 
 def test_files_that_hold_no_surface_are_refused_before_the_work(tmp_path):

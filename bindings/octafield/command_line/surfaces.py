@@ -95,7 +95,10 @@ def remesh(
         ),
     ] = 0.0,
     quality: Annotated[
-        float, typer.Option(metavar="Q", help="Of the worst triangle: inscribed over circumscribed radius, times 2.")
+        float,
+        typer.Option(
+            metavar="Q", help="Of the worst triangle, 0 to 0.5: inscribed over circumscribed radius, times 2."
+        ),
     ] = RemeshingOptions.quality,
     options: Callable[[], MeshOptions] = MeshOptions,
     json: Json = None,

@@ -14,6 +14,8 @@ from ..records.parts import BothWays, KeptFeatures, Machine, QualityFigures
 from ..records.remesh import RemeshRecord
 from .options import RemeshingOptions
 
+_LENGTH_WITHIN = 0.05  # of the length asked for, that of edges away from features is met
+
 
 def of_remesh(
     sound: SoundInput,
@@ -56,12 +58,29 @@ def of_remesh(
         wall_seconds=wall,
         cpu_seconds={name: sound.clock.cpu[name] for name in wall},
         peak_mb=round(max(sound.peak_mb, memory.megabytes()), 1),
-        notes=[*found.notes, *made.notes],
+        notes=[*found.notes, *made.notes, *off_length(made, options)],
         versions=versions(),
         machine=Machine.model_validate(machine()),
         options=dict(vars(options)),
         mesh_options=mesh_options.recorded(),
     )
+
+
+def off_length(made: CloseRemeshResult, options: RemeshingOptions) -> list[str]:
+    """A note where edges away from features are not as long in the mean as was asked for."""
+    points, on_feature = np.asarray(made.mesh.vertices), np.zeros(len(made.mesh.vertices), bool)
+    on_feature[np.asarray(made.features.edges).ravel()] = True
+    ends = np.asarray(_core.edge_topology(made.mesh).edges)
+    ends = ends[~on_feature[ends].any(axis=1)]
+    if not options.edge_length or not len(ends):
+        return []
+    mean = float(np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1).mean())
+    if abs(mean / options.edge_length - 1) <= _LENGTH_WITHIN:
+        return []
+    why = " so that the deviation is kept" if options.deviation and mean < options.edge_length else ""
+    return [
+        f"edges away from features have a mean length of {mean:.3g}, not the {options.edge_length:.3g} asked for{why}"
+    ]
 
 
 def smallest_angle(mesh: TriangleMesh) -> float:

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
+#include <set>
 
 #include "better_triangles.hpp"
 #include "departure.hpp"
+#include "expected_vertices.hpp"
+#include "local_moves.hpp"
 #include "narrow_corners.hpp"
 #include "octafield/error.hpp"
 #include "octafield/surface/remesh.hpp"
@@ -25,10 +27,10 @@ using Vector = Eigen::Vector3d;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kTries = 15, kMoreTries = 6, kCounts = 8, kMendings = 20;
-constexpr double kLess = 0.8;    // of what was wrong in the attempt before: it becomes better
-constexpr int kPursued = 3;      // attempts that crossed: no more vertices are saved elsewhere for those that it takes
-constexpr double kMost = 2.5e7;  // vertices
-constexpr double kCountWithin = 0.02;      // of the number of vertices wanted
+constexpr double kLess = 0.8;  // of what was wrong in the attempt before: it becomes better
+constexpr int kPursued = 3;    // attempts that crossed: no more vertices are saved elsewhere for those that it takes
+constexpr double kCountWithin = 0.02;      // of the number of vertices wanted, and of the mean length
+constexpr Index kEnoughEdges = 30;         // for a mean
 constexpr double kMore = 0.05;             // quality that is aimed at above the one asked for
 constexpr double kWhereCrossing = 0.6;     // lengths there, of those before
 constexpr double kShortestPart = 1. / 64;  // of the longest
@@ -56,25 +58,6 @@ void require_options(const TriangleMesh& mesh, const Eigen::VectorXd& lengths, c
         throw InvalidInput("max_vertices must be at least 1", "invalid_option");
 }
 
-double vertices_at(const TriangleMesh& mesh, const Eigen::VectorXd& lengths) {
-    const Eigen::VectorXd areas = triangle_areas(mesh);
-    double sum = 0;
-    for (Index t = 0; t < areas.size(); ++t) {
-        double length = 0;
-        for (const Index v : mesh.triangles.row(t)) length += lengths[v] / 3;
-        sum += areas[t] / (length * length);
-    }
-    return 2 / std::numbers::sqrt3 * sum;  // half as many as triangles of area sqrt(3) / 4
-}
-
-void require_possible(const TriangleMesh& mesh, const Eigen::VectorXd& lengths, const CloseRemeshOptions& options) {
-    const double expected = options.vertices > 0 ? options.vertices : vertices_at(mesh, lengths);
-    if (expected > kMost)
-        throw InvalidInput("these lengths would give about " + short_number(expected) +
-                               " vertices; ask for longer edges or fewer vertices",
-                           "too_many_cells");
-}
-
 class CloseRemesher {
 public:
     CloseRemesher(const TriangleMesh& mesh, const FeatureGraph& features, const CloseRemeshOptions& options,
@@ -90,6 +73,7 @@ public:
         for (int attempt = 0; attempt < kTries + kMoreTries; ++attempt) {
             begun_ = static_cast<double>(attempt + 1) / (kTries + kMoreTries + 1);
             meet_count(*work, rounds);
+            meet_lengths(*work, rounds);
             better_triangles(*work, rounds, options_.quality + kMore, kMendings, [&] { alive()(0); });
             const Places places = places_of(*work, rounds, attempt + 1 >= kTries);
             if (places.empty()) break;
@@ -128,7 +112,9 @@ private:
         const double longest = scale * lengths.maxCoeff();
         ground_ = background_of(mesh_, features_, scale * lengths, longest,
                                 std::min(kShortestPart * longest, scale * lengths.minCoeff()));
+        const Eigen::VectorXd given = ground_.length;
         if (options_.deviation > 0) bound_by_deviation();
+        const auto bound = (ground_.length.array() < given.array()).eval();
         if (!options_.keep_stubs)
             narrow_ = let_go_narrow_corners(
                 ground_, options_.deviation > 0 ? options_.deviation / 2 : deviation_told * shape_size(mesh_));
@@ -138,6 +124,7 @@ private:
         bound_by_near_features(ground_);
         limit_growth(ground_, SizeFieldOptions{}.growth);
         most_ = Eigen::VectorXd::Constant(ground_.length.size(), std::numeric_limits<double>::infinity());
+        if (options_.vertices == 0) most_ = bound.select(ground_.length, most_);
     }
 
     bool too_many() const { return vertices_at(ground_.mesh, ground_.length) > options_.max_vertices; }
@@ -160,6 +147,49 @@ private:
             rounds.take_lengths(work);
             rounds.run(work, 2, alive());
         }
+    }
+
+    // Rounds that only split what is long and collapse what is short leave edges of 0.75 to 1 lengths, by the input's
+    // triangles: all lengths are multiplied until edges are as long as wanted in the mean.
+    void meet_lengths(Working& work, CloseRounds& rounds) {
+        if (options_.vertices > 0) return;
+        for (int k = 0; k < kCounts; ++k) {
+            const double ratio = mean_ratio(work) * given_;
+            if (std::abs(ratio - 1) <= kCountWithin) return;
+            const double by = std::clamp(1 / ratio, 0.8, 1.25);
+            given_ *= by;
+            scale_lengths(by);
+            rounds.take_lengths(work);
+            rounds.run(work, 2, alive());
+        }
+    }
+
+    // Of edges away from features to the lengths they follow, where nothing asked for shorter ones; such that it is one
+    // where there are too few.
+    double mean_ratio(const Working& work) const {
+        const SurfaceMesh& mesh = work.marked.mesh;
+        const auto held = [&](Vertex v) {
+            return kind_of(work, v) != free_vertex || std::ranges::any_of(beneath(work, v), [&](Index w) {
+                       return std::isfinite(most_[w]) && ground_.length[w] >= most_[w];
+                   });
+        };
+        double sum = 0;
+        Index count = 0;
+        for (const Edge e : mesh.edges()) {
+            if (held(mesh.vertex(e, 0)) || held(mesh.vertex(e, 1))) continue;
+            sum += work.ratio(e);
+            ++count;
+        }
+        return count < kEnoughEdges ? 1 / given_ : sum / static_cast<double>(count);
+    }
+
+    // Vertices of the background round where one is.
+    std::vector<Index> beneath(const Working& work, Vertex v) const {
+        const Carrier at = work.carrier[v];
+        const auto listed = [](const auto& row) { return std::vector<Index>(row.begin(), row.end()); };
+        if (at.on == Carrier::On::segment) return listed(ground_.features.edges.row(at.id));
+        if (at.on == Carrier::On::triangle) return listed(ground_.mesh.triangles.row(at.id));
+        return {at.id};
     }
 
     // Those that had to become shorter stay so.
@@ -215,14 +245,8 @@ private:
         if (fault_.empty()) fault_ = judge_.fault;
         Places places;
         for (const Index t : judge_.crossing)
-            for (const Vertex v : CGAL::vertices_around_face(work.marked.mesh.halfedge(Face(t)), work.marked.mesh)) {
-                const Carrier at = work.carrier[v];
-                if (at.on == Carrier::On::vertex) places.emplace_back(at.id, kWhereCrossing);
-                if (at.on == Carrier::On::segment)
-                    for (const Index w : ground_.features.edges.row(at.id)) places.emplace_back(w, kWhereCrossing);
-                if (at.on == Carrier::On::triangle)
-                    for (const Index w : ground_.mesh.triangles.row(at.id)) places.emplace_back(w, kWhereCrossing);
-            }
+            for (const Vertex v : CGAL::vertices_around_face(work.marked.mesh.halfedge(Face(t)), work.marked.mesh))
+                for (const Index w : beneath(work, v)) places.emplace_back(w, kWhereCrossing);
         return places;
     }
 
@@ -259,10 +283,7 @@ private:
                 "they are apart (" +
                 std::to_string(narrow_) + " times)");
         const double count = static_cast<double>(best_->mesh.vertices.rows());
-        if (options_.vertices > 0 && std::abs(count / options_.vertices - 1) > 0.05)
-            notes.push_back(
-                "the number of vertices wanted cannot be met: features and corners of the input hold some "
-                "in place");
+        if (options_.vertices > 0 && std::abs(count / options_.vertices - 1) > 0.05) notes.push_back(why_not(count));
         const Index free = best_->poor - best_->forced;
         if (best_->forced > 0)
             notes.push_back(std::to_string(best_->forced) + " triangles of a quality below " +
@@ -270,6 +291,19 @@ private:
         if (free > 0)
             notes.push_back(std::to_string(free) + " triangles have a quality below " + short_number(options_.quality) +
                             ", and no local step makes them better without leaving the surface or its features");
+    }
+
+    std::string why_not(double count) const {
+        std::set<Index> on_features(best_->features.corners.begin(), best_->features.corners.end());
+        const std::size_t corners = on_features.size();
+        for (const auto edge : best_->features.edges.rowwise()) on_features.insert(edge.begin(), edge.end());
+        std::string note = short_number(count) + " vertices were made, and the number wanted cannot be met: ";
+        if (!on_features.empty())
+            note += std::to_string(corners) + " are corners and " + std::to_string(on_features.size() - corners) +
+                    " on feature curves, and ";
+        return note + (count > options_.vertices
+                           ? "fewer would cross, turn triangles over or make them worse"
+                           : "more could not be placed without turning triangles over or making them worse");
     }
 
     CloseRemeshResult kept() const {
@@ -300,6 +334,7 @@ private:
     double most_before_ = std::numeric_limits<double>::infinity();
     std::string fault_;  // of the first attempt that was unsound
     double begun_ = 0;
+    double given_ = 1;  // lengths that rounds follow, of those wanted
 };
 
 }  // namespace
@@ -309,7 +344,7 @@ CloseRemeshResult close_remesh(const TriangleMesh& mesh, const FeatureGraph& fea
     report_or_throw(progress, "remesh", 0, kNone);
     require_remeshable(mesh, features);
     require_options(mesh, lengths, options);
-    require_possible(mesh, lengths, options);
+    require_possible(mesh, features, lengths, options);
     return CloseRemesher(mesh, features, options, progress).run(lengths);
 }
 

@@ -18,7 +18,8 @@ constexpr double kPerWidth = 2;        // an edge may be so many times as long a
 constexpr double kNarrow = 4;          // for the sake of widths alone edges become no shorter than longest / kNarrow
 constexpr Index kMostRays = 60000;     // triangles looked from
 constexpr double kFacing = 0.8660254;  // two faces within 30 degrees of parallel are a wall
-constexpr double kSagShare = 0.5;      // of a wall's width that the arc over an edge may take
+constexpr double kRound = 6;       // times as far round a corner or bend, of two curves, is no strip: over 19 degrees
+constexpr double kSagShare = 0.5;  // of a wall's width that the arc over an edge may take
 
 using Flat = CGAL::Simple_cartesian<double>;
 using FlatTriangles = std::vector<Flat::Triangle_3>;
@@ -65,6 +66,27 @@ double fitting(const Background& ground, double width, double least) {
 
 bool meet(const std::set<Index>& a, const std::set<Index>& b) {
     return std::ranges::any_of(a, [&](Index v) { return b.contains(v); });
+}
+
+// Whether one comes from a to b along feature curves within this length.
+bool reached(const Background& ground, const Curves& curves, Index a, Index b, double length) {
+    using Entry = std::pair<double, Index>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> nearest;
+    std::set<Index> seen;
+    nearest.emplace(0, a);
+    while (!nearest.empty()) {
+        const auto [way, v] = nearest.top();
+        nearest.pop();
+        if (v == b) return true;
+        if (!seen.insert(v).second) continue;
+        for (const Index e : curves.edges[v]) {
+            const auto ends = ground.features.edges.row(e);
+            const Index w = ends[0] == v ? ends[1] : ends[0];
+            const double next = way + (ground.mesh.vertices.row(v) - ground.mesh.vertices.row(w)).norm();
+            if (next <= length) nearest.emplace(next, w);
+        }
+    }
+    return false;
 }
 
 }  // namespace
@@ -223,9 +245,13 @@ void bound_by_near_features(Background& ground) {
             if (!on_feature(a) || !on_feature(b)) continue;
             if (!joined(a, b)) {
                 if (joined(a, c) && joined(b, c)) continue;  // beside a bend or a corner
-                for (const Index v : {a, b}) lower(v, (point(a) - point(b)).norm());
+                const double width = (point(a) - point(b)).norm();
+                if (reached(ground, curves, a, b, kRound * width)) continue;
+                for (const Index v : {a, b}) lower(v, width);
             } else if (on_feature(c) && !joined(a, c) && !joined(b, c)) {
-                for (const Index v : {a, b, c}) lower(v, std::sqrt(squared_distance(point(c), point(a), point(b))));
+                const double width = std::sqrt(squared_distance(point(c), point(a), point(b)));
+                if (reached(ground, curves, a, c, kRound * width)) continue;
+                for (const Index v : {a, b, c}) lower(v, width);
             }
         }
 }

@@ -14,7 +14,7 @@ struct CloseRemeshOptions {
     double vertices = 0;   // wanted number: all lengths are multiplied until it is met; 0: lengths as they are
     double deviation = 0;  // input unit: lengths become shorter where either surface is farther from the other; 0: any
     double quality = 0.3;  // that every triangle is to have (triangle_qualities), in [0, 0.5]
-    double max_vertices = 1e6;  // deviation asks for no more than about so many
+    double max_vertices = 1e6;  // a deviation that would take more is refused, and asks for no more
     bool keep_stubs = false;    // feature curves that end inside the surface, shorter than two edges, as noise makes
     int iterations = 5;         // rounds of split, collapse, flip, relax before anything is measured, at least 1
 };
@@ -31,11 +31,13 @@ struct CloseRemeshResult {
     bool kept = false;               // no sound mesh was found: the input's triangles
 };
 
-// lengths: (V) wanted at the vertices of the input, linear between, input unit, positive. Where feature curves lie near
-// one another, and where triangles would cross, they become shorter. Each step keeps every vertex on the input: it
+// lengths: (V) wanted at the vertices of the input, linear between, input unit, positive: of edges away from features
+// in the mean, within 5 %. Where feature curves lie nearer to one another than half of that, and where triangles would
+// cross, they become shorter. Each step keeps every vertex on the input: it
 // walks there from where it was (no nearest points, which jump between near sheets), along its curve where it is on a
 // feature. Then the worst triangles are mended one by one. The result is as sound as the input, with its topology.
-// Throws InvalidInput, GeometryError (the input is not valid). Cancelled by progress ("remesh").
+// Throws InvalidInput (kinds too_many_cells, too_few_cells, of what cannot be asked of such a surface, too),
+// GeometryError (the input is not valid). Cancelled by progress ("remesh").
 CloseRemeshResult close_remesh(const TriangleMesh& mesh, const FeatureGraph& features, const Eigen::VectorXd& lengths,
                                const CloseRemeshOptions& options = {}, const Progress& progress = {});
 
