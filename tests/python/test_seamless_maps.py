@@ -82,6 +82,12 @@ def test_a_map_that_winds_is_not_called_injective(shared_data):
     assert result.record.stopped_at[0] == pytest.approx(np.asarray(result.map.mesh.vertices)[ends].mean(axis=0))
 
 
+def test_curves_of_a_cylinder_share_planes_or_lie_apart(shared_data):
+    """Planes of walls nearly in one another leave no tets between them."""
+    walled = of.volume.motorcycle_complex(of.compute_seamless_map(hexme(shared_data, "s15c")).map)
+    assert of.volume.tet_volumes(walled.mesh).min() > 0 and len(of.volume.block_complex(walled).boxes)
+
+
 def test_the_command_goes_from_a_ball_to_hexahedra_alone(shared_data, tmp_path):
     folder = tmp_path / "out"
     octafield("hex-mesh", hexme(shared_data, "s17c"), "-o", folder, "--cells", "500", "-q", check=0)
