@@ -85,7 +85,8 @@ def test_a_map_that_winds_is_not_called_injective(shared_data):
 def test_curves_of_a_cylinder_share_planes_or_lie_apart(shared_data):
     """Planes of walls nearly in one another leave no tets between them."""
     walled = of.volume.motorcycle_complex(of.compute_seamless_map(hexme(shared_data, "s15c")).map)
-    assert of.volume.tet_volumes(walled.mesh).min() > 0 and len(of.volume.block_complex(walled).boxes)
+    assert of.volume.tet_volumes(walled.mesh).min() > 0
+    of.volume.block_complex(walled)  # raises where a block is no box
 
 
 def test_the_command_goes_from_a_ball_to_hexahedra_alone(shared_data, tmp_path):
