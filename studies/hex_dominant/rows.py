@@ -51,25 +51,25 @@ def run_words(words: list[str], limit: float, after: list[str] | None = None) ->
         begun = time.monotonic()
         with (Path(folder) / "stderr").open("w+") as stderr:
             child = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=stderr)
-            peak = wait(child, limit)
+            peak, why = wait(child, limit)
             stderr.seek(0)
             told = stderr.read().strip().splitlines()
         measured = {"seconds": time.monotonic() - begun, "MB": peak}
         if out.exists():
             return measured | json.loads(out.read_text())
-        return measured | {"error": ending(child.returncode, limit, told)}
+        return measured | {"error": ending(child.returncode, why, told)}
 
 
-def ending(code: int, limit: float, told: list[str]) -> str:
-    if code == -signal.SIGKILL:
-        return f"stopped at {limit:.0f} s of CPU time or {MOST_MB} MB"
+def ending(code: int, why: str, told: list[str]) -> str:
+    if code == -signal.SIGKILL and why:
+        return f"stopped at {why}"
     what = f"signal {signal.Signals(-code).name}" if code < 0 else f"exit code {code}"
     return f"{what} {told[-1][:300] if told else ''}".strip()
 
 
-def wait(child: subprocess.Popen, limit: float) -> float:
-    """Largest resident memory that was seen, MB. Kills the child at the limit of time or memory."""
-    begun, peak, used = time.monotonic(), 0.0, 0.0
+def wait(child: subprocess.Popen, limit: float) -> tuple[float, str]:
+    """Largest resident memory that was seen, MB. Kills the child at the limit of time or memory, and says which."""
+    begun, peak, used, why = time.monotonic(), 0.0, 0.0, ""
     while child.poll() is None:
         try:
             told = psutil.Process(child.pid)
@@ -77,10 +77,16 @@ def wait(child: subprocess.Popen, limit: float) -> float:
             used += sum(sum(part.cpu_times()[:2]) for part in told.children(recursive=True))  # TetGen's
         except psutil.Error:
             pass
-        if used > limit or time.monotonic() - begun > 10 * limit or peak > MOST_MB:
+        limits = {
+            f"{limit:.0f} s of CPU time": used > limit,
+            f"{10 * limit:.0f} s by the clock, of which it got little": time.monotonic() - begun > 10 * limit,
+            f"{MOST_MB} MB": peak > MOST_MB,
+        }
+        if any(limits.values()):
+            why = next(name for name, passed in limits.items() if passed)
             child.kill()
         time.sleep(0.05)
-    return peak
+    return peak, why
 
 
 def key(row: dict) -> tuple[str, float]:

@@ -197,6 +197,13 @@ def test_maps_that_have_no_blocks_are_refused_by_kind(shared_data):
     assert error.value.kind in ("not_a_box", "bent_wall")
 
 
+def test_numbers_too_large_or_small_to_compute_with_are_refused_as_such():
+    for scale in (1e-300, 1e300):
+        with pytest.raises(of.InvalidInput, match="parameters reach") as error:
+            of.compute_hex_mesh(box_map(scale))
+        assert error.value.kind == "size_out_of_range"
+
+
 def test_other_inputs_and_options_are_refused(tmp_path):
     of.write_surface(generate("box"), tmp_path / "box.stl")
     with pytest.raises(of.InvalidInput, match="compute_seamless_map"):

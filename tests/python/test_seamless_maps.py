@@ -106,11 +106,23 @@ def test_the_command_goes_from_a_ball_to_hexahedra_alone(shared_data, tmp_path):
 
 def test_the_command_tells_what_stops_it(shared_data, tmp_path):
     octafield("hex-mesh", hexme(shared_data, "s07c"), "-o", tmp_path / "out", "--json", tmp_path / "told.json", "-q",
-              check=0)  # fmt: skip
+              "--fallback", "none", check=0)  # fmt: skip
     names = ["result.json", "seamless.hexex", "seamless.json"]
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == names
     told = json.loads((tmp_path / "told.json").read_text())
     assert told["stage"] == "seamless" and told["stopped_by"] == "flipped_tet" and told["stopped_at"]
+    octafield("hex-mesh", hexme(shared_data, "s07c"), "-o", tmp_path / "no", "--fallback", "tets", "-q", check=2)
+
+
+def test_what_does_not_become_hexahedra_alone_becomes_mostly_hexahedra(shared_data, tmp_path):
+    folder = tmp_path / "out"
+    octafield("hex-mesh", hexme(shared_data, "s07c"), "-o", folder, "--cells", "500", "-q", check=0)
+    told, other = any_record(folder / "result.json"), any_record(folder / "hex_dominant.json")
+    assert sorted(told.files) == sorted(path.name for path in folder.iterdir())
+    assert told.stage == "seamless" and told.stopped_by == "flipped_tet"
+    mesh = of.read_cells(folder / "mesh.vtu")
+    require_conforming(mesh)
+    assert len(mesh.hexahedra) == other.cells.hexahedra > 300 and other.hex_volume_share > 0.8
 
 
 def test_other_fields_and_options_are_refused(tmp_path):

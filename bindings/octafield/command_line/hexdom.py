@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..hexdom.options import CORRECTIONS, POINTS, HexMeshOptions
+from ..hexmesh.options import FALLBACKS, WALLS
 from ..options import FieldOptions
 from . import console, tables
 from .console import carry_out
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from ..records.hex_mesh import HexMeshRecord, SeamlessMapRecord
 
 _DEFAULTS = HexMeshOptions()
-WALLS = ("file", "own")
 # What has another meaning here, or none: lengths of the tets have names of their own.
 _WITHOUT = ("edge_length", "axes", "sizes", "streamlines", "split_singular")
 
@@ -122,14 +122,22 @@ def hex_mesh(
             metavar="LENGTH", help="Edge of the tets that the field is computed on, where INPUT has none; 0: what fits."
         ),
     ] = 0.0,
+    fallback: Annotated[
+        str,
+        typer.Option(
+            metavar="|".join(FALLBACKS),
+            autocompletion=words(FALLBACKS),
+            help="What a mesh becomes, along the same field, where its map does not become hexahedra.",
+        ),
+    ] = FALLBACKS[0],
     options: Callable[[], FieldOptions] = FieldOptions,
     json: Json = None,
     quiet: Quiet = False,
     verbose: Verbose = False,
 ) -> None:
     """Hexahedra alone, from a mesh or a seamless map. Of a mesh by a frame field and its map, of a .hexex file by the
-    map in it. DIR gets mesh.vtu, mesh.msh, mesh.mesh, result.json; of a field seamless.hexex and seamless.json, too,
-    and where the map does not become hexahedra these alone, with result.json that says what stops it."""
+    map in it. DIR gets mesh.vtu, mesh.msh, mesh.mesh, result.json; of a field seamless.hexex and seamless.json, too.
+    Where the map does not become hexahedra, result.json says what stops it, and the mesh is hex-dominant."""
 
     def work() -> None:
         from dataclasses import replace
@@ -156,7 +164,14 @@ def hex_mesh(
                 told = result.record
             else:
                 told = hex_mesh_of_field(
-                    input, chosen, folder, progress, cells=cells, edge_length=edge_length, walls=walls
+                    input,
+                    chosen,
+                    folder,
+                    progress,
+                    cells=cells,
+                    edge_length=edge_length,
+                    walls=walls,
+                    fallback=fallback,
                 )
         console.finish(told, tables.show_hex_mesh_record, json, quiet, output)
 

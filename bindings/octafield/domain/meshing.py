@@ -73,7 +73,7 @@ def read_sound(
                 source, interfaces=options.interfaces, edge_length=options.edge_length, progress=progress
             )
         with naming(found.name):
-            _require_scale(found)
+            require_scale(np.asarray(found.surface.vertices if found.tets is None else found.tets.vertices))
             found = _sound(found, options, closed=volume, fills=volume or fills)
     with naming(found.name), clock.phase("mesh"):
         locking = None
@@ -87,15 +87,14 @@ def read_sound(
     return SoundInput(found, of_surface, feature_source, clock, memory.megabytes(), sheets, locking)
 
 
-def _require_scale(found: Input) -> None:
+def require_scale(points: Array, what: str = "coordinates") -> None:
     """Products of four lengths and their inverses are to be numbers."""
-    points = np.asarray(found.surface.vertices if found.tets is None else found.tets.vertices)
     if not len(points) or not np.isfinite(points).all():
         return
     extent = float((points.max(axis=0) - points.min(axis=0)).max())
     if np.abs(points).max() > _LARGEST or 0 < extent < 1 / _LARGEST:
         raise InvalidInput(
-            f"coordinates reach {np.abs(points).max():.2g}, over {extent:.2g}: lengths from {1 / _LARGEST:g} to"
+            f"{what} reach {np.abs(points).max():.2g}, over {extent:.2g}: lengths from {1 / _LARGEST:g} to"
             f" {_LARGEST:g} are computed with; take another unit",
             "size_out_of_range",
         )

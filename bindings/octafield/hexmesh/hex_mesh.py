@@ -16,6 +16,7 @@ import numpy as np
 from .. import _core
 from .._core import MixedMesh, SeamlessMap
 from ..domain.inputs import naming
+from ..domain.meshing import require_scale
 from ..errors import InvalidInput
 from ..hexdom.hex_mesh import require_sound
 from ..options import LARGEST_INT, integer_in, require_one_of
@@ -23,13 +24,13 @@ from ..progress.meter import PhaseMeter
 from ..progress.phases import Progress, announce
 from ..view.notebook import Facts, ShownInNotebooks
 from .hexex import is_seamless_map, read_seamless_map
+from .options import WALLS
 
 if TYPE_CHECKING:
     import pyvista
 
     from ..records.hex_mesh import HexMeshRecord
 
-WALLS = ("file", "own")  # compute_hex_mesh
 
 _SHOWN = ("hexahedra", "target", "irregular_edges", "scaled_jacobian", "volume_error", "feature_deviation")
 _COARSE = 0.01  # difference of the volume that is worth a note
@@ -108,6 +109,8 @@ def compute_hex_mesh(
     announce(progress, "read")
     given, name = _map_of(source)
     with naming(name):
+        require_scale(np.asarray(given.mesh.vertices))
+        require_scale(np.asarray(given.parameters), "parameters")
         options = {"cells": cells, "edge_length": edge_length, "walls": walls, "threads": threads}
         return _made(given, name, meter, progress, options)
 
