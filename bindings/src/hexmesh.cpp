@@ -39,6 +39,8 @@ void bind_map_types(py::module_& m) {
         .field("torn", &SeamlessReport::torn, "int32 tets next to a triangle where that is not rounding.")
         .field("unaligned", &SeamlessReport::unaligned, "Boundary triangles without a constant parameter.")
         .field("volume", &SeamlessReport::volume, "Of the tets in parameters.")
+        .field("wound", &SeamlessReport::wound,
+               "(k, 2) int32 edges round which parameters turn as in no hex mesh, flipped tets or not.")
         .finish([](const SeamlessReport& r) {
             return count(r.flipped.size(), "flipped tet") + ", residual " + number(r.residual);
         });

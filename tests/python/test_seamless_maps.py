@@ -52,6 +52,43 @@ def test_what_stops_a_map_is_told_with_its_places(shared_data):
     assert record.stopped_at[0] == pytest.approx(corners.mean(axis=0).tolist())
 
 
+def twisted_ring(turns):
+    """Eight tets round an edge, whose parameters go round it so many times, with the edge along no axis."""
+    angles = np.arange(8) * np.pi / 4
+    points = np.array([[0, 0, -1], [0, 0, 1], *np.stack([np.cos(angles), np.sin(angles), 0 * angles], 1)])
+    tets = np.array([[0, 1, 2 + k, 2 + (k + 1) % 8] for k in range(8)], np.int32)
+    mapped = points.copy()
+    mapped[2:, :2] = np.stack([np.cos(turns * angles), np.sin(turns * angles)], 1)
+    tilt = np.array([[1, 2, 2], [2, 1, -2], [-2, 2, -1]]) / 3  # columns at right angles
+    tilt *= np.sign(np.linalg.det(tilt))
+    return of.volume.SeamlessMap(of.TetMesh(points, tets), (mapped @ tilt.T)[tets].reshape(-1, 12))
+
+
+@pytest.mark.parametrize(("turns", "edges"), [(1, []), (2, [[0, 1]])])
+def test_parameters_that_wind_round_an_edge_are_seen_though_no_tet_is_flipped(turns, edges):
+    given = twisted_ring(turns)
+    assert least_determinant(given) > 0
+    report = of.volume.seamless_report(given)
+    assert not len(report.flipped) and not len(report.torn)
+    assert np.asarray(report.wound).tolist() == edges
+
+
+def test_a_map_that_winds_is_not_called_injective(shared_data):
+    """s11c: turns of five quarters come out as one, and another edge gets the other four."""
+    result = of.compute_seamless_map(hexme(shared_data, "s11c"))
+    assert least_determinant(result.map) > 0
+    assert result.record.stage == "seamless" and result.record.stopped_by == "winding_edge"
+    ends = np.asarray(of.volume.seamless_report(result.map).wound)[0]
+    assert result.record.stopped_at[0] == pytest.approx(np.asarray(result.map.mesh.vertices)[ends].mean(axis=0))
+
+
+def test_curves_of_a_cylinder_share_planes_or_lie_apart(shared_data):
+    """Planes of walls nearly in one another leave no tets between them."""
+    walled = of.volume.motorcycle_complex(of.compute_seamless_map(hexme(shared_data, "s15c")).map)
+    assert of.volume.tet_volumes(walled.mesh).min() > 0
+    of.volume.block_complex(walled)  # raises where a block is no box
+
+
 def test_the_command_goes_from_a_ball_to_hexahedra_alone(shared_data, tmp_path):
     folder = tmp_path / "out"
     octafield("hex-mesh", hexme(shared_data, "s17c"), "-o", folder, "--cells", "500", "-q", check=0)

@@ -104,8 +104,13 @@ def _mapped(field: AnalysedField, unit: float, progress: Progress | None) -> Sea
     announce(progress, "check")
     report = _core.seamless_report(made.map)
     meter.end()
-    locked, flipped = np.asarray(made.locked), np.asarray(report.flipped)
-    stage = "field" if len(locked) else "seamless" if len(flipped) else "injective"
+    locked, flipped, wound = np.asarray(made.locked), np.asarray(report.flipped), np.asarray(report.wound)
+    stage = "field" if len(locked) else "seamless" if len(flipped) or len(wound) else "injective"
+    tets = np.asarray(made.map.mesh.tets)
+    kind, places = {
+        "field": ("locked_tet", tets[locked]),
+        "seamless": ("flipped_tet", tets[flipped]) if len(flipped) else ("winding_edge", wound),
+    }.get(stage, (None, wound))
     record = SeamlessMapRecord(
         input=before.input,
         version=octafield_version(),
@@ -115,8 +120,8 @@ def _mapped(field: AnalysedField, unit: float, progress: Progress | None) -> Sea
         field_tets=len(field.tets.tets),
         added_vertices=made.added_vertices,
         stage=stage,
-        stopped_by={"field": "locked_tet", "seamless": "flipped_tet"}.get(stage),
-        stopped_at=_middles(made.map, locked if len(locked) else flipped),
+        stopped_by=kind,
+        stopped_at=_middles(made.map, places),
         singular_edges=len(made.curves),
         unknowns=made.unknowns,
         locked=len(locked),
@@ -150,8 +155,9 @@ def _mapped(field: AnalysedField, unit: float, progress: Progress | None) -> Sea
     )
 
 
-def _middles(given: SeamlessMap, tets: np.ndarray) -> list[list[float]]:
-    corners = np.asarray(given.mesh.vertices)[np.asarray(given.mesh.tets)[tets[:100]]]
+def _middles(given: SeamlessMap, places: np.ndarray) -> list[list[float]]:
+    """Of tets or edges, rows of vertex ids."""
+    corners = np.asarray(given.mesh.vertices)[places[:100]]
     middles: list[list[float]] = corners.mean(axis=1).tolist()
     return middles
 

@@ -55,13 +55,14 @@ class SeamlessMapRecord(MeasuredRecord):
     field_tets: int = Field(description="that the field is on")
     added_vertices: int = Field(description="of the map's tets")
     stage: str = Field(
-        description="reached: field, meshable (no tet is flat in every map), seamless (a map, with folds) or injective"
-        " (without)"
+        description="reached: field, meshable (no tet is flat in every map), seamless (a map, with folds or edges that"
+        " parameters wind round) or injective (without)"
     )
     stopped_by: str | None = Field(
-        description="locked_tet, flipped_tet, or the kind of the error after the map; none: hexahedra were made"
+        description="locked_tet, flipped_tet, winding_edge, or the kind of the error after the map; none: hexahedra were"
+        " made"
     )
-    stopped_at: list[list[float]] = Field(description="where: middles of such tets, input unit, the first 100")
+    stopped_at: list[list[float]] = Field(description="where: middles of such tets or edges, input unit, the first 100")
     singular_edges: int = Field(description="of the map's tets")
     unknowns: int = Field(description="numbers that were free")
     locked: int = Field(description="tets that are flat in every map with these singular curves and this surface")

@@ -6,6 +6,7 @@
 
 #include "map_transitions.hpp"
 #include "octafield/error.hpp"
+#include "wound_edges.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -72,6 +73,7 @@ SeamlessReport seamless_report(const SeamlessMap& map) {
     }
     std::sort(report.torn.begin(), report.torn.end());
     report.torn.erase(std::unique(report.torn.begin(), report.torn.end()), report.torn.end());
+    report.wound = wound_edges(map, table);
     return report;
 }
 

@@ -1,6 +1,7 @@
 #include "octafield/volume/field_map.hpp"
 
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "map_room.hpp"
@@ -16,8 +17,10 @@ namespace {
 
 using namespace detail;
 
-constexpr int bits = 40;               // of the parameters
-constexpr int most_rounds = 4;         // of splitting tets that stay flat
+constexpr int bits = 40;                                       // of the parameters
+constexpr int most_rounds = 4;                                 // of splitting tets that stay flat
+constexpr double coarsest_grid = 0.25, finest_grid = 0x1p-12;  // of coordinates that curves and patches have, units
+constexpr double least_left = 0.05;                            // of a tet's volume in the map, by rounding to the grid
 constexpr double most_crushed = 0.05;  // of the tets: where more are flat the whole map has no room
 
 double mean_edge(const TetMesh& mesh) {
@@ -114,6 +117,34 @@ SeamlessMap map_of(const MatchedField& field, const MapUnknowns& unknowns, const
     return map;
 }
 
+// Unknowns that several vertices depend on: coordinates of curves, of patches of the surface, translations.
+std::vector<Index> shared_unknowns(const TetMesh& mesh, const MapUnknowns& unknowns) {
+    std::vector<std::set<Index>> vertices(unknowns.free.count);
+    for (Index t = 0; t < mesh.tets.rows(); ++t)
+        for (int k = 0; k < 4; ++k)
+            for (int i = 0; i < 3; ++i)
+                for (const auto& entry : unknowns.free.rows[3 * unknowns.corners(t, k) + i])
+                    if (auto& known = vertices[entry.first]; known.size() < 2) known.insert(mesh.tets(t, k));
+    std::vector<Index> shared;
+    for (Index u = 0; u < unknowns.free.count; ++u)
+        if (vertices[u].size() > 1) shared.push_back(u);
+    return shared;
+}
+
+// Shared unknowns as multiples of the coarsest grid that folds no tet: planes of walls are then the same or apart.
+Eigen::VectorXd on_grid(const TetProblem& problem, const std::vector<Index>& shared, const Eigen::VectorXd& values) {
+    for (double grid = coarsest_grid; grid >= finest_grid; grid /= 2) {
+        Eigen::VectorXd rounded = values;
+        for (const Index u : shared) rounded[u] = std::round(values[u] / grid) * grid;
+        bool sound = true;
+        for (Index t = 0; t < problem.corners.rows() && sound; ++t)
+            sound = mapped_edges(problem, rounded, t).determinant() >
+                    least_left * mapped_edges(problem, values, t).determinant();
+        if (sound) return rounded;
+    }
+    return values;
+}
+
 struct Attempt {
     FieldMap made;
     std::vector<Index> crushed;
@@ -134,6 +165,8 @@ Attempt attempt(const MatchedField& uncombed, double size, int threads, const Pr
     if (unknowns.locked.empty()) found = unfolded_tets(problem, start, progress);
     if (!found.folded.empty()) result.crushed = std::move(found.crushed);
     if (static_cast<Index>(found.folded.size()) > made.flipped_at_first) found.values = start;
+    if (found.folded.empty())
+        found.values = on_grid(problem, shared_unknowns(field.domain.mesh(), unknowns), found.values);
     made.steps = found.steps;
     made.angle = mean_angle(problem, found.values);
     made.map = map_of(field, unknowns, found.values);

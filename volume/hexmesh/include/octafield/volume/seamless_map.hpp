@@ -25,6 +25,7 @@ struct SeamlessReport {
     std::vector<Index> torn;  // tets next to a triangle where that is above 1e-6 of the tets' parameters
     Index unaligned = 0;      // boundary triangles without a constant parameter
     double volume = 0;        // of the tets in parameters
+    Edges wound{0, 2};        // edges round which parameters turn as in no hex mesh, though no tet may be flipped
 };
 
 // Throws what require_valid and triangle_table throw, and InvalidInput: kinds "wrong_size", "non_finite_parameter",
