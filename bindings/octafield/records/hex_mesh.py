@@ -59,8 +59,8 @@ class SeamlessMapRecord(MeasuredRecord):
         " parameters wind round) or injective (without)"
     )
     stopped_by: str | None = Field(
-        description="locked_tet, flipped_tet, winding_edge, or the kind of the error after the map; none: hexahedra were"
-        " made"
+        description="locked_tet, flipped_tet, winding_edge, or the kind of the error after the map; none: hexahedra"
+        " were made"
     )
     stopped_at: list[list[float]] = Field(description="where: middles of such tets or edges, input unit, the first 100")
     singular_edges: int = Field(description="of the map's tets")
