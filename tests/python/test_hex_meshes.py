@@ -10,6 +10,7 @@ import pytest
 from hex_mesh_checks import require_conforming, volume_of
 from octafield.domain.generators import generate
 from octafield.hexmesh.hexex import read_seamless_map, write_seamless_map
+from octafield.meshes.openvolumemesh.text import read_ovm
 from pipeline_fixtures import octafield
 
 SMALL = ("s01c_cube", "s02c_prism", "scof_fanpart", "hexalab_double_torus", "s10c_cyl_cutsphere", "n13c_acute_line")
@@ -139,6 +140,25 @@ def test_files_hold_the_map_bit_by_bit(shared_data, tmp_path):
         for field in ("parameters", "walls", "features", "corners"):
             assert np.array_equal(getattr(read, field), getattr(given, field))
         assert np.array_equal(read.mesh.vertices, given.mesh.vertices)
+
+
+@pytest.mark.parametrize("suffix", [".ovm", ".ovmb"])
+def test_half_faces_hold_the_parameters_of_the_vertex_opposite(shared_data, tmp_path, suffix):
+    given = read_seamless_map(map_file(shared_data, "s02c_prism"))
+    write_seamless_map(tmp_path / f"map{suffix}", given)
+    mesh = read_ovm(tmp_path / f"map{suffix}", binary=suffix == ".ovmb")
+    values = mesh.properties["halfface", "HexHex::Parametrization"]
+    triangles, points = mesh.triangles(), np.asarray(mesh.vertices)
+    expected = {}
+    for tet, at in zip(np.asarray(given.mesh.tets).tolist(), np.asarray(given.parameters), strict=True):
+        for k in range(4):
+            expected[frozenset(tet), tet[k]] = at[3 * k : 3 * k + 3]
+    for cell in mesh.cells:
+        corners = frozenset(triangles[cell // 2].ravel().tolist())
+        for half in cell:
+            (apex,) = corners - set(triangles[half // 2].tolist())
+            assert np.array_equal(values[half], expected[corners, apex])
+    assert np.array_equal(points, given.mesh.vertices)
 
 
 def test_rationals_are_rounded_to_the_nearest_number(shared_data):

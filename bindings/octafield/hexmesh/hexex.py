@@ -12,6 +12,7 @@ from .._core import SeamlessMap, TetMesh
 from ..errors import IoError
 from ..files.reading import plain_name, read_bytes
 from ..files.writing import write_file
+from .half_faces import write_half_faces
 
 
 def is_seamless_map(path: object) -> bool:
@@ -44,8 +45,11 @@ def read_seamless_map(path: str | Path) -> SeamlessMap:
 
 
 def write_seamless_map(path: str | Path, given: SeamlessMap) -> None:
-    """As read_seamless_map reads it, each float64 with all its digits; packed where the name ends in .gz. Raises
-    IoError."""
+    """.hexex as read_seamless_map reads it, each float64 with all its digits; packed where the name ends in .gz. Or,
+    by the name, .ovm or .ovmb with the half-face property of HexHex, which has no walls. Raises IoError."""
+    suffix = Path(path).suffix.lower()
+    if suffix in (".ovm", ".ovmb"):
+        return write_half_faces(Path(path), given, binary=suffix == ".ovmb")
     rows = [str(len(given.mesh.vertices)), *(_text(row) for row in np.asarray(given.mesh.vertices).tolist())]
     rows.append(str(len(given.mesh.tets)))
     pairs = zip(np.asarray(given.mesh.tets).tolist(), np.asarray(given.parameters).tolist(), strict=True)
