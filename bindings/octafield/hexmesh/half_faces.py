@@ -1,4 +1,4 @@
-"""Maps as HexHex (Kohler, Heistermann, Bommes 2025) reads them: OpenVolumeMesh, parameters as a property of half-faces."""
+"""Maps as HexHex (2025) reads them: OpenVolumeMesh, parameters as a property of half-faces."""
 
 from pathlib import Path
 
