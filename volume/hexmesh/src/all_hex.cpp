@@ -161,7 +161,7 @@ void require_few(const ArcNumbers& numbers, const AllHexOptions& options) {
 }
 
 void note_other_number(const ArcNumbers& numbers, double wanted, std::vector<std::string>& notes) {
-    if (std::abs(std::log(numbers.hexahedra / wanted)) <= std::log(1.1)) return;
+    if (std::abs(numbers.hexahedra / wanted - 1) <= 0.1) return;
     notes.push_back(std::to_string(numbers.hexahedra) + " hexahedra, " + std::to_string(std::lround(wanted)) +
                     " wanted: each arc of the blocks has one at least, and few numbers fit all arcs");
 }
