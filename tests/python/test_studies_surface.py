@@ -282,8 +282,13 @@ def test_quads_of_hexme_have_a_row_per_file_with_the_figures_or_the_error(tmp_pa
     assert text.startswith("3 surfaces, 2 meshes, 2 of them")
     assert "2 with at most 4 times the fewest blocks" in text
     cube, torus, broken = ([word.strip() for word in line.split("|")[1:-1]] for line in text.splitlines()[4:])
-    assert cube[0] == "s01c" and cube[4:8] == ["6", "6", "1.0", "8"] and float(cube[9]) > 0.99 and cube[-1] == ""
-    assert torus[0] == "s16c" and torus[4:8] == ["1", "1", "1.0", "0"]
+    assert (
+        cube[0] == "s01c"
+        and cube[4:10] == ["6", "6", "1.0", "6", "1.0", "8"]
+        and float(cube[11]) > 0.99
+        and cube[-1] == ""
+    )
+    assert torus[0] == "s16c" and torus[4:10] == ["1", "1", "1.0", "1", "1.0", "0"]
     assert broken[0] == "s99c" and "s99c.vtk.gz" in broken[-1]
     subprocess.run(
         [*command[:-1], tmp_path / "free", "--only", "s01c", "--quads", "24", "--axes", "free"],

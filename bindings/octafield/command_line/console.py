@@ -43,7 +43,7 @@ OK, DEFECT, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 # kinds of SolverError that another option or another mesh avoids
 _OPTION_AT_FAULT = (
     "epsilon_too_large", "thin_triangles", "bad_weights", "move_failed", "unresolved_turns", "unclear_directions",
-    "folded_map", "inverted_quads", "inverted_cells",
+    "folded_map", "inverted_quads", "inverted_cells", "conjugate_gradients",
 )  # fmt: skip
 
 log = logging.getLogger("octafield")

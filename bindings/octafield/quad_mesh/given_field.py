@@ -113,7 +113,7 @@ def _of_file(path: Path) -> tuple[TriangleMesh, np.ndarray, bool]:
 def _checked(values: ArrayLike, surface: TriangleMesh, name: str) -> tuple[np.ndarray, bool]:
     """And whether they are of triangles."""
     try:
-        array = np.asarray(values, dtype=float)
+        array = np.array(values, dtype=float)
     except (TypeError, ValueError) as error:
         raise InvalidInput(f"{name}: not an array of numbers ({error})", "wrong_type") from error
     vertices, triangles = len(surface.vertices), len(surface.triangles)
@@ -123,7 +123,9 @@ def _checked(values: ArrayLike, surface: TriangleMesh, name: str) -> tuple[np.nd
             f" triangle ({triangles}, 3) of the input",
             "wrong_shape",
         )
-    array = array / np.maximum(np.abs(array).max(axis=1, initial=0), 5e-324)[:, None]  # squares stay numbers
+    largest = np.abs(array).max(axis=1, initial=0)
+    odd = (largest > 0) & ~((largest > 1e-100) & (largest < 1e100))
+    array[odd] /= largest[odd, None]  # squares stay numbers
     bad = np.flatnonzero(~np.isfinite(array).all(axis=1) | (array == 0).all(axis=1))
     if len(bad):
         raise InvalidInput(
