@@ -41,7 +41,7 @@ void bind_t_mesh_options(py::module_& m) {
                "wanted, nearer to the lengths, in blocks that may be as small as quads.")
         .field("least_jacobian", &QuantizedQuadsOptions::least_jacobian,
                "Of \"few\": more blocks are tried until all quads have this scaled Jacobian; if none has, the fewest "
-               "with 0.7 of the best one's are taken. 0: the fewest.")
+               "with 0.3 are taken, or with 0.8 of the best one's where that is below 0.3. 0: the fewest.")
         .field("weights", &QuantizedQuadsOptions::weights,
                "Of |n - length / size| in the sum: \"equal\", or \"relative\", over length / size, 1 at least.")
         .field("measure", &QuantizedQuadsOptions::measure,

@@ -139,4 +139,5 @@ def test_other_fields_and_options_are_refused(tmp_path):
     with pytest.raises(of.InvalidInput, match="region"):
         of.volume.field_map(halves, np.eye(1, 4).repeat(len(tets.vertices), axis=0))
     write_seamless_map(tmp_path / "box.hexex", of.compute_seamless_map(box).map)
-    octafield("hex-mesh", tmp_path / "box.hexex", "-o", tmp_path / "out", "--tet-length", "1", "-q", check=2)
+    for option in (("--tet-length", "1"), ("--fallback", "none")):
+        octafield("hex-mesh", tmp_path / "box.hexex", "-o", tmp_path / "out", *option, "-q", check=2)

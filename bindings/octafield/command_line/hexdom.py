@@ -154,6 +154,8 @@ def hex_mesh(
         given = is_seamless_map(input)
         if given and chosen != FieldOptions(threads=chosen.threads):
             raise InvalidInput("a map has its field; leave the options of fields out", "option_out_of_range")
+        if given and fallback != FALLBACKS[0]:
+            raise InvalidInput("a map has no field to fall back on; leave --fallback out", "ignored_option")
         with staged_folder(output, RECORD_FILE) as folder, console.progress_bar(quiet) as progress:
             told: HexMeshRecord | SeamlessMapRecord
             if given:

@@ -1,6 +1,7 @@
 #include "map_transitions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "octafield/frames/octahedral_group.hpp"
@@ -30,6 +31,16 @@ Transition transition(const std::array<Eigen::Vector3d, 3>& from, const std::arr
         if (residual < best.residual) best = {rotation, b - rotation * a, residual};
     }
     return best;
+}
+
+double angle_round(const Eigen::Vector3d& origin, const Eigen::Vector3d& end, const Eigen::Vector3d& x,
+                   const Eigen::Vector3d& y) {
+    const Eigen::Vector3d along = (end - origin).normalized();
+    const auto beside = [&](const Eigen::Vector3d& at) -> Eigen::Vector3d {
+        return at - origin - (at - origin).dot(along) * along;
+    };
+    const Eigen::Vector3d a = beside(x), b = beside(y);
+    return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 std::array<Eigen::Vector3d, 3> triangle_parameters(const Rows<double, 12>& parameters, const Tets& tets,

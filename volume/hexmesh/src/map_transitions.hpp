@@ -24,6 +24,10 @@ struct Transition {
 // The one that takes the three points `from` nearest to those of `to`.
 Transition transition(const std::array<Eigen::Vector3d, 3>& from, const std::array<Eigen::Vector3d, 3>& to);
 
+// Between the half planes of x and y at the line from `origin` to `end`, 0 to pi: what a tet has of the turn round an edge.
+double angle_round(const Eigen::Vector3d& origin, const Eigen::Vector3d& end, const Eigen::Vector3d& x,
+                   const Eigen::Vector3d& y);
+
 // Corner of the tet at a vertex that it has.
 inline int corner_at(const Tets& tets, Index tet, Index vertex) {
     int k = 0;

@@ -25,14 +25,7 @@ const Eigen::Vector3d& place(const CutTet& tet, Index vertex) { return tet.at[te
 
 // Of the parameters of a tet around an edge of it.
 double angle(const CutTet& tet, const Wedge& wedge, const EdgeKey& edge) {
-    const Eigen::Vector3d& origin = place(tet, edge[0]);
-    const Eigen::Vector3d along = (place(tet, edge[1]) - origin).normalized();
-    const auto beside = [&](Index v) -> Eigen::Vector3d {
-        const Eigen::Vector3d way = place(tet, v) - origin;
-        return way - way.dot(along) * along;
-    };
-    const Eigen::Vector3d a = beside(wedge.from), b = beside(wedge.to);
-    return std::atan2(a.cross(b).norm(), a.dot(b));
+    return angle_round(place(tet, edge[0]), place(tet, edge[1]), place(tet, wedge.from), place(tet, wedge.to));
 }
 
 int quarters(double angle) { return static_cast<int>(std::lround(angle / (std::numbers::pi / 2))); }

@@ -26,15 +26,12 @@ Wedge wedge_of(const SeamlessMap& map, Index tet, int a, int b) {
     for (int k = 0; k < 4; ++k)
         if (k != a && k != b) rest[n++] = k;
     const Eigen::Vector3d origin = parameters_at(map.parameters, tet, a);
-    const Eigen::Vector3d way = parameters_at(map.parameters, tet, b) - origin, along = way.normalized();
-    const auto beside = [&](int k) -> Eigen::Vector3d {
-        const Eigen::Vector3d x = parameters_at(map.parameters, tet, k) - origin;
-        return x - x.dot(along) * along;
-    };
-    const Eigen::Vector3d x = beside(rest[0]), y = beside(rest[1]);
+    const Eigen::Vector3d end = parameters_at(map.parameters, tet, b);
+    const double angle = angle_round(origin, end, parameters_at(map.parameters, tet, rest[0]),
+                                     parameters_at(map.parameters, tet, rest[1]));
     const auto [low, high] = std::minmax(map.mesh.tets(tet, a), map.mesh.tets(tet, b));
-    const auto size = way.array().abs();
-    return {low, high, std::atan2(x.cross(y).norm(), x.dot(y)), (size <= same * size.maxCoeff()).count() >= 2};
+    const Eigen::Array3d size = (end - origin).array().abs();
+    return {low, high, angle, (size <= same * size.maxCoeff()).count() >= 2};
 }
 
 std::vector<std::pair<Index, Index>> boundary_edges(const TriangleTable& table) {

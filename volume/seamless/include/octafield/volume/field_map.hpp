@@ -33,8 +33,7 @@ struct FieldMap {
 // squares over all that is left free; Nieser, Reitebuch, Polthier 2011), then of least distortion without folds
 // (Garanzha et al. 2021). Tets that stay flipped are told, not refused. Near linear but for sparse factorizations. The
 // same result at any thread count. Throws InvalidInput ("option_out_of_range", "several_regions", frames),
-// GeometryError (unsound mesh), SolverError
-// ("singular_map", "no_translations"), Cancelled.
+// GeometryError (unsound mesh), SolverError ("singular_map", "no_translations"), Cancelled.
 FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const FieldMapOptions& options = {},
                    const Progress& progress = {});
 
