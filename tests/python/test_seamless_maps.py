@@ -104,6 +104,12 @@ def test_the_command_goes_from_a_ball_to_hexahedra_alone(shared_data, tmp_path):
     assert any_record(folder / "seamless.json").stage == "injective"
 
 
+def test_whole_numbers_do_not_end_the_process(shared_data, tmp_path):
+    """Bounds that cross while Cbc preprocesses these end in an assertion of Clp."""
+    octafield("hex-mesh", hexme(shared_data, "s10c"), "-o", tmp_path / "out", "--cells", "2000", "-q", check=0)
+    assert any_record(tmp_path / "out" / "result.json").stage == "extracted"
+
+
 def test_the_command_tells_what_stops_it(shared_data, tmp_path):
     octafield("hex-mesh", hexme(shared_data, "s07c"), "-o", tmp_path / "out", "--json", tmp_path / "told.json", "-q",
               "--fallback", "none", check=0)  # fmt: skip

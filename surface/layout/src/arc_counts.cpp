@@ -113,6 +113,7 @@ public:
         for (int i = 0; i < arcs && whole; ++i) Cbc_setInteger(model_.get(), 4 * i);
         Cbc_setParameter(model_.get(), "log", "0");
         Cbc_setLogLevel(model_.get(), 0);
+        if (!problem.preprocess) Cbc_setParameter(model_.get(), "preprocess", "off");
     }
 
     void solve(int most_nodes, const Part& part, ArcCounts& result) {

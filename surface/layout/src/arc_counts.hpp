@@ -26,6 +26,9 @@ struct ArcProblem {
     std::vector<int> least;       // >= 0
     std::vector<EqualSums> sums;
     std::optional<BoundedSum> bounded = {};  // arcs with a factor are solved together
+    // By Cbc, before it branches. Bounds that cross there may end the process in an assertion of Clp 1.17 (seen with
+    // arcs of blocks in volumes), and nothing can catch that.
+    bool preprocess = true;
 };
 
 struct ArcCounts {

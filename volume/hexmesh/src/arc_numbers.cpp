@@ -15,6 +15,7 @@ ArcNumbers arc_numbers(const BlockComplex& blocks, double scale, const std::vect
                            "wrong_size");
     surface::detail::ArcProblem problem;
     problem.least = least;
+    problem.preprocess = false;
     for (const BlockArc& arc : blocks.arcs) {
         problem.wanted.push_back(scale * arc.length());
         problem.weights.push_back(1 / std::max(problem.wanted.back(), 0.5));
