@@ -52,25 +52,41 @@ def test_what_stops_a_map_is_told_with_its_places(shared_data):
     assert record.stopped_at[0] == pytest.approx(corners.mean(axis=0).tolist())
 
 
-def twisted_ring(turns):
-    """Eight tets round an edge, whose parameters go round it so many times, with the edge along no axis."""
-    angles = np.arange(8) * np.pi / 4
-    points = np.array([[0, 0, -1], [0, 0, 1], *np.stack([np.cos(angles), np.sin(angles), 0 * angles], 1)])
-    tets = np.array([[0, 1, 2 + k, 2 + (k + 1) % 8] for k in range(8)], np.int32)
-    mapped = points.copy()
-    mapped[2:, :2] = np.stack([np.cos(turns * angles), np.sin(turns * angles)], 1)
-    tilt = np.array([[1, 2, 2], [2, 1, -2], [-2, 2, -1]]) / 3  # columns at right angles
+def twisted_ring(turns, count=8, tilted=True):
+    """So many of eight tets round an edge, whose parameters go round it so many times all eight, with the edge along no
+    axis where they are tilted."""
+    angles = np.arange(9) * np.pi / 4
+    around = np.stack([np.cos(angles), np.sin(angles), 0 * angles], 1)
+    points = np.array([[0, 0, -1], [0, 0, 1], *around[: min(count + 1, 8)]])
+    places = np.array([[0, 1, 2 + k, 3 + k] for k in range(count)])
+    mapped = np.array(
+        [[0, 0, -1], [0, 0, 1], *np.stack([np.cos(turns * angles), np.sin(turns * angles), 0 * angles], 1)]
+    )
+    tilt = np.array([[1, 2, 2], [2, 1, -2], [-2, 2, -1]]) / 3 if tilted else np.eye(3)  # columns at right angles
     tilt *= np.sign(np.linalg.det(tilt))
-    return of.volume.SeamlessMap(of.TetMesh(points, tets), (mapped @ tilt.T)[tets].reshape(-1, 12))
+    tets = np.where(places == 10, 2, places).astype(np.int32)
+    return of.volume.SeamlessMap(of.TetMesh(points, tets), (mapped @ tilt.T)[places].reshape(-1, 12))
 
 
-@pytest.mark.parametrize(("turns", "edges"), [(1, []), (2, [[0, 1]])])
-def test_parameters_that_wind_round_an_edge_are_seen_though_no_tet_is_flipped(turns, edges):
-    given = twisted_ring(turns)
+@pytest.mark.parametrize(
+    ("turns", "count", "tilted", "wound"),
+    [
+        (1, 8, True, False),
+        (2, 8, True, True),
+        (0.75, 8, False, False),  # valence 3
+        (0.25, 8, False, True),  # one hexahedron round an edge inside
+        (1, 4, True, False),  # two quarters at the boundary
+        (1, 6, True, True),
+        (1, 6, False, False),
+        (0.1, 4, False, True),
+    ],
+)
+def test_parameters_that_wind_round_an_edge_are_seen_though_no_tet_is_flipped(turns, count, tilted, wound):
+    given = twisted_ring(turns, count, tilted)
     assert least_determinant(given) > 0
     report = of.volume.seamless_report(given)
     assert not len(report.flipped) and not len(report.torn)
-    assert np.asarray(report.wound).tolist() == edges
+    assert ([0, 1] in np.asarray(report.wound).tolist()) == wound
 
 
 def test_a_map_that_winds_is_not_called_injective(shared_data):
