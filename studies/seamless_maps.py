@@ -110,7 +110,7 @@ def summary(rows: list[dict]) -> str:
     seamless, injective = count("seamless", "injective", "extracted"), count("injective", "extracted")
     sound = sum(not row["faults"] for row in made)
     return (
-        f"{len(rows)} files: {seamless} seamless maps, {injective} of them without a fold, {len(made)} meshes of"
+        f"{len(rows)} files: {seamless} seamless maps, {injective} of them injective, {len(made)} meshes of"
         f" hexahedra alone ({sound} without a fault). {sum(row['cpu'] for row in rows):.0f} s of CPU time in all.\n"
     )
 
