@@ -142,6 +142,20 @@ private:
         return all;
     }
 
+    // The quality of the triangle of p and a side, or, where that is not enough, the least of those that p has once the
+    // side is flipped; and whether it is flipped.
+    std::pair<double, bool> half(const Vector& p, HalfEdgeOf side, double enough) const {
+        const Vector a = work_.at(mesh_.source(side)), b = work_.at(mesh_.target(side));
+        const double own = radius_ratio(a, b, p);
+        if (own >= enough || !may_flip(work_, mesh_.edge(side))) return {own, false};
+        const Vector c = work_.at(mesh_.target(mesh_.next(mesh_.opposite(side))));
+        const Shape first = shape_of(a, c, p), second = shape_of(c, b, p);
+        for (const Shape& old : {shape_of(a, b, p), shape_of(b, a, c)})
+            if (turned(old.normal, first.normal) || turned(old.normal, second.normal)) return {own, false};
+        const double flipped = std::min(radius_ratio(a, c, p), radius_ratio(c, b, p));
+        return flipped > own ? std::pair(flipped, true) : std::pair(own, false);
+    }
+
     // At the foot of the apex of its worse triangle, or in the middle.
     bool split(Edge edge) {
         const HalfEdgeOf side = mesh_.halfedge(edge);
@@ -158,12 +172,18 @@ private:
             const auto place = on_input_.place_on(work_, edge, a + share * (b - a));
             if (!place) continue;
             double after = 1;
+            std::vector<Edge> flips;
             for (const HalfEdgeOf h : {side, mesh_.opposite(side)}) {
                 if (mesh_.is_border(h)) continue;
-                const Vector c = work_.at(mesh_.target(mesh_.next(h)));
-                after = std::min({after, radius_ratio(a, place->point, c), radius_ratio(place->point, b, c)});
+                for (const HalfEdgeOf outer : {mesh_.next(h), mesh_.prev(h)}) {
+                    const auto [quality, flipped] = half(place->point, outer, before + kGain);
+                    after = std::min(after, quality);
+                    if (flipped) flips.push_back(mesh_.edge(outer));
+                }
             }
-            if (after >= before + kGain && on_input_.split_at(work_, edge, *place)) return true;
+            if (after < before + kGain || !on_input_.split_at(work_, edge, *place)) continue;
+            for (const Edge outer : flips) flip(outer);
+            return true;
         }
         return false;
     }

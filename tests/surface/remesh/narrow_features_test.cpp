@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "better_triangles.hpp"
 #include "mesh_fixtures.hpp"
 #include "narrow_corners.hpp"
 #include "octafield/surface/close_remesh.hpp"
@@ -43,6 +44,23 @@ TEST(NarrowCorners, NoTriangleIsHeldBetweenCurvesThatMeetAtFourDegrees) {
     const CloseRemeshResult followed = close_remesh(prism, features, even(prism, 0.05), {.keep_stubs = true});
     EXPECT_EQ(followed.forced, 2) << "where all curves of a file are followed";
     EXPECT_LT(triangle_qualities(followed.mesh).minCoeff(), 0.14) << "a needle of 4 degrees";
+}
+
+// As on a toy ant that ships with pyvista: a face of one flat triangle, of quality 0.28. Its long side can only be
+// split in a good triangle and one worse than itself, beyond the crease, which a flip mends.
+TEST(NarrowCorners, AFlatFaceIsSplitWhereTheOtherSideIsFlipped) {
+    const TriangleMesh mesh =
+        make_mesh({{0, 0, 0}, {1.146, 0, 0}, {0.442, 0.234, 0}, {1.209, 0, -0.606}, {0.4, 0, -1.2}, {1.8, 0, -0.3}},
+                  {{0, 1, 2}, {1, 0, 3}, {0, 4, 3}, {1, 3, 5}});
+    ASSERT_NEAR(triangle_qualities(mesh)[0], 0.2825, 0.002);
+    FeatureGraph features = detect_features(mesh);
+    features.corners = {0, 1, 2, 3, 4, 5};
+    const Background ground = background_of(mesh, features, even(mesh, 4), 4, 0.01);
+    CloseRounds rounds(ground);
+    Working work(ground.mesh, ground.features);
+    rounds.begin(work);
+    better_triangles(work, rounds, 0.35, 1, [] {});
+    EXPECT_GT(triangle_qualities(to_arrays(work.marked).mesh).minCoeff(), 0.35);
 }
 
 TEST(NarrowCorners, WiderOnesAndRimsAreFollowed) {
