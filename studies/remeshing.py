@@ -189,7 +189,8 @@ def in_process(*words: object, limit: float) -> dict:
             return {"error": f"not done after {limit:g} s"}
         if not out.exists():
             lines = done.stderr.strip().splitlines() or [f"status {done.returncode}"]
-            return {"error": next((line for line in reversed(lines) if "Error" in line), lines[-1])[:160]}
+            told = [line for line in lines if "Error" in line or line.startswith("Exception")]
+            return {"error": (told or lines)[-1][:160]}
         return json.loads(out.read_text())
 
 
