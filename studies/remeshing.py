@@ -139,6 +139,10 @@ def gmsh_of(name: str, vertices: int) -> dict:
     }
 
 
+def peak_gigabytes() -> float:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
+
+
 def case(kind: str, side: int, wanted: int) -> dict:
     """A level set on side^3 points. wanted: vertices; 0: as many as the input has, by curvature."""
     points, triangles = INDUSTRIAL[kind](side)
@@ -147,12 +151,15 @@ def case(kind: str, side: int, wanted: int) -> dict:
     remeshing = octafield.RemeshingOptions(vertices=wanted or len(points), curvature=not wanted)
     result = octafield.compute_remesh(given, octafield.MeshOptions(repair="safe"), remeshing=remeshing)
     record = result.record
+    seconds, wall, memory = time.process_time() - cpu, time.perf_counter() - began, peak_gigabytes()
+    cpu = time.process_time()
+    atlas = octafield.compute_atlas(given, octafield.MeshOptions(repair="safe", remesh=False)).record
     return {
+        "charts": atlas.charts, "atlas_seconds": time.process_time() - cpu,
         "triangles": len(triangles), "out": record.triangles, "genus": genus(given),
-        "seconds": time.process_time() - cpu,
-        "wall": time.perf_counter() - began, "worst": record.quality.min, "poor": record.poor,
+        "seconds": seconds, "wall": wall, "worst": record.quality.min, "poor": record.poor,
         "deviation": max(record.deviation.of_input, record.deviation.of_mesh), "closed": record.watertight,
-        "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6, "kept": record.kept,
+        "memory": memory, "kept": record.kept,
     }  # fmt: skip
 
 
@@ -239,6 +246,8 @@ CASE_HEADER = (
     "closed",
     "CPU s",
     "GB",
+    "charts",
+    "charts, CPU s",
 )
 
 
@@ -247,7 +256,7 @@ def cases(rows: list[tuple[str, int, int]]) -> str:
     for kind, side, wanted in rows:
         found = in_process("case", kind, side, wanted, limit=LIMITS["case"])
         if "error" in found:
-            made.append((kind, f"side {side}", "", found["error"], *[""] * 6))
+            made.append((kind, f"side {side}", "", found["error"], *[""] * 8))
         else:
             made.append(
                 (
@@ -261,6 +270,8 @@ def cases(rows: list[tuple[str, int, int]]) -> str:
                     "yes" if found["closed"] else "no",
                     f"{found['seconds']:.0f}",
                     f"{found['memory']:.1f}",
+                    f"{found['charts']:,}",
+                    f"{found['atlas_seconds']:.1f}",
                 )  # fmt: skip
             )
         print(markdown_table(CASE_HEADER, made[-1:]), flush=True)
