@@ -301,7 +301,11 @@ def main() -> None:
         resource.setrlimit(resource.RLIMIT_CPU, (given.limit, given.limit + 5))
         given.o.write_text(json.dumps(one(given.words)))
         return
-    text = table(given.only) if given.part == "table" else cases(GROWTH if given.part == "growth" else CASES)
+    if given.part == "table":
+        text = table(given.only)
+    else:
+        rows = GROWTH if given.part == "growth" else CASES
+        text = cases([row for row in rows if given.only in (None, row[0])])
     print(text)
     if given.o:
         given.o.write_text(text)
