@@ -98,6 +98,16 @@ def test_a_map_that_winds_is_not_called_injective(shared_data):
     assert result.record.stopped_at[0] == pytest.approx(np.asarray(result.map.mesh.vertices)[ends].mean(axis=0))
 
 
+@pytest.mark.parametrize("name", ["s07c", "s11c"])
+def test_what_stops_these_maps_are_curves_that_go_on_with_another_type(shared_data, name):
+    """Three hexahedra round one part, five round the other: the same matchings, against the axis."""
+    field = of.compute_field(hexme(shared_data, name))
+    graph = of.volume.singular_graph(field.tets, field.frames)
+    told = of.volume.local_meshability(field.tets, field.frames, graph)
+    bad = [vertex for vertex in told.vertices if not vertex.meshable]
+    assert bad and {(vertex.valence3, vertex.valence5, vertex.complex) for vertex in bad} == {(1, 1, 0)}
+
+
 def test_curves_of_a_cylinder_share_planes_or_lie_apart(shared_data):
     """Planes of walls nearly in one another leave no tets between them."""
     walled = of.volume.motorcycle_complex(of.compute_seamless_map(hexme(shared_data, "s15c")).map)
