@@ -14,7 +14,8 @@ def judged(
     features: np.ndarray,
     edge: float,
 ) -> dict:
-    """triangles: other cells. features: (n, 2) edges of the surface, its boundary among them. edge: wanted."""
+    """triangles: other cells. features: (n, 2) edges of the surface, its boundary among them. edge: wanted. Small are
+    quads of less than 0.7 of it: their share of the number, and of the area."""
     vertices = np.asarray(surface.vertices)
     diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
     jacobians, areas = shapes(points[quads])
@@ -33,8 +34,11 @@ def judged(
         "inverted": int((~(jacobians > 0)).sum()),
         "least": float(jacobians.min()),
         "mean": float(jacobians.mean()),
+        "poor": int((jacobians < 0.3).sum()),
         "p10": float(np.percentile(sizes, 10)),
         "p90": float(np.percentile(sizes, 90)),
+        "small": float((sizes < 0.7).mean()),
+        "small_area": float(areas[sizes < 0.7].sum() / areas.sum()),
         "off_features": off_features(points, edges, vertices, features) / diagonal,
         "deviation": surface_deviation(points, triangles.astype(np.int32), quads.astype(np.int32), surface)[0],
     }

@@ -98,7 +98,7 @@ def test_a_map_that_winds_is_not_called_injective(shared_data):
     assert result.record.stopped_at[0] == pytest.approx(np.asarray(result.map.mesh.vertices)[ends].mean(axis=0))
 
 
-@pytest.mark.parametrize("name", ["s07c", "s11c"])
+@pytest.mark.parametrize("name", ["s07c", "s08c", "s11c"])
 def test_what_stops_these_maps_are_curves_that_go_on_with_another_type(shared_data, name):
     """Three hexahedra round one part, five round the other: the same matchings, against the axis."""
     field = of.compute_field(hexme(shared_data, name))

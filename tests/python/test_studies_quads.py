@@ -89,3 +89,10 @@ def test_the_judge_of_quads_sees_what_is_wrong():
     assert gap["nonconforming"] > 0
     short = judged(points * [0.9, 1, 1], quads, no_triangles, plate, features, 1.0)
     assert short["off_features"] > 0.08
+    uneven = points.copy()
+    uneven[[1, 4], 0] = 0.4
+    small = judged(uneven, quads, no_triangles, plate, features, 1.0)
+    assert (small["small"], small["small_area"], small["poor"]) == (0.5, pytest.approx(0.2), 0)
+    assert (good["small"], good["small_area"], good["poor"]) == (0, 0, 0)
+    uneven[4, 0] = 1.99  # corners of 9 degrees
+    assert judged(uneven, quads, no_triangles, plate, features, 1.0)["poor"] == 1
