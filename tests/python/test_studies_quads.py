@@ -94,5 +94,5 @@ def test_the_judge_of_quads_sees_what_is_wrong():
     small = judged(uneven, quads, no_triangles, plate, features, 1.0)
     assert (small["small"], small["small_area"], small["poor"]) == (0.5, pytest.approx(0.2), 0)
     assert (good["small"], good["small_area"], good["poor"]) == (0, 0, 0)
-    uneven[4, 0] = 1.99  # corners of 9 degrees
-    assert judged(uneven, quads, no_triangles, plate, features, 1.0)["poor"] == 1
+    uneven[4] = [1, 0.1, 0]  # at vertex 1 corners of 9 and 171 degrees
+    assert judged(uneven, quads, no_triangles, plate, features, 1.0)["poor"] == 2
