@@ -1,5 +1,6 @@
 #include "octafield/volume/block_complex.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,5 +1,6 @@
 #include "cut_tets.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 

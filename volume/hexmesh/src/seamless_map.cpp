@@ -1,5 +1,6 @@
 #include "octafield/volume/seamless_map.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>

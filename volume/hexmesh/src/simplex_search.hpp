@@ -1,6 +1,7 @@
 // Which of many triangles in the plane, or tets in space, that fill a box holds a point.
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>

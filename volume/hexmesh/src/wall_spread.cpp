@@ -1,5 +1,6 @@
 #include "wall_spread.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
