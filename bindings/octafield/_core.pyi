@@ -3763,6 +3763,8 @@ class SeamlessReport:
 class FieldMap:
     map: SeamlessMap
     added_vertices: int
+    turns: int
+    unzipped: int
     unknowns: int
     flipped_at_first: int
     steps: int
@@ -3774,6 +3776,8 @@ class FieldMap:
         parent: ArrayLike = ...,
         curves: ArrayLike = ...,
         added_vertices: int = ...,
+        turns: int = ...,
+        unzipped: int = ...,
         unknowns: int = ...,
         locked: ArrayLike = ...,
         flipped: ArrayLike = ...,

@@ -18,6 +18,8 @@ void bind_field_map(py::module_& m) {
         .field("parent", &FieldMap::parent, "(m,) int32: the tet of the field that each is part of.")
         .field("curves", &FieldMap::curves, "(e, 2) int32 singular edges of the map's mesh.")
         .field("added_vertices", &FieldMap::added_vertices, "Of the map's mesh.")
+        .field("turns", &FieldMap::turns, "Places where curves of the field go on with another type.")
+        .field("unzipped", &FieldMap::unzipped, "Of these, how many are no more.")
         .field("unknowns", &FieldMap::unknowns, "That were free.")
         .field("locked", &FieldMap::locked,
                "int32 tets that are flat in every map with these singular curves and this surface.")

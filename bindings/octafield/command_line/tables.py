@@ -119,6 +119,7 @@ def _show_map_record(record: SeamlessMapRecord) -> None:
         ("stopped by", record.stopped_by or "nothing"),
         ("tets", f"{record.tets:,}"),
         ("singular edges", f"{record.singular_edges:,}"),
+        ("curves unzipped", f"{record.unzipped} of {record.turns}"),
         ("locked tets", f"{record.locked:,}"),
         ("flipped at first", f"{record.flipped_at_first:,}"),
         ("flipped", f"{record.flipped:,}"),

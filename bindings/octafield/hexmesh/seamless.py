@@ -123,6 +123,8 @@ def _mapped(field: AnalysedField, unit: float, progress: Progress | None) -> Sea
         stopped_by=kind,
         stopped_at=_middles(made.map, places),
         singular_edges=len(made.curves),
+        turns=made.turns,
+        unzipped=made.unzipped,
         unknowns=made.unknowns,
         locked=len(locked),
         flipped_at_first=made.flipped_at_first,

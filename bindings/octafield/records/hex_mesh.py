@@ -64,6 +64,10 @@ class SeamlessMapRecord(MeasuredRecord):
     )
     stopped_at: list[list[float]] = Field(description="where: middles of such tets or edges, input unit, the first 100")
     singular_edges: int = Field(description="of the map's tets")
+    turns: int = Field(
+        0, description="places where a singular curve of the field goes on with another type, which no hex mesh has"
+    )
+    unzipped: int = Field(0, description="of these, how many the map does not have: both parts were led to the surface")
     unknowns: int = Field(description="numbers that were free")
     locked: int = Field(description="tets that are flat in every map with these singular curves and this surface")
     flipped_at_first: int = Field(description="tets turned over or flat in the map of least squares")

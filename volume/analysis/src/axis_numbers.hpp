@@ -20,6 +20,10 @@ inline int nearest_axis_number(const frames::Vector3& in_frame) {
     return static_cast<int>(largest) + (in_frame[largest] < 0 ? 3 : 0);
 }
 
+// Numbers of the elements 4 to 9, about +x, -x, +y, -y, +z, -z, by the axis they turn about, and back.
+inline int quarter_turn_about(int axis) { return 4 + 2 * (axis % 3) + axis / 3; }
+inline int axis_of_quarter_turn(int element) { return (element - 4) / 2 + 3 * (element % 2); }
+
 // Number of o a, for the element o of the octahedral group and the axis a.
 inline int turned_axis(int element, int axis) {
     static const auto table = [] {

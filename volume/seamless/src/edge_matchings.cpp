@@ -64,6 +64,16 @@ int EdgeMatchings::operator()(Index from, Index to) const {
     return from < to ? element_[row_of(from, to)] : octahedral_inverse(element_[row_of(to, from)]);
 }
 
+void EdgeMatchings::turn(Index from, Index to, int element) {
+    const int turned = octahedral_product(element, (*this)(from, to));
+    element_[row_of(std::min(from, to), std::max(from, to))] =
+        static_cast<std::uint8_t>(from < to ? turned : octahedral_inverse(turned));
+}
+
+const std::vector<Index>& EdgeMatchings::triangles_at(Index a, Index b) const {
+    return triangles_of_[row_of(std::min(a, b), std::max(a, b))];
+}
+
 int EdgeMatchings::holonomy(Index row, Index edge, int instead) const {
     const auto element = [&](int k) {
         const Index e = edges_of_(row, k);

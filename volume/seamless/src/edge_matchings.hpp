@@ -16,6 +16,11 @@ public:
     // q_from o is close to q_to, for the element o of the octahedral group; of an edge or a vertex with itself.
     int operator()(Index from, Index to) const;
 
+    // What goes from one end of an edge to the other becomes element (*this)(from, to).
+    void turn(Index from, Index to, int element);
+
+    const std::vector<Index>& triangles_at(Index a, Index b) const;  // rows of the table
+
     // What is left round the triangle of the table: 0 where it is not singular.
     int holonomy(Index row) const { return holonomy(row, -1, 0); }
 

@@ -1,5 +1,6 @@
 #include "octafield/volume/field_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -9,8 +10,10 @@
 #include "matched_combing.hpp"
 #include "octafield/error.hpp"
 #include "octafield/frames/octahedral_group.hpp"
+#include "octafield/volume/refine_tets.hpp"
 #include "require_frames.hpp"
 #include "unfolded_tets.hpp"
+#include "unzipped_curves.hpp"
 
 namespace octafield::volume {
 namespace {
@@ -148,7 +151,18 @@ Eigen::VectorXd on_grid(const TetProblem& problem, const std::vector<Index>& sha
 struct Attempt {
     FieldMap made;
     std::vector<Index> crushed;
+    Index faults = 0;
 };
+
+// Tets with a vertex of one of the edges.
+std::vector<Index> tets_round(const TetMesh& mesh, const Edges& edges) {
+    const std::set<Index> ends(edges.reshaped().begin(), edges.reshaped().end());
+    std::vector<Index> found;
+    for (Index t = 0; t < mesh.tets.rows(); ++t)
+        if (std::any_of(mesh.tets.row(t).begin(), mesh.tets.row(t).end(), [&](Index v) { return ends.contains(v); }))
+            found.push_back(t);
+    return found;
+}
 
 Attempt attempt(const MatchedField& uncombed, double size, int threads, const Progress& progress) {
     report_or_throw(progress, "unknowns", 0, std::nan(""));
@@ -170,12 +184,47 @@ Attempt attempt(const MatchedField& uncombed, double size, int threads, const Pr
     made.steps = found.steps;
     made.angle = mean_angle(problem, found.values);
     made.map = map_of(field, unknowns, found.values);
-    made.flipped = seamless_report(made.map).flipped;
+    SeamlessReport report = seamless_report(made.map);
+    made.flipped = std::move(report.flipped);
+    if (made.flipped.empty()) result.crushed = tets_round(made.map.mesh, report.wound);
+    result.faults = static_cast<Index>(made.flipped.size()) + report.wound.rows();
     made.parent = field.parent;
     made.curves = field.curves;
     made.unknowns = unknowns.free.count;
     made.locked = std::move(unknowns.locked);
     return result;
+}
+
+// Frames half-way between those of two vertices.
+Quaternions refined_frames(const Quaternions& frames, const Edges& parents) {
+    Quaternions result(parents.rows(), 4);
+    for (Index v = 0; v < parents.rows(); ++v) {
+        const Eigen::Vector4d one = frames.row(parents(v, 0)).transpose();
+        const Eigen::Vector4d other = frames::to_wxyz(frames::closest_representative(
+            frames::from_wxyz(frames.row(parents(v, 1))), frames::from_wxyz(frames.row(parents(v, 0)))));
+        result.row(v) = (one + other).normalized().transpose();
+    }
+    return result;
+}
+
+// With curves as edges, of one type each where that can be. Where a ribbon for that has no room, tets near it are cut
+// into eight first.
+std::pair<MatchedField, UnzippedCurves> matched_field(const TetDomain& domain, const Quaternions& frames) {
+    const auto made = [](const TetDomain& on, Quaternions given) {
+        EdgeMatchings matchings(on, given);
+        matchings.shorten_curves();
+        UnzippedCurves told = unzip_curves(on, given, matchings);
+        MatchedField field = split_along_curves(on, given, matchings);
+        return std::pair(std::move(field), std::move(told));
+    };
+    auto first = made(domain, frames);
+    const UnzippedCurves& told = first.second;
+    if (told.mended == told.turns) return first;
+    RefinedDomain finer = refine_tets(domain, told.near);
+    auto second = made(finer.domain, refined_frames(frames, finer.parents));
+    if (second.second.turns - second.second.mended >= told.turns - told.mended) return first;
+    for (Index& tet : second.first.parent) tet = finer.parent[tet];
+    return second;
 }
 
 }  // namespace
@@ -189,9 +238,8 @@ FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const Fie
         throw InvalidInput("seamless maps are made of one region so far; give the mesh without region ids",
                            "several_regions");
     report_or_throw(progress, "comb", 0, std::nan(""));
-    EdgeMatchings matchings(domain, frames);
-    matchings.shorten_curves();
-    MatchedField field = make_room(split_along_curves(domain, frames, matchings));
+    const auto [matched, unzipped] = matched_field(domain, frames);
+    MatchedField field = make_room(matched);
     const double size = options.edge_length > 0 ? options.edge_length : mean_edge(domain.mesh());
     Attempt best = attempt(field, size, options.threads, progress), last = best;
     int steps = best.made.steps;
@@ -203,9 +251,12 @@ FieldMap field_map(const TetDomain& domain, const Quaternions& frames, const Fie
         field = split_round(field, last.crushed);
         last = attempt(field, size, options.threads, progress);
         steps += last.made.steps;
-        if (last.made.flipped.size() < best.made.flipped.size()) best = last;
+        if (last.faults >= best.faults) break;
+        best = last;
     }
     best.made.steps = steps;
+    best.made.turns = unzipped.turns;
+    best.made.unzipped = unzipped.mended;
     best.made.added_vertices = static_cast<Index>(best.made.map.mesh.vertices.rows()) - domain.vertex_count();
     return std::move(best.made);
 }

@@ -82,6 +82,24 @@ MatchedField split_at_straight_edges(const MatchedField& field) {
     return of_parts(field, with_features_of(field.domain, splitter.mesh()), splitter.parent());
 }
 
+// Six tets round each edge of a curve, not three: five quarters in three tets are 150 degrees each.
+MatchedField split_round_curves(const MatchedField& field) {
+    const TetMesh& mesh = field.domain.mesh();
+    std::vector<Key<2>> curves = keys_of(field.curves), held = keys_of(straight_edges(field)), opposite;
+    splitting::sort_unique(curves);
+    splitting::sort_unique(held);
+    for (const auto& tet : splitting::list_of(mesh.tets))
+        for (std::size_t k = 0; k < 6; ++k)
+            if (splitting::contains(curves, splitting::key_of(tet, splitting::edge_corners[k])))
+                if (const Key<2> key = splitting::key_of(tet, splitting::edge_corners[5 - k]);
+                    !splitting::contains(held, key))
+                    opposite.push_back(key);
+    splitting::sort_unique(opposite);
+    splitting::Splitter splitter(mesh, splitting::surface_of(field.domain));
+    splitter.split(opposite, splitting::edge_corners);
+    return of_parts(field, with_features_of(field.domain, splitter.mesh()), splitter.parent());
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> normal_axes(const MatchedField& field) {
@@ -117,15 +135,14 @@ Edges straight_edges(const MatchedField& field) {
 }
 
 MatchedField make_room(const MatchedField& field) {
-    const MatchedField apart = split_at_straight_edges(field);
+    const MatchedField apart = split_at_straight_edges(split_round_curves(field));
     LockingSplit split = split_locking(apart.domain);
     return of_parts(apart, with_features_of(apart.domain, std::move(split.mesh)), split.parent);
 }
 
 MatchedField split_round(const MatchedField& field, const std::vector<Index>& tets) {
     const TetMesh& mesh = field.domain.mesh();
-    std::vector<Key<2>> held = keys_of(field.curves), split;
-    for (const Key<2>& key : surface_edges(field.domain)) held.push_back(key);
+    std::vector<Key<2>> held = keys_of(straight_edges(field)), split;
     splitting::sort_unique(held);
     const auto list = splitting::list_of(mesh.tets);
     for (const Index t : tets)

@@ -12,10 +12,11 @@ std::vector<std::uint8_t> normal_axes(const MatchedField& field);
 // is normal. Lower vertex first, in order.
 Edges straight_edges(const MatchedField& field);
 
-// Splits what joins straight edges, or the surface, without being part of them, so that every tet may have a volume.
+// Splits what is opposite to curves in their tets, and what joins straight edges, or the surface, without being part of
+// them, so that every tet may have a volume.
 MatchedField make_room(const MatchedField& field);
 
-// Splits the edges of these tets but for straight ones and those of the surface: a map that they stop gets room there.
+// Splits the edges of these tets but for straight ones: a map that they stop gets room there.
 MatchedField split_round(const MatchedField& field, const std::vector<Index>& tets);
 
 }  // namespace octafield::volume::detail

@@ -45,7 +45,7 @@ public:
                 }
         if (problem.free.count > 0)
             cholesky_ = std::make_unique<surface::detail::SparseCholesky<double>>(
-                matrix_, surface::detail::SparseCholesky<double>::amd_order(matrix_));
+                matrix_, surface::detail::SparseCholesky<double>::metis_order(matrix_));
     }
 
     void clear() {

@@ -206,8 +206,9 @@ Eigen::VectorXd nearest_map(const TetProblem& problem) {
     for (std::size_t t = 0; t < problem.to_unit.size(); ++t) {
         const auto by = Descent::by_coordinates(slopes(problem.to_unit[t]));
         const Matrix3 unit = Matrix3::Identity();
-        assembly.add(t, -problem.volumes[t] * (by.transpose() * Eigen::Map<const Vector9>(unit.data())),
-                     problem.volumes[t] * (by.transpose() * by));
+        const double weight = std::cbrt(problem.volumes[t] * problem.volumes[t]);
+        assembly.add(t, -weight * (by.transpose() * Eigen::Map<const Vector9>(unit.data())),
+                     weight * (by.transpose() * by));
     }
     Eigen::VectorXd values = assembly.step();
     if (values.size() == 0)

@@ -20,7 +20,8 @@ struct TetProblem {
 // The three edges of a tet in the map, as columns.
 Eigen::Matrix3d mapped_edges(const TetProblem& problem, const Eigen::VectorXd& values, Index tet);
 
-// Unknowns for which the derivatives are nearest to the target's: least sum of volume |J - 1|^2. Throws SolverError
+// Unknowns for which the derivatives are nearest to the target's: least sum of volume^(2/3) |J - 1|^2, so that the
+// small tets round curves count; with their volumes alone more of them are turned over. Throws SolverError
 // ("singular_map").
 Eigen::VectorXd nearest_map(const TetProblem& problem);
 
