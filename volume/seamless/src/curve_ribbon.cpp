@@ -24,7 +24,9 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 constexpr int steps_outside = 4;  // beyond the surface, so that no edge of it passes the ribbon's end
 constexpr int spreading = 4;      // steps in which a ribbon becomes wider
-constexpr int most_tets = 1000;   // on the way of one step
+// Of a step: in meshes along axes a ribbon from middles of tets would pass through edges and vertices.
+const Vector3d aside{0.031, 0.017, 0.023};
+constexpr int most_tets = 1000;  // on the way of one step
 
 Kernel::Point_3 point(const Vector3d& p) { return {p[0], p[1], p[2]}; }
 
@@ -81,6 +83,7 @@ std::optional<Ribbon> swept_ribbon(const TetDomain& domain, const Quaternions& f
         for (std::size_t k = 0; k < row.size(); ++k) {
             const Vector3d arm = row[k] - centre, across = arm - arm.dot(direction) * direction;
             next.push_back(row[k] + step * direction + (wider - 1) * across);
+            if (i == 0) next.back() += step * aside;
             if (held[k] >= 0) held[k] = tet_towards(domain, held[k], next.back());
             left = left && held[k] < 0;
         }
@@ -124,7 +127,9 @@ Ribbon straight_ribbon(const std::vector<Vector3d>& first, const std::vector<Vec
     for (int j = 0; j <= steps; ++j) {
         std::vector<Vector3d> row;
         for (std::size_t k = 0; k < from.size(); ++k)
-            row.push_back(j == steps ? to[k] : Vector3d(from[k] + double(j) / steps * (to[k] - from[k])));
+            row.push_back(j == 0       ? from[k]
+                          : j == steps ? to[k]
+                                       : Vector3d(from[k] + double(j) / steps * (to[k] - from[k]) + step * aside));
         ribbon.rows.push_back(std::move(row));
         ribbon.along.push_back(way.normalized());
     }

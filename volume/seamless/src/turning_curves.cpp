@@ -18,6 +18,16 @@ Vector3d middle_of(const TetMesh& mesh, const TriangleTable& table, Index row) {
     return sum / 3;
 }
 
+// Of the parameter along the axis, from 0 at the first row.
+std::vector<double> heights(const TetMesh& mesh, const TriangleTable& table, const CurveChain& chain) {
+    std::vector<double> height{0};
+    for (std::size_t i = 1; i < chain.rows.size(); ++i) {
+        const Vector3d way = middle_of(mesh, table, chain.rows[i]) - middle_of(mesh, table, chain.rows[i - 1]);
+        height.push_back(height.back() + (chain.axes[i] + chain.axes[i - 1]).dot(way) / 2);
+    }
+    return height;
+}
+
 class Walker {
 public:
     Walker(const TetDomain& domain, const Quaternions& frames, const EdgeMatchings& matchings)
@@ -78,7 +88,21 @@ private:
         chain.rows.insert(chain.rows.end(), rows[0].begin(), rows[0].end());
         chain.tets.insert(chain.tets.end(), tets[0].begin(), tets[0].end());
         for (std::size_t i = 0; i < chain.rows.size(); ++i) chain.axes.push_back(axis(chain, i));
+        if (chain.closed) begin_half_way(chain);
         return chain;
+    }
+    // So that a closed chain turns within it, not where it begins.
+    void begin_half_way(CurveChain& chain) const {
+        const std::vector<double> height = heights(mesh_, table_, chain);
+        const auto [least, most] = std::minmax_element(height.begin(), height.end());
+        const double half = (*least + *most) / 2;
+        const auto first =
+            std::min_element(height.begin(), height.end(),
+                             [&](double a, double b) { return std::abs(a - half) < std::abs(b - half); }) -
+            height.begin();
+        std::rotate(chain.rows.begin(), chain.rows.begin() + first, chain.rows.end());
+        std::rotate(chain.tets.begin(), chain.tets.begin() + first, chain.tets.end());
+        std::rotate(chain.axes.begin(), chain.axes.begin() + first, chain.axes.end());
     }
     Vector3d axis(const CurveChain& chain, std::size_t i) const {
         const Index row = chain.rows[i];
@@ -122,12 +146,8 @@ std::vector<CurveTurn> curve_turns(const TetDomain& domain, const CurveChain& ch
         return Vector3d((apex - corner(0)).dot(normal) > 0 ? -normal : normal);
     };
     // On the surface the axis is the normal, so the type of an end there is plain, however short the rest of it is.
-    std::vector<double> height{2 * least * chain.axes.front().dot(outward(chain.rows.front())), 0};
-    for (std::size_t i = 1; i < chain.rows.size(); ++i) {
-        const Vector3d way = middle_of(domain.mesh(), domain.triangles(), chain.rows[i]) -
-                             middle_of(domain.mesh(), domain.triangles(), chain.rows[i - 1]);
-        height.push_back(height.back() + (chain.axes[i] + chain.axes[i - 1]).dot(way) / 2);
-    }
+    std::vector<double> height = heights(domain.mesh(), domain.triangles(), chain);
+    height.insert(height.begin(), 2 * least * chain.axes.front().dot(outward(chain.rows.front())));
     height.push_back(height.back() + 2 * least * chain.axes.back().dot(outward(chain.rows.back())));
     std::vector<std::size_t> ends{0};  // ends of ups and downs
     for (std::size_t i = 1; i < height.size(); ++i) {
