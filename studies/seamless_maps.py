@@ -1,9 +1,10 @@
 """How far octafield hex-mesh gets from the meshes of HexMe (Beaufort et al. 2022): fields, seamless maps, hexahedra.
 
-    python -m studies.seamless_maps -o DIR [--only s01,s17c] [--cells 2000]
+    python -m studies.seamless_maps -o DIR [--only s01,s17c] [--cells 2000] [--picture]
 
 The map is judged here, by determinants and by edges over triangles, not by what made it; the hexahedra by
-studies.hex_dominant.checker. DIR gets rows.jsonl, stages.md and when.md.
+studies.hex_dominant.checker. DIR gets rows.jsonl, stages.md and when.md; with --picture curves.png in their place:
+singular curves of the fields, above, and of the maps.
 """
 
 import argparse
@@ -115,14 +116,65 @@ def summary(rows: list[dict]) -> str:
     )
 
 
+def quarters(given: octafield.volume.SeamlessMap, curves: np.ndarray) -> list[int]:
+    """Round each of the edges, by angles in the map."""
+    tets, at = np.asarray(given.mesh.tets), np.asarray(given.parameters).reshape(-1, 4, 3)
+    turned = dict.fromkeys(map(tuple, curves.tolist()), 0.0)
+    for a in range(4):
+        for b in range(a):
+            c, d = sorted({0, 1, 2, 3} - {a, b})
+            axis = at[:, b] - at[:, a]
+            one, other = np.cross(axis, at[:, c] - at[:, a]), np.cross(axis, at[:, d] - at[:, a])
+            cosine = (one * other).sum(1) / np.linalg.norm(one, axis=1) / np.linalg.norm(other, axis=1)
+            for pair, angle in zip(np.sort(tets[:, [a, b]], axis=1).tolist(), np.arccos(cosine), strict=True):
+                if tuple(pair) in turned:
+                    turned[tuple(pair)] += angle
+    return [round(angle / (np.pi / 2)) for angle in turned.values()]
+
+
+def draw(path: Path, files: list[Path]) -> None:
+    import pyvista
+
+    plotter = pyvista.Plotter(shape=(2, len(files)), off_screen=True, window_size=(450 * len(files), 800), border=False)
+    for column, file in enumerate(files):
+        result = compute_seamless_map(file)
+        field, curves = result.field, np.asarray(result.curves)
+        graph = octafield.volume.singular_graph(field.tets, field.frames)
+        points = np.asarray(graph.points)
+        before = [
+            (points[np.repeat(curve, 2)[1:-1]], 4 - turns)
+            for curve, turns in zip(graph.curves, np.asarray(graph.curve_quarter_turns), strict=True)
+            if len(curve) > 1
+        ]
+        places = np.asarray(result.map.mesh.vertices)
+        after = [(places[edge], count) for edge, count in zip(curves, quarters(result.map, curves), strict=True)]
+        surface = field.tets.surface.mesh
+        for row, lines in enumerate((before, after)):
+            plotter.subplot(row, column)
+            outside = pyvista.PolyData.from_regular_faces(np.array(surface.vertices), np.array(surface.triangles, int))
+            plotter.add_mesh(outside, color="white", opacity=0.25)
+            plotter.add_mesh(outside.extract_feature_edges(40), color="black", line_width=1)
+            for count, color in ((3, "#d55e00"), (5, "#0072b2")):
+                ends = [part for part, found in lines if found == count]
+                if ends:
+                    plotter.add_mesh(pyvista.line_segments_from_points(np.concatenate(ends)), color=color, line_width=4)
+            plotter.add_text(file.name.removesuffix(".vtk.gz") + (", field" if row == 0 else ", map"), font_size=9)
+            plotter.view_vector((1, -1.6, 0.7), viewup=(0, 0, 1))
+    plotter.screenshot(str(path))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m studies.seamless_maps", description=__doc__)
     parser.add_argument("-o", "--output", type=Path, required=True)
     parser.add_argument("--only", default="", help="beginnings of names with commas")
     parser.add_argument("--cells", type=int, default=2000)
+    parser.add_argument("--picture", action="store_true")
     a = parser.parse_args()
     a.output.mkdir(parents=True, exist_ok=True)
     only = tuple(filter(None, a.only.split(","))) or ("",)
+    if a.picture:
+        draw(a.output / "curves.png", sorted(p for p in DATA.glob("*.vtk.gz") if p.name.startswith(only)))
+        return
     rows = []
     with (a.output / "rows.jsonl").open("w") as file:
         for path in sorted((p for p in DATA.glob("*.vtk.gz") if p.name.startswith(only)), key=order):
