@@ -122,14 +122,14 @@ private:
         if (!face.is_l()) return;
         std::size_t reflex = 0;
         while (face.corners[reflex].quads != 3) ++reflex;
-        for (const Index dart : lines_.spokes(face.corners[reflex].side))
-            if (!lines_.is_known(dart)) return;
         std::vector<LinearSum> t;
         for (std::size_t i = 0; i < 6; ++i) t.push_back(side_ends(face, (reflex + i) % 6));
         products_.emplace_back(t[0], t[1]);
         products_.emplace_back(t[4], t[5]);
         products_.emplace_back(t[1], t[4]);
-        sum_.add(t[1]).add(t[4]);
+        const std::vector<Index> spokes = lines_.spokes(face.corners[reflex].side);  // along the next, the last side
+        if (lines_.is_known(spokes[0])) sum_.add(t[4]);
+        if (lines_.is_known(spokes[1])) sum_.add(t[1]);
     }
     // Rows of quads along a side grow until they meet a vertex that a line runs back from.
     void add_strips(const Face& face) {
