@@ -93,7 +93,7 @@ void bind_t_mesh_results(py::module_& m) {
         .field("part_counts", &QuantizedQuads::part_counts,
                "int32, quads along each part of the seams and the boundary; integer_grid_map needs them.")
         .field("fewest_blocks", &QuantizedQuads::fewest_blocks,
-               "That meshes with these irregular vertices can have: a quarter of the quads' corners there.")
+               "That meshes with these faces and irregular vertices can have (octafield.surface.fewest_blocks).")
         .field(
             "coarsest_blocks", &QuantizedQuads::coarsest_blocks,
             "Of blocks=\"few\": the fewest that whole numbers on the T-mesh were found to make, whatever the shapes of "
@@ -223,15 +223,17 @@ void bind_quantized_quads(py::module_& m) {
         "have where these shortages sum to the least; all 0 where numbers fit. origins: as of quantized_quads.");
     m.def(
         "fewest_blocks",
-        [](const QuadMesh& mesh) {
-            return run_interruptible([mesh = mesh](Job&) {
+        [](const QuadMesh& mesh, const std::vector<Index>& faces) {
+            return run_interruptible([mesh = mesh, faces](Job&) {
                 scaled_jacobians(mesh);  // refuses ids out of range
-                return fewest_blocks(mesh);
+                return fewest_blocks(mesh, faces);
             });
         },
-        "mesh"_a,
-        "A bound from below of the blocks without T-joints for the irregular vertices of the mesh: every quad there is "
-        "in a corner of a block, and a block has four; one at least for each connected part. Raises as base_complex.");
+        "mesh"_a, "faces"_a = std::vector<Index>(),
+        "A bound from below of the blocks without T-joints for the irregular vertices of the mesh: every quad there, "
+        "and where lines have to cross, is in a corner of a block, and a block has four; one at least for each "
+        "connected part. faces: of each quad, between features that layouts follow; none: the mesh is one. Raises as "
+        "base_complex, and InvalidInput (kind \"bad_option\").");
     m.def(
         "base_complex",
         [](const QuadMesh& mesh) {

@@ -40,13 +40,14 @@ class LayoutParts:
 class WholeNumbers:
     """On the arcs of a T-mesh. t_joints: of the T-mesh. deviation: from the lengths wanted, over all arcs; bound: what
     it cannot be below; optimal: whether the two are the same. coarsest: the fewest blocks that whole numbers were found
-    to make."""
+    to make; fewest: that any layout of the faces could have."""
 
     t_joints: int
     deviation: float
     bound: float
     optimal: bool
     coarsest: int
+    fewest: int
 
 
 @dataclass

@@ -61,7 +61,7 @@ def of_quads(
         whole_numbers_optimal=None if whole is None else whole.optimal,
         separatrices=None if layout is None else layout.separatrices,
         patches=len(np.unique(made.blocks)),
-        fewest_patches=int(_core.fewest_blocks(made.mesh)),
+        fewest_patches=int(_core.fewest_blocks(made.mesh)) if whole is None else whole.fewest,
         coarsest_patches=None if whole is None else whole.coarsest,
         chords=len(np.unique(made.chords)),
         largest_mismatch=None if layout is None else layout.largest_mismatch,

@@ -49,7 +49,9 @@ def quads_of_t_mesh(
     quads, blocks = np.asarray(made.mesh.quads), np.array(made.patches)
     chords = block_chords(quads, blocks, np.asarray(made.patch_chords))
     parts = parts_of_blocks(made.mesh, blocks, chords, graph.largest_mismatch, graph.curves.traced)
-    whole = WholeNumbers(made.t_joints, made.deviation, made.bound, made.optimal, made.coarsest_blocks)
+    whole = WholeNumbers(
+        made.t_joints, made.deviation, made.bound, made.optimal, made.coarsest_blocks, made.fewest_blocks
+    )
     return field, BlockQuads(made.mesh, blocks, chords, parts, whole, TMesh(graph, made, origins))
 
 

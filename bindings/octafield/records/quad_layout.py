@@ -27,7 +27,7 @@ class QuadLayoutRecord(QuadRecord):
     separatrices: int | None = Field(default=None, description="traced, before any were joined")
     patches: int = Field(description="of the layout, each a block of quads")
     fewest_patches: int = Field(
-        description="at least this many there are for these irregular vertices: a quarter of the quads' corners there"
+        description="at least this many there are for these faces between features and their irregular vertices"
     )
     coarsest_patches: int | None = Field(
         default=None,

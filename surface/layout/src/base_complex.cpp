@@ -6,28 +6,24 @@
 
 #include "octafield/disjoint_sets.hpp"
 #include "octafield/error.hpp"
+#include "quad_sides.hpp"
 
 namespace octafield::surface {
 namespace {
 
-// Side 4 q + k of quad q runs from its corner k to corner k + 1.
 class Complex {
 public:
-    explicit Complex(const Quads& quads) : quads_(quads) {
-        find_mates();
-        find_irregular();
+    explicit Complex(const Quads& quads) : quads_(quads), sides_(quads), mates_(sides_.mates), out_(sides_.out) {
+        result_.irregular = sides_.irregular;
+        marked_.assign(mates_.size(), false);
+        for (const Index v : result_.irregular) mark_from(v);
     }
 
     BaseComplex result() &&;
-    Index mate(Index side) const { return mates_[side]; }
-    const std::vector<Index>& sides_from(Index vertex) const { return out_[vertex]; }
-    const std::vector<Index>& irregular() const { return result_.irregular; }
 
 private:
     Index from(Index side) const { return quads_(side / 4, side % 4); }
-    static Index turned(Index side, int steps) { return side - side % 4 + (side % 4 + steps) % 4; }
-    void find_mates();
-    void find_irregular();
+    static Index turned(Index side, int steps) { return detail::QuadSides::turned(side, steps); }
     void mark_from(Index vertex);
     bool lay_out_blocks();
     bool lay_out(Index first);
@@ -35,49 +31,15 @@ private:
     void add_chords();
 
     const Quads& quads_;
-    std::vector<Index> mates_;             // of each side; -1: boundary
-    std::vector<bool> marked_;             // of each side
-    std::vector<std::vector<Index>> out_;  // sides from each vertex
+    const detail::QuadSides sides_;
+    const std::vector<Index>& mates_;
+    const std::vector<std::vector<Index>>& out_;
+    std::vector<bool> marked_;  // of each side
     BaseComplex result_;
     std::vector<int> turns_;  // of each quad: its side k is side (k + turn) % 4 of the block
     std::vector<std::array<Index, 2>> places_, sizes_;
     Index open_block_ = -1;  // lowest quad of one that is no disk
 };
-
-void Complex::find_mates() {
-    std::vector<std::tuple<Index, Index, Index>> sides;
-    for (Index s = 0; s < 4 * quads_.rows(); ++s) {
-        const Index a = from(s), b = from(turned(s, 1));
-        sides.emplace_back(std::min(a, b), std::max(a, b), s);
-    }
-    std::sort(sides.begin(), sides.end());
-    mates_.assign(sides.size(), -1);
-    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-        const auto& [a, b, s] = sides[i];
-        const auto& [c, d, t] = sides[i + 1];
-        if (a != c || b != d) continue;
-        if (mates_[s] >= 0 || from(s) == from(t))
-            throw GeometryError("the edge of vertices " + std::to_string(a) + " and " + std::to_string(b) +
-                                    " has more than two quads, or two that run along it in the same way",
-                                "non_manifold_edge", {a, b});
-        mates_[s] = t;
-        mates_[t] = s;
-    }
-}
-
-void Complex::find_irregular() {
-    const Index count = quads_.size() > 0 ? quads_.maxCoeff() + 1 : 0;
-    out_.resize(count);
-    std::vector<bool> boundary(count, false);
-    for (Index s = 0; s < static_cast<Index>(mates_.size()); ++s) {
-        out_[from(s)].push_back(s);
-        if (mates_[s] < 0) boundary[from(s)] = boundary[from(turned(s, 1))] = true;
-    }
-    marked_.assign(mates_.size(), false);
-    for (Index v = 0; v < count; ++v)
-        if (!out_[v].empty() && out_[v].size() != (boundary[v] ? 2u : 4u)) result_.irregular.push_back(v);
-    for (const Index v : result_.irregular) mark_from(v);
-}
 
 // Straight on over regular vertices, to the boundary or a line that is there.
 void Complex::mark_from(Index vertex) {
@@ -85,8 +47,7 @@ void Complex::mark_from(Index vertex) {
         for (Index side = start; side >= 0 && mates_[side] >= 0 && !marked_[side];) {
             marked_[side] = marked_[mates_[side]] = true;
             const Index end = from(turned(side, 1)), left = mates_[turned(side, 1)];
-            const bool regular = out_[end].size() == 4 && left >= 0 && end != vertex &&
-                                 !std::binary_search(result_.irregular.begin(), result_.irregular.end(), end);
+            const bool regular = out_[end].size() == 4 && left >= 0 && end != vertex && !sides_.is_irregular(end);
             side = regular ? turned(left, 1) : -1;
         }
 }
@@ -187,34 +148,11 @@ BaseComplex Complex::result() && {
     return std::move(result_);
 }
 
-void require_quads(const QuadMesh& mesh) {
-    if (mesh.triangles.rows() > 0)
-        throw InvalidInput("the base complex is that of quads; the mesh has triangles", "not_quads");
-    if (mesh.quads.size() > 0 && (mesh.quads.minCoeff() < 0 || mesh.quads.maxCoeff() >= mesh.vertices.rows()))
-        throw GeometryError("quads name vertices that there are not", "index_out_of_range");
-}
-
 }  // namespace
 
 BaseComplex base_complex(const QuadMesh& mesh) {
-    require_quads(mesh);
+    detail::require_only_quads(mesh);
     return Complex(mesh.quads).result();
-}
-
-Index fewest_blocks(const QuadMesh& mesh) {
-    require_quads(mesh);
-    DisjointSets sets(static_cast<std::size_t>(mesh.quads.rows()));
-    const Complex complex(mesh.quads);
-    for (Index s = 0; s < 4 * static_cast<Index>(mesh.quads.rows()); ++s)
-        if (const Index mate = complex.mate(s); mate >= 0) sets.join(s / 4, mate / 4);
-    Index parts = 0;
-    const std::vector<Index> part_of = std::move(sets).numbers(parts);
-    std::vector<long> corners(parts, 0);
-    for (const Index v : complex.irregular())
-        for (const Index side : complex.sides_from(v)) ++corners[part_of[side / 4]];
-    Index result = 0;
-    for (const long count : corners) result += std::max<Index>(1, static_cast<Index>((count + 3) / 4));
-    return result;
 }
 
 }  // namespace octafield::surface

@@ -109,6 +109,13 @@ public:
         return best_of(std::move(attempts));
     }
 
+    // Of each quad.
+    std::vector<Index> faces_of(const QuantizedQuads& quads) const {
+        std::vector<Index> result;
+        for (const Index tile : quads.tiles) result.push_back(parts_.part_of(layout_.patches[tile]));
+        return result;
+    }
+
 private:
     Attempt made(const detail::BlockStructure& structure, detail::Rescue rescue) const {
         const detail::CountChooser chooser(layout_, seams_, options_);
@@ -271,8 +278,9 @@ QuantizedQuads quantized_quads(const QuadLayout& given, const QuantizedQuadsOpti
         options.measure == ArcMeasure::lengths ? detail::with_lengths_for_parameters(given) : given;
     const detail::Seams seams = detail::find_seams(layout, origins_of(layout, options.origins));
     const auto structures = detail::block_structures(layout, seams, options);
-    QuantizedQuads result = Maker(layout, seams, options, progress).fewest_of(structures);
-    result.fewest_blocks = fewest_blocks(result.mesh);
+    Maker maker(layout, seams, options, progress);
+    QuantizedQuads result = maker.fewest_of(structures);
+    result.fewest_blocks = fewest_blocks(result.mesh, maker.faces_of(result));
     result.coarsest_blocks = std::min(structures.front().blocks, static_cast<Index>(result.patch_sizes.rows()));
     for (const LayoutVertex& vertex : layout.vertices) result.t_joints += vertex.kind == LayoutVertexKind::t_joint;
     return result;

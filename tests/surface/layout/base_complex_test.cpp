@@ -1,6 +1,9 @@
 // Blocks of quad meshes that are known.
-#include "octafield/surface/base_complex.hpp"
+#include <random>
+#include <set>
+
 #include "layout_fixtures.hpp"
+#include "octafield/surface/base_complex.hpp"
 
 namespace octafield::surface {
 namespace {
@@ -112,28 +115,86 @@ QuadMesh squares(const std::vector<std::array<int, 2>>& at) {
     return quad_mesh(static_cast<Index>(number.size()), quads);
 }
 
-// Counted by hand: a cube has six faces, and corners for no fewer; an L has 5 + 3 quads at corners, and blocks for
-// three; a plus has 8 + 4 * 3, which are those of its five squares; a square with a hole 4 + 4 * 3, which asks for
-// four.
-TEST(FewestBlocks, AreAQuarterOfTheCornersAtIrregularVertices) {
+// Counted by hand: a cube has six faces, and corners for no fewer; an L has 5 + 3 quads at corners, and two lines that
+// end at its boundary; a plus has 8 + 4 * 3, which are those of its five squares; a square with a hole 4 + 4 * 3, and
+// eight lines from the hole to the outer boundary.
+TEST(FewestBlocks, AreAQuarterOfTheCornersOfBlocks) {
     for (const int n : {1, 3}) EXPECT_EQ(fewest_blocks(cube_quads(n)), 6);
     EXPECT_EQ(fewest_blocks(grid(5, 3, false, false)), 1);
     EXPECT_EQ(fewest_blocks(grid(6, 4, true, false)), 1);
     EXPECT_EQ(fewest_blocks(grid(6, 4, true, true)), 1);
     const QuadMesh l_shape = squares({{0, 0}, {1, 0}, {0, 1}}),
                    plus = squares({{1, 0}, {0, 1}, {1, 1}, {2, 1}, {1, 2}});
-    EXPECT_EQ(fewest_blocks(l_shape), 2);
+    EXPECT_EQ(fewest_blocks(l_shape), 3);
     EXPECT_EQ(base_complex(l_shape).block_sizes.rows(), 3);
     EXPECT_EQ(fewest_blocks(plus), 5);
     EXPECT_EQ(base_complex(plus).block_sizes.rows(), 5);
-    EXPECT_EQ(fewest_blocks(grid(7, 5, false, false, true)), 4);
+    EXPECT_EQ(fewest_blocks(grid(7, 5, false, false, true)), 8);
 }
 
 TEST(FewestBlocks, OfPartsAddUp) {
-    EXPECT_EQ(fewest_blocks(squares({{0, 0}, {5, 0}, {6, 0}, {5, 1}})), 1 + 2);
+    EXPECT_EQ(fewest_blocks(squares({{0, 0}, {5, 0}, {6, 0}, {5, 1}})), 1 + 3);
     QuadMesh none;
     none.quads.resize(0, 4);
     EXPECT_EQ(fewest_blocks(none), 0);
+}
+
+// A triangular prism: its triangles have a point of valence 3 each, with lines to their three sides, that go on over
+// the other faces.
+TEST(FewestBlocks, LinesGoOnOverFaces) {
+    // Three kites in each triangle; 6 corners, 3 middles of edges, 1 middle, for below and above.
+    std::vector<std::array<Index, 4>> quads;
+    std::vector<Index> faces;
+    for (Index k = 0; k < 3; ++k) {
+        const Index next = (k + 1) % 3, last = (k + 2) % 3;
+        quads.push_back({k, 3 + k, 6, 3 + last});
+        faces.push_back(0);
+        quads.push_back({10 + k, 10 + 3 + last, 16, 10 + 3 + k});
+        faces.push_back(1);
+        quads.push_back({3 + k, k, 10 + k, 13 + k});
+        quads.push_back({next, 3 + k, 13 + k, 10 + next});
+        faces.insert(faces.end(), 2, 2 + k);
+    }
+    for (auto& quad : quads)
+        for (Index& v : quad)
+            if (v >= 10) v -= 3;
+    const QuadMesh prism = quad_mesh(14, quads);
+    EXPECT_EQ(fewest_blocks(prism), 6);
+    EXPECT_EQ(fewest_blocks(prism, faces), 12);
+    EXPECT_EQ(base_complex(prism).block_sizes.rows(), 12);
+    EXPECT_EQ(kind_of([&] { fewest_blocks(prism, {0}); }), "bad_option");
+}
+
+// Squares of the plane and faces of them, at random: no bound is above the blocks that there are.
+TEST(FewestBlocks, AreNoMoreThanThereAre) {
+    std::mt19937 random(1);
+    int compared = 0, exact = 0;
+    for (int i = 0; i < 600; ++i) {
+        std::set<std::array<int, 2>> chosen = {{10, 10}};
+        const int wanted = 2 + static_cast<int>(random() % 28);
+        while (static_cast<int>(chosen.size()) < wanted) {
+            auto at = *std::next(chosen.begin(), static_cast<long>(random() % chosen.size()));
+            at[random() % 2] += random() % 2 == 0 ? 1 : -1;
+            chosen.insert(at);
+        }
+        bool touches = false;  // at a corner alone
+        for (const auto& [x, y] : chosen)
+            for (const int d : {-1, 1})
+                touches = touches || (chosen.contains({x + 1, y + d}) && !chosen.contains({x + 1, y}) &&
+                                      !chosen.contains({x, y + d}));
+        if (touches) continue;
+        const QuadMesh mesh = squares({chosen.begin(), chosen.end()});
+        std::vector<Index> faces;
+        for (const auto& [x, y] : chosen) faces.push_back(i % 3 == 0 ? 0 : (x / (1 + i % 4)) + 100 * (y / (2 + i % 3)));
+        const Index blocks = static_cast<Index>(base_complex(mesh).block_sizes.rows());
+        const Index least = fewest_blocks(mesh, faces), of_one = fewest_blocks(mesh);
+        EXPECT_LE(least, blocks) << i;
+        EXPECT_LE(of_one, blocks) << i;
+        ++compared;
+        exact += std::max(least, of_one) == blocks;
+    }
+    EXPECT_GT(compared, 300);
+    EXPECT_GT(exact, compared / 20);
 }
 
 // On a closed surface there are as many blocks as vertices of the layout less the Euler characteristic, so no fewer

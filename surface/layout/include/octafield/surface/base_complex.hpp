@@ -20,9 +20,12 @@ struct BaseComplex {
 // "index_out_of_range", "non_manifold_edge" (elements: the edge's vertices), "bad_blocks" (elements: a quad).
 BaseComplex base_complex(const QuadMesh& mesh);
 
-// A bound from below of the blocks without T-joints that there are for the irregular vertices of the mesh, whatever
-// runs between them. Every block has four corners, and every quad at an irregular vertex is in a corner of a block: so
-// a quarter of these, rounded up, and one at least, for each connected part. Throws as base_complex, but for blocks.
-Index fewest_blocks(const QuadMesh& mesh);
+// A bound from below of the blocks without T-joints that there are for the irregular vertices of the mesh. Every block
+// has four corners, and every quad at an irregular vertex, and at a place where lines cross, is in a corner of a block:
+// so a quarter of these, rounded up, and one at least, for each connected part. How often lines cross at least follows
+// from the faces (of each quad; none: one face), which must be those of the layout too, with their corners and
+// irregular vertices: docs/quad_layouts.md. Throws as base_complex, but for blocks, and InvalidInput (kind
+// "bad_option").
+Index fewest_blocks(const QuadMesh& mesh, const std::vector<Index>& faces = {});
 
 }  // namespace octafield::surface

@@ -58,7 +58,7 @@ struct QuantizedQuads : LayoutQuads {
     std::vector<int> arc_counts;        // quads along each arc (side) of the T-mesh; 0 where tracks became one
     std::vector<int> part_counts;       // quads along each part of the seams and the boundary, between all ends of arcs
                                         // on their two sides; for integer_grid_map
-    Index fewest_blocks = 0;            // that meshes with these irregular vertices can have (fewest_blocks)
+    Index fewest_blocks = 0;            // that meshes with these faces and irregular vertices can have (fewest_blocks)
     Index coarsest_blocks = 0;          // of `few`: the fewest that whole numbers on the T-mesh were found to make,
                                         // whatever the shapes of quads; else those of `patches`
     Index t_joints = 0;                 // of the T-mesh; the quads have none
