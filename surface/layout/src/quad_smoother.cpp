@@ -196,11 +196,14 @@ private:
     void optimise(int rounds) {
         moved_at_.assign(around_.size(), 0);
         std::vector<long> looked_at(around_.size(), 0);
+        std::vector<Index> vertices;
+        for (Index v = 0; v < static_cast<Index>(around_.size()); ++v)
+            if (active_[v] && !fixed_[v] && !around_[v].empty()) vertices.push_back(v);
         long now = 0;
         for (int round = 0; round < rounds; ++round) {
             bool moved = false;
-            for (Index v = 0; v < static_cast<Index>(around_.size()); ++v) {
-                if (!active_[v] || fixed_[v] || around_[v].empty() || is_settled(v, looked_at[v])) continue;
+            for (const Index v : vertices) {
+                if (is_settled(v, looked_at[v])) continue;
                 looked_at[v] = ++now;
                 if (!improve(v)) continue;
                 moved_at_[v] = now;
@@ -219,10 +222,18 @@ private:
     }
 
     std::vector<bool> grown(std::vector<bool> near, int rings) const {
+        std::vector<Index> front;
+        for (std::size_t v = 0; v < near.size(); ++v)
+            if (near[v]) front.push_back(static_cast<Index>(v));
         for (int i = 0; i < rings; ++i) {
-            const std::vector<bool> inner = near;
-            for (std::size_t v = 0; v < near.size(); ++v)
-                for (const Index n : neighbours_[v]) near[v] = near[v] || inner[n];
+            std::vector<Index> next;
+            for (const Index v : front)
+                for (const Index n : neighbours_[v])
+                    if (!near[n]) {
+                        near[n] = true;
+                        next.push_back(n);
+                    }
+            front = std::move(next);
         }
         return near;
     }
@@ -255,7 +266,7 @@ private:
                 if (!near[v] || fixed_[v] || around_[v].empty()) continue;
                 Vector mean = Vector::Zero();
                 for (const Index n : neighbours_[v]) mean += position(n) / static_cast<double>(neighbours_[v].size());
-                mesh_.vertices.row(v) = parts_.nearest(part_[around_[v][0]], mean).first;
+                mesh_.vertices.row(v) = nearest(v, mean);
             }
         }
     }
@@ -283,10 +294,18 @@ private:
     Vector position(Index v) const { return mesh_.vertices.row(v); }
     bool on_seam(Index v) const { return v < static_cast<Index>(places_.size()); }
 
-    Vector surface_normal(Index q) const {
+    Vector surface_normal(Index q) {
         Vector middle = Vector::Zero();
         for (int k = 0; k < 4; ++k) middle += position(mesh_.quads(q, k)) / 4;
-        return parts_.normal(parts_.nearest(part_[q], middle).second);
+        Index& triangle = movable_.triangles[q];
+        triangle = parts_.nearest(part_[q], middle, triangle).second;
+        return parts_.normal(triangle);
+    }
+
+    // Of the surface, to a vertex inside.
+    Vector nearest(Index v, const Vector& p) const {
+        const Index quad = around_[v][0];
+        return parts_.nearest(part_[quad], p, movable_.triangles[quad]).first;
     }
 
     // Less than -1 where it faces against the surface.
@@ -358,8 +377,7 @@ private:
     }
 
     bool wander(Index v, const Vector& mean, double edges, double best) {
-        const Index part = part_[around_[v][0]];
-        const auto try_near = [&](const Vector& p) { return try_at(v, parts_.nearest(part, p).first, best); };
+        const auto try_near = [&](const Vector& p) { return try_at(v, nearest(v, p), best); };
         bool moved = false;
         for (const double step : {1.0, 0.5})
             if (try_near(position(v) + step * (mean - position(v)))) {
