@@ -88,6 +88,7 @@ public:
             release();
             relax(std::vector<bool>(around_.size(), true), relaxing_rounds);
         }
+        if (start == Start::evened && input_.release) release();
         if (start == Start::evened || start == Start::freed) untangle(input_, movable_, size_share, mesh_);
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
     }
