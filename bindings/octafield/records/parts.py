@@ -315,7 +315,9 @@ class ParameterizationFigures(Record):
 class WholeNumberFigures(Record):
     """Of quads along the arcs of a T-mesh."""
 
-    objective: float = Field(description="sum of |n - length / size|")
+    objective: float = Field(
+        description="sum of |n - length / size|; by lengths, what is large beside the number wanted counts more"
+    )
     bound: float = Field(description="what no other whole numbers are below")
     optimal: bool = Field(description="whether the two are the same")
 

@@ -16,16 +16,54 @@ namespace {
 
 constexpr double most_count = 1e6;
 
-// |n - wanted| at whole n: falls by 1 each to `low`, has its own slope from there to low + 1, then rises by 1 each.
-struct Deviation {
-    int low;
-    double at_low, middle_slope;
+// Deviations beyond these shares of the number wanted count three times, and nine times: where sums force numbers away
+// from lengths, many arcs give way a little before one gives way by much.
+constexpr double shares_above[] = {0.25, 0.75}, shares_below[] = {0.2, 0.45}, steeper = 3;
+
+// Part of what a whole number n may be away from `low`: n + those below - those above = low.
+struct Step {
+    int sign;
+    double width, slope;
 };
 
-Deviation deviation(double wanted, int least) {
-    const int low = std::max(least, static_cast<int>(std::floor(wanted)));
-    return {low, std::abs(low - wanted), std::abs(low + 1 - wanted) - std::abs(low - wanted)};
-}
+// |n - wanted| at whole n: falls by 1 each to `low`, has its own slope from there to low + 1, then rises by 1 each, or
+// more far away.
+struct Deviation {
+    int low;
+    double at_low;
+    std::vector<Step> steps;
+
+    Deviation(double wanted, int least, bool even)
+        : low(std::max(least, static_cast<int>(std::floor(wanted)))), at_low(std::abs(low - wanted)) {
+        add(1, wanted, shares_below, even);
+        steps.push_back({-1, 1, std::abs(low + 1 - wanted) - at_low});
+        add(-1, wanted, shares_above, even);
+    }
+
+    double at(int n) const {
+        double result = at_low, left_below = std::max(low - n, 0), left_above = std::max(n - low, 0);
+        for (const Step& step : steps) {
+            double& left = step.sign > 0 ? left_below : left_above;
+            const double here = std::min(left, step.width);
+            result += here * step.slope;
+            left -= here;
+        }
+        return result;
+    }
+
+private:
+    void add(int sign, double wanted, const double (&shares)[2], bool even) {
+        double done = 0, slope = 1;
+        for (const double share : shares) {
+            if (!even) break;
+            const double width = std::max(1.0, std::round(share * wanted) - done);
+            steps.push_back({sign, width, slope});
+            done += width;
+            slope *= steeper;
+        }
+        steps.push_back({sign, most_count, slope});
+    }
+};
 
 double factor(const ArcProblem& problem, Index arc) {
     if (!problem.bounded || arc >= static_cast<Index>(problem.bounded->factors.size())) return 0;
@@ -59,8 +97,7 @@ std::vector<Part> parts_of(const ArcProblem& problem) {
     return parts;
 }
 
-// Columns of arc i of a part: 4 i the count, 4 i + 1 below low, 4 i + 2 from there to low + 1, 4 i + 3 above.
-// count + below - middle - above = low.
+// Columns of each arc of a part: the count, then its steps.
 class Programme {
 public:
     Programme(const ArcProblem& problem, const Part& part, bool whole = true)
@@ -68,30 +105,35 @@ public:
         std::map<Index, int> place;
         for (std::size_t i = 0; i < part.arcs.size(); ++i) place[part.arcs[i]] = static_cast<int>(i);
         const auto arcs = static_cast<int>(part.arcs.size());
-        std::vector<std::map<int, double>> columns(4 * static_cast<std::size_t>(arcs));
+        std::vector<std::map<int, double>> columns;
         std::vector<double> low, high, cost, right;
+        const auto add = [&](int row, double sign, double least, double most, double price) {
+            columns.push_back({{row, sign}});
+            low.push_back(least);
+            high.push_back(most);
+            cost.push_back(price);
+        };
         bool bounded = false;
         for (int i = 0; i < arcs; ++i) {
             const Index arc = part.arcs[i];
-            const Deviation d = deviation(problem.wanted[arc], problem.least[arc]);
+            const Deviation d(problem.wanted[arc], problem.least[arc], problem.even);
             const double weight = problem.weights[arc];
             constant_ += weight * d.at_low;
-            for (int k = 0; k < 4; ++k) columns[4 * i + k][i] = k < 2 ? 1 : -1;
-            low.insert(low.end(), {static_cast<double>(problem.least[arc]), 0, 0, 0});
-            high.insert(high.end(), {most_count, most_count, 1, most_count});
-            cost.insert(cost.end(), {0, weight, weight * d.middle_slope, weight});
+            column_.push_back(static_cast<int>(columns.size()));
+            add(i, 1, problem.least[arc], most_count, 0);
+            for (const Step& step : d.steps) add(i, step.sign, 0, step.width, weight * step.slope);
             right.push_back(d.low);
         }
         for (const Index s : part.sums) {
             const auto row = static_cast<int>(right.size());
-            for (const Index arc : problem.sums[s].left) columns[4 * place.at(arc)][row] += 1;
-            for (const Index arc : problem.sums[s].right) columns[4 * place.at(arc)][row] -= 1;
+            for (const Index arc : problem.sums[s].left) columns[column_[place.at(arc)]][row] += 1;
+            for (const Index arc : problem.sums[s].right) columns[column_[place.at(arc)]][row] -= 1;
             right.push_back(0);
         }
         std::vector<double> up_to = right;
         for (int i = 0; i < arcs; ++i) {
             const double of_arc = factor(problem, part.arcs[i]);
-            if (of_arc != 0) columns[4 * i][static_cast<int>(right.size())] = of_arc;
+            if (of_arc != 0) columns[column_[i]][static_cast<int>(right.size())] = of_arc;
             bounded |= of_arc != 0;
         }
         if (bounded) {
@@ -110,7 +152,7 @@ public:
         }
         Cbc_loadProblem(model_.get(), static_cast<int>(columns.size()), static_cast<int>(right.size()), starts.data(),
                         rows.data(), values.data(), low.data(), high.data(), cost.data(), right.data(), up_to.data());
-        for (int i = 0; i < arcs && whole; ++i) Cbc_setInteger(model_.get(), 4 * i);
+        for (int i = 0; i < arcs && whole; ++i) Cbc_setInteger(model_.get(), column_[i]);
         Cbc_setParameter(model_.get(), "log", "0");
         Cbc_setLogLevel(model_.get(), 0);
         if (!problem.preprocess) Cbc_setParameter(model_.get(), "preprocess", "off");
@@ -133,7 +175,7 @@ public:
                                   std::to_string(most_nodes) + " nodes; allow more",
                               "node_limit", part.arcs);
         for (std::size_t i = 0; i < part.arcs.size(); ++i)
-            result.counts[part.arcs[i]] = static_cast<int>(std::lround(found[4 * i]));
+            result.counts[part.arcs[i]] = static_cast<int>(std::lround(found[column_[i]]));
         const bool proven = Cbc_isProvenOptimal(model_.get()) != 0;
         result.optimal &= proven;
         const double value = Cbc_getObjValue(model_.get());
@@ -149,6 +191,7 @@ public:
 
 private:
     std::unique_ptr<Cbc_Model, void (*)(Cbc_Model*)> model_;
+    std::vector<int> column_;  // of each arc's count
     double constant_ = 0;
 };
 
@@ -170,7 +213,8 @@ ArcCounts integer_counts(const ArcProblem& problem, int most_nodes) {
         if (part.sums.empty() && factor(problem, part.arcs[0]) == 0) {
             const Index arc = part.arcs[0];
             result.counts[arc] = std::max(problem.least[arc], static_cast<int>(std::lround(problem.wanted[arc])));
-            result.bound += problem.weights[arc] * std::abs(result.counts[arc] - problem.wanted[arc]);
+            result.bound += problem.weights[arc] *
+                            Deviation(problem.wanted[arc], problem.least[arc], problem.even).at(result.counts[arc]);
         } else {
             Programme(problem, part).solve(most_nodes, part, result);
         }
@@ -179,7 +223,8 @@ ArcCounts integer_counts(const ArcProblem& problem, int most_nodes) {
         if (result.counts[a] < problem.least[a])
             throw SolverError("the solver gave an arc of the T-mesh too few quads", "solver_failed",
                               {static_cast<Index>(a)});
-        result.deviation += problem.weights[a] * std::abs(result.counts[a] - problem.wanted[a]);
+        result.deviation +=
+            problem.weights[a] * Deviation(problem.wanted[a], problem.least[a], problem.even).at(result.counts[a]);
     }
     if (!sums_agree(problem, result.counts))
         throw SolverError("the solver gave whole numbers whose sums do not agree", "solver_failed");

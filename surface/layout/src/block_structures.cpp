@@ -36,6 +36,7 @@ QuantizedQuadsOptions with_few_nodes(QuantizedQuadsOptions options) {
 
 ArcProblem problem_of(const QuadLayout& layout, const Seams& seams, const QuantizedQuadsOptions& options) {
     ArcProblem result = arc_problem(layout, seams);
+    result.even = options.measure == ArcMeasure::lengths;
     if (options.measure == ArcMeasure::lengths)
         require_bends(result, layout, seams, CountChooser(layout, seams, options).first_size());
     return result;

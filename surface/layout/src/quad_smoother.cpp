@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -23,10 +24,11 @@ constexpr double softness = 10;
 constexpr double size_share = 0.3;  // of sizes beside shapes
 constexpr int rings[] = {1, 2, 4, 8}, relaxing_rounds = 20;
 constexpr int evened_rings[] = {4, 8, 16};
-constexpr int most_evened = 40;  // places
+constexpr int most_evened = 40, most_passes = 3;  // places, all of them again
 constexpr double least_gain = 1e-4;
 constexpr double bend = 2;
-constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges
+constexpr double steps[] = {0.3, 0.1, 0.03};  // of the mean length of a vertex' edges, or
+constexpr double short_edge = 0.1;            // of the shortest, if it is below that of the mean
 
 class Smoother {
 public:
@@ -75,7 +77,12 @@ public:
         if (rescued && input_.release && least_margin(bad) < 0 && release()) {
             optimise(rounds);
             rescue(rounds);
-            even_bad(rounds);
+            double before = -std::numeric_limits<double>::infinity(), now = least_margin(bad);
+            for (int i = 0; i < most_passes && now < 0 && now > before; ++i) {
+                before = now;
+                even_bad(rounds);
+                now = least_margin(bad);
+            }
         }
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
         return rescued;
@@ -88,6 +95,7 @@ public:
             release();
             relax(std::vector<bool>(around_.size(), true), relaxing_rounds);
         }
+        if (start == Start::evened && input_.release) release();
         if (start == Start::evened || start == Start::freed) untangle(input_, movable_, size_share, mesh_);
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
     }
@@ -112,10 +120,7 @@ private:
             const Points before = mesh_.vertices;
             const auto places = places_;
             relax(ring);
-            soft_ = true;
-            optimise(rounds);
-            soft_ = false;
-            optimise(rounds);
+            optimise_softly(rounds);
             const double found = least_margin(bad);
             if (found > least) {
                 least = found;
@@ -132,6 +137,7 @@ private:
     void even_bad(int rounds) {
         const std::vector<bool> fixed = fixed_;
         std::vector<std::pair<double, Index>> order;
+        for (Index q = 0; q < mesh_.quads.rows(); ++q) normals_[q] = surface_normal(q);
         for (Index q = 0; q < mesh_.quads.rows(); ++q)
             if (const double margin = margin_of(q); margin < 0) order.emplace_back(margin, q);
         std::sort(order.begin(), order.end());
@@ -172,12 +178,13 @@ private:
         const auto see = [&] {
             for (const Index q : movable_.quads) normals_[q] = surface_normal(q);
         };
+        see();
         const double before = worst();
         const Points vertices = mesh_.vertices;
         const auto places = places_;
         untangle(input_, movable_, size_share, mesh_);
         see();
-        optimise(rounds);
+        optimise_softly(rounds);
         if (worst() > before) return;
         mesh_.vertices = vertices;
         places_ = places;
@@ -196,11 +203,14 @@ private:
     void optimise(int rounds) {
         moved_at_.assign(around_.size(), 0);
         std::vector<long> looked_at(around_.size(), 0);
+        std::vector<Index> vertices;
+        for (Index v = 0; v < static_cast<Index>(around_.size()); ++v)
+            if (active_[v] && !fixed_[v] && !around_[v].empty()) vertices.push_back(v);
         long now = 0;
         for (int round = 0; round < rounds; ++round) {
             bool moved = false;
-            for (Index v = 0; v < static_cast<Index>(around_.size()); ++v) {
-                if (!active_[v] || fixed_[v] || around_[v].empty() || is_settled(v, looked_at[v])) continue;
+            for (const Index v : vertices) {
+                if (is_settled(v, looked_at[v])) continue;
                 looked_at[v] = ++now;
                 if (!improve(v)) continue;
                 moved_at_[v] = now;
@@ -208,6 +218,14 @@ private:
             }
             if (!moved) return;
         }
+    }
+
+    // With all quads round a vertex counting first, which gets past places where two are as bad as one another.
+    void optimise_softly(int rounds) {
+        soft_ = true;
+        optimise(rounds);
+        soft_ = false;
+        optimise(rounds);
     }
 
     bool is_settled(Index v, long looked_at) const {
@@ -219,10 +237,18 @@ private:
     }
 
     std::vector<bool> grown(std::vector<bool> near, int rings) const {
+        std::vector<Index> front;
+        for (std::size_t v = 0; v < near.size(); ++v)
+            if (near[v]) front.push_back(static_cast<Index>(v));
         for (int i = 0; i < rings; ++i) {
-            const std::vector<bool> inner = near;
-            for (std::size_t v = 0; v < near.size(); ++v)
-                for (const Index n : neighbours_[v]) near[v] = near[v] || inner[n];
+            std::vector<Index> next;
+            for (const Index v : front)
+                for (const Index n : neighbours_[v])
+                    if (!near[n]) {
+                        near[n] = true;
+                        next.push_back(n);
+                    }
+            front = std::move(next);
         }
         return near;
     }
@@ -255,7 +281,7 @@ private:
                 if (!near[v] || fixed_[v] || around_[v].empty()) continue;
                 Vector mean = Vector::Zero();
                 for (const Index n : neighbours_[v]) mean += position(n) / static_cast<double>(neighbours_[v].size());
-                mesh_.vertices.row(v) = parts_.nearest(part_[around_[v][0]], mean).first;
+                mesh_.vertices.row(v) = nearest(v, mean);
             }
         }
     }
@@ -283,10 +309,18 @@ private:
     Vector position(Index v) const { return mesh_.vertices.row(v); }
     bool on_seam(Index v) const { return v < static_cast<Index>(places_.size()); }
 
-    Vector surface_normal(Index q) const {
+    Vector surface_normal(Index q) {
         Vector middle = Vector::Zero();
         for (int k = 0; k < 4; ++k) middle += position(mesh_.quads(q, k)) / 4;
-        return parts_.normal(parts_.nearest(part_[q], middle).second);
+        Index& triangle = movable_.triangles[q];
+        triangle = parts_.nearest(part_[q], middle, triangle).second;
+        return parts_.normal(triangle);
+    }
+
+    // Of the surface, to a vertex inside.
+    Vector nearest(Index v, const Vector& p) const {
+        const Index quad = around_[v][0];
+        return parts_.nearest(part_[quad], p, movable_.triangles[quad]).first;
     }
 
     // Less than -1 where it faces against the surface.
@@ -334,16 +368,20 @@ private:
     bool improve(Index v) {
         double best = quality_round(v);
         if (best > good_enough) return false;
-        double edges = 0;
+        double edges = 0, shortest = std::numeric_limits<double>::infinity();
         Vector mean = Vector::Zero();
         for (const Index n : neighbours_[v]) {
-            edges += (position(n) - position(v)).norm() / static_cast<double>(neighbours_[v].size());
+            const double edge = (position(n) - position(v)).norm();
+            edges += edge / static_cast<double>(neighbours_[v].size());
+            shortest = std::min(shortest, edge);
             mean += position(n) / static_cast<double>(neighbours_[v].size());
         }
-        return on_seam(v) ? slide(v, edges, best) : wander(v, mean, edges, best);
+        const auto moved = [&](double unit) { return on_seam(v) ? slide(v, unit, best) : wander(v, mean, unit, best); };
+        const bool far = moved(edges);
+        return (shortest < short_edge * edges && moved(shortest)) || far;
     }
 
-    bool slide(Index v, double edges, double best) {
+    bool slide(Index v, double edges, double& best) {
         const Seam& seam = input_.seams.seams[places_[v].seam];
         bool moved = false;
         for (const double step : steps)
@@ -357,9 +395,8 @@ private:
         return moved;
     }
 
-    bool wander(Index v, const Vector& mean, double edges, double best) {
-        const Index part = part_[around_[v][0]];
-        const auto try_near = [&](const Vector& p) { return try_at(v, parts_.nearest(part, p).first, best); };
+    bool wander(Index v, const Vector& mean, double edges, double& best) {
+        const auto try_near = [&](const Vector& p) { return try_at(v, nearest(v, p), best); };
         bool moved = false;
         for (const double step : {1.0, 0.5})
             if (try_near(position(v) + step * (mean - position(v)))) {

@@ -18,49 +18,73 @@ constexpr double of_field = 40;          // beside shapes
 constexpr double least_length = 1e-12;   // square, of the mean square of edges
 constexpr double least_progress = 1e-3;  // of the sum, in a round without inverted corners
 
+// The quads that count, with vertices of their own numbers: a few of a large mesh cost as much as few.
+struct Counted {
+    Counted(const QuadMesh& mesh, const Movable& movable) : quads(mesh.quads(movable.quads, Eigen::all)) {
+        vertices.assign(quads.data(), quads.data() + quads.size());
+        std::sort(vertices.begin(), vertices.end());
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        part.resize(vertices.size());
+        for (Index q = 0; q < quads.rows(); ++q)
+            for (int k = 0; k < 4; ++k) {
+                const auto found = std::lower_bound(vertices.begin(), vertices.end(), quads(q, k));
+                quads(q, k) = static_cast<Index>(found - vertices.begin());
+                part[quads(q, k)] = movable.part[movable.quads[q]];
+            }
+        positions = mesh.vertices(vertices, Eigen::all);
+        near.assign(vertices.size(), -1);
+    }
+    auto nearest(const SurfaceParts& parts, Index v, const Vector& p) const {
+        return parts.nearest(part[v], p, near[v]);
+    }
+    Quads quads;
+    std::vector<Index> vertices;  // of the mesh, ascending: those on seams are the first
+    std::vector<Index> part;      // of the surface
+    std::vector<Index> near;      // a triangle not far from each
+    Points positions;
+};
+
 // Of the vertices that can move: the values are lengths along seams, or pairs in tangent planes.
 class Energy : public ceres::FirstOrderFunction {
 public:
-    Energy(const SmootherInput& input, const Movable& movable, const QuadMesh& mesh, double of_sizes)
+    Energy(const SmootherInput& input, Movable& movable, const QuadMesh& mesh, double of_sizes)
         : input_(input),
           places_(movable.places),
-          mesh_(mesh),
-          quads_(mesh.quads(movable.quads, Eigen::all)),
-          first_(mesh.vertices.rows(), -1),
-          bases_(mesh.vertices.rows()),
+          counted_(mesh, movable),
+          quads_(counted_.quads),
+          first_(counted_.vertices.size(), -1),
+          bases_(counted_.vertices.size()),
           of_sizes_(of_sizes) {
-        std::vector<Index> part(mesh.vertices.rows(), -1);
-        for (Index q = 0; q < quads_.rows(); ++q)
-            for (int k = 0; k < 4; ++k) part[quads_(q, k)] = movable.part[movable.quads[q]];
-        for (Index v = 0; v < mesh.vertices.rows(); ++v) {
-            if (movable.fixed[v] || part[v] < 0) continue;
-            first_[v] = count_;
-            count_ += is_on_seam(v) ? 1 : 2;
-            if (is_on_seam(v)) continue;
-            const Vector at = mesh.vertices.row(v);
-            const Vector n = input.parts.normal(input.parts.nearest(part[v], at).second);
-            bases_[v].col(0) = n.unitOrthogonal();
-            bases_[v].col(1) = n.cross(bases_[v].col(0));
-        }
         for (Index q = 0; q < quads_.rows(); ++q) {
             Vector middle = Vector::Zero();
-            for (int k = 0; k < 4; ++k) middle += Vector(mesh.vertices.row(quads_(q, k))) / 4;
-            const Index triangle = input.parts.nearest(movable.part[movable.quads[q]], middle).second;
+            for (int k = 0; k < 4; ++k) middle += Vector(counted_.positions.row(quads_(q, k))) / 4;
+            Index& triangle = movable.triangles[movable.quads[q]];
+            triangle = input.parts.nearest(movable.part[movable.quads[q]], middle, triangle).second;
+            for (int k = 0; k < 4; ++k) counted_.near[quads_(q, k)] = triangle;
             normals_.push_back(input.parts.normal(triangle));
             wanted_.push_back(input.parts.unit_area(triangle));
             if (input.follow) set_lines(q, input.follow.direction(triangle, middle));
-            for (int k = 0; k < 4; ++k)
-                area_ += (mesh.vertices.row(quads_(q, (k + 1) % 4)) - mesh.vertices.row(quads_(q, k))).squaredNorm();
+            for (int k = 0; k < 4; ++k) area_ += edge(q, k).squaredNorm();
+        }
+        for (Index v = 0; v < static_cast<Index>(first_.size()); ++v) {
+            if (movable.fixed[counted_.vertices[v]]) continue;
+            first_[v] = count_;
+            count_ += is_on_seam(v) ? 1 : 2;
+            if (is_on_seam(v)) continue;
+            const Vector at = counted_.positions.row(v);
+            const Vector n = input.parts.normal(counted_.nearest(input.parts, v, at).second);
+            bases_[v].col(0) = n.unitOrthogonal();
+            bases_[v].col(1) = n.cross(bases_[v].col(0));
         }
         area_ /= 4 * std::max<double>(1, static_cast<double>(quads_.rows()));
         double sum = 0, wanted = 0;
         for (Index q = 0; q < quads_.rows(); ++q) {
-            const auto p = [&](int k) -> Vector { return mesh.vertices.row(quads_(q, k)); };
+            const auto p = [&](int k) -> Vector { return counted_.positions.row(quads_(q, k)); };
             sum += (p(2) - p(0)).cross(p(3) - p(1)).norm() / 2;
             wanted += wanted_[q];
         }
         for (double& area : wanted_) area *= sum / wanted;
-        const double worst = std::min(0.0, least(mesh.vertices) / area_);
+        const double worst = std::min(0.0, least(counted_.positions) / area_);
         softness_ = area_ * std::sqrt(1e-8 + 0.04 * worst * worst);
     }
 
@@ -105,20 +129,21 @@ public:
     }
 
     Points positions(const double* values) const {
-        Points result = mesh_.vertices;
+        Points result = counted_.positions;
         for (Index v = 0; v < result.rows(); ++v) {
             if (first_[v] < 0) continue;
             if (is_on_seam(v)) {
-                result.row(v) = position_on(input_.seams.seams[places_[v].seam], place(v, values[first_[v]]));
+                result.row(v) = position_on(seam_of(v), place(v, values[first_[v]]));
             } else {
                 result.row(v) += (bases_[v] * Eigen::Map<const Eigen::Vector2d>(values + first_[v])).transpose();
             }
         }
         return result;
     }
-    double along_seam(Index v, const double* values) const {
-        return first_[v] < 0 ? places_[v].at : place(v, values[first_[v]]);
-    }
+    double along_seam(Index v, const double* values) const { return place(v, values[first_[v]]); }
+
+    bool moves(Index v) const { return first_[v] >= 0; }
+    const Counted& counted() const { return counted_; }
 
     // Parallelogram of a corner.
     double least(const Points& at) const {
@@ -138,7 +163,7 @@ private:
         const Vector other = normals_[q].cross(line);
         double nearer = 0;
         for (int k = 0; k < 4; ++k) {
-            const Vector side = mesh_.vertices.row(quads_(q, (k + 1) % 4)) - mesh_.vertices.row(quads_(q, k));
+            const Vector side = edge(q, k);
             const double more = std::pow(side.dot(line), 2) - std::pow(side.dot(other), 2);
             nearer += k % 2 == 0 ? more : -more;
         }
@@ -154,9 +179,14 @@ private:
         return 2 * off / length * (across_[q][k % 2] - off / length * w);
     }
 
-    bool is_on_seam(Index v) const { return v < static_cast<Index>(places_.size()); }
+    Vector edge(Index q, int k) const {
+        return counted_.positions.row(quads_(q, (k + 1) % 4)) - counted_.positions.row(quads_(q, k));
+    }
+    bool is_on_seam(Index v) const { return counted_.vertices[v] < static_cast<Index>(places_.size()); }
+    const SideGrids::OnSeam& on_seam(Index v) const { return places_[counted_.vertices[v]]; }
+    const Seam& seam_of(Index v) const { return input_.seams.seams[on_seam(v).seam]; }
     Vector way_along(Index v, double value) const {
-        const Seam& seam = input_.seams.seams[places_[v].seam];
+        const Seam& seam = seam_of(v);
         const double step = 1e-6 * seam.length, at = place(v, value);
         const Vector way = (position_on(seam, at + step) - position_on(seam, at - step)) / (2 * step);
         if (seam.closed) return way;
@@ -164,13 +194,13 @@ private:
         return way * share * (1 - share) / (start * (1 - start));
     }
     double start_of(Index v) const {
-        const Seam& seam = input_.seams.seams[places_[v].seam];
-        return std::clamp(places_[v].at / seam.length, 1e-3, 1 - 1e-3);
+        const Seam& seam = seam_of(v);
+        return std::clamp(on_seam(v).at / seam.length, 1e-3, 1 - 1e-3);
     }
     // Near 0 a value is a length along the seam; those of open seams saturate at the ends, so that none is passed.
     double place(Index v, double value) const {
-        const Seam& seam = input_.seams.seams[places_[v].seam];
-        if (seam.closed) return places_[v].at + value;
+        const Seam& seam = seam_of(v);
+        if (seam.closed) return on_seam(v).at + value;
         const double start = start_of(v);
         const double t = std::log(start / (1 - start)) + value / (seam.length * start * (1 - start));
         return seam.length / (1 + std::exp(-t));
@@ -178,8 +208,8 @@ private:
 
     const SmootherInput& input_;
     const std::vector<SideGrids::OnSeam>& places_;
-    const QuadMesh& mesh_;
-    const Quads quads_;       // that count
+    Counted counted_;
+    const Quads& quads_;
     std::vector<int> first_;  // value of each vertex; -1: it stays
     std::vector<Eigen::Matrix<double, 3, 2>> bases_;
     std::vector<Vector> normals_;
@@ -203,15 +233,13 @@ Movable::Movable(const SmootherInput& input, const QuadMesh& mesh)
     std::vector<Index> part_of_patch;
     for (const LayoutPatch& patch : input.layout.patches) part_of_patch.push_back(input.parts.part_of(patch));
     for (const Index patch : input.patches) part.push_back(part_of_patch[patch]);
+    triangles.assign(mesh.quads.rows(), -1);
     quads.resize(mesh.quads.rows());
     std::iota(quads.begin(), quads.end(), 0);
 }
 
 void untangle(const SmootherInput& input, Movable& movable, double of_sizes, QuadMesh& mesh) {
     std::vector<SideGrids::OnSeam>& places = movable.places;
-    std::vector<Index> part(mesh.vertices.rows(), 0);
-    for (Index q = 0; q < mesh.quads.rows(); ++q)
-        for (int k = 0; k < 4; ++k) part[mesh.quads(q, k)] = movable.part[q];
     FLAGS_minloglevel = google::GLOG_FATAL;  // a line search that fails ends a round, no more
     ceres::GradientProblemSolver::Options options;
     options.max_num_iterations = input.follow ? most_followed : most_iterations;
@@ -225,13 +253,15 @@ void untangle(const SmootherInput& input, Movable& movable, double of_sizes, Qua
         ceres::Solve(options, problem, values.data(), &summary);
         const Points found = energy->positions(values.data());
         const bool sound = energy->least(found) > 0;
-        for (Index v = 0; v < mesh.vertices.rows(); ++v) {
+        const Counted& counted = energy->counted();
+        for (Index i = 0; i < found.rows(); ++i) {
+            if (!energy->moves(i)) continue;
+            const Index v = counted.vertices[i];
             if (v < static_cast<Index>(places.size())) {
-                if (places[v].seam < 0) continue;
-                places[v].at = energy->along_seam(v, values.data());
+                places[v].at = energy->along_seam(i, values.data());
                 mesh.vertices.row(v) = position_on(input.seams.seams[places[v].seam], places[v].at);
-            } else if (!movable.fixed[v]) {
-                mesh.vertices.row(v) = input.parts.nearest(part[v], found.row(v).transpose()).first;
+            } else {
+                mesh.vertices.row(v) = counted.nearest(input.parts, i, found.row(i).transpose()).first;
             }
         }
         if (sound && summary.initial_cost - summary.final_cost < least_progress * summary.initial_cost) return;

@@ -10,9 +10,10 @@ struct Movable {
     Movable(const SmootherInput& input, const QuadMesh& mesh);
     std::vector<SideGrids::OnSeam> places;  // of the first vertices
     std::vector<bool> fixed;                // nodes and held vertices of seams, singular points inside
-    std::vector<Index> held;   // these points; none where a field is followed, which tells where they belong
-    std::vector<Index> part;   // of the surface, of each quad
-    std::vector<Index> quads;  // that count: all at first
+    std::vector<Index> held;       // these points; none where a field is followed, which tells where they belong
+    std::vector<Index> part;       // of the surface, of each quad
+    std::vector<Index> triangles;  // each quad was last seen at; -1: none yet
+    std::vector<Index> quads;      // that count: all at first
 };
 
 // Least sum over the corners of quads of (|u|^2 + |v|^2) / (d + sqrt(d^2 + e^2)), u and v the edges there, d their

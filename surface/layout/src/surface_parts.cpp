@@ -22,6 +22,7 @@ struct SurfaceParts::Trees {
     std::vector<Index> part_of{};  // of each vertex
     std::vector<std::vector<Flat::Triangle_3>> triangles{};
     std::vector<std::vector<Index>> numbers{};
+    std::vector<Index> place_of{};  // of each triangle among those of its part
     std::vector<std::unique_ptr<Tree>> trees{};
 };
 
@@ -42,6 +43,7 @@ SurfaceParts::SurfaceParts(const QuadLayout& layout)
             return Flat::Point_3(p[0], p[1], p[2]);
         };
         const Index part = trees_->part_of[mesh.triangles(t, 0)];
+        trees_->place_of.push_back(static_cast<Index>(trees_->numbers[part].size()));
         trees_->triangles[part].emplace_back(at(0), at(1), at(2));
         trees_->numbers[part].push_back(t);
     }
@@ -65,8 +67,15 @@ Index SurfaceParts::part_of(const LayoutPatch& patch) const {
     return 0;
 }
 
-std::pair<Eigen::Vector3d, Index> SurfaceParts::nearest(Index part, const Eigen::Vector3d& p) const {
-    const auto found = trees_->trees[part]->closest_point_and_primitive(Flat::Point_3(p[0], p[1], p[2]));
+std::pair<Eigen::Vector3d, Index> SurfaceParts::nearest(Index part, const Eigen::Vector3d& p, Index near) const {
+    const Flat::Point_3 at(p[0], p[1], p[2]);
+    const Tree& tree = *trees_->trees[part];
+    const auto found = [&] {
+        if (near < 0) return tree.closest_point_and_primitive(at);
+        const auto triangle = trees_->triangles[part].begin() + trees_->place_of[near];
+        return tree.closest_point_and_primitive(at,
+                                                {Flat().construct_projected_point_3_object()(*triangle, at), triangle});
+    }();
     const auto place = found.second - trees_->triangles[part].begin();
     return {Eigen::Vector3d(found.first.x(), found.first.y(), found.first.z()), trees_->numbers[part][place]};
 }

@@ -15,8 +15,8 @@ public:
     ~SurfaceParts();
 
     Index part_of(const LayoutPatch& patch) const;
-    // And the triangle that it is in.
-    std::pair<Eigen::Vector3d, Index> nearest(Index part, const Eigen::Vector3d& p) const;
+    // And the triangle that it is in. near: a triangle of the part, the sooner found the nearer it is; -1: none known.
+    std::pair<Eigen::Vector3d, Index> nearest(Index part, const Eigen::Vector3d& p, Index near = -1) const;
     Eigen::Vector3d normal(Index triangle) const;
     // In space, of what the domain measures as 1: 1, unless it has own lengths.
     double unit_area(Index triangle) const { return unit_areas_[triangle]; }

@@ -9,9 +9,26 @@ namespace {
 using detail::ArcProblem;
 using detail::EqualSums;
 
+// Of so many more: three times as much each behind one share of the number wanted, nine times behind the other.
+double dearer(int more, double wanted, double share, double other) {
+    const double first = std::max(1.0, std::round(share * wanted));
+    const double second = first + std::max(1.0, std::round(other * wanted) - first);
+    double sum = 0;
+    for (int i = 1; i <= more; ++i) sum += i <= first ? 1 : i <= second ? 3 : 9;
+    return sum;
+}
+
+double deviation(const ArcProblem& problem, std::size_t arc, int count) {
+    const double wanted = problem.wanted[arc];
+    if (!problem.even) return std::abs(count - wanted);
+    const int low = std::max(problem.least[arc], static_cast<int>(std::floor(wanted)));
+    if (count <= low) return std::abs(low - wanted) + dearer(low - count, wanted, 0.2, 0.45);
+    return std::abs(low + 1 - wanted) + dearer(count - low - 1, wanted, 0.25, 0.75);
+}
+
 double deviation(const ArcProblem& problem, const std::vector<int>& counts) {
     double sum = 0;
-    for (std::size_t a = 0; a < counts.size(); ++a) sum += problem.weights[a] * std::abs(counts[a] - problem.wanted[a]);
+    for (std::size_t a = 0; a < counts.size(); ++a) sum += problem.weights[a] * deviation(problem, a, counts[a]);
     return sum;
 }
 
@@ -66,6 +83,7 @@ TEST(ArcCounts, AreTheBestOfAll) {
             if (round % 5 == 0) sum.right.push_back(arc(random));
             problem.sums.push_back(sum);
         }
+        problem.even = round % 3 == 1;
         // Of arcs that no sum joins, too.
         if (round % 4 == 1) problem.bounded = {{2, 0, 1, 3}, 9.5, 12.5};
         const auto best = least_of_all(problem);
@@ -91,6 +109,20 @@ TEST(ArcCounts, AreTheBestOfAll) {
     }
     EXPECT_GT(solved, 30);
     EXPECT_GT(refused, 5);
+}
+
+// Four arcs of 4 against one of 22: any sum of 22 deviates as much in all, but none has to give way by more than 2.
+TEST(ArcCounts, ShareWhatLengthsLackEvenly) {
+    ArcProblem problem{{4, 4, 4, 4, 22}, {1, 1, 1, 1, 100}, {1, 1, 1, 1, 1}, {{{0, 1, 2, 3}, {4}}}};
+    EXPECT_NEAR(detail::integer_counts(problem, 100).deviation, 6, 1e-9);
+    problem.even = true;
+    const detail::ArcCounts found = detail::integer_counts(problem, 100);
+    EXPECT_NEAR(found.deviation, 6, 1e-9);
+    for (int a = 0; a < 4; ++a) EXPECT_LE(found.counts[a], 6);
+    EXPECT_EQ(found.counts[4], 22);
+    // Beyond that each costs three times as much.
+    problem.wanted[4] = 25;
+    EXPECT_NEAR(detail::integer_counts(problem, 100).deviation, 8 + 3, 1e-9);
 }
 
 TEST(ArcCounts, WithoutSumsAreRounded) {

@@ -43,7 +43,8 @@ struct QuantizedQuadsOptions {
     // Rounds in which vertices are moved where that raises the least scaled Jacobian of the quads round them, on the
     // surface, or along the boundary and seams; singular points and corners stay. 0: none.
     int smoothing = 20;
-    // Singular points inside are released where quads of a scaled Jacobian below 0.3 are left: for computed points.
+    // Singular points inside are released where quads are measured by lengths, so that these can be as wanted between
+    // them, and where quads of a scaled Jacobian below 0.3 are left: for computed points.
     bool release_points = false;
     // A cross field on the layout's surface, DirectionField::values, that edges of quads are drawn to where vertices
     // are moved (measure: lengths). None: quads are as square as can be.
@@ -64,7 +65,8 @@ struct QuantizedQuads : LayoutQuads {
     Index t_joints = 0;                 // of the T-mesh; the quads have none
     std::vector<Index> irregular;       // vertices inside with other than four quads, of the boundary with other than 2
     double size = 0;                    // that lengths were divided by
-    double deviation = 0, bound = 0;    // sum of weights |n - length / size|; what it cannot be below
+    double deviation = 0, bound = 0;    // sum of weights |n - length / size|; what it cannot be below. By lengths,
+                                        // what is large beside the number wanted counts more
     bool optimal = false;               // the two are the same
 };
 
