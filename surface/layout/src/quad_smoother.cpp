@@ -96,7 +96,8 @@ public:
             relax(std::vector<bool>(around_.size(), true), relaxing_rounds);
         }
         if (start == Start::evened && input_.release) release();
-        if (start == Start::evened || start == Start::freed) untangle(input_, movable_, size_share, mesh_);
+        if (start == Start::evened || start == Start::held || start == Start::freed)
+            untangle(input_, movable_, size_share, mesh_);
         std::copy(places_.begin(), places_.end(), input_.on_seams.begin());
     }
 

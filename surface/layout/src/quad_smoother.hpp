@@ -41,6 +41,7 @@ enum class Start {
     relaxed,    // vertices at the means of their neighbours
     untangled,  // all moved at once, for the shapes of quads (quad_untangler.hpp)
     evened,     // and for their sizes, with the singular points that are released
+    held,       // likewise, without these
     freed,      // likewise, from relaxed places, with the singular points that are released otherwise
 };
 void prepare(const SmootherInput& input, Start start, QuadMesh& mesh);

@@ -166,6 +166,7 @@ private:
         const Attempt start = attempt;
         attempt.margin = -std::numeric_limits<double>::infinity();
         for (const detail::Start from : starts(merged, finest)) {
+            if (from == detail::Start::held && attempt.margin > -detail::bad) return;  // none is inverted
             Attempt other = start;
             detail::prepare(input_of(other), from, other.quads.mesh);
             const double most = from == detail::Start::untangled ? most_left : most_inverted;
@@ -180,7 +181,7 @@ private:
 
     std::vector<detail::Start> starts(bool merged, bool finest) const {
         using detail::Start;
-        if (options_.measure == ArcMeasure::lengths) return {Start::evened};
+        if (options_.measure == ArcMeasure::lengths) return {Start::evened, Start::held};
         if (finest) return {Start::mapped};
         std::vector<Start> result = {Start::relaxed, Start::untangled};
         if (!merged) result.insert(result.begin(), Start::mapped);
