@@ -24,8 +24,8 @@ from .study_output import markdown_table
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data" / "hexme"
 FIRST = ("s01", "s02", "s12", "s13", "s14", "s15", "s16", "s17", "s05", "s08", "s11")
 HEADER = (
-    "file", "tets", "non-meshable", "map's tets", "angle °", "flipped at first", "flipped", "steps", "stage",
-    "stopped by", "hexahedra", "SJ min", "volume error %", "irregular edges", "CPU s",
+    "file", "tets", "non-meshable", "unzipped", "map's tets", "angle °", "flipped at first", "flipped", "steps",
+    "stage", "stopped by", "hexahedra", "SJ min", "volume error %", "irregular edges", "CPU s",
 )  # fmt: skip
 
 
@@ -64,7 +64,8 @@ def run(path: Path, cells: int) -> dict:
     if sound != (record.stage == "injective") and record.stage != "field" or torn > 1e-6:
         raise AssertionError(f"{name}: {flipped} flipped, edges differ by {torn}; the record says {record.stage}")
     row |= {
-        "tets": record.field_tets, "non_meshable": record.non_meshable_junctions, "map_tets": record.tets,
+        "tets": record.field_tets, "non_meshable": record.non_meshable_junctions,
+        "unzipped": f"{record.unzipped} of {record.turns}" if record.turns else "", "map_tets": record.tets,
         "angle": record.angle_deg, "first": record.flipped_at_first, "flipped": flipped, "steps": record.steps,
         "stage": record.stage, "stopped_by": record.stopped_by, "at": record.stopped_at,
     }  # fmt: skip
@@ -97,9 +98,10 @@ def cells_of(row: dict) -> list[str]:
 
     irregular = ", ".join(f"{n} of {valence}" for valence, n in row.get("irregular", {}).items())
     return [
-        row["file"], shown("tets"), shown("non_meshable"), shown("map_tets"), shown("angle", ".1f"), shown("first"),
-        shown("flipped"), shown("steps"), row["stage"], row.get("stopped_by") or "", shown("hexahedra"),
-        shown("sj", ".2f"), shown("volume", ".2f", 100), irregular, f"{row['cpu']:.1f}",
+        row["file"], shown("tets"), shown("non_meshable"), row.get("unzipped", ""), shown("map_tets"),
+        shown("angle", ".1f"), shown("first"), shown("flipped"), shown("steps"), row["stage"],
+        row.get("stopped_by") or "", shown("hexahedra"), shown("sj", ".2f"), shown("volume", ".2f", 100), irregular,
+        f"{row['cpu']:.1f}",
     ]  # fmt: skip
 
 
