@@ -199,7 +199,7 @@ def test_tracks_that_run_side_by_side_become_one_where_few_blocks_are_wanted(sha
     result = made(path, quads=2000)
     require_conforming(result.mesh, len(surface.vertices) - len(surface.triangles) // 2)
     assert result.record.patches <= at_most * result.record.fewest_patches
-    assert result.record.scaled_jacobian.min > 0.4 and result.record.surface_deviation.max < 0.03
+    assert result.record.scaled_jacobian.min > 0.3 and result.record.surface_deviation.max < 0.03
 
 
 def test_the_fewest_blocks_follow_from_the_quads_at_irregular_vertices():
